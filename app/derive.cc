@@ -1,0 +1,45 @@
+// corank derive: the equations, for people (text, latex) and for programs (cuik).
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "corank/app/question.h"
+#include "corank/app/subcommands.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/printer.h"
+
+namespace corank::app {
+namespace {
+
+ExitStatus derive(Question question, const std::string& format) {
+  const symbolic::Mechanism mechanism = load(question);
+  if (question.set.empty() && !mechanism.is_plain_system()) question.set = "cspace";
+  const symbolic::TrigonometricSystem system = system_of(question, mechanism, chosen_set(question, mechanism));
+  if (format == "cuik") {
+    fmt::print("{}", symbolic::to_cuik(symbolic::algebrize(system)));
+  } else {
+    const symbolic::Derivation derivation = symbolic::derive(mechanism);
+    fmt::print("{}", format == "latex" ? symbolic::to_latex(derivation, system) : symbolic::to_text(derivation, system));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_derive(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("derive", "Print the constraints, their Jacobian blocks and a system");
+  const auto question = std::make_shared<Question>();
+  const auto format = std::make_shared<std::string>("text");
+  question->add_options(*command);
+  command
+      ->add_option("--format", *format,
+                   "text or latex: with sines and cosines; cuik: polynomials, a file that corank solve accepts")
+      ->check(CLI::IsMember({"text", "latex", "cuik"}))
+      ->capture_default_str();
+  command->footer(
+      "The set is cspace where --set is not given.\n\n"
+      "Example:\n  corank derive models/dextar.cuik --set inverse --format latex");
+  command->callback([=, &action] { action = [=] { return derive(*question, *format); }; });
+}
+
+}  // namespace corank::app

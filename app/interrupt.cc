@@ -1,0 +1,31 @@
+#include "corank/app/interrupt.h"
+
+#include <csignal>
+#include <cstdlib>
+
+namespace corank::app {
+namespace {
+
+std::atomic<bool> stop_flag = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
+
+extern "C" void on_signal(int signal) {
+  if (stop_flag.exchange(true)) std::_Exit(128 + signal);
+}
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  stop_flag = false;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+Interrupt::~Interrupt() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+const std::atomic<bool>& Interrupt::stop() { return stop_flag; }
+
+}  // namespace corank::app

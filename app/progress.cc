@@ -1,0 +1,40 @@
+#include "corank/app/progress.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace corank::app {
+namespace {
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine() : visible_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressLine::show(const solve::Progress& progress) {
+  if (!visible_) return;
+  std::string line =
+      fmt::format("{} done, {} left, {:.1f} % excluded", progress.processed, progress.waiting, 100 * progress.excluded);
+  for (std::size_t v = 0; v < progress.verdicts.size(); ++v) {
+    if (progress.verdicts[v] == 0) continue;
+    line += fmt::format(", {} {}", progress.verdicts[v], certify::to_string(static_cast<certify::Verdict>(v)));
+  }
+  line += fmt::format(", {:.1f} s", progress.seconds);
+  fmt::print(stderr, "\r{}\x1b[K", line.substr(0, terminal_width() - 1));
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void ProgressLine::clear() {
+  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  drawn_ = false;
+}
+
+}  // namespace corank::app

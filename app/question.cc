@@ -1,0 +1,64 @@
+#include "corank/app/question.h"
+
+#include <fmt/format.h>
+
+#include "corank/app/exit_status.h"
+#include "corank/symbolic/model_file.h"
+
+namespace corank::app {
+
+void Question::add_options(CLI::App& command) {
+  command.add_option("FILE", file, "The model file (.cuik)");
+  command.add_option("--set", set, "The set of a mechanism: cspace, forward, inverse or cspace-singular")
+      ->check(CLI::IsMember({"cspace", "forward", "inverse", "cspace-singular"}));
+  command
+      .add_option("--kernel", kernel,
+                  "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
+                  "default: right where the matrix M is square, else left")
+      ->check(CLI::IsMember({"right", "left"}));
+  command.add_option("-D", definitions, "Give a constant of the model another value; may be repeated")
+      ->type_name("NAME=EXPR")
+      ->allow_extra_args(false);
+}
+
+std::vector<report::ConstantOverride> overrides(const Question& question) {
+  std::vector<report::ConstantOverride> list;
+  for (const std::string& text : question.definitions) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
+      throw UsageError(fmt::format("-D {}: expected NAME=EXPR", text));
+    }
+    list.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return list;
+}
+
+symbolic::Mechanism load(const Question& question) {
+  if (question.file.empty()) throw UsageError("FILE is required; corank --help tells more");
+  const std::vector<report::ConstantOverride> constants = overrides(question);
+  symbolic::Mechanism mechanism = symbolic::read_model(question.file);
+  for (const auto& [name, expression] : constants) {
+    mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
+  }
+  return mechanism;
+}
+
+std::optional<symbolic::SingularitySet> chosen_set(const Question& question, const symbolic::Mechanism& mechanism) {
+  if (mechanism.is_plain_system()) {
+    if (question.set.empty()) return std::nullopt;
+    throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no --set", question.file));
+  }
+  if (question.set.empty()) {
+    throw UsageError(
+        fmt::format("{} is a mechanism: --set is required (cspace, forward, inverse or cspace-singular)", question.file));
+  }
+  return symbolic::singularity_set_from_string(question.set);
+}
+
+symbolic::TrigonometricSystem system_of(const Question& question, const symbolic::Mechanism& mechanism,
+                                        std::optional<symbolic::SingularitySet> set) {
+  if (!set) return symbolic::plain_system(mechanism);
+  return symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(question.kernel));
+}
+
+}  // namespace corank::app

@@ -1,0 +1,37 @@
+// The part of a command line that subcommands share: which model, which of its sets, which kernel, which constants.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/report/result.h"
+#include "corank/symbolic/singularity_system.h"
+
+namespace corank::app {
+
+/// What the options say, not yet checked.
+struct Question {
+  std::string file, set, kernel;
+  std::vector<std::string> definitions;  ///< each "NAME=EXPR"
+
+  /// FILE, --set, --kernel and -D.
+  void add_options(CLI::App& command);
+};
+
+/// "NAME=EXPR" → name and expression. Throws UsageError.
+std::vector<report::ConstantOverride> overrides(const Question& question);
+
+/// Reads the model and puts the overridden constants in. Throws ModelError, UsageError.
+symbolic::Mechanism load(const Question& question);
+
+/// The set that is asked for: nothing for a plain system. Throws UsageError where a mechanism is given and no set, or a set of a
+/// plain system is asked for.
+std::optional<symbolic::SingularitySet> chosen_set(const Question& question, const symbolic::Mechanism& mechanism);
+
+/// The system of that set. Throws ModelError.
+symbolic::TrigonometricSystem system_of(const Question& question, const symbolic::Mechanism& mechanism,
+                                        std::optional<symbolic::SingularitySet> set);
+
+}  // namespace corank::app

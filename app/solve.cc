@@ -1,0 +1,143 @@
+// corank solve: encloses a set in boxes with verdicts, prints a summary, writes result files.
+#include "corank/solve/solve.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "corank/app/interrupt.h"
+#include "corank/app/progress.h"
+#include "corank/app/question.h"
+#include "corank/app/subcommands.h"
+#include "corank/report/result_file.h"
+#include "corank/report/summary.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/printer.h"
+
+namespace corank::app {
+namespace {
+
+struct SolveCommand {
+  Question question;
+  std::optional<double> sigma;
+  int threads = 1;
+  std::uint64_t max_boxes = 0;
+  double time_limit = 0;
+  std::string result_path;
+  std::optional<std::string> json_path;  ///< "": standard output
+};
+
+std::string kernel_of(const Question& question, std::optional<symbolic::SingularitySet> set) {
+  using symbolic::SingularitySet;
+  if (!set || *set == SingularitySet::cspace) return "";
+  if (!question.kernel.empty()) return question.kernel;
+  return to_string(*set == SingularitySet::cspace_singular ? symbolic::KernelSide::left : symbolic::KernelSide::right);
+}
+
+certify::Cover search(const certify::System& system, const SolveCommand& command) {
+  ProgressLine line;
+  solve::Options options;
+  options.sigma = command.sigma;
+  options.threads = command.threads;
+  options.max_boxes = command.max_boxes;
+  options.time_limit = command.time_limit;
+  options.stop = &Interrupt::stop();
+  if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
+  return solve::solve(system, options);
+}
+
+// Said before the search, not after it. No output may replace a model: `--json a.cuik b.cuik` is a slip.
+void check_output(const std::string& path) {
+  if (path.empty()) return;
+  if (std::filesystem::path(path).extension() == ".cuik")
+    throw UsageError(path + ": not written over, it looks like a model");
+  report::check_writable(path);
+}
+
+ExitStatus solve_model(SolveCommand command) {
+  // `--json FILE` without another file: CLI11 took the model for the path of the summary.
+  if (command.question.file.empty() && command.json_path && !command.json_path->empty()) {
+    command.question.file.swap(*command.json_path);
+  }
+  const symbolic::Mechanism mechanism = load(command.question);
+  const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
+  const certify::System system = symbolic::algebrize(system_of(command.question, mechanism, set));
+  check_output(command.result_path);
+  check_output(command.json_path.value_or(""));
+
+  report::Result result;
+  result.model = mechanism.name();
+  result.model_text = mechanism.source_text();
+  result.set = set ? to_string(*set) : "system";
+  result.system_text = symbolic::to_cuik(system);
+  {
+    const Interrupt interrupt;
+    result.cover = search(system, command);
+  }
+  report::describe_system(system, result);
+  result.options = {
+      kernel_of(command.question, set), result.cover.sigma, command.threads, command.max_boxes, command.time_limit,
+      overrides(command.question)};
+
+  if (!command.result_path.empty()) report::write_result(command.result_path, result);
+  if (command.json_path) {
+    const std::string json = report::to_json(result) + "\n";
+    if (command.json_path->empty()) {
+      fmt::print("{}", json);
+    } else {
+      report::write_text(*command.json_path, json);
+    }
+  }
+  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", report::to_table(result));
+  if (result.cover.complete()) return kDone;
+  fmt::print(stderr, "corank: {}; the result is incomplete\n", Interrupt::stop() ? "interrupted" : "a limit was reached");
+  return kIncomplete;
+}
+
+// Finite numbers only: "inf" and "nan" are numbers to the parser of options.
+CLI::Validator finite(bool zero_allowed) {
+  const auto check = [zero_allowed](const std::string& text) -> std::string {
+    double value = 0;
+    const bool good =
+        CLI::detail::lexical_cast(text, value) && std::isfinite(value) && (value > 0 || (zero_allowed && value == 0));
+    return good ? "" : fmt::format("{} is not a {} number", text, zero_allowed ? "non-negative" : "positive");
+  };
+  return {check, ""};
+}
+
+}  // namespace
+
+void add_solve(CLI::App& program, Action& action) {
+  CLI::App* sub = program.add_subcommand("solve", "Enclose every solution of a system or of a mechanism's set in boxes");
+  const auto command = std::make_shared<SolveCommand>();
+  command->question.add_options(*sub);
+  sub->add_option(
+         "--sigma", command->sigma,
+         "Largest edge that a box may have in the model's own variables;\ndefault: 1e-6 for isolated points, else 0.1")
+      ->check(finite(false));
+  sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  sub->add_option("--max-boxes", command->max_boxes, "End the search after so many processed boxes; 0: no limit")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--time-limit", command->time_limit, "End the search after so many seconds; 0: no limit")
+      ->type_name("SECONDS")
+      ->check(finite(true));
+  sub->add_option("-o", command->result_path, "Write boxes, verdicts and the model to this file (HDF5)")
+      ->type_name("RESULT.h5");
+  CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
+      "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },
+      "Write the summary as JSON to PATH, or to standard output instead of the table");
+  json->type_name("[PATH]")->expected(0, 1);
+  sub->footer(
+      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
+      "Examples:\n  corank solve models/dextar.cuik --set forward --sigma 0.01 -o forward.h5\n"
+      "  corank solve models/three_slider.cuik --set inverse -D L2=1 --json");
+  sub->callback([command, json, &action] {
+    if (json->count() > 0 && !command->json_path) command->json_path = "";
+    action = [command] { return solve_model(*command); };
+  });
+}
+
+}  // namespace corank::app

@@ -1,0 +1,16 @@
+// The subcommands: each adds its options to the command line and, where it was chosen, leaves what is to be done in `action`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "corank/app/exit_status.h"
+
+namespace corank::app {
+
+using Action = std::function<ExitStatus()>;
+
+void add_derive(CLI::App& program, Action& action);
+void add_solve(CLI::App& program, Action& action);
+
+}  // namespace corank::app

@@ -1,0 +1,193 @@
+#include "corank/certify/compiled_system.h"
+
+#include <algorithm>
+#include <set>
+
+namespace corank::certify {
+namespace {
+
+// Encloses (xᵖ − cᵖ)/(x − c) = Σ_{k<p} xᵏ c^{p−1−k} for x ∈ X, by Horner's scheme.
+Interval power_slope(const Interval& x, double c, int p) {
+  Interval sum = 1.0, c_power = 1.0;
+  for (int k = 1; k < p; ++k) {
+    c_power = c_power * Interval(c);
+    sum = sum * x + c_power;
+  }
+  return sum;
+}
+
+// (X + c)/2.
+Interval half_way(const Interval& x, double c) { return scale(0.5, x + Interval(c)); }
+
+}  // namespace
+
+CompiledSystem::CompiledSystem(const System& system) : variables_(system.size()) {
+  system.validate();
+  equations_ = static_cast<int>(system.equations.size());
+  term_begin_.push_back(0);
+  row_begin_.push_back(0);
+  std::vector<std::vector<int>> rows_of(variables_);
+
+  const auto add_row = [&](const Polynomial& f) {
+    const int row = rows();
+    std::set<int> used;
+    for (const Monomial& m : f.monomials)
+      for (const Factor& factor : m.factors) used.insert(factor.variable);
+    const int first = row_begin_.back();
+    for (int v : used) {
+      columns_.push_back(v);
+      rows_of[v].push_back(row);
+    }
+    const auto entry = [&](int v) { return first + static_cast<int>(std::distance(used.begin(), used.find(v))); };
+    for (const Monomial& m : f.monomials) {
+      Term t{m.enclosure, Shape::general};
+      const auto& fs = m.factors;
+      if (fs.empty()) {
+        t.shape = Shape::constant;
+      } else if (fs.size() == 1 && fs[0].power <= 2) {
+        t.shape = fs[0].power == 1 ? Shape::linear : Shape::square;
+      } else if (fs.size() == 2 && fs[0].power == 1 && fs[1].power == 1) {
+        t.shape = Shape::bilinear;
+        t.y = fs[1].variable;
+        t.y_entry = entry(t.y);
+      }
+      if (!fs.empty()) {
+        t.x = fs[0].variable;
+        t.x_entry = entry(t.x);
+      }
+      if (t.shape == Shape::general) {
+        t.factors_begin = static_cast<int>(factors_.size());
+        for (const Factor& g : fs) factors_.push_back({g.variable, g.power, entry(g.variable)});
+        t.factors_end = static_cast<int>(factors_.size());
+      }
+      terms_.push_back(t);
+    }
+    term_begin_.push_back(static_cast<int>(terms_.size()));
+    row_begin_.push_back(static_cast<int>(columns_.size()));
+  };
+  for (const Polynomial& f : system.equations) add_row(f);
+  for (const Polynomial& g : system.inequalities) add_row(g);
+
+  rows_of_begin_.push_back(0);
+  for (const auto& list : rows_of) {
+    rows_of_.insert(rows_of_.end(), list.begin(), list.end());
+    rows_of_begin_.push_back(static_cast<int>(rows_of_.size()));
+  }
+}
+
+Interval CompiledSystem::evaluate(const Term& t, const Interval* x) const {
+  switch (t.shape) {
+    case Shape::constant: return t.c;
+    case Shape::linear: return t.c * x[t.x];
+    case Shape::square: return t.c * square(x[t.x]);
+    case Shape::bilinear: return t.c * (x[t.x] * x[t.y]);
+    case Shape::general: break;
+  }
+  Interval product = t.c;
+  for (const GeneralFactor& f : factors(t)) product *= power(x[f.variable], f.power);
+  return product;
+}
+
+Interval CompiledSystem::evaluate(int row, const Interval* x) const {
+  Interval sum;
+  for (const Term& t : terms(row)) sum += evaluate(t, x);
+  return sum;
+}
+
+Interval CompiledSystem::evaluate_at(int row, const double* x) const {
+  Interval sum;
+  for (const Term& t : terms(row)) {
+    switch (t.shape) {
+      case Shape::constant: sum += t.c; break;
+      case Shape::linear: sum += scale(x[t.x], t.c); break;
+      case Shape::square: sum += t.c * square(Interval(x[t.x])); break;
+      case Shape::bilinear: sum += scale(x[t.y], scale(x[t.x], t.c)); break;
+      case Shape::general: {
+        Interval product = t.c;
+        for (const GeneralFactor& f : factors(t)) product *= power(Interval(x[f.variable]), f.power);
+        sum += product;
+      }
+    }
+  }
+  return sum;
+}
+
+void CompiledSystem::slopes(const Interval* x, const double* c, Interval* s) const {
+  std::fill(s, s + row_begin_[equations_], Interval());
+  for (int k = 0; k < term_begin_[equations_]; ++k) {
+    const Term& t = terms_[k];
+    switch (t.shape) {
+      case Shape::constant: break;
+      case Shape::linear: s[t.x_entry] += t.c; break;
+      case Shape::square: s[t.x_entry] += t.c * (x[t.x] + Interval(c[t.x])); break;
+      case Shape::bilinear:  // xy − ab = (y + b)/2 (x − a) + (x + a)/2 (y − b)
+        s[t.x_entry] += t.c * half_way(x[t.y], c[t.y]);
+        s[t.y_entry] += t.c * half_way(x[t.x], c[t.x]);
+        break;
+      case Shape::general: {  // telescoping: the factors before the j-th at c, those after it over X
+        const auto fs = factors(t);
+        for (std::size_t j = 0; j < fs.size(); ++j) {
+          Interval product = t.c * power_slope(x[fs[j].variable], c[fs[j].variable], fs[j].power);
+          for (std::size_t i = 0; i < fs.size(); ++i) {
+            if (i < j) product *= power(Interval(c[fs[i].variable]), fs[i].power);
+            if (i > j) product *= power(x[fs[i].variable], fs[i].power);
+          }
+          s[fs[j].entry] += product;
+        }
+      }
+    }
+  }
+}
+
+void CompiledSystem::jacobian(const Interval* x, Interval* j) const {
+  std::fill(j, j + row_begin_[equations_], Interval());
+  for (int k = 0; k < term_begin_[equations_]; ++k) {
+    const Term& t = terms_[k];
+    switch (t.shape) {
+      case Shape::constant: break;
+      case Shape::linear: j[t.x_entry] += t.c; break;
+      case Shape::square: j[t.x_entry] += t.c * scale(2.0, x[t.x]); break;
+      case Shape::bilinear:
+        j[t.x_entry] += t.c * x[t.y];
+        j[t.y_entry] += t.c * x[t.x];
+        break;
+      case Shape::general: {
+        const auto fs = factors(t);
+        for (std::size_t a = 0; a < fs.size(); ++a) {
+          Interval product = t.c * scale(fs[a].power, power(x[fs[a].variable], fs[a].power - 1));
+          for (std::size_t b = 0; b < fs.size(); ++b)
+            if (b != a) product *= power(x[fs[b].variable], fs[b].power);
+          j[fs[a].entry] += product;
+        }
+      }
+    }
+  }
+}
+
+void CompiledSystem::approximate_jacobian(const double* x, double* j) const {
+  std::fill(j, j + row_begin_[equations_], 0.0);
+  for (int k = 0; k < term_begin_[equations_]; ++k) {
+    const Term& t = terms_[k];
+    const double c = t.c.hi();
+    switch (t.shape) {
+      case Shape::constant: break;
+      case Shape::linear: j[t.x_entry] += c; break;
+      case Shape::square: j[t.x_entry] += 2 * c * x[t.x]; break;
+      case Shape::bilinear:
+        j[t.x_entry] += c * x[t.y];
+        j[t.y_entry] += c * x[t.x];
+        break;
+      case Shape::general: {
+        const auto fs = factors(t);
+        for (std::size_t a = 0; a < fs.size(); ++a) {
+          double product = c * fs[a].power * std::pow(x[fs[a].variable], fs[a].power - 1);
+          for (std::size_t b = 0; b < fs.size(); ++b)
+            if (b != a) product *= std::pow(x[fs[b].variable], fs[b].power);
+          j[fs[a].entry] += product;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace corank::certify

@@ -1,0 +1,75 @@
+// A System in the form that evaluates fast: flat terms with interval coefficients, one sparsity pattern for all Jacobians.
+//
+// Rows 0 … m−1 are the equations (= 0), rows m … m+p−1 the inequalities (≥ 0). Every interval function requires
+// UpwardRounding::active() and bounded arguments. Derivatives are stored sparsely: entry k of row i, row_begin(i) ≤ k <
+// row_begin(i+1), belongs to variable column(k).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "corank/certify/system.h"
+
+namespace corank::certify {
+
+class CompiledSystem {
+ public:
+  /// How a term depends on its variables: c, c·x, c·x², c·x·y, or any other monomial.
+  enum class Shape : std::uint8_t { constant, linear, square, bilinear, general };
+  struct GeneralFactor {
+    int variable, power, entry;
+  };
+  struct Term {
+    Interval c;
+    Shape shape;
+    int x = -1, y = -1;              ///< variables
+    int x_entry = -1, y_entry = -1;  ///< their derivative entries
+    int factors_begin = 0, factors_end = 0;  ///< general terms: range in factors()
+  };
+
+  /// Throws std::invalid_argument where System::validate does.
+  explicit CompiledSystem(const System& system);
+
+  int variables() const { return variables_; }
+  int equations() const { return equations_; }
+  int inequalities() const { return rows() - equations_; }
+  int rows() const { return static_cast<int>(term_begin_.size()) - 1; }
+  int entries() const { return static_cast<int>(columns_.size()); }
+
+  std::span<const Term> terms(int row) const {
+    return {terms_.data() + term_begin_[row], terms_.data() + term_begin_[row + 1]};
+  }
+  std::span<const GeneralFactor> factors(const Term& t) const {
+    return {factors_.data() + t.factors_begin, factors_.data() + t.factors_end};
+  }
+  int row_begin(int row) const { return row_begin_[row]; }
+  int column(int entry) const { return columns_[entry]; }
+  /// Rows in which the variable occurs.
+  std::span<const int> rows_of(int variable) const {
+    return {rows_of_.data() + rows_of_begin_[variable], rows_of_.data() + rows_of_begin_[variable + 1]};
+  }
+
+  /// Encloses {term(x) : x ∈ X}.
+  Interval evaluate(const Term& term, const Interval* x) const;
+  /// Encloses {f_row(x) : x ∈ X}: the natural interval extension.
+  Interval evaluate(int row, const Interval* x) const;
+  /// Encloses f_row at a point.
+  Interval evaluate_at(int row, const double* x) const;
+  /// Slopes of the equations: s with f(x) − f(c) ∈ s (x − c) for every x ∈ X, c the given point (inside X or not). For a
+  /// quadratic f this is J((X + c)/2), half as wide as J(X). Slopes about one centre serve existence, never uniqueness.
+  /// Source: key Neumaier1990, § 2.3.
+  void slopes(const Interval* x, const double* c, Interval* s) const;
+  /// Interval Jacobian of the equations: encloses ∂f_i/∂x_j(x) for every x ∈ X.
+  void jacobian(const Interval* x, Interval* j) const;
+  /// Jacobian at a point in plain floating point, for heuristics only: nothing is proven by it.
+  void approximate_jacobian(const double* x, double* j) const;
+
+ private:
+  int variables_ = 0, equations_ = 0;
+  std::vector<Term> terms_;
+  std::vector<GeneralFactor> factors_;
+  std::vector<int> term_begin_, row_begin_, columns_, rows_of_, rows_of_begin_;
+};
+
+}  // namespace corank::certify

@@ -1,0 +1,24 @@
+#include "corank/certify/cover.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace corank::certify {
+namespace {
+constexpr std::array<const char*, kVerdicts> kNames = {"regular", "isolated", "exact", "boundary", "undecided", "pending"};
+}
+
+const char* to_string(Verdict verdict) { return kNames.at(static_cast<std::size_t>(verdict)); }
+
+Verdict verdict_from_string(const std::string& text) {
+  const auto at = std::find(kNames.begin(), kNames.end(), text);
+  if (at == kNames.end()) throw std::invalid_argument("no verdict is called '" + text + "'");
+  return static_cast<Verdict>(at - kNames.begin());
+}
+
+std::size_t Cover::count(Verdict verdict) const {
+  return static_cast<std::size_t>(
+      std::count_if(boxes.begin(), boxes.end(), [verdict](const CoverBox& b) { return b.verdict == verdict; }));
+}
+
+}  // namespace corank::certify

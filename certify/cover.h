@@ -1,0 +1,61 @@
+// Boxes, verdicts and covers: what a solver returns and a report reads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "corank/certify/interval.h"
+#include "corank/certify/system.h"
+
+namespace corank::certify {
+
+/// A box X = X_1 × … × X_n.
+using Box = std::vector<Interval>;
+
+/// What is proven about a box; see the table in doc/theory.md.
+enum class Verdict : std::uint8_t {
+  regular,    ///< for every value of the free variables in the box exactly one solution in the box
+  isolated,   ///< exactly one solution in the box (no free variables)
+  exact,      ///< the solution is known exactly and verified in exact arithmetic
+  boundary,   ///< as regular, but the piece may leave the search domain or an inequality inside the box
+  undecided,  ///< not excluded, nothing proven
+  pending,    ///< not processed: the cover is incomplete
+};
+inline constexpr int kVerdicts = 6;
+
+const char* to_string(Verdict verdict);
+/// Throws std::invalid_argument for a word that names no verdict.
+Verdict verdict_from_string(const std::string& text);
+
+struct CoverBox {
+  Box box;
+  Verdict verdict = Verdict::undecided;
+  std::vector<int> free;  ///< indices of the free variables (regular, boundary)
+};
+
+struct Statistics {
+  std::uint64_t processed = 0;     ///< boxes taken from the work list
+  std::uint64_t newton_steps = 0;  ///< interval Newton contractions
+  std::uint64_t proofs_tried = 0;  ///< existence tests begun
+  double seconds_total = 0, seconds_search = 0, seconds_certify = 0;
+};
+
+/// A list of boxes whose union holds every solution of the system in its domain, where complete().
+struct Cover {
+  std::vector<CoverBox> boxes;
+  /// For a set of dimension 0: the distinct solutions. An `isolated` one is exactly one solution, and no two entries hold the
+  /// same one; an `undecided` one is the hull of a cluster of touching boxes that may hold any number, none included.
+  std::vector<CoverBox> points;
+  int dimension = 0;
+  double sigma = 0;
+  Statistics statistics;
+
+  std::size_t count(Verdict verdict) const;
+  /// True where every point of the domain outside the boxes has been excluded: no box is `pending`.
+  bool complete() const { return count(Verdict::pending) == 0; }
+};
+
+}  // namespace corank::certify

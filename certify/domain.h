@@ -1,0 +1,30 @@
+// Where a piece of the solution set lies: inside the search domain and the inequalities, outside, or across.
+#pragma once
+
+#include <vector>
+
+#include "corank/certify/compiled_system.h"
+#include "corank/certify/system.h"
+
+namespace corank::certify {
+
+/// implied[j] is true where the domain of variable j follows from one equation alone, and therefore is no boundary.
+/// Lemma: if Σ a_i x_i² = b with every a_i > 0, then a_j x_j² ≤ b; so |x_j| ≤ h wherever a_j h² ≥ b. The hypotheses are checked in
+/// exact rational arithmetic. Covers sines, cosines (circles) and kernel vectors (norm).
+std::vector<bool> implied_domains(const System& system);
+
+enum class Location { inside, outside, across };
+
+/// Is every point of x in the domain (implied sides need no check) and does it satisfy every inequality (inside), does no point
+/// (outside), or is neither proven (across)?
+class DomainTest {
+ public:
+  explicit DomainTest(const System& system);
+  Location locate(const CompiledSystem& compiled, const Interval* x) const;
+
+ private:
+  std::vector<Interval> domain_;
+  std::vector<bool> implied_;
+};
+
+}  // namespace corank::certify

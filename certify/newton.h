@@ -1,0 +1,66 @@
+// The interval Newton operator for m equations in n ≥ m unknowns, as a contractor and as a proof.
+//
+// A Preconditioner picks, for each of r ≤ m equations, one dependent variable, and holds an r×r real matrix Y. Any choice is
+// *valid*: it decides how much is gained, never whether a conclusion is true. The other variables are called free.
+#pragma once
+
+#include <vector>
+
+#include "corank/certify/compiled_system.h"
+
+namespace corank::certify {
+
+struct Preconditioner {
+  std::vector<int> equations;   ///< r rows of the system, distinct
+  std::vector<int> dependent;   ///< r variables, distinct; row a of Y·F is solved for dependent[a]
+  std::vector<double> y;        ///< r×r, row-major
+  int rank() const { return static_cast<int>(dependent.size()); }
+};
+
+/// Buffers for one thread; contents mean nothing between calls.
+struct NewtonWorkspace {
+  std::vector<Interval> slope, product, residual, offset, image, region;
+  std::vector<double> center, magnitude, radius, next_radius;
+  std::vector<unsigned char> is_dependent;
+};
+
+struct NewtonOutcome {
+  bool empty = false;      ///< the box holds no solution
+  bool regular = false;    ///< no diagonal entry of Y·S(X) held 0: a hint that a proof is worth trying, no claim
+  double spread = 0;       ///< largest row sum of |I − Y·S_D| weighted by the radii: below 1 a proof may succeed; a hint
+};
+
+/// Contracts the dependent variables of x in place.
+/// Theorem (interval Newton, Hansen–Sengupta step; key Neumaier1990, ch. 5; HansenSengupta1981): for any centre c and real Y, a zero x of F in X
+/// satisfies Y·F(c) + Y·S(X)·(x − c) ∋ 0 row by row, so each row bounds its dependent variable by the others. Points of X outside
+/// the contracted box are no solutions; where a row is unsatisfiable, X holds none. Proves nothing about existence.
+NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
+
+/// What newton_prove shows about a box of values of the free variables.
+struct Sheet {
+  bool proven = false;
+  std::vector<int> dependent;
+  std::vector<Interval> region;  ///< n: free sides as given, dependent sides inflated
+  std::vector<Interval> image;   ///< n: free sides as given, dependent sides the Newton image, inside region's interior
+};
+
+/// Tries to prove, for X_F the sides of the free variables in x: for **every** value f ∈ X_F there is **exactly one** dependent
+/// value d with (f, d) in `region` and F(f, d) = 0, and that d lies in `image`. Besides, every zero of F in x lies in `image`.
+///
+/// Theorem (parametric Krawczyk; keys Krawczyk1969, Neumaier1990 ch. 5, Rump2010; proof in doc/theory.md): let Z be a box of
+/// dependent values, B = X_F × Z, c a centre and K = c_D − Y·F(c) + (I − Y·S_D(B))(Z − c_D) − Y·S_F(B)(X_F − c_F).
+///   (1) K ⊂ int Z                          ⇒ for every f ∈ X_F the map d ↦ d − Y·F(f, d) sends Z into itself and has a fixed
+///                                            point (Brouwer), and every zero of F(f, ·) in Z lies in K;
+///   (2) |I − Y·J_D(B)|·r < r for some r > 0 ⇒ every matrix in Y·J_D(B) is regular, so Y is regular (fixed points are zeros) and
+///                                            F(f, ·) has at most one zero in Z (mean value theorem, row by row);
+///   (3) every zero of F in B lies in X_F × K. So if Z_{k+1} ⊇ K(Z_k) and Z_0 is x's own, no zero of x is left behind.
+/// S may be slopes about c in (1); (2) needs the interval Jacobian J over B. Requires rank = m (else proven is false).
+/// Z comes from ε-inflation of the image, at most `iterations` times; the dependent variables stay the same throughout.
+Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const Interval* x, NewtonWorkspace& w,
+                   int iterations = 8);
+
+/// One step of (1)'s image inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is known to
+/// hold the solutions, and free sides within the sheet's. Shrinks dependent sides only, so that the sheet's claim carries over.
+void tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
+
+}  // namespace corank::certify

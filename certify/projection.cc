@@ -1,0 +1,89 @@
+#include "corank/certify/projection.h"
+
+#include "corank/certify/check.h"
+
+namespace corank::certify {
+namespace {
+
+constexpr int kMaxStackTerms = 64;
+
+class Projector {
+ public:
+  Projector(const CompiledSystem& system, Interval* x, double share, std::uint8_t* changed)
+      : system_(system), x_(x), share_(share), changed_(changed) {}
+
+  // Shrinks the variables of t to where t(x) ∈ image.
+  bool invert(const CompiledSystem::Term& t, const Interval& image) {
+    using Shape = CompiledSystem::Shape;
+    switch (t.shape) {
+      case Shape::constant: return true;
+      case Shape::linear: return set(t.x, divide(image, t.c, x_[t.x]));
+      case Shape::square: {
+        const auto square_image = divide(image, t.c, square(x_[t.x]));
+        return square_image && set(t.x, root(*square_image, 2, x_[t.x]));
+      }
+      case Shape::bilinear:
+        return set(t.x, divide(image, t.c * x_[t.y], x_[t.x])) && set(t.y, divide(image, t.c * x_[t.x], x_[t.y]));
+      case Shape::general: break;
+    }
+    const auto factors = system_.factors(t);
+    for (const auto& f : factors) {
+      Interval others = t.c;
+      for (const auto& g : factors)
+        if (g.variable != f.variable) others *= power(x_[g.variable], g.power);
+      const auto power_image = divide(image, others, power(x_[f.variable], f.power));
+      if (!power_image || !set(f.variable, root(*power_image, f.power, x_[f.variable]))) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool set(int v, const std::optional<Interval>& shrunk) {
+    if (!shrunk) return false;
+    const double before = x_[v].width(), after = shrunk->width();
+    x_[v] = *shrunk;
+    if (after < (1 - share_) * before) changed_[v] = 1;
+    return true;
+  }
+
+  const CompiledSystem& system_;
+  Interval* x_;
+  double share_;
+  std::uint8_t* changed_;
+};
+
+}  // namespace
+
+bool project(const CompiledSystem& system, int row, Interval* x, double share, std::uint8_t* changed) {
+  const auto terms = system.terms(row);
+  const std::size_t n = terms.size();
+  Interval stack[2 * kMaxStackTerms + 1];
+  std::vector<Interval> heap;
+  Interval* value = stack;
+  if (n > kMaxStackTerms) {
+    heap.resize(2 * n + 1);
+    value = heap.data();
+  }
+  Interval* suffix = value + n;  // suffix[k] = Σ_{j ≥ k} T_j
+  suffix[n] = Interval();
+  for (std::size_t k = n; k-- > 0;) {
+    value[k] = system.evaluate(terms[k], x);
+    suffix[k] = value[k] + suffix[k + 1];
+  }
+  const bool equation = row < system.equations();
+  if (equation ? !suffix[0].contains_zero() : suffix[0].hi() < 0) return false;
+  if (!equation && suffix[0].lo() >= 0) return true;  // holds on all of the box
+
+  Projector projector(system, x, share, changed);
+  Interval prefix;
+  for (std::size_t k = 0; k < n; ++k) {
+    Interval image = -(prefix + suffix[k + 1]);
+    if (!equation) image = Interval(image.lo(), std::numeric_limits<double>::infinity());
+    prefix += value[k];
+    if (image.contains(value[k])) continue;  // no information
+    if (!projector.invert(terms[k], image)) return false;
+  }
+  return true;
+}
+
+}  // namespace corank::certify

@@ -1,0 +1,43 @@
+# One library per folder. Headers stand beside their sources and are included as "corank/<folder>/<header>.h" both here and
+# by users of the installed package, so the build tree offers the source tree under the name include/corank.
+
+set(CORANK_BUILD_INCLUDE ${PROJECT_BINARY_DIR}/include)
+file(MAKE_DIRECTORY ${CORANK_BUILD_INCLUDE})
+file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${CORANK_BUILD_INCLUDE}/corank SYMBOLIC)
+
+# Warnings, sanitizers and, everywhere, no silent contraction of a*b+c into one rounding.
+add_library(corank_flags INTERFACE)
+target_compile_options(corank_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                              -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(corank_flags INTERFACE -Wno-restrict)  # false positives on std::string, gcc bug 105651
+endif()
+if(CORANK_WARNINGS_AS_ERRORS)
+  target_compile_options(corank_flags INTERFACE -Werror)
+endif()
+if(CORANK_SANITIZE)
+  target_compile_options(corank_flags INTERFACE -fsanitize=${CORANK_SANITIZE} -fno-omit-frame-pointer
+                                                -fno-sanitize-recover=all)
+  target_link_options(corank_flags INTERFACE -fsanitize=${CORANK_SANITIZE})
+endif()
+
+# corank_library(<folder> SOURCES … PUBLIC_HEADERS … PUBLIC_LINK … PRIVATE_LINK … HEADER_ONLY …): the target corank_<folder>,
+# alias corank::<folder>. PUBLIC_HEADERS are installed. HEADER_ONLY libraries are private, and nothing is left of them for whoever
+# links the installed library.
+function(corank_library folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC_HEADERS;PUBLIC_LINK;PRIVATE_LINK;HEADER_ONLY" ${ARGN})
+  add_library(corank_${folder} STATIC ${ARG_SOURCES})
+  add_library(corank::${folder} ALIAS corank_${folder})
+  set_target_properties(corank_${folder} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(corank_${folder} PUBLIC cxx_std_20)
+  target_include_directories(corank_${folder} PUBLIC $<BUILD_INTERFACE:${CORANK_BUILD_INCLUDE}>
+                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  list(TRANSFORM ARG_HEADER_ONLY REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
+  target_link_libraries(corank_${folder} PUBLIC ${ARG_PUBLIC_LINK}
+                        PRIVATE ${ARG_PRIVATE_LINK} ${ARG_HEADER_ONLY} $<BUILD_INTERFACE:corank_flags>)
+  install(TARGETS corank_${folder} EXPORT corankTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  list(TRANSFORM ARG_PUBLIC_HEADERS REPLACE "^.*/" "")
+  list(TRANSFORM ARG_PUBLIC_HEADERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  set_property(GLOBAL APPEND PROPERTY CORANK_PUBLIC_HEADERS ${ARG_PUBLIC_HEADERS})
+  install(FILES ${ARG_PUBLIC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corank/${folder})
+endfunction()

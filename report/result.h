@@ -1,0 +1,58 @@
+// The result of one run: the model, the question, the options and the cover that answers it. What a result file holds and a
+// summary shows; a regular value.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "corank/certify/cover.h"
+#include "corank/certify/system.h"
+
+namespace corank::report {
+
+/// corank's version, "0.1.0".
+std::string version();
+
+/// A variable of the solved system, without its exact domain.
+struct ResultVariable {
+  std::string name;
+  certify::VariableKind kind = certify::VariableKind::length;
+  certify::Interval domain;  ///< search domain, enclosed
+};
+
+/// `-D NAME=EXPRESSION`.
+struct ConstantOverride {
+  std::string name, expression;
+  friend bool operator==(const ConstantOverride&, const ConstantOverride&) = default;
+};
+
+/// The options of the run, as given.
+struct RunOptions {
+  std::string kernel;           ///< "right", "left"; empty where the set has no kernel
+  double sigma = 0;             ///< the one used, also where it was the default
+  int threads = 1;              ///< 0: one for each core
+  std::uint64_t max_boxes = 0;  ///< 0: no limit
+  double time_limit = 0;        ///< seconds; 0: no limit
+  std::vector<ConstantOverride> constants;
+  friend bool operator==(const RunOptions&, const RunOptions&) = default;
+};
+
+struct Result {
+  std::string version = report::version();  ///< of the corank that made it
+  std::string model;                        ///< the mechanism's name, "dextar"
+  std::string model_text;                   ///< the model file as read
+  std::string set;                          ///< "cspace", "forward" …; "system" for a plain system
+  std::string system_text;                  ///< the solved polynomial system in the model language, constants put in
+  RunOptions options;
+  std::vector<ResultVariable> variables;  ///< n, the order of the boxes' components
+  std::vector<certify::Angle> angles;
+  int configuration_size = 0;  ///< the first so many variables describe the configuration
+  int equations = 0, inequalities = 0;
+  certify::Cover cover;
+};
+
+/// Copies what a result keeps of a system: variables, angles, sizes, and its dimension to the cover.
+void describe_system(const certify::System& system, Result& result);
+
+}  // namespace corank::report

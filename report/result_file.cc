@@ -1,0 +1,292 @@
+#include "corank/report/result_file.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "corank/certify/check.h"
+
+namespace corank::report {
+namespace {
+
+constexpr const char* kFormat = "corank result";
+
+// A name beside the final one, removed at the end unless it was renamed.
+class PartFile {
+ public:
+  explicit PartFile(const std::filesystem::path& path) : path_(path), part_(path) {
+    part_ += "." + std::to_string(getpid()) + ".part";
+    if (path.empty() || std::filesystem::is_directory(path)) {
+      throw ResultFileError(path.string() + ": cannot write here; expected the name of a file");
+    }
+    errno = 0;
+    if (!std::ofstream(part_)) {
+      throw ResultFileError(path.string() + ": cannot write here: " + std::strerror(errno));
+    }
+  }
+  ~PartFile() {
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  const std::filesystem::path& part() const { return part_; }
+  void finish() const {
+    std::error_code error;
+    std::filesystem::rename(part_, path_, error);
+    if (error) throw ResultFileError(path_.string() + ": cannot write here: " + error.message());
+  }
+
+ private:
+  std::filesystem::path path_, part_;
+};
+
+std::vector<std::string> verdict_words() {
+  std::vector<std::string> words;
+  for (int i = 0; i < certify::kVerdicts; ++i) words.push_back(certify::to_string(static_cast<certify::Verdict>(i)));
+  return words;
+}
+
+const std::vector<std::string>& kind_words() {
+  static const std::vector<std::string> words{"length", "cosine", "sine", "kernel"};
+  return words;
+}
+
+void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<certify::CoverBox>& boxes, std::size_t n) {
+  std::vector<double> lower, upper;
+  std::vector<std::uint8_t> verdict, free(boxes.size() * n, 0);
+  lower.reserve(boxes.size() * n);
+  upper.reserve(boxes.size() * n);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    CORANK_CHECK(boxes[i].box.size() == n);
+    for (const certify::Interval& x : boxes[i].box) {
+      lower.push_back(x.lo());
+      upper.push_back(x.hi());
+    }
+    verdict.push_back(static_cast<std::uint8_t>(boxes[i].verdict));
+    for (const int v : boxes[i].free) free.at(i * n + static_cast<std::size_t>(v)) = 1;
+  }
+  file.doubles(group + "/lower", lower, boxes.size(), n);
+  file.doubles(group + "/upper", upper, boxes.size(), n);
+  file.enumeration(group + "/verdict", verdict, verdict_words());
+  file.bytes(group + "/free", free, boxes.size(), n);
+}
+
+void write_variables(Hdf5Writer& file, const Result& result) {
+  std::vector<std::string> names;
+  std::vector<std::uint8_t> kinds;
+  std::vector<double> domain;
+  for (const ResultVariable& v : result.variables) {
+    names.push_back(v.name);
+    kinds.push_back(static_cast<std::uint8_t>(v.kind));
+    domain.insert(domain.end(), {v.domain.lo(), v.domain.hi()});
+  }
+  file.texts("/variables/names", names);
+  file.enumeration("/variables/kinds", kinds, kind_words());
+  file.doubles("/variables/domain", domain, names.size(), 2);
+}
+
+void write_angles(Hdf5Writer& file, const Result& result) {
+  std::vector<std::string> names;
+  std::vector<std::int64_t> cosines, sines;
+  std::vector<double> range;
+  for (const certify::Angle& a : result.angles) {
+    names.push_back(a.name);
+    cosines.push_back(a.cosine);
+    sines.push_back(a.sine);
+    range.insert(range.end(), {a.range.lo(), a.range.hi()});
+  }
+  file.texts("/angles/names", names);
+  file.integers("/angles/cosine", cosines);
+  file.integers("/angles/sine", sines);
+  file.doubles("/angles/range", range, names.size(), 2);
+}
+
+void write_options(Hdf5Writer& file, const RunOptions& options) {
+  std::vector<std::string> names, expressions;
+  for (const ConstantOverride& c : options.constants) {
+    names.push_back(c.name);
+    expressions.push_back(c.expression);
+  }
+  file.texts("/options/constants/names", names);
+  file.texts("/options/constants/expressions", expressions);
+  file.attribute("/options", "kernel", options.kernel);
+  file.attribute("/options", "sigma", options.sigma);
+  file.attribute("/options", "threads", std::int64_t{options.threads});
+  file.attribute("/options", "max_boxes", options.max_boxes);
+  file.attribute("/options", "time_limit", options.time_limit);
+}
+
+void write_statistics(Hdf5Writer& file, const certify::Statistics& statistics) {
+  file.group("/statistics");
+  file.attribute("/statistics", "processed", statistics.processed);
+  file.attribute("/statistics", "newton_steps", statistics.newton_steps);
+  file.attribute("/statistics", "proofs_tried", statistics.proofs_tried);
+  file.attribute("/statistics", "seconds_total", statistics.seconds_total);
+  file.attribute("/statistics", "seconds_search", statistics.seconds_search);
+  file.attribute("/statistics", "seconds_certify", statistics.seconds_certify);
+}
+
+// --- reading ---
+
+class ResultReader {
+ public:
+  explicit ResultReader(const std::filesystem::path& path) : file_(path.string()) {
+    if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != kFormat) {
+      refuse("this is no corank result");
+    }
+    const std::int64_t format = file_.integer_attribute("/", "format_version");
+    if (format < 1 || format > kFormatVersion) {
+      refuse("format version " + std::to_string(format) + "; this corank reads up to " + std::to_string(kFormatVersion));
+    }
+  }
+
+  Result read() {
+    Result result;
+    result.version = file_.text_attribute("/", "version");
+    result.model = file_.text_attribute("/", "model");
+    result.set = file_.text_attribute("/", "set");
+    result.model_text = file_.text("/model/text");
+    result.system_text = file_.text("/model/system");
+    read_variables(result);
+    read_angles(result);
+    result.configuration_size = count("configuration_size");
+    result.equations = count("equations");
+    result.inequalities = count("inequalities");
+    read_options(result.options);
+    result.cover.dimension = count("dimension");
+    result.cover.sigma = file_.double_attribute("/", "sigma");
+    result.cover.boxes = boxes("/boxes", result.variables.size());
+    result.cover.points = boxes("/points", result.variables.size());
+    read_statistics(result.cover.statistics);
+    if ((file_.integer_attribute("/", "complete") != 0) != result.cover.complete()) {
+      refuse("the attribute complete contradicts the boxes");
+    }
+    return result;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& problem) const { throw ResultFileError(file_.path() + ": " + problem); }
+
+  int count(const std::string& name) const {
+    const std::int64_t value = file_.integer_attribute("/", name);
+    if (value < 0 || value > 1'000'000'000) refuse("the attribute " + name + " is out of range");
+    return static_cast<int>(value);
+  }
+
+  certify::Interval interval(double lower, double upper, const std::string& where) const {
+    if (!(lower <= upper)) refuse(where + " holds an empty interval");
+    return {lower, upper};
+  }
+
+  void read_variables(Result& result) const {
+    const std::vector<std::string> names = file_.texts("/variables/names");
+    const std::vector<std::uint8_t> kinds = file_.enumeration("/variables/kinds", kind_words());
+    const std::vector<double> domain = file_.doubles("/variables/domain", names.size(), 2);
+    if (kinds.size() != names.size()) refuse("/variables/kinds and names differ in length");
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      result.variables.push_back({names[i], static_cast<certify::VariableKind>(kinds[i]),
+                                  interval(domain[2 * i], domain[2 * i + 1], "/variables/domain")});
+    }
+  }
+
+  void read_angles(Result& result) const {
+    const std::vector<std::string> names = file_.texts("/angles/names");
+    const std::vector<std::int64_t> cosines = file_.integers("/angles/cosine"), sines = file_.integers("/angles/sine");
+    const std::vector<double> range = file_.doubles("/angles/range", names.size(), 2);
+    if (cosines.size() != names.size() || sines.size() != names.size()) refuse("/angles differ in length");
+    const auto n = static_cast<std::int64_t>(result.variables.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (std::min(cosines[i], sines[i]) < 0 || std::max(cosines[i], sines[i]) >= n) refuse("/angles name no variable");
+      result.angles.push_back({names[i], static_cast<int>(cosines[i]), static_cast<int>(sines[i]),
+                               interval(range[2 * i], range[2 * i + 1], "/angles/range")});
+    }
+  }
+
+  void read_options(RunOptions& options) const {
+    const std::vector<std::string> names = file_.texts("/options/constants/names");
+    const std::vector<std::string> expressions = file_.texts("/options/constants/expressions");
+    if (names.size() != expressions.size()) refuse("/options/constants differ in length");
+    for (std::size_t i = 0; i < names.size(); ++i) options.constants.push_back({names[i], expressions[i]});
+    options.kernel = file_.text_attribute("/options", "kernel");
+    options.sigma = file_.double_attribute("/options", "sigma");
+    options.threads = static_cast<int>(file_.integer_attribute("/options", "threads"));
+    options.max_boxes = file_.unsigned_attribute("/options", "max_boxes");
+    options.time_limit = file_.double_attribute("/options", "time_limit");
+  }
+
+  void read_statistics(certify::Statistics& statistics) const {
+    statistics.processed = file_.unsigned_attribute("/statistics", "processed");
+    statistics.newton_steps = file_.unsigned_attribute("/statistics", "newton_steps");
+    statistics.proofs_tried = file_.unsigned_attribute("/statistics", "proofs_tried");
+    statistics.seconds_total = file_.double_attribute("/statistics", "seconds_total");
+    statistics.seconds_search = file_.double_attribute("/statistics", "seconds_search");
+    statistics.seconds_certify = file_.double_attribute("/statistics", "seconds_certify");
+  }
+
+  std::vector<certify::CoverBox> boxes(const std::string& group, std::size_t n) const {
+    const std::vector<std::uint8_t> verdict = file_.enumeration(group + "/verdict", verdict_words());
+    const std::vector<double> lower = file_.doubles(group + "/lower", verdict.size(), n);
+    const std::vector<double> upper = file_.doubles(group + "/upper", verdict.size(), n);
+    const std::vector<std::uint8_t> free = file_.bytes(group + "/free", verdict.size(), n);
+    std::vector<certify::CoverBox> boxes(verdict.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      boxes[i].verdict = static_cast<certify::Verdict>(verdict[i]);
+      for (std::size_t v = 0; v < n; ++v) {
+        boxes[i].box.push_back(interval(lower[i * n + v], upper[i * n + v], group));
+        if (free[i * n + v] != 0) boxes[i].free.push_back(static_cast<int>(v));
+      }
+    }
+    return boxes;
+  }
+
+  Hdf5Reader file_;
+};
+
+}  // namespace
+
+void check_writable(const std::filesystem::path& path) { const PartFile created_and_removed(path); }
+
+void write_result(const std::filesystem::path& path, const Result& result) {
+  const PartFile target(path);
+  Hdf5Writer file(target.part().string());
+  file.attribute("/", "format", std::string(kFormat));
+  file.attribute("/", "format_version", std::int64_t{kFormatVersion});
+  file.attribute("/", "version", result.version);
+  file.attribute("/", "model", result.model);
+  file.attribute("/", "set", result.set);
+  file.attribute("/", "complete", std::int64_t{result.cover.complete()});
+  file.attribute("/", "dimension", std::int64_t{result.cover.dimension});
+  file.attribute("/", "sigma", result.cover.sigma);
+  file.attribute("/", "configuration_size", std::int64_t{result.configuration_size});
+  file.attribute("/", "equations", std::int64_t{result.equations});
+  file.attribute("/", "inequalities", std::int64_t{result.inequalities});
+  file.text("/model/text", result.model_text);
+  file.text("/model/system", result.system_text);
+  write_variables(file, result);
+  write_angles(file, result);
+  write_options(file, result.options);
+  write_boxes(file, "/boxes", result.cover.boxes, result.variables.size());
+  write_boxes(file, "/points", result.cover.points, result.variables.size());
+  write_statistics(file, result.cover.statistics);
+  file.close();
+  target.finish();
+}
+
+Result read_result(const std::filesystem::path& path) { return ResultReader(path).read(); }
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  const PartFile target(path);
+  std::ofstream file(target.part(), std::ios::binary);
+  file << text << std::flush;
+  file.close();
+  if (!file) throw ResultFileError(path.string() + ": cannot write here (disk full?)");
+  target.finish();
+}
+
+}  // namespace corank::report

@@ -1,0 +1,33 @@
+// Result files, RESULT.h5: a result in HDF5, every double bit for bit:
+//
+//   /                   attributes format = "corank result", format_version, version, model, set, complete, dimension, sigma …
+//   /model/text         the model file as read            /model/system       the solved system in the model language
+//   /variables/…        names, kinds, domain (n×2)        /angles/…           names, cosine, sine (indices), range (k×2)
+//   /boxes/…            lower, upper (N×n), verdict (enumeration), free (N×n mask)          /points/… likewise
+//   /options, /statistics   attributes; /options/constants/… names, expressions
+#pragma once
+
+#include <filesystem>
+
+#include "corank/report/hdf5_file.h"
+#include "corank/report/result.h"
+
+namespace corank::report {
+
+/// The layout that write_result writes; read_result refuses a newer one.
+inline constexpr int kFormatVersion = 1;
+
+/// Throws ResultFileError where no file can be created at `path`: to be asked before a long computation.
+void check_writable(const std::filesystem::path& path);
+
+/// Writes a new file beside `path` and renames it, so that `path` never holds half a result. Throws ResultFileError.
+void write_result(const std::filesystem::path& path, const Result& result);
+
+/// The result that write_result was given, bit for bit (free variables in ascending order). Throws ResultFileError for a file
+/// that is missing, foreign, cut short or inconsistent.
+Result read_result(const std::filesystem::path& path);
+
+/// Writes a text in the same way. Throws ResultFileError.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace corank::report

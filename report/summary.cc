@@ -1,0 +1,168 @@
+#include "corank/report/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cfenv>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "corank/certify/angle.h"
+
+namespace corank::report {
+namespace {
+
+using certify::CoverBox;
+using certify::Interval;
+using certify::Verdict;
+using Json = nlohmann::ordered_json;
+
+constexpr std::array kVerdictsInOrder{Verdict::regular,  Verdict::isolated,  Verdict::exact,
+                                      Verdict::boundary, Verdict::undecided, Verdict::pending};
+static_assert(kVerdictsInOrder.size() == certify::kVerdicts);
+
+// glibc's printf rounds decimals in the current rounding mode (exactly, at any number of digits).
+std::string decimal(double x, int digits, int rounding_mode) {
+  const int former = std::fegetround();
+  std::fesetround(rounding_mode);
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.*g", digits, x == 0 ? 0.0 : x);
+  std::fesetround(former);
+  return text.data();
+}
+
+struct Value {
+  std::string name;
+  Interval value;
+};
+
+// The box in the model's own coordinates: an angle stands in place of its cosine and sine, in the order of the variables.
+std::vector<Value> values(const Result& result, const CoverBox& box, int variables) {
+  std::vector<Value> values;
+  for (int i = 0; i < variables; ++i) {
+    const auto has = [i](const certify::Angle& a) { return a.cosine == i || a.sine == i; };
+    const auto angle = std::find_if(result.angles.begin(), result.angles.end(), has);
+    const auto at = [&box](int v) { return box.box[static_cast<std::size_t>(v)]; };
+    if (angle == result.angles.end()) {
+      values.push_back({result.variables[static_cast<std::size_t>(i)].name, at(i)});
+    } else if (i == std::min(angle->cosine, angle->sine)) {
+      values.push_back({angle->name, certify::angle_enclosure(at(angle->cosine), at(angle->sine), angle->range)});
+    }
+  }
+  return values;
+}
+
+std::string plural(std::size_t n, const std::string& word) {
+  const std::string many = word.back() == 'y' ? word.substr(0, word.size() - 1) + "ies" : word + "s";
+  return fmt::format("{} {}", n, n == 1 ? word : many);
+}
+
+std::string points_table(const Result& result) {
+  constexpr int kDigits = 9;
+  std::vector<std::vector<std::string>> rows(1);
+  rows[0].push_back("point");
+  for (const CoverBox& point : result.cover.points) {
+    rows.push_back({std::to_string(rows.size())});
+    for (const Value& v : values(result, point, result.configuration_size)) {
+      if (rows.size() == 2) rows[0].push_back(v.name);
+      rows.back().push_back(outward_text(v.value, kDigits));
+    }
+    rows.back().push_back(to_string(point.verdict));
+  }
+  rows[0].push_back("verdict");
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    text += fmt::format("  {:>{}}", row[0], widths[0]);
+    for (std::size_t c = 1; c + 1 < row.size(); ++c) text += fmt::format("  {:<{}}", row[c], widths[c]);
+    text += fmt::format("  {}\n", row.back());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string outward_text(const Interval& x, int digits) {
+  constexpr double kNothing = 1e-12;  // nobody wants to read 9.88131292e-324
+  const auto outward = [](double far) { return 0 < far && far < kNothing ? kNothing : far; };
+  const auto inward = [](double near) { return 0 < near && near < kNothing ? 0 : near; };
+  const double lo = x.lo() < 0 ? -outward(-x.lo()) : inward(x.lo()), hi = x.hi() > 0 ? outward(x.hi()) : -inward(-x.hi());
+  const std::string lower = decimal(lo, digits, FE_DOWNWARD), upper = decimal(hi, digits, FE_UPWARD);
+  return lower == upper ? lower : "[" + lower + ", " + upper + "]";
+}
+
+std::string to_table(const Result& result) {
+  const certify::Cover& cover = result.cover;
+  std::string text = fmt::format("{}, {}: {}, {}, {}; dimension {}\n", result.model, result.set,
+                                 plural(result.variables.size(), "variable"),
+                                 plural(static_cast<std::size_t>(result.equations), "equation"),
+                                 plural(static_cast<std::size_t>(result.inequalities), "inequality"), cover.dimension);
+  text +=
+      fmt::format("sigma {:g}{}{}\n", cover.sigma, result.options.kernel.empty() ? "" : ", kernel ", result.options.kernel);
+  text += cover.complete() ? "complete: every solution in the search domain is in a box\n"
+                           : "INCOMPLETE: the search ended early; solutions may also be in the pending boxes\n";
+  text += fmt::format("\n  {:<10}  {:>10}\n", "verdict", "boxes");
+  for (const Verdict verdict : kVerdictsInOrder) {
+    if (const std::size_t n = cover.count(verdict); n > 0) text += fmt::format("  {:<10}  {:>10}\n", to_string(verdict), n);
+  }
+  text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
+  if (cover.dimension == 0) {
+    std::array<std::size_t, certify::kVerdicts> counts{};
+    for (const CoverBox& point : cover.points) ++counts[static_cast<std::size_t>(point.verdict)];
+    std::string kinds;
+    for (const Verdict verdict : kVerdictsInOrder) {
+      const std::size_t n = counts[static_cast<std::size_t>(verdict)];
+      if (n > 0) kinds += fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", n, to_string(verdict));
+    }
+    text += fmt::format("\n{}{}\n", plural(cover.points.size(), "point"), kinds);
+    if (!cover.points.empty()) text += points_table(result);
+  }
+  const certify::Statistics& s = cover.statistics;
+  text +=
+      fmt::format("\n{:.3f} s: search {:.3f} s, certify {:.3f} s\n", s.seconds_total, s.seconds_search, s.seconds_certify);
+  return text;
+}
+
+std::string to_json(const Result& result) {
+  const certify::Cover& cover = result.cover;
+  Json json;
+  json["model"] = result.model;
+  json["set"] = result.set;
+  json["system"] = {{"variables", result.variables.size()},
+                    {"equations", result.equations},
+                    {"inequalities", result.inequalities},
+                    {"dimension", cover.dimension}};
+  Json constants = Json::object();
+  for (const ConstantOverride& c : result.options.constants) constants[c.name] = c.expression;
+  json["options"] = {{"kernel", result.options.kernel.empty() ? Json() : Json(result.options.kernel)},
+                     {"sigma", result.options.sigma},
+                     {"threads", result.options.threads},
+                     {"max_boxes", result.options.max_boxes},
+                     {"time_limit", result.options.time_limit},
+                     {"constants", constants}};
+  json["complete"] = cover.complete();
+  json["boxes"]["processed"] = cover.statistics.processed;
+  for (const Verdict verdict : kVerdictsInOrder) json["boxes"][to_string(verdict)] = cover.count(verdict);
+  json["points"] = nullptr;
+  if (cover.dimension == 0) {
+    json["points"] = Json::array();
+    for (const CoverBox& point : cover.points) {
+      Json entry = {{"values", Json::object()}, {"verdict", to_string(point.verdict)}};
+      for (const Value& v : values(result, point, static_cast<int>(result.variables.size()))) {
+        entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+      }
+      json["points"].push_back(std::move(entry));
+    }
+  }
+  json["seconds"] = {{"total", cover.statistics.seconds_total},
+                     {"search", cover.statistics.seconds_search},
+                     {"certify", cover.statistics.seconds_certify}};
+  json["version"] = result.version;
+  return json.dump(2);
+}
+
+}  // namespace corank::report

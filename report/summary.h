@@ -1,0 +1,24 @@
+// What a result says, short: a table for people and a JSON object for programs.
+#pragma once
+
+#include <string>
+
+#include "corank/report/result.h"
+
+namespace corank::report {
+
+/// "[0.59999999, 0.60000001]" with at most so many significant digits, rounded outward (below 1e-12 to 0 or
+/// ±1e-12); one number where both ends agree.
+std::string outward_text(const certify::Interval& x, int digits);
+
+/// A few lines for a terminal: the set, its verdicts, and the points of a set of dimension 0 (configuration only, angles in
+/// radians, bounds rounded outward).
+std::string to_table(const Result& result);
+
+/// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, boxes{processed,
+/// regular, isolated, exact, boundary, undecided, pending}, points, seconds{total, search, certify}, version. `points` is null
+/// where the dimension is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns as they are,
+/// angles in radians in place of their sines and cosines. Every double reads back as the same double.
+std::string to_json(const Result& result);
+
+}  // namespace corank::report

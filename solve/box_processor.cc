@@ -1,0 +1,242 @@
+#include "corank/solve/box_processor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "corank/certify/projection.h"
+
+namespace corank::solve {
+namespace {
+
+using certify::Interval;
+using certify::Location;
+using certify::Verdict;
+
+// Measured on Dextar's sets, see bench/HISTORY.md.
+constexpr double kWorthwhileShare = 0.1;   // a projection that gains less is not followed up
+constexpr double kNewtonGain = 0.3;        // repeat Newton while some variable loses this share
+constexpr int kNewtonRepeats = 4;
+constexpr double kProofSpread = 1.5;       // try a proof below this spread |I − Y·S|
+constexpr double kFreeCutShare = 0.1;     // cut a free side unless it is already so much narrower than the others or σ
+constexpr double kLastCutShare = 1.0 / 64;
+constexpr int kTightenings = 3;
+constexpr double kCutMargin = 0.97;        // aim a little below σ: the linearization is not exact
+constexpr int kMaxCells = 4096;
+
+// The cells of the grid that cuts side free[j] of the piece into parts[j] equal parts.
+std::vector<std::vector<Interval>> grid(const std::vector<Interval>& piece, const std::vector<int>& free,
+                                        const std::vector<int>& parts) {
+  std::vector<std::vector<Interval>> cells{piece};
+  for (std::size_t f = 0; f < free.size(); ++f) {
+    const Interval side = piece[free[f]];
+    std::vector<std::vector<Interval>> finer;
+    finer.reserve(cells.size() * parts[f]);
+    double from = side.lo();
+    for (int k = 1; k <= parts[f]; ++k) {
+      const double to = k == parts[f] ? side.hi() : std::clamp(side.lo() + side.width() * k / parts[f], from, side.hi());
+      for (const auto& cell : cells) {
+        finer.push_back(cell);
+        finer.back()[free[f]] = Interval(from, to);
+      }
+      from = to;
+    }
+    cells = std::move(finer);
+  }
+  return cells;
+}
+
+double widest(const std::vector<Interval>& x) {
+  double width = 0;
+  for (const Interval& side : x) width = std::max(width, side.width());
+  return width;
+}
+
+}  // namespace
+
+Problem::Problem(const certify::System& system, double s)
+    : compiled(system), domain(system), branching(system), sigma(s), dimension(system.dimension()) {}
+
+BoxProcessor::BoxProcessor(const Problem& problem) : problem_(problem), preconditioners_(problem.compiled) {
+  changed_.resize(problem.compiled.variables());
+  pending_rows_.resize(problem.compiled.rows());
+}
+
+bool BoxProcessor::propagate(Interval* x) {
+  const auto& system = problem_.compiled;
+  // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows, since
+  // each return costs a variable a tenth of its width.
+  queue_.clear();
+  for (int row = 0; row < system.rows(); ++row) queue_.push_back(row);
+  std::fill(pending_rows_.begin(), pending_rows_.end(), 1);
+  const std::size_t limit = static_cast<std::size_t>(system.rows()) * 8;
+  for (std::size_t head = 0; head < queue_.size() && head < limit; ++head) {
+    const int row = queue_[head];
+    pending_rows_[row] = 0;
+    std::fill(changed_.begin(), changed_.end(), 0);
+    if (!certify::project(system, row, x, kWorthwhileShare, changed_.data())) return false;
+    for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) {
+      if (!changed_[system.column(k)]) continue;
+      for (int other : system.rows_of(system.column(k)))
+        if (other != row && !pending_rows_[other]) {
+          pending_rows_[other] = 1;
+          queue_.push_back(other);
+        }
+    }
+  }
+  return true;
+}
+
+bool BoxProcessor::contract(Interval* x) {
+  worth_proving_ = false;
+  if (!propagate(x)) return false;
+  const int n = problem_.compiled.variables();
+  std::vector<double> before(n);
+  for (int repeat = 0; repeat < kNewtonRepeats; ++repeat) {
+    for (int j = 0; j < n; ++j) before[j] = x[j].width();
+    const auto& p = preconditioners_.at_midpoint(x);
+    const auto newton = certify::newton_contract(problem_.compiled, p, x, workspace_);
+    ++statistics_.newton_steps;
+    if (newton.empty) return false;
+    worth_proving_ = newton.regular && newton.spread < kProofSpread && p.rank() == problem_.compiled.equations();
+    bool gained = false;
+    for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - kNewtonGain) * before[j];
+    if (!gained) return true;
+    if (!propagate(x)) return false;
+  }
+  return true;
+}
+
+bool BoxProcessor::certify(Interval* x) {
+  const auto start = std::chrono::steady_clock::now();
+  ++statistics_.proofs_tried;
+  const auto& p = preconditioners_.at_midpoint(x);
+  const certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, x, workspace_);
+  if (sheet.proven) slice(sheet, x);
+  statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return sheet.proven;
+}
+
+void BoxProcessor::add(const certify::Sheet& sheet, const std::vector<int>& free, std::vector<Interval> piece) {
+  Verdict verdict = free.empty() ? Verdict::isolated : Verdict::regular;
+  switch (problem_.domain.locate(problem_.compiled, piece.data())) {
+    case Location::outside: return;
+    case Location::across: verdict = Verdict::boundary; break;
+    case Location::inside: break;
+  }
+  Found found{{std::move(piece), verdict, free}, {}};
+  if (free.empty()) {
+    found.sheet = sheet;
+    found.sheet.image = found.box.box;
+  }
+  found_.push_back(std::move(found));
+}
+
+std::vector<std::vector<Interval>> BoxProcessor::cut(const std::vector<Interval>& piece, const std::vector<int>& dependent,
+                                                     const std::vector<int>& free) const {
+  // The linearized width of dependent a is Σ_j |∂a/∂j| w_j; find few parts k_j with Σ_j |∂a/∂j| w_j/k_j ≤ σ for all a.
+  const double sigma = kCutMargin * problem_.sigma;
+  std::vector<int> parts;
+  double cells = 1;
+  for (int j : free) {
+    parts.push_back(static_cast<int>(std::clamp(std::ceil(piece[j].width() / problem_.sigma), 1.0, double{kMaxCells})));
+    cells *= parts.back();
+  }
+  while (cells < kMaxCells) {
+    double worst = sigma;
+    std::size_t grow = free.size();
+    for (std::size_t a = 0; a < dependent.size(); ++a) {
+      double width = 0, best = 0;
+      std::size_t best_free = 0;
+      for (std::size_t f = 0; f < free.size(); ++f) {
+        const double share =
+            std::fabs(preconditioners_.sensitivity(static_cast<int>(a), free[f])) * piece[free[f]].width() / parts[f];
+        width += share;
+        // One part more takes share/(k+1) off at the price of a factor (k+1)/k in cells.
+        if (const double gain = share * parts[f] / (parts[f] + 1); gain > best) best = gain, best_free = f;
+      }
+      if (width > worst && best > 0) worst = width, grow = best_free;
+    }
+    if (grow == free.size()) break;
+    cells *= (parts[grow] + 1.0) / parts[grow];
+    ++parts[grow];
+  }
+  if (std::all_of(parts.begin(), parts.end(), [](int k) { return k == 1; })) {
+    std::size_t longest = 0;
+    for (std::size_t f = 1; f < free.size(); ++f)
+      if (piece[free[f]].width() > piece[free[longest]].width()) longest = f;
+    parts[longest] = 2;
+  }
+  return grid(piece, free, parts);
+}
+
+void BoxProcessor::slice(const certify::Sheet& sheet, const Interval* x) {
+  const int n = problem_.compiled.variables();
+  std::vector<int> free;
+  for (int j = 0; j < n; ++j)
+    if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) free.push_back(j);
+
+  std::vector<std::vector<Interval>> pieces{sheet.image};
+  while (!pieces.empty()) {
+    std::vector<Interval> piece = std::move(pieces.back());
+    pieces.pop_back();
+    ++statistics_.processed;
+    double width = widest(piece);
+    for (int k = 0; k < kTightenings; ++k) {
+      const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent);
+      certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
+      const double tightened = widest(piece);
+      if (!free.empty() && (tightened <= problem_.sigma || tightened > 0.9 * width)) break;
+      if (free.empty() && tightened == width) break;
+      width = tightened;
+    }
+    width = widest(piece);
+    // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
+    bool meets = true;
+    for (int j = 0; j < n && meets; ++j) meets = piece[j].overlaps(x[j]);
+    if (!meets) continue;
+    if (problem_.domain.locate(problem_.compiled, piece.data()) == Location::outside) continue;
+    if (width <= problem_.sigma || free.empty()) {
+      add(sheet, free, std::move(piece));
+      continue;
+    }
+    for (auto& part : cut(piece, sheet.dependent, free)) pieces.push_back(std::move(part));
+  }
+}
+
+int BoxProcessor::widest_free(const Interval* x) {
+  const auto& dependent = preconditioners_.at_midpoint(x).dependent;
+  int widest = -1;
+  for (int j = 0; j < problem_.compiled.variables(); ++j) {
+    if (std::find(dependent.begin(), dependent.end(), j) != dependent.end()) continue;
+    if (widest < 0 || x[j].width() > x[widest].width()) widest = j;
+  }
+  return widest;
+}
+
+BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
+  ++statistics_.processed;
+  if (!contract(x)) return Outcome::done;
+  if (worth_proving_ && certify(x)) return Outcome::done;
+  split_variable_ = problem_.branching.choose(x, problem_.sigma);
+  // Where Newton is regular, the solutions in x are a sheet over the free variables: cutting along those alone gives parts whose
+  // sheets do not overlap.
+  // Small boxes whose proof is near are cut on below σ, a bounded number of times.
+  if (worth_proving_) {
+    const int free = widest_free(x);
+    const double least = split_variable_ >= 0 ? kFreeCutShare * x[split_variable_].width() : kLastCutShare * problem_.sigma;
+    if (free >= 0 && x[free].width() > least) split_variable_ = free;
+  }
+  if (split_variable_ >= 0) {
+    const Interval& side = x[split_variable_];
+    const double at = side.lo() + kBisectionPoint * (side.hi() - side.lo());
+    if (at > side.lo() && at < side.hi()) return Outcome::split;
+  }
+  Found found;
+  found.box.box.assign(x, x + problem_.compiled.variables());
+  found.box.verdict = Verdict::undecided;
+  found_.push_back(std::move(found));
+  return Outcome::done;
+}
+
+}  // namespace corank::solve

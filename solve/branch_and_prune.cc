@@ -1,0 +1,236 @@
+// The search: depth first, so that memory grows with the depth and the results; what happens to a box does not depend on any other
+// box, so threads only share the work and the sorted result is the same for any number of them.
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <cfenv>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+
+#include "corank/certify/rounding.h"
+#include "corank/solve/box_processor.h"
+#include "corank/solve/points.h"
+#include "corank/solve/solve.h"
+
+namespace corank::solve {
+namespace {
+
+using certify::Cover;
+using certify::Interval;
+using certify::Verdict;
+using Clock = std::chrono::steady_clock;
+
+// Boxes waiting, each with its share of the search domain: 1 for all of it, a part's share by the lengths of the parts.
+class WorkList {
+ public:
+  explicit WorkList(std::size_t n) : n_(n) {}
+  bool empty() const { return shares_.empty(); }
+  std::size_t size() const { return shares_.size(); }
+  void push(const Interval* x, double share) {
+    sides_.insert(sides_.end(), x, x + n_);
+    shares_.push_back(share);
+  }
+  // Copies the newest box to x and removes it; returns its share.
+  double pop(Interval* x) {
+    std::copy(sides_.end() - static_cast<std::ptrdiff_t>(n_), sides_.end(), x);
+    sides_.resize(sides_.size() - n_);
+    const double share = shares_.back();
+    shares_.pop_back();
+    return share;
+  }
+  // Gives away the older half: the larger boxes.
+  WorkList split_off() {
+    WorkList older(n_);
+    const std::size_t half = size() / 2;
+    older.sides_.assign(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(half * n_));
+    older.shares_.assign(shares_.begin(), shares_.begin() + static_cast<std::ptrdiff_t>(half));
+    sides_.erase(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(half * n_));
+    shares_.erase(shares_.begin(), shares_.begin() + static_cast<std::ptrdiff_t>(half));
+    return older;
+  }
+
+ private:
+  std::size_t n_;
+  std::vector<Interval> sides_;
+  std::vector<double> shares_;
+};
+
+class Search {
+ public:
+  Search(const certify::System& system, const Options& options, double sigma)
+      : options_(options), problem_(system, sigma), processors_([this] { return BoxProcessor(problem_); }) {}
+
+  void run(const certify::System& system) {
+    const std::size_t n = system.variables.size();
+    std::vector<Interval> domain;
+    for (const auto& v : system.variables) domain.push_back(v.domain);
+    WorkList all(n);
+    all.push(domain.data(), 1.0);
+    threads_ = options_.threads;
+    if (threads_ <= 0) threads_ = tbb::this_task_arena::max_concurrency();
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
+    tbb::task_arena arena(threads_);
+    waiting_ = 1;
+    arena.execute([&] {
+      if (threads_ == 1) {
+        work(std::move(all));
+      } else {
+        spawn(std::move(all));
+        group_.wait();
+      }
+    });
+  }
+
+  std::vector<Found> take_found() {
+    std::vector<Found> all;
+    for (BoxProcessor& p : processors_) std::move(p.found().begin(), p.found().end(), std::back_inserter(all));
+    return all;
+  }
+  certify::Statistics statistics() {
+    certify::Statistics sum;
+    for (BoxProcessor& p : processors_) {
+      sum.processed += p.statistics().processed;
+      sum.newton_steps += p.statistics().newton_steps;
+      sum.proofs_tried += p.statistics().proofs_tried;
+      sum.seconds_certify += p.statistics().seconds_certify;
+    }
+    return sum;
+  }
+  void report(bool last) {
+    if (!options_.progress) return;
+    std::unique_lock lock(progress_mutex_, std::try_to_lock);
+    if (!lock.owns_lock()) return;
+    const double now = seconds();
+    if (!last && now - last_report_ < options_.progress_interval) return;
+    last_report_ = now;
+    Progress p;
+    p.processed = processed_;
+    p.waiting = waiting_;
+    p.excluded = done_share_.load();
+    for (int v = 0; v < certify::kVerdicts; ++v) p.verdicts[v] = verdicts_[v];
+    p.seconds = now;
+    const int mode = std::fegetround();  // the callback is not ours: it gets the default rounding
+    std::fesetround(FE_TONEAREST);
+    options_.progress(p);
+    std::fesetround(mode);
+  }
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  void spawn(WorkList list) {
+    ++busy_;
+    auto shared = std::make_shared<WorkList>(std::move(list));
+    group_.run([this, shared] {
+      work(std::move(*shared));
+      --busy_;
+    });
+  }
+
+  bool limit_reached() {
+    if (ended_.load(std::memory_order_relaxed)) return true;
+    const bool over = (options_.stop && options_.stop->load(std::memory_order_relaxed)) ||
+                      (options_.max_boxes && processed_.load(std::memory_order_relaxed) >= options_.max_boxes) ||
+                      (options_.time_limit > 0 && seconds() >= options_.time_limit);
+    if (over) ended_ = true;
+    return over;
+  }
+
+  void work(WorkList list) {
+    const certify::UpwardRounding rounding;
+    BoxProcessor& processor = processors_.local();
+    std::vector<Interval> x(problem_.compiled.variables());
+    std::size_t counted = processor.found().size();
+    for (unsigned turn = 0; !list.empty(); ++turn) {
+      if (limit_reached()) break;
+      const double share = list.pop(x.data());
+      const auto outcome = processor.process(x.data());
+      processed_.fetch_add(1, std::memory_order_relaxed);
+      if (outcome == BoxProcessor::Outcome::split) {
+        const int j = processor.split_variable();
+        const Interval side = x[j];
+        const double at = side.lo() + kBisectionPoint * (side.hi() - side.lo());
+        x[j] = Interval(at, side.hi());
+        list.push(x.data(), share * (1 - kBisectionPoint));
+        x[j] = Interval(side.lo(), at);
+        list.push(x.data(), share * kBisectionPoint);
+        waiting_.fetch_add(1, std::memory_order_relaxed);
+      } else {
+        waiting_.fetch_sub(1, std::memory_order_relaxed);
+      }
+      if (options_.progress) {
+        if (outcome == BoxProcessor::Outcome::done) done_share_.fetch_add(share, std::memory_order_relaxed);
+        for (; counted < processor.found().size(); ++counted)
+          ++verdicts_[static_cast<int>(processor.found()[counted].box.verdict)];
+        if (turn % 64 == 0) report(false);
+      }
+      if (busy_.load(std::memory_order_relaxed) < threads_ && threads_ > 1 && list.size() > 1) spawn(list.split_off());
+    }
+    while (!list.empty()) {
+      list.pop(x.data());
+      Found found;
+      found.box.box = x;
+      found.box.verdict = Verdict::pending;
+      processor.found().push_back(std::move(found));
+    }
+  }
+
+  const Options& options_;
+  Problem problem_;
+  tbb::enumerable_thread_specific<BoxProcessor> processors_;
+  tbb::task_group group_;
+  int threads_ = 1;
+  std::atomic<int> busy_{0};
+  std::atomic<bool> ended_{false};
+  std::atomic<std::uint64_t> processed_{0}, waiting_{0};
+  std::atomic<double> done_share_{0};
+  std::array<std::atomic<std::uint64_t>, certify::kVerdicts> verdicts_{};
+  std::mutex progress_mutex_;
+  double last_report_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+bool before(const Found& a, const Found& b) {
+  return std::lexicographical_compare(a.box.box.begin(), a.box.box.end(), b.box.box.begin(), b.box.box.end(),
+                                      [](const Interval& x, const Interval& y) {
+                                        return x.lo() != y.lo() ? x.lo() < y.lo() : x.hi() < y.hi();
+                                      });
+}
+
+}  // namespace
+
+double default_sigma(const certify::System& system) { return system.dimension() == 0 ? 1e-6 : 0.1; }
+
+Cover solve(const certify::System& system, const Options& options) {
+  const double sigma = options.sigma.value_or(default_sigma(system));
+  if (!(sigma > 0) || !std::isfinite(sigma)) throw std::invalid_argument("sigma must be a positive number");
+
+  Search search(system, options, sigma);
+  search.run(system);
+
+  Cover cover;
+  cover.dimension = system.dimension();
+  cover.sigma = sigma;
+  cover.statistics = search.statistics();
+  std::vector<Found> found = search.take_found();
+  std::sort(found.begin(), found.end(), before);
+  if (cover.dimension == 0) {
+    merge_isolated(found);
+    std::vector<Found> candidates;
+    for (const Found& f : found)
+      if (f.box.verdict != Verdict::pending) candidates.push_back(f);
+    cover.points = collect_points(candidates, sigma);
+  }
+  for (Found& f : found) cover.boxes.push_back(std::move(f.box));
+  cover.statistics.seconds_total = search.seconds();
+  cover.statistics.seconds_search = cover.statistics.seconds_total - cover.statistics.seconds_certify;
+  search.report(true);
+  return cover;
+}
+
+}  // namespace corank::solve

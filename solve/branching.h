@@ -1,0 +1,32 @@
+// Which variable to bisect. Heuristic throughout.
+#pragma once
+
+#include <vector>
+
+#include "corank/certify/system.h"
+
+namespace corank::solve {
+
+/// Off-centre, because mechanisms put solutions on planes of symmetry, and a face through a solution doubles its boxes.
+inline constexpr double kBisectionPoint = 0.47;
+
+/// Unproven boxes are bisected at least until each side is this share of its domain.
+inline constexpr double kProofShare = 0.05;
+
+class BranchingRule {
+ public:
+  explicit BranchingRule(const certify::System& system);
+
+  /// The variable to bisect for an unproven box: the one of largest weight · width / domain width among those wider than σ or than
+  /// kProofShare of their domain (a wider box can hardly be proven, however large σ is); −1 where there is none. A variable that a
+  /// linear equation defines waits until all others are narrow.
+  int choose(const certify::Interval* x, double sigma) const;
+
+  const std::vector<double>& weights() const { return weight_; }
+
+ private:
+  std::vector<double> weight_;         // 0: defined by a linear equation and in no other; 1/2: kernel; 1: else
+  std::vector<double> inverse_width_;  // of the domain
+};
+
+}  // namespace corank::solve

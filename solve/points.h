@@ -1,0 +1,18 @@
+// For sets of dimension 0: from boxes to distinct solutions.
+#pragma once
+
+#include <vector>
+
+#include "corank/solve/box_processor.h"
+
+namespace corank::solve {
+
+/// Removes every isolated box that holds the same solution as another (certify::compare_isolated) and every undecided box that holds
+/// nothing but a proven solution. Where identity cannot be decided, the boxes lose their verdict: both become undecided.
+void merge_isolated(std::vector<Found>& found);
+
+/// The distinct solutions: each isolated or boundary box, and the hull of each cluster of undecided boxes that are no farther apart
+/// than gap (the hull is no claim, so the gap is free to choose).
+std::vector<certify::CoverBox> collect_points(const std::vector<Found>& found, double gap);
+
+}  // namespace corank::solve

@@ -1,0 +1,87 @@
+#include "corank/solve/preconditioner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corank::solve {
+namespace {
+constexpr double kRankTolerance = 1e-9;  // pivots below this share of a row's largest entry count as zero
+}  // namespace
+
+PreconditionerFactory::PreconditionerFactory(const certify::CompiledSystem& system)
+    : system_(system), m_(system.equations()), n_(system.variables()) {}
+
+const certify::Preconditioner& PreconditionerFactory::at_midpoint(const certify::Interval* x,
+                                                                  const std::vector<int>* candidates) {
+  center_.resize(n_);
+  for (int j = 0; j < n_; ++j) center_[j] = x[j].mid();
+  sparse_.resize(system_.entries());
+  system_.approximate_jacobian(center_.data(), sparse_.data());
+
+  tableau_.assign(static_cast<std::size_t>(m_) * n_, 0.0);
+  row_scale_.assign(m_, 0.0);
+  for (int i = 0; i < m_; ++i) {
+    for (int k = system_.row_begin(i); k < system_.row_begin(i + 1); ++k) {
+      tableau_[static_cast<std::size_t>(i) * n_ + system_.column(k)] = sparse_[k];
+      row_scale_[i] = std::max(row_scale_[i], std::fabs(sparse_[k]));
+    }
+    row_scale_[i] = row_scale_[i] > 0 ? 1 / row_scale_[i] : 0;
+  }
+  row_done_.assign(m_, 0);
+  allowed_.assign(n_, candidates ? 0.0 : 1.0);
+  if (candidates)
+    for (int j : *candidates) allowed_[j] = 1.0;
+
+  // Each row's largest entry among the allowed columns, renewed only when an exchange step has changed the row or taken the column.
+  const auto find_best = [&](int i) {
+    const double* t = tableau_.data() + static_cast<std::size_t>(i) * n_;
+    double best = 0;
+    int column = -1;
+    for (int j = 0; j < n_; ++j) {
+      const double size = std::fabs(t[j]) * allowed_[j];
+      if (size > best) best = size, column = j;
+    }
+    best_size_[i] = best * row_scale_[i];
+    best_column_[i] = column;
+  };
+  best_size_.resize(m_);
+  best_column_.resize(m_);
+  for (int i = 0; i < m_; ++i) find_best(i);
+
+  result_.equations.clear();
+  result_.dependent.clear();
+  for (int step = 0; step < std::min(m_, n_); ++step) {
+    int row = -1;
+    double best = kRankTolerance;
+    for (int i = 0; i < m_; ++i)
+      if (!row_done_[i] && best_size_[i] > best) best = best_size_[i], row = i;
+    if (row < 0) break;
+    const int column = best_column_[row];
+    // Exchange step: afterwards column `column` holds that of the inverse that belongs to equation `row`.
+    double* pivot_row = tableau_.data() + static_cast<std::size_t>(row) * n_;
+    const double inverse = 1 / pivot_row[column];
+    for (int j = 0; j < n_; ++j) pivot_row[j] *= inverse;
+    pivot_row[column] = inverse;
+    row_done_[row] = 1;
+    allowed_[column] = 0;
+    for (int i = 0; i < m_; ++i) {
+      double* t = tableau_.data() + static_cast<std::size_t>(i) * n_;
+      const double factor = t[column];
+      if (i == row || factor == 0) continue;
+      t[column] = 0;
+      for (int j = 0; j < n_; ++j) t[j] -= factor * pivot_row[j];
+      if (!row_done_[i]) find_best(i);
+    }
+    result_.equations.push_back(row);
+    result_.dependent.push_back(column);
+  }
+  const int r = result_.rank();
+  result_.y.resize(static_cast<std::size_t>(r) * r);
+  for (int a = 0; a < r; ++a)
+    for (int b = 0; b < r; ++b)
+      result_.y[static_cast<std::size_t>(a) * r + b] =
+          tableau_[static_cast<std::size_t>(result_.equations[a]) * n_ + result_.dependent[b]];
+  return result_;
+}
+
+}  // namespace corank::solve

@@ -1,0 +1,32 @@
+// Chooses dependent variables and the matrix Y for interval Newton, from an approximate Jacobian. Heuristic: certify/newton.h is
+// valid for any choice.
+#pragma once
+
+#include <vector>
+
+#include "corank/certify/newton.h"
+
+namespace corank::solve {
+
+class PreconditionerFactory {
+ public:
+  explicit PreconditionerFactory(const certify::CompiledSystem& system);
+
+  /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x: each pivot makes one variable
+  /// dependent. Fewer than m rows where the Jacobian is numerically rank deficient. If `candidates` is given, only those
+  /// variables may become dependent.
+  const certify::Preconditioner& at_midpoint(const certify::Interval* x, const std::vector<int>* candidates = nullptr);
+
+  /// After at_midpoint: ∂(dependent a)/∂(free j) of the linearized system, r×n row-major, 0 for dependent columns.
+  double sensitivity(int a, int j) const { return -tableau_[static_cast<std::size_t>(result_.equations[a]) * n_ + j]; }
+
+ private:
+  const certify::CompiledSystem& system_;
+  int m_, n_;
+  std::vector<double> center_, sparse_, tableau_, row_scale_, best_size_, allowed_;
+  std::vector<int> best_column_;
+  std::vector<char> row_done_;
+  certify::Preconditioner result_;
+};
+
+}  // namespace corank::solve

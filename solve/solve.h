@@ -1,0 +1,44 @@
+// Branch and prune: encloses every solution of a system in boxes and asks certify/ for a proof of each.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "corank/certify/cover.h"
+#include "corank/certify/system.h"
+
+namespace corank::solve {
+
+struct Progress {
+  std::uint64_t processed = 0;  ///< boxes done
+  std::uint64_t waiting = 0;    ///< boxes left
+  double excluded = 0;          ///< share of the domain's volume that is done with, 0 … 1
+  std::array<std::uint64_t, certify::kVerdicts> verdicts{};
+  double seconds = 0;
+};
+
+struct Options {
+  /// Largest edge that a returned box may have. Default: default_sigma(system).
+  std::optional<double> sigma;
+  int threads = 1;               ///< 0: one for each core
+  std::uint64_t max_boxes = 0;   ///< stop after so many processed boxes; 0: no limit
+  double time_limit = 0;         ///< seconds; 0: no limit
+  /// Called every `progress_interval` seconds or so, from one thread at a time.
+  std::function<void(const Progress&)> progress;
+  double progress_interval = 0.1;
+  /// Where set by another thread or a signal handler, the search ends soon with a valid, incomplete cover.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// 1e-6 for a set of dimension 0, else 0.1 (the CUIK suite's default).
+double default_sigma(const certify::System& system);
+
+/// The cover of the system's solution set in its domain. Never throws for a mathematical outcome; throws std::invalid_argument
+/// where the system is not valid (System::validate) or σ is not a positive number. The result does not depend on `threads`
+/// unless a limit or a stop ends the search.
+certify::Cover solve(const certify::System& system, const Options& options = {});
+
+}  // namespace corank::solve

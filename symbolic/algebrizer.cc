@@ -1,0 +1,240 @@
+#include "corank/symbolic/algebrizer.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "corank/certify/check.h"
+#include "corank/symbolic/angle_range.h"
+#include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/ginac_lock.h"
+#include "corank/symbolic/polynomial_expander.h"
+
+namespace corank::symbolic {
+namespace {
+
+using certify::ExactNumber;
+using certify::Interval;
+using certify::Polynomial;
+using certify::Variable;
+using certify::VariableKind;
+
+class Algebrizer {
+ public:
+  explicit Algebrizer(const TrigonometricSystem& system) : in_(system) {}
+  certify::System run();
+
+ private:
+  void add_constants();
+  void add_length(const Coordinate& coordinate);
+  void add_angle(const Coordinate& coordinate);
+  void add_kernel_unknowns();
+  void add_equation(const TrigonometricSystem::Equation& equation);
+  void add_circles();
+  void add_inequality(const TrigonometricSystem::Equation& inequality);
+  int add_variable(const std::string& name, VariableKind kind, const ConstantRange& range);
+  ConstantRange range_of(const Coordinate& coordinate);
+  /// lhs − rhs.
+  ExpandedPolynomial difference(const TrigonometricSystem::Equation& equation);
+  bool mentions_kernel(const Relation& relation) const;
+  std::string fresh_name(std::string name);
+
+  const TrigonometricSystem& in_;
+  certify::System out_;
+  PolynomialExpander expander_;
+  std::set<std::string> names_;
+  std::vector<Polynomial> chords_;
+};
+
+std::string equation_text(const TrigonometricSystem::Equation& equation) {
+  constexpr std::size_t kLongest = 160;
+  const std::string text = equation.relation.text();
+  return "`" + (text.size() > kLongest ? text.substr(0, kLongest) + "…" : text) + "`";
+}
+
+// A coefficient beyond double precision's range would make every enclosure useless.
+void require_bounded(const Polynomial& polynomial, const TrigonometricSystem::Equation& equation) {
+  for (const certify::Monomial& monomial : polynomial.monomials)
+    if (!monomial.enclosure.is_bounded())
+      throw ModelError(equation.where,
+                       "the coefficient " + in_quotes(monomial.coefficient.text()) + " of the equation " +
+                           equation_text(equation) + " is too large",
+                       "coefficients within double precision's range");
+}
+
+void Algebrizer::add_constants() {
+  for (const Constant& constant : in_.constants)
+    expander_.add_constant(constant.name,
+                           expander_.constant(constant.value, "the constant " + in_quotes(constant.name), constant.where));
+}
+
+ConstantRange Algebrizer::range_of(const Coordinate& coordinate) {
+  const std::string what = "the range of " + in_quotes(coordinate.name);
+  ConstantRange range{expander_.constant(coordinate.lower, what, coordinate.where),
+                      expander_.constant(coordinate.upper, what, coordinate.where)};
+  const std::string text = "[" + coordinate.lower.text() + ", " + coordinate.upper.text() + "]";
+  try {
+    if ((range.upper - range.lower).sign() == -1)
+      throw ModelError(coordinate.where, what + ", " + text + ", is empty",
+                       "a lower bound that is no larger than the upper one");
+    if (!range.lower.exact().enclose().is_bounded() || !range.upper.exact().enclose().is_bounded())
+      throw ModelError(coordinate.where, what + ", " + text + ", is unbounded", "bounds within double precision's range");
+  } catch (const std::domain_error& error) {
+    throw ModelError(coordinate.where, what + ", " + text + ", has no real bounds: " + error.what(), "real numbers");
+  }
+  return range;
+}
+
+int Algebrizer::add_variable(const std::string& name, VariableKind kind, const ConstantRange& range) {
+  out_.variables.emplace_back(name, kind, range.lower.exact(), range.upper.exact());
+  return out_.size() - 1;
+}
+
+std::string Algebrizer::fresh_name(std::string name) {
+  while (!names_.insert(name).second)
+    name += "_";
+  return name;
+}
+
+void Algebrizer::add_length(const Coordinate& coordinate) {
+  expander_.add_unknown(coordinate.name, add_variable(coordinate.name, VariableKind::length, range_of(coordinate)));
+}
+
+void Algebrizer::add_angle(const Coordinate& coordinate) {
+  const ConstantRange range = range_of(coordinate);
+  AngleRange condition;
+  try {
+    condition = angle_range(range);
+  } catch (const std::domain_error& error) {
+    throw ModelError(coordinate.where, "the range of " + in_quotes(coordinate.name) + " has no use: " + error.what(),
+                     "radians");
+  }
+  certify::Angle angle;
+  angle.name = coordinate.name;
+  angle.cosine = add_variable(fresh_name("c_" + coordinate.name), VariableKind::cosine, condition.cosine);
+  angle.sine = add_variable(fresh_name("s_" + coordinate.name), VariableKind::sine, condition.sine);
+  angle.range = Interval(range.lower.exact().enclose().lo(), range.upper.exact().enclose().hi());
+  expander_.add_angle(coordinate.name, angle.cosine, angle.sine);
+  if (condition.chord) {
+    const auto& [cos_m, sin_m, cos_h] = *condition.chord;
+    const auto chord =
+        cos_m * ExpandedPolynomial::variable(angle.cosine) + sin_m * ExpandedPolynomial::variable(angle.sine) - cos_h;
+    chords_.push_back(chord.compile("range of " + coordinate.name));
+  }
+  out_.angles.push_back(std::move(angle));
+}
+
+void Algebrizer::add_kernel_unknowns() {
+  for (const std::string& name : in_.kernel_unknowns)
+    expander_.add_unknown(name, add_variable(name, VariableKind::kernel, {-1, 1}));
+}
+
+bool Algebrizer::mentions_kernel(const Relation& relation) const {
+  return std::any_of(in_.kernel_unknowns.begin(), in_.kernel_unknowns.end(),
+                     [&](const std::string& name) { return relation.lhs.mentions(name) || relation.rhs.mentions(name); });
+}
+
+ExpandedPolynomial Algebrizer::difference(const TrigonometricSystem::Equation& equation) {
+  const std::string what = equation_text(equation);
+  const ExpandedPolynomial lhs = expander_.polynomial(equation.relation.lhs, what, equation.where);
+  const ExpandedPolynomial rhs = expander_.polynomial(equation.relation.rhs, what, equation.where);
+  try {
+    return lhs - rhs;
+  } catch (const std::exception& error) {
+    throw ModelError(equation.where, "the equation " + what + " is too large: " + error.what(), "a smaller polynomial");
+  }
+}
+
+void Algebrizer::add_equation(const TrigonometricSystem::Equation& equation) {
+  Polynomial polynomial = difference(equation).compile(equation.source);
+  if (polynomial.monomials.empty()) {
+    // A kernel row that the constants make zero says nothing about xi; an equation of the model that says nothing is a
+    // mistake.
+    if (mentions_kernel(equation.relation)) return;
+    throw ModelError(equation.where, "the equation " + equation_text(equation) + " holds always",
+                     "an equation between unknowns");
+  }
+  if (polynomial.degree() == 0) {
+    const ExactNumber& value = polynomial.monomials[0].coefficient;
+    throw ModelError(equation.where,
+                     "the equation " + equation_text(equation) + " contains no unknown and " +
+                         (value.sign() ? "can never hold: " : "cannot be decided: ") + value.text() + " = 0",
+                     "an equation between unknowns");
+  }
+  require_bounded(polynomial, equation);
+  out_.equations.push_back(std::move(polynomial));
+}
+
+void Algebrizer::add_circles() {
+  for (const certify::Angle& angle : out_.angles) {
+    const auto c = ExpandedPolynomial::variable(angle.cosine), s = ExpandedPolynomial::variable(angle.sine);
+    out_.equations.push_back((pow(c, 2) + pow(s, 2) - ExpandedPolynomial(1)).compile("circle of " + angle.name));
+  }
+}
+
+void Algebrizer::add_inequality(const TrigonometricSystem::Equation& inequality) {
+  ExpandedPolynomial gap = difference(inequality);
+  if (inequality.relation.kind == Relation::Kind::less_equal) gap = -gap;
+  Polynomial polynomial = gap.compile(inequality.source);
+  if (polynomial.degree() == 0) {
+    const std::optional<int> sign = polynomial.monomials.empty() ? 0 : polynomial.monomials[0].coefficient.sign();
+    if (sign && *sign >= 0) return;
+    throw ModelError(inequality.where,
+                     "the inequality " + equation_text(inequality) + " contains no unknown and " +
+                         (sign ? "can never hold" : "cannot be decided"),
+                     "an inequality between unknowns");
+  }
+  require_bounded(polynomial, inequality);
+  out_.inequalities.push_back(std::move(polynomial));
+}
+
+certify::System Algebrizer::run() {
+  out_.name = in_.name;
+  for (const Constant& constant : in_.constants)
+    names_.insert(constant.name);
+  for (const Coordinate& coordinate : in_.coordinates)
+    names_.insert(coordinate.name);
+  names_.insert(in_.kernel_unknowns.begin(), in_.kernel_unknowns.end());
+
+  add_constants();
+  for (const Coordinate& coordinate : in_.coordinates)
+    coordinate.kind == CoordinateKind::angle ? add_angle(coordinate) : add_length(coordinate);
+  out_.configuration_size = out_.size();
+  add_kernel_unknowns();
+
+  // The configuration's own equations and circles first, the kernel's after them.
+  for (const auto& equation : in_.equations)
+    if (!mentions_kernel(equation.relation)) add_equation(equation);
+  add_circles();
+  for (const auto& equation : in_.equations)
+    if (mentions_kernel(equation.relation)) add_equation(equation);
+  for (const auto& inequality : in_.inequalities)
+    add_inequality(inequality);
+  out_.inequalities.insert(out_.inequalities.end(), chords_.begin(), chords_.end());
+  try {
+    out_.validate();
+  } catch (const std::invalid_argument& error) {
+    throw ModelError({in_.name, 0, 0}, error.what());
+  }
+  return std::move(out_);
+}
+
+}  // namespace
+
+certify::System algebrize(const TrigonometricSystem& system) {
+  const GinacLock lock;
+  try {
+    return Algebrizer(system).run();
+  } catch (const ModelError&) {
+    throw;
+  } catch (const certify::InvariantError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw ModelError({system.name, 0, 0}, std::string("the system cannot be made polynomial: ") + error.what());
+  }
+}
+
+}  // namespace corank::symbolic

@@ -1,0 +1,27 @@
+// An angle's range [α, β] as conditions on c = cos θ and s = sin θ; see algebrizer.h for the theorem.
+#pragma once
+
+#include <optional>
+
+#include "corank/symbolic/constant_value.h"
+
+namespace corank::symbolic {
+
+struct ConstantRange {
+  ConstantValue lower, upper;
+};
+
+struct AngleRange {
+  /// [lower, upper] ⊇ {cos θ}, {sin θ}: exact ends, the hull wherever signs of the constants involved can be decided.
+  ConstantRange cosine, sine;
+  /// cos(m)·c + sin(m)·s ≥ cos(h), where the range is smaller than the circle.
+  struct Chord {
+    ConstantValue cos_m, sin_m, cos_h;
+  };
+  std::optional<Chord> chord;
+};
+
+/// Requires α ≤ β. Throws std::domain_error where the bounds are absurdly large.
+AngleRange angle_range(const ConstantRange& range);
+
+}  // namespace corank::symbolic

@@ -1,0 +1,92 @@
+// Expressions as a model's author writes them: exact numbers, names, + − · / ^ and functions. An immutable tree; a regular
+// value type; nothing is simplified, so a report can show what was written. GiNaC works behind derivation.h on a copy.
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "corank/symbolic/model_error.h"
+
+namespace corank::symbolic {
+
+class Expression {
+ public:
+  enum class Kind { number, symbol, sum, product, quotient, power, negation, function };
+
+  Expression() : Expression(0) {}
+  /*implicit*/ Expression(int n);
+  Expression(double) = delete;  ///< 0.1 in C++ is not 1/10: write Expression("0.1")
+                                /// Parses the model language: "0.90", "y_A", "cos(theta + pi/3)". Throws ModelError.
+  /*implicit*/ Expression(const char* text);
+  /*implicit*/ Expression(const std::string& text);
+
+  /// "0.90", "1e-3", "2": exact, kept as written (".5", "5.", "1E+3" as "0.5", "5", "1e3"). "-2" gives the negation of 2.
+  static Expression number(const std::string& decimal, const SourceLocation& where = {});
+  static Expression symbol(const std::string& name, const SourceLocation& where = {});
+  static Expression function(const std::string& name, const Expression& argument, const SourceLocation& where = {});
+  /// Sums and products of any number of operands (of one: the operand itself; of none: 0, 1), binary quotients and powers,
+  /// the unary negation. a − b is the sum of a and the negation of b. Throws ModelError beyond kMaxDepth.
+  static Expression node(Kind kind, std::vector<Expression> operands, const SourceLocation& where = {});
+
+  /// Trees are at most this deep, so that every recursion over a tree is bounded.
+  static constexpr int kMaxDepth = 1000;
+
+  Kind kind() const;
+  /// The number as written, never negative; the symbol's or the function's name; empty for other kinds.
+  const std::string& name() const;
+  const std::vector<Expression>& operands() const;
+  const SourceLocation& where() const;
+
+  /// Does the name occur?
+  bool mentions(const std::string& symbol_name) const;
+  /// In the model language, with the fewest parentheses; parses back to the same tree.
+  std::string text() const;
+  /// In LaTeX: theta2 → \theta_{2}, J3x → J_{3x}, quotients as \frac.
+  std::string latex() const;
+
+  friend Expression operator+(const Expression& a, const Expression& b);
+  friend Expression operator-(const Expression& a, const Expression& b);
+  friend Expression operator-(const Expression& a);
+  friend Expression operator*(const Expression& a, const Expression& b);
+  friend Expression operator/(const Expression& a, const Expression& b);
+  /// Structural equality of the trees is same_tree(); operator== builds an equation (see Relation).
+  friend bool same_tree(const Expression& a, const Expression& b);
+
+ private:
+  struct Node;
+  explicit Expression(std::shared_ptr<const Node> node) : node_(std::move(node)) {}
+  static Expression make(Kind kind, std::string name, std::vector<Expression> operands, const SourceLocation& where);
+  static Expression appended(Kind kind, const Expression& a, const Expression& b);
+  std::shared_ptr<const Node> node_;
+};
+
+bool same_tree(const Expression& a, const Expression& b);
+Expression pow(const Expression& base, const Expression& exponent);
+Expression sqrt(const Expression& x);
+Expression sin(const Expression& x);
+Expression cos(const Expression& x);
+Expression tan(const Expression& x);
+/// The circle constant, as in the model language.
+Expression pi();
+
+/// LaTeX for a name: theta2 → \theta_{2}, J3x → J_{3x}, y_A → y_{A}.
+std::string latex_name(const std::string& name);
+
+/// lhs = rhs, lhs ≤ rhs or lhs ≥ rhs.
+struct Relation {
+  enum class Kind { equal, less_equal, greater_equal };
+  Expression lhs;
+  Kind kind = Kind::equal;
+  Expression rhs;
+  std::string text() const;
+};
+Relation operator==(const Expression& lhs, const Expression& rhs);
+Relation operator<=(const Expression& lhs, const Expression& rhs);
+Relation operator>=(const Expression& lhs, const Expression& rhs);
+
+std::ostream& operator<<(std::ostream& out, const Expression& e);
+std::ostream& operator<<(std::ostream& out, const Relation& r);
+
+}  // namespace corank::symbolic

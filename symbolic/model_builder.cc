@@ -1,0 +1,148 @@
+#include "corank/symbolic/model_builder.h"
+
+namespace corank::symbolic {
+namespace {
+
+using Kind = Expression::Kind;
+
+Expression negated(Expression e, int signs) {
+  for (int i = 0; i < signs; ++i)
+    e = -e;
+  return e;
+}
+
+Expression node_of(Kind kind, std::vector<Expression>& operands) {
+  const SourceLocation where = operands.front().where();
+  Expression result = Expression::node(kind, std::move(operands), where);
+  operands.clear();
+  return result;
+}
+
+}  // namespace
+
+void ExpressionBuilder::begin() { frames_.emplace_back(); }
+
+void ExpressionBuilder::operand(Expression e) {
+  Frame& frame = frames_.back();
+  frame.chain.push_back({std::move(e), frame.exponent_signs});
+  frame.exponent_signs = 0;
+}
+
+void ExpressionBuilder::number(std::string_view decimal, const SourceLocation& where) {
+  operand(Expression::number(std::string(decimal), where));
+}
+
+void ExpressionBuilder::symbol(const std::string& name, const SourceLocation& where) {
+  operand(Expression::symbol(name, where));
+}
+
+void ExpressionBuilder::open(Frame frame, const SourceLocation& where) {
+  if (frames_.size() > kMaxNesting) {
+    throw ModelError(where, "the parentheses are nested too deeply",
+                     "at most " + std::to_string(kMaxNesting) + " inside one another");
+  }
+  frames_.push_back(std::move(frame));
+}
+
+void ExpressionBuilder::open_group(const SourceLocation& where) {
+  Frame frame;
+  frame.parenthesis = where;
+  open(std::move(frame), where);
+}
+
+void ExpressionBuilder::open_call(const std::string& function, const SourceLocation& name_where,
+                                  const SourceLocation& where) {
+  Frame frame;
+  frame.parenthesis = where;
+  frame.function = function;
+  frame.function_where = name_where;
+  open(std::move(frame), where);
+}
+
+void ExpressionBuilder::close_group() {
+  Frame frame = std::move(frames_.back());
+  frames_.pop_back();
+  Expression inside = sum_of(frame);
+  operand(frame.function.empty() ? inside : Expression::function(frame.function, inside, frame.function_where));
+}
+
+void ExpressionBuilder::sign(SignOf what) {
+  Frame& frame = frames_.back();
+  ++(what == SignOf::exponent ? frame.exponent_signs : what == SignOf::factor ? frame.factor_signs : frame.term_signs);
+}
+
+void ExpressionBuilder::division() { frames_.back().divides = true; }
+
+void ExpressionBuilder::end_power() {
+  Frame& frame = frames_.back();
+  Expression result = frame.chain.back().operand;  // x ^ y ^ z is x ^ (y ^ z)
+  for (std::size_t i = frame.chain.size() - 1; i > 0; --i) {
+    result = pow(frame.chain[i - 1].operand, negated(std::move(result), frame.chain[i].signs));
+  }
+  frame.chain.clear();
+  result = negated(std::move(result), frame.factor_signs);
+  frame.factor_signs = 0;
+  if (frame.divides) result = node_of(Kind::product, frame.factors) / result;
+  frame.divides = false;
+  frame.factors.push_back(std::move(result));
+}
+
+void ExpressionBuilder::end_term() {
+  Frame& frame = frames_.back();
+  frame.terms.push_back(negated(node_of(Kind::product, frame.factors), frame.term_signs));
+  frame.term_signs = 0;
+}
+
+Expression ExpressionBuilder::sum_of(Frame& frame) { return node_of(Kind::sum, frame.terms); }
+
+Expression ExpressionBuilder::end() {
+  Frame frame = std::move(frames_.back());
+  frames_.pop_back();
+  return sum_of(frame);
+}
+
+std::optional<SourceLocation> ExpressionBuilder::open_parenthesis() const {
+  if (frames_.size() < 2) return std::nullopt;
+  return frames_.back().parenthesis;
+}
+
+void ModelBuilder::finish_constant() {
+  mechanism.constant(declared, values.at(0), declared_where);
+  values.clear();
+}
+
+void ModelBuilder::finish_variable() {
+  if (kind == CoordinateKind::length) {
+    mechanism.length(declared, values.at(0), values.at(1), declared_where);
+  } else {
+    mechanism.angle(declared, values.at(0), values.at(1), declared_where);
+  }
+  values.clear();
+}
+
+void ModelBuilder::finish_equation() {
+  mechanism.constrain({values.at(0), relation, values.at(1)}, equation_where);
+  values.clear();
+}
+
+void ModelBuilder::finish_drawing_line() {
+  if (!drawing_line_open) return;
+  mechanism.drawing(drawing_line, drawing_where);
+  drawing_line_open = false;
+}
+
+void ModelBuilder::finish(const SourceLocation& end) {
+  finish_drawing_line();
+  const bool is_empty = mechanism.constants().empty() && mechanism.drawing().empty() && inputs.empty() && outputs.empty();
+  const bool has_equations = !mechanism.constraints().empty();
+  if (mechanism.coordinates().empty() && !has_equations && is_empty) {
+    throw ModelError(end, "the model is empty", "sections such as [SYSTEM VARS] and [SYSTEM EQS]");
+  }
+  if (mechanism.coordinates().empty()) throw ModelError(end, "the model has no variables", "at least one, in [SYSTEM VARS]");
+  if (!has_equations) throw ModelError(end, "the model has no equations", "at least one, in [SYSTEM EQS]");
+  mechanism.inputs(inputs);
+  mechanism.outputs(outputs);
+  mechanism.validate();
+}
+
+}  // namespace corank::symbolic

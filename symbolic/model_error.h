@@ -1,0 +1,28 @@
+// What is wrong with a model, said to its author.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace corank::symbolic {
+
+/// A place in a model's text. Models built in C++ have no file: line 0.
+struct SourceLocation {
+  std::string file;
+  int line = 0;    ///< from 1; 0: unknown
+  int column = 0;  ///< from 1; 0: unknown
+  /// "dextar.cuik:12:7", "dextar.cuik:12", or the file (or "model") alone.
+  std::string text() const;
+};
+
+/// Bad input. what() is one line: "<place>: <what is wrong>; expected <expectation>".
+class ModelError : public std::runtime_error {
+ public:
+  ModelError(SourceLocation where, const std::string& problem, const std::string& expectation = "");
+  const SourceLocation& where() const { return where_; }
+
+ private:
+  SourceLocation where_;
+};
+
+}  // namespace corank::symbolic

@@ -1,0 +1,145 @@
+// The grammar of the model language, in PEGTL rules. No rule that an action is attached to (model_file.cc) is ever taken
+// back: one token decides what follows, and what then has to follow stands in must<>, whose failure is a fault
+// (model_faults.h).
+//
+//   expression = term {(+|-) term}       term = {-} factors       factors = power {(*|/) {-} power}
+//   power = operand {^ {-} operand}      operand = number | name | function ( expression ) | ( expression )
+#pragma once
+
+#include <tao/pegtl.hpp>
+
+namespace corank::symbolic::grammar {
+
+using namespace tao::pegtl;  // NOLINT: a namespace of grammar rules
+
+// Blanks and comments. A definition ends with its line, an equation with its semicolon: line_gap stays in the line, gap does
+// not.
+struct blank_character : one<' ', '\t', '\r', '\f', '\v'> {};
+struct comment_start : sor<one<'%'>, string<'/', '/'>, string<'/', '*'>> {};
+struct line_comment : seq<sor<one<'%'>, string<'/', '/'>>, until<at<eolf>>> {};
+struct block_comment_open : string<'/', '*'> {};
+struct block_comment_rest : until<string<'*', '/'>> {};
+struct block_comment : if_must<block_comment_open, block_comment_rest> {};
+struct line_gap : star<sor<blank_character, line_comment, block_comment>> {};
+struct gap : star<sor<space, line_comment, block_comment>> {};
+
+// Words.
+struct name_head : sor<alpha, one<'_'>> {};
+struct name_tail : sor<alnum, one<'_'>> {};
+struct identifier : seq<name_head, star<name_tail>> {};
+struct decimal_exponent : seq<one<'e', 'E'>, opt<one<'+', '-'>>, plus<digit>> {};
+struct decimal : seq<sor<seq<plus<digit>, opt<one<'.'>, star<digit>>>, seq<one<'.'>, plus<digit>>>, opt<decimal_exponent>> {
+};
+
+// Expressions. Gap is line_gap or gap; inside parentheses lines may end.
+template <typename Gap>
+struct terms;
+struct number_end : not_at<sor<name_tail, one<'.'>>> {};
+struct number_token : decimal {};
+struct number_operand : if_must<number_token, number_end> {};
+struct group_close : one<')'> {};
+struct group_open : one<'('> {};
+struct group : if_must<group_open, gap, terms<gap>, gap, group_close> {};
+struct call_open : one<'('> {};
+struct call : if_must<call_open, gap, terms<gap>, gap, group_close> {};
+struct name_token : identifier {};
+struct symbol_end : success {};
+template <typename Gap>
+struct name_operand : seq<name_token, sor<seq<Gap, call>, symbol_end>> {};
+template <typename Gap>
+struct operand : sor<number_operand, name_operand<Gap>, group> {};
+struct exponent_sign : one<'-'> {};
+struct power_end : success {};
+template <typename Gap>
+struct power : seq<must<operand<Gap>>, star<Gap, one<'^'>, Gap, star<exponent_sign, Gap>, must<operand<Gap>>>, power_end> {};
+struct times : one<'*'> {};
+struct divide : one<'/'> {};
+struct factor_sign : one<'-'> {};
+template <typename Gap>
+struct factors : seq<power<Gap>, star<Gap, sor<times, divide>, Gap, star<factor_sign, Gap>, power<Gap>>> {};
+struct term_sign : one<'-'> {};
+struct term_end : success {};
+template <typename Gap>
+struct term : seq<star<term_sign, Gap>, factors<Gap>, term_end> {};
+struct plus_sign : one<'+'> {};
+struct minus_sign : one<'-'> {};
+template <typename Gap>
+struct terms : seq<term<Gap>, star<Gap, sor<plus_sign, minus_sign>, Gap, term<Gap>>> {};
+struct expression_begin : success {};
+struct expression_end : success {};
+template <typename Gap>
+struct expression : seq<expression_begin, terms<Gap>, expression_end> {};
+struct lone_expression_end : eof {};
+struct lone_expression : seq<gap, expression<gap>, gap, must<lone_expression_end>> {};
+
+// Section headers.
+template <typename... Words>
+struct header : seq<one<'['>, star<blank_character>, Words..., star<blank_character>, one<']'>> {};
+struct constants_header : header<TAO_PEGTL_STRING("CONSTANTS")> {};
+struct variables_header : header<sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("SECONDARY"), TAO_PEGTL_STRING("DUMMY"),
+                                     TAO_PEGTL_STRING("CARTESIAN")>,
+                                 plus<blank_character>, TAO_PEGTL_STRING("VARS")> {};
+struct equations_header : header<sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("COORD"), TAO_PEGTL_STRING("DUMMY")>,
+                                 plus<blank_character>, TAO_PEGTL_STRING("EQS")> {};
+struct inputs_header : header<TAO_PEGTL_STRING("INPUTS")> {};
+struct outputs_header : header<TAO_PEGTL_STRING("OUTPUTS")> {};
+struct drawing_header : header<TAO_PEGTL_STRING("DRAWING")> {};
+struct section_title : star<not_one<']', '[', '\n', '\r'>> {};
+struct section_close : one<']'> {};
+struct known_section : failure {};
+struct unknown_section : if_must<one<'['>, section_title, section_close, known_section> {};
+struct section_or_end : sor<eof, one<'['>> {};
+
+// [CONSTANTS]  name := expression
+struct constant_name : identifier {};
+struct assign : string<':', '='> {};
+struct constant_end : success {};
+struct definition : seq<must<constant_name>, line_gap, must<assign>, line_gap, expression<line_gap>, constant_end,
+                        opt<line_gap, one<';'>>> {};
+struct constants_section : seq<constants_header, star<gap, not_at<section_or_end>, definition>> {};
+
+// [SYSTEM VARS]  name : [lower, upper] or name ~ [lower, upper]
+struct variable_name : identifier {};
+struct length_mark : seq<one<':'>, not_at<one<'='>>> {};
+struct angle_mark : one<'~'> {};
+struct declarator : sor<length_mark, angle_mark> {};
+struct range_open : one<'['> {};
+struct range_comma : one<','> {};
+struct range_close : one<']'> {};
+struct variable_end : success {};
+struct declaration
+    : seq<must<variable_name>, line_gap, must<declarator>, line_gap, must<range_open>, gap, expression<gap>, gap,
+          must<range_comma>, gap, expression<gap>, gap, must<range_close>, variable_end, opt<line_gap, one<';'>>> {};
+struct variables_section : seq<variables_header, star<gap, not_at<section_or_end>, declaration>> {};
+
+// [SYSTEM EQS]  expression = expression;
+struct equation_begin : success {};
+struct relation : sor<one<'='>, string<'<', '='>, string<'>', '='>> {};
+struct equation_end : one<';'> {};
+struct equation : seq<equation_begin, expression<gap>, gap, must<relation>, gap, expression<gap>, gap, must<equation_end>> {
+};
+struct equations_section : seq<equations_header, star<gap, not_at<section_or_end>, equation>> {};
+
+// [INPUTS] and [OUTPUTS]  name, name …
+struct listed_name : identifier {};
+struct list_end : at<section_or_end> {};
+struct names : seq<gap, must<listed_name>, star<gap, sor<if_must<one<','>, gap, listed_name>, listed_name>>,
+                   opt<gap, one<';'>>, gap, must<list_end>> {};
+struct names_section : seq<sor<inputs_header, outputs_header>, names> {};
+
+// [DRAWING]  lines kept as they are, without comments.
+struct drawing_text : plus<not_at<eolf>, not_at<comment_start>, any> {};
+struct drawing_section : seq<drawing_header, star<gap, not_at<section_or_end>, drawing_text>> {};
+
+struct section_start : at<one<'['>> {};
+struct section
+    : seq<must<section_start>,
+          sor<constants_section, variables_section, equations_section, names_section, drawing_section, unknown_section>> {};
+struct file_end : eof {};
+struct model : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
+
+// Every text must be UTF-8 without NUL, before anything else is asked of it.
+struct text_end : eof {};
+struct plain_text : seq<star<utf8::not_one<U'\0'>>, must<text_end>> {};
+
+}  // namespace corank::symbolic::grammar

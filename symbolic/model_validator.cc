@@ -1,0 +1,141 @@
+#include "corank/symbolic/model_validator.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "corank/symbolic/expression_words.h"
+
+namespace corank::symbolic {
+namespace {
+
+SourceLocation place(const Expression& e, const SourceLocation& otherwise) {
+  return e.where().line > 0 ? e.where() : otherwise;
+}
+
+/// Rough: it only decides whether an exponent is absurd.
+long double rough_function(const std::string& name, long double x) {
+  if (name == "sqrt") return std::sqrt(x);
+  if (name == "exp") return std::exp(x);
+  if (name == "log") return std::log(x);
+  if (name == "abs") return std::abs(x);
+  if (name == "sin") return std::sin(x);
+  if (name == "cos") return std::cos(x);
+  if (name == "tan") return std::tan(x);
+  if (name == "asin") return std::asin(x);
+  if (name == "acos") return std::acos(x);
+  return std::atan(x);
+}
+
+long double rough_number(const std::string& decimal) {
+  long double value = 0;
+  const auto parsed = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+  if (parsed.ec == std::errc()) return value;
+  return decimal.find("e-") == std::string::npos ? std::numeric_limits<long double>::infinity() : 0;
+}
+
+}  // namespace
+
+ModelValidator::ModelValidator(const Mechanism& mechanism) {
+  for (const Constant& c : mechanism.constants())
+    declared_.emplace(c.name, &c);
+  for (const Coordinate& c : mechanism.coordinates())
+    coordinates_.emplace(c.name, &c);
+}
+
+void ModelValidator::add_constant(const Constant& constant) {
+  constants_.emplace(constant.name,
+                     check(constant.value, {"the constant " + in_quotes(constant.name), true, constant.where}));
+}
+
+void ModelValidator::check_range(const Coordinate& coordinate) const {
+  const Context context{"the range of " + in_quotes(coordinate.name), true, coordinate.where};
+  check(coordinate.lower, context);
+  check(coordinate.upper, context);
+}
+
+void ModelValidator::check_constraint(const Constraint& constraint) const {
+  const Context context{"an equation", false, constraint.where};
+  check(constraint.relation.lhs, context);
+  check(constraint.relation.rhs, context);
+}
+
+ModelValidator::Size ModelValidator::check(const Expression& e, const Context& context) const {
+  using Kind = Expression::Kind;
+  if (e.kind() == Kind::number) return {1, true, rough_number(e.name())};
+  if (e.kind() == Kind::symbol) return check_symbol(e, context);
+  if (e.kind() == Kind::power) return check_power(e, context);
+  const bool multiplies = e.kind() == Kind::product || e.kind() == Kind::quotient;
+  Size size{multiplies ? 0.0 : 1.0, true, e.kind() == Kind::product ? 1.0L : 0.0L};
+  bool first = true;
+  for (const Expression& operand : e.operands()) {
+    const Size part = check(operand, context);
+    size.degree = multiplies ? size.degree + part.degree : std::max(size.degree, part.degree);
+    size.constant = size.constant && part.constant;
+    switch (e.kind()) {
+      case Kind::product:
+        size.value *= part.value;
+        break;
+      case Kind::quotient:
+        size.value = first ? part.value : size.value / part.value;
+        break;
+      case Kind::negation:
+        size.value = -part.value;
+        break;
+      case Kind::function:
+        size.value = rough_function(e.name(), part.value);
+        break;
+      default:
+        size.value += part.value;
+    }
+    first = false;
+  }
+  if (e.kind() == Kind::function) size.degree = 1;  // stays symbolic
+  if (size.degree > kMaxDegree) {
+    throw ModelError(place(e, context.where), "the powers in " + context.owner + " are too large",
+                     "a degree of at most 100000");
+  }
+  return size;
+}
+
+ModelValidator::Size ModelValidator::check_symbol(const Expression& e, const Context& context) const {
+  const std::string& name = e.name();
+  if (name == "pi") return {1, true, std::numbers::pi_v<long double>};
+  if (const auto known = constants_.find(name); known != constants_.end()) return known->second;
+  const SourceLocation where = place(e, context.where);
+  const std::string what = in_quotes(name) + " in " + context.owner;
+  const auto constant = declared_.find(name);
+  if (constant != declared_.end()) {
+    const int line = constant->second->where.line;
+    throw ModelError(
+        where,
+        "the constant " + what + " is used before its declaration" + (line > 0 ? " in line " + std::to_string(line) : ""),
+        "constants declared before");
+  }
+  const bool is_coordinate = coordinates_.contains(name);
+  if (is_coordinate && !context.constants_only) return {1, false, 0};
+  if (is_coordinate) throw ModelError(where, "the variable " + what + " may not stand there", "numbers and constants");
+  throw ModelError(where, "the name " + what + " is not declared",
+                   context.constants_only ? "a declared constant" : "a declared constant or variable");
+}
+
+ModelValidator::Size ModelValidator::check_power(const Expression& e, const Context& context) const {
+  const Size base = check(e.operands()[0], context), exponent = check(e.operands()[1], context);
+  const long double magnitude = std::abs(exponent.value);
+  if (exponent.constant && !(magnitude <= kMaxExponent)) {  // also where it is no number at all
+    throw ModelError(place(e.operands()[1], context.where),
+                     "the exponent " + in_quotes(e.operands()[1].text()) + " in " + context.owner + " is too large",
+                     "at most 1000 in absolute value");
+  }
+  // An unknown in the exponent is for the algebrizer to refuse.
+  const double degree = base.degree * (exponent.constant ? std::max(1.0, static_cast<double>(magnitude)) : 1.0);
+  if (degree > kMaxDegree) {
+    throw ModelError(place(e, context.where), "the powers in " + context.owner + " are too large",
+                     "a degree of at most 100000");
+  }
+  return {degree, base.constant && exponent.constant, std::pow(base.value, exponent.value)};
+}
+
+}  // namespace corank::symbolic

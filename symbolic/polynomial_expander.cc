@@ -1,0 +1,212 @@
+#include "corank/symbolic/polynomial_expander.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "corank/symbolic/expression_words.h"
+
+namespace corank::symbolic {
+
+using Kind = Expression::Kind;
+
+void PolynomialExpander::fail(const Expression& e, const std::string& problem, const std::string& expectation) const {
+  throw ModelError(e.where().line > 0 ? e.where() : where_, problem + " in " + what_, expectation);
+}
+
+// Runs an exact computation; what it cannot do becomes an error at e.
+template <typename Compute>
+auto PolynomialExpander::guarded(const Expression& e, Compute&& compute) const {
+  try {
+    return compute();
+  } catch (const ModelError&) {
+    throw;
+  } catch (const std::length_error& error) {
+    fail(e, "the term " + in_quotes(e.text()) + " is too large: " + error.what() + ",", "a smaller polynomial");
+  } catch (const std::exception& error) {
+    fail(e, in_quotes(e.text()) + " has no real value: " + error.what() + ",", "a real number");
+  }
+}
+
+ConstantValue PolynomialExpander::constant(const Expression& e, const std::string& what, const SourceLocation& where) {
+  const ExpandedPolynomial result = polynomial(e, what, where);
+  if (const auto number = result.constant()) return *number;
+  fail(e, in_quotes(e.text()) + " contains unknowns", "numbers and constants");
+}
+
+ExpandedPolynomial PolynomialExpander::polynomial(const Expression& e, const std::string& what,
+                                                  const SourceLocation& where) {
+  what_ = what;
+  where_ = where;
+  return expand(e);
+}
+
+bool PolynomialExpander::has_unknown(const Expression& e) const {
+  if (e.kind() == Kind::symbol) return unknowns_.contains(e.name()) || angles_.contains(e.name());
+  return std::any_of(e.operands().begin(), e.operands().end(), [&](const Expression& part) { return has_unknown(part); });
+}
+
+ConstantValue PolynomialExpander::value(const Expression& e) {
+  if (const auto number = expand(e).constant()) return *number;
+  fail(e, in_quotes(e.text()) + " is no constant", "numbers and constants");
+}
+
+ExpandedPolynomial PolynomialExpander::expand(const Expression& e) {
+  switch (e.kind()) {
+    case Kind::number:
+      return guarded(e, [&] { return ExpandedPolynomial(ConstantValue::number(e.name())); });
+    case Kind::symbol:
+      return expand_symbol(e);
+    case Kind::negation:
+      return -expand(e.operands()[0]);
+    case Kind::sum: {
+      ExpandedPolynomial result;
+      for (const Expression& term : e.operands()) {
+        const ExpandedPolynomial part = expand(term);
+        guarded(e, [&] {
+          result += part;
+          return true;
+        });
+      }
+      return result;
+    }
+    case Kind::product: {
+      ExpandedPolynomial result(1);
+      for (const Expression& factor : e.operands()) {
+        const ExpandedPolynomial part = expand(factor);
+        result = guarded(e, [&] { return result * part; });
+      }
+      return result;
+    }
+    case Kind::quotient:
+      return expand_quotient(e);
+    case Kind::power:
+      return expand_power(e);
+    case Kind::function:
+      return expand_function(e);
+  }
+  return {};
+}
+
+ExpandedPolynomial PolynomialExpander::expand_symbol(const Expression& e) {
+  if (e.name() == "pi") return ConstantValue::pi();
+  if (const auto known = constants_.find(e.name()); known != constants_.end()) return known->second;
+  if (const auto known = unknowns_.find(e.name()); known != unknowns_.end())
+    return ExpandedPolynomial::variable(known->second);
+  if (angles_.contains(e.name()))
+    fail(e, "the angle " + in_quotes(e.name()) + " stands outside sin and cos", "sin or cos of the angle");
+  fail(e, "the name " + in_quotes(e.name()) + " is not declared", "a constant or a variable declared before");
+}
+
+ExpandedPolynomial PolynomialExpander::expand_quotient(const Expression& e) {
+  const ExpandedPolynomial above = expand(e.operands()[0]), below = expand(e.operands()[1]);
+  const auto divisor = below.constant();
+  if (!divisor) fail(e, "the term " + in_quotes(e.text()) + " divides by an unknown", "a division by constants only");
+  return guarded(e, [&] { return (ConstantValue(1) / *divisor) * above; });
+}
+
+ExpandedPolynomial PolynomialExpander::expand_power(const Expression& e) {
+  const ExpandedPolynomial base = expand(e.operands()[0]), exponent = expand(e.operands()[1]);
+  const auto n = exponent.constant();
+  if (!n) fail(e, "the term " + in_quotes(e.text()) + " has an unknown in its exponent", "an integer exponent");
+  if (const auto number = base.constant()) return guarded(e, [&] { return ExpandedPolynomial(pow(*number, *n)); });
+  const std::optional<int> power = n->integer();
+  if (!power && n->is_rational() && n->sign() == 1 && (*n - ConstantValue(kMaxExponent)).sign() != 1)
+    fail(e, "the term " + in_quotes(e.text()) + " is a fractional power of an unknown", "an integer exponent");
+  if ((power && *power < 0) || n->sign() == -1)
+    fail(e, "the term " + in_quotes(e.text()) + " is a negative power of an unknown", "a positive integer exponent");
+  if (power && *power <= kMaxExponent) return guarded(e, [&] { return pow(base, *power); });
+  if (power || n->is_rational())
+    fail(e, "the exponent of " + in_quotes(e.text()) + " is too large", "at most " + std::to_string(kMaxExponent));
+  fail(e, "the term " + in_quotes(e.text()) + " is a power of an unknown that is no integer", "an integer exponent");
+}
+
+ExpandedPolynomial PolynomialExpander::expand_function(const Expression& e) {
+  const Expression& argument = e.operands()[0];
+  if (has_unknown(argument)) {
+    if (e.name() == "sin" || e.name() == "cos") return expand_sine_or_cosine(e);
+    fail(e, "the term " + in_quotes(e.text()) + " is " + e.name() + " of an unknown",
+         "a polynomial in unknowns and in sin and cos of angles");
+  }
+  const ConstantValue x = value(argument);
+  return guarded(e, [&] { return ExpandedPolynomial(ConstantValue::function(e.name(), x)); });
+}
+
+PolynomialExpander::LinearForm PolynomialExpander::linear_form(const Expression& e) {
+  if (!has_unknown(e)) return {{}, value(e)};
+  const auto scaled = [](const ConstantValue& factor, LinearForm form) {
+    for (auto& [angle, multiple] : form.multiples)
+      multiple = factor * multiple;
+    form.offset = factor * form.offset;
+    return form;
+  };
+  switch (e.kind()) {
+    case Kind::symbol:
+      if (angles_.contains(e.name())) return {{{e.name(), ConstantValue(1)}}, 0};
+      fail(e, "sin or cos is applied to " + in_quotes(e.name()) + ", which is no angle,", "an angle, declared with ~");
+    case Kind::negation:
+      return scaled(-1, linear_form(e.operands()[0]));
+    case Kind::sum: {
+      LinearForm result;
+      for (const Expression& term : e.operands()) {
+        const LinearForm part = linear_form(term);
+        for (const auto& [angle, multiple] : part.multiples)
+          result.multiples[angle] = result.multiples[angle] + multiple;
+        result.offset = result.offset + part.offset;
+      }
+      return result;
+    }
+    case Kind::product: {
+      LinearForm result{{}, 1};
+      for (const Expression& factor : e.operands()) {
+        LinearForm part = linear_form(factor);
+        if (!part.multiples.empty() && !result.multiples.empty())
+          fail(e, in_quotes(e.text()) + " inside sin or cos is a product of angles",
+               "a sum of integer multiples of angles and a constant");
+        result = part.multiples.empty() ? scaled(part.offset, std::move(result)) : scaled(result.offset, std::move(part));
+      }
+      return result;
+    }
+    case Kind::quotient:
+      if (!has_unknown(e.operands()[1])) {
+        const ConstantValue divisor = value(e.operands()[1]);
+        const ConstantValue inverse = guarded(e, [&] { return ConstantValue(1) / divisor; });
+        return scaled(inverse, linear_form(e.operands()[0]));
+      }
+      break;
+    default:
+      break;
+  }
+  fail(e, in_quotes(e.text()) + " stands inside sin or cos", "a sum of integer multiples of angles and a constant");
+}
+
+ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e) {
+  const LinearForm form = guarded(e, [&] { return linear_form(e.operands()[0]); });
+  // Multiples are checked before anything is expanded.
+  std::map<std::string, int> multiples;
+  for (const auto& [angle, multiple] : form.multiples) {
+    const std::optional<int> n = multiple.integer();
+    if (!n)
+      fail(e, "the term " + in_quotes(e.text()) + " has a fractional multiple of the angle " + in_quotes(angle),
+           "integer multiples of angles");
+    if (std::abs(*n) > kMaxExponent)
+      fail(e, "the multiple of the angle " + in_quotes(angle) + " in " + in_quotes(e.text()) + " is too large",
+           "at most " + std::to_string(kMaxExponent));
+    multiples.emplace(angle, *n);
+  }
+  return guarded(e, [&] {
+    // cos and sin of the sum so far; then cos(a + b) = cos a cos b − sin a sin b, sin(a + b) = sin a cos b + cos a sin b.
+    ExpandedPolynomial cosine = ConstantValue::function("cos", form.offset),
+                       sine = ConstantValue::function("sin", form.offset);
+    for (const auto& [angle, n] : multiples) {
+      const AngleVariables& variables = angles_.at(angle);
+      const auto [c, s] =
+          multiple_angle(n, ExpandedPolynomial::variable(variables.cosine), ExpandedPolynomial::variable(variables.sine));
+      ExpandedPolynomial next = cosine * c - sine * s;
+      sine = sine * c + cosine * s;
+      cosine = std::move(next);
+    }
+    return e.name() == "cos" ? cosine : sine;
+  });
+}
+
+}  // namespace corank::symbolic

@@ -1,0 +1,59 @@
+// Turns expressions in lengths, sines and cosines of angles, and kernel unknowns into polynomials.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "corank/symbolic/expanded_polynomial.h"
+#include "corank/symbolic/expression.h"
+
+namespace corank::symbolic {
+
+class PolynomialExpander {
+ public:
+  /// Largest exponent of an unknown and largest multiple of an angle.
+  static constexpr int kMaxExponent = 64;
+
+  void add_constant(const std::string& name, ConstantValue value) { constants_.insert_or_assign(name, std::move(value)); }
+  void add_unknown(const std::string& name, int variable) { unknowns_.emplace(name, variable); }
+  void add_angle(const std::string& name, int cosine, int sine) { angles_.emplace(name, AngleVariables{cosine, sine}); }
+
+  /// The value of an expression in constants. `what` ("the constant 'l'") and `where` are for messages: every error is a
+  /// ModelError at the smallest faulty part.
+  ConstantValue constant(const Expression& e, const std::string& what, const SourceLocation& where);
+  /// The polynomial of an expression. Throws ModelError for all that algebrize() lists.
+  ExpandedPolynomial polynomial(const Expression& e, const std::string& what, const SourceLocation& where);
+
+ private:
+  struct AngleVariables {
+    int cosine, sine;
+  };
+  /// Σ multiples[θ]·θ + offset: what may stand inside a sine or a cosine.
+  struct LinearForm {
+    std::map<std::string, ConstantValue> multiples;
+    ConstantValue offset;
+  };
+
+  ExpandedPolynomial expand(const Expression& e);
+  ExpandedPolynomial expand_symbol(const Expression& e);
+  ExpandedPolynomial expand_quotient(const Expression& e);
+  ExpandedPolynomial expand_power(const Expression& e);
+  ExpandedPolynomial expand_function(const Expression& e);
+  ExpandedPolynomial expand_sine_or_cosine(const Expression& e);
+  LinearForm linear_form(const Expression& e);
+  bool has_unknown(const Expression& e) const;
+  /// What an expression without unknowns is worth.
+  ConstantValue value(const Expression& e);
+  [[noreturn]] void fail(const Expression& e, const std::string& problem, const std::string& expectation = "") const;
+  template <typename Compute>
+  auto guarded(const Expression& e, Compute&& compute) const;
+
+  std::map<std::string, ConstantValue> constants_;
+  std::map<std::string, int> unknowns_;
+  std::map<std::string, AngleVariables> angles_;
+  std::string what_;      // being expanded, for messages
+  SourceLocation where_;  // its place
+};
+
+}  // namespace corank::symbolic

@@ -1,0 +1,237 @@
+#include "corank/symbolic/printer.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace corank::symbolic {
+namespace {
+
+using certify::ExactNumber;
+
+// ---- text
+// -------------------------------------------------------------------------------------------------------------------------
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text.size() >= width ? text : text + std::string(width - text.size(), ' ');
+}
+
+std::string right_aligned(const std::string& text, std::size_t width) {
+  return text.size() >= width ? text : std::string(width - text.size(), ' ') + text;
+}
+
+std::string number_label(std::size_t i) { return "(" + std::to_string(i + 1) + ")"; }
+
+// A matrix with the coordinates above its columns and the equations' numbers before its rows.
+void print_matrix(std::ostream& out, const std::string& name, const ExpressionMatrix& matrix) {
+  out << name << "   " << matrix.rows.size() << " x " << matrix.columns.size() << "\n";
+  if (matrix.columns.empty()) return;
+  const std::size_t label = number_label(matrix.rows.empty() ? 0 : matrix.rows.size() - 1).size();
+  std::vector<std::size_t> widths;
+  for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
+    std::size_t width = matrix.columns[j].size();
+    for (const auto& row : matrix.rows)
+      width = std::max(width, row[j].text().size());
+    widths.push_back(width);
+  }
+  out << "  " << std::string(label, ' ');
+  for (std::size_t j = 0; j < widths.size(); ++j)
+    out << "  " << right_aligned(matrix.columns[j], widths[j]);
+  out << "\n";
+  for (std::size_t i = 0; i < matrix.rows.size(); ++i) {
+    out << "  " << padded(number_label(i), label);
+    for (std::size_t j = 0; j < widths.size(); ++j)
+      out << "  " << right_aligned(matrix.rows[i][j].text(), widths[j]);
+    out << "\n";
+  }
+}
+
+// Numbered lines "(3)  text    source", the sources aligned unless the texts are very long.
+void print_numbered(std::ostream& out, const std::vector<std::pair<std::string, std::string>>& lines,
+                    std::size_t first = 0) {
+  constexpr std::size_t kLongest = 90;
+  std::size_t width = 0;
+  for (const auto& [text, source] : lines)
+    if (text.size() <= kLongest) width = std::max(width, text.size());
+  const std::size_t label = number_label(first + std::max<std::size_t>(lines.size(), 1) - 1).size();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    out << "  " << padded(number_label(first + i), label) << "  ";
+    if (lines[i].second.empty()) {
+      out << lines[i].first << "\n";
+    } else {
+      out << padded(lines[i].first, width) << "   % " << lines[i].second << "\n";
+    }
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> phi_lines(const Derivation& derivation) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const Expression& phi : derivation.phi)
+    lines.emplace_back(phi.text() + " = 0", "");
+  return lines;
+}
+
+std::vector<std::pair<std::string, std::string>> relation_lines(
+    const std::vector<TrigonometricSystem::Equation>& relations) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const auto& relation : relations)
+    lines.emplace_back(relation.relation.text(), relation.source);
+  return lines;
+}
+
+// ---- LaTeX
+// ------------------------------------------------------------------------------------------------------------------------
+
+std::string latex(const Relation& relation, const std::string& align) {
+  const char* const sign = relation.kind == Relation::Kind::equal        ? "="
+                           : relation.kind == Relation::Kind::less_equal ? "\\le"
+                                                                         : "\\ge";
+  return relation.lhs.latex() + " " + align + sign + " " + relation.rhs.latex();
+}
+
+void print_latex_matrix(std::ostream& out, const std::string& symbol, const ExpressionMatrix& matrix) {
+  out << "% columns:";
+  for (const std::string& column : matrix.columns)
+    out << " " << column;
+  out << "\n\\[ " << symbol << " = \\begin{pmatrix}\n";
+  for (const auto& row : matrix.rows) {
+    out << "  ";
+    for (std::size_t j = 0; j < row.size(); ++j)
+      out << (j ? " & " : "") << row[j].latex();
+    out << " \\\\\n";
+  }
+  out << "\\end{pmatrix} \\]\n";
+}
+
+void print_latex_lines(std::ostream& out, const std::vector<std::string>& lines) {
+  out << "\\begin{align}\n";
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    out << "  " << lines[i] << (i + 1 < lines.size() ? " \\\\\n" : "\n");
+  out << "\\end{align}\n";
+}
+
+// ---- cuik
+// -------------------------------------------------------------------------------------------------------------------------
+
+std::string constant_text(const ExactNumber& x) { return x.decimal().value_or(x.text()); }
+
+std::string monomial_text(const certify::Monomial& monomial, const certify::System& system, bool first) {
+  // The sign goes before the term; a coefficient that is a sum needs parentheses unless it stands alone.
+  std::string coefficient = constant_text(monomial.coefficient);
+  bool negative = false;
+  const bool sum = coefficient.find_first_of("+-", 1) != std::string::npos && coefficient.find(' ') != std::string::npos;
+  if (!sum && coefficient[0] == '-') {
+    negative = true;
+    coefficient.erase(0, 1);
+  }
+  std::string factors;
+  for (const certify::Factor& factor : monomial.factors) {
+    factors += (factors.empty() ? "" : "*") + system.variables[static_cast<std::size_t>(factor.variable)].name;
+    if (factor.power > 1) factors += "^" + std::to_string(factor.power);
+  }
+  std::string body;
+  if (factors.empty()) {
+    body = sum ? "(" + coefficient + ")" : coefficient;
+  } else if (coefficient == "1") {
+    body = factors;
+  } else {
+    body = (sum ? "(" + coefficient + ")" : coefficient) + "*" + factors;
+  }
+  if (first) return (negative ? "-" : "") + body;
+  return (negative ? " - " : " + ") + body;
+}
+
+std::string polynomial_text(const certify::Polynomial& polynomial, const certify::System& system) {
+  std::string out;
+  for (const certify::Monomial& monomial : polynomial.monomials)
+    out += monomial_text(monomial, system, out.empty());
+  return out.empty() ? "0" : out;
+}
+
+// A comment must stay on its line.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+void print_cuik_polynomials(std::ostream& out, const std::vector<certify::Polynomial>& polynomials, const char* relation,
+                            const certify::System& system) {
+  for (const certify::Polynomial& polynomial : polynomials) {
+    if (!polynomial.source.empty()) out << "% " << one_line(polynomial.source) << "\n";
+    out << polynomial_text(polynomial, system) << relation << ";\n";
+  }
+}
+
+}  // namespace
+
+std::string to_text(const Derivation& derivation, const TrigonometricSystem& system) {
+  std::ostringstream out;
+  out << "Φ(q) = 0\n";
+  print_numbered(out, phi_lines(derivation));
+  out << "\n";
+  print_matrix(out, "Φ_q", derivation.phi_q);
+  out << "\n";
+  print_matrix(out, "L_y", derivation.l_y);
+  out << "\n";
+  print_matrix(out, "L_z", derivation.l_z);
+  out << "\nSystem " << system.name << "\n";
+  for (const Coordinate& coordinate : system.coordinates)
+    out << "  " << coordinate.name << (coordinate.kind == CoordinateKind::angle ? " ~ [" : " : [") << coordinate.lower.text()
+        << ", " << coordinate.upper.text() << "]\n";
+  for (const std::string& name : system.kernel_unknowns)
+    out << "  " << name << " : [-1, 1]\n";
+  std::vector<std::pair<std::string, std::string>> lines = relation_lines(system.equations);
+  const auto inequalities = relation_lines(system.inequalities);
+  lines.insert(lines.end(), inequalities.begin(), inequalities.end());
+  print_numbered(out, lines);
+  return out.str();
+}
+
+std::string to_latex(const Derivation& derivation, const TrigonometricSystem& system) {
+  std::ostringstream out;
+  std::vector<std::string> lines;
+  out << "% Assembly constraints\n";
+  for (const Expression& phi : derivation.phi)
+    lines.push_back(latex(phi == Expression(0), "&"));
+  print_latex_lines(out, lines);
+  print_latex_matrix(out, "\\Phi_q", derivation.phi_q);
+  print_latex_matrix(out, "L_y", derivation.l_y);
+  print_latex_matrix(out, "L_z", derivation.l_z);
+  out << "% System " << one_line(system.name) << "\n";
+  lines.clear();
+  for (const auto& equation : system.equations)
+    lines.push_back(latex(equation.relation, "&"));
+  for (const auto& inequality : system.inequalities)
+    lines.push_back(latex(inequality.relation, "&"));
+  print_latex_lines(out, lines);
+  return out.str();
+}
+
+std::string to_cuik(const certify::System& system) {
+  std::ostringstream out;
+  out << "% " << one_line(system.name) << ": polynomial equations\n";
+  for (const certify::Angle& angle : system.angles) {
+    out << "% " << system.variables[static_cast<std::size_t>(angle.cosine)].name << " = cos(" << angle.name << "), "
+        << system.variables[static_cast<std::size_t>(angle.sine)].name << " = sin(" << angle.name << "), " << angle.name
+        << " in [" << angle.range.lo() << ", " << angle.range.hi() << "] rad\n";
+  }
+  out << "\n[SYSTEM VARS]\n";
+  std::size_t width = 0;
+  for (const certify::Variable& variable : system.variables)
+    width = std::max(width, variable.name.size());
+  for (std::size_t i = 0; i < system.variables.size(); ++i) {
+    const certify::Variable& variable = system.variables[i];
+    if (static_cast<int>(i) == system.configuration_size) out << "% the kernel vector\n";
+    out << padded(variable.name, width) << " : [" << constant_text(variable.lower) << ", " << constant_text(variable.upper)
+        << "]\n";
+  }
+  out << "\n[SYSTEM EQS]\n";
+  print_cuik_polynomials(out, system.equations, " = 0", system);
+  print_cuik_polynomials(out, system.inequalities, " >= 0", system);
+  return out.str();
+}
+
+}  // namespace corank::symbolic

@@ -1,0 +1,19 @@
+// Derivations and systems as text for people (text, latex) and for programs (cuik).
+#pragma once
+
+#include <string>
+
+#include "corank/certify/system.h"
+#include "corank/symbolic/singularity_system.h"
+
+namespace corank::symbolic {
+
+/// Φ, Φ_q, L_y, L_z and the system, aligned, in trigonometric form.
+std::string to_text(const Derivation& derivation, const TrigonometricSystem& system);
+/// The same as a LaTeX fragment (amsmath).
+std::string to_latex(const Derivation& derivation, const TrigonometricSystem& system);
+/// A compiled system as a .cuik file of polynomial equations that read_model accepts; every coefficient is exact (a finite
+/// decimal, or a quotient or an expression where there is none).
+std::string to_cuik(const certify::System& system);
+
+}  // namespace corank::symbolic

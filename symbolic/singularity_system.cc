@@ -1,0 +1,281 @@
+#include "corank/symbolic/singularity_system.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "corank/symbolic/ginac_bridge.h"
+#include "corank/symbolic/ginac_lock.h"
+
+namespace corank::symbolic {
+namespace {
+
+using Kind = Expression::Kind;
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<const Constraint*> assembly_constraints(const Mechanism& mechanism) {
+  std::vector<const Constraint*> result;
+  for (const Constraint& constraint : mechanism.constraints())
+    if (constraint.relation.kind == Relation::Kind::equal) result.push_back(&constraint);
+  return result;
+}
+
+// The place that speaks for the whole model where no line does.
+SourceLocation model_place(const Mechanism& mechanism) {
+  for (const Constraint& constraint : mechanism.constraints())
+    if (!constraint.where.file.empty()) return {constraint.where.file, 0, 0};
+  return {mechanism.name(), 0, 0};
+}
+
+std::string count(std::size_t n, const std::string& noun) {
+  return n == 0 ? "no " + noun + "s" : std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+}
+
+bool is_number(const Expression& e, const char* digits) { return e.kind() == Kind::number && e.name() == digits; }
+
+// lhs − rhs as written.
+Expression residual(const Relation& relation) {
+  return is_number(relation.rhs, "0") ? relation.lhs : relation.lhs - relation.rhs;
+}
+
+ExpressionMatrix columns_where(const ExpressionMatrix& matrix, const std::vector<bool>& keep) {
+  ExpressionMatrix result;
+  result.rows.resize(matrix.rows.size());
+  for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
+    if (!keep[j]) continue;
+    result.columns.push_back(matrix.columns[j]);
+    for (std::size_t i = 0; i < matrix.rows.size(); ++i)
+      result.rows[i].push_back(matrix.rows[i][j]);
+  }
+  return result;
+}
+
+// Mobility must equal the number of inputs (of outputs): otherwise L_y (L_z) is not square, and the mechanism is redundant.
+void check_mobility(const Mechanism& mechanism, std::size_t equations, const std::vector<std::string>& chosen,
+                    const std::string& noun, const SourceLocation& named_at) {
+  const auto mobility = static_cast<long>(mechanism.coordinates().size()) - static_cast<long>(equations);
+  if (static_cast<long>(chosen.size()) == mobility) return;
+  const std::string numbers = count(mechanism.coordinates().size(), "coordinate") + " and " + count(equations, "equation") +
+                              ", so mobility " + std::to_string(mobility);
+  throw ModelError(named_at.line > 0 ? named_at : model_place(mechanism),
+                   "the mechanism has " + numbers + ", but " + count(chosen.size(), noun) +
+                       (static_cast<long>(chosen.size()) > mobility && mobility >= 0 ? ": a redundant mechanism" : ""),
+                   mobility < 0 ? "no more equations than coordinates" : count(static_cast<std::size_t>(mobility), noun));
+}
+
+void check_chosen(const Mechanism& mechanism, std::size_t equations, SingularitySet set) {
+  const bool forward = set == SingularitySet::forward;
+  const std::string noun = forward ? "input" : "output";
+  if ((forward ? mechanism.inputs() : mechanism.outputs()).empty()) {
+    throw ModelError(model_place(mechanism),
+                     "the model names no " + noun + "s, which the " + to_string(set) + " singularities need",
+                     std::string("a line [") + (forward ? "INPUTS" : "OUTPUTS") + "]");
+  }
+  if (!mechanism.inputs().empty())
+    check_mobility(mechanism, equations, mechanism.inputs(), "input", mechanism.inputs_where());
+  if (!mechanism.outputs().empty())
+    check_mobility(mechanism, equations, mechanism.outputs(), "output", mechanism.outputs_where());
+}
+
+std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n) {
+  std::string prefix = "xi";
+  const auto taken = [&](std::size_t i) {
+    const std::string name = prefix + std::to_string(i + 1);
+    return mechanism.has_constant(name) || mechanism.find_coordinate(name) >= 0;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!taken(i)) continue;
+    prefix += "_";
+    i = static_cast<std::size_t>(-1);  // all names again, with the new prefix
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < n; ++i)
+    names.push_back(prefix + std::to_string(i + 1));
+  return names;
+}
+
+Expression times(const Expression& entry, const Expression& unknown) {
+  if (is_number(entry, "1")) return unknown;
+  if (entry.kind() == Kind::negation) return -times(entry.operands()[0], unknown);
+  return entry * unknown;
+}
+
+// Σ entries[j]·ξ_j, term by term in order; nothing where all entries are 0.
+std::optional<Expression> kernel_row(const std::vector<Expression>& entries, const std::vector<std::string>& unknowns) {
+  std::vector<Expression> terms;
+  for (std::size_t j = 0; j < entries.size(); ++j)
+    if (!is_number(entries[j], "0")) terms.push_back(times(entries[j], Expression::symbol(unknowns[j])));
+  if (terms.empty()) return std::nullopt;
+  return Expression::node(Kind::sum, terms);
+}
+
+// Component i of the fixed generic vector a: 0.3 + 0.7·frac((i + 1)·golden ratio) to four digits, so that no mechanism's
+// symmetry makes a·ξ = 0 on a whole piece of a singularity set.
+Expression generic_component(std::size_t i) {
+  const unsigned long fraction = (i + 1) * 618'034UL % 1'000'000UL;
+  const std::string digits = std::to_string(3000 + 7 * fraction / 1000);  // in 3000 … 9999
+  return Expression::number("0." + digits);
+}
+
+void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const ExpressionMatrix& matrix,
+                const std::string& matrix_name, KernelSide side) {
+  const std::size_t rows = matrix.rows.size(), columns = matrix.columns.size();
+  const bool right = side == KernelSide::right;
+  system.kernel_unknowns = kernel_names(mechanism, right ? columns : rows);
+  const std::vector<const Constraint*> constraints = assembly_constraints(mechanism);
+  for (std::size_t i = 0; i < (right ? rows : columns); ++i) {
+    std::vector<Expression> entries;
+    if (right) {
+      entries = matrix.rows[i];
+    } else {
+      for (const auto& row : matrix.rows)
+        entries.push_back(row[i]);
+    }
+    const std::string source = "row " + std::to_string(i + 1) + " of " + matrix_name + (right ? "" : "^T") + " xi = 0";
+    // A row of zeros says nothing about xi.
+    if (const auto lhs = kernel_row(entries, system.kernel_unknowns))
+      system.equations.push_back({*lhs == Expression(0), source, right ? constraints[i]->where : model_place(mechanism)});
+  }
+  std::vector<Expression> squares, weighted;
+  for (std::size_t i = 0; i < system.kernel_unknowns.size(); ++i) {
+    const Expression xi = Expression::symbol(system.kernel_unknowns[i]);
+    squares.push_back(pow(xi, 2));
+    weighted.push_back(generic_component(i) * xi);
+  }
+  system.equations.push_back({Expression::node(Kind::sum, squares) == Expression(1), "norm of xi", model_place(mechanism)});
+  system.inequalities.push_back(
+      {Expression::node(Kind::sum, weighted) >= Expression(0), "half-space of xi", model_place(mechanism)});
+}
+
+template <typename Word, std::size_t N>
+std::optional<Word> find_word(const std::array<Word, N>& words, const std::string& text) {
+  for (const Word word : words)
+    if (text == to_string(word)) return word;
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* to_string(SingularitySet set) {
+  switch (set) {
+    case SingularitySet::cspace:
+      return "cspace";
+    case SingularitySet::forward:
+      return "forward";
+    case SingularitySet::inverse:
+      return "inverse";
+    case SingularitySet::cspace_singular:
+      return "cspace-singular";
+  }
+  return "?";
+}
+
+const char* to_string(KernelSide side) { return side == KernelSide::right ? "right" : "left"; }
+
+std::optional<SingularitySet> singularity_set_from_string(const std::string& text) {
+  using enum SingularitySet;
+  return find_word(std::array{cspace, forward, inverse, cspace_singular}, text);
+}
+
+std::optional<KernelSide> kernel_side_from_string(const std::string& text) {
+  return find_word(std::array{KernelSide::right, KernelSide::left}, text);
+}
+
+Derivation derive(const Mechanism& mechanism) {
+  mechanism.validate();
+  const GinacLock lock;
+  std::vector<std::string> constants, coordinates;
+  for (const Constant& constant : mechanism.constants())
+    constants.push_back(constant.name);
+  for (const Coordinate& coordinate : mechanism.coordinates())
+    coordinates.push_back(coordinate.name);
+  const GinacBridge bridge(constants, coordinates);
+
+  Derivation result;
+  result.phi_q.columns = coordinates;
+  for (const Constraint* constraint : assembly_constraints(mechanism)) {
+    const std::string text = constraint->relation.text();
+    const GiNaC::ex phi = bridge.to_ginac(constraint->relation.lhs, constraint->where) -
+                          bridge.to_ginac(constraint->relation.rhs, constraint->where);
+    if (!bridge.mentions_coordinate(phi)) {
+      const bool number = GiNaC::is_a<GiNaC::numeric>(phi);
+      throw ModelError(constraint->where,
+                       "the equation `" + text + "` " +
+                           (!number         ? "is about constants only"
+                            : phi.is_zero() ? "holds always"
+                                            : "can never hold"),
+                       "an equation between coordinates");
+    }
+    result.phi.push_back(residual(constraint->relation));
+    std::vector<Expression>& row = result.phi_q.rows.emplace_back();
+    for (const std::string& coordinate : coordinates) {
+      try {
+        row.push_back(bridge.to_expression(phi.diff(bridge.symbol(coordinate))));
+      } catch (const std::exception& error) {
+        throw ModelError(constraint->where,
+                         "the equation `" + text + "` cannot be differentiated by " + coordinate + ": " + error.what());
+      }
+    }
+  }
+  std::vector<bool> in_l_y, in_l_z, in_l_p;
+  for (const std::string& coordinate : coordinates) {
+    in_l_y.push_back(!contains(mechanism.inputs(), coordinate));
+    in_l_z.push_back(!contains(mechanism.outputs(), coordinate));
+    in_l_p.push_back(in_l_y.back() && in_l_z.back());
+  }
+  result.l_y = columns_where(result.phi_q, in_l_y);
+  result.l_z = columns_where(result.phi_q, in_l_z);
+  result.l_p = columns_where(result.phi_q, in_l_p);
+  return result;
+}
+
+TrigonometricSystem plain_system(const Mechanism& mechanism) {
+  mechanism.validate();
+  TrigonometricSystem system;
+  system.name = mechanism.name();
+  system.constants = mechanism.constants();
+  system.coordinates = mechanism.coordinates();
+  for (const Constraint& constraint : mechanism.constraints()) {
+    const bool equation = constraint.relation.kind == Relation::Kind::equal;
+    auto& list = equation ? system.equations : system.inequalities;
+    const std::string number = (equation ? "equation " : "inequality ") + std::to_string(list.size() + 1);
+    // The file without its folders: results must not depend on where a model lies.
+    const SourceLocation line{std::filesystem::path(constraint.where.file).filename().string(), constraint.where.line, 0};
+    list.push_back({constraint.relation, line.line > 0 ? line.text() : number, constraint.where});
+  }
+  return system;
+}
+
+TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
+  TrigonometricSystem system = plain_system(mechanism);
+  system.name += std::string(" ") + to_string(set);
+  if (set == SingularitySet::cspace) return system;
+  const Derivation derivation = derive(mechanism);
+  const std::size_t equations = derivation.phi.size(), coordinates = mechanism.coordinates().size();
+  if (set == SingularitySet::cspace_singular) {
+    if (equations > coordinates) {
+      throw ModelError(model_place(mechanism),
+                       "the mechanism has " + count(coordinates, "coordinate") + " and " + count(equations, "equation") +
+                           ", so Phi_q never has full row rank",
+                       "no more equations than coordinates");
+    }
+    if (side == KernelSide::right && equations < coordinates) {
+      throw ModelError(model_place(mechanism),
+                       "Phi_q has " + count(equations, "row") + " and " + count(coordinates, "column") +
+                           ", so every configuration has a right kernel",
+                       "the left kernel");
+    }
+    add_kernel(system, mechanism, derivation.phi_q, "Phi_q", side.value_or(KernelSide::left));
+    return system;
+  }
+  check_chosen(mechanism, equations, set);
+  const bool forward = set == SingularitySet::forward;
+  add_kernel(system, mechanism, forward ? derivation.l_y : derivation.l_z, forward ? "L_y" : "L_z",
+             side.value_or(KernelSide::right));
+  return system;
+}
+
+}  // namespace corank::symbolic

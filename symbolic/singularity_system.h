@@ -1,0 +1,70 @@
+// From a mechanism to the equations of its singularities, in trigonometric form: GiNaC differentiates Φ with respect to q,
+// so that an angle has one column, and picks out the blocks of the velocity equation L m = 0, here with L = Φ_q.
+//
+//   L_y = L without the input columns     (forward singularity: Φ = 0 and L_y rank deficient)
+//   L_z = L without the output columns    (inverse singularity: Φ = 0 and L_z rank deficient)
+//   L_p = the passive columns alone
+//   C-space singularity: Φ = 0 and Φ_q rank deficient
+//
+// Definitions and kernel equations: Bohigas, Manubens, Ros, "Singularities of Robot Mechanisms", 2017 (key Bohigas2017), §§
+// 2–3.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/symbolic/mechanism.h"
+
+namespace corank::symbolic {
+
+/// Row-major matrix of expressions.
+struct ExpressionMatrix {
+  std::vector<std::string> columns;  ///< the coordinate of each column
+  std::vector<std::vector<Expression>> rows;
+};
+
+/// Φ and its Jacobian blocks, shapes n_e × n_q, n_e × (n_q − n_v), n_e × (n_q − n_u), n_e × n_p.
+struct Derivation {
+  std::vector<Expression> phi;  ///< lhs − rhs of each equation
+  ExpressionMatrix phi_q, l_y, l_z, l_p;
+};
+
+/// Throws ModelError where the mechanism is not valid (Mechanism::validate).
+Derivation derive(const Mechanism& mechanism);
+
+enum class SingularitySet { cspace, forward, inverse, cspace_singular };
+enum class KernelSide { right, left };  ///< M ξ = 0 or Mᵀ ξ = 0
+
+const char* to_string(SingularitySet set);  ///< "cspace", "forward", "inverse", "cspace-singular"
+const char* to_string(KernelSide side);
+/// Nothing for another word.
+std::optional<SingularitySet> singularity_set_from_string(const std::string& text);
+std::optional<KernelSide> kernel_side_from_string(const std::string& text);
+
+/// Equations with sines and cosines over coordinates, then kernel unknowns.
+struct TrigonometricSystem {
+  std::string name;  ///< "dextar forward"
+  std::vector<Constant> constants;
+  std::vector<Coordinate> coordinates;       ///< q
+  std::vector<std::string> kernel_unknowns;  ///< xi1 … (renamed where the model uses the name), each in [−1, 1]
+  struct Equation {
+    Relation relation;
+    std::string source;  ///< "dextar.cuik:17", "row 3 of L_y xi = 0", "norm of xi" …
+    SourceLocation where;
+  };
+  std::vector<Equation> equations;     ///< all with =
+  std::vector<Equation> inequalities;  ///< ≤ or ≥
+};
+
+/// The system of a set: Φ(q) = 0 and, for all but cspace, the kernel equations, ‖ξ‖² = 1 and a·ξ ≥ 0 with a fixed generic a
+/// that drops −ξ. Default kernel: right where the matrix is square (forward, inverse), left for Φ_q (cspace-singular).
+/// Throws ModelError where inputs or outputs are missing or do not match the mobility n_q − n_e (a redundant mechanism,
+/// non-square L_y or L_z), or a right kernel is asked of the wide Φ_q.
+TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set,
+                                       std::optional<KernelSide> side = std::nullopt);
+
+/// The equations and inequalities of the model itself, nothing added (a plain system, or C-space).
+TrigonometricSystem plain_system(const Mechanism& mechanism);
+
+}  // namespace corank::symbolic

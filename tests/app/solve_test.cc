@@ -1,0 +1,189 @@
+// corank solve: what it prints, writes and returns. Whether the answers are right is for tests/models to check.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "corank/report/result_file.h"
+#include "corank/tests/app/program.h"
+
+namespace corank::app {
+namespace {
+
+using nlohmann::json;
+using testing::AnyOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+TEST(Solve, PrintsATableAndNothingElse) {
+  const Outcome outcome = run_corank({"solve", model("three_slider"), "--set", "forward"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, StartsWith("three_slider, forward: "));
+  EXPECT_THAT(outcome.out, HasSubstr("8 points: 8 isolated"));
+  EXPECT_EQ(outcome.err, "") << "no progress where standard error is no terminal";
+}
+
+TEST(Solve, PrintsJsonAloneWhereItIsAskedFor) {
+  const std::string slider = model("three_slider");
+  for (const std::vector<std::string>& args : {std::vector<std::string>{"solve", slider, "--set", "inverse", "--json"},
+                                               {"solve", "--set", "inverse", "--json", slider}}) {
+    const Outcome outcome = run_corank(args);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json summary = json::parse(outcome.out);
+    EXPECT_EQ(summary["model"], "three_slider");
+    EXPECT_EQ(summary["set"], "inverse");
+    EXPECT_EQ(summary["complete"], true);
+    EXPECT_EQ(summary["options"]["kernel"], "right");
+    EXPECT_EQ(summary["points"].size(), 4u);
+    for (const json& point : summary["points"]) EXPECT_EQ(point["verdict"], "isolated");
+    EXPECT_THAT(read_text(slider), StartsWith("%")) << "the model is still there";
+  }
+}
+
+TEST(Solve, WritesJsonToAFileBesideTheTable) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_corank({"solve", model("three_slider"), "--set", "forward", "--kernel", "left", "--json", folder.file("s.json")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("8 points"));
+  const json summary = json::parse(read_text(folder.file("s.json")));
+  EXPECT_EQ(summary["options"]["kernel"], "left");
+  EXPECT_EQ(summary["points"].size(), 8u);
+}
+
+TEST(Solve, PutsOverriddenConstantsIn) {
+  const Outcome outcome =
+      run_corank({"solve", "-D", "L2=1", "-D", "L1=2/2", model("three_slider"), "--set", "forward", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json summary = json::parse(outcome.out);
+  EXPECT_EQ(summary["points"].size(), 6u);
+  EXPECT_EQ(summary["options"]["constants"], (json{{"L2", "1"}, {"L1", "2/2"}}));
+}
+
+TEST(Solve, WritesAResultThatSaysHowItWasMade) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("r.h5"), slider = model("three_slider");
+  const Outcome outcome = run_corank({"solve", slider, "--set", "cspace", "--sigma", "0.25", "-D", "L2=1/2", "--threads",
+                                      "2", "--max-boxes", "1000000", "--time-limit", "1e6", "-o", path});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const report::Result result = report::read_result(path);
+  EXPECT_EQ(result.model, "three_slider");
+  EXPECT_EQ(result.set, "cspace");
+  EXPECT_EQ(result.model_text, read_text(slider));
+  EXPECT_EQ(result.options, (report::RunOptions{"", 0.25, 2, 1000000, 1e6, {{"L2", "1/2"}}}));
+  EXPECT_EQ(result.version, report::version());
+  EXPECT_EQ(result.cover.dimension, 1);
+  EXPECT_TRUE(result.cover.complete());
+  EXPECT_GT(result.cover.boxes.size(), 4u);
+  std::vector<std::string> names;
+  for (const report::ResultVariable& v : result.variables) names.push_back(v.name);
+  EXPECT_THAT(names, ElementsAre("y_A", "y_B", "x_C"));
+  EXPECT_THAT(result.system_text, HasSubstr("x_C"));
+}
+
+TEST(Solve, TakesAPlainSystemWithoutASet) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("root.cuik", "[SYSTEM VARS]\nx : [0, 2]\n[SYSTEM EQS]\nx^2 = 2;\n");
+  const Outcome outcome = run_corank({"solve", file, "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json summary = json::parse(outcome.out);
+  EXPECT_EQ(summary["model"], "root");
+  EXPECT_EQ(summary["set"], "system");
+  ASSERT_EQ(summary["points"].size(), 1u);
+  EXPECT_LE(summary["points"][0]["values"]["x"]["lo"].get<double>(), 1.4142135623730951);
+  EXPECT_GE(summary["points"][0]["values"]["x"]["hi"].get<double>(), 1.414213562373095);
+  EXPECT_EQ(summary["points"][0]["verdict"], "isolated");
+}
+
+TEST(Solve, GivesAnglesBackInRadians) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "angle.cuik", "[SYSTEM VARS]\nt ~ [0, 2*pi]\n[SYSTEM EQS]\ncos(t - pi/3) = -1;\nsin(t) + sin(pi/3) = 0;\n");
+  const Outcome outcome = run_corank({"derive", file, "--format", "cuik"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string simple = folder.write("simple.cuik", "[SYSTEM VARS]\nt ~ [0, 2*pi]\n[SYSTEM EQS]\n2*sin(t) = -1;\n");
+  const json summary = json::parse(run_corank({"solve", simple, "--json"}).out);
+  ASSERT_EQ(summary["points"].size(), 2u);
+  std::vector<double> angles;
+  for (const json& point : summary["points"]) {
+    angles.push_back(point["values"]["t"]["lo"]);
+    EXPECT_LT(point["values"]["t"]["hi"].get<double>() - angles.back(), 1e-6);
+  }
+  std::sort(angles.begin(), angles.end());
+  EXPECT_NEAR(angles[0], 7 * 3.141592653589793 / 6, 1e-6);
+  EXPECT_NEAR(angles[1], 11 * 3.141592653589793 / 6, 1e-6);
+}
+
+TEST(Solve, EndsAtABoxLimitWithAnIncompleteResult) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("r.h5");
+  const Outcome outcome =
+      run_corank({"solve", model("dextar"), "--set", "cspace", "--max-boxes", "50", "-o", path, "--json"});
+  EXPECT_EQ(outcome.status, 3);
+  const json summary = json::parse(outcome.out);
+  EXPECT_EQ(summary["complete"], false);
+  EXPECT_GT(summary["boxes"]["pending"], 0);
+  EXPECT_LE(summary["boxes"]["processed"], 60);
+  EXPECT_TRUE(summary["points"].is_null());
+  EXPECT_FALSE(report::read_result(path).cover.complete());
+  EXPECT_THAT(outcome.err, HasSubstr("incomplete"));
+}
+
+TEST(Solve, EndsAtATimeLimitWithAnIncompleteResult) {
+  const Outcome outcome =
+      run_corank({"solve", model("dextar"), "--set", "cspace", "--sigma", "0.01", "--time-limit", "0.2", "--json"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(json::parse(outcome.out)["complete"], false);
+}
+
+std::vector<std::string> endless(const std::string& path) {
+  return {"solve", model("dextar"), "--set", "cspace", "--sigma", "0.01", "-o", path, "--json"};
+}
+
+TEST(Interrupt, EndsTheSearchWithAReadableIncompleteResult) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TemporaryFolder folder;
+    CorankOnTerminal program(endless(folder.file("r.h5")));
+    ASSERT_TRUE(program.wait_for("excluded")) << "the progress line";
+    program.signal(signal);
+    const Outcome outcome = program.finish();
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("corank: interrupted; the result is incomplete"));
+    const json summary = json::parse(outcome.out);
+    EXPECT_EQ(summary["complete"], false);
+    const report::Result result = report::read_result(folder.file("r.h5"));
+    EXPECT_FALSE(result.cover.complete());
+    EXPECT_EQ(summary["boxes"]["pending"], result.cover.count(certify::Verdict::pending));
+    EXPECT_EQ(summary["boxes"]["processed"], result.cover.statistics.processed);
+  }
+}
+
+TEST(Interrupt, EndsTheProgramAtOnceWhenRepeated) {
+  const TemporaryFolder folder;
+  CorankOnTerminal program(endless(folder.file("r.h5")));
+  ASSERT_TRUE(program.wait_for("excluded"));
+  program.signal(SIGSTOP);  // both signals wait until the program goes on
+  program.signal(SIGINT);
+  program.signal(SIGTERM);
+  program.signal(SIGCONT);
+  const Outcome outcome = program.finish();
+  EXPECT_THAT(outcome.status, AnyOf(128 + SIGINT, 128 + SIGTERM));
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("r.h5")));
+}
+
+TEST(Progress, SaysWhatIsDoneAndLeftOnATerminalAndIsWipedOut) {
+  CorankOnTerminal program({"solve", model("dextar"), "--set", "cspace", "--sigma", "0.01"});
+  ASSERT_TRUE(program.wait_for(" s\x1b[K"));
+  program.signal(SIGINT);
+  const Outcome outcome = program.finish();
+  EXPECT_THAT(outcome.err, testing::ContainsRegex("[0-9]+ done, [0-9]+ left, [0-9.]+ % excluded"));
+  EXPECT_THAT(outcome.err, HasSubstr("\r\x1b[Kcorank: interrupted"));
+}
+
+}  // namespace
+}  // namespace corank::app

@@ -1,0 +1,145 @@
+// The repository keeps to its own rules (CONTRIBUTING.md), and the rules notice when it does not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "corank/tests/architecture/include_rules.h"
+
+namespace corank::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::vector<std::string> kFolders{"app", "bench", "certify", "report", "solve", "symbolic", "tests"};
+
+std::string read(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// Calls visit(path relative to the repository, text) for every file of the folders whose name ends with one of the ends.
+template <typename Visit>
+int for_each_file(const std::vector<std::string>& folders, const std::vector<std::string>& ends, const Visit& visit) {
+  int files = 0;
+  const fs::path root = CORANK_SOURCE_DIR;
+  for (const std::string& folder : folders) {
+    if (!fs::exists(root / folder)) continue;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string name = entry.path().filename().string();
+      const bool wanted = std::any_of(ends.begin(), ends.end(), [&](const std::string& end) { return name.ends_with(end); });
+      if (!entry.is_regular_file() || !wanted) continue;
+      visit(fs::relative(entry.path(), root).generic_string(), read(entry.path()));
+      ++files;
+    }
+  }
+  return files;
+}
+
+TEST(Architecture, FoldersIncludeOnlyWhatTheArrowsAllow) {
+  const int files = for_each_file(
+      kFolders, {".h", ".cc", "CMakeLists.txt"},
+      [](const std::string& path, const std::string& text) { EXPECT_THAT(violations(path, text), IsEmpty()); });
+  EXPECT_GT(files, 40);
+}
+
+TEST(Architecture, InstalledHeadersShowNoOtherLibrary) {
+  std::istringstream headers(CORANK_PUBLIC_HEADERS);
+  int files = 0;
+  for (std::string path; std::getline(headers, path, ':'); ++files) {
+    ASSERT_TRUE(fs::exists(path)) << path;
+    EXPECT_THAT(public_header_violations(path, read(path)), IsEmpty());
+  }
+  EXPECT_GT(files, 15);
+}
+
+TEST(Architecture, NothingAsksForFastMath) {
+  std::vector<std::string> folders = kFolders;
+  folders.insert(folders.end(), {"cmake", "scripts"});
+  const auto check = [](const std::string& path, const std::string& text) {
+    if (path.starts_with("tests/architecture/")) return;  // it names the flags
+    EXPECT_THAT(unsafe_math(path, text), IsEmpty());
+  };
+  EXPECT_GT(for_each_file(folders, {".h", ".cc", ".txt", ".cmake", ".in", ".sh"}, check), 40);
+  for (const char* name : {"CMakeLists.txt", "CMakePresets.json"}) {
+    EXPECT_THAT(unsafe_math(name, read(fs::path(CORANK_SOURCE_DIR) / name)), IsEmpty());
+  }
+}
+
+TEST(Architecture, WhateverInlinesIntervalsIsCompiledForDirectedRounding) {
+  const nlohmann::json commands = nlohmann::json::parse(read(CORANK_COMPILE_COMMANDS));
+  int checked = 0;
+  for (const nlohmann::json& entry : commands) {
+    const std::string file = fs::relative(entry["file"].get<std::string>(), CORANK_SOURCE_DIR).generic_string();
+    const std::string command = entry["command"];
+    EXPECT_THAT(unsafe_math(file, command), IsEmpty());
+    if (!file.starts_with("certify/") && !file.starts_with("solve/") && !file.starts_with("symbolic/") &&
+        !file.starts_with("report/")) {
+      continue;
+    }
+    EXPECT_THAT(command, HasSubstr(" -frounding-math ")) << file;
+    EXPECT_THAT(command, HasSubstr(" -ffp-contract=off ")) << file;
+    ++checked;
+  }
+  EXPECT_GT(checked, 20);
+}
+
+// --- the rules themselves ---
+
+TEST(IncludeRules, NoticeAnArrowThatIsNotThere) {
+  EXPECT_THAT(violations("solve/a.cc", "\n#include \"corank/symbolic/mechanism.h\"\n"),
+              ElementsAre("solve/a.cc:2: solve may not include symbolic"));
+  EXPECT_THAT(violations("certify/a.h", "#include <vector>\n  #  include \"corank/solve/solve.h\"\n"),
+              ElementsAre("certify/a.h:2: certify may not include solve"));
+  EXPECT_THAT(violations("report/a.h", "#include \"corank/app/progress.h\"\n"),
+              ElementsAre(HasSubstr("report may not include app")));
+  EXPECT_THAT(violations("report/a.h", "#include \"corank/solve/solve.h\"\n#include \"corank/certify/cover.h\"\n"),
+              IsEmpty());
+  EXPECT_THAT(violations("tests/solve/a.cc", "#include \"corank/symbolic/mechanism.h\"\n"), IsEmpty());
+}
+
+TEST(IncludeRules, NoticeALibraryOutOfItsFolder) {
+  for (const char* header : {"ginac/ginac.h", "cln/cln.h", "mpfr.h", "mpfi.h", "gmp.h", "boost/multiprecision/mpfi.hpp",
+                             "hdf5.h", "CLI/CLI.hpp", "tao/pegtl.hpp"}) {
+    EXPECT_EQ(violations("solve/a.cc", std::string("#include <") + header + ">\n").size(), 1u) << header;
+  }
+  EXPECT_THAT(violations("symbolic/a.cc", "#include <ginac/ginac.h>\n#include <tao/pegtl.hpp>\n"), IsEmpty());
+  EXPECT_THAT(violations("certify/a.cc", "#include <mpfr.h>\n"), IsEmpty());
+  EXPECT_THAT(violations("tests/solve/a.cc", "#include <mpfi.h>\n"), IsEmpty()) << "an oracle";
+  EXPECT_EQ(violations("tests/solve/a.cc", "#include <ginac/ginac.h>\n").size(), 1u);
+}
+
+TEST(IncludeRules, NoticeALinkThatNoArrowAllows) {
+  EXPECT_THAT(violations("certify/CMakeLists.txt", "corank_library(certify PUBLIC_LINK corank::solve)\n"),
+              ElementsAre("certify/CMakeLists.txt:1: certify may not link corank::solve"));
+  EXPECT_THAT(violations("solve/CMakeLists.txt", "corank_library(solve PUBLIC_LINK corank::certify)\n"), IsEmpty());
+}
+
+TEST(IncludeRules, NoticeAnIncludeByAnotherName) {
+  EXPECT_THAT(violations("solve/a.cc", "#include \"solve.h\"\n"), ElementsAre(HasSubstr("included as")));
+}
+
+TEST(IncludeRules, NoticeALibraryInAnInstalledHeader) {
+  for (const char* header : {"CGAL/Interval_nt.h", "Eigen/Dense", "nlohmann/json.hpp", "mpfr.h", "hdf5.h", "fmt/format.h"}) {
+    EXPECT_EQ(public_header_violations("a.h", std::string("#include <") + header + ">\n").size(), 1u) << header;
+  }
+  EXPECT_THAT(
+      public_header_violations("a.h", "#include <vector>\n#include <emmintrin.h>\n#include \"corank/solve/solve.h\"\n"),
+      IsEmpty());
+}
+
+TEST(IncludeRules, NoticeFastMath) {
+  EXPECT_EQ(unsafe_math("CMakeLists.txt", "target_compile_options(x PRIVATE -O2 -ffast-math)\n").size(), 1u);
+  EXPECT_EQ(unsafe_math("CMakeLists.txt", "# nothing\nset(CMAKE_CXX_FLAGS \"-Ofast\")\n").size(), 1u);
+  EXPECT_THAT(unsafe_math("CMakeLists.txt", "target_compile_options(x PRIVATE -O2 -frounding-math)\n"), IsEmpty());
+}
+
+}  // namespace
+}  // namespace corank::architecture

@@ -1,0 +1,140 @@
+#include "corank/tests/architecture/include_rules.h"
+
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace corank::architecture {
+namespace {
+
+// A folder may include itself and these. There is no cycle: every folder names only folders above it.
+const std::map<std::string, std::set<std::string>> kArrows{
+    {"certify", {}},
+    {"symbolic", {"certify"}},
+    {"solve", {"certify"}},
+    {"report", {"certify", "symbolic", "solve"}},
+    {"app", {"certify", "symbolic", "solve", "report"}},
+    {"bench", {"certify", "symbolic", "solve", "report"}},
+};
+
+// Headers of a library, by the beginning of their names, and the only folders that may include them. A folder's tests may do
+// what the folder may.
+struct LibraryRule {
+  std::regex header;
+  std::set<std::string> folders;
+  bool in_any_test;
+};
+const std::vector<LibraryRule>& library_rules() {
+  static const std::vector<LibraryRule> rules{
+      {std::regex("^(ginac|cln)/"), {"symbolic"}, false},
+      {std::regex("^(mpfr|mpfi|gmp|mpf2mpfr|mpfi_io)(xx)?\\.h|^boost/multiprecision/"
+                  "(mpfr|mpfi|gmp)|^(arb|acb|arf|mag|arblib|flint/)"),
+       {"certify"},
+       true},
+      {std::regex("^hdf5|^H5"), {"report"}, false},
+      {std::regex("^CLI/"), {"app"}, false},
+      {std::regex("^tao/"), {"symbolic"}, false},
+      {std::regex("^nlohmann/"), {"report", "bench"}, true},
+  };
+  return rules;
+}
+
+std::string first_folder(const std::string& path) { return path.substr(0, path.find('/')); }
+
+template <typename Visit>
+void for_each_line(const std::string& text, const Visit& visit) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) visit(line, number);
+}
+
+template <typename Visit>
+void for_each_include(const std::string& text, const Visit& visit) {
+  static const std::regex include("^\\s*#\\s*include\\s*([<\"])([^>\"]+)[>\"]");
+  for_each_line(text, [&](const std::string& line, int number) {
+    std::smatch match;
+    if (std::regex_search(line, match, include)) visit(match[2].str(), match[1] == "\"", number);
+  });
+}
+
+bool ends_with(const std::string& text, const std::string& end) { return text.ends_with(end); }
+
+class Findings {
+ public:
+  explicit Findings(std::string path) : path_(std::move(path)) {}
+  void add(int line, const std::string& problem) { list_.push_back(path_ + ":" + std::to_string(line) + ": " + problem); }
+  std::vector<std::string> take() { return std::move(list_); }
+
+ private:
+  std::string path_;
+  std::vector<std::string> list_;
+};
+
+// target_link_libraries follows the same arrows as the includes.
+void check_links(const std::string& folder, const std::string& text, Findings& findings) {
+  const auto arrows = kArrows.find(folder);
+  if (arrows == kArrows.end()) return;
+  static const std::regex target("corank::([a-z]+)");
+  for_each_line(text, [&](const std::string& line, int number) {
+    for (std::sregex_iterator it(line.begin(), line.end(), target), end; it != end; ++it) {
+      if (!arrows->second.contains((*it)[1])) findings.add(number, folder + " may not link corank::" + (*it)[1].str());
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> violations(const std::string& path, const std::string& text) {
+  Findings findings(path);
+  std::string folder = first_folder(path);
+  const bool is_test = folder == "tests";
+  if (ends_with(path, "CMakeLists.txt")) {
+    check_links(folder, text, findings);
+    return findings.take();
+  }
+  const std::string tested = is_test ? first_folder(path.substr(path.find('/') + 1)) : "";
+  const auto arrows = kArrows.find(folder);
+  for_each_include(text, [&](const std::string& header, bool quoted, int line) {
+    if (quoted && !header.starts_with("corank/")) {
+      findings.add(line, "\"" + header + "\": headers of this repository are included as \"corank/<folder>/<file>.h\"");
+    }
+    if (header.starts_with("corank/")) {
+      const std::string target = first_folder(header.substr(7));
+      if (arrows != kArrows.end() && target != folder && !arrows->second.contains(target)) {
+        findings.add(line, folder + " may not include " + target);
+      }
+      return;
+    }
+    for (const LibraryRule& rule : library_rules()) {
+      if (!std::regex_search(header, rule.header)) continue;
+      const bool allowed = rule.folders.contains(folder) || (is_test && (rule.in_any_test || rule.folders.contains(tested)));
+      if (!allowed) findings.add(line, folder + " may not include <" + header + ">");
+    }
+  });
+  return findings.take();
+}
+
+std::vector<std::string> public_header_violations(const std::string& path, const std::string& text) {
+  // Of other libraries only the compiler's own intrinsics, which are part of it.
+  static const std::regex standard("^[a-z_0-9]+$|^(emmintrin|immintrin|xmmintrin)\\.h$");
+  Findings findings(path);
+  for_each_include(text, [&](const std::string& header, bool, int line) {
+    if (!header.starts_with("corank/") && !std::regex_search(header, standard)) {
+      findings.add(line, "an installed header shows <" + header + ">");
+    }
+  });
+  return findings.take();
+}
+
+std::vector<std::string> unsafe_math(const std::string& path, const std::string& text) {
+  static const std::regex flags(
+      "-ffast-math|-Ofast|-funsafe-math-optimizations|-fassociative-math|-ffinite-math-only|-ffp-contract=fast");
+  Findings findings(path);
+  for_each_line(text, [&](const std::string& line, int number) {
+    if (std::regex_search(line, flags)) findings.add(number, "asks for arithmetic that is not IEEE's: " + line);
+  });
+  return findings.take();
+}
+
+}  // namespace corank::architecture

@@ -1,0 +1,208 @@
+#include "corank/certify/newton.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "corank/certify/distinct.h"
+#include "corank/certify/rounding.h"
+#include "corank/tests/system_builder.h"
+
+namespace corank::certify {
+namespace {
+
+using test::SystemBuilder;
+
+// One equation in one unknown: Y = 1/f'(mid), or 1 where that is 0.
+Preconditioner scalar_preconditioner(const CompiledSystem& f, const Interval& x) {
+  double derivative = 0;
+  const double mid = x.mid();
+  f.approximate_jacobian(&mid, &derivative);
+  return {{0}, {0}, {derivative == 0 ? 1.0 : 1 / derivative}};
+}
+
+class Newton : public testing::Test {
+ protected:
+  Sheet prove(const SystemBuilder& builder, Interval x) {
+    const CompiledSystem f(builder.system());
+    return newton_prove(f, scalar_preconditioner(f, x), &x, workspace_);
+  }
+  UpwardRounding rounding_;
+  NewtonWorkspace workspace_;
+};
+
+TEST_F(Newton, ProvesASimpleRootAndEnclosesIt) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-4", "4");
+  b.equation({{"1", {{x, 2}}}, {"-2", {}}});  // x² = 2
+  const Sheet sheet = prove(b, Interval(1.3, 1.5));
+  ASSERT_TRUE(sheet.proven);
+  EXPECT_TRUE(sheet.region[0].strictly_contains(sheet.image[0]));
+  EXPECT_LE(sheet.image[0].lo(), std::sqrt(2.0));
+  EXPECT_GE(sheet.image[0].hi(), std::nextafter(std::sqrt(2.0), 0));
+}
+
+TEST_F(Newton, LeavesADoubleRootUndecided) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-4", "4");
+  b.equation({{"1", {{x, 2}}}});  // x² = 0
+  for (double width : {1.0, 1e-3, 1e-9}) EXPECT_FALSE(prove(b, Interval(-width, 0.9 * width)).proven) << width;
+}
+
+TEST_F(Newton, ProvesNothingWhereThereIsNoRoot) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-4", "4");
+  b.equation({{"1", {{x, 2}}}, {"1/1000000", {}}});  // x² = −1e-6
+  for (double lo : {-1.0, -1e-3, -1e-4, 1e-4}) EXPECT_FALSE(prove(b, Interval(lo, lo + 1e-4)).proven) << lo;
+}
+
+TEST_F(Newton, NeverClaimsOneRootWhereThereAreThree) {
+  // x³ − εx has the slope x² − ε about 0, which is near constant for small x: slopes alone may show a contraction.
+  SystemBuilder b;
+  const int x = b.variable("x", "-4", "4");
+  b.equation({{"1", {{x, 3}}}, {"-1/10000", {{x, 1}}}});  // roots −0.01, 0, 0.01
+  for (double radius = 0.0101; radius < 1; radius *= 1.3) {
+    const Sheet sheet = prove(b, Interval(-radius, radius));
+    EXPECT_FALSE(sheet.proven && sheet.region[0].contains(0.01) && sheet.region[0].contains(-0.01)) << radius;
+  }
+}
+
+// Polynomials Π (x − r_i) with known rational roots: a proven region holds exactly one of them.
+TEST_F(Newton, AProvenRegionHoldsExactlyOneRoot) {
+  std::mt19937 random(7);
+  int proven = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<int> roots;  // in 1/64
+    for (int k = 0; k < 3; ++k) roots.push_back(static_cast<int>(random() % 257) - 128);
+    const int r0 = roots[0], r1 = roots[1], r2 = roots[2];
+    SystemBuilder b;
+    const int x = b.variable("x", "-4", "4");
+    b.equation({{"262144", {{x, 3}}},
+                {std::to_string(-4096 * (r0 + r1 + r2)), {{x, 2}}},
+                {std::to_string(64 * (r0 * r1 + r0 * r2 + r1 * r2)), {{x, 1}}},
+                {std::to_string(-r0 * r1 * r2), {}}});
+    for (int box = 0; box < 40; ++box) {
+      const double lo = static_cast<double>(random() % 512) / 128 - 2, width = std::ldexp(1.0, -static_cast<int>(random() % 7));
+      const Sheet sheet = prove(b, Interval(lo, lo + width));
+      if (!sheet.proven) continue;
+      ++proven;
+      int inside = 0, in_image = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (std::count(roots.begin(), roots.begin() + static_cast<std::ptrdiff_t>(k), roots[k])) continue;  // count once
+        inside += sheet.region[0].contains(roots[k] / 64.0);
+        in_image += sheet.image[0].contains(roots[k] / 64.0);
+      }
+      ASSERT_EQ(inside, 1) << "roots/64: " << r0 << ' ' << r1 << ' ' << r2 << " region " << sheet.region[0];
+      ASSERT_EQ(in_image, 1);
+    }
+  }
+  EXPECT_GT(proven, 500) << "the test must see proofs";
+}
+
+TEST_F(Newton, ProvesASheetForEveryValueOfTheFreeVariable) {
+  // x² + y² = 1, y free: x = √(1 − y²).
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+  const CompiledSystem f(b.system());
+  const std::vector<Interval> box{Interval(0.9, 1), Interval(0.1, 0.3)};
+  const Sheet sheet = newton_prove(f, {{0}, {x}, {0.5}}, box.data(), workspace_);
+  ASSERT_TRUE(sheet.proven);
+  EXPECT_EQ(sheet.region[y], Interval(0.1, 0.3));
+  for (double v : {0.1, 0.17, 0.2, 0.3}) EXPECT_TRUE(sheet.image[x].contains(std::sqrt(1 - v * v))) << v;
+}
+
+TEST_F(Newton, DoesNotProveASheetThatFoldsOver) {
+  // x² = y with y ∈ [−0.01, 0.2] free: no solution for y < 0.
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"-1", {{y, 1}}}});
+  const CompiledSystem f(b.system());
+  const std::vector<Interval> box{Interval(0, 0.5), Interval(-0.01, 0.2)};
+  EXPECT_FALSE(newton_prove(f, {{0}, {x}, {2.0}}, box.data(), workspace_).proven);
+}
+
+TEST_F(Newton, AnyPreconditionerKeepsEverySolution) {
+  // Circle and line: x² + y² = 25, x = y + 1 has (4, 3) and (−3, −4). Nonsensical Y must not lose them.
+  SystemBuilder b;
+  const int x = b.variable("x", "-9", "9"), y = b.variable("y", "-9", "9");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-25", {}}}).equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}, {"-1", {}}});
+  const CompiledSystem f(b.system());
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(-3, 3), size(0, 2);
+  for (int trial = 0; trial < 20000; ++trial) {
+    std::vector<Interval> box{Interval(4 - size(random), 4 + size(random)), Interval(3 - size(random), 3 + size(random))};
+    const Preconditioner p{{0, 1}, trial % 2 ? std::vector{x, y} : std::vector{y, x}, {any(random), any(random), any(random), any(random)}};
+    ASSERT_FALSE(newton_contract(f, p, box.data(), workspace_).empty);
+    ASSERT_TRUE(box[x].contains(4.0) && box[y].contains(3.0));
+    const Sheet sheet = newton_prove(f, p, box.data(), workspace_);
+    if (sheet.proven) {
+      ASSERT_TRUE(sheet.image[x].contains(4.0) && sheet.image[y].contains(3.0));
+    }
+  }
+}
+
+TEST_F(Newton, ASingularPreconditionerProvesNothing) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-9", "9"), y = b.variable("y", "-9", "9");
+  b.equation({{"1", {{x, 1}}}, {"-1", {}}}).equation({{"1", {{y, 1}}}, {"-1", {}}});
+  const CompiledSystem f(b.system());
+  const std::vector<Interval> box{Interval(0, 2.5), Interval(0, 2.5)};
+  EXPECT_TRUE(newton_prove(f, {{0, 1}, {x, y}, {1, 0, 0, 1}}, box.data(), workspace_).proven);
+  EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 0, 0, 0}}, box.data(), workspace_).proven);
+  EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {0, 0, 0, 0}}, box.data(), workspace_).proven);
+  EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 1, 1, 1}}, box.data(), workspace_).proven);
+  EXPECT_FALSE(newton_prove(f, {{0}, {x}, {1}}, box.data(), workspace_).proven) << "fewer rows than equations";
+}
+
+TEST_F(Newton, ComparesIsolatedSolutions) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-4", "4");
+  b.equation({{"1", {{x, 2}}}, {"-2", {}}});
+  const Sheet left = prove(b, Interval(-1.5, -1.3)), right = prove(b, Interval(1.3, 1.5)), again = prove(b, Interval(1.39, 1.6));
+  ASSERT_TRUE(left.proven && right.proven && again.proven);
+  EXPECT_EQ(compare_isolated(left, right), Identity::different);
+  EXPECT_EQ(compare_isolated(right, again), Identity::same);
+  const Interval inside(1.35, 1.36), outside(1.0, 1.36);
+  EXPECT_TRUE(holds_nothing_else(right, &inside));
+  EXPECT_FALSE(holds_nothing_else(right, &outside));
+}
+
+// Slopes and Jacobians enclose what they claim to, for monomials of every shape.
+TEST_F(Newton, SlopesAndJacobiansEncloseDifferencesAndDerivatives) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"3", {{x, 2}, {y, 1}}}, {"-1/3", {{x, 1}, {y, 1}, {z, 1}}}, {"2", {{z, 3}}}, {"5", {{x, 1}, {z, 1}}},
+              {"-0.7", {{y, 2}}}, {"1", {{x, 1}}}, {"4", {}}});
+  const CompiledSystem f(b.system());
+  const auto value = [](double u, double v, double w) {
+    return 3 * u * u * v - u * v * w / 3 + 2 * w * w * w + 5 * u * w - 0.7 * v * v + u + 4;
+  };
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> in(-2, 2);
+  for (int trial = 0; trial < 5000; ++trial) {
+    double c[3], p[3];
+    std::vector<Interval> box;
+    for (int j = 0; j < 3; ++j) {
+      const double a = in(random), e = in(random);
+      box.emplace_back(std::min(a, e), std::max(a, e));
+      p[j] = std::clamp(in(random), box[j].lo(), box[j].hi());
+      c[j] = in(random);  // the centre need not lie in the box
+    }
+    std::vector<Interval> s(f.entries()), jacobian(f.entries());
+    f.slopes(box.data(), c, s.data());
+    f.jacobian(box.data(), jacobian.data());
+    Interval difference;
+    for (int j = 0; j < 3; ++j) difference += s[j] * (Interval(p[j]) - Interval(c[j]));
+    const Interval slack(-1e-11, 1e-11);  // the expected values carry rounding errors
+    ASSERT_TRUE((difference + slack).contains(value(p[0], p[1], p[2]) - value(c[0], c[1], c[2])));
+    const double d[3] = {6 * p[0] * p[1] - p[1] * p[2] / 3 + 5 * p[2] + 1, 3 * p[0] * p[0] - p[0] * p[2] / 3 - 1.4 * p[1],
+                         -p[0] * p[1] / 3 + 6 * p[2] * p[2] + 5 * p[0]};
+    for (int j = 0; j < 3; ++j) ASSERT_TRUE((jacobian[j] + slack).contains(d[j])) << j;
+    ASSERT_TRUE((f.evaluate(0, box.data()) + slack).contains(value(p[0], p[1], p[2])));
+    ASSERT_TRUE((f.evaluate_at(0, p) + slack).contains(value(p[0], p[1], p[2])));
+  }
+}
+
+}  // namespace
+}  // namespace corank::certify

@@ -1,0 +1,280 @@
+// Result files: what is written is read back bit for bit; what is no result is refused.
+#include "corank/report/result_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "corank/tests/report/sample_result.h"
+
+namespace corank::report {
+namespace {
+
+namespace fs = std::filesystem;
+using certify::CoverBox;
+using testing::HasSubstr;
+
+class ResultFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "corank-report-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path path(const std::string& name = "result.h5") const { return folder_ / name; }
+
+  std::string refusal(const fs::path& file) const {
+    try {
+      read_result(file);
+    } catch (const ResultFileError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+ private:
+  fs::path folder_;
+};
+
+void expect_same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBox>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].box.size(), b[i].box.size());
+    for (std::size_t v = 0; v < a[i].box.size(); ++v) ASSERT_TRUE(same_bits(a[i].box[v], b[i].box[v])) << i << " " << v;
+    ASSERT_EQ(a[i].verdict, b[i].verdict);
+    ASSERT_EQ(a[i].free, b[i].free);
+  }
+}
+
+void expect_same(const Result& a, const Result& b) {
+  EXPECT_EQ(a.version, b.version);
+  EXPECT_EQ(a.model, b.model);
+  EXPECT_EQ(a.model_text, b.model_text);
+  EXPECT_EQ(a.set, b.set);
+  EXPECT_EQ(a.system_text, b.system_text);
+  EXPECT_EQ(a.options, b.options);
+  ASSERT_EQ(a.variables.size(), b.variables.size());
+  for (std::size_t i = 0; i < a.variables.size(); ++i) {
+    EXPECT_EQ(a.variables[i].name, b.variables[i].name);
+    EXPECT_EQ(a.variables[i].kind, b.variables[i].kind);
+    EXPECT_TRUE(same_bits(a.variables[i].domain, b.variables[i].domain));
+  }
+  ASSERT_EQ(a.angles.size(), b.angles.size());
+  for (std::size_t i = 0; i < a.angles.size(); ++i) {
+    EXPECT_EQ(a.angles[i].name, b.angles[i].name);
+    EXPECT_EQ(a.angles[i].cosine, b.angles[i].cosine);
+    EXPECT_EQ(a.angles[i].sine, b.angles[i].sine);
+    EXPECT_TRUE(same_bits(a.angles[i].range, b.angles[i].range));
+  }
+  EXPECT_EQ(a.configuration_size, b.configuration_size);
+  EXPECT_EQ(a.equations, b.equations);
+  EXPECT_EQ(a.inequalities, b.inequalities);
+  EXPECT_EQ(a.cover.dimension, b.cover.dimension);
+  EXPECT_TRUE(same_bits(a.cover.sigma, b.cover.sigma));
+  expect_same_boxes(a.cover.boxes, b.cover.boxes);
+  expect_same_boxes(a.cover.points, b.cover.points);
+  const certify::Statistics &s = a.cover.statistics, &t = b.cover.statistics;
+  EXPECT_EQ(s.processed, t.processed);
+  EXPECT_EQ(s.newton_steps, t.newton_steps);
+  EXPECT_EQ(s.proofs_tried, t.proofs_tried);
+  EXPECT_TRUE(same_bits(s.seconds_total, t.seconds_total));
+  EXPECT_TRUE(same_bits(s.seconds_search, t.seconds_search));
+  EXPECT_TRUE(same_bits(s.seconds_certify, t.seconds_certify));
+}
+
+TEST_F(ResultFile, GivesBackEveryBitOfAResult) {
+  write_result(path(), sample_result());
+  expect_same(read_result(path()), sample_result());
+}
+
+TEST_F(ResultFile, GivesBackAnEmptyResult) {
+  Result empty;
+  write_result(path(), empty);
+  expect_same(read_result(path()), empty);
+}
+
+TEST_F(ResultFile, GivesBackAHundredThousandBoxesOfArbitraryBits) {
+  Result result = sample_result();
+  result.cover.boxes.clear();
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 100'000; ++i) {
+    CoverBox box;
+    while (box.box.size() < 4) {
+      const double a = std::bit_cast<double>(random()), b = std::bit_cast<double>(random());
+      if (!std::isnan(a) && !std::isnan(b)) box.box.push_back(a <= b ? certify::Interval(a, b) : certify::Interval(b, a));
+    }
+    box.verdict = static_cast<certify::Verdict>(random() % certify::kVerdicts);
+    for (int v = 0; v < 4; ++v) {
+      if (random() % 2) box.free.push_back(v);
+    }
+    result.cover.boxes.push_back(std::move(box));
+  }
+  write_result(path(), result);
+  expect_same(read_result(path()), result);
+}
+
+TEST_F(ResultFile, KeepsAModelTextLongerThanAnAttributeMayBe) {
+  Result result = sample_result();
+  while (result.model_text.size() < 200'000) result.model_text += result.model_text;
+  write_result(path(), result);
+  EXPECT_EQ(read_result(path()).model_text, result.model_text);
+}
+
+TEST_F(ResultFile, ReplacesAFileAndLeavesNoOtherBehind) {
+  std::ofstream(path()) << "old";
+  write_result(path(), sample_result());
+  expect_same(read_result(path()), sample_result());
+  const auto files = std::distance(fs::directory_iterator(path().parent_path()), fs::directory_iterator());
+  EXPECT_EQ(files, 1);
+}
+
+TEST_F(ResultFile, IsReadableByTheGroupThatTheUmaskAllows) {
+  const mode_t former = umask(022);
+  write_result(path(), sample_result());
+  umask(former);
+  struct stat status;
+  ASSERT_EQ(stat(path().c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0644u);
+}
+
+TEST_F(ResultFile, RefusesToWriteWhereNoFolderIs) {
+  const fs::path nowhere = path("missing") / "result.h5";
+  EXPECT_THROW(check_writable(nowhere), ResultFileError);
+  EXPECT_THROW(write_result(nowhere, sample_result()), ResultFileError);
+  EXPECT_THROW(write_text(nowhere, "text"), ResultFileError);
+  EXPECT_THROW(check_writable(path().parent_path()), ResultFileError) << "a folder is no file";
+  EXPECT_NO_THROW(check_writable(path()));
+  EXPECT_FALSE(fs::exists(path())) << "asking leaves nothing behind";
+}
+
+TEST_F(ResultFile, RefusesAMissingFile) { EXPECT_THAT(refusal(path()), HasSubstr("result.h5: cannot read")); }
+
+TEST_F(ResultFile, RefusesAForeignFile) {
+  std::ofstream(path()) << "x = 0;\n";
+  EXPECT_THAT(refusal(path()), HasSubstr("cannot read this as an HDF5 file"));
+}
+
+TEST_F(ResultFile, RefusesAnHdf5FileThatIsNoResult) {
+  Hdf5Writer file(path().string());
+  file.texts("/names", {"a", "b"});
+  file.close();
+  EXPECT_THAT(refusal(path()), HasSubstr("no corank result"));
+}
+
+TEST_F(ResultFile, RefusesANewerFormat) {
+  Hdf5Writer file(path().string());
+  file.attribute("/", "format", std::string("corank result"));
+  file.attribute("/", "format_version", std::int64_t{kFormatVersion + 1});
+  file.close();
+  EXPECT_THAT(refusal(path()), HasSubstr("format version 2"));
+}
+
+TEST_F(ResultFile, RefusesAFileCutShortAnywhere) {
+  write_result(path(), sample_result());
+  std::ostringstream whole;
+  whole << std::ifstream(path(), std::ios::binary).rdbuf();
+  const std::string bytes = whole.str();
+  for (std::size_t length = 0; length < bytes.size(); length += 97) {
+    std::ofstream(path("cut.h5"), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(length));
+    ASSERT_NE(refusal(path("cut.h5")), "") << "cut to " << length << " of " << bytes.size() << " bytes";
+  }
+}
+
+// A well-formed HDF5 file of the right format whose content contradicts itself: one item differs from a good empty result.
+class InconsistentFile : public ResultFile {
+ protected:
+  std::string refusal_of(const std::string& changed, const std::function<void(Hdf5Writer&)>& write) {
+    Hdf5Writer file(path().string());
+    const auto unless_changed = [&](const std::string& name, const auto& write_good) {
+      name == changed ? write(file) : write_good();
+    };
+    file.attribute("/", "format", std::string("corank result"));
+    file.attribute("/", "format_version", std::int64_t{kFormatVersion});
+    for (const char* name : {"version", "model", "set"}) file.attribute("/", name, std::string("x"));
+    for (const char* name : {"complete", "dimension", "configuration_size", "equations", "inequalities"}) {
+      unless_changed(name, [&] { file.attribute("/", name, std::int64_t{1}); });
+    }
+    file.attribute("/", "sigma", 0.1);
+    for (const char* name : {"/model/text", "/model/system"}) file.text(name, "x");
+    file.texts("/variables/names", {"x"});
+    unless_changed("/variables/kinds",
+                   [&] { file.enumeration("/variables/kinds", std::vector<std::uint8_t>{0}, {"length"}); });
+    file.doubles("/variables/domain", std::vector{0.0, 1.0}, 1, 2);
+    file.texts("/angles/names", {"t"});
+    unless_changed("/angles/cosine", [&] { file.integers("/angles/cosine", std::vector<std::int64_t>{0}); });
+    file.integers("/angles/sine", std::vector<std::int64_t>{0});
+    file.doubles("/angles/range", std::vector{0.0, 1.0}, 1, 2);
+    for (const char* name : {"names", "expressions"}) file.texts(std::string("/options/constants/") + name, {});
+    file.attribute("/options", "kernel", std::string());
+    for (const char* name : {"sigma", "time_limit"}) file.attribute("/options", name, 0.1);
+    file.attribute("/options", "threads", std::int64_t{1});
+    file.attribute("/options", "max_boxes", std::uint64_t{0});
+    for (const std::string group : {"/boxes", "/points"}) {
+      unless_changed(group + "/lower", [&] { file.doubles(group + "/lower", std::vector{0.25}, 1, 1); });
+      file.doubles(group + "/upper", std::vector{0.5}, 1, 1);
+      unless_changed(group + "/verdict",
+                     [&] { file.enumeration(group + "/verdict", std::vector<std::uint8_t>{0}, {"regular"}); });
+      file.bytes(group + "/free", std::vector<std::uint8_t>{0}, 1, 1);
+    }
+    file.group("/statistics");
+    for (const char* name : {"processed", "newton_steps", "proofs_tried"})
+      file.attribute("/statistics", name, std::uint64_t{1});
+    for (const char* name : {"seconds_total", "seconds_search", "seconds_certify"}) file.attribute("/statistics", name, 0.1);
+    file.close();
+    return refusal(path());
+  }
+};
+
+TEST_F(InconsistentFile, IsFineWithNothingChanged) {
+  EXPECT_EQ(refusal_of("nothing", [](Hdf5Writer&) {}), "");
+}
+
+TEST_F(InconsistentFile, IsRefusedForBoxesOfAnotherShape) {
+  EXPECT_THAT(refusal_of("/boxes/lower",
+                         [](Hdf5Writer& f) {
+                           f.doubles("/boxes/lower", std::vector{0.1, 0.2}, 1, 2);
+                         }),
+              HasSubstr("/boxes/lower has another shape"));
+}
+
+TEST_F(InconsistentFile, IsRefusedForEmptyIntervalsAndNotANumber) {
+  for (const double lower : {0.75, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THAT(refusal_of("/points/lower", [=](Hdf5Writer& f) { f.doubles("/points/lower", std::vector{lower}, 1, 1); }),
+                HasSubstr("/points holds an empty interval"));
+  }
+}
+
+TEST_F(InconsistentFile, IsRefusedForAWordThatIsNoVerdict) {
+  const auto write = [](Hdf5Writer& f) { f.enumeration("/boxes/verdict", std::vector<std::uint8_t>{0}, {"certain"}); };
+  EXPECT_THAT(refusal_of("/boxes/verdict", write), HasSubstr("unknown word certain"));
+}
+
+TEST_F(InconsistentFile, IsRefusedForAnAngleOfNoVariable) {
+  const auto write = [](Hdf5Writer& f) { f.integers("/angles/cosine", std::vector<std::int64_t>{1}); };
+  EXPECT_THAT(refusal_of("/angles/cosine", write), HasSubstr("name no variable"));
+}
+
+TEST_F(InconsistentFile, IsRefusedWhereItDeniesThatItIsComplete) {
+  const auto write = [](Hdf5Writer& f) { f.attribute("/", "complete", std::int64_t{0}); };
+  EXPECT_THAT(refusal_of("complete", write), HasSubstr("complete contradicts the boxes"));
+}
+
+TEST_F(InconsistentFile, ReadsVerdictsByTheirWordsNotTheirNumbers) {
+  const auto write = [](Hdf5Writer& f) {
+    f.enumeration("/boxes/verdict", std::vector<std::uint8_t>{1}, {"undecided", "isolated"});
+  };
+  EXPECT_EQ(refusal_of("/boxes/verdict", write), "");
+  EXPECT_EQ(read_result(path()).cover.boxes.at(0).verdict, certify::Verdict::isolated);
+}
+
+}  // namespace
+}  // namespace corank::report

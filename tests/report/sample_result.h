@@ -1,0 +1,56 @@
+// A made-up result with every kind of content, for tests of report/. No claim of it is true.
+#pragma once
+
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "corank/report/result.h"
+
+namespace corank::report {
+
+inline certify::CoverBox sample_box(std::initializer_list<certify::Interval> box, certify::Verdict verdict,
+                                    std::vector<int> free) {
+  return {certify::Box(box), verdict, std::move(free)};
+}
+
+/// Variables x (length), c_t, s_t (angle t), xi1: two points, six boxes with awkward doubles.
+inline Result sample_result() {
+  using certify::Interval;
+  using certify::VariableKind;
+  using certify::Verdict;
+  constexpr double kTiny = std::numeric_limits<double>::denorm_min(), kHuge = std::numeric_limits<double>::max();
+  Result r;
+  r.model = "sample";
+  r.model_text = "% a model\n[SYSTEM VARS]\nα : [0, 1]\n";
+  r.set = "forward";
+  r.system_text = "x = 0;\n";
+  r.options = {"left", 0.1, 2, (std::uint64_t{1} << 53) + 1, 0.1, {{"L2", "4/5"}, {"d", "sqrt(2)"}}};
+  r.variables = {{"x", VariableKind::length, {-2.0, 2.0}},
+                 {"c_t", VariableKind::cosine, {-1.0, 1.0}},
+                 {"s_t", VariableKind::sine, {-1.0, 1.0}},
+                 {"xi1", VariableKind::kernel, {-1.0, 1.0}}};
+  r.angles = {{"t", 1, 2, {-3.1415926535897936, 3.1415926535897936}}};
+  r.configuration_size = 3;
+  r.equations = 4;
+  r.inequalities = 1;
+  r.cover.sigma = 0.1;
+  r.cover.statistics = {123, 45, 6, 1.5, 1.25, 0.1};
+  r.cover.boxes = {sample_box({{-0.0, 0.0}, {0.0, kTiny}, {-kTiny, -0.0}, {-kHuge, kHuge}}, Verdict::regular, {0, 3}),
+                   sample_box({0.1, 0.2, 0.3, {-1.0, -0.1}}, Verdict::isolated, {}),
+                   sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::exact, {}),
+                   sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::boundary, {2}),
+                   sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::undecided, {}),
+                   sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::pending, {})};
+  r.cover.points = {sample_box({{0.1, 0.2}, {-1.0, -0.9}, {-0.1, 0.1}, 0.5}, Verdict::isolated, {}),
+                    sample_box({1.0 / 3, {0.0, 1e-17}, 1.0, -0.5}, Verdict::undecided, {})};
+  return r;
+}
+
+inline bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+inline bool same_bits(const certify::Interval& a, const certify::Interval& b) {
+  return same_bits(a.lo(), b.lo()) && same_bits(a.hi(), b.hi());
+}
+
+}  // namespace corank::report

@@ -1,0 +1,111 @@
+// The table and the JSON summary of a made-up result.
+#include "corank/report/summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corank/certify/angle.h"
+#include "corank/tests/report/sample_result.h"
+
+namespace corank::report {
+namespace {
+
+using nlohmann::ordered_json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<std::string> keys(const ordered_json& object) {
+  std::vector<std::string> names;
+  for (const auto& item : object.items()) names.push_back(item.key());
+  return names;
+}
+
+TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
+  const ordered_json json = ordered_json::parse(to_json(sample_result()));
+  EXPECT_THAT(keys(json),
+              ElementsAre("model", "set", "system", "options", "complete", "boxes", "points", "seconds", "version"));
+  EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
+  EXPECT_THAT(keys(json["options"]), ElementsAre("kernel", "sigma", "threads", "max_boxes", "time_limit", "constants"));
+  EXPECT_THAT(keys(json["boxes"]),
+              ElementsAre("processed", "regular", "isolated", "exact", "boundary", "undecided", "pending"));
+  EXPECT_THAT(keys(json["seconds"]), ElementsAre("total", "search", "certify"));
+  EXPECT_THAT(keys(json["points"][0]), ElementsAre("values", "verdict"));
+  EXPECT_THAT(keys(json["points"][0]["values"]), ElementsAre("x", "t", "xi1"));
+}
+
+TEST(JsonSummary, SaysWhatTheResultHolds) {
+  const Result result = sample_result();
+  const ordered_json json = ordered_json::parse(to_json(result));
+  EXPECT_EQ(json["model"], "sample");
+  EXPECT_EQ(json["set"], "forward");
+  EXPECT_EQ(json["system"]["variables"], 4);
+  EXPECT_EQ(json["complete"], false);
+  EXPECT_EQ(json["boxes"]["processed"], 123);
+  for (const char* verdict : {"regular", "isolated", "exact", "boundary", "undecided", "pending"}) {
+    EXPECT_EQ(json["boxes"][verdict], 1) << verdict;
+  }
+  EXPECT_EQ(json["options"]["max_boxes"], (std::uint64_t{1} << 53) + 1);
+  EXPECT_EQ(json["options"]["constants"]["L2"], "4/5");
+  EXPECT_EQ(json["version"], version());
+}
+
+TEST(JsonSummary, GivesBoundsBackBitForBitAndAnglesInRadians) {
+  const Result result = sample_result();
+  const ordered_json json = ordered_json::parse(to_json(result));
+  ASSERT_EQ(json["points"].size(), 2u);
+  const ordered_json& x = json["points"][1]["values"]["x"];
+  EXPECT_TRUE(same_bits(certify::Interval(x["lo"], x["hi"]), 1.0 / 3));
+  const ordered_json& t = json["points"][0]["values"]["t"];
+  EXPECT_EQ(certify::Interval(t["lo"], t["hi"]),
+            certify::angle_enclosure({-1.0, -0.9}, {-0.1, 0.1}, result.angles[0].range));
+  EXPECT_EQ(json["points"][0]["verdict"], "isolated");
+  EXPECT_EQ(json["points"][1]["verdict"], "undecided");
+}
+
+TEST(JsonSummary, HasNoPointsForACurve) {
+  Result result = sample_result();
+  result.cover.dimension = 1;
+  EXPECT_TRUE(ordered_json::parse(to_json(result))["points"].is_null());
+}
+
+TEST(JsonSummary, TellsAPlainSystemFromOneWithAKernel) {
+  Result result = sample_result();
+  result.options.kernel.clear();
+  EXPECT_TRUE(ordered_json::parse(to_json(result))["options"]["kernel"].is_null());
+}
+
+TEST(OutwardText, RoundsEachBoundOutward) {
+  EXPECT_EQ(outward_text({1.0 / 3, 2.0 / 3}, 3), "[0.333, 0.667]");
+  EXPECT_EQ(outward_text({-2.0 / 3, -1.0 / 3}, 3), "[-0.667, -0.333]");
+  EXPECT_EQ(outward_text(0.1, 9), "[0.1, 0.100000001]") << "the double 0.1 is above 1/10";
+  EXPECT_EQ(outward_text(0.5, 9), "0.5");
+  EXPECT_EQ(outward_text({-0.0, 0.0}, 9), "0");
+  EXPECT_EQ(outward_text({-1e-320, 1e-15}, 9), "[-1e-12, 1e-12]");
+  EXPECT_EQ(outward_text({1e-15, 2e-15}, 9), "[0, 1e-12]");
+  EXPECT_EQ(outward_text({-2e-15, -1e-15}, 9), "[-1e-12, 0]");
+}
+
+TEST(Table, CountsVerdictsAndListsPointsWithAngles) {
+  const std::string table = to_table(sample_result());
+  EXPECT_THAT(table, HasSubstr("sample, forward: 4 variables, 4 equations, 1 inequality; dimension 0"));
+  EXPECT_THAT(table, HasSubstr("INCOMPLETE"));
+  EXPECT_THAT(table, HasSubstr("2 points: 1 isolated, 1 undecided"));
+  EXPECT_THAT(table, HasSubstr("[3.03093"));
+  EXPECT_THAT(table, HasSubstr("[0.333333333, 0.333333334]"));
+  EXPECT_THAT(table, Not(HasSubstr("c_t")));
+}
+
+TEST(Table, IsShortForASurface) {
+  Result result = sample_result();
+  result.cover.dimension = 2;
+  result.cover.boxes.pop_back();
+  const std::string table = to_table(result);
+  EXPECT_THAT(table, Not(HasSubstr("point")));
+  EXPECT_THAT(table, HasSubstr("complete: every solution in the search domain is in a box"));
+}
+
+}  // namespace
+}  // namespace corank::report

@@ -1,0 +1,334 @@
+#include "corank/solve/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "corank/certify/rounding.h"
+#include "corank/solve/preconditioner.h"
+#include "corank/tests/system_builder.h"
+
+namespace corank::solve {
+namespace {
+
+using certify::Cover;
+using certify::Interval;
+using certify::System;
+using certify::Verdict;
+using test::SystemBuilder;
+
+bool covers(const Cover& cover, const std::vector<double>& point) {
+  for (const auto& b : cover.boxes) {
+    bool inside = true;
+    for (std::size_t j = 0; j < point.size() && inside; ++j) inside = b.box[j].contains(point[j]);
+    if (inside) return true;
+  }
+  return false;
+}
+
+double widest(const Cover& cover) {
+  double width = 0;
+  for (const auto& b : cover.boxes)
+    for (const Interval& side : b.box) width = std::max(width, side.width());
+  return width;
+}
+
+Cover solve_with(const System& system, double sigma, int threads = 1) {
+  Options options;
+  options.sigma = sigma;
+  options.threads = threads;
+  return solve(system, options);
+}
+
+// (x² + y² − 1 = 0) ∩ (x − y = 0): ±(√½, √½).
+SystemBuilder circle_and_diagonal() {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}}).equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}});
+  return b;
+}
+
+// The product of the lines x + 2y = 1/3 and 3x − y = 1/7: they cross at an angle to the axes.
+SystemBuilder crossing_lines() {
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"3", {{x, 2}}}, {"5", {{x, 1}, {y, 1}}}, {"-2", {{y, 2}}}, {"-8/7", {{x, 1}}}, {"1/21", {{y, 1}}}, {"1/21", {}}});
+  return b;
+}
+
+// A torus, cut by nothing: (x² + y² + z² + 3/4)² = 4 (x² + y²), radii 1 and 1/2.
+SystemBuilder torus() {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"1", {{x, 4}}}, {"1", {{y, 4}}}, {"1", {{z, 4}}}, {"2", {{x, 2}, {y, 2}}}, {"2", {{x, 2}, {z, 2}}},
+              {"2", {{y, 2}, {z, 2}}}, {"-2.5", {{x, 2}}}, {"-2.5", {{y, 2}}}, {"1.5", {{z, 2}}}, {"9/16", {}}});
+  return b;
+}
+
+TEST(Solve, FindsAndProvesBothPointsOfACircleAndALine) {
+  const Cover cover = solve_with(circle_and_diagonal().system(), 1e-6);
+  EXPECT_TRUE(cover.complete());
+  ASSERT_EQ(cover.points.size(), 2u);
+  for (const auto& p : cover.points) {
+    EXPECT_EQ(p.verdict, Verdict::isolated);
+    EXPECT_NEAR(std::fabs(p.box[0].mid()), std::sqrt(0.5), 1e-12);
+    EXPECT_LE(p.box[0].width(), 1e-12);
+  }
+}
+
+TEST(Solve, SaysThatAnEmptySetIsEmpty) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}}).equation({{"1", {{x, 1}}}, {"1", {{y, 1}}}, {"-3/2", {}}});
+  const Cover cover = solve_with(b.system(), 1e-3);
+  EXPECT_TRUE(cover.complete());
+  EXPECT_TRUE(cover.boxes.empty());
+}
+
+TEST(Solve, CountsASolutionOnTheFirstBisectionPlaneOnce) {
+  // The plane x = 0.47·4 − 2 = −0.12 of the first cut, and others: no solution is counted twice wherever it lies.
+  for (int k = -40; k <= 40; ++k) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+    b.equation({{"1", {{x, 1}}}, {std::to_string(-3 * k) + "/100", {}}});
+    b.equation({{"1", {{y, 2}}}, {"-0.0144", {}}});  // y = ±0.12
+    if (std::abs(3 * k) > 199) continue;
+    const Cover cover = solve_with(b.system(), 1e-6);
+    ASSERT_EQ(cover.points.size(), 2u) << k;
+    ASSERT_EQ(cover.count(Verdict::isolated), 2u) << k;
+  }
+}
+
+TEST(Solve, LosesNothingWhereLinesCross) {
+  const Cover cover = solve_with(crossing_lines().system(), 0.01);
+  EXPECT_TRUE(cover.complete());
+  EXPECT_LE(widest(cover), 0.01);
+  for (int k = -1000; k <= 1000; ++k) {
+    const double t = k / 1000.0;
+    const double x = 1.0 / 3 - 2 * t;  // rounded: the exact point lies between x's neighbours
+    if (std::fabs(x) > 0.999) continue;
+    EXPECT_TRUE(covers(cover, {x, t}) || covers(cover, {std::nextafter(x, 2), t}) || covers(cover, {std::nextafter(x, -2), t})) << t;
+  }
+  // Only boxes next to the crossing (13/147, 6/49) may be undecided.
+  for (const auto& b : cover.boxes)
+    if (b.verdict == Verdict::undecided) {
+      EXPECT_NEAR(b.box[0].mid(), 13.0 / 147, 0.1);
+      EXPECT_NEAR(b.box[1].mid(), 6.0 / 49, 0.1);
+    }
+  EXPECT_GT(cover.count(Verdict::undecided), 0u);
+  EXPECT_GT(cover.count(Verdict::regular), 100u);
+}
+
+TEST(Solve, LeavesADoublePointUndecided) {
+  // Circles that touch at (1, 0): x² + y² = 1 and (x − 2)² + y² = 1.
+  SystemBuilder b;
+  const int x = b.variable("x", "-4", "4"), y = b.variable("y", "-4", "4");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+  b.equation({{"1", {{x, 2}}}, {"-4", {{x, 1}}}, {"1", {{y, 2}}}, {"3", {}}});
+  const Cover cover = solve_with(b.system(), 1e-4);
+  EXPECT_TRUE(cover.complete());
+  ASSERT_EQ(cover.points.size(), 1u);
+  EXPECT_EQ(cover.points[0].verdict, Verdict::undecided);
+  EXPECT_TRUE(covers(cover, {1.0, 0.0}));
+}
+
+TEST(Solve, MakesNoFalseClaimOnGriewankAndOsborne) {
+  // 29/16 x³ − 2xy = 0, y − x² = 0: a triple root at the origin where Newton's method diverges.
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"29/16", {{x, 3}}}, {"-2", {{x, 1}, {y, 1}}}}).equation({{"1", {{y, 1}}}, {"-1", {{x, 2}}}});
+  const Cover cover = solve_with(b.system(), 1e-5);
+  EXPECT_EQ(cover.count(Verdict::isolated), 0u);
+  ASSERT_EQ(cover.points.size(), 1u);
+  EXPECT_TRUE(cover.points[0].box[0].contains(0.0) && cover.points[0].box[1].contains(0.0));
+}
+
+TEST(Solve, SeparatesTheRootsOfAWilkinsonPolynomial) {
+  // Π_{k=1}^{8} (x − k/10), expanded in exact arithmetic.
+  std::vector<certify::ExactNumber> c{1};
+  for (int k = 1; k <= 8; ++k) {
+    std::vector<certify::ExactNumber> next(c.size() + 1);
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      next[i + 1] = next[i + 1] + c[i];
+      next[i] = next[i] - c[i] * certify::ExactNumber(k) / certify::ExactNumber(10);
+    }
+    c = next;
+  }
+  SystemBuilder b;
+  b.variable("x", "-3", "3");
+  System system = b.system();
+  certify::Polynomial p;
+  for (std::size_t i = 0; i < c.size(); ++i)
+    p.monomials.emplace_back(c[i], i == 0 ? std::vector<certify::Factor>{} : std::vector<certify::Factor>{{0, static_cast<int>(i)}});
+  system.equations.push_back(p);
+  const Cover cover = solve_with(system, 1e-6);
+  EXPECT_TRUE(cover.complete());
+  ASSERT_EQ(cover.count(Verdict::isolated), 8u);
+  ASSERT_EQ(cover.points.size(), 8u);
+  for (int k = 1; k <= 8; ++k) EXPECT_NEAR(cover.points[static_cast<std::size_t>(k - 1)].box[0].mid(), k / 10.0, 1e-9);
+}
+
+TEST(Solve, CoversATorusWithRegularBoxesNoWiderThanSigma) {
+  const Cover cover = solve_with(torus().system(), 0.25);
+  EXPECT_TRUE(cover.complete());
+  EXPECT_LE(widest(cover), 0.25);
+  EXPECT_EQ(cover.count(Verdict::undecided), 0u);
+  EXPECT_GT(cover.count(Verdict::regular), 300u);
+  const auto near = [&](double u, double v) {  // a point computed with rounding errors may lie just outside a box
+    const double r = 1 + 0.5 * std::cos(v), p[3] = {r * std::cos(u), r * std::sin(u), 0.5 * std::sin(v)};
+    for (const auto& b : cover.boxes) {
+      bool inside = true;
+      for (int j = 0; j < 3 && inside; ++j) inside = p[j] >= b.box[j].lo() - 1e-12 && p[j] <= b.box[j].hi() + 1e-12;
+      if (inside) return true;
+    }
+    return false;
+  };
+  for (int i = 0; i < 100; ++i)
+    for (int k = 0; k < 60; ++k) ASSERT_TRUE(near(0.0628 * i, 0.105 * k)) << i << ' ' << k;
+}
+
+TEST(Solve, MarksPiecesThatLeaveTheDomainOrAnInequality) {
+  // y = x on [0, 1]², x ≥ 1/2: the piece at x = 1/2 crosses the inequality, no other does.
+  SystemBuilder b;
+  const int x = b.variable("x", "0", "1"), y = b.variable("y", "0", "1");
+  b.equation({{"1", {{y, 1}}}, {"-1", {{x, 1}}}, {"-1/100", {{x, 1}, {y, 1}}}});
+  b.at_least_zero({{"1", {{x, 1}}}, {"-1/2", {}}});
+  const Cover cover = solve_with(b.system(), 0.05);
+  EXPECT_GT(cover.count(Verdict::boundary), 0u);
+  for (const auto& box : cover.boxes) {
+    const bool cut = box.box[x].lo() < 0.5 || !Interval(0, 1).contains(box.box[y]);
+    EXPECT_EQ(box.verdict, cut ? Verdict::boundary : Verdict::regular) << box.box[x] << box.box[y];
+  }
+}
+
+TEST(Solve, GivesTheSameSortedResultForAnyNumberOfThreads) {
+  for (const System& system : {torus().system(), crossing_lines().system(), circle_and_diagonal().system()}) {
+    const Cover one = solve_with(system, 0.05, 1), two = solve_with(system, 0.05, 2), five = solve_with(system, 0.05, 5);
+    for (const Cover& other : {two, five}) {
+      ASSERT_EQ(one.boxes.size(), other.boxes.size());
+      for (std::size_t k = 0; k < one.boxes.size(); ++k) {
+        ASSERT_EQ(one.boxes[k].verdict, other.boxes[k].verdict);
+        ASSERT_EQ(one.boxes[k].box, other.boxes[k].box);
+        ASSERT_EQ(one.boxes[k].free, other.boxes[k].free);
+      }
+      EXPECT_EQ(one.statistics.processed, other.statistics.processed);
+    }
+  }
+}
+
+TEST(Solve, ABoxLimitGivesAValidIncompleteCover) {
+  Options options;
+  options.sigma = 0.1;
+  options.max_boxes = 50;
+  const Cover cover = solve(torus().system(), options);
+  EXPECT_FALSE(cover.complete());
+  EXPECT_GT(cover.count(Verdict::pending), 0u);
+  for (int i = 0; i < 100; ++i)
+    for (int k = 0; k < 60; ++k) {
+      const double u = 0.0628 * i, v = 0.105 * k, r = 1 + 0.5 * std::cos(v);
+      ASSERT_TRUE(covers(cover, {r * std::cos(u), r * std::sin(u), 0.5 * std::sin(v)}));
+    }
+}
+
+TEST(Solve, AStopAndATimeLimitEndTheSearch) {
+  std::atomic<bool> stop{true};
+  Options options;
+  options.sigma = 0.001;
+  options.stop = &stop;
+  EXPECT_FALSE(solve(torus().system(), options).complete());
+  options.stop = nullptr;
+  options.time_limit = 1e-6;
+  options.threads = 2;
+  EXPECT_FALSE(solve(torus().system(), options).complete());
+}
+
+TEST(Solve, ReportsProgressThatEndsWithAllOfTheDomain) {
+  Options options;
+  options.sigma = 0.2;
+  options.progress_interval = 0;
+  std::vector<Progress> reports;
+  options.progress = [&](const Progress& p) {
+    EXPECT_EQ(std::fegetround(), FE_TONEAREST) << "a callback runs under the caller's rounding mode";
+    reports.push_back(p);
+  };
+  const Cover cover = solve(torus().system(), options);
+  ASSERT_GT(reports.size(), 2u);
+  for (std::size_t k = 1; k < reports.size(); ++k) {
+    EXPECT_GE(reports[k].excluded, reports[k - 1].excluded - 1e-12);
+    EXPECT_GE(reports[k].processed, reports[k - 1].processed);
+  }
+  EXPECT_NEAR(reports.back().excluded, 1.0, 1e-9);
+  EXPECT_EQ(reports.back().waiting, 0u);
+  EXPECT_EQ(reports.back().verdicts[static_cast<std::size_t>(Verdict::regular)], cover.count(Verdict::regular));
+}
+
+TEST(Solve, RefusesANonsensicalSigma) {
+  for (double sigma : {0.0, -1.0, std::nan(""), HUGE_VAL})
+    EXPECT_THROW(solve_with(circle_and_diagonal().system(), sigma), std::invalid_argument) << sigma;
+}
+
+TEST(Solve, LeavesTheRoundingModeAsItWas) {
+  solve_with(circle_and_diagonal().system(), 0.1);
+  EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+}
+
+// Random quadratic systems with a planted rational solution: it must lie in a box.
+TEST(Solve, NeverLosesAPlantedSolution) {
+  std::mt19937 random(5);
+  const auto integer = [&](int lo, int hi) { return lo + static_cast<int>(random() % static_cast<unsigned>(hi - lo + 1)); };
+  for (int trial = 0; trial < 100; ++trial) {
+    SystemBuilder b;
+    std::vector<double> root;
+    std::vector<certify::ExactNumber> exact;
+    for (int j = 0; j < 3; ++j) {
+      b.variable("x" + std::to_string(j), "-1", "1");
+      const int n = integer(-16, 16);
+      root.push_back(n / 16.0);
+      exact.push_back(certify::ExactNumber(n) / certify::ExactNumber(16));
+    }
+    System system = b.system();
+    for (int e = 0; e < 3; ++e) {
+      certify::Polynomial p;
+      certify::ExactNumber sum;
+      for (int i = 0; i < 3; ++i)
+        for (int j = i; j <= 3; ++j) {
+          const certify::ExactNumber c(integer(-3, 3));
+          if (c.is_zero()) continue;
+          std::vector<certify::Factor> factors{{i, 1}};
+          if (j == i) factors[0].power = 2;
+          if (j > i && j < 3) factors.push_back({j, 1});
+          p.monomials.emplace_back(c, factors);
+          sum = sum + c * exact[i] * (j == 3 ? certify::ExactNumber(1) : exact[j]);
+        }
+      if (p.monomials.empty()) continue;
+      p.monomials.emplace_back(-sum, std::vector<certify::Factor>{});
+      system.equations.push_back(p);
+    }
+    Options options;
+    options.sigma = 0.05;
+    options.max_boxes = 20000;
+    const Cover cover = solve(system, options);
+    ASSERT_TRUE(covers(cover, root)) << "trial " << trial;
+  }
+}
+
+TEST(Preconditioner, InvertsTheDependentColumns) {
+  const certify::UpwardRounding rounding;
+  const System system = circle_and_diagonal().system();
+  const certify::CompiledSystem compiled(system);
+  PreconditionerFactory factory(compiled);
+  const std::vector<Interval> x{Interval(0.5, 0.9), Interval(0.6, 0.8)};
+  const auto& p = factory.at_midpoint(x.data());
+  ASSERT_EQ(p.rank(), 2);
+  const double jacobian[2][2] = {{2 * 0.7, 2 * 0.7}, {1, -1}};  // at (0.7, 0.7)
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < 2; ++b) {
+      double entry = 0;
+      for (int k = 0; k < 2; ++k) entry += p.y[static_cast<std::size_t>(a * 2 + k)] * jacobian[p.equations[k]][p.dependent[b]];
+      EXPECT_NEAR(entry, a == b ? 1 : 0, 1e-12);
+    }
+}
+
+}  // namespace
+}  // namespace corank::solve

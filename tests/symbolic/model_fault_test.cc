@@ -1,0 +1,195 @@
+// Malformed models: each gets one line that says where, what is wrong and what was expected.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "corank/symbolic/model_file.h"
+
+namespace corank::symbolic {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+struct FaultCase {
+  const char* name;
+  std::string text;
+  const char* place;        ///< line:column
+  const char* problem;      ///< the beginning of the message behind the place
+  const char* expectation;  ///< how the message goes on behind "expected"
+};
+
+std::ostream& operator<<(std::ostream& out, const FaultCase& fault) { return out << fault.name; }
+
+std::string repeated(const std::string& part, int n) {
+  std::string result;
+  for (int i = 0; i < n; ++i)
+    result += part;
+  return result;
+}
+
+/// Constants in line 2.
+std::string constants(const std::string& line) {
+  return "[CONSTANTS]\n" + line + "\n[SYSTEM VARS]\nx:[0,1]\n[SYSTEM EQS]\nx=1;\n";
+}
+/// Variables in line 4, a constant c and a variable x.
+std::string variables(const std::string& line) {
+  return "[CONSTANTS]\nc := 1\n[SYSTEM VARS]\n" + line + "\nx:[0,1]\n[SYSTEM EQS]\nx=1;\n";
+}
+/// Equations in line 6, a constant c and variables x, y.
+std::string equations(const std::string& line) {
+  return "[CONSTANTS]\nc := 1\n[SYSTEM VARS]\nx:[0,1] y:[0,1]\n[SYSTEM EQS]\n" + line + "\n";
+}
+/// Lists from line 7 on, a constant c and variables x, y.
+std::string lists(const std::string& line) { return equations("x=y;") + line; }
+
+std::vector<FaultCase> faults() {
+  const char* const operand = "a number, a name, a function or '('";
+  return {
+      // the file as a whole
+      {"EmptyFile", "", "1:1", "the model is empty", "sections such as"},
+      {"OnlyComments", "% nothing\n/* at all */", "2:13", "the model is empty", "sections such as"},
+      {"TextBeforeTheFirstSection", "\nx : [0, 1]", "2:1", "found 'x' before the first section",
+       "a section such as [CONSTANTS]"},
+      {"OpenComment", "[CONSTANTS]\na := 1 /* one\n", "2:8", "the comment that begins here with /* has no end", "*/"},
+      {"NotUtf8", "[CONSTANTS]\n% caf\xE9\n", "2:6", "found the byte 0xE9, which is not UTF-8", "plain text in UTF-8"},
+      {"OverlongUtf8", "%\xC0\xAF", "1:2", "found the byte 0xC0", "plain text in UTF-8"},
+      {"NulByte", std::string("[CONSTANTS]\na\0:= 1", 19), "2:2", "found a NUL byte", "plain text"},
+      {"NoVariables", "[CONSTANTS]\na := 1\n[SYSTEM EQS]\na = 1;", "4:7", "the model has no variables",
+       "at least one, in [SYSTEM VARS]"},
+      {"NoEquations", "[SYSTEM VARS]\nx:[0,1]\n", "3:1", "the model has no equations", "at least one, in [SYSTEM EQS]"},
+      // sections
+      {"UnsupportedSection", equations("x=y;\n[SEARCH]\ns=1"), "7:1", "section [SEARCH] is not supported yet",
+       "[CONSTANTS], [SYSTEM VARS]"},
+      {"UnknownSection", " [VARIABLES]", "1:2", "section [VARIABLES] is unknown", "[CONSTANTS], [SYSTEM VARS]"},
+      {"LowerCaseSection", "[constants]", "1:1", "section [constants] is unknown", "[CONSTANTS], [SYSTEM VARS]"},
+      {"SectionWithoutBracket", "[CONSTANTS\na := 1", "1:11", "the section's name has no ']' behind it", "']'"},
+      // constants
+      {"ConstantWithEquals", constants("a = 1"), "2:3", "found '='", "':=' behind the constant's name"},
+      {"ConstantWithoutValue", constants("a :="), "2:5", "found the end of the line", operand},
+      {"ConstantGoesOnInTheNextLine", constants("a := 1 +\nb := 2"), "2:9", "found the end of the line", operand},
+      {"NameBeginsWithADigit", constants("2a := 1"), "2:1", "found '2'", "a definition, name := expression, or a section"},
+      {"NameIsNotAscii", constants("θ := 1"), "2:1", "found 'θ'", "a definition"},
+      {"NameWithADot", constants("a.b := 1"), "2:2", "found '.'", "':=' behind the constant's name"},
+      {"ConstantTwice", constants("a := 1\na := 2"), "3:1", "the name 'a' is already declared in line 2",
+       "another name for the constant"},
+      {"ReservedName", constants("pi := 3"), "2:1", "the name 'pi' is reserved", "another name for the constant"},
+      {"FunctionName", constants("sin := 3"), "2:1", "the name 'sin' is reserved", "another name for the constant"},
+      {"UsedBeforeItsDeclaration", constants("a := 2*b\nb := 1"), "2:8",
+       "the constant 'b' in the constant 'a' is used before its declaration in line 3", "constants declared before"},
+      {"UsedInItself", constants("a := a + 1"), "2:6", "the constant 'a' in the constant 'a' is used before",
+       "constants declared before"},
+      {"UnknownNameInAConstant", constants("a := 2*b"), "2:8", "the name 'b' in the constant 'a' is not declared",
+       "a declared constant"},
+      {"VariableInAConstant", constants("a := 2*x"), "2:8", "the variable 'x' in the constant 'a' may not stand there",
+       "numbers and constants"},
+      {"HugeNumber", constants("a := 1e999999999"), "2:6", "the number '1e999999999' is out of range",
+       "an exponent of ten between -400 and 400"},
+      {"HugeExponentOfAnInteger", constants("a := 1e99999999999999999999"), "2:6",
+       "the number '1e99999999999999999999' is out of range", "an"},
+      {"TooManyDigits", constants("a := " + repeated("1", 10'001)), "2:6",
+       "the number '1111111111111111111111111111111111111111…' has 10001 digits", "at most 10000"},
+      {"TwoDots", constants("a := 1.2.3"), "2:9", "found '.3' right behind a number", "an operator"},
+      {"TowerOfPowers", constants("a := 9^9^9^9"), "2:10", "the exponent '9^9' in the constant 'a' is too large",
+       "at most 1000 in absolute value"},
+      // variables
+      {"VariableWithoutRange", variables("y :"), "4:4", "found the end of the line where the range of 'y' should stand",
+       "[lower, upper]"},
+      {"AngleWithoutRange", variables("y ~ % any"), "4:10", "found the end of the line where the range of 'y' should stand",
+       "[lower, upper]"},
+      {"VariableWithValue", variables("y := 1"), "4:3", "found ':='", "':' (a length) or '~' (an angle)"},
+      {"RangeWithoutComma", variables("y : [0 1]"), "4:8", "found '1'", "',' between the ends of the range"},
+      {"RangeWithOneEnd", variables("y : [1]"), "4:7", "found ']'", "',' between the ends of the range"},
+      {"RangeWithoutBracket", variables("y : [0, 1"), "5:1", "found 'x'", "']' behind the range"},
+      {"RangeInParentheses", variables("y : (0, 1)"), "4:5", "found '(' where the range of 'y' should stand",
+       "[lower, upper]"},
+      {"EmptyRange", variables("y : []"), "4:6", "found ']'", operand},
+      {"VariableInARange", variables("y : [0, x]"), "4:9", "the variable 'x' in the range of 'y' may not stand there",
+       "numbers and constants"},
+      {"UnknownNameInARange", variables("y : [-d, d]"), "4:7", "the name 'd' in the range of 'y' is not declared",
+       "a declared constant"},
+      {"VariableTwice", variables("x : [0, 1]"), "5:1", "the name 'x' is already declared in line 4",
+       "another name for the variable"},
+      {"VariableNamedAsAConstant", variables("c ~ [0, 1]"), "4:1", "the name 'c' is already declared in line 2",
+       "another name for the variable"},
+      // equations
+      {"MissingSemicolon", equations("x = 1\ny = 1;"), "6:6", "the equation has no ';' at its end", "an operator or ';'"},
+      {"MissingSemicolonBeforeASection", equations("x = (y)\n\n[INPUTS] x"), "6:8", "the equation has no ';' at its end",
+       "an operator or ';'"},
+      {"MissingSemicolonAtTheEnd", equations("x = 1 % so"), "6:6", "the equation has no ';' at its end",
+       "an operator or ';'"},
+      {"EmptyEquation", equations("x = y; ;"), "6:8", "the equation is empty", "left side = right side;"},
+      {"NoRelation", equations("x + y;"), "6:6", "the equation that begins in line 6 has no relation", "'=', '<=' or '>='"},
+      {"StrictRelation", equations("x < y;"), "6:3", "found '<'", "an operator, '=', '<=' or '>='"},
+      {"NoRightSide", equations("x = ;"), "6:5", "found ';'", operand},
+      {"NoLeftSide", equations("= x;"), "6:1", "found '='", operand},
+      {"TwoRelations", equations("x = y = 1;"), "6:7", "found a second relation, '=', in the equation that begins in line 6",
+       "';' at the end of each"},
+      {"DoubleEquals", equations("x == y;"), "6:4", "found '='", operand},
+      {"ParenthesisNotClosed", equations("2*(x + y = 1;"), "6:10", "found '=' inside the parentheses opened in 6:3",
+       "an operator or ')'"},
+      {"ParenthesisNotOpened", equations("x + y) = 1;"), "6:6", "found ')' without a '('", "an operator, '='"},
+      {"ParenthesisNotOpenedOnTheRight", equations("x = y);"), "6:6", "found ')' without a '('", "an operator, or ';'"},
+      {"EmptyParentheses", equations("x = ();"), "6:6", "found ')'", operand},
+      {"UnknownFunction", equations("sinh(x) = y;"), "6:1", "unknown function 'sinh'",
+       "an operator behind the name, or one of sin, cos"},
+      {"FunctionOfTwoArguments", equations("atan(x, y) = 1;"), "6:7", "found ',' inside the parentheses",
+       "an operator or ')'"},
+      {"FunctionWithoutArgument", equations("cos x = y;"), "6:1", "the function 'cos' stands without an argument", "cos(…)"},
+      {"ProductWithoutOperator", equations("x = 2y;"), "6:6", "found 'y' right behind a number",
+       "an operator (a product is written 2*x)"},
+      {"NamesWithoutOperator", equations("x y = 1;"), "6:3", "found 'y'", "an operator, '=', '<=' or '>='"},
+      {"DoubleOperator", equations("x + * y = 1;"), "6:5", "found '*'", operand},
+      {"DoublePlus", equations("x ++ y = 1;"), "6:4", "found '+'", operand},
+      {"PowerWithTwoStars", equations("x**2 = 1;"), "6:3", "found '*'", operand},
+      {"StrayCharacter", equations("x $ y = 1;"), "6:3", "found '$'", "an operator, '='"},
+      {"StrayControlCharacter", equations("x \x01 y = 1;"), "6:3", "found the control character 0x01", "an operator, '='"},
+      {"StrayUnicode", equations("x · y = 1;"), "6:3", "found '·'", "an operator, '='"},
+      {"UnknownNameInAnEquation", equations("x +\n  z = 1;"), "7:3", "the name 'z' in an equation is not declared",
+       "a declared constant or variable"},
+      {"HugeExponent", equations("x^(1000*c + 2) = 1;"), "6:4", "the exponent '1000*c + 2' in an equation is too large",
+       "at most 1000"},
+      {"NestedTooDeeply", equations(repeated("(", 201) + "x" + repeated(")", 201) + " = y;"), "6:201",
+       "the parentheses are nested too deeply", "at most 200"},
+      {"TooManySigns", equations(repeated("-", 2000) + "x = y;"), "6:2001", "the expression is nested too deeply",
+       "at most 1000 operations"},
+      // inputs and outputs
+      {"InputIsNotDeclared", lists("[INPUTS] z"), "7:10", "the input 'z' is not declared", "a variable of the model"},
+      {"InputIsAConstant", lists("[INPUTS]\nx\nc"), "9:1", "the input 'c' is a constant", "a variable of the model"},
+      {"InputIsAFunction", lists("[INPUTS] sin"), "7:10", "'sin' is no variable", "the name of a variable"},
+      {"InputNamedTwice", lists("[INPUTS] x, y\n x"), "8:2", "the input 'x' is named twice", "each input once"},
+      {"OutputIsAnInput", lists("[INPUTS] x\n[OUTPUTS] x"), "8:11", "the output 'x' is already an input",
+       "a variable that is no input"},
+      {"NoInputs", lists("[INPUTS]\n[OUTPUTS] x"), "8:1", "found '['", "the name of a variable"},
+      {"TwoCommas", lists("[INPUTS] x,, y"), "7:12", "found ','", "the name of a variable"},
+      {"CommaAtTheEnd", lists("[INPUTS] x,\n[OUTPUTS] y"), "8:1", "found '['", "the name of a variable"},
+      {"InputIsAnExpression", lists("[INPUTS] x+y"), "7:11", "found '+'", "the name of a variable, or a section"},
+  };
+}
+
+class ModelFault : public ::testing::TestWithParam<FaultCase> {};
+
+TEST_P(ModelFault, GetsOneMessageWithItsPlace) {
+  const FaultCase& fault = GetParam();
+  try {
+    parse_model(fault.text, "m.cuik");
+    FAIL() << "accepted:\n" << fault.text;
+  } catch (const ModelError& error) {
+    const std::string message = error.what();
+    EXPECT_THAT(message, StartsWith(std::string("m.cuik:") + fault.place + ": " + fault.problem));
+    EXPECT_THAT(message, HasSubstr(std::string("; expected ") + fault.expectation));
+    EXPECT_THAT(message, Not(HasSubstr("\n")));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, ModelFault, ::testing::ValuesIn(faults()),
+                         [](const auto& fault) { return std::string(fault.param.name); });
+
+TEST(ModelFaults, AreAtLeastThirtyDifferentOnes) { EXPECT_GE(faults().size(), 30u); }
+
+}  // namespace
+}  // namespace corank::symbolic

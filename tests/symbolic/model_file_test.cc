@@ -1,0 +1,253 @@
+#include "corank/symbolic/model_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <tao/pegtl/contrib/analyze.hpp>
+
+#include "corank/symbolic/model_builder.h"
+#include "corank/symbolic/model_grammar.h"
+
+namespace corank::symbolic {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<std::filesystem::path> model_files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> result;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".cuik") result.push_back(entry.path());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+constexpr const char* kEveryConstruct = R"(% a comment
+[CONSTANTS]
+a := 0.90          // another
+b := (16.54^2 - 2.84^2 -
+      1)/(-2*a);   /* a third,
+                      longer one */
+c := sqrt(2)*cos(pi/4)
+
+[INPUTS] phi
+[OUTPUTS]
+x
+[SYSTEM VARS]
+x   : [-a, a]
+phi ~ [-pi, pi];
+[DUMMY VARS]
+p:[0,
+   1]
+[SECONDARY VARS] q : [0, b] r : [0, 1]
+[CARTESIAN VARS]
+[SYSTEM EQS]
+x = a*cos(phi) +
+    b*sin(phi);   p*q = 1;
+[COORD EQS]
+r <= 1e-6;
+[DUMMY EQS]
+-p^2 >= -c;
+[DRAWING]
+point P = (x, 0)   % the tip
+
+  link O /* fixed */ P
+[SYSTEM EQS]
+x/2 = r;
+)";
+
+TEST(ModelFile, ReadsEveryConstruct) {
+  const Mechanism m = parse_model(kEveryConstruct, "dir/every.cuik");
+  EXPECT_EQ(m.name(), "every");
+  EXPECT_EQ(m.source_text(), kEveryConstruct);
+  ASSERT_EQ(m.constants().size(), 3u);
+  EXPECT_EQ(m.constants()[0].value.text(), "0.90");
+  EXPECT_EQ(m.constants()[1].value.text(), "(16.54^2 - 2.84^2 - 1)/(-2*a)");
+  EXPECT_EQ(m.constants()[2].where.text(), "dir/every.cuik:7:1");
+  ASSERT_EQ(m.coordinates().size(), 5u);
+  EXPECT_EQ(m.coordinates()[0].kind, CoordinateKind::length);
+  EXPECT_EQ(m.coordinates()[0].lower.text(), "-a");
+  EXPECT_EQ(m.coordinates()[1].name, "phi");
+  EXPECT_EQ(m.coordinates()[1].kind, CoordinateKind::angle);
+  EXPECT_EQ(m.coordinates()[1].upper.text(), "pi");
+  EXPECT_EQ(m.coordinates()[4].name, "r");
+  ASSERT_EQ(m.constraints().size(), 5u);
+  EXPECT_EQ(m.constraints()[0].relation.text(), "x = a*cos(phi) + b*sin(phi)");
+  EXPECT_EQ(m.constraints()[0].where.text(), "dir/every.cuik:21:1");
+  EXPECT_EQ(m.constraints()[1].relation.text(), "p*q = 1");
+  EXPECT_EQ(m.constraints()[2].relation.text(), "r <= 1e-6");
+  EXPECT_EQ(m.constraints()[3].relation.text(), "-p^2 >= -c");
+  EXPECT_EQ(m.constraints()[4].where.line, 32);
+  EXPECT_THAT(m.inputs(), ElementsAre("phi"));
+  EXPECT_THAT(m.outputs(), ElementsAre("x"));
+  ASSERT_EQ(m.drawing().size(), 2u);
+  EXPECT_EQ(m.drawing()[0].text, "point P = (x, 0)");
+  EXPECT_EQ(m.drawing()[1].text, "link O P");
+  EXPECT_EQ(m.drawing()[1].where.text(), "dir/every.cuik:30:3");
+}
+
+TEST(ModelFile, ExpressionsKnowTheirPlaces) {
+  const Mechanism m = parse_model(kEveryConstruct, "every.cuik");
+  const Expression& product = m.constraints()[0].relation.rhs.operands()[1];
+  EXPECT_EQ(product.text(), "b*sin(phi)");
+  EXPECT_EQ(product.operands()[1].where().text(), "every.cuik:22:7");
+}
+
+TEST(ModelFile, AcceptsWindowsLineEndsAByteOrderMarkAndNoNewlineAtTheEnd) {
+  std::string text = kEveryConstruct;
+  text.pop_back();
+  std::string windows = "\xEF\xBB\xBF";
+  for (char c : text)
+    windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  const Mechanism expected = parse_model(kEveryConstruct, "m.cuik"), m = parse_model(windows, "m.cuik");
+  ASSERT_EQ(m.constraints().size(), expected.constraints().size());
+  for (std::size_t i = 0; i < m.constraints().size(); ++i) {
+    EXPECT_EQ(m.constraints()[i].relation.text(), expected.constraints()[i].relation.text());
+    EXPECT_EQ(m.constraints()[i].where.text(), expected.constraints()[i].where.text());
+  }
+  EXPECT_EQ(m.drawing()[1].text, expected.drawing()[1].text);
+  EXPECT_EQ(m.drawing()[1].where.text(), expected.drawing()[1].where.text());
+}
+
+TEST(ModelFile, AcceptsNamesSeparatedByCommasBlanksOrLines) {
+  const std::string model = "[SYSTEM VARS]\nx:[0,1]\ny:[0,1]\nz:[0,1]\n[SYSTEM EQS]\nx=y;\n[INPUTS]";
+  for (const char* names : {" x, y z", " x,y,z;", "\nx\ny\nz\n", " x ,\n y % two\n z"}) {
+    EXPECT_THAT(parse_model(model + names, "m.cuik").inputs(), ElementsAre("x", "y", "z")) << names;
+  }
+  EXPECT_THAT(parse_model(model + " x [OUTPUTS] z [INPUTS] y", "m.cuik").inputs(), ElementsAre("x", "y"));
+}
+
+TEST(ModelFile, AMinusThatBeginsALineContinuesAnEquationButNotADefinition) {
+  EXPECT_EQ(parse_model("[SYSTEM VARS]\nx:[0,1]\n[SYSTEM EQS]\nx\n- 1 = 0;", "m.cuik").constraints()[0].relation.lhs.text(),
+            "x - 1");
+  EXPECT_THROW(parse_model("[CONSTANTS]\na := 1\n- 1\n[SYSTEM VARS]\nx:[0,1]\n[SYSTEM EQS]\nx=0;", "m.cuik"), ModelError);
+}
+
+TEST(ModelFile, ReadsTheModelsOfTheRepository) {
+  const std::filesystem::path models = CORANK_SOURCE_DIR "/models";
+  for (const auto& path : model_files_in(models))
+    EXPECT_NO_THROW(read_model(path)) << path;
+
+  const Mechanism dextar = read_model(models / "dextar.cuik");
+  EXPECT_EQ(dextar.name(), "dextar");
+  EXPECT_EQ(dextar.coordinates().size(), 6u);
+  EXPECT_EQ(dextar.constraints().size(), 4u);
+  EXPECT_EQ(dextar.drawing().size(), 9u);
+  EXPECT_THAT(dextar.inputs(), ElementsAre("theta2", "theta5"));
+  EXPECT_THAT(dextar.outputs(), ElementsAre("J3x", "J3y"));
+  EXPECT_EQ(dextar.source_text(), read_file(models / "dextar.cuik"));
+
+  const Mechanism slider = read_model(models / "three_slider.cuik");
+  EXPECT_EQ(slider.constraints()[0].relation.text(), "y_A^2 + x_C^2 = L1^2");
+}
+
+TEST(ModelFile, ReadsTheExampleOfTheDocumentation) {
+  const std::string page = read_file(CORANK_SOURCE_DIR "/doc/model_language.md");
+  const std::string fence = "```\n";
+  const std::size_t begin = page.find(fence) + fence.size();
+  const Mechanism m = parse_model(page.substr(begin, page.find(fence, begin) - begin), "crank.cuik");
+  EXPECT_EQ(m.coordinates().size(), 3u);
+  EXPECT_THAT(m.inputs(), ElementsAre("theta"));
+  EXPECT_EQ(m.drawing().size(), 5u);
+}
+
+TEST(ModelFile, ReadsEveryFileOfTheCuikSuite) {
+  const char* const variable = std::getenv("CORANK_CUIK_DIR");
+  const std::filesystem::path folder = variable ? variable : CORANK_SOURCE_DIR "/../shared/cuik";
+  if (!std::filesystem::is_directory(folder / "problems")) {
+    GTEST_SKIP() << "no files of the CUIK suite in " << folder << "; set CORANK_CUIK_DIR";
+  }
+  int count = 0;
+  for (const char* part : {"problems", "solutions"}) {
+    for (const auto& path : model_files_in(folder / part)) {
+      EXPECT_NO_THROW({
+        const Mechanism m = read_model(path);
+        EXPECT_TRUE(m.is_plain_system()) << path;
+      }) << path;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 10);
+}
+
+TEST(ModelFile, SaysThatAFileIsMissingOrADirectory) {
+  const auto message = [](const std::filesystem::path& path) -> std::string {
+    try {
+      read_model(path);
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(message("no/such.cuik"), "no/such.cuik: there is no such file; expected a model file");
+  EXPECT_THAT(message(CORANK_SOURCE_DIR "/models"), HasSubstr("models: is a directory; expected a model file"));
+}
+
+TEST(ModelFile, RefusesTextsLargerThanAnyModel) {
+  const std::string text(9 << 20, ' ');
+  EXPECT_THROW(parse_model(text, "m.cuik"), ModelError);
+}
+
+TEST(ModelFile, SurvivesDeepNestingOfEveryKind) {
+  const std::string head = "[SYSTEM VARS]\nx:[0,1]\n[SYSTEM EQS]\n";
+  const auto repeated = [](const std::string& part, int n) {
+    std::string result;
+    for (int i = 0; i < n; ++i)
+      result += part;
+    return result;
+  };
+  const int depth = 100'000;
+  for (const std::string& equation :
+       {repeated("(", depth), repeated("sin(", depth), repeated("-", depth) + "x = 0;",
+        "x" + repeated("^x", depth) + " = 0;", "x" + repeated("/x", depth) + " = 0;", "x" + repeated("^-x", depth) + " = 0;",
+        "x" + repeated("*-(x", depth) + " = 0;", "x" + repeated("*x/x", depth) + " = 0;"}) {
+    EXPECT_THROW(parse_model(head + equation, "m.cuik"), ModelError) << equation.substr(0, 20);
+  }
+  EXPECT_NO_THROW(parse_model(head + repeated("(", 200) + "x" + repeated(")", 200) + " = 0;", "m.cuik"));
+  EXPECT_NO_THROW(parse_model(head + "x" + repeated(" + x*x", 10'000) + " = x" + repeated("*2", 10'000) + ";", "m.cuik"));
+}
+
+TEST(ModelFile, HasAGrammarThatAlwaysMovesForward) {
+  EXPECT_EQ(tao::pegtl::analyze<grammar::model>(), 0u);
+  EXPECT_EQ(tao::pegtl::analyze<grammar::lone_expression>(), 0u);
+}
+
+// Each fault file names its own: "% fault: line 4: <part of the message>".
+TEST(ModelFile, RefusesEachFaultFileWithTheMessageItAsksFor) {
+  const auto files = model_files_in(CORANK_SOURCE_DIR "/tests/data/faults");
+  EXPECT_GE(files.size(), 20u);
+  for (const auto& path : files) {
+    const std::string text = read_file(path);
+    const std::string head = "% fault: line ";
+    ASSERT_THAT(text, StartsWith(head)) << path;
+    const std::size_t colon = text.find(':', head.size());
+    const int line = std::stoi(text.substr(head.size(), colon - head.size()));
+    const std::string fragment = text.substr(colon + 2, text.find('\n') - colon - 2);
+    try {
+      read_model(path);
+      ADD_FAILURE() << path << " is accepted";
+    } catch (const ModelError& error) {
+      EXPECT_EQ(error.where().line, line) << error.what();
+      EXPECT_GT(error.where().column, 0) << error.what();
+      EXPECT_THAT(error.what(), HasSubstr(fragment));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace corank::symbolic

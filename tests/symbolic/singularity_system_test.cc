@@ -1,0 +1,320 @@
+// Derivations: against hand-written matrices for the two reference mechanisms, against differences for random ones.
+#include "corank/symbolic/singularity_system.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <tuple>
+
+#include "corank/symbolic/model_file.h"
+#include "corank/tests/symbolic/evaluate.h"
+
+namespace corank::symbolic {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr unsigned kSeed = 271828;
+using Rows = std::vector<std::vector<std::string>>;
+
+Mechanism reference(const std::string& name) {
+  return read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik");
+}
+
+Rows texts(const ExpressionMatrix& matrix) {
+  Rows rows;
+  for (const auto& row : matrix.rows) {
+    rows.emplace_back();
+    for (const Expression& entry : row)
+      rows.back().push_back(entry.text());
+  }
+  return rows;
+}
+
+std::vector<std::string> texts(const std::vector<TrigonometricSystem::Equation>& equations) {
+  std::vector<std::string> out;
+  for (const auto& equation : equations)
+    out.push_back(equation.relation.text());
+  return out;
+}
+
+/// The message of the ModelError that `call` throws, with the line it names.
+template <typename Call>
+std::pair<int, std::string> error_of(Call&& call) {
+  try {
+    call();
+  } catch (const ModelError& error) {
+    return {error.where().line, error.what()};
+  }
+  return {-1, "no error"};
+}
+
+// Lines: 2 constants, 3 onwards as the callers count.
+Mechanism model(const std::string& vars, const std::string& equations, const std::string& rest = "") {
+  return parse_model("[SYSTEM VARS]\n" + vars + "\n[SYSTEM EQS]\n" + equations + "\n" + rest, "m.cuik");
+}
+
+TEST(Derivation, GivesDextarsJacobianAndItsBlocks) {
+  const Derivation d = derive(reference("dextar"));
+  EXPECT_THAT(d.phi_q.columns, ElementsAre("J3x", "J3y", "theta2", "theta3", "theta4", "theta5"));
+  EXPECT_THAT(d.l_y.columns, ElementsAre("J3x", "J3y", "theta3", "theta4"));
+  EXPECT_THAT(d.l_z.columns, ElementsAre("theta2", "theta3", "theta4", "theta5"));
+  EXPECT_THAT(d.l_p.columns, ElementsAre("theta3", "theta4"));
+  EXPECT_EQ(texts(d.l_y), (Rows{{"0", "0", "-l3*sin(theta3)", "-l4*sin(theta4)"},
+                                {"0", "0", "l3*cos(theta3)", "l4*cos(theta4)"},
+                                {"1", "0", "l3*sin(theta3)", "0"},
+                                {"0", "1", "-l3*cos(theta3)", "0"}}));
+  EXPECT_EQ(texts(d.l_z), (Rows{{"-l2*sin(theta2)", "-l3*sin(theta3)", "-l4*sin(theta4)", "l5*sin(theta5)"},
+                                {"l2*cos(theta2)", "l3*cos(theta3)", "l4*cos(theta4)", "-l5*cos(theta5)"},
+                                {"l2*sin(theta2)", "l3*sin(theta3)", "0", "0"},
+                                {"-l2*cos(theta2)", "-l3*cos(theta3)", "0", "0"}}));
+}
+
+TEST(Derivation, GivesTheThreeSlidersJacobianAndItsBlocks) {
+  const Derivation d = derive(reference("three_slider"));
+  EXPECT_EQ(texts(d.phi_q), (Rows{{"2*y_A", "0", "2*x_C"}, {"0", "2*y_B", "2*x_C"}}));
+  EXPECT_EQ(texts(d.l_y), (Rows{{"0", "2*x_C"}, {"2*y_B", "2*x_C"}}));
+  EXPECT_EQ(texts(d.l_z), (Rows{{"2*y_A", "2*x_C"}, {"0", "2*x_C"}}));
+  EXPECT_EQ(texts(d.l_p), (Rows{{"2*x_C"}, {"2*x_C"}}));
+  EXPECT_EQ(d.phi[1].text(), "y_B^2 + x_C^2 - L2^2");
+}
+
+TEST(Derivation, OrdersTermsAndFactorsByDeclaration) {
+  Mechanism mechanism;
+  const Expression b = mechanism.constant("b", 2), a = mechanism.constant("a", 3);
+  const Expression y = mechanism.length("y", -1, 1), x = mechanism.length("x", -1, 1), t = mechanism.angle("t");
+  mechanism.constrain(x * x * y * a * b + sin(t + pi() / 3) * a * x + x / b + Expression("0.25") * x == Expression(0));
+  EXPECT_EQ(texts(derive(mechanism).phi_q),
+            (Rows{{"b*a*x^2", "0.25 + 2*b*a*y*x + 1/b + a*sin(1/3*pi + t)", "a*x*cos(1/3*pi + t)"}}));
+}
+
+TEST(Derivation, AgreesWithCentralDifferencesOnRandomMechanisms) {
+  RandomMechanism generator(kSeed);
+  constexpr long double kStep = 1e-5L;
+  std::vector<Mechanism> mechanisms = {reference("dextar"), reference("three_slider")};
+  for (int i = 0; i < 40; ++i)
+    mechanisms.push_back(generator.make(3));
+  for (const Mechanism& mechanism : mechanisms) {
+    const Derivation d = derive(mechanism);
+    for (int k = 0; k < 5; ++k) {
+      const Values q = generator.point(mechanism);
+      for (std::size_t i = 0; i < d.phi.size(); ++i) {
+        for (std::size_t j = 0; j < d.phi_q.columns.size(); ++j) {
+          Values ahead = q, behind = q;
+          ahead[d.phi_q.columns[j]] += kStep;
+          behind[d.phi_q.columns[j]] -= kStep;
+          const Relation& relation = mechanism.constraints()[i].relation;
+          const long double difference = (residual(relation, ahead) - residual(relation, behind)) / (2 * kStep);
+          const long double exact = evaluate(d.phi_q.rows[i][j], q);
+          // Error: h²/6·f''' plus rounding 1e-19/h; derivatives reach 10^4 here.
+          ASSERT_NEAR(static_cast<double>(difference), static_cast<double>(exact),
+                      1e-5 + 1e-7 * std::fabs(static_cast<double>(exact)))
+              << "seed " << kSeed << ": " << relation << " by " << d.phi_q.columns[j];
+        }
+      }
+    }
+  }
+}
+
+TEST(Derivation, IsTheSameWheneverItIsMade) {
+  const Rows first = texts(derive(reference("dextar")).phi_q);
+  RandomMechanism generator(kSeed);
+  const Mechanism random = generator.make(3);
+  const Rows random_first = texts(derive(random).phi_q);
+  for (int i = 0; i < 5; ++i) {
+    derive(generator.make(2));  // GiNaC's serial numbers, and with them its order of terms, move on
+    EXPECT_EQ(texts(derive(random).phi_q), random_first);
+  }
+  EXPECT_EQ(texts(derive(reference("dextar")).phi_q), first);
+}
+
+TEST(SingularitySystem, GivesTheKernelEquationsOfDextarsForwardSingularities) {
+  const TrigonometricSystem s = singularity_system(reference("dextar"), SingularitySet::forward);
+  EXPECT_EQ(s.name, "dextar forward");
+  EXPECT_THAT(s.kernel_unknowns, ElementsAre("xi1", "xi2", "xi3", "xi4"));
+  EXPECT_THAT(texts(s.equations), ElementsAre("d + l2*cos(theta2) + l3*cos(theta3) + l4*cos(theta4) - l5*cos(theta5) = 0",
+                                              "l2*sin(theta2) + l3*sin(theta3) + l4*sin(theta4) - l5*sin(theta5) = 0",
+                                              "J3x = d + l2*cos(theta2) + l3*cos(theta3)",  //
+                                              "J3y = l2*sin(theta2) + l3*sin(theta3)",
+                                              "-l3*sin(theta3)*xi3 - l4*sin(theta4)*xi4 = 0",  //
+                                              "l3*cos(theta3)*xi3 + l4*cos(theta4)*xi4 = 0",
+                                              "xi1 + l3*sin(theta3)*xi3 = 0",  //
+                                              "xi2 - l3*cos(theta3)*xi3 = 0",  //
+                                              "xi1^2 + xi2^2 + xi3^2 + xi4^2 = 1"));
+  EXPECT_THAT(texts(s.inequalities), ElementsAre("0.7326*xi1 + 0.4652*xi2 + 0.8978*xi3 + 0.6304*xi4 >= 0"));
+  EXPECT_EQ(s.equations[0].source, "dextar.cuik:27");
+  EXPECT_EQ(s.equations[6].source, "row 3 of L_y xi = 0");
+  EXPECT_EQ(s.equations[8].source, "norm of xi");
+}
+
+TEST(SingularitySystem, GivesTheLeftKernelOfTheThreeSlider) {
+  const TrigonometricSystem s = singularity_system(reference("three_slider"), SingularitySet::inverse, KernelSide::left);
+  EXPECT_THAT(texts(s.equations), ElementsAre("y_A^2 + x_C^2 = L1^2", "y_B^2 + x_C^2 = L2^2",  //
+                                              "2*y_A*xi1 = 0", "2*x_C*xi1 + 2*x_C*xi2 = 0", "xi1^2 + xi2^2 = 1"));
+  EXPECT_EQ(s.equations[3].source, "row 2 of L_z^T xi = 0");
+}
+
+TEST(SingularitySystem, TakesTheLeftKernelOfTheWideJacobian) {
+  const TrigonometricSystem s = singularity_system(reference("three_slider"), SingularitySet::cspace_singular);
+  EXPECT_THAT(texts(s.equations),
+              ElementsAre("y_A^2 + x_C^2 = L1^2", "y_B^2 + x_C^2 = L2^2",  //
+                          "2*y_A*xi1 = 0", "2*y_B*xi2 = 0", "2*x_C*xi1 + 2*x_C*xi2 = 0", "xi1^2 + xi2^2 = 1"));
+  const auto [line, message] =
+      error_of([] { singularity_system(reference("three_slider"), SingularitySet::cspace_singular, KernelSide::right); });
+  EXPECT_THAT(message, HasSubstr("Phi_q has 2 rows and 3 columns"));
+  EXPECT_THAT(message, HasSubstr("expected the left kernel"));
+}
+
+TEST(SingularitySystem, LeavesTheConfigurationSpaceAsItIs) {
+  const TrigonometricSystem s = singularity_system(reference("three_slider"), SingularitySet::cspace);
+  EXPECT_THAT(texts(s.equations), ElementsAre("y_A^2 + x_C^2 = L1^2", "y_B^2 + x_C^2 = L2^2"));
+  EXPECT_TRUE(s.kernel_unknowns.empty());
+  EXPECT_TRUE(s.inequalities.empty());
+}
+
+TEST(SingularitySystem, KeepsTheModelsInequalitiesApart) {
+  const Mechanism m = model("x : [-1, 1]\ny : [-1, 1]", "x^2 + y^2 = 1;\nx >= 0;\ny <= 1/2;", "[INPUTS] x\n[OUTPUTS] y");
+  const TrigonometricSystem s = singularity_system(m, SingularitySet::forward);
+  EXPECT_THAT(texts(s.inequalities), ElementsAre("x >= 0", "y <= 1/2", "0.7326*xi1 >= 0"));
+  EXPECT_THAT(texts(s.equations), ElementsAre("x^2 + y^2 = 1", "2*y*xi1 = 0", "xi1^2 = 1"));
+  EXPECT_EQ(derive(m).phi.size(), 1u);
+}
+
+TEST(SingularitySystem, RenamesTheKernelVectorWhereTheModelUsesItsName) {
+  const Mechanism m = model("xi1 : [-1, 1]\nxi_1 : [-1, 1]", "xi1^2 + xi_1^2 = 1;", "[INPUTS] xi1\n[OUTPUTS] xi_1");
+  EXPECT_THAT(singularity_system(m, SingularitySet::forward).kernel_unknowns, ElementsAre("xi__1"));
+}
+
+TEST(SingularitySystem, ChoosesGenericWeightsForAnyLength) {
+  std::string vars, equation = "t = 0";
+  for (int i = 0; i < 40; ++i)
+    vars += "x" + std::to_string(i) + " : [-1, 1]\n", equation += " + x" + std::to_string(i) + "^2";
+  const Mechanism m = model(vars + "t : [-1, 1]", equation + ";", "");
+  const TrigonometricSystem s = singularity_system(m, SingularitySet::cspace_singular);
+  EXPECT_EQ(s.kernel_unknowns.size(), 1u);
+  Mechanism many;
+  std::vector<Expression> coordinates;
+  for (int i = 0; i < 40; ++i)
+    coordinates.push_back(many.length("x" + std::to_string(i), -1, 1));
+  for (int i = 0; i < 40; ++i)
+    many.constrain(coordinates[static_cast<std::size_t>(i)] == Expression(0));
+  const TrigonometricSystem big = singularity_system(many, SingularitySet::cspace_singular);
+  std::set<std::string> weights;
+  for (const Expression& term : big.inequalities[0].relation.lhs.operands()) {
+    const std::string weight = term.operands()[0].name();
+    EXPECT_GE(std::stod(weight), 0.3);
+    EXPECT_LE(std::stod(weight), 1.0);
+    EXPECT_TRUE(weights.insert(weight).second) << weight;
+  }
+  EXPECT_EQ(weights.size(), 40u);
+}
+
+TEST(SingularitySystem, LeavesOutKernelRowsThatAreZero) {
+  // The second equation binds the input alone: its row of L_y is zero.
+  const Mechanism m = model("x : [-1, 1]\ny : [-1, 1]\nz : [-1, 1]", "x^2 + y^2 = 1;\nx = z;", "[INPUTS] x\n[OUTPUTS] y");
+  const TrigonometricSystem s = singularity_system(m, SingularitySet::inverse);
+  EXPECT_THAT(texts(s.equations),
+              ElementsAre("x^2 + y^2 = 1", "x = z", "2*x*xi1 = 0", "xi1 - xi2 = 0", "xi1^2 + xi2^2 = 1"));
+  const Mechanism bound = model("x : [-1, 1]\ny : [-1, 1]", "x^2 = 1;", "[INPUTS] x\n[OUTPUTS] y");
+  EXPECT_THAT(texts(singularity_system(bound, SingularitySet::forward).equations), ElementsAre("x^2 = 1", "xi1^2 = 1"));
+}
+
+TEST(SingularitySystem, KnowsItsWords) {
+  for (const char* word : {"cspace", "forward", "inverse", "cspace-singular"}) {
+    ASSERT_TRUE(singularity_set_from_string(word));
+    EXPECT_STREQ(to_string(*singularity_set_from_string(word)), word);
+  }
+  for (const char* word : {"right", "left"})
+    EXPECT_STREQ(to_string(*kernel_side_from_string(word)), word);
+  EXPECT_FALSE(singularity_set_from_string("Forward"));
+  EXPECT_FALSE(kernel_side_from_string(""));
+}
+
+// ---- errors
+// -----------------------------------------------------------------------------------------------------------------------
+
+const char* const kCircle = "x^2 + y^2 = 1;";
+const char* const kVars = "x : [-1, 1]\ny : [-1, 1]";  // lines 2 and 3; the first equation is in line 5
+
+TEST(SingularitySystem, ReportsMissingInputsOrOutputs) {
+  const Mechanism plain = model(kVars, kCircle);
+  auto [line, message] = error_of([&] { singularity_system(plain, SingularitySet::forward); });
+  EXPECT_THAT(message, HasSubstr("m.cuik: the model names no inputs"));
+  EXPECT_THAT(message, HasSubstr("expected a line [INPUTS]"));
+  std::tie(line, message) = error_of([&] { singularity_system(plain, SingularitySet::inverse); });
+  EXPECT_THAT(message, HasSubstr("the model names no outputs"));
+  EXPECT_NO_THROW(singularity_system(plain, SingularitySet::cspace));
+}
+
+TEST(SingularitySystem, ReportsInputsThatDoNotMatchTheMobility) {
+  const Mechanism m = model("x : [-1, 1]\ny : [-1, 1]\nz : [-1, 1]", "x^2 + y^2 + z^2 = 1;", "[INPUTS] x\n[OUTPUTS] y, z");
+  const auto [line, message] = error_of([&] { singularity_system(m, SingularitySet::forward); });
+  EXPECT_EQ(line, 7);
+  EXPECT_THAT(message, HasSubstr("3 coordinates and 1 equation, so mobility 2, but 1 input; expected 2 inputs"));
+}
+
+TEST(SingularitySystem, ReportsARedundantMechanism) {
+  const Mechanism m =
+      model("x : [-1, 1]\ny : [-1, 1]\nz : [-1, 1]", "x^2 + y^2 = 1;\nx = z;", "[INPUTS] x\n[OUTPUTS]\ny, z");
+  const auto [line, message] = error_of([&] { singularity_system(m, SingularitySet::inverse); });
+  EXPECT_GE(line, 9);
+  EXPECT_THAT(message, HasSubstr("so mobility 1, but 2 outputs: a redundant mechanism; expected 1 output"));
+}
+
+TEST(SingularitySystem, ReportsMoreEquationsThanCoordinates) {
+  const Mechanism m = model(kVars, "x^2 + y^2 = 1;\nx = y;\nx + y = 1;", "[INPUTS] x\n[OUTPUTS] y");
+  auto [line, message] = error_of([&] { singularity_system(m, SingularitySet::forward); });
+  EXPECT_EQ(line, 8);
+  EXPECT_THAT(message, HasSubstr("so mobility -1, but 1 input; expected no more equations than coordinates"));
+  std::tie(line, message) = error_of([&] { singularity_system(m, SingularitySet::cspace_singular); });
+  EXPECT_THAT(message, HasSubstr("Phi_q never has full row rank"));
+}
+
+TEST(Derivation, ReportsAnEquationThatCanNeverHold) {
+  const auto [line, message] = error_of([] { derive(model(kVars, std::string(kCircle) + "\n1 = 2;")); });
+  EXPECT_EQ(line, 6);
+  EXPECT_THAT(message, HasSubstr("`1 = 2` can never hold"));
+}
+
+TEST(Derivation, ReportsAnEquationThatHoldsAlways) {
+  const auto [line, message] = error_of([] { derive(model(kVars, std::string(kCircle) + "\n\nx + y - x = y;")); });
+  EXPECT_EQ(line, 7);
+  EXPECT_THAT(message, HasSubstr("holds always"));
+}
+
+TEST(Derivation, ReportsADivisionByZero) {
+  const auto [line, message] = error_of([] { derive(model(kVars, "x/(1 - 1) = y;")); });
+  EXPECT_EQ(line, 5);
+  EXPECT_THAT(message, HasSubstr("has no value"));
+}
+
+TEST(Derivation, DifferentiatesDeeplyNestedEquations) {
+  Mechanism m;
+  const Expression a = m.constant("a", "3/2"), x = m.length("x", -1, 1), y = m.length("y", -1, 1);
+  Expression nested = x;
+  for (int i = 0; i < 30; ++i)
+    nested = (a - y) * nested + x;  // Horner: 31 terms expanded, and none is
+  m.constrain(nested == Expression(0));
+  const Values at = {{"a", 1.5L}, {"x", 0.5L}, {"y", 0.75L}};
+  long double power = 1, sum = 0;
+  for (int i = 0; i <= 30; ++i, power *= 0.75L)
+    sum += power;
+  EXPECT_NEAR(static_cast<double>(evaluate(derive(m).phi_q.rows[0][0], at)), static_cast<double>(sum), 1e-12);
+}
+
+TEST(Derivation, KeepsLargeNumbersExact) {
+  EXPECT_EQ(texts(derive(model(kVars, "1e300*1e300*x + 1e-3*y^2 = 1/3;")).phi_q),
+            (Rows{{"1" + std::string(600, '0'), "0.002*y"}}));
+}
+
+TEST(Derivation, ReportsAPowerTooLargeToCompute) {
+  Mechanism m;
+  const Expression x = m.length("x", -1, 1);
+  m.constrain(pow(pow(Expression(2) * x, 900), 900) == Expression(1), {"m.cuik", 3, 1});
+  EXPECT_EQ(error_of([&] { derive(m); }).first, 3);
+}
+
+}  // namespace
+}  // namespace corank::symbolic
