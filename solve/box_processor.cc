@@ -57,7 +57,8 @@ double widest(const std::vector<Interval>& x) {
 Problem::Problem(const certify::System& system, double s)
     : compiled(system), domain(system), branching(system), sigma(s), dimension(system.dimension()) {}
 
-BoxProcessor::BoxProcessor(const Problem& problem) : problem_(problem), preconditioners_(problem.compiled) {
+BoxProcessor::BoxProcessor(const Problem& problem, std::function<bool()> go_on)
+    : problem_(problem), go_on_(std::move(go_on)), preconditioners_(problem.compiled) {
   changed_.resize(problem.compiled.variables());
   pending_rows_.resize(problem.compiled.rows());
 }
@@ -180,7 +181,6 @@ void BoxProcessor::slice(const certify::Sheet& sheet, const Interval* x) {
   while (!pieces.empty()) {
     std::vector<Interval> piece = std::move(pieces.back());
     pieces.pop_back();
-    ++statistics_.processed;
     double width = widest(piece);
     for (int k = 0; k < kTightenings; ++k) {
       const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent);

@@ -3,6 +3,7 @@
 // All that deletes, shrinks or certifies is a call into certify/; this file only decides what to try when.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "corank/certify/cover.h"
@@ -35,7 +36,8 @@ class BoxProcessor {
  public:
   enum class Outcome { done, split };
 
-  explicit BoxProcessor(const Problem& problem);
+  /// `go_on` is asked before each piece of a proven sheet; once it says no, the sheet's other pieces are left `pending`.
+  BoxProcessor(const Problem& problem, std::function<bool()> go_on);
 
   /// Treats the box x (changed in place). done: it is empty, or its solutions are in found(). split: it has shrunk to x and is to
   /// be bisected at split_variable().
@@ -62,6 +64,7 @@ class BoxProcessor {
   void add(const certify::Sheet& sheet, const std::vector<int>& free, std::vector<certify::Interval> piece);
 
   const Problem& problem_;
+  std::function<bool()> go_on_;
   PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
   std::vector<std::uint8_t> changed_, pending_rows_;

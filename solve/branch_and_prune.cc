@@ -64,7 +64,7 @@ class WorkList {
 class Search {
  public:
   Search(const certify::System& system, const Options& options, double sigma)
-      : options_(options), problem_(system, sigma), processors_([this] { return BoxProcessor(problem_); }) {}
+      : options_(options), problem_(system, sigma), processors_([this] { return BoxProcessor(problem_, [this] { return count_one(); }); }) {}
 
   void run(const certify::System& system) {
     const std::size_t n = system.variables.size();
@@ -120,6 +120,7 @@ class Search {
     options_.progress(p);
     std::fesetround(mode);
   }
+  int threads() const { return threads_; }
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
  private:
@@ -141,16 +142,23 @@ class Search {
     return over;
   }
 
+  // Counts a box or a piece that is about to be processed; false: there is to be none.
+  bool count_one() {
+    if (limit_reached()) return false;
+    const std::uint64_t before = processed_.fetch_add(1, std::memory_order_relaxed);
+    if (options_.progress && before % 64 == 0) report(false);
+    return true;
+  }
+
   void work(WorkList list) {
     const certify::UpwardRounding rounding;
     BoxProcessor& processor = processors_.local();
     std::vector<Interval> x(problem_.compiled.variables());
     std::size_t counted = processor.found().size();
-    for (unsigned turn = 0; !list.empty(); ++turn) {
-      if (limit_reached()) break;
+    while (!list.empty()) {
+      if (!count_one()) break;
       const double share = list.pop(x.data());
       const auto outcome = processor.process(x.data());
-      processed_.fetch_add(1, std::memory_order_relaxed);
       if (outcome == BoxProcessor::Outcome::split) {
         const int j = processor.split_variable();
         const Interval side = x[j];
@@ -167,7 +175,6 @@ class Search {
         if (outcome == BoxProcessor::Outcome::done) done_share_.fetch_add(share, std::memory_order_relaxed);
         for (; counted < processor.found().size(); ++counted)
           ++verdicts_[static_cast<int>(processor.found()[counted].box.verdict)];
-        if (turn % 64 == 0) report(false);
       }
       if (busy_.load(std::memory_order_relaxed) < threads_ && threads_ > 1 && list.size() > 1) spawn(list.split_off());
     }
@@ -217,6 +224,7 @@ Cover solve(const certify::System& system, const Options& options) {
   cover.dimension = system.dimension();
   cover.sigma = sigma;
   cover.statistics = search.statistics();
+  cover.statistics.seconds_certify /= search.threads();  // its share of the time that passed
   std::vector<Found> found = search.take_found();
   std::sort(found.begin(), found.end(), before);
   if (cover.dimension == 0) {

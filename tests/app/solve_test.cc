@@ -135,13 +135,13 @@ TEST(Solve, EndsAtABoxLimitWithAnIncompleteResult) {
 
 TEST(Solve, EndsAtATimeLimitWithAnIncompleteResult) {
   const Outcome outcome =
-      run_corank({"solve", model("dextar"), "--set", "cspace", "--sigma", "0.01", "--time-limit", "0.2", "--json"});
+      run_corank({"solve", model("dextar"), "--set", "cspace", "--sigma", "0.0001", "--time-limit", "0.2", "--json"});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_EQ(json::parse(outcome.out)["complete"], false);
 }
 
 std::vector<std::string> endless(const std::string& path) {
-  return {"solve", model("dextar"), "--set", "cspace", "--sigma", "0.01", "-o", path, "--json"};
+  return {"solve", model("dextar"), "--set", "cspace", "--sigma", "0.0001", "-o", path, "--json"};
 }
 
 TEST(Interrupt, EndsTheSearchWithAReadableIncompleteResult) {
@@ -177,7 +177,7 @@ TEST(Interrupt, EndsTheProgramAtOnceWhenRepeated) {
 }
 
 TEST(Progress, SaysWhatIsDoneAndLeftOnATerminalAndIsWipedOut) {
-  CorankOnTerminal program({"solve", model("dextar"), "--set", "cspace", "--sigma", "0.01"});
+  CorankOnTerminal program({"solve", model("dextar"), "--set", "cspace", "--sigma", "0.0001"});
   ASSERT_TRUE(program.wait_for(" s\x1b[K"));
   program.signal(SIGINT);
   const Outcome outcome = program.finish();

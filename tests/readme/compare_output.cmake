@@ -1,0 +1,5 @@
+execute_process(COMMAND ${PROGRAM} OUTPUT_VARIABLE actual RESULT_VARIABLE status)
+file(READ ${EXPECTED} expected)
+if(NOT status EQUAL 0 OR NOT actual STREQUAL expected)
+  message(FATAL_ERROR "The README promises:\n${expected}\nThe program (status ${status}) prints:\n${actual}")
+endif()
