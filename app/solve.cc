@@ -63,6 +63,8 @@ ExitStatus solve_model(SolveCommand command) {
   const symbolic::Mechanism mechanism = load(command.question);
   const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
   const certify::System system = symbolic::algebrize(system_of(command.question, mechanism, set));
+  if (const double least = solve::smallest_sigma(system); command.sigma && *command.sigma < least)
+    throw UsageError(fmt::format("--sigma: {} is below {}, what boxes of doubles resolve here", *command.sigma, least));
   check_output(command.result_path);
   check_output(command.json_path.value_or(""));
 
@@ -114,7 +116,7 @@ void add_solve(CLI::App& program, Action& action) {
   command->question.add_options(*sub);
   sub->add_option(
          "--sigma", command->sigma,
-         "Largest edge that a box may have in the model's own variables;\ndefault: 1e-6 for isolated points, else 0.1")
+         "Largest edge that a box may have;\ndefault: 1e-6 for isolated points, else 0.1")
       ->check(finite(false));
   sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
       ->check(CLI::Range(0, 1024))

@@ -40,7 +40,8 @@ struct Statistics {
   std::uint64_t processed = 0;     ///< boxes taken from the work list (a proven one is cut to σ without further search)
   std::uint64_t newton_steps = 0;  ///< interval Newton contractions
   std::uint64_t proofs_tried = 0;  ///< existence tests begun
-  double seconds_total = 0, seconds_search = 0, seconds_certify = 0;
+  double seconds_total = 0;                        ///< elapsed
+  double seconds_search = 0, seconds_certify = 0;  ///< its parts, averaged over the threads
 };
 
 /// A list of boxes whose union holds every solution of the system in its domain, where complete().

@@ -23,6 +23,7 @@ constexpr double kLastCutShare = 1.0 / 64;
 constexpr int kTightenings = 3;
 constexpr double kCutMargin = 0.97;        // aim a little below σ: the linearization is not exact
 constexpr int kMaxCells = 4096;
+constexpr unsigned kPiecesBetweenChecks = 1024;
 
 // The cells of the grid that cuts side free[j] of the piece into parts[j] equal parts.
 std::vector<std::vector<Interval>> grid(const std::vector<Interval>& piece, const std::vector<int>& free,
@@ -54,8 +55,8 @@ double widest(const std::vector<Interval>& x) {
 
 }  // namespace
 
-Problem::Problem(const certify::System& system, double s)
-    : compiled(system), domain(system), branching(system), sigma(s), dimension(system.dimension()) {}
+Problem::Problem(const certify::System& system, double s, std::function<bool()> e)
+    : compiled(system), domain(system), branching(system), sigma(s), ended(std::move(e)) {}
 
 BoxProcessor::BoxProcessor(const Problem& problem, std::function<bool()> go_on)
     : problem_(problem), go_on_(std::move(go_on)), preconditioners_(problem.compiled) {
@@ -178,9 +179,14 @@ void BoxProcessor::slice(const certify::Sheet& sheet, const Interval* x) {
     if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) free.push_back(j);
 
   std::vector<std::vector<Interval>> pieces{sheet.image};
-  while (!pieces.empty()) {
+  for (unsigned turn = 1; !pieces.empty(); ++turn) {
     std::vector<Interval> piece = std::move(pieces.back());
     pieces.pop_back();
+    if (turn % kPiecesBetweenChecks == 0 && problem_.ended()) {
+      pieces.push_back(std::move(piece));
+      for (auto& rest : pieces) found_.push_back({{std::move(rest), Verdict::pending, {}}, {}});
+      return;
+    }
     double width = widest(piece);
     for (int k = 0; k < kTightenings; ++k) {
       const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <functional>
 #include <vector>
 
 #include "corank/certify/cover.h"
@@ -16,13 +17,14 @@ namespace corank::solve {
 
 /// What all threads share, constant during a search.
 struct Problem {
-  Problem(const certify::System& system, double sigma);
+  /// `ended` tells, from any thread, that a limit or a stop has ended the search.
+  Problem(const certify::System& system, double sigma, std::function<bool()> ended);
 
   certify::CompiledSystem compiled;
   certify::DomainTest domain;
   BranchingRule branching;
   double sigma;
-  int dimension;
+  std::function<bool()> ended;
 };
 
 /// A box of the result and, for an isolated solution, its sheet.
@@ -40,7 +42,7 @@ class BoxProcessor {
   BoxProcessor(const Problem& problem, std::function<bool()> go_on);
 
   /// Treats the box x (changed in place). done: it is empty, or its solutions are in found(). split: it has shrunk to x and is to
-  /// be bisected at split_variable().
+  /// be bisected at split_variable(). Where the search ends while a sheet is being cut, the rest of it is found as pending boxes.
   Outcome process(certify::Interval* x);
   int split_variable() const { return split_variable_; }
 

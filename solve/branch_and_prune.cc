@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <sstream>
 #include <mutex>
 #include <stdexcept>
 
@@ -64,7 +65,7 @@ class WorkList {
 class Search {
  public:
   Search(const certify::System& system, const Options& options, double sigma)
-      : options_(options), problem_(system, sigma), processors_([this] { return BoxProcessor(problem_, [this] { return count_one(); }); }) {}
+      : options_(options), problem_(system, sigma, [this] { return limit_reached(); }), processors_([this] { return BoxProcessor(problem_, [this] { return count_one(); }); }) {}
 
   void run(const certify::System& system) {
     const std::size_t n = system.variables.size();
@@ -98,7 +99,7 @@ class Search {
       sum.processed += p.statistics().processed;
       sum.newton_steps += p.statistics().newton_steps;
       sum.proofs_tried += p.statistics().proofs_tried;
-      sum.seconds_certify += p.statistics().seconds_certify;
+      sum.seconds_certify += p.statistics().seconds_certify / threads_;
     }
     return sum;
   }
@@ -202,6 +203,12 @@ class Search {
   Clock::time_point start_ = Clock::now();
 };
 
+std::string format(double x) {
+  std::ostringstream text;
+  text << x;
+  return text.str();
+}
+
 bool before(const Found& a, const Found& b) {
   return std::lexicographical_compare(a.box.box.begin(), a.box.box.end(), b.box.box.begin(), b.box.box.end(),
                                       [](const Interval& x, const Interval& y) {
@@ -213,9 +220,17 @@ bool before(const Found& a, const Found& b) {
 
 double default_sigma(const certify::System& system) { return system.dimension() == 0 ? 1e-6 : 0.1; }
 
+double smallest_sigma(const certify::System& system) {
+  double largest = 0;
+  for (const auto& v : system.variables) largest = std::max(largest, v.domain.mag());
+  return (system.dimension() == 0 ? 1e-16 : 1e-10) * largest;
+}
+
 Cover solve(const certify::System& system, const Options& options) {
   const double sigma = options.sigma.value_or(default_sigma(system));
   if (!(sigma > 0) || !std::isfinite(sigma)) throw std::invalid_argument("sigma must be a positive number");
+  if (const double least = smallest_sigma(system); sigma < least)
+    throw std::invalid_argument("sigma is below " + format(least) + ", what boxes of doubles resolve in this domain");
 
   Search search(system, options, sigma);
   search.run(system);

@@ -36,8 +36,11 @@ struct Options {
 /// 1e-6 for a set of dimension 0, else 0.1 (the CUIK suite's default).
 double default_sigma(const certify::System& system);
 
+/// The least σ that solve() accepts: below it the rounding of doubles would keep boxes from becoming that narrow.
+double smallest_sigma(const certify::System& system);
+
 /// The cover of the system's solution set in its domain. Never throws for a mathematical outcome; throws std::invalid_argument
-/// where the system is not valid (System::validate) or σ is not a positive number. The result does not depend on `threads`
+/// where the system is not valid (System::validate) or σ is not a positive number of at least smallest_sigma(system). The result does not depend on `threads`
 /// unless a limit or a stop ends the search.
 certify::Cover solve(const certify::System& system, const Options& options = {});
 

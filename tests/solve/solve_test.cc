@@ -231,6 +231,19 @@ TEST(Solve, ABoxLimitGivesAValidIncompleteCover) {
     }
 }
 
+TEST(Solve, ATimeLimitEndsTheCuttingOfAWideSheet) {
+  // y = x² / 8 is one sheet, to be cut into 10⁸ pieces.
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"8", {{y, 1}}}, {"-1", {{x, 2}}}});
+  Options options;
+  options.sigma = 2e-8;
+  options.time_limit = 0.05;
+  const Cover cover = solve(b.system(), options);
+  EXPECT_FALSE(cover.complete());
+  for (int k = -100; k <= 100; ++k) EXPECT_TRUE(covers(cover, {k / 128.0, k * k / 131072.0})) << k;
+}
+
 TEST(Solve, AStopAndATimeLimitEndTheSearch) {
   std::atomic<bool> stop{true};
   Options options;
@@ -264,7 +277,7 @@ TEST(Solve, ReportsProgressThatEndsWithAllOfTheDomain) {
 }
 
 TEST(Solve, RefusesANonsensicalSigma) {
-  for (double sigma : {0.0, -1.0, std::nan(""), HUGE_VAL})
+  for (double sigma : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-20})
     EXPECT_THROW(solve_with(circle_and_diagonal().system(), sigma), std::invalid_argument) << sigma;
 }
 
