@@ -22,8 +22,9 @@ constexpr double kFreeCutShare = 0.1;     // cut a free side unless it is alread
 constexpr double kLastCutShare = 1.0 / 64;
 constexpr int kTightenings = 3;
 constexpr double kCutMargin = 0.97;        // aim a little below σ: the linearization is not exact
-constexpr int kMaxCells = 4096;
-constexpr unsigned kPiecesBetweenChecks = 1024;
+constexpr double kMaxCells = 256;            // of one cut; a piece that needs more is first cut into kCoarseParts
+constexpr int kCoarseParts = 16;
+constexpr unsigned kPiecesBetweenChecks = 16;
 
 // The cells of the grid that cuts side free[j] of the piece into parts[j] equal parts.
 std::vector<std::vector<Interval>> grid(const std::vector<Interval>& piece, const std::vector<int>& free,
@@ -140,9 +141,17 @@ std::vector<std::vector<Interval>> BoxProcessor::cut(const std::vector<Interval>
   const double sigma = kCutMargin * problem_.sigma;
   std::vector<int> parts;
   double cells = 1;
+  std::size_t longest = 0;
   for (int j : free) {
-    parts.push_back(static_cast<int>(std::clamp(std::ceil(piece[j].width() / problem_.sigma), 1.0, double{kMaxCells})));
-    cells *= parts.back();
+    const double wanted = std::max(1.0, std::ceil(piece[j].width() / problem_.sigma));
+    if (piece[j].width() > piece[free[longest]].width()) longest = parts.size();
+    parts.push_back(static_cast<int>(std::min(wanted, kMaxCells)));
+    cells *= wanted;
+  }
+  if (cells > kMaxCells) {
+    std::fill(parts.begin(), parts.end(), 1);
+    parts[longest] = kCoarseParts;
+    return grid(piece, free, parts);
   }
   while (cells < kMaxCells) {
     double worst = sigma;
@@ -163,12 +172,7 @@ std::vector<std::vector<Interval>> BoxProcessor::cut(const std::vector<Interval>
     cells *= (parts[grow] + 1.0) / parts[grow];
     ++parts[grow];
   }
-  if (std::all_of(parts.begin(), parts.end(), [](int k) { return k == 1; })) {
-    std::size_t longest = 0;
-    for (std::size_t f = 1; f < free.size(); ++f)
-      if (piece[free[f]].width() > piece[free[longest]].width()) longest = f;
-    parts[longest] = 2;
-  }
+  if (std::all_of(parts.begin(), parts.end(), [](int k) { return k == 1; })) parts[longest] = 2;
   return grid(piece, free, parts);
 }
 
