@@ -3,13 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
+#include "corank/app/box_files.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
+#include "corank/report/cuik_param.h"
 #include "corank/report/result_file.h"
 #include "corank/report/summary.h"
 #include "corank/symbolic/algebrizer.h"
@@ -18,13 +22,16 @@
 namespace corank::app {
 namespace {
 
+// Relative. The decimals of an over-determined plain system are taken as rounded; corank's own systems are exact.
+constexpr double kPrintedTolerance = 1e-6;
+
 struct SolveCommand {
   Question question;
   std::optional<double> sigma;
   int threads = 1;
   std::uint64_t max_boxes = 0;
   double time_limit = 0;
-  std::string result_path;
+  std::string param_path, result_path;
   std::optional<std::string> json_path;  ///< "": standard output
 };
 
@@ -47,12 +54,47 @@ certify::Cover search(const certify::System& system, const SolveCommand& command
   return solve::solve(system, options);
 }
 
-// Said before the search, not after it. No output may replace a model: `--json a.cuik b.cuik` is a slip.
-void check_output(const std::string& path) {
+// SIGMA of a parameter file; SMALL_SIGMA where the solutions are isolated (as many equations as variables), 1e-4 being the CUIK
+// suite's default of it. An over-determined system may have either kind of solutions.
+std::optional<double> sigma_of(const report::CuikParameters& parameters, const certify::System& system) {
+  if (system.equations.size() != system.variables.size()) return parameters.sigma;
+  constexpr double kDefaultSmallSigma = 1e-4;
+  if (parameters.small_sigma) return parameters.small_sigma;
+  return parameters.sigma ? std::optional(std::min(*parameters.sigma, kDefaultSmallSigma)) : std::nullopt;
+}
+
+void apply_parameters(SolveCommand& command, const certify::System& system) {
+  if (command.param_path.empty()) return;
+  const report::CuikParameters parameters = report::read_param(command.param_path);
+  if (!command.sigma) command.sigma = sigma_of(parameters, system);
+  if (parameters.n_solutions > 0) {
+    fmt::print(stderr, "corank: {}: N_SOLUTIONS = {} is not honoured, all solutions are computed\n", command.param_path,
+               parameters.n_solutions);
+  }
+  if (!parameters.ignored.empty()) {
+    fmt::print(stderr, "corank: {}: without effect here: {}\n", command.param_path, fmt::join(parameters.ignored, ", "));
+  }
+}
+
+void mark_auxiliary(const symbolic::Mechanism& mechanism, report::Result& result) {
+  std::set<std::string> names;
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
+    if (c.auxiliary) names.insert(c.name);
+  }
+  for (report::ResultVariable& v : result.variables) v.auxiliary = names.contains(v.name);
+  for (const certify::Angle& a : result.angles) {
+    for (const int v : {a.cosine, a.sine})
+      result.variables.at(static_cast<std::size_t>(v)).auxiliary = names.contains(a.name);
+  }
+}
+
+void write_file(const std::string& path, const report::Result& result) {
   if (path.empty()) return;
-  if (std::filesystem::path(path).extension() == ".cuik")
-    throw UsageError(path + ": not written over, it looks like a model");
-  report::check_writable(path);
+  if (std::filesystem::path(path).extension() == ".sol") {
+    report::write_text(path, report::to_sol(result));
+  } else {
+    report::write_result(path, result);
+  }
 }
 
 ExitStatus solve_model(SolveCommand command) {
@@ -62,7 +104,9 @@ ExitStatus solve_model(SolveCommand command) {
   }
   const symbolic::Mechanism mechanism = load(command.question);
   const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
-  const certify::System system = symbolic::algebrize(system_of(command.question, mechanism, set));
+  certify::System system = symbolic::algebrize(system_of(command.question, mechanism, set));
+  if (!set && system.equations.size() > system.variables.size()) system.coefficient_tolerance = kPrintedTolerance;
+  apply_parameters(command, system);
   if (const double least = solve::smallest_sigma(system); command.sigma && *command.sigma < least)
     throw UsageError(fmt::format("--sigma: {} is below {}, what boxes of doubles resolve here", *command.sigma, least));
   check_output(command.result_path);
@@ -78,11 +122,12 @@ ExitStatus solve_model(SolveCommand command) {
     result.cover = search(system, command);
   }
   report::describe_system(system, result);
+  mark_auxiliary(mechanism, result);
   result.options = {
       kernel_of(command.question, set), result.cover.sigma, command.threads, command.max_boxes, command.time_limit,
       overrides(command.question)};
 
-  if (!command.result_path.empty()) report::write_result(command.result_path, result);
+  write_file(command.result_path, result);
   if (command.json_path) {
     const std::string json = report::to_json(result) + "\n";
     if (command.json_path->empty()) {
@@ -114,9 +159,8 @@ void add_solve(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand("solve", "Enclose every solution of a system or of a mechanism's set in boxes");
   const auto command = std::make_shared<SolveCommand>();
   command->question.add_options(*sub);
-  sub->add_option(
-         "--sigma", command->sigma,
-         "Largest edge that a box may have;\ndefault: 1e-6 for isolated points, else 0.1")
+  sub->add_option("--sigma", command->sigma,
+                  "Largest edge that a box may have;\ndefault: 1e-6 for isolated points, else 0.1")
       ->check(finite(false));
   sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
       ->check(CLI::Range(0, 1024))
@@ -126,8 +170,12 @@ void add_solve(CLI::App& program, Action& action) {
   sub->add_option("--time-limit", command->time_limit, "End the search after so many seconds; 0: no limit")
       ->type_name("SECONDS")
       ->check(finite(true));
-  sub->add_option("-o", command->result_path, "Write boxes, verdicts and the model to this file (HDF5)")
-      ->type_name("RESULT.h5");
+  sub->add_option("-o", command->result_path,
+                  "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's layout\n"
+                  "where its name ends in .sol")
+      ->type_name("RESULT.h5|.sol");
+  sub->add_option("--param", command->param_path, "A parameter file of the CUIK suite; its SIGMA gives way to --sigma")
+      ->type_name("FILE.param");
   CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
       "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },
       "Write the summary as JSON to PATH, or to standard output instead of the table");

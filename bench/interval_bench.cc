@@ -39,10 +39,18 @@ void run(benchmark::State& state, Operation operation) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * (x.size() - 1)));
 }
 
-void own_product(benchmark::State& s) { run<Own>(s, [](const Own& a, const Own& b) { return a * b; }); }
-void cgal_product(benchmark::State& s) { run<Cgal>(s, [](const Cgal& a, const Cgal& b) { return a * b; }); }
-void own_square(benchmark::State& s) { run<Own>(s, [](const Own& a, const Own&) { return corank::certify::square(a); }); }
-void cgal_square(benchmark::State& s) { run<Cgal>(s, [](const Cgal& a, const Cgal&) { return CGAL::square(a); }); }
+void own_product(benchmark::State& s) {
+  run<Own>(s, [](const Own& a, const Own& b) { return a * b; });
+}
+void cgal_product(benchmark::State& s) {
+  run<Cgal>(s, [](const Cgal& a, const Cgal& b) { return a * b; });
+}
+void own_square(benchmark::State& s) {
+  run<Own>(s, [](const Own& a, const Own&) { return corank::certify::square(a); });
+}
+void cgal_square(benchmark::State& s) {
+  run<Cgal>(s, [](const Cgal& a, const Cgal&) { return CGAL::square(a); });
+}
 
 BENCHMARK(own_product);
 BENCHMARK(cgal_product);

@@ -28,6 +28,14 @@ CompiledSystem::CompiledSystem(const System& system) : variables_(system.size())
   row_begin_.push_back(0);
   std::vector<std::vector<int>> rows_of(variables_);
 
+  // Contains c·[1 − τ, 1 + τ], in any rounding mode.
+  const auto coefficient = [&](const Monomial& m) {
+    const double tolerance = system.coefficient_tolerance;
+    const Interval& c = m.enclosure;
+    if (tolerance == 0 || (c.is_point() && std::nearbyint(c.lo()) == c.lo())) return c;
+    const double margin = 1.000001 * tolerance * c.mag();
+    return Interval(std::nextafter(c.lo() - margin, -HUGE_VAL), std::nextafter(c.hi() + margin, HUGE_VAL));
+  };
   const auto add_row = [&](const Polynomial& f) {
     const int row = rows();
     std::set<int> used;
@@ -40,7 +48,7 @@ CompiledSystem::CompiledSystem(const System& system) : variables_(system.size())
     }
     const auto entry = [&](int v) { return first + static_cast<int>(std::distance(used.begin(), used.find(v))); };
     for (const Monomial& m : f.monomials) {
-      Term t{m.enclosure, Shape::general};
+      Term t{coefficient(m), Shape::general};
       const auto& fs = m.factors;
       if (fs.empty()) {
         t.shape = Shape::constant;

@@ -23,8 +23,8 @@ class CompiledSystem {
   struct Term {
     Interval c;
     Shape shape;
-    int x = -1, y = -1;              ///< variables
-    int x_entry = -1, y_entry = -1;  ///< their derivative entries
+    int x = -1, y = -1;                      ///< variables
+    int x_entry = -1, y_entry = -1;          ///< their derivative entries
     int factors_begin = 0, factors_end = 0;  ///< general terms: range in factors()
   };
 

@@ -5,7 +5,8 @@
 
 namespace corank::certify {
 namespace {
-constexpr std::array<const char*, kVerdicts> kNames = {"regular", "isolated", "exact", "boundary", "undecided", "pending"};
+constexpr std::array<const char*, kVerdicts> kNames = {"regular",   "isolated", "exact",  "boundary",
+                                                       "undecided", "partial",  "pending"};
 }
 
 const char* to_string(Verdict verdict) { return kNames.at(static_cast<std::size_t>(verdict)); }
@@ -19,6 +20,14 @@ Verdict verdict_from_string(const std::string& text) {
 std::size_t Cover::count(Verdict verdict) const {
   return static_cast<std::size_t>(
       std::count_if(boxes.begin(), boxes.end(), [verdict](const CoverBox& b) { return b.verdict == verdict; }));
+}
+
+std::size_t Cover::wider_than_sigma() const {
+  const auto wide = [this](const CoverBox& b) {
+    return b.verdict != Verdict::pending &&
+           std::any_of(b.box.begin(), b.box.end(), [this](const Interval& side) { return side.hi() - side.lo() > sigma; });
+  };
+  return static_cast<std::size_t>(std::count_if(boxes.begin(), boxes.end(), wide));
 }
 
 }  // namespace corank::certify

@@ -22,9 +22,15 @@ enum class Verdict : std::uint8_t {
   exact,      ///< the solution is known exactly and verified in exact arithmetic
   boundary,   ///< as regular, but the piece may leave the search domain or an inequality inside the box
   undecided,  ///< not excluded, nothing proven
-  pending,    ///< not processed: the cover is incomplete
+  partial,  ///< over-determined systems: as regular or isolated for a maximal independent subset of the equations; along that
+            ///< piece the other equations hold within Cover::tolerance, not exactly
+  pending,  ///< not processed: the cover is incomplete
 };
-inline constexpr int kVerdicts = 6;
+inline constexpr int kVerdicts = 7;
+
+/// The tolerance within which the equations outside a `partial` proof hold, in coefficient tolerances: their values combine the
+/// tolerances of several equations.
+inline constexpr double kPartialTolerance = 10;
 
 const char* to_string(Verdict verdict);
 /// Throws std::invalid_argument for a word that names no verdict.
@@ -33,14 +39,14 @@ Verdict verdict_from_string(const std::string& text);
 struct CoverBox {
   Box box;
   Verdict verdict = Verdict::undecided;
-  std::vector<int> free;  ///< indices of the free variables (regular, boundary)
+  std::vector<int> free;  ///< indices of the free variables (regular, boundary, partial)
 };
 
 struct Statistics {
   std::uint64_t processed = 0;     ///< boxes taken from the work list (a proven one is cut to σ without further search)
   std::uint64_t newton_steps = 0;  ///< interval Newton contractions
   std::uint64_t proofs_tried = 0;  ///< existence tests begun
-  double seconds_total = 0;                        ///< elapsed
+  double seconds_total = 0;        ///< elapsed
   double seconds_search = 0, seconds_certify = 0;  ///< its parts, averaged over the threads
 };
 
@@ -50,11 +56,14 @@ struct Cover {
   /// For a set of dimension 0: the distinct solutions. An `isolated` one is exactly one solution, and no two entries hold the
   /// same one; an `undecided` one is the hull of a cluster of touching boxes that may hold any number, none included.
   std::vector<CoverBox> points;
-  int dimension = 0;
+  int dimension = 0;  ///< of the set; for an over-determined system, the largest that a partial box shows
   double sigma = 0;
+  double tolerance = 0;  ///< relative tolerance of the coefficients and of what `partial` says; 0: every equation is exact
   Statistics statistics;
 
   std::size_t count(Verdict verdict) const;
+  /// Boxes with an edge longer than σ, pending ones aside: ill-conditioned pieces that double arithmetic can't narrow.
+  std::size_t wider_than_sigma() const;
   /// True where every point of the domain outside the boxes has been excluded: no box is `pending`.
   bool complete() const { return count(Verdict::pending) == 0; }
 };

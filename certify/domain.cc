@@ -1,7 +1,13 @@
 #include "corank/certify/domain.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace corank::certify {
 namespace {
+
+// Contains no bounded interval: the inner enclosure of a domain between two neighbouring doubles.
+const Interval kNowhere(std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
 
 // Is f = Σ a_i x_i² − b with rational a_i > 0 and rational b? Then b = −constant.
 bool is_positive_sum_of_squares(const Polynomial& f) {
@@ -13,6 +19,11 @@ bool is_positive_sum_of_squares(const Polynomial& f) {
     any = true;
   }
   return any;
+}
+
+bool is_integer(const ExactNumber& x) {
+  const Interval enclosure = x.enclose();
+  return x.is_rational() && enclosure.is_point() && std::nearbyint(enclosure.lo()) == enclosure.lo();
 }
 
 }  // namespace
@@ -31,26 +42,34 @@ std::vector<bool> implied_domains(const System& system) {
       const auto reaches = [&](const ExactNumber& h) {  // a h² ≥ b
         return h.is_rational() && (m.coefficient * h * h - b).sign().value_or(-1) >= 0;
       };
+      // Coefficients with a tolerance imply nothing, unless they are integers, which carry none.
+      if (system.coefficient_tolerance > 0 && !(is_integer(b) && is_integer(m.coefficient))) continue;
       if (reaches(v.lower) && reaches(v.upper) && v.lower.sign() == -1 && v.upper.sign() == 1) implied[j] = true;
     }
   }
   return implied;
 }
 
-DomainTest::DomainTest(const System& system) : implied_(implied_domains(system)) {
-  for (const Variable& v : system.variables) domain_.push_back(v.domain);
+DomainTest::DomainTest(const System& system, double tolerance) : tolerance_(tolerance), implied_(implied_domains(system)) {
+  for (const Variable& v : system.variables) {
+    domain_.push_back(v.domain);
+    // The exact sides lie in these enclosures; what lies between their inner ends is certainly inside.
+    const double least = v.lower.enclose().hi(), greatest = v.upper.enclose().lo();
+    const double slack = tolerance * std::max(1.0, v.domain.mag());
+    inner_.push_back(least - slack <= greatest + slack ? Interval(least - slack, greatest + slack) : kNowhere);
+  }
 }
 
 Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x) const {
   Location location = Location::inside;
   for (std::size_t j = 0; j < domain_.size(); ++j) {
     if (!domain_[j].overlaps(x[j])) return Location::outside;
-    if (!implied_[j] && !domain_[j].contains(x[j])) location = Location::across;
+    if (!implied_[j] && !inner_[j].contains(x[j])) location = Location::across;
   }
   for (int row = compiled.equations(); row < compiled.rows(); ++row) {
     const Interval g = compiled.evaluate(row, x);
     if (g.hi() < 0) return Location::outside;
-    if (g.lo() < 0) location = Location::across;
+    if (g.lo() < -tolerance_) location = Location::across;
   }
   return location;
 }

@@ -19,11 +19,15 @@ enum class Location { inside, outside, across };
 /// (outside), or is neither proven (across)?
 class DomainTest {
  public:
-  explicit DomainTest(const System& system);
+  /// With a tolerance > 0 (over-determined systems, verdict `partial`) a piece counts as inside where it leaves the domain by no more
+  /// than tolerance · max(1, |domain|), and an inequality by no more than the tolerance.
+  explicit DomainTest(const System& system, double tolerance = 0);
   Location locate(const CompiledSystem& compiled, const Interval* x) const;
 
  private:
-  std::vector<Interval> domain_;
+  double tolerance_;
+  std::vector<Interval> domain_;  // encloses the exact domain
+  std::vector<Interval> inner_;   // inside the exact domain, widened by the tolerance
   std::vector<bool> implied_;
 };
 

@@ -119,13 +119,11 @@ std::optional<mpq_class> parse_decimal(const std::string& text) {
   bool negative = false;
   if (i < text.size() && (text[i] == '-' || text[i] == '+')) negative = text[i++] == '-';
   std::string digits;
-  while (digit())
-    digits += text[i++];
+  while (digit()) digits += text[i++];
   long exponent = 0;
   if (i < text.size() && text[i] == '.') {
     ++i;
-    while (digit())
-      digits += text[i++], --exponent;
+    while (digit()) digits += text[i++], --exponent;
   }
   if (digits.empty()) return std::nullopt;
   if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
@@ -134,8 +132,7 @@ std::optional<mpq_class> parse_decimal(const std::string& text) {
     if (i < text.size() && (text[i] == '-' || text[i] == '+')) down = text[i++] == '-';
     if (!digit()) return std::nullopt;
     long e = 0;
-    while (digit())
-      e = std::min(e * 10 + (text[i++] - '0'), 1'000'000'000L);
+    while (digit()) e = std::min(e * 10 + (text[i++] - '0'), 1'000'000'000L);
     exponent += down ? -e : e;
   }
   if (i != text.size()) return std::nullopt;

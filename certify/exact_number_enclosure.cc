@@ -97,12 +97,8 @@ void evaluate_function(Mpfi& result, const Node& x, int precision) {
       if (mpfr_sgn(a.lo()) <= 0) throw Undecided("log of a number that cannot be told from zero");
       mpfi_log(result, a);
       break;
-    case ConstantFunction::sin:
-      trig_argument(), mpfi_sin(result, a);
-      break;
-    case ConstantFunction::cos:
-      trig_argument(), mpfi_cos(result, a);
-      break;
+    case ConstantFunction::sin: trig_argument(), mpfi_sin(result, a); break;
+    case ConstantFunction::cos: trig_argument(), mpfi_cos(result, a); break;
     case ConstantFunction::tan: {
       // sin/cos rather than mpfi_tan: a pole then shows as a divisor that may be zero.
       trig_argument();
@@ -113,32 +109,18 @@ void evaluate_function(Mpfi& result, const Node& x, int precision) {
       mpfi_div(result, result, c);
       break;
     }
-    case ConstantFunction::asin:
-      unit_argument(), mpfi_asin(result, a);
-      break;
-    case ConstantFunction::acos:
-      unit_argument(), mpfi_acos(result, a);
-      break;
-    case ConstantFunction::atan:
-      mpfi_atan(result, a);
-      break;
-    case ConstantFunction::exp:
-      mpfi_exp(result, a);
-      break;
-    case ConstantFunction::abs:
-      mpfi_abs(result, a);
-      break;
+    case ConstantFunction::asin: unit_argument(), mpfi_asin(result, a); break;
+    case ConstantFunction::acos: unit_argument(), mpfi_acos(result, a); break;
+    case ConstantFunction::atan: mpfi_atan(result, a); break;
+    case ConstantFunction::exp: mpfi_exp(result, a); break;
+    case ConstantFunction::abs: mpfi_abs(result, a); break;
   }
 }
 
 void evaluate(Mpfi& result, const Node& x, int precision) {
   switch (x.kind) {
-    case Kind::rational:
-      mpfi_set_q(result, x.value.get_mpq_t());
-      break;
-    case Kind::pi:
-      mpfi_const_pi(result);
-      break;
+    case Kind::rational: mpfi_set_q(result, x.value.get_mpq_t()); break;
+    case Kind::pi: mpfi_const_pi(result); break;
     case Kind::sum:
     case Kind::product: {
       mpfi_set_q(result, x.value.get_mpq_t());
@@ -155,9 +137,7 @@ void evaluate(Mpfi& result, const Node& x, int precision) {
       evaluate_power(result, base, x.exponent, precision);
       break;
     }
-    case Kind::function:
-      evaluate_function(result, x, precision);
-      break;
+    case Kind::function: evaluate_function(result, x, precision); break;
   }
   if (mpfr_nan_p(result.lo()) || mpfr_nan_p(result.hi())) throw Undecided("an undefined operation on unbounded numbers");
 }

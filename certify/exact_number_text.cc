@@ -10,26 +10,16 @@ namespace corank::certify {
 
 const char* function_name(ConstantFunction f) {
   switch (f) {
-    case ConstantFunction::sqrt:
-      return "sqrt";
-    case ConstantFunction::sin:
-      return "sin";
-    case ConstantFunction::cos:
-      return "cos";
-    case ConstantFunction::tan:
-      return "tan";
-    case ConstantFunction::asin:
-      return "asin";
-    case ConstantFunction::acos:
-      return "acos";
-    case ConstantFunction::atan:
-      return "atan";
-    case ConstantFunction::exp:
-      return "exp";
-    case ConstantFunction::log:
-      return "log";
-    case ConstantFunction::abs:
-      return "abs";
+    case ConstantFunction::sqrt: return "sqrt";
+    case ConstantFunction::sin: return "sin";
+    case ConstantFunction::cos: return "cos";
+    case ConstantFunction::tan: return "tan";
+    case ConstantFunction::asin: return "asin";
+    case ConstantFunction::acos: return "acos";
+    case ConstantFunction::atan: return "atan";
+    case ConstantFunction::exp: return "exp";
+    case ConstantFunction::log: return "log";
+    case ConstantFunction::abs: return "abs";
   }
   return "?";
 }
@@ -76,17 +66,13 @@ std::string product_text(const mpq_class& value, const std::vector<NodePtr>& fac
 
 std::string text_of(const Node& x) {
   switch (x.kind) {
-    case Kind::rational:
-      return x.value.get_str();
-    case Kind::pi:
-      return "pi";
-    case Kind::function:
-      return std::string(function_name(x.function)) + "(" + text_of(*x.operands[0]) + ")";
+    case Kind::rational: return x.value.get_str();
+    case Kind::pi: return "pi";
+    case Kind::function: return std::string(function_name(x.function)) + "(" + text_of(*x.operands[0]) + ")";
     case Kind::power:
       return x.exponent > 0 ? power_text(*x.operands[0], x.exponent)
                             : "1/" + power_text(*x.operands[0], -static_cast<long>(x.exponent));
-    case Kind::product:
-      return product_text(x.value, x.operands);
+    case Kind::product: return product_text(x.value, x.operands);
     case Kind::sum: {
       std::string out = x.value == 0 ? "" : x.value.get_str();
       for (const NodePtr& term : x.operands) {

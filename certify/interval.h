@@ -99,14 +99,14 @@ inline Interval operator*(const Interval& x, const Interval& y) {
   // hi is the largest of the four products of endpoints, −lo the largest of the four negated ones. A NaN (0·∞, which stands for
   // 0) in p1 or p3 is dropped, since maxpd returns its second operand: by cases, one of the others is then 0, or is the +∞ that
   // stands for a NaN in p2 or p4.
-  const __m128d a = x.data();                                                // (−a, b)   for x = [a, b]
+  const __m128d a = x.data();                                                 // (−a, b)   for x = [a, b]
   const __m128d a_neg = _mm_xor_pd(internal::swapped(a), _mm_set1_pd(-0.0));  // (−b, a)
-  const __m128d c = _mm_xor_pd(y.data(), _mm_set_pd(0.0, -0.0));             // (c, d)    for y = [c, d]
-  const __m128d c_swap = internal::swapped(c);                               // (d, c)
-  const __m128d p1 = _mm_mul_pd(a, c);                                       // (−ac, bd)
-  const __m128d p2 = internal::bounded_product(a, c_swap);                   // (−ad, bc)
-  const __m128d p3 = _mm_mul_pd(a_neg, c);                                   // (−bc, ad)
-  const __m128d p4 = internal::bounded_product(a_neg, c_swap);               // (−bd, ac)
+  const __m128d c = _mm_xor_pd(y.data(), _mm_set_pd(0.0, -0.0));              // (c, d)    for y = [c, d]
+  const __m128d c_swap = internal::swapped(c);                                // (d, c)
+  const __m128d p1 = _mm_mul_pd(a, c);                                        // (−ac, bd)
+  const __m128d p2 = internal::bounded_product(a, c_swap);                    // (−ad, bc)
+  const __m128d p3 = _mm_mul_pd(a_neg, c);                                    // (−bc, ad)
+  const __m128d p4 = internal::bounded_product(a_neg, c_swap);                // (−bd, ac)
   return Interval::from_register(_mm_max_pd(_mm_max_pd(p1, p2), _mm_max_pd(p3, p4)));
 }
 
@@ -119,8 +119,8 @@ inline Interval scale(double point, const Interval& x) {
 /// {x² : x ∈ X}.
 inline Interval square(const Interval& x) {
   const __m128d a = x.data(), b = internal::swapped(a);
-  const __m128d ends = _mm_move_sd(_mm_max_pd(a, b), _mm_min_pd(a, b));          // (min(−lo, hi), max |x|)
-  const __m128d sizes = _mm_min_sd(ends, _mm_set1_pd(-0.0));                     // (−min |x|, max |x|)
+  const __m128d ends = _mm_move_sd(_mm_max_pd(a, b), _mm_min_pd(a, b));  // (min(−lo, hi), max |x|)
+  const __m128d sizes = _mm_min_sd(ends, _mm_set1_pd(-0.0));             // (−min |x|, max |x|)
   return Interval::from_register(_mm_mul_pd(sizes, _mm_xor_pd(sizes, _mm_set_pd(0.0, -0.0))));
 }
 

@@ -160,7 +160,7 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
   CORANK_CHECK(UpwardRounding::active());
   Sheet sheet;
   const int r = p.rank(), n = system.variables();
-  if (r != system.equations() || r > n || !finite(p)) return sheet;
+  if (r == 0 || r > n || !finite(p)) return sheet;
   set_center(x, n, w);
   multiply_residual(system, p, w.center.data(), w);
   std::vector<Interval>& b = w.region;  // X_F × Z
@@ -174,6 +174,7 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
       for (int a = 0; a < r; ++a) image[p.dependent[a]] = w.image[a];
       if (!jacobian_is_regular(system, p, b.data(), w)) return sheet;
       sheet.proven = true;
+      sheet.equations = p.equations;
       sheet.dependent = p.dependent;
       sheet.region = b;
       sheet.image = std::move(image);
@@ -187,6 +188,32 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
     }
   }
   return sheet;
+}
+
+Interval value_on_sheet(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
+                        NewtonWorkspace& w) {
+  CORANK_CHECK(UpwardRounding::active());
+  const int r = p.rank(), n = system.variables();
+  set_center(x, n, w);
+  w.slope.resize(system.entries());
+  system.slopes(x, w.center.data(), w.slope.data());
+  // λ_b = Σ_a (∂f_row/∂d_a) Y_ab, from midpoints of slopes: any real numbers will do.
+  std::vector<double> lambda(static_cast<std::size_t>(r), 0.0);
+  std::vector<Interval> gradient(static_cast<std::size_t>(n));
+  for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) gradient[system.column(k)] = w.slope[k];
+  for (int a = 0; a < r; ++a)
+    for (int b = 0; b < r; ++b) lambda[b] += gradient[p.dependent[a]].mid() * p.y[static_cast<std::size_t>(a) * r + b];
+  Interval value = system.evaluate_at(row, w.center.data());
+  for (int b = 0; b < r; ++b) {
+    if (!std::isfinite(lambda[b])) return Interval::whole();
+    if (lambda[b] == 0) continue;
+    const int i = p.equations[b];
+    value -= scale(lambda[b], system.evaluate_at(i, w.center.data()));
+    for (int k = system.row_begin(i); k < system.row_begin(i + 1); ++k)
+      gradient[system.column(k)] -= scale(lambda[b], w.slope[k]);
+  }
+  for (int j = 0; j < n; ++j) value += gradient[j] * (x[j] - Interval(w.center[j]));
+  return value;
 }
 
 void tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {

@@ -11,9 +11,9 @@
 namespace corank::certify {
 
 struct Preconditioner {
-  std::vector<int> equations;   ///< r rows of the system, distinct
-  std::vector<int> dependent;   ///< r variables, distinct; row a of Y·F is solved for dependent[a]
-  std::vector<double> y;        ///< r×r, row-major
+  std::vector<int> equations;  ///< r rows of the system, distinct
+  std::vector<int> dependent;  ///< r variables, distinct; row a of Y·F is solved for dependent[a]
+  std::vector<double> y;       ///< r×r, row-major
   int rank() const { return static_cast<int>(dependent.size()); }
 };
 
@@ -25,9 +25,9 @@ struct NewtonWorkspace {
 };
 
 struct NewtonOutcome {
-  bool empty = false;      ///< the box holds no solution
-  bool regular = false;    ///< no diagonal entry of Y·S(X) held 0: a hint that a proof is worth trying, no claim
-  double spread = 0;       ///< largest row sum of |I − Y·S_D| weighted by the radii: below 1 a proof may succeed; a hint
+  bool empty = false;    ///< the box holds no solution
+  bool regular = false;  ///< no diagonal entry of Y·S(X) held 0: a hint that a proof is worth trying, no claim
+  double spread = 0;     ///< largest row sum of |I − Y·S_D| weighted by the radii: below 1 a proof may succeed; a hint
 };
 
 /// Contracts the dependent variables of x in place.
@@ -39,13 +39,14 @@ NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner
 /// What newton_prove shows about a box of values of the free variables.
 struct Sheet {
   bool proven = false;
+  std::vector<int> equations;  ///< the rows that the proof speaks of: all of them, or a subset (over-determined systems)
   std::vector<int> dependent;
   std::vector<Interval> region;  ///< n: free sides as given, dependent sides inflated
   std::vector<Interval> image;   ///< n: free sides as given, dependent sides the Newton image, inside region's interior
 };
 
 /// Tries to prove, for X_F the sides of the free variables in x: for **every** value f ∈ X_F there is **exactly one** dependent
-/// value d with (f, d) in `region` and F(f, d) = 0, and that d lies in `image`. Besides, every zero of F in x lies in `image`.
+/// value d with (f, d) in `region` and F(f, d) = 0, and that d lies in `image`. F stands for the rows p.equations. Besides, every zero of F in x lies in `image`.
 ///
 /// Theorem (parametric Krawczyk; keys Krawczyk1969, Neumaier1990 ch. 5, Rump2010; proof in doc/theory.md): let Z be a box of
 /// dependent values, B = X_F × Z, c a centre and K = c_D − Y·F(c) + (I − Y·S_D(B))(Z − c_D) − Y·S_F(B)(X_F − c_F).
@@ -54,13 +55,18 @@ struct Sheet {
 ///   (2) |I − Y·J_D(B)|·r < r for some r > 0 ⇒ every matrix in Y·J_D(B) is regular, so Y is regular (fixed points are zeros) and
 ///                                            F(f, ·) has at most one zero in Z (mean value theorem, row by row);
 ///   (3) every zero of F in B lies in X_F × K. So if Z_{k+1} ⊇ K(Z_k) and Z_0 is x's own, no zero of x is left behind.
-/// S may be slopes about c in (1); (2) needs the interval Jacobian J over B. Requires rank = m (else proven is false).
+/// S may be slopes about c in (1); (2) needs the interval Jacobian J over B.
 /// Z comes from ε-inflation of the image, at most `iterations` times; the dependent variables stay the same throughout.
 Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const Interval* x, NewtonWorkspace& w,
                    int iterations = 8);
 
+/// For x in a piece of a proven sheet (so f_k(x) = 0 for the sheet's rows k): encloses f_row(x), by f_row = f_row − Σ λ_k f_k for the real
+/// λ that make its gradient vanish at the centre, and the mean value theorem: f_row(c) − λ·F(c) + (S_row − λ·S)(X − c). Any λ is valid.
+Interval value_on_sheet(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
+                        NewtonWorkspace& w);
+
 /// One step of (1)'s image inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is known to
-/// hold the solutions, and free sides within the sheet's. Shrinks dependent sides only, so that the sheet's claim carries over.
+/// hold the solutions, free sides within the sheet's, and p the sheet's rows and dependents. Shrinks dependent sides only, so that the sheet's claim carries over.
 void tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
 
 }  // namespace corank::certify

@@ -18,15 +18,13 @@ Monomial::Monomial(ExactNumber exact_coefficient, std::vector<Factor> sorted_fac
 
 int Monomial::degree() const {
   int sum = 0;
-  for (const Factor& factor : factors)
-    sum += factor.power;
+  for (const Factor& factor : factors) sum += factor.power;
   return sum;
 }
 
 int Polynomial::degree() const {
   int most = 0;
-  for (const Monomial& monomial : monomials)
-    most = std::max(most, monomial.degree());
+  for (const Monomial& monomial : monomials) most = std::max(most, monomial.degree());
   return most;
 }
 
@@ -40,6 +38,8 @@ int System::find(const std::string& variable_name) const {
 
 namespace {
 
+constexpr int kMaxPower = 1000;  // powers are evaluated factor by factor
+
 void validate_polynomial(const Polynomial& polynomial, int variables) {
   const std::string place = polynomial.source.empty() ? "a polynomial" : polynomial.source;
   std::set<std::vector<std::pair<int, int>>> seen;
@@ -49,6 +49,8 @@ void validate_polynomial(const Polynomial& polynomial, int variables) {
       if (factor.variable < 0 || factor.variable >= variables)
         throw std::invalid_argument(place + ": variable index " + std::to_string(factor.variable) + " is out of range");
       if (factor.power < 1) throw std::invalid_argument(place + ": a power is less than 1");
+      if (factor.power > kMaxPower)
+        throw std::invalid_argument(place + ": a power is greater than " + std::to_string(kMaxPower));
       if (!key.empty() && key.back().first >= factor.variable)
         throw std::invalid_argument(place + ": the factors of a monomial are not sorted by variable");
       key.emplace_back(factor.variable, factor.power);
@@ -72,14 +74,14 @@ void System::validate() const {
                                   variable.upper.text() + "], is empty");
     if (!variable.domain.is_bounded()) throw std::invalid_argument("the domain of " + variable.name + " is unbounded");
   }
-  for (const Polynomial& polynomial : equations)
-    validate_polynomial(polynomial, size());
-  for (const Polynomial& polynomial : inequalities)
-    validate_polynomial(polynomial, size());
+  for (const Polynomial& polynomial : equations) validate_polynomial(polynomial, size());
+  for (const Polynomial& polynomial : inequalities) validate_polynomial(polynomial, size());
   for (const Angle& angle : angles) {
     if (angle.cosine < 0 || angle.cosine >= size() || angle.sine < 0 || angle.sine >= size() || angle.cosine == angle.sine)
       throw std::invalid_argument("the angle " + angle.name + " refers to a variable that does not exist");
   }
+  if (!(coefficient_tolerance >= 0 && coefficient_tolerance < 0.01))
+    throw std::invalid_argument("the coefficient tolerance must be in [0, 0.01)");
   if (configuration_size < 0 || configuration_size > size())
     throw std::invalid_argument("configuration_size is out of range");
 }

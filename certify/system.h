@@ -68,6 +68,9 @@ struct System {
   std::vector<Polynomial> equations;     ///< m, each = 0
   std::vector<Polynomial> inequalities;  ///< each ≥ 0
   std::vector<Angle> angles;
+  /// Relative tolerance of the coefficients that are no integers, for over-determined systems whose printed decimals are rounded and
+  /// therefore inconsistent as exact numbers. 0 (default): every coefficient is exact.
+  double coefficient_tolerance = 0;
   /// Number of leading variables that describe the configuration q; the others (kernel vector) follow.
   int configuration_size = 0;
 

@@ -161,6 +161,7 @@ class ResultReader {
     read_options(result.options);
     result.cover.dimension = count("dimension");
     result.cover.sigma = file_.double_attribute("/", "sigma");
+    result.cover.tolerance = file_.double_attribute("/", "tolerance");
     result.cover.boxes = boxes("/boxes", result.variables.size());
     result.cover.points = boxes("/points", result.variables.size());
     read_statistics(result.cover.statistics);
@@ -263,6 +264,7 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   file.attribute("/", "complete", std::int64_t{result.cover.complete()});
   file.attribute("/", "dimension", std::int64_t{result.cover.dimension});
   file.attribute("/", "sigma", result.cover.sigma);
+  file.attribute("/", "tolerance", result.cover.tolerance);
   file.attribute("/", "configuration_size", std::int64_t{result.configuration_size});
   file.attribute("/", "equations", std::int64_t{result.equations});
   file.attribute("/", "inequalities", std::int64_t{result.inequalities});

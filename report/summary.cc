@@ -18,8 +18,8 @@ using certify::Interval;
 using certify::Verdict;
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kVerdictsInOrder{Verdict::regular,  Verdict::isolated,  Verdict::exact,
-                                      Verdict::boundary, Verdict::undecided, Verdict::pending};
+constexpr std::array kVerdictsInOrder{Verdict::regular, Verdict::isolated,  Verdict::exact,  Verdict::boundary,
+                                      Verdict::partial, Verdict::undecided, Verdict::pending};
 static_assert(kVerdictsInOrder.size() == certify::kVerdicts);
 
 // glibc's printf rounds decimals in the current rounding mode (exactly, at any number of digits).
@@ -110,6 +110,13 @@ std::string to_table(const Result& result) {
     if (const std::size_t n = cover.count(verdict); n > 0) text += fmt::format("  {:<10}  {:>10}\n", to_string(verdict), n);
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
+  if (cover.tolerance > 0) {
+    text += fmt::format(
+        "\nmore equations than variables: coefficients that are no integers are taken within a relative tolerance of {:g};\n"
+        "partial: proven for independent equations, on the piece the others hold within {:g} (relative to their "
+        "coefficients)\n",
+        cover.tolerance / certify::kPartialTolerance, cover.tolerance);
+  }
   if (cover.dimension == 0) {
     std::array<std::size_t, certify::kVerdicts> counts{};
     for (const CoverBox& point : cover.points) ++counts[static_cast<std::size_t>(point.verdict)];

@@ -10,9 +10,10 @@ compiler=${CORANK_FUZZ_CXX:-$(command -v clang++-14 || command -v clang++)}
 echo "fuzz: building with $compiler in $build"
 cmake -G Ninja -S "$root" -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
       -DCORANK_BUILD_FUZZERS=ON -DCORANK_BUILD_TESTS=ON -DCORANK_BUILD_BENCH=OFF >/dev/null
-ninja -C "$build" model_file_fuzzer
+fuzzers="model_file cuik_sol cuik_param"
+ninja -C "$build" $(printf '%s_fuzzer ' $fuzzers)
 
-for fuzzer in model_file; do
+for fuzzer in $fuzzers; do
   mkdir -p "$build/corpus/$fuzzer" "$build/findings"
   echo "fuzz: $fuzzer for $seconds s"
   "$build/tests/fuzz/${fuzzer}_fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \

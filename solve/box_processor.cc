@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "corank/certify/check.h"
 #include "corank/certify/projection.h"
 
 namespace corank::solve {
@@ -14,16 +15,20 @@ using certify::Location;
 using certify::Verdict;
 
 // Measured on Dextar's sets, see bench/HISTORY.md.
-constexpr double kWorthwhileShare = 0.1;   // a projection that gains less is not followed up
-constexpr double kNewtonGain = 0.3;        // repeat Newton while some variable loses this share
+constexpr double kWorthwhileShare = 0.1;  // a projection that gains less is not followed up
+constexpr double kNewtonGain = 0.3;       // repeat Newton while some variable loses this share
 constexpr int kNewtonRepeats = 4;
-constexpr double kProofSpread = 1.5;       // try a proof below this spread |I − Y·S|
-constexpr double kFreeCutShare = 0.1;     // cut a free side unless it is already so much narrower than the others or σ
+constexpr double kProofSpread = 1.5;   // try a proof below this spread |I − Y·S|
+constexpr double kFreeCutShare = 0.1;  // cut a free side unless it is already so much narrower than the others or σ
 constexpr double kLastCutShare = 1.0 / 64;
 constexpr int kTightenings = 3;
-constexpr double kCutMargin = 0.97;        // aim a little below σ: the linearization is not exact
-constexpr double kMaxCells = 256;            // of one cut; a piece that needs more is first cut into kCoarseParts
+constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
+constexpr int kPartialDepth = 8;       // halvings of a piece on which redundant equations are bounded
+constexpr double kCutMargin = 0.97;    // aim a little below σ: the linearization is not exact
+constexpr double kMaxCells = 256;      // of one cut; a piece that needs more is first cut into kCoarseParts
 constexpr int kCoarseParts = 16;
+constexpr double kFutileShare = 0.95;
+constexpr int kFutileCuts = 10;
 constexpr unsigned kPiecesBetweenChecks = 16;
 
 // The cells of the grid that cuts side free[j] of the piece into parts[j] equal parts.
@@ -48,6 +53,11 @@ std::vector<std::vector<Interval>> grid(const std::vector<Interval>& piece, cons
   return cells;
 }
 
+// The tolerance of `partial`, 0 for a system that has no such verdict.
+double over_determined_tolerance(const certify::System& system) {
+  return system.equations.size() > system.variables.size() ? certify::kPartialTolerance * system.coefficient_tolerance : 0;
+}
+
 double widest(const std::vector<Interval>& x) {
   double width = 0;
   for (const Interval& side : x) width = std::max(width, side.width());
@@ -57,10 +67,21 @@ double widest(const std::vector<Interval>& x) {
 }  // namespace
 
 Problem::Problem(const certify::System& system, double s, std::function<bool()> e)
-    : compiled(system), domain(system), branching(system), sigma(s), ended(std::move(e)) {}
+    : compiled(system),
+      domain(system, over_determined_tolerance(system)),
+      branching(system),
+      sigma(s),
+      over_determined(over_determined_tolerance(system) > 0),
+      tolerance(over_determined_tolerance(system)),
+      ended(std::move(e)) {
+  for (const auto& f : system.equations) {
+    double sum = 0;
+    for (const auto& m : f.monomials) sum += m.enclosure.mag();
+    row_scale.push_back(sum);
+  }
+}
 
-BoxProcessor::BoxProcessor(const Problem& problem, std::function<bool()> go_on)
-    : problem_(problem), go_on_(std::move(go_on)), preconditioners_(problem.compiled) {
+BoxProcessor::BoxProcessor(const Problem& problem) : problem_(problem), preconditioners_(problem.compiled) {
   changed_.resize(problem.compiled.variables());
   pending_rows_.resize(problem.compiled.rows());
 }
@@ -110,10 +131,29 @@ bool BoxProcessor::contract(Interval* x) {
   return true;
 }
 
+bool BoxProcessor::others_hold(const certify::Sheet& sheet, const std::vector<int>& free, std::vector<Interval> piece,
+                               int depth) {
+  const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent, &sheet.equations);
+  if (p.rank() != static_cast<int>(sheet.dependent.size())) return false;
+  certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
+  bool hold = true;
+  for (int row = 0; row < problem_.compiled.equations() && hold; ++row) {
+    if (std::find(sheet.equations.begin(), sheet.equations.end(), row) != sheet.equations.end()) continue;
+    hold = certify::value_on_sheet(problem_.compiled, p, row, piece.data(), workspace_).mag() <=
+           problem_.tolerance * problem_.row_scale[row];
+  }
+  if (hold) return true;
+  if (depth == 0 || free.empty()) return false;
+  const auto parts = grid(piece, free, std::vector<int>(free.size(), 2));
+  return std::all_of(parts.begin(), parts.end(),
+                     [&](const auto& part) { return others_hold(sheet, free, part, depth - 1); });
+}
+
 bool BoxProcessor::certify(Interval* x) {
   const auto start = std::chrono::steady_clock::now();
   ++statistics_.proofs_tried;
-  const auto& p = preconditioners_.at_midpoint(x);
+  const auto& p = problem_.over_determined ? preconditioners_.near_solution(x) : preconditioners_.at_midpoint(x);
+  if (!problem_.over_determined && p.rank() < problem_.compiled.equations()) return false;
   const certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, x, workspace_);
   if (sheet.proven) slice(sheet, x);
   statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -127,8 +167,12 @@ void BoxProcessor::add(const certify::Sheet& sheet, const std::vector<int>& free
     case Location::across: verdict = Verdict::boundary; break;
     case Location::inside: break;
   }
+  if (problem_.over_determined) {
+    const bool holds = verdict != Verdict::boundary && others_hold(sheet, free, piece, kPartialDepth);
+    verdict = holds ? Verdict::partial : Verdict::undecided;
+  }
   Found found{{std::move(piece), verdict, free}, {}};
-  if (free.empty()) {
+  if (free.empty() && verdict != Verdict::undecided) {
     found.sheet = sheet;
     found.sheet.image = found.box.box;
   }
@@ -182,18 +226,22 @@ void BoxProcessor::slice(const certify::Sheet& sheet, const Interval* x) {
   for (int j = 0; j < n; ++j)
     if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) free.push_back(j);
 
-  std::vector<std::vector<Interval>> pieces{sheet.image};
+  struct Piece {
+    std::vector<Interval> sides;
+    double former_width;  // of the widest edge of the piece that it was cut from
+    int futile_cuts;      // in a row
+  };
+  std::vector<Piece> pieces{{sheet.image, HUGE_VAL, 0}};
   for (unsigned turn = 1; !pieces.empty(); ++turn) {
-    std::vector<Interval> piece = std::move(pieces.back());
-    pieces.pop_back();
     if (turn % kPiecesBetweenChecks == 0 && problem_.ended()) {
-      pieces.push_back(std::move(piece));
-      for (auto& rest : pieces) found_.push_back({{std::move(rest), Verdict::pending, {}}, {}});
+      for (auto& rest : pieces) found_.push_back({{std::move(rest.sides), Verdict::pending, {}}, {}});
       return;
     }
+    auto [piece, former_width, futile_cuts] = std::move(pieces.back());
+    pieces.pop_back();
     double width = widest(piece);
-    for (int k = 0; k < kTightenings; ++k) {
-      const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent);
+    for (int k = 0; k < (free.empty() ? kPointTightenings : kTightenings); ++k) {
+      const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent, &sheet.equations);
       certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
       const double tightened = widest(piece);
       if (!free.empty() && (tightened <= problem_.sigma || tightened > 0.9 * width)) break;
@@ -206,11 +254,16 @@ void BoxProcessor::slice(const certify::Sheet& sheet, const Interval* x) {
     for (int j = 0; j < n && meets; ++j) meets = piece[j].overlaps(x[j]);
     if (!meets) continue;
     if (problem_.domain.locate(problem_.compiled, piece.data()) == Location::outside) continue;
-    if (width <= problem_.sigma || free.empty()) {
+    // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts in a row
+    // gain nothing, the piece stays as it is, proven.
+    futile_cuts = width > kFutileShare * former_width ? futile_cuts + 1 : 0;
+    const bool stuck = futile_cuts > kFutileCuts ||
+                       std::none_of(free.begin(), free.end(), [&](int j) { return split_point(piece[j]).has_value(); });
+    if (width <= problem_.sigma || stuck) {
       add(sheet, free, std::move(piece));
       continue;
     }
-    for (auto& part : cut(piece, sheet.dependent, free)) pieces.push_back(std::move(part));
+    for (auto& part : cut(piece, sheet.dependent, free)) pieces.push_back({std::move(part), width, futile_cuts});
   }
 }
 
@@ -235,13 +288,11 @@ BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
   if (worth_proving_) {
     const int free = widest_free(x);
     const double least = split_variable_ >= 0 ? kFreeCutShare * x[split_variable_].width() : kLastCutShare * problem_.sigma;
-    if (free >= 0 && x[free].width() > least) split_variable_ = free;
+    if (free >= 0 && x[free].width() > least && split_point(x[free])) split_variable_ = free;
   }
-  if (split_variable_ >= 0) {
-    const Interval& side = x[split_variable_];
-    const double at = side.lo() + kBisectionPoint * (side.hi() - side.lo());
-    if (at > side.lo() && at < side.hi()) return Outcome::split;
-  }
+  if (split_variable_ >= 0) return Outcome::split;
+  // At its final size: an over-determined system's box gets its one chance of a proof here, where its rank shows.
+  if (problem_.over_determined && certify(x)) return Outcome::done;
   Found found;
   found.box.box.assign(x, x + problem_.compiled.variables());
   found.box.verdict = Verdict::undecided;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <functional>
-#include <functional>
 #include <vector>
 
 #include "corank/certify/cover.h"
@@ -24,6 +23,11 @@ struct Problem {
   certify::DomainTest domain;
   BranchingRule branching;
   double sigma;
+  /// Over-determined with a coefficient tolerance: proofs speak of an independent subset of the equations (`partial`), the others
+  /// must hold within `tolerance` · Σ|coefficients|.
+  bool over_determined;
+  double tolerance;
+  std::vector<double> row_scale;  ///< Σ|coefficients| of each equation
   std::function<bool()> ended;
 };
 
@@ -38,8 +42,7 @@ class BoxProcessor {
  public:
   enum class Outcome { done, split };
 
-  /// `go_on` is asked before each piece of a proven sheet; once it says no, the sheet's other pieces are left `pending`.
-  BoxProcessor(const Problem& problem, std::function<bool()> go_on);
+  explicit BoxProcessor(const Problem& problem);
 
   /// Treats the box x (changed in place). done: it is empty, or its solutions are in found(). split: it has shrunk to x and is to
   /// be bisected at split_variable(). Where the search ends while a sheet is being cut, the rest of it is found as pending boxes.
@@ -54,6 +57,10 @@ class BoxProcessor {
   bool propagate(certify::Interval* x);
   // Propagation and interval Newton in turns. False: empty.
   bool contract(certify::Interval* x);
+  // Do the equations that the sheet's proof does not speak of hold within the tolerance on a piece of it? Cuts the piece as finely as
+  // the bound needs, `depth` times at most.
+  bool others_hold(const certify::Sheet& sheet, const std::vector<int>& free, std::vector<certify::Interval> piece,
+                   int depth);
   // The widest side that Newton leaves free, −1 where there is none.
   int widest_free(const certify::Interval* x);
   // If a sheet over x can be proven, adds its pieces to found() and returns true.
@@ -66,7 +73,6 @@ class BoxProcessor {
   void add(const certify::Sheet& sheet, const std::vector<int>& free, std::vector<certify::Interval> piece);
 
   const Problem& problem_;
-  std::function<bool()> go_on_;
   PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
   std::vector<std::uint8_t> changed_, pending_rows_;

@@ -10,10 +10,11 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <sstream>
 #include <mutex>
+#include <sstream>
 #include <stdexcept>
 
+#include "corank/certify/check.h"
 #include "corank/certify/rounding.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/points.h"
@@ -65,7 +66,13 @@ class WorkList {
 class Search {
  public:
   Search(const certify::System& system, const Options& options, double sigma)
-      : options_(options), problem_(system, sigma, [this] { return limit_reached(); }), processors_([this] { return BoxProcessor(problem_, [this] { return count_one(); }); }) {}
+      : options_(options),
+        problem_(system, sigma,
+                 [this] {
+                   report(false);
+                   return limit_reached();
+                 }),
+        processors_([this] { return BoxProcessor(problem_); }) {}
 
   void run(const certify::System& system) {
     const std::size_t n = system.variables.size();
@@ -83,7 +90,7 @@ class Search {
         work(std::move(all));
       } else {
         spawn(std::move(all));
-        group_.wait();
+        CORANK_CHECK(group_.wait() != tbb::canceled);  // else waiting boxes would be lost
       }
     });
   }
@@ -121,7 +128,6 @@ class Search {
     options_.progress(p);
     std::fesetround(mode);
   }
-  int threads() const { return threads_; }
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
  private:
@@ -143,7 +149,7 @@ class Search {
     return over;
   }
 
-  // Counts a box or a piece that is about to be processed; false: there is to be none.
+  // Counts a box that is about to be processed; false: there is to be none.
   bool count_one() {
     if (limit_reached()) return false;
     const std::uint64_t before = processed_.fetch_add(1, std::memory_order_relaxed);
@@ -163,7 +169,7 @@ class Search {
       if (outcome == BoxProcessor::Outcome::split) {
         const int j = processor.split_variable();
         const Interval side = x[j];
-        const double at = side.lo() + kBisectionPoint * (side.hi() - side.lo());
+        const double at = *split_point(side);
         x[j] = Interval(at, side.hi());
         list.push(x.data(), share * (1 - kBisectionPoint));
         x[j] = Interval(side.lo(), at);
@@ -210,15 +216,17 @@ std::string format(double x) {
 }
 
 bool before(const Found& a, const Found& b) {
-  return std::lexicographical_compare(a.box.box.begin(), a.box.box.end(), b.box.box.begin(), b.box.box.end(),
-                                      [](const Interval& x, const Interval& y) {
-                                        return x.lo() != y.lo() ? x.lo() < y.lo() : x.hi() < y.hi();
-                                      });
+  return std::lexicographical_compare(
+      a.box.box.begin(), a.box.box.end(), b.box.box.begin(), b.box.box.end(),
+      [](const Interval& x, const Interval& y) { return x.lo() != y.lo() ? x.lo() < y.lo() : x.hi() < y.hi(); });
 }
 
 }  // namespace
 
-double default_sigma(const certify::System& system) { return system.dimension() == 0 ? 1e-6 : 0.1; }
+double default_sigma(const certify::System& system) {
+  // An over-determined system with a tolerance may have a set of any dimension.
+  return system.dimension() == 0 && system.coefficient_tolerance == 0 ? 1e-6 : 0.1;
+}
 
 double smallest_sigma(const certify::System& system) {
   double largest = 0;
@@ -239,15 +247,14 @@ Cover solve(const certify::System& system, const Options& options) {
   cover.dimension = system.dimension();
   cover.sigma = sigma;
   cover.statistics = search.statistics();
-  cover.statistics.seconds_certify /= search.threads();  // its share of the time that passed
+  cover.tolerance = system.coefficient_tolerance * certify::kPartialTolerance;
   std::vector<Found> found = search.take_found();
+  for (const Found& f : found)
+    if (f.box.verdict == Verdict::partial) cover.dimension = std::max(cover.dimension, static_cast<int>(f.box.free.size()));
   std::sort(found.begin(), found.end(), before);
   if (cover.dimension == 0) {
     merge_isolated(found);
-    std::vector<Found> candidates;
-    for (const Found& f : found)
-      if (f.box.verdict != Verdict::pending) candidates.push_back(f);
-    cover.points = collect_points(candidates, sigma);
+    cover.points = collect_points(found, sigma);
   }
   for (Found& f : found) cover.boxes.push_back(std::move(f.box));
   cover.statistics.seconds_total = search.seconds();

@@ -1,6 +1,8 @@
 #include "corank/solve/branching.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 
 namespace corank::solve {
@@ -70,19 +72,26 @@ BranchingRule::BranchingRule(const System& system) : weight_(system.variables.si
     if (v.kind == certify::VariableKind::kernel || kernel.count(static_cast<int>(j))) weight_[j] = 0.5;
     if (defined[j]) weight_[j] = 0;
     const double width = v.domain.width();
-    inverse_width_.push_back(width > 0 ? 1 / width : 0);
+    inverse_width_.push_back(width > 0 ? 1 / width : 0);  // an overflowing width counts as the largest double
+    if (!std::isfinite(width)) inverse_width_.back() = 1 / std::numeric_limits<double>::max();
   }
   if (std::all_of(weight_.begin(), weight_.end(), [](double w) { return w == 0; }))
     std::fill(weight_.begin(), weight_.end(), 1.0);
+}
+
+std::optional<double> split_point(const certify::Interval& side) {
+  const double at = (1 - kBisectionPoint) * side.lo() + kBisectionPoint * side.hi();
+  return at > side.lo() && at < side.hi() ? std::optional(at) : std::nullopt;
 }
 
 int BranchingRule::choose(const certify::Interval* x, double sigma) const {
   int best = -1, widest = -1;
   double best_score = 0, widest_width = sigma;
   for (std::size_t j = 0; j < weight_.size(); ++j) {
-    const double width = x[j].width();
+    const double width = std::min(x[j].width(), std::numeric_limits<double>::max());
     const double share = width * inverse_width_[j];
     if (width <= sigma && (share <= kProofShare || weight_[j] == 0)) continue;
+    if (!split_point(x[j])) continue;
     const double score = weight_[j] * share;
     if (score > best_score) best_score = score, best = static_cast<int>(j);
     if (width > widest_width) widest_width = width, widest = static_cast<int>(j);

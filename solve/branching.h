@@ -1,6 +1,7 @@
 // Which variable to bisect. Heuristic throughout.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "corank/certify/system.h"
@@ -10,6 +11,9 @@ namespace corank::solve {
 /// Off-centre, because mechanisms put solutions on planes of symmetry, and a face through a solution doubles its boxes.
 inline constexpr double kBisectionPoint = 0.47;
 
+/// Where to bisect a side; nothing where it is too narrow for doubles to divide.
+std::optional<double> split_point(const certify::Interval& side);
+
 /// Unproven boxes are bisected at least until each side is this share of its domain.
 inline constexpr double kProofShare = 0.05;
 
@@ -18,7 +22,7 @@ class BranchingRule {
   explicit BranchingRule(const certify::System& system);
 
   /// The variable to bisect for an unproven box: the one of largest weight · width / domain width among those wider than σ or than
-  /// kProofShare of their domain (a wider box can hardly be proven, however large σ is); −1 where there is none. A variable that a
+  /// kProofShare of their domain (a wider box can hardly be proven, however large σ is); −1 where there is none that can be divided. A variable that a
   /// linear equation defines waits until all others are narrow.
   int choose(const certify::Interval* x, double sigma) const;
 

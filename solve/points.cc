@@ -1,6 +1,7 @@
 #include "corank/solve/points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "corank/certify/distinct.h"
@@ -27,24 +28,51 @@ class Clusters {
   std::vector<std::size_t> parent_;
 };
 
-// Calls visit(i, j) for every pair whose sides overlap when widened by gap; sorted along the first variable.
+// Calls visit(i, j) for every pair i in first, j in second (i ≠ j) whose sides overlap when widened by gap. Sweeps along the variable
+// that spreads the boxes most.
 template <class Visit>
-void for_each_close_pair(const std::vector<const std::vector<Interval>*>& boxes, double gap, Visit visit) {
-  std::vector<std::size_t> order(boxes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return (*boxes[a])[0].lo() < (*boxes[b])[0].lo(); });
-  for (std::size_t s = 0; s < order.size(); ++s) {
-    const auto& a = *boxes[order[s]];
-    for (std::size_t t = s + 1; t < order.size(); ++t) {
-      const auto& b = *boxes[order[t]];
-      if (b[0].lo() > a[0].hi() + gap) break;
+void for_each_close_pair(const std::vector<const std::vector<Interval>*>& boxes, const std::vector<std::size_t>& first,
+                         const std::vector<std::size_t>& second, double gap, Visit visit) {
+  if (first.empty() || second.empty()) return;
+  std::size_t along = 0;
+  double best = -1;
+  for (std::size_t j = 0; j < boxes[second[0]]->size(); ++j) {
+    double least = HUGE_VAL, greatest = -HUGE_VAL, width = 0;
+    for (std::size_t i : second) {
+      least = std::min(least, (*boxes[i])[j].lo());
+      greatest = std::max(greatest, (*boxes[i])[j].lo());
+      width = std::max(width, (*boxes[i])[j].width());
+    }
+    const double spread = (greatest - least) / (width + gap + 1e-300);
+    if (spread > best) best = spread, along = j;
+  }
+  std::vector<std::size_t> order(second);
+  const auto lower_end = [&](std::size_t i) { return (*boxes[i])[along].lo(); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return lower_end(a) < lower_end(b); });
+  double width = 0;
+  for (std::size_t i : order) width = std::max(width, (*boxes[i])[along].width());
+  for (std::size_t i : first) {
+    const auto& a = *boxes[i];
+    const double from = a[along].lo() - width - gap, to = a[along].hi() + gap;
+    auto at = std::lower_bound(order.begin(), order.end(), from,
+                               [&](std::size_t k, double value) { return lower_end(k) < value; });
+    for (; at != order.end() && lower_end(*at) <= to; ++at) {
+      if (*at == i) continue;
+      const auto& b = *boxes[*at];
       bool close = true;
       for (std::size_t j = 0; j < a.size() && close; ++j)
         close = a[j].lo() <= b[j].hi() + gap && b[j].lo() <= a[j].hi() + gap;
-      if (close) visit(std::min(order[s], order[t]), std::max(order[s], order[t]));
+      if (close) visit(i, *at);
     }
   }
+}
+
+template <class Choose>
+std::vector<std::size_t> indices(const std::vector<Found>& found, Choose choose) {
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (choose(found[i])) result.push_back(i);
+  return result;
 }
 
 std::vector<const std::vector<Interval>*> sides(const std::vector<Found>& found) {
@@ -57,17 +85,18 @@ std::vector<const std::vector<Interval>*> sides(const std::vector<Found>& found)
 
 void merge_isolated(std::vector<Found>& found) {
   std::vector<bool> remove(found.size(), false), unclear(found.size(), false);
-  for_each_close_pair(sides(found), 0.0, [&](std::size_t i, std::size_t j) {
+  const auto proven = indices(found, is_proven);
+  const auto all = indices(found, [](const Found&) { return true; });
+  for_each_close_pair(sides(found), proven, all, 0.0, [&](std::size_t i, std::size_t j) {
     if (remove[i] || remove[j]) return;
-    if (is_proven(found[i]) && is_proven(found[j])) {
+    if (!is_proven(found[j])) {
+      if (certify::holds_nothing_else(found[i].sheet, found[j].box.box.data())) remove[j] = true;
+    } else if (i < j) {
       switch (certify::compare_isolated(found[i].sheet, found[j].sheet)) {
         case certify::Identity::same: remove[j] = true; break;
         case certify::Identity::different: break;
         case certify::Identity::unknown: unclear[i] = unclear[j] = true; break;
       }
-    } else if (is_proven(found[i]) != is_proven(found[j])) {
-      const std::size_t proven = is_proven(found[i]) ? i : j, other = is_proven(found[i]) ? j : i;
-      if (certify::holds_nothing_else(found[proven].sheet, found[other].box.box.data())) remove[other] = true;
     }
   });
   std::size_t kept = 0;
@@ -85,12 +114,12 @@ void merge_isolated(std::vector<Found>& found) {
 
 std::vector<certify::CoverBox> collect_points(const std::vector<Found>& found, double gap) {
   Clusters clusters(found.size());
-  for_each_close_pair(sides(found), gap, [&](std::size_t i, std::size_t j) {
-    if (!is_proven(found[i]) && !is_proven(found[j])) clusters.join(i, j);
-  });
+  const auto open = indices(found, [](const Found& f) { return !is_proven(f) && f.box.verdict != Verdict::pending; });
+  for_each_close_pair(sides(found), open, open, gap, [&](std::size_t i, std::size_t j) { clusters.join(i, j); });
   std::vector<certify::CoverBox> points;
   std::vector<std::size_t> point_of(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].box.verdict == Verdict::pending) continue;
     const std::size_t root = clusters.root(i);
     if (root == i) {
       point_of[i] = points.size();

@@ -12,7 +12,7 @@ namespace corank::solve {
 void merge_isolated(std::vector<Found>& found);
 
 /// The distinct solutions: each isolated or boundary box, and the hull of each cluster of undecided boxes that are no farther apart
-/// than gap (the hull is no claim, so the gap is free to choose).
+/// than gap, pending ones left out (the hull is no claim, so the gap is free to choose).
 std::vector<certify::CoverBox> collect_points(const std::vector<Found>& found, double gap);
 
 }  // namespace corank::solve

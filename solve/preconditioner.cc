@@ -5,16 +5,51 @@
 
 namespace corank::solve {
 namespace {
-constexpr double kRankTolerance = 1e-9;  // pivots below this share of a row's largest entry count as zero
+// Pivots below this share of a row's largest entry count as zero.
+constexpr double kRankTolerance = 1e-9;
+constexpr double kRedundantRankTolerance = 1e-4;  // near a solution of rounded, redundant equations
+constexpr int kGaussNewtonSteps = 8;
 }  // namespace
 
 PreconditionerFactory::PreconditionerFactory(const certify::CompiledSystem& system)
     : system_(system), m_(system.equations()), n_(system.variables()) {}
 
 const certify::Preconditioner& PreconditionerFactory::at_midpoint(const certify::Interval* x,
-                                                                  const std::vector<int>* candidates) {
+                                                                  const std::vector<int>* candidates,
+                                                                  const std::vector<int>* rows) {
   center_.resize(n_);
   for (int j = 0; j < n_; ++j) center_[j] = x[j].mid();
+  return at_center(candidates, rows, kRankTolerance);
+}
+
+const certify::Preconditioner& PreconditionerFactory::near_solution(const certify::Interval* x) {
+  center_.resize(n_);
+  for (int j = 0; j < n_; ++j) center_[j] = x[j].mid();
+  double former = HUGE_VAL;
+  for (int step = 0; step < kGaussNewtonSteps; ++step) {
+    at_center(nullptr, nullptr, kRedundantRankTolerance);
+    const std::vector<double> start = center_;
+    double moved = 0;
+    for (int a = 0; a < result_.rank(); ++a) {
+      double shift = 0;
+      for (int b = 0; b < result_.rank(); ++b)
+        shift += result_.y[static_cast<std::size_t>(a) * result_.rank() + b] *
+                 system_.evaluate_at(result_.equations[b], start.data()).mid();
+      center_[result_.dependent[a]] -= shift;
+      moved = std::max(moved, std::fabs(shift));
+    }
+    if (!(moved < former)) {
+      center_ = start;
+      break;
+    }
+    former = moved;
+    if (moved < 1e-9) break;
+  }
+  return at_center(nullptr, nullptr, kRedundantRankTolerance);
+}
+
+const certify::Preconditioner& PreconditionerFactory::at_center(const std::vector<int>* candidates,
+                                                                const std::vector<int>* rows, double rank_tolerance) {
   sparse_.resize(system_.entries());
   system_.approximate_jacobian(center_.data(), sparse_.data());
 
@@ -27,7 +62,9 @@ const certify::Preconditioner& PreconditionerFactory::at_midpoint(const certify:
     }
     row_scale_[i] = row_scale_[i] > 0 ? 1 / row_scale_[i] : 0;
   }
-  row_done_.assign(m_, 0);
+  row_done_.assign(m_, rows ? 1 : 0);
+  if (rows)
+    for (int i : *rows) row_done_[i] = 0;
   allowed_.assign(n_, candidates ? 0.0 : 1.0);
   if (candidates)
     for (int j : *candidates) allowed_[j] = 1.0;
@@ -52,7 +89,7 @@ const certify::Preconditioner& PreconditionerFactory::at_midpoint(const certify:
   result_.dependent.clear();
   for (int step = 0; step < std::min(m_, n_); ++step) {
     int row = -1;
-    double best = kRankTolerance;
+    double best = candidates ? 0 : rank_tolerance;  // candidates come from a proof: they are independent
     for (int i = 0; i < m_; ++i)
       if (!row_done_[i] && best_size_[i] > best) best = best_size_[i], row = i;
     if (row < 0) break;

@@ -13,14 +13,23 @@ class PreconditionerFactory {
   explicit PreconditionerFactory(const certify::CompiledSystem& system);
 
   /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x: each pivot makes one variable
-  /// dependent. Fewer than m rows where the Jacobian is numerically rank deficient. If `candidates` is given, only those
-  /// variables may become dependent.
-  const certify::Preconditioner& at_midpoint(const certify::Interval* x, const std::vector<int>* candidates = nullptr);
+  /// dependent. Fewer than m rows where the Jacobian is numerically rank deficient. If given, only the `candidates` may become
+  /// dependent, and only the `rows` are used.
+  const certify::Preconditioner& at_midpoint(const certify::Interval* x, const std::vector<int>* candidates = nullptr,
+                                             const std::vector<int>* rows = nullptr);
+  /// The same at a point near the midpoint where all equations nearly hold (a few Gauss–Newton steps), so that the rank of an
+  /// over-determined system shows: away from its solutions redundant equations look independent.
+  const certify::Preconditioner& near_solution(const certify::Interval* x);
 
-  /// After at_midpoint: ∂(dependent a)/∂(free j) of the linearized system, r×n row-major, 0 for dependent columns.
-  double sensitivity(int a, int j) const { return -tableau_[static_cast<std::size_t>(result_.equations[a]) * n_ + j]; }
+  /// After either: ∂(dependent a)/∂(free j) of the linearized system, r×n row-major, 0 for dependent columns.
+  double sensitivity(int a, int j) const {
+    return a >= result_.rank() ? 0 : -tableau_[static_cast<std::size_t>(result_.equations[a]) * n_ + j];
+  }
 
  private:
+  const certify::Preconditioner& at_center(const std::vector<int>* candidates, const std::vector<int>* rows,
+                                           double rank_tolerance);
+
   const certify::CompiledSystem& system_;
   int m_, n_;
   std::vector<double> center_, sparse_, tableau_, row_scale_, best_size_, allowed_;

@@ -21,11 +21,12 @@ struct Progress {
 };
 
 struct Options {
-  /// Largest edge that a returned box may have. Default: default_sigma(system).
+  /// Largest edge that a returned box may have. Default: default_sigma(system). Only where rounding in an ill-conditioned system keeps
+  /// a proven box from becoming that narrow it stays wider: Cover::wider_than_sigma counts such boxes.
   std::optional<double> sigma;
-  int threads = 1;               ///< 0: one for each core
-  std::uint64_t max_boxes = 0;   ///< stop after so many processed boxes; 0: no limit
-  double time_limit = 0;         ///< seconds; 0: no limit
+  int threads = 1;              ///< 0: one for each core
+  std::uint64_t max_boxes = 0;  ///< stop after so many processed boxes; 0: no limit
+  double time_limit = 0;        ///< seconds; 0: no limit
   /// Called every `progress_interval` seconds or so, from one thread at a time.
   std::function<void(const Progress&)> progress;
   double progress_interval = 0.1;
@@ -33,7 +34,7 @@ struct Options {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// 1e-6 for a set of dimension 0, else 0.1 (the CUIK suite's default).
+/// 1e-6 for a set of dimension 0, else, and for over-determined systems with a tolerance, 0.1 (the CUIK suite's default).
 double default_sigma(const certify::System& system);
 
 /// The least σ that solve() accepts: below it the rounding of doubles would keep boxes from becoming that narrow.

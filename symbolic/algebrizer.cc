@@ -92,8 +92,7 @@ int Algebrizer::add_variable(const std::string& name, VariableKind kind, const C
 }
 
 std::string Algebrizer::fresh_name(std::string name) {
-  while (!names_.insert(name).second)
-    name += "_";
+  while (!names_.insert(name).second) name += "_";
   return name;
 }
 
@@ -191,10 +190,8 @@ void Algebrizer::add_inequality(const TrigonometricSystem::Equation& inequality)
 
 certify::System Algebrizer::run() {
   out_.name = in_.name;
-  for (const Constant& constant : in_.constants)
-    names_.insert(constant.name);
-  for (const Coordinate& coordinate : in_.coordinates)
-    names_.insert(coordinate.name);
+  for (const Constant& constant : in_.constants) names_.insert(constant.name);
+  for (const Coordinate& coordinate : in_.coordinates) names_.insert(coordinate.name);
   names_.insert(in_.kernel_unknowns.begin(), in_.kernel_unknowns.end());
 
   add_constants();
@@ -209,8 +206,7 @@ certify::System Algebrizer::run() {
   add_circles();
   for (const auto& equation : in_.equations)
     if (mentions_kernel(equation.relation)) add_equation(equation);
-  for (const auto& inequality : in_.inequalities)
-    add_inequality(inequality);
+  for (const auto& inequality : in_.inequalities) add_inequality(inequality);
   out_.inequalities.insert(out_.inequalities.end(), chords_.begin(), chords_.end());
   try {
     out_.validate();

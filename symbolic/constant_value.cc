@@ -26,14 +26,12 @@ constexpr long kMaxParts = 20'000;
 double expanded_terms(const ex& e) {
   if (is_a<GiNaC::add>(e)) {
     double sum = 0;
-    for (const ex& term : e)
-      sum += expanded_terms(term);
+    for (const ex& term : e) sum += expanded_terms(term);
     return sum;
   }
   if (is_a<GiNaC::mul>(e)) {
     double product = 1;
-    for (const ex& factor : e)
-      product *= expanded_terms(factor);
+    for (const ex& factor : e) product *= expanded_terms(factor);
     return product;
   }
   if (is_a<GiNaC::power>(e) && is_a<numeric>(e.op(1))) {
@@ -46,8 +44,7 @@ double expanded_terms(const ex& e) {
 // The number of nodes, counted up to the limit only.
 void count_parts(const ex& e, long& parts) {
   if (++parts > kMaxParts) return;
-  for (std::size_t i = 0; i < e.nops() && parts <= kMaxParts; ++i)
-    count_parts(e.op(i), parts);
+  for (std::size_t i = 0; i < e.nops() && parts <= kMaxParts; ++i) count_parts(e.op(i), parts);
 }
 
 ex reduced(const ex& e) {
@@ -76,8 +73,7 @@ ExactNumber combine(const ex& e, const ExactNumber& neutral, Combine&& op) {
   }
   std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   ExactNumber result = neutral;
-  for (const auto& [key, part] : parts)
-    result = op(result, part);
+  for (const auto& [key, part] : parts) result = op(result, part);
   return result;
 }
 

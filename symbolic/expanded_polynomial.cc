@@ -44,8 +44,7 @@ void check_power(const std::map<Key, ConstantValue>& terms, int n) {
   std::set<int> variables;
   for (const auto& [key, coefficient] : terms) {
     int sum = 0;
-    for (const auto& [variable, power] : key)
-      sum += power, variables.insert(variable);
+    for (const auto& [variable, power] : key) sum += power, variables.insert(variable);
     degree = std::max(degree, sum);
   }
   if (degree * n > ExpandedPolynomial::kMaxDegree)
@@ -81,8 +80,7 @@ void ExpandedPolynomial::add(const Key& key, const ConstantValue& coefficient) {
 }
 
 ExpandedPolynomial& ExpandedPolynomial::operator+=(const ExpandedPolynomial& y) {
-  for (const auto& [key, coefficient] : y.terms_)
-    add(key, coefficient);
+  for (const auto& [key, coefficient] : y.terms_) add(key, coefficient);
   return *this;
 }
 
@@ -94,23 +92,20 @@ ExpandedPolynomial operator*(const ExpandedPolynomial& x, const ExpandedPolynomi
                             std::to_string(y.terms_.size()) + " terms");
   ExpandedPolynomial result;
   for (const auto& [x_key, x_coefficient] : x.terms_)
-    for (const auto& [y_key, y_coefficient] : y.terms_)
-      result.add(product(x_key, y_key), x_coefficient * y_coefficient);
+    for (const auto& [y_key, y_coefficient] : y.terms_) result.add(product(x_key, y_key), x_coefficient * y_coefficient);
   return result;
 }
 
 ExpandedPolynomial operator*(const ConstantValue& c, const ExpandedPolynomial& x) {
   ExpandedPolynomial result;
-  for (const auto& [key, coefficient] : x.terms_)
-    result.add(key, c * coefficient);
+  for (const auto& [key, coefficient] : x.terms_) result.add(key, c * coefficient);
   return result;
 }
 
 ExpandedPolynomial pow(const ExpandedPolynomial& x, int n) {
   if (n > 1) check_power(x.terms_, n);
   ExpandedPolynomial result(1);
-  for (int i = 0; i < n; ++i)
-    result = result * x;
+  for (int i = 0; i < n; ++i) result = result * x;
   return result;
 }
 
@@ -121,8 +116,7 @@ certify::Polynomial ExpandedPolynomial::compile(const std::string& source) const
     if (!coefficient.is_rational() && !coefficient.exact().sign(256) && coefficient.without_squared_cosines().is_zero())
       continue;
     std::vector<certify::Factor> factors;
-    for (const auto& [variable_index, power] : key)
-      factors.push_back({variable_index, power});
+    for (const auto& [variable_index, power] : key) factors.push_back({variable_index, power});
     result.monomials.emplace_back(coefficient.exact(), std::move(factors));
   }
   return result;

@@ -18,8 +18,7 @@ struct Expression::Node {
 
 Expression Expression::make(Kind kind, std::string name, std::vector<Expression> operands, const SourceLocation& where) {
   int depth = 0;
-  for (const Expression& operand : operands)
-    depth = std::max(depth, operand.node_->depth + 1);
+  for (const Expression& operand : operands) depth = std::max(depth, operand.node_->depth + 1);
   if (depth > kMaxDepth) {
     throw ModelError(where, "the expression is nested too deeply",
                      "at most " + std::to_string(kMaxDepth) + " operations inside one another");

@@ -130,22 +130,14 @@ std::string print_product(const Expression& e) {
 
 std::string print(const Expression& e) {
   switch (e.kind()) {
-    case Kind::number:
-      return latex_number(e.name());
-    case Kind::symbol:
-      return latex_name(e.name());
-    case Kind::function:
-      return print_function(e);
-    case Kind::sum:
-      return print_sum(e);
-    case Kind::product:
-      return print_product(e);
-    case Kind::quotient:
-      return "\\frac{" + print(e.operands()[0]) + "}{" + print(e.operands()[1]) + "}";
-    case Kind::power:
-      return print_power(e);
-    case Kind::negation:
-      return "-" + in_parentheses_if(is_sum_or_negation(e.operands()[0]), e.operands()[0]);
+    case Kind::number: return latex_number(e.name());
+    case Kind::symbol: return latex_name(e.name());
+    case Kind::function: return print_function(e);
+    case Kind::sum: return print_sum(e);
+    case Kind::product: return print_product(e);
+    case Kind::quotient: return "\\frac{" + print(e.operands()[0]) + "}{" + print(e.operands()[1]) + "}";
+    case Kind::power: return print_power(e);
+    case Kind::negation: return "-" + in_parentheses_if(is_sum_or_negation(e.operands()[0]), e.operands()[0]);
   }
   return "";
 }
@@ -158,8 +150,7 @@ std::string latex_name(const std::string& name) {
   const std::size_t n = static_cast<std::size_t>(std::find_if_not(name.begin(), name.end(), is_letter) - name.begin());
   if (n == 0) {  // a name that begins with _ is no word of mathematics
     std::string escaped;
-    for (char c : name)
-      escaped += c == '_' ? "\\_" : std::string(1, c);
+    for (char c : name) escaped += c == '_' ? "\\_" : std::string(1, c);
     return "\\mathtt{" + escaped + "}";
   }
   const std::string base = latex_word(std::string_view(name).substr(0, n), "\\mathit");

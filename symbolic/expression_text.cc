@@ -48,19 +48,13 @@ void print(const Expression& e, std::string& out) {
   const std::vector<Expression>& operands = e.operands();
   switch (e.kind()) {
     case Kind::number:
-    case Kind::symbol:
-      out += e.name();
-      break;
+    case Kind::symbol: out += e.name(); break;
     case Kind::function:
       out += e.name();
       print_in_parentheses_if(true, operands[0], out);
       break;
-    case Kind::sum:
-      print_sum(e, out);
-      break;
-    case Kind::product:
-      print_product(e, out);
-      break;
+    case Kind::sum: print_sum(e, out); break;
+    case Kind::product: print_product(e, out); break;
     case Kind::quotient:
       print_in_parentheses_if(is_sum_or_negation(operands[0]), operands[0], out);
       out += '/';

@@ -35,8 +35,7 @@ bool is_function_name(std::string_view name) {
 
 std::string function_names() {
   std::string result;
-  for (std::string_view f : kFunctions)
-    result += (result.empty() ? "" : ", ") + std::string(f);
+  for (std::string_view f : kFunctions) result += (result.empty() ? "" : ", ") + std::string(f);
   return result;
 }
 
@@ -85,8 +84,7 @@ std::string shortened(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   if (text.size() <= kLongest) return std::string(text);
   std::size_t n = kLongest;
-  while (n > 0 && (static_cast<unsigned char>(text[n]) & 0xC0) == 0x80)
-    --n;  // not inside a UTF-8 character
+  while (n > 0 && (static_cast<unsigned char>(text[n]) & 0xC0) == 0x80) --n;  // not inside a UTF-8 character
   return std::string(text.substr(0, n)) + "…";
 }
 

@@ -42,8 +42,7 @@ double numeric_bits(const ex& e) {
     return std::max(q.numer().int_length(), q.denom().int_length());
   }
   double most = 0;
-  for (std::size_t i = 0; i < e.nops(); ++i)
-    most = std::max(most, numeric_bits(e.op(i)));
+  for (std::size_t i = 0; i < e.nops(); ++i) most = std::max(most, numeric_bits(e.op(i)));
   return most;
 }
 
@@ -100,33 +99,27 @@ ex GinacBridge::to_ginac(const Expression& e, const SourceLocation& otherwise) c
     }
   };
   switch (e.kind()) {
-    case Expression::Kind::number:
-      return here([&] { return ex(exact_decimal(e.name())); });
+    case Expression::Kind::number: return here([&] { return ex(exact_decimal(e.name())); });
     case Expression::Kind::symbol: {
       if (e.name() == "pi") return GiNaC::Pi;
       const auto known = symbols_.find(e.name());
       if (known == symbols_.end()) throw ModelError(where, "unknown name `" + e.name() + "`", "a constant or a coordinate");
       return known->second;
     }
-    case Expression::Kind::negation:
-      return -operand(0);
+    case Expression::Kind::negation: return -operand(0);
     case Expression::Kind::sum:
     case Expression::Kind::product: {
       GiNaC::exvector parts;
-      for (std::size_t i = 0; i < e.operands().size(); ++i)
-        parts.push_back(operand(i));
+      for (std::size_t i = 0; i < e.operands().size(); ++i) parts.push_back(operand(i));
       return here([&] {
         ex result = e.kind() == Expression::Kind::sum ? ex(GiNaC::add(parts)) : ex(GiNaC::mul(parts));
         if (numeric_bits(result) > 2 * kMaxBits) throw std::domain_error("a number too long");
         return result;
       });
     }
-    case Expression::Kind::quotient:
-      return here([&] { return operand(0) / operand(1); });
-    case Expression::Kind::power:
-      return here([&] { return guarded_power(operand(0), operand(1)); });
-    case Expression::Kind::function:
-      return here([&] { return apply_function(e.name(), operand(0)); });
+    case Expression::Kind::quotient: return here([&] { return operand(0) / operand(1); });
+    case Expression::Kind::power: return here([&] { return guarded_power(operand(0), operand(1)); });
+    case Expression::Kind::function: return here([&] { return apply_function(e.name(), operand(0)); });
   }
   return 0;
 }
@@ -172,8 +165,7 @@ std::vector<GinacBridge::Factor> GinacBridge::factors(const ex& term, numeric& c
     result.push_back({rank(base), base, exponent});
   };
   if (is_a<GiNaC::mul>(term)) {
-    for (const ex& f : term)
-      add(f);
+    for (const ex& f : term) add(f);
   } else {
     add(term);
   }
@@ -221,8 +213,7 @@ const GiNaC::exvector& GinacBridge::ordered_terms(const ex& sum) const {
   }
   std::stable_sort(terms.begin(), terms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   GiNaC::exvector result;
-  for (const auto& [key, term] : terms)
-    result.push_back(term);
+  for (const auto& [key, term] : terms) result.push_back(term);
   return ordered_.emplace(sum, std::move(result)).first->second;
 }
 
@@ -234,8 +225,7 @@ bool GinacBridge::begins_negative(const ex& sum) const {
 
 Expression GinacBridge::sum(const ex& e) const {
   std::vector<Expression> parts;
-  for (const ex& term : ordered_terms(e))
-    parts.push_back(to_expression(term));
+  for (const ex& term : ordered_terms(e)) parts.push_back(to_expression(term));
   return Expression::node(Expression::Kind::sum, parts);
 }
 

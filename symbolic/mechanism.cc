@@ -54,6 +54,8 @@ Expression Mechanism::angle(const std::string& name, const Expression& lower, co
   return Expression::symbol(name);
 }
 
+void Mechanism::mark_auxiliary() { coordinates_.at(coordinates_.size() - 1).auxiliary = true; }
+
 void Mechanism::constrain(const Relation& relation, const SourceLocation& where) {
   constraints_.push_back({relation, where});
 }
@@ -101,8 +103,7 @@ void Mechanism::drawing(const std::string& line, const SourceLocation& where) { 
 void Mechanism::set_constant(const std::string& name, const Expression& value) {
   if (!has_constant(name)) {
     std::string known;
-    for (const Constant& c : constants_)
-      known += (known.empty() ? "" : ", ") + c.name;
+    for (const Constant& c : constants_) known += (known.empty() ? "" : ", ") + c.name;
     throw ModelError({name_, 0, 0}, "there is no constant " + in_quotes(name),
                      known.empty() ? "a model with constants" : "one of " + known);
   }
@@ -121,12 +122,9 @@ bool Mechanism::has_constant(const std::string& name) const {
 
 void Mechanism::validate() const {
   ModelValidator validator(*this);
-  for (const Constant& c : constants_)
-    validator.add_constant(c);
-  for (const Coordinate& c : coordinates_)
-    validator.check_range(c);
-  for (const Constraint& c : constraints_)
-    validator.check_constraint(c);
+  for (const Constant& c : constants_) validator.add_constant(c);
+  for (const Coordinate& c : coordinates_) validator.check_range(c);
+  for (const Constraint& c : constraints_) validator.check_constraint(c);
   if (coordinates_.empty()) throw ModelError({name_, 0, 0}, "the model has no variables", "at least one, in [SYSTEM VARS]");
   if (constraints_.empty()) throw ModelError({name_, 0, 0}, "the model has no equations", "at least one, in [SYSTEM EQS]");
 }

@@ -28,6 +28,8 @@ struct Coordinate {
   CoordinateKind kind = CoordinateKind::length;
   Expression lower, upper;  ///< in constants; lengths in the model's unit, angles in radians
   SourceLocation where;
+  bool auxiliary =
+      false;  ///< from [DUMMY VARS] or [CARTESIAN VARS]: defined by the others through equations, and of no interest
 };
 
 struct Constraint {
@@ -52,6 +54,8 @@ class Mechanism {
                     const SourceLocation& where = {});
   Expression angle(const std::string& name, const Expression& lower = -pi(), const Expression& upper = pi(),
                    const SourceLocation& where = {});
+  /// Marks the coordinate declared last.
+  void mark_auxiliary();
   /// Adds lhs = rhs (an assembly constraint) or an inequality.
   void constrain(const Relation& relation, const SourceLocation& where = {});
   /// Each argument is a coordinate's symbol. Throws ModelError for anything else, a repetition, or a coordinate that is

@@ -6,8 +6,7 @@ namespace {
 using Kind = Expression::Kind;
 
 Expression negated(Expression e, int signs) {
-  for (int i = 0; i < signs; ++i)
-    e = -e;
+  for (int i = 0; i < signs; ++i) e = -e;
   return e;
 }
 
@@ -117,6 +116,7 @@ void ModelBuilder::finish_variable() {
   } else {
     mechanism.angle(declared, values.at(0), values.at(1), declared_where);
   }
+  if (auxiliary) mechanism.mark_auxiliary();
   values.clear();
 }
 

@@ -78,6 +78,7 @@ struct ModelBuilder {
   SourceLocation section_where;
 
   CoordinateKind kind = CoordinateKind::length;
+  bool auxiliary = false;  ///< the section's variables
   Relation::Kind relation = Relation::Kind::equal;
   SourceLocation equation_where;
   bool equation_is_empty = false;  ///< nothing of it has been read

@@ -7,7 +7,7 @@ namespace {
 
 const char* const kSections =
     "[CONSTANTS], [SYSTEM VARS], [SECONDARY VARS], [DUMMY VARS], [CARTESIAN VARS], [SYSTEM EQS], [COORD EQS], [DUMMY EQS], "
-    "[INPUTS], [OUTPUTS] or [DRAWING]";
+    "[SEARCH], [INPUTS], [OUTPUTS] or [DRAWING]";
 const char* const kOperand = "a number, a name, a function or '('";
 
 /// Length of what Rule matches at the beginning of the text; 0 where it does not.
@@ -102,8 +102,17 @@ void Fault::unknown_section() const {
   std::string title = builder.section_title;
   const auto first = title.find_first_not_of(" \t"), last = title.find_last_not_of(" \t");
   title = first == std::string::npos ? "" : title.substr(first, last - first + 1);
-  const char* const why = title == "SEARCH" ? "] is not supported yet" : "] is unknown";
+  const bool known_to_cuik =
+      title == "VELOCITY VARS" || title == "VELOCITY EQS" || title == "NON DYNAMIC VARS" || title == "NON DYNAMIC EQS";
+  const char* const why = known_to_cuik ? "] is not supported" : "] is unknown";
   throw ModelError(builder.section_where, "section [" + shortened(title) + why, kSections);
+}
+
+void Fault::no_search_order() const {
+  const char* const kOrders = "DEPTH FIRST, BREADTH FIRST, or no [SEARCH]: every order finds the same solutions";
+  const std::string found = describe_start(rest);
+  if (found == "'MIN'") say("the search order MIN is not supported", kOrders);
+  say("found " + found + " in [SEARCH]", kOrders);
 }
 
 void Fault::no_plain_text() const {

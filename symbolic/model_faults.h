@@ -31,6 +31,7 @@ struct Fault {
   [[noreturn]] void no_number_end() const;
   [[noreturn]] void no_range() const;
   [[noreturn]] void unknown_section() const;
+  [[noreturn]] void no_search_order() const;
   [[noreturn]] void no_plain_text() const;
 };
 
@@ -68,6 +69,8 @@ CORANK_FAULT(relation, fault.no_relation())
 CORANK_FAULT(equation_end, fault.no_equation_end())
 CORANK_FAULT(listed_name, fault.found_instead_of("the name of a variable"))
 CORANK_FAULT(list_end, fault.found_instead_of("the name of a variable, or a section"))
+CORANK_FAULT(search_order, fault.no_search_order())
+CORANK_FAULT(search_end, fault.found_instead_of("a section behind the search order"))
 CORANK_FAULT(section_start, fault.say("found " + describe_start(fault.rest) + " before the first section",
                                       "a section such as [CONSTANTS] or [SYSTEM VARS]"))
 CORANK_FAULT(file_end, fault.found_instead_of("a section"))  // cannot fail: sections go on to the end

@@ -131,10 +131,16 @@ struct names_section : seq<sor<inputs_header, outputs_header>, names> {};
 struct drawing_text : plus<not_at<eolf>, not_at<comment_start>, any> {};
 struct drawing_section : seq<drawing_header, star<gap, not_at<section_or_end>, drawing_text>> {};
 
+// [SEARCH]  DEPTH FIRST or BREADTH FIRST: the order in which the CUIK suite visits boxes.
+struct search_header : header<TAO_PEGTL_STRING("SEARCH")> {};
+struct search_order : seq<sor<TAO_PEGTL_STRING("DEPTH"), TAO_PEGTL_STRING("BREADTH")>, not_at<name_tail>, gap,
+                          TAO_PEGTL_STRING("FIRST"), not_at<name_tail>> {};
+struct search_end : at<section_or_end> {};
+struct search_section : seq<search_header, gap, must<search_order>, gap, must<search_end>> {};
+
 struct section_start : at<one<'['>> {};
-struct section
-    : seq<must<section_start>,
-          sor<constants_section, variables_section, equations_section, names_section, drawing_section, unknown_section>> {};
+struct section : seq<must<section_start>, sor<constants_section, variables_section, equations_section, names_section,
+                                              drawing_section, search_section, unknown_section>> {};
 struct file_end : eof {};
 struct model : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
 

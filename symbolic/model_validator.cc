@@ -39,10 +39,8 @@ long double rough_number(const std::string& decimal) {
 }  // namespace
 
 ModelValidator::ModelValidator(const Mechanism& mechanism) {
-  for (const Constant& c : mechanism.constants())
-    declared_.emplace(c.name, &c);
-  for (const Coordinate& c : mechanism.coordinates())
-    coordinates_.emplace(c.name, &c);
+  for (const Constant& c : mechanism.constants()) declared_.emplace(c.name, &c);
+  for (const Coordinate& c : mechanism.coordinates()) coordinates_.emplace(c.name, &c);
 }
 
 void ModelValidator::add_constant(const Constant& constant) {
@@ -75,20 +73,11 @@ ModelValidator::Size ModelValidator::check(const Expression& e, const Context& c
     size.degree = multiplies ? size.degree + part.degree : std::max(size.degree, part.degree);
     size.constant = size.constant && part.constant;
     switch (e.kind()) {
-      case Kind::product:
-        size.value *= part.value;
-        break;
-      case Kind::quotient:
-        size.value = first ? part.value : size.value / part.value;
-        break;
-      case Kind::negation:
-        size.value = -part.value;
-        break;
-      case Kind::function:
-        size.value = rough_function(e.name(), part.value);
-        break;
-      default:
-        size.value += part.value;
+      case Kind::product: size.value *= part.value; break;
+      case Kind::quotient: size.value = first ? part.value : size.value / part.value; break;
+      case Kind::negation: size.value = -part.value; break;
+      case Kind::function: size.value = rough_function(e.name(), part.value); break;
+      default: size.value += part.value;
     }
     first = false;
   }

@@ -52,12 +52,9 @@ ConstantValue PolynomialExpander::value(const Expression& e) {
 
 ExpandedPolynomial PolynomialExpander::expand(const Expression& e) {
   switch (e.kind()) {
-    case Kind::number:
-      return guarded(e, [&] { return ExpandedPolynomial(ConstantValue::number(e.name())); });
-    case Kind::symbol:
-      return expand_symbol(e);
-    case Kind::negation:
-      return -expand(e.operands()[0]);
+    case Kind::number: return guarded(e, [&] { return ExpandedPolynomial(ConstantValue::number(e.name())); });
+    case Kind::symbol: return expand_symbol(e);
+    case Kind::negation: return -expand(e.operands()[0]);
     case Kind::sum: {
       ExpandedPolynomial result;
       for (const Expression& term : e.operands()) {
@@ -77,12 +74,9 @@ ExpandedPolynomial PolynomialExpander::expand(const Expression& e) {
       }
       return result;
     }
-    case Kind::quotient:
-      return expand_quotient(e);
-    case Kind::power:
-      return expand_power(e);
-    case Kind::function:
-      return expand_function(e);
+    case Kind::quotient: return expand_quotient(e);
+    case Kind::power: return expand_power(e);
+    case Kind::function: return expand_function(e);
   }
   return {};
 }
@@ -134,8 +128,7 @@ ExpandedPolynomial PolynomialExpander::expand_function(const Expression& e) {
 PolynomialExpander::LinearForm PolynomialExpander::linear_form(const Expression& e) {
   if (!has_unknown(e)) return {{}, value(e)};
   const auto scaled = [](const ConstantValue& factor, LinearForm form) {
-    for (auto& [angle, multiple] : form.multiples)
-      multiple = factor * multiple;
+    for (auto& [angle, multiple] : form.multiples) multiple = factor * multiple;
     form.offset = factor * form.offset;
     return form;
   };
@@ -143,14 +136,12 @@ PolynomialExpander::LinearForm PolynomialExpander::linear_form(const Expression&
     case Kind::symbol:
       if (angles_.contains(e.name())) return {{{e.name(), ConstantValue(1)}}, 0};
       fail(e, "sin or cos is applied to " + in_quotes(e.name()) + ", which is no angle,", "an angle, declared with ~");
-    case Kind::negation:
-      return scaled(-1, linear_form(e.operands()[0]));
+    case Kind::negation: return scaled(-1, linear_form(e.operands()[0]));
     case Kind::sum: {
       LinearForm result;
       for (const Expression& term : e.operands()) {
         const LinearForm part = linear_form(term);
-        for (const auto& [angle, multiple] : part.multiples)
-          result.multiples[angle] = result.multiples[angle] + multiple;
+        for (const auto& [angle, multiple] : part.multiples) result.multiples[angle] = result.multiples[angle] + multiple;
         result.offset = result.offset + part.offset;
       }
       return result;
@@ -173,8 +164,7 @@ PolynomialExpander::LinearForm PolynomialExpander::linear_form(const Expression&
         return scaled(inverse, linear_form(e.operands()[0]));
       }
       break;
-    default:
-      break;
+    default: break;
   }
   fail(e, in_quotes(e.text()) + " stands inside sin or cos", "a sum of integer multiples of angles and a constant");
 }

@@ -32,18 +32,15 @@ void print_matrix(std::ostream& out, const std::string& name, const ExpressionMa
   std::vector<std::size_t> widths;
   for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
     std::size_t width = matrix.columns[j].size();
-    for (const auto& row : matrix.rows)
-      width = std::max(width, row[j].text().size());
+    for (const auto& row : matrix.rows) width = std::max(width, row[j].text().size());
     widths.push_back(width);
   }
   out << "  " << std::string(label, ' ');
-  for (std::size_t j = 0; j < widths.size(); ++j)
-    out << "  " << right_aligned(matrix.columns[j], widths[j]);
+  for (std::size_t j = 0; j < widths.size(); ++j) out << "  " << right_aligned(matrix.columns[j], widths[j]);
   out << "\n";
   for (std::size_t i = 0; i < matrix.rows.size(); ++i) {
     out << "  " << padded(number_label(i), label);
-    for (std::size_t j = 0; j < widths.size(); ++j)
-      out << "  " << right_aligned(matrix.rows[i][j].text(), widths[j]);
+    for (std::size_t j = 0; j < widths.size(); ++j) out << "  " << right_aligned(matrix.rows[i][j].text(), widths[j]);
     out << "\n";
   }
 }
@@ -68,16 +65,14 @@ void print_numbered(std::ostream& out, const std::vector<std::pair<std::string, 
 
 std::vector<std::pair<std::string, std::string>> phi_lines(const Derivation& derivation) {
   std::vector<std::pair<std::string, std::string>> lines;
-  for (const Expression& phi : derivation.phi)
-    lines.emplace_back(phi.text() + " = 0", "");
+  for (const Expression& phi : derivation.phi) lines.emplace_back(phi.text() + " = 0", "");
   return lines;
 }
 
 std::vector<std::pair<std::string, std::string>> relation_lines(
     const std::vector<TrigonometricSystem::Equation>& relations) {
   std::vector<std::pair<std::string, std::string>> lines;
-  for (const auto& relation : relations)
-    lines.emplace_back(relation.relation.text(), relation.source);
+  for (const auto& relation : relations) lines.emplace_back(relation.relation.text(), relation.source);
   return lines;
 }
 
@@ -93,13 +88,11 @@ std::string latex(const Relation& relation, const std::string& align) {
 
 void print_latex_matrix(std::ostream& out, const std::string& symbol, const ExpressionMatrix& matrix) {
   out << "% columns:";
-  for (const std::string& column : matrix.columns)
-    out << " " << column;
+  for (const std::string& column : matrix.columns) out << " " << column;
   out << "\n\\[ " << symbol << " = \\begin{pmatrix}\n";
   for (const auto& row : matrix.rows) {
     out << "  ";
-    for (std::size_t j = 0; j < row.size(); ++j)
-      out << (j ? " & " : "") << row[j].latex();
+    for (std::size_t j = 0; j < row.size(); ++j) out << (j ? " & " : "") << row[j].latex();
     out << " \\\\\n";
   }
   out << "\\end{pmatrix} \\]\n";
@@ -107,8 +100,7 @@ void print_latex_matrix(std::ostream& out, const std::string& symbol, const Expr
 
 void print_latex_lines(std::ostream& out, const std::vector<std::string>& lines) {
   out << "\\begin{align}\n";
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    out << "  " << lines[i] << (i + 1 < lines.size() ? " \\\\\n" : "\n");
+  for (std::size_t i = 0; i < lines.size(); ++i) out << "  " << lines[i] << (i + 1 < lines.size() ? " \\\\\n" : "\n");
   out << "\\end{align}\n";
 }
 
@@ -145,8 +137,7 @@ std::string monomial_text(const certify::Monomial& monomial, const certify::Syst
 
 std::string polynomial_text(const certify::Polynomial& polynomial, const certify::System& system) {
   std::string out;
-  for (const certify::Monomial& monomial : polynomial.monomials)
-    out += monomial_text(monomial, system, out.empty());
+  for (const certify::Monomial& monomial : polynomial.monomials) out += monomial_text(monomial, system, out.empty());
   return out.empty() ? "0" : out;
 }
 
@@ -181,8 +172,7 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
   for (const Coordinate& coordinate : system.coordinates)
     out << "  " << coordinate.name << (coordinate.kind == CoordinateKind::angle ? " ~ [" : " : [") << coordinate.lower.text()
         << ", " << coordinate.upper.text() << "]\n";
-  for (const std::string& name : system.kernel_unknowns)
-    out << "  " << name << " : [-1, 1]\n";
+  for (const std::string& name : system.kernel_unknowns) out << "  " << name << " : [-1, 1]\n";
   std::vector<std::pair<std::string, std::string>> lines = relation_lines(system.equations);
   const auto inequalities = relation_lines(system.inequalities);
   lines.insert(lines.end(), inequalities.begin(), inequalities.end());
@@ -194,18 +184,15 @@ std::string to_latex(const Derivation& derivation, const TrigonometricSystem& sy
   std::ostringstream out;
   std::vector<std::string> lines;
   out << "% Assembly constraints\n";
-  for (const Expression& phi : derivation.phi)
-    lines.push_back(latex(phi == Expression(0), "&"));
+  for (const Expression& phi : derivation.phi) lines.push_back(latex(phi == Expression(0), "&"));
   print_latex_lines(out, lines);
   print_latex_matrix(out, "\\Phi_q", derivation.phi_q);
   print_latex_matrix(out, "L_y", derivation.l_y);
   print_latex_matrix(out, "L_z", derivation.l_z);
   out << "% System " << one_line(system.name) << "\n";
   lines.clear();
-  for (const auto& equation : system.equations)
-    lines.push_back(latex(equation.relation, "&"));
-  for (const auto& inequality : system.inequalities)
-    lines.push_back(latex(inequality.relation, "&"));
+  for (const auto& equation : system.equations) lines.push_back(latex(equation.relation, "&"));
+  for (const auto& inequality : system.inequalities) lines.push_back(latex(inequality.relation, "&"));
   print_latex_lines(out, lines);
   return out.str();
 }
@@ -220,8 +207,7 @@ std::string to_cuik(const certify::System& system) {
   }
   out << "\n[SYSTEM VARS]\n";
   std::size_t width = 0;
-  for (const certify::Variable& variable : system.variables)
-    width = std::max(width, variable.name.size());
+  for (const certify::Variable& variable : system.variables) width = std::max(width, variable.name.size());
   for (std::size_t i = 0; i < system.variables.size(); ++i) {
     const certify::Variable& variable = system.variables[i];
     if (static_cast<int>(i) == system.configuration_size) out << "% the kernel vector\n";

@@ -47,8 +47,7 @@ ExpressionMatrix columns_where(const ExpressionMatrix& matrix, const std::vector
   for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
     if (!keep[j]) continue;
     result.columns.push_back(matrix.columns[j]);
-    for (std::size_t i = 0; i < matrix.rows.size(); ++i)
-      result.rows[i].push_back(matrix.rows[i][j]);
+    for (std::size_t i = 0; i < matrix.rows.size(); ++i) result.rows[i].push_back(matrix.rows[i][j]);
   }
   return result;
 }
@@ -92,8 +91,7 @@ std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n)
     i = static_cast<std::size_t>(-1);  // all names again, with the new prefix
   }
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < n; ++i)
-    names.push_back(prefix + std::to_string(i + 1));
+  for (std::size_t i = 0; i < n; ++i) names.push_back(prefix + std::to_string(i + 1));
   return names;
 }
 
@@ -131,8 +129,7 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const E
     if (right) {
       entries = matrix.rows[i];
     } else {
-      for (const auto& row : matrix.rows)
-        entries.push_back(row[i]);
+      for (const auto& row : matrix.rows) entries.push_back(row[i]);
     }
     const std::string source = "row " + std::to_string(i + 1) + " of " + matrix_name + (right ? "" : "^T") + " xi = 0";
     // A row of zeros says nothing about xi.
@@ -161,14 +158,10 @@ std::optional<Word> find_word(const std::array<Word, N>& words, const std::strin
 
 const char* to_string(SingularitySet set) {
   switch (set) {
-    case SingularitySet::cspace:
-      return "cspace";
-    case SingularitySet::forward:
-      return "forward";
-    case SingularitySet::inverse:
-      return "inverse";
-    case SingularitySet::cspace_singular:
-      return "cspace-singular";
+    case SingularitySet::cspace: return "cspace";
+    case SingularitySet::forward: return "forward";
+    case SingularitySet::inverse: return "inverse";
+    case SingularitySet::cspace_singular: return "cspace-singular";
   }
   return "?";
 }
@@ -188,10 +181,8 @@ Derivation derive(const Mechanism& mechanism) {
   mechanism.validate();
   const GinacLock lock;
   std::vector<std::string> constants, coordinates;
-  for (const Constant& constant : mechanism.constants())
-    constants.push_back(constant.name);
-  for (const Coordinate& coordinate : mechanism.coordinates())
-    coordinates.push_back(coordinate.name);
+  for (const Constant& constant : mechanism.constants()) constants.push_back(constant.name);
+  for (const Coordinate& coordinate : mechanism.coordinates()) coordinates.push_back(coordinate.name);
   const GinacBridge bridge(constants, coordinates);
 
   Derivation result;

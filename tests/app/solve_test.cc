@@ -141,7 +141,7 @@ TEST(Solve, EndsAtATimeLimitWithAnIncompleteResult) {
 }
 
 std::vector<std::string> endless(const std::string& path) {
-  return {"solve", model("dextar"), "--set", "cspace", "--sigma", "0.0001", "-o", path, "--json"};
+  return {"solve", model("dextar"), "--set", "cspace", "--sigma", "0.01", "-o", path, "--json"};
 }
 
 TEST(Interrupt, EndsTheSearchWithAReadableIncompleteResult) {
@@ -177,7 +177,7 @@ TEST(Interrupt, EndsTheProgramAtOnceWhenRepeated) {
 }
 
 TEST(Progress, SaysWhatIsDoneAndLeftOnATerminalAndIsWipedOut) {
-  CorankOnTerminal program({"solve", model("dextar"), "--set", "cspace", "--sigma", "0.0001"});
+  CorankOnTerminal program({"solve", model("dextar"), "--set", "cspace", "--sigma", "0.01"});
   ASSERT_TRUE(program.wait_for(" s\x1b[K"));
   program.signal(SIGINT);
   const Outcome outcome = program.finish();

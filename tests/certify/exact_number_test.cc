@@ -169,8 +169,7 @@ TEST(ExactNumber, RefusesAbsurdlyLongNumbers) {
   EXPECT_EQ(pow(ExactNumber(1), 1'000'000'000), ExactNumber(1));
   EXPECT_EQ(pow(ExactNumber(-1), std::numeric_limits<int>::min()), ExactNumber(1));
   ExactNumber tower = 10;
-  for (int i = 0; i < 4; ++i)
-    tower = apply(ConstantFunction::exp, tower);
+  for (int i = 0; i < 4; ++i) tower = apply(ConstantFunction::exp, tower);
   EXPECT_THROW(apply(ConstantFunction::sin, tower).enclose(), std::domain_error);
 }
 
@@ -218,12 +217,10 @@ class Generator {
         const int n = static_cast<int>(random_() % 4);
         Sample result(pow(a.number, n));
         mpfi_set_si(result.value, 1);
-        for (int i = 0; i < n; ++i)
-          mpfi_mul(result.value, result.value, const_cast<mpfi_ptr>(a.value));
+        for (int i = 0; i < n; ++i) mpfi_mul(result.value, result.value, const_cast<mpfi_ptr>(a.value));
         return result;
       }
-      default:
-        return function(depth);
+      default: return function(depth);
     }
   }
 
@@ -259,20 +256,13 @@ class Generator {
       return result;
     };
     switch (random_() % 7) {
-      case 0:
-        return made(ConstantFunction::sin, mpfi_sin);
-      case 1:
-        return made(ConstantFunction::cos, mpfi_cos);
-      case 2:
-        return made(ConstantFunction::atan, mpfi_atan);
-      case 3:
-        return mpfi_is_strictly_pos(x) > 0 ? made(ConstantFunction::sqrt, mpfi_sqrt) : a;
-      case 4:
-        return mpfi_is_strictly_pos(x) > 0 ? made(ConstantFunction::log, mpfi_log) : a;
-      case 5:
-        return made(ConstantFunction::abs, mpfi_abs);
-      default:
-        return mpfi_cmp_si(x, 20) < 0 ? made(ConstantFunction::exp, mpfi_exp) : a;
+      case 0: return made(ConstantFunction::sin, mpfi_sin);
+      case 1: return made(ConstantFunction::cos, mpfi_cos);
+      case 2: return made(ConstantFunction::atan, mpfi_atan);
+      case 3: return mpfi_is_strictly_pos(x) > 0 ? made(ConstantFunction::sqrt, mpfi_sqrt) : a;
+      case 4: return mpfi_is_strictly_pos(x) > 0 ? made(ConstantFunction::log, mpfi_log) : a;
+      case 5: return made(ConstantFunction::abs, mpfi_abs);
+      default: return mpfi_cmp_si(x, 20) < 0 ? made(ConstantFunction::exp, mpfi_exp) : a;
     }
   }
 

@@ -82,7 +82,8 @@ TEST_F(Newton, AProvenRegionHoldsExactlyOneRoot) {
                 {std::to_string(64 * (r0 * r1 + r0 * r2 + r1 * r2)), {{x, 1}}},
                 {std::to_string(-r0 * r1 * r2), {}}});
     for (int box = 0; box < 40; ++box) {
-      const double lo = static_cast<double>(random() % 512) / 128 - 2, width = std::ldexp(1.0, -static_cast<int>(random() % 7));
+      const double lo = static_cast<double>(random() % 512) / 128 - 2,
+                   width = std::ldexp(1.0, -static_cast<int>(random() % 7));
       const Sheet sheet = prove(b, Interval(lo, lo + width));
       if (!sheet.proven) continue;
       ++proven;
@@ -132,7 +133,8 @@ TEST_F(Newton, AnyPreconditionerKeepsEverySolution) {
   std::uniform_real_distribution<double> any(-3, 3), size(0, 2);
   for (int trial = 0; trial < 20000; ++trial) {
     std::vector<Interval> box{Interval(4 - size(random), 4 + size(random)), Interval(3 - size(random), 3 + size(random))};
-    const Preconditioner p{{0, 1}, trial % 2 ? std::vector{x, y} : std::vector{y, x}, {any(random), any(random), any(random), any(random)}};
+    const Preconditioner p{
+        {0, 1}, trial % 2 ? std::vector{x, y} : std::vector{y, x}, {any(random), any(random), any(random), any(random)}};
     ASSERT_FALSE(newton_contract(f, p, box.data(), workspace_).empty);
     ASSERT_TRUE(box[x].contains(4.0) && box[y].contains(3.0));
     const Sheet sheet = newton_prove(f, p, box.data(), workspace_);
@@ -152,14 +154,17 @@ TEST_F(Newton, ASingularPreconditionerProvesNothing) {
   EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 0, 0, 0}}, box.data(), workspace_).proven);
   EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {0, 0, 0, 0}}, box.data(), workspace_).proven);
   EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 1, 1, 1}}, box.data(), workspace_).proven);
-  EXPECT_FALSE(newton_prove(f, {{0}, {x}, {1}}, box.data(), workspace_).proven) << "fewer rows than equations";
+  const Sheet partial = newton_prove(f, {{0}, {x}, {1}}, box.data(), workspace_);
+  EXPECT_TRUE(partial.proven);
+  EXPECT_EQ(partial.equations, std::vector<int>{0}) << "a proof says which rows it speaks of";
 }
 
 TEST_F(Newton, ComparesIsolatedSolutions) {
   SystemBuilder b;
   const int x = b.variable("x", "-4", "4");
   b.equation({{"1", {{x, 2}}}, {"-2", {}}});
-  const Sheet left = prove(b, Interval(-1.5, -1.3)), right = prove(b, Interval(1.3, 1.5)), again = prove(b, Interval(1.39, 1.6));
+  const Sheet left = prove(b, Interval(-1.5, -1.3)), right = prove(b, Interval(1.3, 1.5)),
+              again = prove(b, Interval(1.39, 1.6));
   ASSERT_TRUE(left.proven && right.proven && again.proven);
   EXPECT_EQ(compare_isolated(left, right), Identity::different);
   EXPECT_EQ(compare_isolated(right, again), Identity::same);
@@ -168,12 +173,40 @@ TEST_F(Newton, ComparesIsolatedSolutions) {
   EXPECT_FALSE(holds_nothing_else(right, &outside));
 }
 
+// On the unit circle, (x² + y²)² − 1 vanishes and x⁴ + y⁴ − 1 + 2x²y² does; x² + y² + x/1000 − 1 does not.
+TEST_F(Newton, EnclosesTheValueOfADependentEquationOnASheet) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+  b.equation({{"1", {{x, 4}}}, {"2", {{x, 2}, {y, 2}}}, {"1", {{y, 4}}}, {"-1", {}}});
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}, {"1/1000", {{x, 1}}}});
+  const CompiledSystem f(b.system());
+  double narrow[2] = {0, 0};
+  for (double width : {0.1, 0.01}) {
+    const std::vector<Interval> box{Interval(0.95, 1), Interval(0.1, 0.1 + width)};
+    const Preconditioner p{{0}, {x}, {1 / (2 * 0.99)}};
+    const Sheet sheet = newton_prove(f, p, box.data(), workspace_);
+    ASSERT_TRUE(sheet.proven);
+    const Interval zero = value_on_sheet(f, p, 1, sheet.image.data(), workspace_);
+    const Interval other = value_on_sheet(f, p, 2, sheet.image.data(), workspace_);
+    EXPECT_TRUE(zero.contains(0.0));
+    for (double v : {0.1, 0.1 + width / 2, 0.1 + width}) EXPECT_TRUE(other.contains(std::sqrt(1 - v * v) / 1000)) << v;
+    narrow[width < 0.05] = zero.width();
+  }
+  EXPECT_LT(narrow[1], narrow[0] / 30) << "second order in the width";
+}
+
 // Slopes and Jacobians enclose what they claim to, for monomials of every shape.
 TEST_F(Newton, SlopesAndJacobiansEncloseDifferencesAndDerivatives) {
   SystemBuilder b;
   const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
-  b.equation({{"3", {{x, 2}, {y, 1}}}, {"-1/3", {{x, 1}, {y, 1}, {z, 1}}}, {"2", {{z, 3}}}, {"5", {{x, 1}, {z, 1}}},
-              {"-0.7", {{y, 2}}}, {"1", {{x, 1}}}, {"4", {}}});
+  b.equation({{"3", {{x, 2}, {y, 1}}},
+              {"-1/3", {{x, 1}, {y, 1}, {z, 1}}},
+              {"2", {{z, 3}}},
+              {"5", {{x, 1}, {z, 1}}},
+              {"-0.7", {{y, 2}}},
+              {"1", {{x, 1}}},
+              {"4", {}}});
   const CompiledSystem f(b.system());
   const auto value = [](double u, double v, double w) {
     return 3 * u * u * v - u * v * w / 3 + 2 * w * w * w + 5 * u * w - 0.7 * v * v + u + 4;

@@ -76,7 +76,8 @@ TEST(Projection, NeverLosesAPlantedSolution) {
           factors.push_back({j, integer(1, 3)});
           value = value * pow(exact_root[j], factors.back().power);
         }
-      if (factors.empty() || std::any_of(monomials.begin(), monomials.end(), [&](auto& m) { return m.factors == factors; })) continue;
+      if (factors.empty() || std::any_of(monomials.begin(), monomials.end(), [&](auto& m) { return m.factors == factors; }))
+        continue;
       monomials.emplace_back(coefficient, factors);
       sum = sum + value;
     }
@@ -86,7 +87,8 @@ TEST(Projection, NeverLosesAPlantedSolution) {
     (inequality ? system.inequalities : system.equations).push_back({monomials, "planted"});
 
     std::vector<Interval> x;
-    for (double r : root) x.emplace_back(std::max(-4.0, r - integer(0, 40) / 10.0), std::min(4.0, r + integer(0, 40) / 10.0));
+    for (double r : root)
+      x.emplace_back(std::max(-4.0, r - integer(0, 40) / 10.0), std::min(4.0, r + integer(0, 40) / 10.0));
     ASSERT_TRUE(project_once(system, x)) << "trial " << trial;
     for (int j = 0; j < 4; ++j) ASSERT_TRUE(x[j].contains(root[j])) << "trial " << trial << " variable " << j;
   }

@@ -26,8 +26,7 @@ void round_trip(const Expression& e) {
 }
 
 void check(const Mechanism& mechanism) {
-  for (const Constant& c : mechanism.constants())
-    round_trip(c.value);
+  for (const Constant& c : mechanism.constants()) round_trip(c.value);
   for (const Coordinate& c : mechanism.coordinates()) {
     round_trip(c.lower);
     round_trip(c.upper);

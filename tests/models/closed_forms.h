@@ -45,8 +45,10 @@ inline std::vector<DextarConfiguration> dextar_cspace_samples(int n) {
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < n; ++k)
       for (int sign : {-1, 1}) {
-        const Point j2 = Point{kDextarBase, 0} + kDextarLink * direction(0.1 + step * i), j4 = kDextarLink * direction(0.2 + step * k);
-        if (const auto j3 = intersect_circles(j2, kDextarLink, j4, kDextarLink, sign)) result.push_back(dextar_configuration(j2, *j3, j4));
+        const Point j2 = Point{kDextarBase, 0} + kDextarLink * direction(0.1 + step * i),
+                    j4 = kDextarLink * direction(0.2 + step * k);
+        if (const auto j3 = intersect_circles(j2, kDextarLink, j4, kDextarLink, sign))
+          result.push_back(dextar_configuration(j2, *j3, j4));
       }
   return result;
 }
@@ -74,12 +76,14 @@ inline std::vector<DextarConfiguration> dextar_inverse_samples(int n) {
     for (int sign : {-1, 1}) {
       const Point e = direction(0.01 + 2 * M_PI * i / n);
       const auto add = [&](Point j2, Point j3) {
-        if (const auto j4 = intersect_circles(j5, kDextarLink, j3, kDextarLink, sign)) result.push_back(dextar_configuration(j2, j3, *j4));
+        if (const auto j4 = intersect_circles(j5, kDextarLink, j3, kDextarLink, sign))
+          result.push_back(dextar_configuration(j2, j3, *j4));
       };
       add(j1 + kDextarLink * e, j1 + 2 * kDextarLink * e);
       add(j1 + kDextarLink * e, j1);
       const auto add_left = [&](Point j4, Point j3) {
-        if (const auto j2 = intersect_circles(j1, kDextarLink, j3, kDextarLink, sign)) result.push_back(dextar_configuration(*j2, j3, j4));
+        if (const auto j2 = intersect_circles(j1, kDextarLink, j3, kDextarLink, sign))
+          result.push_back(dextar_configuration(*j2, j3, j4));
       };
       add_left(kDextarLink * e, 2 * kDextarLink * e);
       add_left(kDextarLink * e, j5);

@@ -52,8 +52,8 @@ TEST(Dextar, HasTheVariablesThatTheClosedFormsAssume) {
   const auto system = dextar(SingularitySet::cspace);
   std::vector<std::string> names;
   for (const auto& v : system.variables) names.push_back(v.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"J3x", "J3y", "c_theta2", "s_theta2", "c_theta3", "s_theta3", "c_theta4", "s_theta4",
-                                             "c_theta5", "s_theta5"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"J3x", "J3y", "c_theta2", "s_theta2", "c_theta3", "s_theta3", "c_theta4",
+                                             "s_theta4", "c_theta5", "s_theta5"}));
 }
 
 class DextarLocus : public testing::TestWithParam<std::tuple<SingularitySet, double>> {};
@@ -74,7 +74,8 @@ TEST_P(DextarLocus, IsCoveredWhereTheGeometrySays) {
     }
   }
   std::fesetround(FE_TONEAREST);
-  expect_holds_all(cover, set == SingularitySet::forward ? test::dextar_forward_samples(kSamples) : test::dextar_inverse_samples(kSamples));
+  expect_holds_all(cover, set == SingularitySet::forward ? test::dextar_forward_samples(kSamples)
+                                                         : test::dextar_inverse_samples(kSamples));
   if (sigma <= 0.01) {
     const double proven = static_cast<double>(cover.count(Verdict::regular) + cover.count(Verdict::boundary));
     EXPECT_GE(proven, 0.99 * static_cast<double>(cover.boxes.size()));
@@ -83,7 +84,8 @@ TEST_P(DextarLocus, IsCoveredWhereTheGeometrySays) {
     // Only where both arms are stretched or folded at once may boxes be undecided.
     for (const auto& b : cover.boxes) {
       if (b.verdict != Verdict::undecided) continue;
-      EXPECT_TRUE(sine_of_difference(b.box, kC2, kC3).contains_zero() && sine_of_difference(b.box, kC4, kC5).contains_zero());
+      EXPECT_TRUE(sine_of_difference(b.box, kC2, kC3).contains_zero() &&
+                  sine_of_difference(b.box, kC4, kC5).contains_zero());
     }
   } else {
     EXPECT_EQ(cover.count(Verdict::undecided), 0u);
@@ -125,14 +127,16 @@ TEST(Dextar, RightAndLeftKernelsGiveTheSameConfigurations) {
     const Cover right = solve_at(dextar(set, KernelSide::right), 0.05), left = solve_at(dextar(set, KernelSide::left), 0.05);
     EXPECT_TRUE(right.complete() && left.complete());
     expect_same_projection(right, left, 0.05);
-    expect_holds_all(left, set == SingularitySet::forward ? test::dextar_forward_samples(kSamples) : test::dextar_inverse_samples(kSamples));
+    expect_holds_all(left, set == SingularitySet::forward ? test::dextar_forward_samples(kSamples)
+                                                          : test::dextar_inverse_samples(kSamples));
   }
 }
 
 TEST(Dextar, TheAlgebrizedFileGivesTheSameBoxes) {
   for (SingularitySet set : {SingularitySet::cspace, SingularitySet::forward, SingularitySet::inverse}) {
     const auto system = dextar(set);
-    const auto again = symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(symbolic::to_cuik(system), "derived.cuik")));
+    const auto again =
+        symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(symbolic::to_cuik(system), "derived.cuik")));
     const Cover direct = solve_at(system, 0.2), derived = solve_at(again, 0.2);
     ASSERT_EQ(direct.boxes.size(), derived.boxes.size());
     for (std::size_t k = 0; k < direct.boxes.size(); ++k) {

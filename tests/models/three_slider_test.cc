@@ -29,12 +29,14 @@ void expect_points(const Cover& cover, const Points& isolated, const Points& und
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.points.size(), isolated.size() + undecided.size());
   EXPECT_EQ(cover.count(Verdict::isolated), isolated.size());
-  for (const auto& [expected, verdict] : {std::pair(&isolated, Verdict::isolated), std::pair(&undecided, Verdict::undecided)})
+  for (const auto& [expected, verdict] :
+       {std::pair(&isolated, Verdict::isolated), std::pair(&undecided, Verdict::undecided)})
     for (const auto& q : *expected) {
       int holding = 0;
       for (const auto& p : cover.points) {
         bool inside = true;
-        for (std::size_t j = 0; j < 3; ++j) inside = inside && q[j] >= p.box[j].lo() - 1e-12 && q[j] <= p.box[j].hi() + 1e-12;
+        for (std::size_t j = 0; j < 3; ++j)
+          inside = inside && q[j] >= p.box[j].lo() - 1e-12 && q[j] <= p.box[j].hi() + 1e-12;
         if (!inside) continue;
         ++holding;
         EXPECT_EQ(p.verdict, verdict);
@@ -106,7 +108,8 @@ TEST(ThreeSlider, TheAlgebrizedFileGivesTheSamePoints) {
   for (SingularitySet set : {SingularitySet::forward, SingularitySet::inverse})
     for (const char* l2 : {"4/5", "1"}) {
       const auto system = three_slider(set, l2);
-      const auto again = symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(symbolic::to_cuik(system), "derived.cuik")));
+      const auto again =
+          symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(symbolic::to_cuik(system), "derived.cuik")));
       const Cover direct = solve::solve(system), derived = solve::solve(again);
       ASSERT_EQ(direct.points.size(), derived.points.size());
       for (std::size_t k = 0; k < direct.points.size(); ++k) EXPECT_EQ(direct.points[k].box, derived.points[k].box);

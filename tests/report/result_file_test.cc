@@ -80,6 +80,7 @@ void expect_same(const Result& a, const Result& b) {
   EXPECT_EQ(a.inequalities, b.inequalities);
   EXPECT_EQ(a.cover.dimension, b.cover.dimension);
   EXPECT_TRUE(same_bits(a.cover.sigma, b.cover.sigma));
+  EXPECT_TRUE(same_bits(a.cover.tolerance, b.cover.tolerance));
   expect_same_boxes(a.cover.boxes, b.cover.boxes);
   expect_same_boxes(a.cover.points, b.cover.points);
   const certify::Statistics &s = a.cover.statistics, &t = b.cover.statistics;
@@ -204,6 +205,7 @@ class InconsistentFile : public ResultFile {
       unless_changed(name, [&] { file.attribute("/", name, std::int64_t{1}); });
     }
     file.attribute("/", "sigma", 0.1);
+    file.attribute("/", "tolerance", 0.0);
     for (const char* name : {"/model/text", "/model/system"}) file.text(name, "x");
     file.texts("/variables/names", {"x"});
     unless_changed("/variables/kinds",

@@ -36,12 +36,14 @@ inline Result sample_result() {
   r.equations = 4;
   r.inequalities = 1;
   r.cover.sigma = 0.1;
+  r.cover.tolerance = 1e-5;
   r.cover.statistics = {123, 45, 6, 1.5, 1.25, 0.1};
   r.cover.boxes = {sample_box({{-0.0, 0.0}, {0.0, kTiny}, {-kTiny, -0.0}, {-kHuge, kHuge}}, Verdict::regular, {0, 3}),
                    sample_box({0.1, 0.2, 0.3, {-1.0, -0.1}}, Verdict::isolated, {}),
                    sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::exact, {}),
                    sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::boundary, {2}),
                    sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::undecided, {}),
+                   sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::partial, {}),
                    sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::pending, {})};
   r.cover.points = {sample_box({{0.1, 0.2}, {-1.0, -0.9}, {-0.1, 0.1}, 0.5}, Verdict::isolated, {}),
                     sample_box({1.0 / 3, {0.0, 1e-17}, 1.0, -0.5}, Verdict::undecided, {})};

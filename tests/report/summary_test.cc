@@ -30,7 +30,7 @@ TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]), ElementsAre("kernel", "sigma", "threads", "max_boxes", "time_limit", "constants"));
   EXPECT_THAT(keys(json["boxes"]),
-              ElementsAre("processed", "regular", "isolated", "exact", "boundary", "undecided", "pending"));
+              ElementsAre("processed", "regular", "isolated", "exact", "boundary", "partial", "undecided", "pending"));
   EXPECT_THAT(keys(json["seconds"]), ElementsAre("total", "search", "certify"));
   EXPECT_THAT(keys(json["points"][0]), ElementsAre("values", "verdict"));
   EXPECT_THAT(keys(json["points"][0]["values"]), ElementsAre("x", "t", "xi1"));
@@ -44,7 +44,7 @@ TEST(JsonSummary, SaysWhatTheResultHolds) {
   EXPECT_EQ(json["system"]["variables"], 4);
   EXPECT_EQ(json["complete"], false);
   EXPECT_EQ(json["boxes"]["processed"], 123);
-  for (const char* verdict : {"regular", "isolated", "exact", "boundary", "undecided", "pending"}) {
+  for (const char* verdict : {"regular", "isolated", "exact", "boundary", "partial", "undecided", "pending"}) {
     EXPECT_EQ(json["boxes"][verdict], 1) << verdict;
   }
   EXPECT_EQ(json["options"]["max_boxes"], (std::uint64_t{1} << 53) + 1);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <xmmintrin.h>
+
 #include <cmath>
 #include <random>
 
@@ -53,7 +55,8 @@ SystemBuilder circle_and_diagonal() {
 SystemBuilder crossing_lines() {
   SystemBuilder b;
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
-  b.equation({{"3", {{x, 2}}}, {"5", {{x, 1}, {y, 1}}}, {"-2", {{y, 2}}}, {"-8/7", {{x, 1}}}, {"1/21", {{y, 1}}}, {"1/21", {}}});
+  b.equation(
+      {{"3", {{x, 2}}}, {"5", {{x, 1}, {y, 1}}}, {"-2", {{y, 2}}}, {"-8/7", {{x, 1}}}, {"1/21", {{y, 1}}}, {"1/21", {}}});
   return b;
 }
 
@@ -61,8 +64,16 @@ SystemBuilder crossing_lines() {
 SystemBuilder torus() {
   SystemBuilder b;
   const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
-  b.equation({{"1", {{x, 4}}}, {"1", {{y, 4}}}, {"1", {{z, 4}}}, {"2", {{x, 2}, {y, 2}}}, {"2", {{x, 2}, {z, 2}}},
-              {"2", {{y, 2}, {z, 2}}}, {"-2.5", {{x, 2}}}, {"-2.5", {{y, 2}}}, {"1.5", {{z, 2}}}, {"9/16", {}}});
+  b.equation({{"1", {{x, 4}}},
+              {"1", {{y, 4}}},
+              {"1", {{z, 4}}},
+              {"2", {{x, 2}, {y, 2}}},
+              {"2", {{x, 2}, {z, 2}}},
+              {"2", {{y, 2}, {z, 2}}},
+              {"-2.5", {{x, 2}}},
+              {"-2.5", {{y, 2}}},
+              {"1.5", {{z, 2}}},
+              {"9/16", {}}});
   return b;
 }
 
@@ -108,7 +119,9 @@ TEST(Solve, LosesNothingWhereLinesCross) {
     const double t = k / 1000.0;
     const double x = 1.0 / 3 - 2 * t;  // rounded: the exact point lies between x's neighbours
     if (std::fabs(x) > 0.999) continue;
-    EXPECT_TRUE(covers(cover, {x, t}) || covers(cover, {std::nextafter(x, 2), t}) || covers(cover, {std::nextafter(x, -2), t})) << t;
+    EXPECT_TRUE(covers(cover, {x, t}) || covers(cover, {std::nextafter(x, 2), t}) ||
+                covers(cover, {std::nextafter(x, -2), t}))
+        << t;
   }
   // Only boxes next to the crossing (13/147, 6/49) may be undecided.
   for (const auto& b : cover.boxes)
@@ -160,7 +173,8 @@ TEST(Solve, SeparatesTheRootsOfAWilkinsonPolynomial) {
   System system = b.system();
   certify::Polynomial p;
   for (std::size_t i = 0; i < c.size(); ++i)
-    p.monomials.emplace_back(c[i], i == 0 ? std::vector<certify::Factor>{} : std::vector<certify::Factor>{{0, static_cast<int>(i)}});
+    p.monomials.emplace_back(
+        c[i], i == 0 ? std::vector<certify::Factor>{} : std::vector<certify::Factor>{{0, static_cast<int>(i)}});
   system.equations.push_back(p);
   const Cover cover = solve_with(system, 1e-6);
   EXPECT_TRUE(cover.complete());
@@ -276,6 +290,69 @@ TEST(Solve, ReportsProgressThatEndsWithAllOfTheDomain) {
   EXPECT_EQ(reports.back().verdicts[static_cast<std::size_t>(Verdict::regular)], cover.count(Verdict::regular));
 }
 
+TEST(Solve, KeepsSubnormalNumbersWhateverTheCallersMode) {
+  // y = 1e-160·x at x = 1e-200: y = 1e-360 lies in no box [0, 0].
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"1", {{x, 1}}}, {"-1e-200", {}}}).equation({{"1", {{y, 1}}}, {"-1e-160", {{x, 1}}}});
+  const unsigned former = _mm_getcsr();
+  _mm_setcsr(former | 0x8040);  // flush to zero, denormals are zero
+  const Cover cover = solve_with(b.system(), 1e-6);
+  const unsigned after = _mm_getcsr();
+  _mm_setcsr(former);
+  EXPECT_EQ(after & ~0x3fu, (former | 0x8040) & ~0x3fu) << "restored";
+  ASSERT_EQ(cover.points.size(), 1u);
+  EXPECT_GT(cover.points[0].box[y].hi(), 0);
+}
+
+TEST(Solve, AFixedVariableDoesNotStopTheSearch) {
+  // x² + y² = a, x = y, with a in [1/10, 1/10]: between two doubles.
+  SystemBuilder b;
+  const int a = b.variable("a", "1/10", "1/10"), x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {{a, 1}}}}).equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}});
+  const Cover cover = solve_with(b.system(), 0.01);
+  EXPECT_TRUE(cover.complete());
+  EXPECT_EQ(cover.count(Verdict::undecided), 0u);
+  EXPECT_LE(widest(cover), 0.01);
+  EXPECT_TRUE(covers(cover, {0.1, std::sqrt(0.05), std::sqrt(0.05)}));
+}
+
+TEST(Solve, SaysNothingIsInsideBeyondTheExactDomain) {
+  // x = 0.100000000000000001 lies outside [0, 1/10], though not outside its enclosure by doubles.
+  SystemBuilder b;
+  const int x = b.variable("x", "0", "1/10");
+  b.equation({{"1", {{x, 1}}}, {"-0.100000000000000001", {}}});
+  EXPECT_EQ(solve_with(b.system(), 1e-6).count(Verdict::isolated), 0u);
+}
+
+TEST(Solve, EndsWhereRoundingKeepsASheetWide) {
+  // 3u = 4, y = 1e8·u − 133333333.333: the box of y stays as wide as the rounding of 1e8·u.
+  SystemBuilder b;
+  const int u = b.variable("u", "-2", "2"), y = b.variable("y", "-1", "1"), t = b.variable("t", "1/2", "1/2");
+  b.equation({{"3", {{u, 1}}}, {"-4", {}}});
+  b.equation({{"1", {{y, 1}}}, {"-1e8", {{u, 1}}}, {"133333333.333", {}}, {"1e-30", {{t, 1}}}});
+  Options options;
+  options.sigma = 3e-9;
+  options.max_boxes = 1000;
+  options.time_limit = 20;
+  const Cover cover = solve(b.system(), options);
+  EXPECT_TRUE(cover.complete());
+  EXPECT_EQ(cover.wider_than_sigma(), cover.boxes.size());
+}
+
+TEST(Solve, EndsWhereThePivotOfASheetIsTiny) {
+  // 1e-10·d + t² = 0: proven at t ≈ 0 with d dependent, whose coefficient is tiny beside t's elsewhere.
+  SystemBuilder b;
+  const int d = b.variable("d", "-2e10", "2e10"), t = b.variable("t", "-1", "1");
+  b.equation({{"1e-10", {{d, 1}}}, {"1", {{t, 2}}}});
+  Options options;
+  options.sigma = 1e6;
+  options.time_limit = 30;
+  const Cover cover = solve(b.system(), options);
+  EXPECT_TRUE(cover.complete());
+  EXPECT_LE(widest(cover), 1e6);
+}
+
 TEST(Solve, RefusesANonsensicalSigma) {
   for (double sigma : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-20})
     EXPECT_THROW(solve_with(circle_and_diagonal().system(), sigma), std::invalid_argument) << sigma;
@@ -338,7 +415,8 @@ TEST(Preconditioner, InvertsTheDependentColumns) {
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b) {
       double entry = 0;
-      for (int k = 0; k < 2; ++k) entry += p.y[static_cast<std::size_t>(a * 2 + k)] * jacobian[p.equations[k]][p.dependent[b]];
+      for (int k = 0; k < 2; ++k)
+        entry += p.y[static_cast<std::size_t>(a * 2 + k)] * jacobian[p.equations[k]][p.dependent[b]];
       EXPECT_NEAR(entry, a == b ? 1 : 0, 1e-12);
     }
 }

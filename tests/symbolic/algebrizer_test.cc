@@ -39,8 +39,7 @@ std::string only_equation(const std::string& equation) { return canonical(compil
 TEST(Algebrizer, MakesDextarsForwardSystem) {
   const System s = reference("dextar", SingularitySet::forward);
   std::vector<std::string> names;
-  for (const auto& variable : s.variables)
-    names.push_back(variable.name);
+  for (const auto& variable : s.variables) names.push_back(variable.name);
   EXPECT_THAT(names, ElementsAre("J3x", "J3y", "c_theta2", "s_theta2", "c_theta3", "s_theta3", "c_theta4", "s_theta4",
                                  "c_theta5", "s_theta5", "xi1", "xi2", "xi3", "xi4"));
   EXPECT_EQ(s.name, "dextar forward");
@@ -160,18 +159,15 @@ TEST(Algebrizer, AgreesWithDirectEvaluationOnSingularitySystems) {
     const TrigonometricSystem trigonometric = singularity_system(mechanism, SingularitySet::cspace_singular);
     const System system = algebrize(trigonometric);
     Values values = generator.point(mechanism);
-    for (const std::string& xi : trigonometric.kernel_unknowns)
-      values[xi] = generator.uniform(-1, 1);
+    for (const std::string& xi : trigonometric.kernel_unknowns) values[xi] = generator.uniform(-1, 1);
     const std::vector<long double> x = compiled_point(system, values);
     std::map<std::string, const certify::Polynomial*> by_source;
-    for (const auto& polynomial : system.equations)
-      by_source[polynomial.source] = &polynomial;
+    for (const auto& polynomial : system.equations) by_source[polynomial.source] = &polynomial;
     for (const auto& equation : trigonometric.equations) {
       ASSERT_TRUE(by_source.contains(equation.source)) << equation.source;
       const certify::Polynomial& polynomial = *by_source[equation.source];
       long double size = 1;
-      for (const auto& monomial : polynomial.monomials)
-        size += std::fabs(evaluate(certify::Polynomial{{monomial}, ""}, x));
+      for (const auto& monomial : polynomial.monomials) size += std::fabs(evaluate(certify::Polynomial{{monomial}, ""}, x));
       ASSERT_NEAR(static_cast<double>(evaluate(polynomial, x)), static_cast<double>(residual(equation.relation, values)),
                   1e-13 * static_cast<double>(size))
           << "seed " << kSeed + 1 << ": " << equation.relation;

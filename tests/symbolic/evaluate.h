@@ -20,28 +20,21 @@ using Values = std::map<std::string, long double>;
 inline long double evaluate(const Expression& e, const Values& values) {
   const auto operand = [&](std::size_t i) { return evaluate(e.operands()[i], values); };
   switch (e.kind()) {
-    case Expression::Kind::number:
-      return std::stold(e.name());
-    case Expression::Kind::symbol:
-      return e.name() == "pi" ? std::numbers::pi_v<long double> : values.at(e.name());
+    case Expression::Kind::number: return std::stold(e.name());
+    case Expression::Kind::symbol: return e.name() == "pi" ? std::numbers::pi_v<long double> : values.at(e.name());
     case Expression::Kind::sum: {
       long double sum = 0;
-      for (const Expression& term : e.operands())
-        sum += evaluate(term, values);
+      for (const Expression& term : e.operands()) sum += evaluate(term, values);
       return sum;
     }
     case Expression::Kind::product: {
       long double product = 1;
-      for (const Expression& factor : e.operands())
-        product *= evaluate(factor, values);
+      for (const Expression& factor : e.operands()) product *= evaluate(factor, values);
       return product;
     }
-    case Expression::Kind::quotient:
-      return operand(0) / operand(1);
-    case Expression::Kind::power:
-      return std::pow(operand(0), operand(1));
-    case Expression::Kind::negation:
-      return -operand(0);
+    case Expression::Kind::quotient: return operand(0) / operand(1);
+    case Expression::Kind::power: return std::pow(operand(0), operand(1));
+    case Expression::Kind::negation: return -operand(0);
     case Expression::Kind::function: {
       static const std::map<std::string, long double (*)(long double)> kFunctions = {
           {"sin", std::sin},   {"cos", std::cos},   {"tan", std::tan}, {"asin", std::asin}, {"acos", std::acos},
@@ -59,8 +52,7 @@ inline long double residual(const Relation& relation, const Values& values) {
 /// Constants of a mechanism or system, in order.
 inline Values constant_values(const std::vector<Constant>& constants) {
   Values values;
-  for (const Constant& constant : constants)
-    values[constant.name] = evaluate(constant.value, values);
+  for (const Constant& constant : constants) values[constant.name] = evaluate(constant.value, values);
   return values;
 }
 
@@ -101,8 +93,7 @@ inline std::string canonical(const certify::Polynomial& polynomial) {
 
 inline std::vector<std::string> canonical(const std::vector<certify::Polynomial>& polynomials) {
   std::vector<std::string> out;
-  for (const certify::Polynomial& polynomial : polynomials)
-    out.push_back(canonical(polynomial));
+  for (const certify::Polynomial& polynomial : polynomials) out.push_back(canonical(polynomial));
   return out;
 }
 
@@ -117,15 +108,12 @@ class RandomMechanism {
     mechanism.constant("a", "7/5");
     mechanism.constant("b", "sqrt(2)*a");
     mechanism.constant("phi", "pi/5");
-    for (const char* name : {"x1", "x2"})
-      mechanism.length(name, -3, 3);
-    for (const char* name : {"t1", "t2", "t3"})
-      mechanism.angle(name);
+    for (const char* name : {"x1", "x2"}) mechanism.length(name, -3, 3);
+    for (const char* name : {"t1", "t2", "t3"}) mechanism.angle(name);
     for (int i = 0; i < equations; ++i) {
       // The first term keeps the equation from being constant.
       Expression lhs = integer(1, 5) * (i % 2 ? Expression::symbol("x1") : sin(Expression::symbol("t1")));
-      for (int k = 0; k < 4; ++k)
-        lhs = random_() % 3 ? lhs + term(3) : lhs - term(3);
+      for (int k = 0; k < 4; ++k) lhs = random_() % 3 ? lhs + term(3) : lhs - term(3);
       mechanism.constrain(lhs == term(2));
     }
     return mechanism;
@@ -135,8 +123,7 @@ class RandomMechanism {
   Values point(const Mechanism& mechanism) {
     Values values = constant_values(mechanism.constants());
     std::uniform_real_distribution<double> uniform(-3, 3);
-    for (const Coordinate& coordinate : mechanism.coordinates())
-      values[coordinate.name] = uniform(random_);
+    for (const Coordinate& coordinate : mechanism.coordinates()) values[coordinate.name] = uniform(random_);
     return values;
   }
 
@@ -159,22 +146,14 @@ class RandomMechanism {
   Expression term(int depth) {
     if (depth == 0) return any({"a", "b", "x1", "x2"});
     switch (random_() % 8) {
-      case 0:
-        return Expression::number("0.75") * term(depth - 1);
-      case 1:
-        return any({"x1", "x2"}) * term(depth - 1);
-      case 2:
-        return cos(angle_sum()) * term(depth - 1);
-      case 3:
-        return sin(angle_sum());
-      case 4:
-        return pow(any({"x2", "b"}) - any({"x1", "a"}), integer(2, 3)) * term(depth - 1);
-      case 5:
-        return term(depth - 1) / any({"a", "b"});
-      case 6:
-        return cos(any({"phi", "b"})) * term(depth - 1);
-      default:
-        return term(depth - 1) - sin(angle_sum()) * cos(angle_sum());
+      case 0: return Expression::number("0.75") * term(depth - 1);
+      case 1: return any({"x1", "x2"}) * term(depth - 1);
+      case 2: return cos(angle_sum()) * term(depth - 1);
+      case 3: return sin(angle_sum());
+      case 4: return pow(any({"x2", "b"}) - any({"x1", "a"}), integer(2, 3)) * term(depth - 1);
+      case 5: return term(depth - 1) / any({"a", "b"});
+      case 6: return cos(any({"phi", "b"})) * term(depth - 1);
+      default: return term(depth - 1) - sin(angle_sum()) * cos(angle_sum());
     }
   }
 

@@ -149,8 +149,7 @@ TEST(Expression, RefusesNamesAndNodesThatAreNone) {
 
 TEST(Expression, RefusesToGrowDeeperThanARecursionMayGo) {
   Expression e = "x";
-  for (int i = 0; i < Expression::kMaxDepth; ++i)
-    e = 1 / e;
+  for (int i = 0; i < Expression::kMaxDepth; ++i) e = 1 / e;
   EXPECT_FALSE(e.text().empty());
   EXPECT_TRUE(e.mentions("x"));
   EXPECT_THROW(1 / e, ModelError);
@@ -158,8 +157,7 @@ TEST(Expression, RefusesToGrowDeeperThanARecursionMayGo) {
 
 TEST(Expression, HoldsAHundredThousandTerms) {
   std::string text = "x0";
-  for (int i = 1; i < 100'000; ++i)
-    text += (i % 2 ? " - " : " + ") + std::string("2*x") + std::to_string(i);
+  for (int i = 1; i < 100'000; ++i) text += (i % 2 ? " - " : " + ") + std::string("2*x") + std::to_string(i);
   const Expression e = text;
   EXPECT_EQ(e.operands().size(), 100'000u);
   EXPECT_EQ(e.text(), text);
@@ -174,23 +172,16 @@ class RandomTree {
 
   Expression operator()(int depth) {
     switch (below(depth > 0 ? 9 : 2)) {
-      case 0:
-        return Expression::number(std::vector<std::string>{"0", "2", "0.90", "1e-6", "12.5e3"}[below(5)]);
-      case 1:
-        return Expression::symbol(std::vector<std::string>{"x", "y_A", "theta2", "pi", "e1", "_"}[below(6)]);
+      case 0: return Expression::number(std::vector<std::string>{"0", "2", "0.90", "1e-6", "12.5e3"}[below(5)]);
+      case 1: return Expression::symbol(std::vector<std::string>{"x", "y_A", "theta2", "pi", "e1", "_"}[below(6)]);
       case 2:
         return Expression::function(std::vector<std::string>{"sin", "cos", "sqrt", "abs"}[below(4)], (*this)(depth - 1));
-      case 3:
-        return Expression::node(Kind::negation, {(*this)(depth - 1)});
-      case 4:
-        return Expression::node(Kind::quotient, {(*this)(depth - 1), (*this)(depth - 1)});
-      case 5:
-        return Expression::node(Kind::power, {(*this)(depth - 1), (*this)(depth - 1)});
+      case 3: return Expression::node(Kind::negation, {(*this)(depth - 1)});
+      case 4: return Expression::node(Kind::quotient, {(*this)(depth - 1), (*this)(depth - 1)});
+      case 5: return Expression::node(Kind::power, {(*this)(depth - 1), (*this)(depth - 1)});
       case 6:
-      case 7:
-        return Expression::node(Kind::sum, several(depth));
-      default:
-        return Expression::node(Kind::product, several(depth));
+      case 7: return Expression::node(Kind::sum, several(depth));
+      default: return Expression::node(Kind::product, several(depth));
     }
   }
 
@@ -198,8 +189,7 @@ class RandomTree {
   std::size_t below(int n) { return static_cast<std::size_t>(std::uniform_int_distribution<int>(0, n - 1)(random_)); }
   std::vector<Expression> several(int depth) {
     std::vector<Expression> result;
-    for (std::size_t n = 2 + below(3); n > 0; --n)
-      result.push_back((*this)(depth - 1));
+    for (std::size_t n = 2 + below(3); n > 0; --n) result.push_back((*this)(depth - 1));
     return result;
   }
 

@@ -113,8 +113,7 @@ TEST(Mechanism, ValidateRefusesPowersThatExactArithmeticCouldNotEnd) {
   const auto message = [](std::vector<const char*> constants, const char* equation) {
     Mechanism m;
     const Expression x = m.length("x", 0, 1);
-    for (std::size_t i = 0; i < constants.size(); ++i)
-      m.constant("c" + std::to_string(i + 1), constants[i]);
+    for (std::size_t i = 0; i < constants.size(); ++i) m.constant("c" + std::to_string(i + 1), constants[i]);
     m.constrain(Expression(equation) == 0);
     return message_of([&] { m.validate(); });
   };
@@ -128,8 +127,7 @@ TEST(Mechanism, ValidateRefusesPowersThatExactArithmeticCouldNotEnd) {
   EXPECT_THAT(message({"1.1", "c1^1000", "c2^1000"}, "x"), HasSubstr("the powers in the constant 'c3' are too large"));
   Mechanism m;  // constants that square the one before: 2^40 factors in the last
   Expression c = m.constant("a0", "3/2");
-  for (int i = 1; i < 40; ++i)
-    c = m.constant("a" + std::to_string(i), c * c);
+  for (int i = 1; i < 40; ++i) c = m.constant("a" + std::to_string(i), c * c);
   EXPECT_THAT(message_of([&] { m.validate(); }), HasSubstr("the powers in the constant 'a16' are too large"));
 }
 

@@ -27,8 +27,7 @@ std::ostream& operator<<(std::ostream& out, const FaultCase& fault) { return out
 
 std::string repeated(const std::string& part, int n) {
   std::string result;
-  for (int i = 0; i < n; ++i)
-    result += part;
+  for (int i = 0; i < n; ++i) result += part;
   return result;
 }
 
@@ -63,8 +62,12 @@ std::vector<FaultCase> faults() {
        "at least one, in [SYSTEM VARS]"},
       {"NoEquations", "[SYSTEM VARS]\nx:[0,1]\n", "3:1", "the model has no equations", "at least one, in [SYSTEM EQS]"},
       // sections
-      {"UnsupportedSection", equations("x=y;\n[SEARCH]\ns=1"), "7:1", "section [SEARCH] is not supported yet",
+      {"UnsupportedSection", equations("x=y;\n[VELOCITY EQS]\ns=1"), "7:1", "section [VELOCITY EQS] is not supported",
        "[CONSTANTS], [SYSTEM VARS]"},
+      {"SearchByMinimization", equations("x=y;\n[SEARCH]\nMIN x"), "8:1", "the search order MIN is not supported",
+       "DEPTH FIRST"},
+      {"UnknownSearchOrder", equations("x=y;\n[SEARCH]\nDEPTH LAST"), "8:7", "found 'LAST' in [SEARCH]", "DEPTH FIRST"},
+      {"TextBehindTheSearchOrder", equations("x=y;\n[SEARCH]\nDEPTH FIRST x"), "8:13", "found 'x'", "a section"},
       {"UnknownSection", " [VARIABLES]", "1:2", "section [VARIABLES] is unknown", "[CONSTANTS], [SYSTEM VARS]"},
       {"LowerCaseSection", "[constants]", "1:1", "section [constants] is unknown", "[CONSTANTS], [SYSTEM VARS]"},
       {"SectionWithoutBracket", "[CONSTANTS\na := 1", "1:11", "the section's name has no ']' behind it", "']'"},

@@ -112,8 +112,7 @@ TEST(ModelFile, AcceptsWindowsLineEndsAByteOrderMarkAndNoNewlineAtTheEnd) {
   std::string text = kEveryConstruct;
   text.pop_back();
   std::string windows = "\xEF\xBB\xBF";
-  for (char c : text)
-    windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  for (char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
   const Mechanism expected = parse_model(kEveryConstruct, "m.cuik"), m = parse_model(windows, "m.cuik");
   ASSERT_EQ(m.constraints().size(), expected.constraints().size());
   for (std::size_t i = 0; i < m.constraints().size(); ++i) {
@@ -140,8 +139,7 @@ TEST(ModelFile, AMinusThatBeginsALineContinuesAnEquationButNotADefinition) {
 
 TEST(ModelFile, ReadsTheModelsOfTheRepository) {
   const std::filesystem::path models = CORANK_SOURCE_DIR "/models";
-  for (const auto& path : model_files_in(models))
-    EXPECT_NO_THROW(read_model(path)) << path;
+  for (const auto& path : model_files_in(models)) EXPECT_NO_THROW(read_model(path)) << path;
 
   const Mechanism dextar = read_model(models / "dextar.cuik");
   EXPECT_EQ(dextar.name(), "dextar");
@@ -207,8 +205,7 @@ TEST(ModelFile, SurvivesDeepNestingOfEveryKind) {
   const std::string head = "[SYSTEM VARS]\nx:[0,1]\n[SYSTEM EQS]\n";
   const auto repeated = [](const std::string& part, int n) {
     std::string result;
-    for (int i = 0; i < n; ++i)
-      result += part;
+    for (int i = 0; i < n; ++i) result += part;
     return result;
   };
   const int depth = 100'000;
@@ -220,6 +217,22 @@ TEST(ModelFile, SurvivesDeepNestingOfEveryKind) {
   }
   EXPECT_NO_THROW(parse_model(head + repeated("(", 200) + "x" + repeated(")", 200) + " = 0;", "m.cuik"));
   EXPECT_NO_THROW(parse_model(head + "x" + repeated(" + x*x", 10'000) + " = x" + repeated("*2", 10'000) + ";", "m.cuik"));
+}
+
+TEST(ModelFile, AcceptsTheSearchOrdersThatChangeNoCover) {
+  const std::string head = "[SYSTEM VARS]\nx : [0, 1]\n[SYSTEM EQS]\nx = 1;\n[SEARCH]\n";
+  EXPECT_NO_THROW(parse_model(head + "DEPTH FIRST", "m.cuik"));
+  EXPECT_NO_THROW(parse_model(head + "  BREADTH   % a comment\nFIRST\n[SYSTEM EQS]\nx <= 1;", "m.cuik"));
+}
+
+TEST(ModelFile, KnowsTheAuxiliaryVariablesByTheirSection) {
+  const Mechanism m = parse_model(
+      "[SYSTEM VARS]\na : [0, 1]\n[DUMMY VARS]\nb : [0, 1]\n[ SECONDARY VARS ]\nc : [0, 1]\n[CARTESIAN VARS]\nd : [0, 1]\n"
+      "[SYSTEM VARS]\ne ~ [-pi, pi]\n[SYSTEM EQS]\na = b;",
+      "m.cuik");
+  std::string auxiliary;
+  for (const Coordinate& c : m.coordinates()) auxiliary += c.auxiliary ? c.name : "";
+  EXPECT_EQ(auxiliary, "bd");
 }
 
 TEST(ModelFile, HasAGrammarThatAlwaysMovesForward) {

@@ -51,8 +51,7 @@ TEST(CuikPrinter, ReadsBackForEverySetAndKernelOfTheModels) {
 
 TEST(CuikPrinter, ReadsBackForRandomMechanisms) {
   RandomMechanism generator(kSeed);
-  for (int i = 0; i < 15; ++i)
-    expect_round_trip(algebrize(plain_system(generator.make(2))));
+  for (int i = 0; i < 15; ++i) expect_round_trip(algebrize(plain_system(generator.make(2))));
 }
 
 TEST(CuikPrinter, ReadsBackWithRangesAndIrrationalCoefficients) {
@@ -137,8 +136,7 @@ TEST(LatexPrinter, BalancesItsBracesAndEnvironments) {
     EXPECT_EQ(std::count(latex.begin(), latex.end(), '{'), std::count(latex.begin(), latex.end(), '}'));
     const auto occurrences = [&](const std::string& word) {
       int n = 0;
-      for (std::size_t at = latex.find(word); at != std::string::npos; at = latex.find(word, at + 1))
-        ++n;
+      for (std::size_t at = latex.find(word); at != std::string::npos; at = latex.find(word, at + 1)) ++n;
       return n;
     };
     EXPECT_EQ(occurrences("\\begin{pmatrix}"), 3);

@@ -27,16 +27,14 @@ Rows texts(const ExpressionMatrix& matrix) {
   Rows rows;
   for (const auto& row : matrix.rows) {
     rows.emplace_back();
-    for (const Expression& entry : row)
-      rows.back().push_back(entry.text());
+    for (const Expression& entry : row) rows.back().push_back(entry.text());
   }
   return rows;
 }
 
 std::vector<std::string> texts(const std::vector<TrigonometricSystem::Equation>& equations) {
   std::vector<std::string> out;
-  for (const auto& equation : equations)
-    out.push_back(equation.relation.text());
+  for (const auto& equation : equations) out.push_back(equation.relation.text());
   return out;
 }
 
@@ -94,8 +92,7 @@ TEST(Derivation, AgreesWithCentralDifferencesOnRandomMechanisms) {
   RandomMechanism generator(kSeed);
   constexpr long double kStep = 1e-5L;
   std::vector<Mechanism> mechanisms = {reference("dextar"), reference("three_slider")};
-  for (int i = 0; i < 40; ++i)
-    mechanisms.push_back(generator.make(3));
+  for (int i = 0; i < 40; ++i) mechanisms.push_back(generator.make(3));
   for (const Mechanism& mechanism : mechanisms) {
     const Derivation d = derive(mechanism);
     for (int k = 0; k < 5; ++k) {
@@ -196,10 +193,8 @@ TEST(SingularitySystem, ChoosesGenericWeightsForAnyLength) {
   EXPECT_EQ(s.kernel_unknowns.size(), 1u);
   Mechanism many;
   std::vector<Expression> coordinates;
-  for (int i = 0; i < 40; ++i)
-    coordinates.push_back(many.length("x" + std::to_string(i), -1, 1));
-  for (int i = 0; i < 40; ++i)
-    many.constrain(coordinates[static_cast<std::size_t>(i)] == Expression(0));
+  for (int i = 0; i < 40; ++i) coordinates.push_back(many.length("x" + std::to_string(i), -1, 1));
+  for (int i = 0; i < 40; ++i) many.constrain(coordinates[static_cast<std::size_t>(i)] == Expression(0));
   const TrigonometricSystem big = singularity_system(many, SingularitySet::cspace_singular);
   std::set<std::string> weights;
   for (const Expression& term : big.inequalities[0].relation.lhs.operands()) {
@@ -226,8 +221,7 @@ TEST(SingularitySystem, KnowsItsWords) {
     ASSERT_TRUE(singularity_set_from_string(word));
     EXPECT_STREQ(to_string(*singularity_set_from_string(word)), word);
   }
-  for (const char* word : {"right", "left"})
-    EXPECT_STREQ(to_string(*kernel_side_from_string(word)), word);
+  for (const char* word : {"right", "left"}) EXPECT_STREQ(to_string(*kernel_side_from_string(word)), word);
   EXPECT_FALSE(singularity_set_from_string("Forward"));
   EXPECT_FALSE(kernel_side_from_string(""));
 }
@@ -294,13 +288,11 @@ TEST(Derivation, DifferentiatesDeeplyNestedEquations) {
   Mechanism m;
   const Expression a = m.constant("a", "3/2"), x = m.length("x", -1, 1), y = m.length("y", -1, 1);
   Expression nested = x;
-  for (int i = 0; i < 30; ++i)
-    nested = (a - y) * nested + x;  // Horner: 31 terms expanded, and none is
+  for (int i = 0; i < 30; ++i) nested = (a - y) * nested + x;  // Horner: 31 terms expanded, and none is
   m.constrain(nested == Expression(0));
   const Values at = {{"a", 1.5L}, {"x", 0.5L}, {"y", 0.75L}};
   long double power = 1, sum = 0;
-  for (int i = 0; i <= 30; ++i, power *= 0.75L)
-    sum += power;
+  for (int i = 0; i <= 30; ++i, power *= 0.75L) sum += power;
   EXPECT_NEAR(static_cast<double>(evaluate(derive(m).phi_q.rows[0][0], at)), static_cast<double>(sum), 1e-12);
 }
 

@@ -1,0 +1,100 @@
+// corank angles: from sines and cosines to angles, in the boxes of a result.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include "corank/app/box_files.h"
+#include "corank/app/subcommands.h"
+#include "corank/certify/angle.h"
+#include "corank/report/result_file.h"
+
+namespace corank::app {
+namespace {
+
+struct Pair {
+  int sine, cosine;
+};
+
+std::vector<Pair> pairs_of(const std::vector<std::string>& words, const report::SolFile& boxes) {
+  std::vector<Pair> pairs;
+  std::set<int> seen;
+  for (std::size_t i = 1; i + 2 < words.size(); i += 2) {
+    const Pair pair{variable_index(boxes, words[0], words[i]), variable_index(boxes, words[0], words[i + 1])};
+    for (const int v : {pair.sine, pair.cosine}) {
+      if (!seen.insert(v).second) throw UsageError(fmt::format("the variable {} stands twice in the pairs", v + 1));
+    }
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+// "atan2_st4_ct4", longer where a variable has that name.
+std::string angle_name(const report::SolFile& boxes, const Pair& pair) {
+  const auto name = [&boxes](int v) { return boxes.variables.at(static_cast<std::size_t>(v)); };
+  std::string text = "atan2_" + name(pair.sine) + "_" + name(pair.cosine);
+  while (std::find(boxes.variables.begin(), boxes.variables.end(), text) != boxes.variables.end()) text += "_";
+  return text;
+}
+
+// A regular or isolated box makes a claim about the solutions with these sines and cosines, and none about the angles' whole intervals:
+// its verdict does not pass over. The lack of a claim does.
+std::optional<certify::Verdict> verdict_in_angles(const std::optional<certify::Verdict>& verdict) {
+  const bool claims_nothing = verdict == certify::Verdict::undecided || verdict == certify::Verdict::pending;
+  return claims_nothing ? verdict : std::nullopt;
+}
+
+report::SolFile in_angles(const report::SolFile& boxes, const std::vector<Pair>& pairs) {
+  std::set<std::size_t> replaced;
+  for (const Pair& p : pairs) replaced.insert({static_cast<std::size_t>(p.sine), static_cast<std::size_t>(p.cosine)});
+  report::SolFile out;
+  for (std::size_t i = 0; i < boxes.variables.size(); ++i) {
+    if (!replaced.contains(i)) out.variables.push_back(boxes.variables[i]);
+  }
+  for (const Pair& p : pairs) {
+    if (!boxes.variables.empty()) out.variables.push_back(angle_name(boxes, p));
+  }
+  // Wide enough for atan2 itself and for its going on beyond π where a box crosses the negative axis: no turn is ever added.
+  const certify::Interval range(-4, 7);
+  for (const report::SolBox& from : boxes.boxes) {
+    report::SolBox& box = out.boxes.emplace_back();
+    for (std::size_t i = 0; i < from.box.size(); ++i) {
+      if (!replaced.contains(i)) box.box.push_back(from.box[i]);
+    }
+    const auto at = [&from](int v) { return from.box[static_cast<std::size_t>(v)]; };
+    for (const Pair& p : pairs) box.box.push_back(certify::angle_enclosure(at(p.cosine), at(p.sine), range));
+    box.verdict = verdict_in_angles(from.verdict);
+  }
+  return out;
+}
+
+ExitStatus angles(const std::vector<std::string>& words) {
+  if (words.size() < 4 || words.size() % 2 != 0) {
+    throw UsageError("expected RESULT, pairs of a sine and a cosine, and OUTPUT.sol; corank angles --help tells more");
+  }
+  const report::SolFile boxes = read_boxes(words.front());
+  const std::vector<Pair> pairs = pairs_of(words, boxes);
+  check_output(words.back());
+  report::write_text(words.back(), report::to_sol(in_angles(boxes, pairs)));
+  return completeness(boxes, words.front());
+}
+
+}  // namespace
+
+void add_angles(CLI::App& program, Action& action) {
+  CLI::App* sub =
+      program.add_subcommand("angles", "Replace pairs of a sine and a cosine by angles, in the boxes of a result");
+  const auto words = std::make_shared<std::vector<std::string>>();
+  sub->add_option("WORDS", *words, "The boxes (.sol or .h5), pairs of variables by name or number from 1, the new .sol")
+      ->type_name("RESULT SINE COSINE [SINE COSINE ...] OUTPUT.sol")
+      ->required();
+  sub->footer(
+      "Each angle is an interval in radians that encloses all angles of its box, appended at the end of the box in the "
+      "order\n"
+      "of the pairs. An interval across -pi goes on beyond pi.\n\n"
+      "Example:\n  corank angles forward.sol st4 ct4 st2 ct2 forward_angles.sol");
+  sub->callback([words, &action] { action = [words] { return angles(*words); }; });
+}
+
+}  // namespace corank::app

@@ -1,0 +1,68 @@
+#include "corank/app/run.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+
+#include "corank/app/subcommands.h"
+#include "corank/certify/check.h"
+#include "corank/report/result_file.h"
+#include "corank/symbolic/model_error.h"
+
+namespace corank::app {
+
+int run(const std::string& name, const std::vector<std::string>& args) {
+  const auto say = [&name](ExitStatus status, const std::string& message) {
+    fmt::print(stderr, "{}: {}\n", name, message);
+    return status;
+  };
+  CLI::App program("corank returns all singularities of a robot mechanism, each with a proof.", "corank");
+  program.set_version_flag("--version", "corank " + report::version());
+  program.require_subcommand(1);
+  program.footer(
+      "Example:\n  corank solve models/three_slider.cuik --set forward\n\n"
+      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n"
+      "corank SUBCOMMAND --help tells more.");
+  Action action;
+  add_derive(program, action);
+  add_solve(program, action);
+  add_plot(program, action);
+  add_angles(program, action);
+
+  try {
+    program.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11 wants them backwards
+    const ExitStatus status = action();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return say(kBadInput, "cannot write to standard output");
+    return status;
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return program.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    return say(kUsage, std::string(error.what()) + "; corank --help tells more");
+  } catch (const UsageError& error) {
+    return say(kUsage, error.what());
+  } catch (const symbolic::ModelError& error) {
+    return say(kBadInput, error.what());
+  } catch (const report::ResultFileError& error) {
+    return say(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return say(kBadInput, "out of memory; a larger --sigma or --max-boxes needs less");
+  } catch (const certify::InvariantError& error) {
+    return say(kBug, fmt::format("{}; this is a bug in corank", error.what()));
+  } catch (const std::exception& error) {
+    return say(kBug, fmt::format("unexpected: {}; this is a bug in corank", error.what()));
+  }
+}
+
+std::optional<int> usage_status(const std::string& usage, const std::vector<std::string>& args, std::size_t fewest) {
+  const bool asked = !args.empty() && (args[0] == "-h" || args[0] == "--help");
+  if (!asked && args.size() >= fewest) return std::nullopt;
+  fmt::print(asked ? stdout : stderr, "{}", usage);
+  return asked ? kDone : kUsage;
+}
+
+std::string with_extension(const std::string& name, const std::string& extension) {
+  return name.ends_with(extension) ? name : name + extension;
+}
+
+}  // namespace corank::app

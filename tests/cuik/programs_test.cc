@@ -1,0 +1,161 @@
+// cuik, cuikplot3d, cuikatan2 and the subcommands behind them, as a user runs them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "corank/report/cuik_sol.h"
+#include "corank/tests/cuik/shell.h"
+
+namespace corank::cuik {
+namespace {
+
+using report::SolFile;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// The unit circle: a curve of dimension 1.
+constexpr const char* kCircle =
+    "[SYSTEM VARS]\nc : [-1, 1]\ns : [-1, 1]\n[DUMMY VARS]\np : [-1, 1]\n[SYSTEM EQS]\nc^2 + s^2 = 1;\n[DUMMY EQS]\nc*s - p "
+    "= 0;\n";
+constexpr double kPi = 3.14159265358979323846;
+
+double widest(const SolFile& file) {
+  double width = 0;
+  for (const report::SolBox& box : file.boxes) {
+    for (const certify::Interval& x : box.box) width = std::max(width, x.hi() - x.lo());
+  }
+  return width;
+}
+
+TEST(Cuik, SolvesWithTheParameterFileBesideTheModel) {
+  const Folder folder;
+  folder.write("circle.cuik", kCircle);
+  folder.write("circle.param", "SIGMA = 0.05\nRHO = 0.95 % tuning\n");
+  const Outcome run = folder.run("cuik circle");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("circle.param: without effect here: RHO\n"));
+  EXPECT_THAT(run.out, HasSubstr("sigma 0.05"));
+  const SolFile file = report::read_sol(folder.file("circle.sol"));
+  EXPECT_THAT(file.variables, ElementsAre("c", "s"));  // no dummy variables, as in the suite
+  EXPECT_GT(file.boxes.size(), 100u);
+  EXPECT_LE(widest(file), 0.051);
+  for (int degree = 0; degree < 360; ++degree) {
+    const double t = degree * kPi / 180;
+    EXPECT_TRUE(std::any_of(file.boxes.begin(), file.boxes.end(), [&](const report::SolBox& b) {
+      return b.box[0].contains(std::cos(t)) && b.box[1].contains(std::sin(t));
+    })) << degree;
+  }
+}
+
+TEST(Cuik, TakesNamesWithExtensionAndInFoldersAndRunsWithoutParameters) {
+  const Folder folder;
+  folder.write("circle.cuik", kCircle);
+  EXPECT_EQ(folder.run("mkdir sub && mv circle.cuik sub && cuik sub/circle.cuik").status, 0);
+  EXPECT_GT(report::read_sol(folder.file("sub/circle.sol")).boxes.size(), 50u);
+}
+
+TEST(Cuik, HasTheExitStatusesOfCorankSolve) {
+  const Folder folder;
+  EXPECT_EQ(folder.run("cuik").status, 2);
+  EXPECT_EQ(folder.run("cuik --help").status, 0);
+  const Outcome missing = folder.run("cuik nothing");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.err, HasSubstr("cuik: nothing.cuik: there is no such file"));
+  folder.write("circle.cuik", kCircle);
+  folder.write("circle.param", "SIGMA = 0.1\nDUMIFY = 1\n");
+  const Outcome unknown = folder.run("cuik circle");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_THAT(unknown.err, HasSubstr("circle.param:2: the parameter 'DUMIFY' is unknown"));
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean DUMMIFY?"));
+  folder.write("circle.param", "SIGMA = 0.001\n");
+  EXPECT_EQ(folder.run("cuik circle --max-boxes 3").status, 3);
+  EXPECT_EQ(folder.run("cuikplot3d circle 1 2 1 0 a").status, 3);  // an incomplete cover stays one
+  EXPECT_EQ(folder.run("cuikatan2 circle 2 1 a").status, 3);
+}
+
+TEST(Cuik, RefinesIsolatedSolutionsToSmallSigma) {
+  const Folder folder;
+  folder.write("root.cuik", "[SYSTEM VARS]\nx : [0, 2]\n[SYSTEM EQS]\nx^2 = 2;\n");
+  folder.write("root.param", "SIGMA = 0.1\nSMALL_SIGMA = 1e-5\n");
+  EXPECT_THAT(folder.run("cuik root").out, HasSubstr("sigma 1e-05"));
+  EXPECT_THAT(folder.run("corank solve root.cuik --param root.param --sigma 0.01").out, HasSubstr("sigma 0.01"));
+}
+
+TEST(CorankSolve, WritesSolByItsExtensionAndNeverOverInputs) {
+  const Folder folder;
+  folder.write("circle.cuik", kCircle);
+  EXPECT_EQ(folder.run("corank solve circle.cuik -o a.sol && corank solve circle.cuik -o a.h5").status, 0);
+  EXPECT_THAT(folder.read("a.sol"), HasSubstr("END OF THE SOLUTION FILE"));
+  EXPECT_EQ(folder.read("a.h5").substr(1, 3), "HDF");
+  EXPECT_EQ(folder.run("corank solve circle.cuik -o circle.cuik").status, 2);
+  EXPECT_EQ(folder.run("corank solve circle.cuik -o circle.param").status, 2);
+  EXPECT_EQ(folder.read("circle.cuik"), kCircle);
+}
+
+TEST(Cuikplot3d, DrawsASolutionFile) {
+  const Folder folder;
+  folder.write("a.sol", "{ 3  x[0,1] y[2,3] z[4,5] } % regular\n{ 3  x[1,2] y[2,3] z[4,5] } % undecided\n");
+  EXPECT_EQ(folder.run("cuikplot3d a 1 2 3 0 a.gcl && cuikplot3d a.sol 3 2 1 0.5 b").status, 0);
+  EXPECT_THAT(folder.read("a.gcl"), HasSubstr("OFF 16 12 1\n0 2 4\n"));
+  EXPECT_THAT(folder.read("b.gcl"), HasSubstr("\n4.25 2.25 0.25\n"));
+  EXPECT_EQ(folder.run("corank plot a.sol --axes z,y --color verdict -o c.gcl").status, 0);
+  EXPECT_THAT(folder.read("c.gcl"), HasSubstr("# undecided: 1"));
+}
+
+TEST(Cuikplot3d, RefusesWhatItCannotDraw) {
+  const Folder folder;
+  folder.write("a.sol", "{ 3  x[0,1] y[2,3] z[4,5] }\n");
+  EXPECT_EQ(folder.run("cuikplot3d a 1 2 3").status, 2);
+  EXPECT_EQ(folder.run("cuikplot3d --help").status, 0);
+  const Outcome outside = folder.run("cuikplot3d a 1 2 4 0 a");
+  EXPECT_EQ(outside.status, 2);
+  EXPECT_THAT(outside.err,
+              HasSubstr("cuikplot3d: a.sol has no variable '4'; expected a number from 1 to 3 or one of x, y, z"));
+  EXPECT_EQ(folder.run("cuikplot3d a 1 2 3 -1 a").status, 2);
+  EXPECT_EQ(folder.run("cuikplot3d b 1 2 3 0 a").status, 1);
+  EXPECT_EQ(folder.run("corank plot a.sol --axes 1,2 -o a.png").status, 2);
+  EXPECT_EQ(folder.run("corank plot a.sol --axes 1 -o a.gcl").status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.gcl")));
+}
+
+// The original prints [3.0419, 3.2413]; the corners (−1, ±0.1) … (−0.9, ±0.1) span ±atan(0.1/0.9) about π.
+TEST(Cuikatan2, EnclosesAnglesAcrossMinusPi) {
+  const Folder folder;
+  folder.write("a.sol", "{ 3  s[-0.1,0.1] x[5,6] c[-1,-0.9] } % regular, free s\n");
+  EXPECT_EQ(folder.run("cuikatan2 a 1 3 b").status, 0);
+  const SolFile file = report::read_sol(folder.file("b.sol"));
+  EXPECT_THAT(file.variables, ElementsAre("x", "atan2_s_c"));
+  const certify::Interval angle = file.boxes.at(0).box.at(1);
+  const double half = std::atan(0.1 / 0.9);
+  EXPECT_NEAR(angle.lo(), kPi - half, 1e-12);
+  EXPECT_NEAR(angle.hi(), kPi + half, 1e-12);
+  EXPECT_LE(angle.lo(), 3.0309 + 1e-4);
+  EXPECT_GE(angle.hi(), 3.2523 - 1e-4);
+  EXPECT_EQ(file.boxes[0].box[0], certify::Interval(5, 6));
+  EXPECT_FALSE(file.boxes[0].verdict.has_value());  // regular speaks of the sines and cosines
+}
+
+TEST(Cuikatan2, EnclosesAtAnyWidth) {
+  const Folder folder;
+  folder.write("a.sol", "{ 4  [-1,1] [-1,1] [0.5,1] [-0.8,0.8] }\n");
+  EXPECT_EQ(folder.run("cuikatan2 a 1 2 3 4 b").status, 0);
+  const SolFile file = report::read_sol(folder.file("b.sol"));
+  const certify::Box box = file.boxes.at(0).box;
+  ASSERT_EQ(box.size(), 2u);
+  EXPECT_TRUE(box[0].contains(certify::Interval(-3.1415926535, 3.1415926535)));
+  EXPECT_TRUE(box[1].contains(certify::Interval(std::atan2(0.5, 0.8), std::atan2(0.5, -0.8))));
+}
+
+TEST(Cuikatan2, RefusesPairsThatMakeNoSense) {
+  const Folder folder;
+  folder.write("a.sol", "{ 3  [0,1] [0,1] [0,1] }\n");
+  EXPECT_EQ(folder.run("cuikatan2 a 1 b").status, 2);
+  EXPECT_EQ(folder.run("cuikatan2 a 1 1 b").status, 2);
+  EXPECT_EQ(folder.run("cuikatan2 a 1 2 3 b").status, 2);
+  EXPECT_EQ(folder.run("cuikatan2 a 1 9 b").status, 2);
+  EXPECT_EQ(folder.run("cuikatan2 b 1 2 c").status, 1);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.sol")));
+}
+
+}  // namespace
+}  // namespace corank::cuik

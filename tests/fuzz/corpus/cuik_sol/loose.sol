@@ -1,0 +1,1 @@
+{ 1 x[0,1] } % isolated, loose y

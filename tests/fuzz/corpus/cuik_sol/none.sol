@@ -1,0 +1,3 @@
+SOLUTIONS (to input file a.cuik):
+
+STATISTICS
