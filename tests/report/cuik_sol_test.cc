@@ -58,7 +58,7 @@ TEST(CuikSol, HoldsNoBraceBesidesItsBoxes) {
   Result result = sample_result();
   result.model = "a{b}";
   result.model_text = "% {1} a comment with { braces }\n[SYSTEM VARS]\n";
-  EXPECT_EQ(boxes_that_cuik_finds(to_sol(result), 4), result.cover.boxes.size());
+  EXPECT_EQ(boxes_that_cuik_finds(to_sol(result), 4), static_cast<int>(result.cover.boxes.size()));
 }
 
 TEST(CuikSol, LeavesAuxiliaryVariablesOutAsTheSuiteDoes) {
