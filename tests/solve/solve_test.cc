@@ -353,6 +353,45 @@ TEST(Solve, EndsWhereThePivotOfASheetIsTiny) {
   EXPECT_LE(widest(cover), 1e6);
 }
 
+// Rounded decimals make x = √3/2, y = 1/2, x² + y² = 1 inconsistent: 0.866025² + 0.25 = 0.99999930….
+TEST(Solve, ProvesARoundedOverDeterminedPointPartially) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"1", {{x, 1}}}, {"-0.866025", {}}}).equation({{"1", {{y, 1}}}, {"-0.5", {}}});
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+  EXPECT_TRUE(solve_with(b.system(), 0.01).boxes.empty()) << "exactly, there is no solution";
+  System rounded = b.system();
+  rounded.coefficient_tolerance = 1e-6;
+  const Cover cover = solve_with(rounded, 0.01);
+  ASSERT_EQ(cover.points.size(), 1u);
+  EXPECT_EQ(cover.points[0].verdict, Verdict::partial);
+  EXPECT_EQ(cover.count(Verdict::partial), 1u);
+  EXPECT_TRUE(covers(cover, {std::sqrt(0.75), 0.5}));
+}
+
+TEST(Solve, ProvesARedundantCurvePartiallyAndNeverAContradiction) {
+  // The unit circle twice, z = x + y twice; then with a circle of radius² 1.001 instead, which no point of the first satisfies.
+  for (const char* radius : {"-0.333333", "-0.333666"}) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-3", "3");
+    b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+    b.equation({{"0.333333", {{x, 2}}}, {"0.333333", {{y, 2}}}, {radius, {}}});
+    b.equation({{"1", {{z, 1}}}, {"-1", {{x, 1}}}, {"-1", {{y, 1}}}});
+    b.equation({{"2", {{z, 1}}}, {"-2", {{x, 1}}}, {"-2", {{y, 1}}}});
+    System system = b.system();
+    system.coefficient_tolerance = 1e-6;
+    const Cover cover = solve_with(system, 0.05);
+    if (std::string(radius) == "-0.333333") {
+      EXPECT_EQ(cover.dimension, 1);
+      EXPECT_GT(cover.count(Verdict::partial), 100u);
+      EXPECT_EQ(cover.count(Verdict::partial), cover.boxes.size());
+    } else {
+      EXPECT_EQ(cover.count(Verdict::partial), 0u);
+    }
+    EXPECT_EQ(cover.count(Verdict::regular), 0u);
+  }
+}
+
 TEST(Solve, RefusesANonsensicalSigma) {
   for (double sigma : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-20})
     EXPECT_THROW(solve_with(circle_and_diagonal().system(), sigma), std::invalid_argument) << sigma;
