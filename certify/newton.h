@@ -46,7 +46,8 @@ struct Sheet {
 };
 
 /// Tries to prove, for X_F the sides of the free variables in x: for **every** value f ∈ X_F there is **exactly one** dependent
-/// value d with (f, d) in `region` and F(f, d) = 0, and that d lies in `image`. F stands for the rows p.equations. Besides, every zero of F in x lies in `image`.
+/// value d with (f, d) in `region` and F(f, d) = 0, and that d lies in `image`. F stands for the
+/// rows p.equations. Besides, every zero of F in x lies in `image`.
 ///
 /// Theorem (parametric Krawczyk; keys Krawczyk1969, Neumaier1990 ch. 5, Rump2010; proof in doc/theory.md): let Z be a box of
 /// dependent values, B = X_F × Z, c a centre and K = c_D − Y·F(c) + (I − Y·S_D(B))(Z − c_D) − Y·S_F(B)(X_F − c_F).
@@ -66,7 +67,8 @@ Interval value_on_sheet(const CompiledSystem& system, const Preconditioner& p, i
                         NewtonWorkspace& w);
 
 /// One step of (1)'s image inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is known to
-/// hold the solutions, free sides within the sheet's, and p the sheet's rows and dependents. Shrinks dependent sides only, so that the sheet's claim carries over.
+/// hold the solutions, free sides within the sheet's, and p the sheet's rows and dependents. Shrinks dependent sides
+/// only, so that the sheet's claim carries over.
 void tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
 
 }  // namespace corank::certify

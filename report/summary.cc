@@ -110,6 +110,10 @@ std::string to_table(const Result& result) {
     if (const std::size_t n = cover.count(verdict); n > 0) text += fmt::format("  {:<10}  {:>10}\n", to_string(verdict), n);
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
+  if (const std::size_t wide = cover.wider_than_sigma(); wide > 0) {
+    text += fmt::format("  {} wider than sigma: rounding keeps proven boxes of an ill-conditioned system from narrowing\n",
+                        wide);
+  }
   if (cover.tolerance > 0) {
     text += fmt::format(
         "\nmore equations than variables: coefficients that are no integers are taken within a relative tolerance of {:g};\n"

@@ -92,6 +92,7 @@ TEST(Table, CountsVerdictsAndListsPointsWithAngles) {
   const std::string table = to_table(sample_result());
   EXPECT_THAT(table, HasSubstr("sample, forward: 4 variables, 4 equations, 1 inequality; dimension 0"));
   EXPECT_THAT(table, HasSubstr("INCOMPLETE"));
+  EXPECT_THAT(table, HasSubstr("2 wider than sigma"));
   EXPECT_THAT(table, HasSubstr("2 points: 1 isolated, 1 undecided"));
   EXPECT_THAT(table, HasSubstr("[3.03093"));
   EXPECT_THAT(table, HasSubstr("[0.333333333, 0.333333334]"));
