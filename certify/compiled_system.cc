@@ -21,34 +21,27 @@ Interval half_way(const Interval& x, double c) { return scale(0.5, x + Interval(
 
 }  // namespace
 
-CompiledSystem::CompiledSystem(const System& system) : variables_(system.size()) {
+CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial> values) : variables_(system.size()) {
   system.validate();
   equations_ = static_cast<int>(system.equations.size());
+  rows_ = equations_ + static_cast<int>(system.inequalities.size());
   term_begin_.push_back(0);
   row_begin_.push_back(0);
   std::vector<std::vector<int>> rows_of(variables_);
 
-  // Contains c·[1 − τ, 1 + τ], in any rounding mode.
-  const auto coefficient = [&](const Monomial& m) {
-    const double tolerance = system.coefficient_tolerance;
-    const Interval& c = m.enclosure;
-    if (tolerance == 0 || (c.is_point() && std::nearbyint(c.lo()) == c.lo())) return c;
-    const double margin = 1.000001 * tolerance * c.mag();
-    return Interval(std::nextafter(c.lo() - margin, -HUGE_VAL), std::nextafter(c.hi() + margin, HUGE_VAL));
-  };
   const auto add_row = [&](const Polynomial& f) {
-    const int row = rows();
+    const int row = static_cast<int>(term_begin_.size()) - 1;
     std::set<int> used;
     for (const Monomial& m : f.monomials)
       for (const Factor& factor : m.factors) used.insert(factor.variable);
     const int first = row_begin_.back();
     for (int v : used) {
       columns_.push_back(v);
-      rows_of[v].push_back(row);
+      if (row < rows()) rows_of[v].push_back(row);
     }
     const auto entry = [&](int v) { return first + static_cast<int>(std::distance(used.begin(), used.find(v))); };
     for (const Monomial& m : f.monomials) {
-      Term t{coefficient(m), Shape::general};
+      Term t{m.enclosure, Shape::general};
       const auto& fs = m.factors;
       if (fs.empty()) {
         t.shape = Shape::constant;
@@ -75,6 +68,7 @@ CompiledSystem::CompiledSystem(const System& system) : variables_(system.size())
   };
   for (const Polynomial& f : system.equations) add_row(f);
   for (const Polynomial& g : system.inequalities) add_row(g);
+  for (const Polynomial& v : values) add_row(v);
 
   rows_of_begin_.push_back(0);
   for (const auto& list : rows_of) {
@@ -120,9 +114,15 @@ Interval CompiledSystem::evaluate_at(int row, const double* x) const {
   return sum;
 }
 
-void CompiledSystem::slopes(const Interval* x, const double* c, Interval* s) const {
-  std::fill(s, s + row_begin_[equations_], Interval());
-  for (int k = 0; k < term_begin_[equations_]; ++k) {
+void CompiledSystem::slopes(const Interval* x, const double* c, Interval* s) const { slopes(0, equations_, x, c, s); }
+
+void CompiledSystem::slopes(int row, const Interval* x, const double* c, Interval* s) const {
+  slopes(row, row + 1, x, c, s);
+}
+
+void CompiledSystem::slopes(int from, int to, const Interval* x, const double* c, Interval* s) const {
+  std::fill(s + row_begin_[from], s + row_begin_[to], Interval());
+  for (int k = term_begin_[from]; k < term_begin_[to]; ++k) {
     const Term& t = terms_[k];
     switch (t.shape) {
       case Shape::constant: break;

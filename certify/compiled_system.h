@@ -1,6 +1,7 @@
 // A System in the form that evaluates fast: flat terms with interval coefficients, one sparsity pattern for all Jacobians.
 //
-// Rows 0 … m−1 are the equations (= 0), rows m … m+p−1 the inequalities (≥ 0). Every interval function requires
+// Rows 0 … m−1 are the equations (= 0), rows m … m+p−1 the inequalities (≥ 0); value rows, any further polynomials whose values are
+// asked for, follow. Every interval function requires
 // UpwardRounding::active() and bounded arguments. Derivatives are stored sparsely: entry k of row i, row_begin(i) ≤ k <
 // row_begin(i+1), belongs to variable column(k).
 #pragma once
@@ -29,12 +30,14 @@ class CompiledSystem {
   };
 
   /// Throws std::invalid_argument where System::validate does.
-  explicit CompiledSystem(const System& system);
+  explicit CompiledSystem(const System& system, std::span<const Polynomial> values = {});
 
   int variables() const { return variables_; }
   int equations() const { return equations_; }
   int inequalities() const { return rows() - equations_; }
-  int rows() const { return static_cast<int>(term_begin_.size()) - 1; }
+  int rows() const { return rows_; }  ///< without the value rows
+  int values() const { return static_cast<int>(term_begin_.size()) - 1 - rows_; }
+  int value_row(int k) const { return rows_ + k; }
   int entries() const { return static_cast<int>(columns_.size()); }
 
   std::span<const Term> terms(int row) const {
@@ -45,7 +48,7 @@ class CompiledSystem {
   }
   int row_begin(int row) const { return row_begin_[row]; }
   int column(int entry) const { return columns_[entry]; }
-  /// Rows in which the variable occurs.
+  /// Equations and inequalities in which the variable occurs.
   std::span<const int> rows_of(int variable) const {
     return {rows_of_.data() + rows_of_begin_[variable], rows_of_.data() + rows_of_begin_[variable + 1]};
   }
@@ -60,13 +63,17 @@ class CompiledSystem {
   /// quadratic f this is J((X + c)/2), half as wide as J(X). Slopes about one centre serve existence, never uniqueness.
   /// Source: key Neumaier1990, § 2.3.
   void slopes(const Interval* x, const double* c, Interval* s) const;
+  /// The same of one row of any kind, into its own entries of s.
+  void slopes(int row, const Interval* x, const double* c, Interval* s) const;
   /// Interval Jacobian of the equations: encloses ∂f_i/∂x_j(x) for every x ∈ X.
   void jacobian(const Interval* x, Interval* j) const;
   /// Jacobian at a point in plain floating point, for heuristics only: nothing is proven by it.
   void approximate_jacobian(const double* x, double* j) const;
 
  private:
-  int variables_ = 0, equations_ = 0;
+  void slopes(int from, int to, const Interval* x, const double* c, Interval* s) const;
+
+  int variables_ = 0, equations_ = 0, rows_ = 0;
   std::vector<Term> terms_;
   std::vector<GeneralFactor> factors_;
   std::vector<int> term_begin_, row_begin_, columns_, rows_of_, rows_of_begin_;

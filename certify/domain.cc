@@ -6,8 +6,7 @@
 namespace corank::certify {
 namespace {
 
-// Contains no bounded interval: the inner enclosure of a domain between two neighbouring doubles.
-const Interval kNowhere(std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Is f = Σ a_i x_i² − b with rational a_i > 0 and rational b? Then b = −constant.
 bool is_positive_sum_of_squares(const Polynomial& f) {
@@ -21,10 +20,7 @@ bool is_positive_sum_of_squares(const Polynomial& f) {
   return any;
 }
 
-bool is_integer(const ExactNumber& x) {
-  const Interval enclosure = x.enclose();
-  return x.is_rational() && enclosure.is_point() && std::nearbyint(enclosure.lo()) == enclosure.lo();
-}
+bool carries_no_tolerance(const Monomial& m) { return m.coefficient.enclose().contains(m.enclosure); }
 
 }  // namespace
 
@@ -32,6 +28,7 @@ std::vector<bool> implied_domains(const System& system) {
   std::vector<bool> implied(system.variables.size(), false);
   for (const Polynomial& f : system.equations) {
     if (!is_positive_sum_of_squares(f)) continue;
+    if (!std::all_of(f.monomials.begin(), f.monomials.end(), carries_no_tolerance)) continue;
     ExactNumber b;
     for (const Monomial& m : f.monomials)
       if (m.factors.empty()) b = b - m.coefficient;
@@ -42,36 +39,52 @@ std::vector<bool> implied_domains(const System& system) {
       const auto reaches = [&](const ExactNumber& h) {  // a h² ≥ b
         return h.is_rational() && (m.coefficient * h * h - b).sign().value_or(-1) >= 0;
       };
-      // Coefficients with a tolerance imply nothing, unless they are integers, which carry none.
-      if (system.coefficient_tolerance > 0 && !(is_integer(b) && is_integer(m.coefficient))) continue;
       if (reaches(v.lower) && reaches(v.upper) && v.lower.sign() == -1 && v.upper.sign() == 1) implied[j] = true;
     }
   }
   return implied;
 }
 
-DomainTest::DomainTest(const System& system, double tolerance) : tolerance_(tolerance), implied_(implied_domains(system)) {
-  for (const Variable& v : system.variables) {
+DomainTest::DomainTest(const System& system) {
+  const std::vector<bool> implied = implied_domains(system);
+  for (std::size_t j = 0; j < implied.size(); ++j) {
+    const Variable& v = system.variables[j];
     domain_.push_back(v.domain);
     // The exact sides lie in these enclosures; what lies between their inner ends is certainly inside.
     const double least = v.lower.enclose().hi(), greatest = v.upper.enclose().lo();
-    const double slack = tolerance * std::max(1.0, v.domain.mag());
-    inner_.push_back(least - slack <= greatest + slack ? Interval(least - slack, greatest + slack) : kNowhere);
+    lower_.push_back(implied[j] || v.lower_implied ? -kInfinity : least);
+    upper_.push_back(implied[j] || v.upper_implied ? kInfinity : greatest);
   }
 }
 
-Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x) const {
+template <class Value>
+Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x, double tolerance, Value value) const {
   Location location = Location::inside;
   for (std::size_t j = 0; j < domain_.size(); ++j) {
     if (!domain_[j].overlaps(x[j])) return Location::outside;
-    if (!implied_[j] && !inner_[j].contains(x[j])) location = Location::across;
+    const double slack = tolerance > 0 ? tolerance * std::max(1.0, domain_[j].mag()) : 0;
+    if (!(lower_[j] - slack <= x[j].lo() && x[j].hi() <= upper_[j] + slack)) location = Location::across;
   }
   for (int row = compiled.equations(); row < compiled.rows(); ++row) {
-    const Interval g = compiled.evaluate(row, x);
+    Interval g = compiled.evaluate(row, x);
+    if (g.hi() >= 0 && g.lo() < -tolerance) g = value(row, g);
     if (g.hi() < 0) return Location::outside;
-    if (g.lo() < -tolerance_) location = Location::across;
+    if (g.lo() < -tolerance) location = Location::across;
   }
   return location;
+}
+
+Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x, double tolerance) const {
+  return locate(compiled, x, tolerance, [](int, const Interval& g) { return g; });
+}
+
+Location DomainTest::locate_zeros(const CompiledSystem& compiled, const Preconditioner& p, const Interval* x,
+                                  NewtonWorkspace& w, double tolerance) const {
+  return locate(compiled, x, tolerance, [&](int row, Interval g) {
+    // Both enclose the row's values at the zeros; disjoint, they say that there is none.
+    if (!g.intersect(value_at_zeros(compiled, p, row, x, w))) return Interval(-1.0);
+    return g;
+  });
 }
 
 }  // namespace corank::certify

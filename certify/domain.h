@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
+#include "corank/certify/newton.h"
 #include "corank/certify/system.h"
 
 namespace corank::certify {
 
 /// implied[j] is true where the domain of variable j follows from one equation alone, and therefore is no boundary.
 /// Lemma: if Σ a_i x_i² = b with every a_i > 0, then a_j x_j² ≤ b; so |x_j| ≤ h wherever a_j h² ≥ b. The hypotheses are checked in
-/// exact rational arithmetic. Covers sines, cosines (circles) and kernel vectors (norm).
+/// exact rational arithmetic. Covers sines, cosines (circles) and kernel vectors (norm). Variable::lower_implied and upper_implied
+/// tell the same of one side, where a rewriting of the system knows it.
 std::vector<bool> implied_domains(const System& system);
 
 enum class Location { inside, outside, across };
@@ -19,16 +21,21 @@ enum class Location { inside, outside, across };
 /// (outside), or is neither proven (across)?
 class DomainTest {
  public:
-  /// With a tolerance > 0 (over-determined systems, verdict `partial`) a piece counts as inside where it leaves the domain by no more
-  /// than tolerance · max(1, |domain|), and an inequality by no more than the tolerance.
-  explicit DomainTest(const System& system, double tolerance = 0);
-  Location locate(const CompiledSystem& compiled, const Interval* x) const;
+  explicit DomainTest(const System& system);
+  /// With a tolerance > 0 (verdict `partial`) a piece counts as inside where it leaves the domain by no more than
+  /// tolerance · max(1, |domain|), and an inequality by no more than the tolerance.
+  Location locate(const CompiledSystem& compiled, const Interval* x, double tolerance = 0) const;
+  /// The same of the zeros of p's rows in x, after newton_contract(compiled, p, y, w) with x ⊂ Y: an inequality that the box does not
+  /// decide may be decided there (value_at_zeros).
+  Location locate_zeros(const CompiledSystem& compiled, const Preconditioner& p, const Interval* x, NewtonWorkspace& w,
+                        double tolerance = 0) const;
 
  private:
-  double tolerance_;
-  std::vector<Interval> domain_;  // encloses the exact domain
-  std::vector<Interval> inner_;   // inside the exact domain, widened by the tolerance
-  std::vector<bool> implied_;
+  template <class Value>
+  Location locate(const CompiledSystem& compiled, const Interval* x, double tolerance, Value value) const;
+
+  std::vector<Interval> domain_;       // encloses the exact domain
+  std::vector<double> lower_, upper_;  // inside the exact domain; infinite where that side is implied
 };
 
 }  // namespace corank::certify

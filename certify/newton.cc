@@ -190,29 +190,25 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
   return sheet;
 }
 
-Interval value_on_sheet(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
+Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
                         NewtonWorkspace& w) {
   CORANK_CHECK(UpwardRounding::active());
   const int r = p.rank(), n = system.variables();
-  set_center(x, n, w);
+  CORANK_CHECK(w.product.size() == static_cast<std::size_t>(r) * n && w.center.size() == static_cast<std::size_t>(n));
   w.slope.resize(system.entries());
-  system.slopes(x, w.center.data(), w.slope.data());
-  // λ_b = Σ_a (∂f_row/∂d_a) Y_ab, from midpoints of slopes: any real numbers will do.
-  std::vector<double> lambda(static_cast<std::size_t>(r), 0.0);
-  std::vector<Interval> gradient(static_cast<std::size_t>(n));
-  for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) gradient[system.column(k)] = w.slope[k];
-  for (int a = 0; a < r; ++a)
-    for (int b = 0; b < r; ++b) lambda[b] += gradient[p.dependent[a]].mid() * p.y[static_cast<std::size_t>(a) * r + b];
+  system.slopes(row, x, w.center.data(), w.slope.data());
+  w.gradient.assign(n, Interval());
+  for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) w.gradient[system.column(k)] = w.slope[k];
   Interval value = system.evaluate_at(row, w.center.data());
-  for (int b = 0; b < r; ++b) {
-    if (!std::isfinite(lambda[b])) return Interval::whole();
-    if (lambda[b] == 0) continue;
-    const int i = p.equations[b];
-    value -= scale(lambda[b], system.evaluate_at(i, w.center.data()));
-    for (int k = system.row_begin(i); k < system.row_begin(i + 1); ++k)
-      gradient[system.column(k)] -= scale(lambda[b], w.slope[k]);
+  for (int a = 0; a < r; ++a) {
+    const double lambda = w.gradient[p.dependent[a]].mid();
+    if (!std::isfinite(lambda)) return Interval::whole();
+    if (lambda == 0) continue;
+    value -= scale(lambda, w.residual[a]);
+    const Interval* product = w.product.data() + static_cast<std::size_t>(a) * n;
+    for (int j = 0; j < n; ++j) w.gradient[j] -= scale(lambda, product[j]);
   }
-  for (int j = 0; j < n; ++j) value += gradient[j] * (x[j] - Interval(w.center[j]));
+  for (int j = 0; j < n; ++j) value += w.gradient[j] * (x[j] - Interval(w.center[j]));
   return value;
 }
 

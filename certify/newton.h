@@ -17,9 +17,9 @@ struct Preconditioner {
   int rank() const { return static_cast<int>(dependent.size()); }
 };
 
-/// Buffers for one thread; contents mean nothing between calls.
+/// Buffers for one thread; contents mean nothing between calls but to value_at_zeros.
 struct NewtonWorkspace {
-  std::vector<Interval> slope, product, residual, offset, image, region;
+  std::vector<Interval> slope, product, residual, offset, image, region, gradient;
   std::vector<double> center, magnitude, radius, next_radius;
   std::vector<unsigned char> is_dependent;
 };
@@ -61,9 +61,10 @@ struct Sheet {
 Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const Interval* x, NewtonWorkspace& w,
                    int iterations = 8);
 
-/// For x in a piece of a proven sheet (so f_k(x) = 0 for the sheet's rows k): encloses f_row(x), by f_row = f_row − Σ λ_k f_k for the real
-/// λ that make its gradient vanish at the centre, and the mean value theorem: f_row(c) − λ·F(c) + (S_row − λ·S)(X − c). Any λ is valid.
-Interval value_on_sheet(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
+/// After newton_contract(system, p, y, w): encloses f_row at the zeros of p's rows in x ⊂ Y, Y the box that the step was given and `row` any
+/// row. Let R = Y·F and λ real: R(c) + Y·S (z − c) ∋ 0 at a zero z, so f_row(z) ∈ f_row(c) − λ·R(c) + (S_row − λ·Y·S)(X − c). Here λ makes
+/// the dependent variables' part vanish nearly; any λ is valid.
+Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
                         NewtonWorkspace& w);
 
 /// One step of (1)'s image inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is known to

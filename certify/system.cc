@@ -1,6 +1,7 @@
 #include "corank/certify/system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -26,6 +27,15 @@ int Polynomial::degree() const {
   int most = 0;
   for (const Monomial& monomial : monomials) most = std::max(most, monomial.degree());
   return most;
+}
+
+void widen(Polynomial& f, double tolerance) {
+  for (Monomial& m : f.monomials) {
+    const Interval c = m.enclosure;
+    if (c.is_point() && std::nearbyint(c.lo()) == c.lo()) continue;
+    const double margin = 1.000001 * tolerance * c.mag();
+    m.enclosure = Interval(std::nextafter(c.lo() - margin, -HUGE_VAL), std::nextafter(c.hi() + margin, HUGE_VAL));
+  }
 }
 
 int System::dimension() const { return std::max(0, size() - static_cast<int>(equations.size())); }

@@ -21,8 +21,9 @@ enum class VariableKind : std::uint8_t { length, cosine, sine, kernel };
 struct Variable {
   std::string name;
   VariableKind kind = VariableKind::length;
-  ExactNumber lower, upper;  ///< the search domain, exact
-  Interval domain;           ///< encloses [lower, upper]
+  ExactNumber lower, upper;                           ///< the search domain, exact
+  Interval domain;                                    ///< encloses [lower, upper]
+  bool lower_implied = false, upper_implied = false;  ///< the equations imply this side of the domain: it is no boundary
 
   Variable() = default;
   Variable(std::string name, VariableKind kind, ExactNumber lower, ExactNumber upper);
@@ -38,7 +39,7 @@ struct Factor {
 /// coefficient · Π factors; the factors are sorted by variable, each variable once; none for a constant.
 struct Monomial {
   ExactNumber coefficient;
-  Interval enclosure;  ///< of the coefficient
+  Interval enclosure;  ///< of the coefficient; widened where it carries a tolerance
   std::vector<Factor> factors;
 
   Monomial() = default;
@@ -53,6 +54,9 @@ struct Polynomial {
 
   int degree() const;
 };
+
+/// Widens the enclosure of every coefficient c that is no integer to c·[1 − tolerance, 1 + tolerance] at least, in any rounding mode.
+void widen(Polynomial& f, double tolerance);
 
 /// How an angle of the model is represented: cos θ and sin θ are the variables `cosine` and `sine`.
 struct Angle {
@@ -69,7 +73,7 @@ struct System {
   std::vector<Polynomial> inequalities;  ///< each ≥ 0
   std::vector<Angle> angles;
   /// Relative tolerance of the coefficients that are no integers, for over-determined systems whose printed decimals are rounded and
-  /// therefore inconsistent as exact numbers. 0 (default): every coefficient is exact.
+  /// therefore inconsistent as exact numbers; certify::reduce() puts it into the enclosures. 0 (default): every coefficient is exact.
   double coefficient_tolerance = 0;
   /// Number of leading variables that describe the configuration q; the others (kernel vector) follow.
   int configuration_size = 0;

@@ -11,8 +11,6 @@ void describe_system(const certify::System& system, Result& result) {
   result.configuration_size = system.configuration_size;
   result.equations = static_cast<int>(system.equations.size());
   result.inequalities = static_cast<int>(system.inequalities.size());
-  // The boxes of an over-determined system with a tolerance show its dimension, the counts do not.
-  if (system.coefficient_tolerance == 0) result.cover.dimension = system.dimension();
 }
 
 }  // namespace corank::report

@@ -24,6 +24,7 @@ constexpr double kLastCutShare = 1.0 / 64;
 constexpr int kTightenings = 3;
 constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
 constexpr int kPartialDepth = 8;       // halvings of a piece on which redundant equations are bounded
+constexpr int kBoundaryDepth = 2;      // halvings of a piece that may leave the domain
 constexpr double kCutMargin = 0.97;    // aim a little below σ: the linearization is not exact
 constexpr double kMaxCells = 256;      // of one cut; a piece that needs more is first cut into kCoarseParts
 constexpr int kCoarseParts = 16;
@@ -53,33 +54,27 @@ std::vector<std::vector<Interval>> grid(const std::vector<Interval>& piece, cons
   return cells;
 }
 
-// The tolerance of `partial`, 0 for a system that has no such verdict.
-double over_determined_tolerance(const certify::System& system) {
-  return system.equations.size() > system.variables.size() ? certify::kPartialTolerance * system.coefficient_tolerance : 0;
-}
-
 double widest(const std::vector<Interval>& x) {
   double width = 0;
   for (const Interval& side : x) width = std::max(width, side.width());
   return width;
 }
 
+std::vector<certify::Polynomial> values_of(const certify::Reduction& reduction) {
+  std::vector<certify::Polynomial> values;
+  for (const auto& definition : reduction.definitions) values.push_back(definition.value);
+  return values;
+}
+
 }  // namespace
 
-Problem::Problem(const certify::System& system, double s, std::function<bool()> e)
-    : compiled(system),
-      domain(system, over_determined_tolerance(system)),
-      branching(system),
+Problem::Problem(const certify::Reduction& reduction, double s, std::function<bool()> e)
+    : compiled(reduction.system, values_of(reduction)),
+      redundant(reduction.system),
+      domain(reduction.system),
+      branching(reduction.system),
       sigma(s),
-      over_determined(over_determined_tolerance(system) > 0),
-      tolerance(over_determined_tolerance(system)),
-      ended(std::move(e)) {
-  for (const auto& f : system.equations) {
-    double sum = 0;
-    for (const auto& m : f.monomials) sum += m.enclosure.mag();
-    row_scale.push_back(sum);
-  }
-}
+      ended(std::move(e)) {}
 
 BoxProcessor::BoxProcessor(const Problem& problem) : problem_(problem), preconditioners_(problem.compiled) {
   changed_.resize(problem.compiled.variables());
@@ -131,57 +126,105 @@ bool BoxProcessor::contract(Interval* x) {
   return true;
 }
 
-bool BoxProcessor::others_hold(const certify::Sheet& sheet, const std::vector<int>& free, std::vector<Interval> piece,
-                               int depth) {
+void BoxProcessor::append_values(std::vector<Interval>& sides) const {
+  const auto& system = problem_.compiled;
+  sides.resize(static_cast<std::size_t>(system.variables()));
+  for (int k = 0; k < system.values(); ++k) sides.push_back(system.evaluate(system.value_row(k), sides.data()));
+}
+
+void BoxProcessor::tighten(const certify::Preconditioner& p, std::vector<Interval>& piece) {
+  const auto& system = problem_.compiled;
+  certify::tighten_sheet(system, p, piece.data(), workspace_);
+  piece.resize(static_cast<std::size_t>(system.variables()));
+  for (int k = 0; k < system.values(); ++k) {
+    Interval value = system.evaluate(system.value_row(k), piece.data());
+    value.intersect(certify::value_at_zeros(system, p, system.value_row(k), piece.data(), workspace_));
+    piece.push_back(value);
+  }
+}
+
+bool BoxProcessor::holds_on_parts(const certify::Sheet& sheet, const std::vector<int>& free, std::vector<Interval> piece,
+                                  int depth) {
   const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent, &sheet.equations);
   if (p.rank() != static_cast<int>(sheet.dependent.size())) return false;
   certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
-  bool hold = true;
-  for (int row = 0; row < problem_.compiled.equations() && hold; ++row) {
-    if (std::find(sheet.equations.begin(), sheet.equations.end(), row) != sheet.equations.end()) continue;
-    hold = certify::value_on_sheet(problem_.compiled, p, row, piece.data(), workspace_).mag() <=
-           problem_.tolerance * problem_.row_scale[row];
+  if (is_partial(sheet)) {
+    if (problem_.redundant.hold(problem_.compiled, problem_.domain, p, piece.data(), workspace_)) return true;
+  } else {
+    const Location location = problem_.domain.locate_zeros(problem_.compiled, p, piece.data(), workspace_);
+    if (location != Location::across) return location == Location::inside;
   }
-  if (hold) return true;
   if (depth == 0 || free.empty()) return false;
   const auto parts = grid(piece, free, std::vector<int>(free.size(), 2));
   return std::all_of(parts.begin(), parts.end(),
-                     [&](const auto& part) { return others_hold(sheet, free, part, depth - 1); });
+                     [&](const auto& part) { return holds_on_parts(sheet, free, part, depth - 1); });
 }
 
-bool BoxProcessor::certify(Interval* x) {
+bool BoxProcessor::certify(Interval* x, Proof proof) {
   const auto start = std::chrono::steady_clock::now();
   ++statistics_.proofs_tried;
-  const auto& p = problem_.over_determined ? preconditioners_.near_solution(x) : preconditioners_.at_midpoint(x);
-  if (!problem_.over_determined && p.rank() < problem_.compiled.equations()) return false;
+  const auto& p = proof == Proof::partial ? preconditioners_.near_solution(x) : preconditioners_.at_midpoint(x);
+  if (proof == Proof::full && p.rank() < problem_.compiled.equations()) return false;
   const certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, x, workspace_);
   if (sheet.proven) slice(sheet, x);
   statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sheet.proven;
 }
 
-void BoxProcessor::add(const certify::Sheet& sheet, const std::vector<int>& free, std::vector<Interval> piece) {
+void BoxProcessor::add(const certify::Sheet& sheet, const std::vector<int>& free, std::vector<Interval> piece,
+                       Location location) {
   Verdict verdict = free.empty() ? Verdict::isolated : Verdict::regular;
-  switch (problem_.domain.locate(problem_.compiled, piece.data())) {
-    case Location::outside: return;
-    case Location::across: verdict = Verdict::boundary; break;
-    case Location::inside: break;
-  }
-  if (problem_.over_determined) {
-    const bool holds = verdict != Verdict::boundary && others_hold(sheet, free, piece, kPartialDepth);
-    verdict = holds ? Verdict::partial : Verdict::undecided;
+  if (is_partial(sheet)) {
+    verdict = holds_on_parts(sheet, free, piece, kPartialDepth) ? Verdict::partial : Verdict::undecided;
+  } else if (location == Location::across && !holds_on_parts(sheet, free, piece, kBoundaryDepth)) {
+    verdict = Verdict::boundary;
   }
   Found found{{std::move(piece), verdict, free}, {}};
   if (free.empty() && verdict != Verdict::undecided) {
     found.sheet = sheet;
-    found.sheet.image = found.box.box;
+    found.sheet.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
   }
   found_.push_back(std::move(found));
 }
 
+void BoxProcessor::add_unproven(const Interval* x, Verdict verdict) {
+  Found found;
+  found.box.box.assign(x, x + problem_.compiled.variables());
+  append_values(found.box.box);
+  found.box.verdict = verdict;
+  found_.push_back(std::move(found));
+}
+
+std::vector<double> BoxProcessor::steepness_over(const std::vector<Interval>& piece, const std::vector<int>& dependent,
+                                                 const std::vector<int>& free) {
+  const auto& system = problem_.compiled;
+  std::vector<double> steepness;
+  for (std::size_t a = 0; a < dependent.size(); ++a)
+    for (int f : free) steepness.push_back(std::fabs(preconditioners_.sensitivity(static_cast<int>(a), f)));
+  std::vector<double> center(static_cast<std::size_t>(system.variables())), gradient(center.size());
+  for (std::size_t j = 0; j < center.size(); ++j) center[j] = piece[j].mid();
+  workspace_.slope.resize(static_cast<std::size_t>(system.entries()));
+  for (int k = 0; k < system.values(); ++k) {
+    const int row = system.value_row(k);
+    system.slopes(row, piece.data(), center.data(), workspace_.slope.data());
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    for (int e = system.row_begin(row); e < system.row_begin(row + 1); ++e)
+      gradient[static_cast<std::size_t>(system.column(e))] = workspace_.slope[static_cast<std::size_t>(e)].mid();
+    for (int f : free) {
+      double slope = gradient[static_cast<std::size_t>(f)];
+      for (std::size_t a = 0; a < dependent.size(); ++a)
+        slope += gradient[static_cast<std::size_t>(dependent[a])] * preconditioners_.sensitivity(static_cast<int>(a), f);
+      steepness.push_back(std::fabs(slope));
+    }
+  }
+  return steepness;
+}
+
 std::vector<std::vector<Interval>> BoxProcessor::cut(const std::vector<Interval>& piece, const std::vector<int>& dependent,
-                                                     const std::vector<int>& free) const {
-  // The linearized width of dependent a is Σ_j |∂a/∂j| w_j; find few parts k_j with Σ_j |∂a/∂j| w_j/k_j ≤ σ for all a.
+                                                     const std::vector<int>& free) {
+  // The linearized width of dependent (or eliminated variable) a is Σ_j |∂a/∂j| w_j; find few parts k_j with
+  // Σ_j |∂a/∂j| w_j/k_j ≤ σ for all a.
+  const std::vector<double> steepness = steepness_over(piece, dependent, free);
   const double sigma = kCutMargin * problem_.sigma;
   std::vector<int> parts;
   double cells = 1;
@@ -200,12 +243,11 @@ std::vector<std::vector<Interval>> BoxProcessor::cut(const std::vector<Interval>
   while (cells < kMaxCells) {
     double worst = sigma;
     std::size_t grow = free.size();
-    for (std::size_t a = 0; a < dependent.size(); ++a) {
+    for (std::size_t a = 0; a * free.size() < steepness.size(); ++a) {
       double width = 0, best = 0;
       std::size_t best_free = 0;
       for (std::size_t f = 0; f < free.size(); ++f) {
-        const double share =
-            std::fabs(preconditioners_.sensitivity(static_cast<int>(a), free[f])) * piece[free[f]].width() / parts[f];
+        const double share = steepness[a * free.size() + f] * piece[free[f]].width() / parts[f];
         width += share;
         // One part more takes share/(k+1) off at the price of a factor (k+1)/k in cells.
         if (const double gain = share * parts[f] / (parts[f] + 1); gain > best) best = gain, best_free = f;
@@ -232,6 +274,7 @@ void BoxProcessor::slice(const certify::Sheet& sheet, const Interval* x) {
     int futile_cuts;      // in a row
   };
   std::vector<Piece> pieces{{sheet.image, HUGE_VAL, 0}};
+  append_values(pieces[0].sides);
   for (unsigned turn = 1; !pieces.empty(); ++turn) {
     if (turn % kPiecesBetweenChecks == 0 && problem_.ended()) {
       for (auto& rest : pieces) found_.push_back({{std::move(rest.sides), Verdict::pending, {}}, {}});
@@ -242,7 +285,7 @@ void BoxProcessor::slice(const certify::Sheet& sheet, const Interval* x) {
     double width = widest(piece);
     for (int k = 0; k < (free.empty() ? kPointTightenings : kTightenings); ++k) {
       const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent, &sheet.equations);
-      certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
+      tighten(p, piece);
       const double tightened = widest(piece);
       if (!free.empty() && (tightened <= problem_.sigma || tightened > 0.9 * width)) break;
       if (free.empty() && tightened == width) break;
@@ -253,14 +296,16 @@ void BoxProcessor::slice(const certify::Sheet& sheet, const Interval* x) {
     bool meets = true;
     for (int j = 0; j < n && meets; ++j) meets = piece[j].overlaps(x[j]);
     if (!meets) continue;
-    if (problem_.domain.locate(problem_.compiled, piece.data()) == Location::outside) continue;
+    const Location location =
+        problem_.domain.locate_zeros(problem_.compiled, preconditioners_.last(), piece.data(), workspace_);
+    if (location == Location::outside) continue;
     // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts in a row
     // gain nothing, the piece stays as it is, proven.
     futile_cuts = width > kFutileShare * former_width ? futile_cuts + 1 : 0;
     const bool stuck = futile_cuts > kFutileCuts ||
                        std::none_of(free.begin(), free.end(), [&](int j) { return split_point(piece[j]).has_value(); });
     if (width <= problem_.sigma || stuck) {
-      add(sheet, free, std::move(piece));
+      add(sheet, free, std::move(piece), location);
       continue;
     }
     for (auto& part : cut(piece, sheet.dependent, free)) pieces.push_back({std::move(part), width, futile_cuts});
@@ -277,11 +322,32 @@ int BoxProcessor::widest_free(const Interval* x) {
   return widest;
 }
 
+int BoxProcessor::choose_for_values(const Interval* x) const {
+  const auto& system = problem_.compiled;
+  std::vector<Interval> slope(static_cast<std::size_t>(system.entries()));
+  std::vector<double> center(static_cast<std::size_t>(system.variables()));
+  for (int j = 0; j < system.variables(); ++j) center[j] = x[j].mid();
+  for (int k = 0; k < system.values(); ++k) {
+    const int row = system.value_row(k);
+    if (system.evaluate(row, x).width() <= problem_.sigma) continue;
+    system.slopes(row, x, center.data(), slope.data());
+    int best = -1;
+    double most = 0;
+    for (int e = system.row_begin(row); e < system.row_begin(row + 1); ++e) {
+      const int j = system.column(e);
+      if (const double share = slope[e].mag() * x[j].width(); share > most && split_point(x[j])) most = share, best = j;
+    }
+    if (best >= 0) return best;
+  }
+  return -1;
+}
+
 BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
   ++statistics_.processed;
   if (!contract(x)) return Outcome::done;
-  if (worth_proving_ && certify(x)) return Outcome::done;
+  if (worth_proving_ && certify(x, Proof::full)) return Outcome::done;
   split_variable_ = problem_.branching.choose(x, problem_.sigma);
+  if (split_variable_ < 0) split_variable_ = choose_for_values(x);
   // Where Newton is regular, the solutions in x are a sheet over the free variables: cutting along those alone gives parts whose
   // sheets do not overlap.
   // Small boxes whose proof is near are cut on below σ, a bounded number of times.
@@ -291,12 +357,9 @@ BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
     if (free >= 0 && x[free].width() > least && split_point(x[free])) split_variable_ = free;
   }
   if (split_variable_ >= 0) return Outcome::split;
-  // At its final size: an over-determined system's box gets its one chance of a proof here, where its rank shows.
-  if (problem_.over_determined && certify(x)) return Outcome::done;
-  Found found;
-  found.box.box.assign(x, x + problem_.compiled.variables());
-  found.box.verdict = Verdict::undecided;
-  found_.push_back(std::move(found));
+  // At its final size: where equations may be redundant, the box gets its one chance of such a proof here, where its rank shows.
+  if (problem_.redundant.applies() && certify(x, Proof::partial)) return Outcome::done;
+  add_unproven(x, Verdict::undecided);
   return Outcome::done;
 }
 

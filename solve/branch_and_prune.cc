@@ -65,9 +65,9 @@ class WorkList {
 
 class Search {
  public:
-  Search(const certify::System& system, const Options& options, double sigma)
+  Search(const certify::Reduction& reduction, const Options& options, double sigma)
       : options_(options),
-        problem_(system, sigma,
+        problem_(reduction, sigma,
                  [this] {
                    report(false);
                    return limit_reached();
@@ -187,10 +187,7 @@ class Search {
     }
     while (!list.empty()) {
       list.pop(x.data());
-      Found found;
-      found.box.box = x;
-      found.box.verdict = Verdict::pending;
-      processor.found().push_back(std::move(found));
+      processor.leave(x.data());
     }
   }
 
@@ -221,6 +218,13 @@ bool before(const Found& a, const Found& b) {
       [](const Interval& x, const Interval& y) { return x.lo() != y.lo() ? x.lo() < y.lo() : x.hi() < y.hi(); });
 }
 
+// The box in all variables of the system that was reduced.
+certify::CoverBox lifted(const certify::Reduction& reduction, certify::CoverBox box) {
+  box.box = reduction.lift(box.box);
+  for (int& j : box.free) j = reduction.kept[static_cast<std::size_t>(j)];
+  return box;
+}
+
 }  // namespace
 
 double default_sigma(const certify::System& system) {
@@ -240,15 +244,19 @@ Cover solve(const certify::System& system, const Options& options) {
   if (const double least = smallest_sigma(system); sigma < least)
     throw std::invalid_argument("sigma is below " + format(least) + ", what boxes of doubles resolve in this domain");
 
-  Search search(system, options, sigma);
-  search.run(system);
+  const certify::Reduction reduction = certify::reduce(system);
+  Search search(reduction, options, sigma);
+  if (reduction.consistent) search.run(reduction.system);
 
   Cover cover;
-  cover.dimension = system.dimension();
+  cover.dimension = reduction.system.dimension();
   cover.sigma = sigma;
   cover.statistics = search.statistics();
-  cover.tolerance = system.coefficient_tolerance * certify::kPartialTolerance;
   std::vector<Found> found = search.take_found();
+  const bool some_partial =
+      std::any_of(found.begin(), found.end(), [](const Found& f) { return f.box.verdict == Verdict::partial; });
+  if (reduction.tolerant || some_partial)
+    cover.tolerance = reduction.system.coefficient_tolerance * certify::kPartialTolerance;
   for (const Found& f : found)
     if (f.box.verdict == Verdict::partial) cover.dimension = std::max(cover.dimension, static_cast<int>(f.box.free.size()));
   std::sort(found.begin(), found.end(), before);
@@ -256,7 +264,8 @@ Cover solve(const certify::System& system, const Options& options) {
     merge_isolated(found);
     cover.points = collect_points(found, sigma);
   }
-  for (Found& f : found) cover.boxes.push_back(std::move(f.box));
+  for (certify::CoverBox& point : cover.points) point = lifted(reduction, std::move(point));
+  for (Found& f : found) cover.boxes.push_back(lifted(reduction, std::move(f.box)));
   cover.statistics.seconds_total = search.seconds();
   cover.statistics.seconds_search = cover.statistics.seconds_total - cover.statistics.seconds_certify;
   search.report(true);

@@ -21,6 +21,8 @@ class PreconditionerFactory {
   /// over-determined system shows: away from its solutions redundant equations look independent.
   const certify::Preconditioner& near_solution(const certify::Interval* x);
 
+  /// The result of the last call of either.
+  const certify::Preconditioner& last() const { return result_; }
   /// After either: ∂(dependent a)/∂(free j) of the linearized system, r×n row-major, 0 for dependent columns.
   double sensitivity(int a, int j) const {
     return a >= result_.rank() ? 0 : -tableau_[static_cast<std::size_t>(result_.equations[a]) * n_ + j];

@@ -326,11 +326,11 @@ TEST(Solve, SaysNothingIsInsideBeyondTheExactDomain) {
 }
 
 TEST(Solve, EndsWhereRoundingKeepsASheetWide) {
-  // 3u = 4, y = 1e8·u − 133333333.333: the box of y stays as wide as the rounding of 1e8·u.
+  // 9u² = 16, y = 1e8·u − 133333333.333: the box of y stays as wide as the rounding of 1e8·u.
   SystemBuilder b;
-  const int u = b.variable("u", "-2", "2"), y = b.variable("y", "-1", "1"), t = b.variable("t", "1/2", "1/2");
-  b.equation({{"3", {{u, 1}}}, {"-4", {}}});
-  b.equation({{"1", {{y, 1}}}, {"-1e8", {{u, 1}}}, {"133333333.333", {}}, {"1e-30", {{t, 1}}}});
+  const int u = b.variable("u", "1", "2"), y = b.variable("y", "-1", "1");
+  b.equation({{"9", {{u, 2}}}, {"-16", {}}});
+  b.equation({{"1", {{y, 1}}}, {"-1e8", {{u, 1}}}, {"133333333.333", {}}});
   Options options;
   options.sigma = 3e-9;
   options.max_boxes = 1000;
@@ -370,12 +370,12 @@ TEST(Solve, ProvesARoundedOverDeterminedPointPartially) {
 }
 
 TEST(Solve, ProvesARedundantCurvePartiallyAndNeverAContradiction) {
-  // The unit circle twice, z = x + y twice; then with a circle of radius² 1.001 instead, which no point of the first satisfies.
+  // The unit circle, (x² + y²)² = 1 in rounded decimals, z = x + y twice; then radius⁴ 1.001 instead, which no point of the circle has.
   for (const char* radius : {"-0.333333", "-0.333666"}) {
     SystemBuilder b;
     const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-3", "3");
     b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
-    b.equation({{"0.333333", {{x, 2}}}, {"0.333333", {{y, 2}}}, {radius, {}}});
+    b.equation({{"0.333333", {{x, 4}}}, {"0.666666", {{x, 2}, {y, 2}}}, {"0.333333", {{y, 4}}}, {radius, {}}});
     b.equation({{"1", {{z, 1}}}, {"-1", {{x, 1}}}, {"-1", {{y, 1}}}});
     b.equation({{"2", {{z, 1}}}, {"-2", {{x, 1}}}, {"-2", {{y, 1}}}});
     System system = b.system();

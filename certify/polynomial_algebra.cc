@@ -1,0 +1,161 @@
+#include "corank/certify/polynomial_algebra.h"
+
+#include <algorithm>
+#include <map>
+
+#include "corank/certify/check.h"
+#include "corank/certify/rounding.h"
+
+namespace corank::certify {
+namespace {
+
+using Factors = std::vector<Factor>;
+
+struct ByVariables {
+  bool operator()(const Factors& a, const Factors& b) const {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](const Factor& x, const Factor& y) {
+      return x.variable != y.variable ? x.variable < y.variable : x.power < y.power;
+    });
+  }
+};
+
+struct Coefficient {
+  ExactNumber exact;
+  Interval enclosure;
+};
+
+// Terms by their factors, summed.
+class Sum {
+ public:
+  void add(const Factors& factors, const ExactNumber& exact, const Interval& enclosure) {
+    const auto [at, is_new] = terms_.try_emplace(factors, Coefficient{exact, enclosure});
+    if (is_new) return;
+    at->second.exact = at->second.exact + exact;
+    at->second.enclosure += enclosure;
+  }
+  std::vector<Monomial> monomials() const {
+    std::vector<Monomial> result;
+    for (const auto& [factors, c] : terms_) {
+      if (c.exact.is_zero()) continue;
+      result.emplace_back();
+      result.back().coefficient = c.exact;
+      result.back().enclosure = c.enclosure;
+      result.back().factors = factors;
+    }
+    return result;
+  }
+
+ private:
+  std::map<Factors, Coefficient, ByVariables> terms_;
+};
+
+Factors product(const Factors& a, const Factors& b) {
+  Factors result;
+  std::size_t i = 0, j = 0;
+  while (i < a.size() || j < b.size()) {
+    if (j == b.size() || (i < a.size() && a[i].variable < b[j].variable)) {
+      result.push_back(a[i++]);
+    } else if (i == a.size() || b[j].variable < a[i].variable) {
+      result.push_back(b[j++]);
+    } else {
+      result.push_back({a[i].variable, a[i].power + b[j].power});
+      ++i, ++j;
+    }
+  }
+  return result;
+}
+
+std::vector<Monomial> product(const std::vector<Monomial>& a, const std::vector<Monomial>& b) {
+  Sum sum;
+  for (const Monomial& x : a)
+    for (const Monomial& y : b)
+      sum.add(product(x.factors, y.factors), x.coefficient * y.coefficient, x.enclosure * y.enclosure);
+  return sum.monomials();
+}
+
+}  // namespace
+
+bool mentions(const Polynomial& f, int variable) {
+  return std::any_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
+    return std::any_of(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return x.variable == variable; });
+  });
+}
+
+Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value) {
+  CORANK_CHECK(UpwardRounding::active());
+  Sum sum;
+  for (const Monomial& m : f.monomials) {
+    const auto at =
+        std::find_if(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return x.variable == variable; });
+    if (at == m.factors.end()) {
+      sum.add(m.factors, m.coefficient, m.enclosure);
+      continue;
+    }
+    Monomial rest = m;
+    rest.factors.erase(rest.factors.begin() + (at - m.factors.begin()));
+    std::vector<Monomial> terms{rest};
+    for (int k = 0; k < at->power; ++k) terms = product(terms, value.monomials);
+    for (const Monomial& t : terms) sum.add(t.factors, t.coefficient, t.enclosure);
+  }
+  return {sum.monomials(), f.source};
+}
+
+std::optional<Polynomial> solved_for(const Polynomial& f, int variable) {
+  CORANK_CHECK(UpwardRounding::active());
+  const Monomial* own = nullptr;
+  for (const Monomial& m : f.monomials)
+    for (const Factor& x : m.factors) {
+      if (x.variable != variable) continue;
+      if (own || m.factors.size() != 1 || x.power != 1) return std::nullopt;
+      own = &m;
+    }
+  if (!own || !own->coefficient.is_rational() || own->enclosure.contains_zero()) return std::nullopt;
+  Polynomial value{{}, f.source};
+  for (const Monomial& m : f.monomials) {
+    if (&m == own) continue;
+    const auto quotient = divide(-m.enclosure, own->enclosure, Interval::whole());
+    CORANK_CHECK(quotient.has_value());
+    Monomial t = m;
+    t.coefficient = -(m.coefficient / own->coefficient);
+    t.enclosure = *quotient;
+    value.monomials.push_back(std::move(t));
+  }
+  return value;
+}
+
+bool proportional(const Polynomial& f, const Polynomial& g) {
+  if (f.monomials.size() != g.monomials.size() || f.monomials.empty()) return false;
+  Sum a, b;  // in the same order
+  for (const Monomial& m : f.monomials) a.add(m.factors, m.coefficient, m.enclosure);
+  for (const Monomial& m : g.monomials) b.add(m.factors, m.coefficient, m.enclosure);
+  const auto x = a.monomials(), y = b.monomials();
+  if (x.size() != y.size() || x.empty()) return false;
+  std::optional<ExactNumber> ratio;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (x[k].factors != y[k].factors) return false;
+    if (x[k].coefficient.is_rational() != y[k].coefficient.is_rational()) return false;
+    if (!x[k].coefficient.is_rational()) continue;
+    const ExactNumber r = x[k].coefficient / y[k].coefficient;
+    if (ratio && !(r == *ratio)) return false;
+    ratio = r;
+  }
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (x[k].coefficient.is_rational()) continue;
+    const ExactNumber scaled = ratio ? *ratio * y[k].coefficient : y[k].coefficient;
+    if (!(scaled == x[k].coefficient)) return false;
+  }
+  return true;
+}
+
+Interval evaluate(const Polynomial& f, const std::vector<Interval>& x) {
+  CORANK_CHECK(UpwardRounding::active());
+  Interval sum;
+  for (const Monomial& m : f.monomials) {
+    Interval term = m.enclosure;
+    for (const Factor& factor : m.factors) term *= power(x[factor.variable], factor.power);
+    sum += term;
+  }
+  return sum;
+}
+
+}  // namespace corank::certify

@@ -1,0 +1,30 @@
+// Exact arithmetic on sparse polynomials: what a rewriting of a system needs.
+//
+// Every operation acts on a monomial's exact coefficient and, rounded outward, on its enclosure, which may be wider than the exact
+// number asks for: it may carry a coefficient tolerance.
+#pragma once
+
+#include <optional>
+
+#include "corank/certify/system.h"
+
+namespace corank::certify {
+
+/// f with the variable replaced by a polynomial: f(…, value, …). Monomials whose exact coefficient is the rational number 0 are dropped.
+/// Requires UpwardRounding::active().
+Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value);
+
+/// Where f = a·x + g with a rational a ≠ 0 and x not in g: the polynomial −g/a, so that f = 0 ⇔ x = −g/a. Else nothing.
+/// Requires UpwardRounding::active().
+std::optional<Polynomial> solved_for(const Polynomial& f, int variable);
+
+/// Is f = q·g for a rational number q ≠ 0? Coefficients that are not rational compare by structure: false proves nothing.
+bool proportional(const Polynomial& f, const Polynomial& g);
+
+/// Does the variable occur in f?
+bool mentions(const Polynomial& f, int variable);
+
+/// Encloses {f(x) : x ∈ X}: the natural interval extension over the enclosures. Requires UpwardRounding::active().
+Interval evaluate(const Polynomial& f, const std::vector<Interval>& x);
+
+}  // namespace corank::certify

@@ -1,0 +1,291 @@
+#include "corank/certify/reduction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "corank/certify/check.h"
+#include "corank/certify/domain.h"
+#include "corank/certify/polynomial_algebra.h"
+#include "corank/certify/rounding.h"
+
+namespace corank::certify {
+namespace {
+
+std::vector<int> variables_of(const Polynomial& f) {
+  std::vector<int> result;
+  for (const Monomial& m : f.monomials)
+    for (const Factor& x : m.factors) result.push_back(x.variable);
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+bool is_affine(const Polynomial& f) {
+  return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
+    return m.factors.empty() || (m.factors.size() == 1 && m.factors[0].power == 1);
+  });
+}
+
+bool is_integer(const Monomial& m) {
+  return m.coefficient.is_rational() && m.enclosure.is_point() && std::nearbyint(m.enclosure.lo()) == m.enclosure.lo();
+}
+
+class Reducer {
+ public:
+  Reducer(const System& system, Eliminate eliminate);
+  Reduction run();
+
+ private:
+  // Drops what holds identically; sets consistent_. False once the system is known to be inconsistent.
+  bool tidy();
+  void drop_repeated();
+  // Replaces variables whose domain is one number by it.
+  void eliminate_fixed();
+  // One step of (a), of (b). False: nothing to do.
+  bool eliminate_tied();
+  bool eliminate_image();
+  bool may_define(const Polynomial& f) const;
+  void eliminate(std::size_t row, int variable, const Polynomial& value);
+  void replace_everywhere(int variable, Polynomial value);
+  // Narrows y's domain to where a·y + c lies in x's; or adds inequalities.
+  void carry_domain(int x, const Polynomial& value);
+  void refresh(Polynomial& f) const;
+
+  System system_;
+  const Eliminate eliminate_;
+  const bool tolerant_;
+  std::vector<bool> gone_;
+  std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
+  bool consistent_ = true;
+};
+
+Reducer::Reducer(const System& system, Eliminate eliminate)
+    : system_(system),
+      eliminate_(eliminate),
+      tolerant_(system.coefficient_tolerance > 0 && eliminate != Eliminate::exact),
+      gone_(system.variables.size(), false) {
+  system.validate();
+  const std::vector<bool> implied = implied_domains(system_);
+  for (std::size_t j = 0; j < implied.size(); ++j)
+    if (implied[j]) system_.variables[j].lower_implied = system_.variables[j].upper_implied = true;
+  // From here on the tolerance stands in the enclosures.
+  if (tolerant_)
+    for (auto* rows : {&system_.equations, &system_.inequalities})
+      for (Polynomial& f : *rows) widen(f, system_.coefficient_tolerance);
+}
+
+bool Reducer::may_define(const Polynomial& f) const {
+  switch (eliminate_) {
+    case Eliminate::none: return false;
+    case Eliminate::exact: return true;
+    case Eliminate::integers: return std::all_of(f.monomials.begin(), f.monomials.end(), is_integer);
+  }
+  return false;
+}
+
+// In exact arithmetic an enclosure is the coefficient's own.
+void Reducer::refresh(Polynomial& f) const {
+  if (tolerant_) return;
+  for (Monomial& m : f.monomials) m.enclosure = m.coefficient.enclose();
+}
+
+bool Reducer::tidy() {
+  auto& rows = system_.equations;
+  for (std::size_t i = 0; i < rows.size();) {
+    const bool constant = variables_of(rows[i]).empty();
+    // A constant that may be 0 within its tolerance, or whose sign cannot be decided, is no contradiction.
+    if (constant && !rows[i].monomials.empty() && !rows[i].monomials[0].enclosure.contains_zero())
+      return consistent_ = false;
+    if (rows[i].monomials.empty() || (constant && tolerant_)) {
+      rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
+  }
+  return true;
+}
+
+void Reducer::drop_repeated() {
+  auto& rows = system_.equations;
+  std::vector<Polynomial> distinct;
+  for (Polynomial& f : rows)
+    if (std::none_of(distinct.begin(), distinct.end(), [&](const Polynomial& g) { return proportional(f, g); }))
+      distinct.push_back(std::move(f));
+  rows = std::move(distinct);
+}
+
+void Reducer::carry_domain(int x, const Polynomial& value) {
+  const Variable& from = system_.variables[static_cast<std::size_t>(x)];
+  const std::vector<int> others = variables_of(value);
+  if (others.size() == 1 && is_affine(value)) {
+    // x = a·y + c ∈ [l, u]  ⇔  y ∈ [(l − c)/a, (u − c)/a], swapped where a < 0.
+    Variable& y = system_.variables[static_cast<std::size_t>(others[0])];
+    ExactNumber a, c;
+    for (const Monomial& m : value.monomials) (m.factors.empty() ? c : a) = m.coefficient;
+    ExactNumber lower = (from.lower - c) / a, upper = (from.upper - c) / a;
+    bool lower_implied = from.lower_implied, upper_implied = from.upper_implied;
+    const auto sign = a.sign();
+    if (sign == -1) std::swap(lower, upper), std::swap(lower_implied, upper_implied);
+    const auto above = (lower - y.lower).sign(), below = (upper - y.upper).sign();
+    if (sign && above && below) {
+      if (*above > 0) y.lower = lower, y.lower_implied = lower_implied;
+      if (*below < 0) y.upper = upper, y.upper_implied = upper_implied;
+      if (*above == 0) y.lower_implied = y.lower_implied || lower_implied;
+      if (*below == 0) y.upper_implied = y.upper_implied || upper_implied;
+      if ((y.upper - y.lower).sign() == -1) {
+        consistent_ = false;  // no value of y remains
+        y.upper = y.lower;
+      }
+      y.domain = Interval::hull(y.lower.enclose(), y.upper.enclose());
+      return;
+    }
+  }
+  std::vector<Interval> domain;
+  for (const Variable& v : system_.variables) domain.push_back(v.domain);
+  const Interval image = evaluate(value, domain);
+  const auto bound = [&](const ExactNumber& end, int sign) {  // sign·(value − end) ≥ 0
+    Polynomial g = value;
+    Polynomial shifted{{}, "range of " + from.name};
+    ExactNumber constant = -end;
+    Interval enclosure = -end.enclose();
+    for (const Monomial& m : g.monomials) {
+      if (!m.factors.empty()) {
+        shifted.monomials.push_back(m);
+      } else {
+        constant = constant + m.coefficient;
+        enclosure += m.enclosure;
+      }
+    }
+    if (!constant.is_zero()) {
+      shifted.monomials.emplace_back(constant, std::vector<Factor>{});
+      shifted.monomials.back().enclosure = enclosure;
+    }
+    if (sign < 0)
+      for (Monomial& m : shifted.monomials) m.coefficient = -m.coefficient, m.enclosure = -m.enclosure;
+    refresh(shifted);
+    system_.inequalities.push_back(std::move(shifted));
+  };
+  if (!from.lower_implied && !(image.lo() >= from.lower.enclose().hi())) bound(from.lower, 1);
+  if (!from.upper_implied && !(image.hi() <= from.upper.enclose().lo())) bound(from.upper, -1);
+}
+
+void Reducer::eliminate(std::size_t row, int variable, const Polynomial& value) {
+  system_.equations.erase(system_.equations.begin() + static_cast<std::ptrdiff_t>(row));
+  carry_domain(variable, value);
+  replace_everywhere(variable, value);
+}
+
+void Reducer::eliminate_fixed() {
+  if (eliminate_ == Eliminate::none) return;
+  for (std::size_t j = 0; j < system_.variables.size(); ++j) {
+    const Variable& v = system_.variables[j];
+    if (!(v.lower == v.upper)) continue;
+    Polynomial value{{}, "domain of " + v.name};
+    if (!v.lower.is_zero()) value.monomials.emplace_back(v.lower, std::vector<Factor>{});
+    replace_everywhere(static_cast<int>(j), std::move(value));
+  }
+}
+
+void Reducer::replace_everywhere(int variable, Polynomial value) {
+  refresh(value);
+  gone_[static_cast<std::size_t>(variable)] = true;
+  const auto replace = [&](Polynomial& f) {
+    if (!mentions(f, variable)) return;
+    f = substitute(f, variable, value);
+    refresh(f);
+  };
+  for (Polynomial& f : system_.equations) replace(f);
+  for (Polynomial& g : system_.inequalities) replace(g);
+  for (auto& [x, p] : definitions_) replace(p);
+  definitions_.emplace_back(variable, std::move(value));
+}
+
+bool Reducer::eliminate_tied() {
+  for (std::size_t i = 0; i < system_.equations.size(); ++i) {
+    const Polynomial& f = system_.equations[i];
+    const std::vector<int> variables = variables_of(f);
+    if (variables.empty() || variables.size() > 2 || !is_affine(f) || !may_define(f)) continue;
+    // The later variable goes: kernel unknowns and auxiliaries stand behind the configuration.
+    for (auto v = variables.rbegin(); v != variables.rend(); ++v)
+      if (const auto value = solved_for(f, *v)) {
+        eliminate(i, *v, *value);
+        return true;
+      }
+  }
+  return false;
+}
+
+bool Reducer::eliminate_image() {
+  std::vector<int> uses(system_.variables.size(), 0);
+  for (const auto* rows : {&system_.equations, &system_.inequalities})
+    for (const Polynomial& f : *rows)
+      for (int v : variables_of(f)) ++uses[static_cast<std::size_t>(v)];
+  for (std::size_t i = 0; i < system_.equations.size(); ++i) {
+    const Polynomial& f = system_.equations[i];
+    if (!may_define(f)) continue;
+    for (int v : variables_of(f)) {
+      if (uses[static_cast<std::size_t>(v)] != 1 || variables_of(f).size() < 2) continue;
+      if (const auto value = solved_for(f, v)) {
+        eliminate(i, v, *value);
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+Reduction Reducer::run() {
+  const UpwardRounding rounding;
+  eliminate_fixed();
+  while (tidy() && consistent_ && eliminate_tied()) {
+  }
+  drop_repeated();
+  while (consistent_ && eliminate_image()) {
+  }
+  Reduction result;
+  result.consistent = consistent_;
+  std::vector<int> index(gone_.size(), -1);
+  for (std::size_t j = 0; j < gone_.size(); ++j)
+    if (!gone_[j]) {
+      index[j] = static_cast<int>(result.kept.size());
+      result.kept.push_back(static_cast<int>(j));
+      result.system.variables.push_back(system_.variables[j]);
+      if (static_cast<int>(j) < system_.configuration_size) ++result.system.configuration_size;
+    }
+  const auto renamed = [&](Polynomial f) {
+    for (Monomial& m : f.monomials)
+      for (Factor& x : m.factors) x.variable = index[static_cast<std::size_t>(x.variable)];
+    return f;
+  };
+  result.system.name = system_.name;
+  result.system.coefficient_tolerance = system_.coefficient_tolerance;
+  result.tolerant = tolerant_;
+  for (const Polynomial& f : system_.equations) result.system.equations.push_back(renamed(f));
+  for (const Polynomial& g : system_.inequalities) result.system.inequalities.push_back(renamed(g));
+  for (const auto& [x, p] : definitions_) result.definitions.push_back({x, renamed(p)});
+  return result;
+}
+
+}  // namespace
+
+std::vector<Interval> Reduction::lift(const std::vector<Interval>& sides) const {
+  CORANK_CHECK(sides.size() == kept.size() + definitions.size());
+  std::vector<Interval> box(sides.size());
+  for (std::size_t j = 0; j < kept.size(); ++j) box[static_cast<std::size_t>(kept[j])] = sides[j];
+  for (std::size_t d = 0; d < definitions.size(); ++d)
+    box[static_cast<std::size_t>(definitions[d].variable)] = sides[kept.size() + d];
+  return box;
+}
+
+Reduction reduce(const System& system, Eliminate eliminate) { return Reducer(system, eliminate).run(); }
+
+Reduction reduce(const System& system) {
+  Reduction exact = reduce(system, Eliminate::exact);
+  if (system.coefficient_tolerance == 0) return exact;
+  if (exact.consistent && exact.system.equations.size() <= exact.system.variables.size()) return exact;
+  return reduce(system, Eliminate::integers);
+}
+
+}  // namespace corank::certify

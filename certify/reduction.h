@@ -1,0 +1,51 @@
+// Exact simplification of a system before it is solved, and the way back.
+//
+// Variables that an equation defines are eliminated, equations that then hold identically or repeat another are dropped:
+//   (a) a·x + b = 0 and a·x + b·y + c = 0 with rational a, b ≠ 0: x is replaced everywhere by its value;
+//       Likewise a variable whose domain is one number;
+//   (b) a·x + g = 0 with a rational a ≠ 0 and x in no other equation or inequality: x is g's image, whatever g is.
+// Theorem: let x_e = p_e(x') be the eliminated variables' values as polynomials in the variables x' that are kept. Then
+// x' ↦ (x', p(x')) is a bijection from the reduced system's solutions to the system's, and keeps boxes of values of kept variables. Proof:
+// each step replaces the pair {x = p, f = 0} by {x = p, f(p) = 0}, has p's range in x's domain as a condition (on the domain of y, or
+// as an inequality), and multiplies by no polynomial. A dropped equation is 0 = 0 or a rational multiple of one that is kept.
+// So exactly one solution of the reduced system for every value of some kept variables means exactly one of the system's.
+#pragma once
+
+#include <vector>
+
+#include "corank/certify/system.h"
+
+namespace corank::certify {
+
+struct Reduction {
+  struct Definition {
+    int variable;      ///< index in the original system
+    Polynomial value;  ///< in the kept variables, by their indices in `system`
+  };
+
+  System system;                        ///< in the kept variables
+  std::vector<int> kept;                ///< kept[j]: index in the original system of variable j of `system`
+  std::vector<Definition> definitions;  ///< the others
+  bool tolerant = false;                ///< enclosures carry the coefficient tolerance
+  bool consistent = true;               ///< false: an equation became "a nonzero number = 0", the system has no solution
+
+  /// The box of the original system whose kept sides are the first of `sides` and whose other sides are the rest, in the order of
+  /// `definitions`.
+  std::vector<Interval> lift(const std::vector<Interval>& sides) const;
+};
+
+/// Which equations may define a variable.
+enum class Eliminate {
+  none,
+  exact,    ///< all, in exact arithmetic: enclosures carry no tolerance
+  integers  ///< those with integer coefficients, which carry no tolerance; the others' enclosures are widened by the tolerance
+};
+
+/// Throws std::invalid_argument where the system is not valid.
+Reduction reduce(const System& system, Eliminate eliminate);
+
+/// Eliminate::exact where the system carries no tolerance, or where that ends consistent and no longer over-determined: then only
+/// `partial` needs the tolerance, every other proof is about the exact system. Else Eliminate::integers.
+Reduction reduce(const System& system);
+
+}  // namespace corank::certify

@@ -1,0 +1,200 @@
+// Exact simplification: the reduced system has the same solutions, one for one.
+#include "corank/certify/reduction.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "corank/certify/domain.h"
+#include "corank/certify/polynomial_algebra.h"
+#include "corank/certify/rounding.h"
+#include "corank/tests/system_builder.h"
+
+namespace corank::certify {
+namespace {
+
+using test::SystemBuilder;
+
+std::vector<Interval> point(const std::vector<double>& x) { return {x.begin(), x.end()}; }
+
+// The solution of the whole system that belongs to values of the kept variables.
+std::vector<Interval> lifted(const Reduction& r, const std::vector<double>& kept) {
+  const UpwardRounding rounding;
+  std::vector<Interval> sides = point(kept);
+  for (const auto& d : r.definitions) sides.push_back(evaluate(d.value, point(kept)));
+  return r.lift(sides);
+}
+
+std::string text(const Polynomial& f) {
+  std::string result;
+  for (const Monomial& m : f.monomials) {
+    result += (result.empty() ? "" : " + ") + m.coefficient.text();
+    for (const Factor& x : m.factors) result += "*x" + std::to_string(x.variable) + "^" + std::to_string(x.power);
+  }
+  return result;
+}
+
+// x = 2y + 1, z = −y, w = x·z + y² in [−2, 2] and nowhere else; x² + y² + z² = 9 is 6y² + 4y = 8.
+SystemBuilder chain() {
+  SystemBuilder b;
+  const int x = b.variable("x", "-4", "4"), y = b.variable("y", "-4", "4"), z = b.variable("z", "-1", "3"),
+            w = b.variable("w", "-2", "2");
+  b.equation({{"1", {{x, 1}}}, {"-2", {{y, 1}}}, {"-1", {}}}).equation({{"3", {{z, 1}}}, {"3", {{y, 1}}}});
+  b.equation({{"1", {{x, 1}, {z, 1}}}, {"1", {{y, 2}}}, {"-1", {{w, 1}}}});
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-9", {}}});
+  return b;
+}
+
+TEST(Reduction, ReplacesTiedVariablesAndImages) {
+  const Reduction r = reduce(chain().system(), Eliminate::exact);
+  ASSERT_EQ(r.system.size(), 1);
+  ASSERT_EQ(r.system.equations.size(), 1u);
+  EXPECT_TRUE(r.consistent);
+  EXPECT_EQ(r.definitions.size(), 3u);
+  const auto box = lifted(r, {r.system.variables[0].name == "y" ? 0.5 : 2.0});
+  EXPECT_TRUE(box[0].contains(2.0) && box[1].contains(0.5) && box[2].contains(-0.5) && box[3].contains(-0.75));
+}
+
+TEST(Reduction, KeepsTheRangesOfWhatItEliminates) {
+  // x = 2y + 1 ∈ [−4, 4] gives y ∈ [−5/2, 3/2], z = −y ∈ [−1, 3] gives y ∈ [−3, 1].
+  const Reduction r = reduce(chain().system(), Eliminate::exact);
+  ASSERT_EQ(r.system.size(), 1);
+  const auto box = lifted(r, {r.system.variables[0].lower.enclose().lo()});
+  const auto other = lifted(r, {r.system.variables[0].upper.enclose().lo()});
+  EXPECT_EQ(Interval::hull(box[1], other[1]), Interval(-2.5, 1));
+  // w = (1 − x²)/4 with x ∈ [−4, 3] leaves [−2, 2] at one end.
+  ASSERT_EQ(r.system.inequalities.size(), 1u);
+  EXPECT_EQ(r.system.variables[0].name, "x");
+  EXPECT_EQ(text(r.system.inequalities[0]), "-1/4*x0^2 + 9/4");
+}
+
+TEST(Reduction, NarrowsBySidesInEitherDirection) {
+  for (const char* slope : {"2", "-2"}) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-1", "1"), y = b.variable("y", "0", "1");
+    b.equation({{"1", {{y, 1}}}, {slope, {{x, 1}}}});
+    const Reduction r = reduce(b.system(), Eliminate::exact);
+    ASSERT_EQ(r.system.size(), 1);
+    EXPECT_EQ(r.system.variables[0].domain, slope[0] == '-' ? Interval(0, 0.5) : Interval(-0.5, 0));
+  }
+}
+
+TEST(Reduction, FindsContradictionsInExactArithmetic) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"3", {{x, 1}}}, {"-1", {}}}).equation({{"0.1", {{x, 1}}}, {"-0.1", {{y, 1}}}});
+  b.equation({{"1", {{y, 1}}}, {"-0.3333333333333333333", {}}});
+  EXPECT_FALSE(reduce(b.system(), Eliminate::exact).consistent);
+  SystemBuilder c;
+  c.variable("x", "0", "1");
+  c.variable("y", "2", "3");
+  c.equation({{"1", {{0, 1}}}, {"-1", {{1, 1}}}});
+  EXPECT_FALSE(reduce(c.system(), Eliminate::exact).consistent) << "no common value";
+}
+
+TEST(Reduction, DropsEquationsThatFollow) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}}).equation({{"1", {{x, 2}}}, {"1", {{z, 2}}}, {"-1", {}}});
+  b.equation({{"1/3", {{x, 2}}}, {"1/3", {{y, 2}}}, {"-1/3", {}}}).equation({{"1", {{y, 1}}}, {"1", {{z, 1}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  EXPECT_EQ(r.system.equations.size(), 1u);
+  EXPECT_EQ(r.system.dimension(), 1);
+}
+
+TEST(Reduction, TakesOnlyIntegersForDefinitionsWhereDecimalsAreRounded) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"1", {{x, 1}}}, {"-0.866025", {}}}).equation({{"2", {{y, 1}}}, {"-1", {{z, 1}}}});
+  b.equation({{"0.25", {{x, 2}}}, {"0.125", {{y, 2}}}, {"0.125", {{z, 2}}}, {"-1", {}}});
+  System system = b.system();
+  system.coefficient_tolerance = 1e-3;
+  const Reduction r = reduce(system, Eliminate::integers);
+  EXPECT_EQ(r.kept, (std::vector<int>{x, y}));
+  ASSERT_EQ(r.system.equations.size(), 2u);
+  // y²/8 + (2y)²/8 = 5/8 y², each part within a thousandth.
+  for (const Monomial& m : r.system.equations[1].monomials) {
+    if (m.factors != std::vector<Factor>{{1, 2}}) continue;
+    EXPECT_EQ(m.coefficient.text(), "5/8");
+    EXPECT_NEAR(m.enclosure.width(), 2e-3 * 0.625, 1e-8);
+  }
+}
+
+TEST(Reduction, RemembersThatACircleImpliesARange) {
+  SystemBuilder b;
+  const int c = b.variable("c", "-1", "1"), s = b.variable("s", "-1", "1"), d = b.variable("d", "-1/2", "3/2"),
+            e = b.variable("e", "0", "1");
+  b.equation({{"1", {{d, 2}}}, {"-1", {{d, 1}}}, {"-3/4", {}}, {"1", {{s, 2}}}});  // (d − 1/2)² + s² = 1
+  b.equation({{"1", {{c, 2}}}, {"1", {{s, 2}}}, {"-1", {}}}).equation({{"1", {{c, 1}}}, {"-1", {{d, 1}}}, {"1/2", {}}});
+  b.equation({{"1", {{e, 1}}}, {"-1", {{s, 1}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  ASSERT_EQ(r.system.size(), 2);
+  for (const Variable& v : r.system.variables) {
+    const bool is_circle_side = v.name == "c";
+    EXPECT_TRUE(v.upper_implied) << v.name;
+    EXPECT_EQ(v.lower_implied, is_circle_side) << v.name << ": e >= 0 is the model's own condition";
+  }
+}
+
+TEST(Reduction, KeepsEverySolutionOfRandomSystems) {
+  std::mt19937 random(2026);
+  std::uniform_int_distribution<int> digit(-3, 3);
+  for (int trial = 0; trial < 200; ++trial) {
+    // Planted at integers p; affine ties, a product and a quadric through p.
+    SystemBuilder b;
+    std::vector<double> p;
+    for (int j = 0; j < 6; ++j) {
+      b.variable("x" + std::to_string(j), "-9", "9");
+      p.push_back(digit(random));
+    }
+    const auto through = [&](std::vector<SystemBuilder::Term> terms) {
+      double value = 0;
+      for (const auto& [c, factors] : terms) {
+        double term = std::stod(c);
+        for (const Factor& f : factors) term *= std::pow(p[static_cast<std::size_t>(f.variable)], f.power);
+        value += term;
+      }
+      terms.push_back({std::to_string(static_cast<int>(-value)), {}});
+      b.equation(terms);
+    };
+    const auto nonzero = [&] { return std::to_string(2 * digit(random) + 7 * (digit(random) > 0 ? 1 : -1)); };
+    through({{nonzero(), {{0, 1}}}, {nonzero(), {{1, 1}}}});
+    through({{nonzero(), {{2, 1}}}, {nonzero(), {{1, 1}}}});
+    through({{nonzero(), {{3, 1}}}});
+    through({{nonzero(), {{4, 1}}}, {nonzero(), {{1, 1}, {5, 1}}}, {nonzero(), {{3, 2}}}});
+    through({{nonzero(), {{0, 2}}}, {nonzero(), {{2, 1}, {5, 1}}}, {nonzero(), {{5, 2}}}});
+    const Reduction r = reduce(b.system(), Eliminate::exact);
+    ASSERT_TRUE(r.consistent);
+    ASSERT_EQ(r.system.size(), 2) << "seed 2026, trial " << trial;
+    std::vector<double> kept;
+    for (int j : r.kept) kept.push_back(p[static_cast<std::size_t>(j)]);
+    const auto box = lifted(r, kept);
+    for (std::size_t j = 0; j < p.size(); ++j) EXPECT_TRUE(box[j].contains(p[j])) << trial << " " << j;
+    const UpwardRounding rounding;
+    for (const Polynomial& f : r.system.equations) EXPECT_TRUE(evaluate(f, point(kept)).contains_zero()) << text(f);
+    for (std::size_t j = 0; j < kept.size(); ++j) EXPECT_TRUE(r.system.variables[j].domain.contains(kept[j]));
+    for (const Polynomial& g : r.system.inequalities) EXPECT_GE(evaluate(g, point(kept)).hi(), 0) << text(g);
+  }
+}
+
+TEST(PolynomialAlgebra, SolvesOnlyForWhatIsLinearWithARationalFactor) {
+  const UpwardRounding rounding;
+  const auto f = SystemBuilder::polynomial({{"2", {{0, 1}}}, {"-4", {{1, 2}}}, {"3", {{1, 1}, {2, 1}}}, {"6", {}}});
+  EXPECT_TRUE(solved_for(f, 0).has_value());
+  EXPECT_EQ(text(*solved_for(f, 0)), "2*x1^2 + -3/2*x1^1*x2^1 + -3");
+  EXPECT_FALSE(solved_for(f, 1).has_value());
+  EXPECT_FALSE(solved_for(f, 2).has_value());
+  EXPECT_FALSE(solved_for(f, 3).has_value());
+}
+
+TEST(PolynomialAlgebra, CallsMultiplesProportionalAndNothingElse) {
+  const auto f = SystemBuilder::polynomial({{"1", {{0, 2}}}, {"-2", {{1, 1}}}});
+  const auto g = SystemBuilder::polynomial({{"1", {{1, 1}}}, {"-1/2", {{0, 2}}}});
+  const auto h = SystemBuilder::polynomial({{"1", {{1, 1}}}, {"1/2", {{0, 2}}}});
+  EXPECT_TRUE(proportional(f, g));
+  EXPECT_FALSE(proportional(f, h));
+  EXPECT_FALSE(proportional(f, SystemBuilder::polynomial({{"1", {{0, 2}}}})));
+}
+
+}  // namespace
+}  // namespace corank::certify
