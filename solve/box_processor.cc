@@ -22,11 +22,13 @@ constexpr double kProofSpread = 1.5;   // try a proof below this spread |I − Y
 constexpr double kFreeCutShare = 0.1;  // cut a free side unless it is already so much narrower than the others or σ
 constexpr double kLastCutShare = 1.0 / 64;
 constexpr int kTightenings = 3;
-constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
-constexpr int kPartialDepth = 8;       // halvings of a piece on which redundant equations are bounded
-constexpr int kBoundaryDepth = 2;      // halvings of a piece that may leave the domain
-constexpr double kCutMargin = 0.97;    // aim a little below σ: the linearization is not exact
-constexpr double kMaxCells = 256;      // of one cut; a piece that needs more is first cut into kCoarseParts
+constexpr int kPointTightenings = 20;             // an isolated solution is tightened until its box stops shrinking
+constexpr int kPartialDepth = 8;                  // halvings of a piece on which redundant equations are bounded
+constexpr double kRedundantRankTolerance = 1e-7;  // of redundant equations near their solution
+constexpr double kRoundedRankTolerance = 1e-4;    // of such with rounded coefficients
+constexpr int kBoundaryDepth = 2;                 // halvings of a piece that may leave the domain
+constexpr double kCutMargin = 0.97;               // aim a little below σ: the linearization is not exact
+constexpr double kMaxCells = 256;                 // of one cut; a piece that needs more is first cut into kCoarseParts
 constexpr int kCoarseParts = 16;
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
@@ -72,6 +74,7 @@ Problem::Problem(const certify::Reduction& reduction, double s, std::function<bo
     : compiled(reduction.system, values_of(reduction)),
       redundant(reduction.system),
       domain(reduction.system),
+      rank_tolerance(reduction.tolerant ? kRoundedRankTolerance : kRedundantRankTolerance),
       branching(reduction.system),
       sigma(s),
       ended(std::move(e)) {}
@@ -160,12 +163,34 @@ bool BoxProcessor::holds_on_parts(const certify::Sheet& sheet, const std::vector
                      [&](const auto& part) { return holds_on_parts(sheet, free, part, depth - 1); });
 }
 
+certify::Sheet BoxProcessor::prove(const Interval* x) {
+  const auto& p = preconditioners_.at_midpoint(x);
+  if (p.rank() < problem_.compiled.equations()) return {};
+  return certify::newton_prove(problem_.compiled, p, x, workspace_);
+}
+
+certify::Sheet BoxProcessor::prove_partially(const Interval* x) {
+  certify::Sheet narrow =
+      certify::newton_prove(problem_.compiled, preconditioners_.near_solution(x, problem_.rank_tolerance), x, workspace_);
+  if (!narrow.proven || !is_partial(narrow) || free_variables(narrow).empty()) return narrow;
+  std::vector<Interval> wide(x, x + problem_.compiled.variables());
+  for (Interval& side : wide) {
+    const double half = 0.5 * problem_.sigma;
+    side = Interval::hull(side, Interval(side.mid() - half, side.mid() + half));
+  }
+  const auto& p = preconditioners_.near_solution(wide.data(), problem_.rank_tolerance);
+  certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, wide.data(), workspace_);
+  if (!sheet.proven || !is_partial(sheet)) return sheet;
+  const std::vector<int> free = free_variables(sheet);
+  if (!holds_on_parts(sheet, free, sheet.image, kPartialDepth)) return {};
+  for (int j : free) sheet.region[j] = sheet.image[j] = x[j];  // for every value of the free variables: so for x's too
+  return sheet;
+}
+
 bool BoxProcessor::certify(Interval* x, Proof proof) {
   const auto start = std::chrono::steady_clock::now();
   ++statistics_.proofs_tried;
-  const auto& p = proof == Proof::partial ? preconditioners_.near_solution(x) : preconditioners_.at_midpoint(x);
-  if (proof == Proof::full && p.rank() < problem_.compiled.equations()) return false;
-  const certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, x, workspace_);
+  const certify::Sheet sheet = proof == Proof::full ? prove(x) : prove_partially(x);
   if (sheet.proven) slice(sheet, x);
   statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sheet.proven;
@@ -262,12 +287,16 @@ std::vector<std::vector<Interval>> BoxProcessor::cut(const std::vector<Interval>
   return grid(piece, free, parts);
 }
 
+std::vector<int> BoxProcessor::free_variables(const certify::Sheet& sheet) const {
+  std::vector<int> free;
+  for (int j = 0; j < problem_.compiled.variables(); ++j)
+    if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) free.push_back(j);
+  return free;
+}
+
 void BoxProcessor::slice(const certify::Sheet& sheet, const Interval* x) {
   const int n = problem_.compiled.variables();
-  std::vector<int> free;
-  for (int j = 0; j < n; ++j)
-    if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) free.push_back(j);
-
+  const std::vector<int> free = free_variables(sheet);
   struct Piece {
     std::vector<Interval> sides;
     double former_width;  // of the widest edge of the piece that it was cut from

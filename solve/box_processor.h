@@ -24,6 +24,7 @@ struct Problem {
   certify::CompiledSystem compiled;
   certify::RedundantEquations redundant;  ///< applies(): proofs speak of an independent subset of the equations (`partial`)
   certify::DomainTest domain;
+  double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
   BranchingRule branching;
   double sigma;
   std::function<bool()> ended;
@@ -71,6 +72,11 @@ class BoxProcessor {
   // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), adds its pieces to found() and
   // returns true.
   enum class Proof { full, partial };
+  certify::Sheet prove(const certify::Interval* x);
+  // Proves an independent subset and bounds the others over a box no narrower than σ: in a tiny box around a singular point any
+  // equation looks redundant.
+  certify::Sheet prove_partially(const certify::Interval* x);
+  std::vector<int> free_variables(const certify::Sheet& sheet) const;
   bool certify(certify::Interval* x, Proof proof);
   // The pieces of a proven sheet that meet x, each no wider than σ.
   void slice(const certify::Sheet& sheet, const certify::Interval* x);

@@ -7,7 +7,6 @@ namespace corank::solve {
 namespace {
 // Pivots below this share of a row's largest entry count as zero.
 constexpr double kRankTolerance = 1e-9;
-constexpr double kRedundantRankTolerance = 1e-4;  // near a solution of rounded, redundant equations
 constexpr int kGaussNewtonSteps = 8;
 }  // namespace
 
@@ -22,12 +21,12 @@ const certify::Preconditioner& PreconditionerFactory::at_midpoint(const certify:
   return at_center(candidates, rows, kRankTolerance);
 }
 
-const certify::Preconditioner& PreconditionerFactory::near_solution(const certify::Interval* x) {
+const certify::Preconditioner& PreconditionerFactory::near_solution(const certify::Interval* x, double rank_tolerance) {
   center_.resize(n_);
   for (int j = 0; j < n_; ++j) center_[j] = x[j].mid();
   double former = HUGE_VAL;
   for (int step = 0; step < kGaussNewtonSteps; ++step) {
-    at_center(nullptr, nullptr, kRedundantRankTolerance);
+    at_center(nullptr, nullptr, rank_tolerance);
     const std::vector<double> start = center_;
     double moved = 0;
     for (int a = 0; a < result_.rank(); ++a) {
@@ -45,7 +44,7 @@ const certify::Preconditioner& PreconditionerFactory::near_solution(const certif
     former = moved;
     if (moved < 1e-9) break;
   }
-  return at_center(nullptr, nullptr, kRedundantRankTolerance);
+  return at_center(nullptr, nullptr, rank_tolerance);
 }
 
 const certify::Preconditioner& PreconditionerFactory::at_center(const std::vector<int>* candidates,

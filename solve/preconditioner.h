@@ -18,8 +18,8 @@ class PreconditionerFactory {
   const certify::Preconditioner& at_midpoint(const certify::Interval* x, const std::vector<int>* candidates = nullptr,
                                              const std::vector<int>* rows = nullptr);
   /// The same at a point near the midpoint where all equations nearly hold (a few Gauss–Newton steps), so that the rank of an
-  /// over-determined system shows: away from its solutions redundant equations look independent.
-  const certify::Preconditioner& near_solution(const certify::Interval* x);
+  /// over-determined system shows: away from its solutions redundant equations look independent. Pivots below `rank_tolerance` count as zero.
+  const certify::Preconditioner& near_solution(const certify::Interval* x, double rank_tolerance);
 
   /// The result of the last call of either.
   const certify::Preconditioner& last() const { return result_; }
