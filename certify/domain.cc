@@ -26,26 +26,56 @@ bool is_integer(const ExactNumber& x) {
   return x.is_rational() && enclosure.is_point() && std::nearbyint(enclosure.lo()) == enclosure.lo();
 }
 
+// The lemma about squares, for the variables of f.
+void imply_by_squares(const Polynomial& f, const System& system, std::vector<bool>& implied) {
+  if (!is_positive_sum_of_squares(f)) return;
+  ExactNumber b;
+  for (const Monomial& m : f.monomials)
+    if (m.factors.empty()) b = b - m.coefficient;
+  for (const Monomial& m : f.monomials) {
+    if (m.factors.empty()) continue;
+    const int j = m.factors[0].variable;
+    const Variable& v = system.variables[j];
+    const auto reaches = [&](const ExactNumber& h) {  // a h² ≥ b
+      return h.is_rational() && (m.coefficient * h * h - b).sign().value_or(-1) >= 0;
+    };
+    // Coefficients with a tolerance imply nothing, unless they are integers, which carry none.
+    if (system.coefficient_tolerance > 0 && !(is_integer(b) && is_integer(m.coefficient))) continue;
+    if (reaches(v.lower) && reaches(v.upper) && v.lower.sign() == -1 && v.upper.sign() == 1) implied[j] = true;
+  }
+}
+
+ExactNumber magnitude(const ExactNumber& x) { return x.sign() == -1 ? -x : x; }
+
+// The lemma about sines and cosines, for f's one other variable.
+void imply_by_functions(const Polynomial& f, const System& system, std::vector<bool>& implied) {
+  const Monomial* linear = nullptr;
+  ExactNumber bound;
+  for (const Monomial& m : f.monomials) {
+    if (!m.coefficient.is_rational() || (system.coefficient_tolerance > 0 && !is_integer(m.coefficient))) return;
+    if (m.factors.empty() || m.is_trigonometric()) {
+      bound = bound + magnitude(m.coefficient);
+    } else {
+      if (linear || m.degree() > 1) return;
+      linear = &m;
+    }
+  }
+  if (!linear) return;
+  const int j = linear->factors[0].variable;
+  const Variable& v = system.variables[j];
+  const auto reaches = [&](const ExactNumber& h) {  // |a| h ≥ Σ|b|
+    return h.is_rational() && (magnitude(linear->coefficient) * h - bound).sign().value_or(-1) >= 0;
+  };
+  if (!linear->coefficient.is_zero() && reaches(v.upper) && reaches(-v.lower)) implied[j] = true;
+}
+
 }  // namespace
 
 std::vector<bool> implied_domains(const System& system) {
   std::vector<bool> implied(system.variables.size(), false);
   for (const Polynomial& f : system.equations) {
-    if (!is_positive_sum_of_squares(f)) continue;
-    ExactNumber b;
-    for (const Monomial& m : f.monomials)
-      if (m.factors.empty()) b = b - m.coefficient;
-    for (const Monomial& m : f.monomials) {
-      if (m.factors.empty()) continue;
-      const int j = m.factors[0].variable;
-      const Variable& v = system.variables[j];
-      const auto reaches = [&](const ExactNumber& h) {  // a h² ≥ b
-        return h.is_rational() && (m.coefficient * h * h - b).sign().value_or(-1) >= 0;
-      };
-      // Coefficients with a tolerance imply nothing, unless they are integers, which carry none.
-      if (system.coefficient_tolerance > 0 && !(is_integer(b) && is_integer(m.coefficient))) continue;
-      if (reaches(v.lower) && reaches(v.upper) && v.lower.sign() == -1 && v.upper.sign() == 1) implied[j] = true;
-    }
+    imply_by_squares(f, system, implied);
+    imply_by_functions(f, system, implied);
   }
   return implied;
 }
