@@ -1,5 +1,5 @@
-// A compiled system of equations and inequalities over a box: the plain value that symbolic/ makes, solve/ encloses and certify/
-// proves things about. It knows no GiNaC and may be shared by threads.
+// A compiled system of equations and inequalities over a box: the plain value that symbolic/ makes, solve/ encloses and
+// certify/ proves things about. It knows no GiNaC and may be shared by threads.
 //
 //   F(x) = 0 (m equations),   G(x) ≥ 0 (inequalities),   x ∈ D (n intervals)
 //
@@ -54,7 +54,7 @@ struct Monomial {
   int degree() const;  ///< a sine or cosine counts as its variable
 };
 
-/// A sparse polynomial: monomials with distinct factors. (Sines and cosines may stand in for variables.)
+/// A sparse polynomial and multiples of sines and cosines: monomials with distinct factors.
 struct Polynomial {
   std::vector<Monomial> monomials;
   std::string source;  ///< where it comes from, for messages and reports ("dextar.cuik:17", "norm of xi" …)

@@ -88,8 +88,8 @@ std::optional<Interval> inverse_wave(const Interval& y, const Interval& within, 
   if (!cosines.intersect(y)) return std::nullopt;
   if (cosines == kRange || !(within.mag() <= kMaxArgument)) return within;
   const Interval arc(acos_down(cosines.hi()), acos_up(cosines.lo()));
-  // The branches in ascending order: number 2k is 2πk + pπ/2 − A, number 2k + 1 is 2πk + pπ/2 + A. The first one that is not below
-  // `within` bounds its successors from below, the last one that is not above bounds its predecessors from above.
+  // The branches in ascending order: number 2k is 2πk + pπ/2 − A, number 2k + 1 is 2πk + pπ/2 + A. The first one that is not
+  // below `within` bounds its successors from below, the last one that is not above bounds its predecessors from above.
   const auto branch = [&](double number) {
     const double k = std::floor(number / 2);
     return scale(4 * k + p, kHalfPi) + (number == 2 * k ? -arc : arc);

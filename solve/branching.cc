@@ -12,7 +12,8 @@ using certify::Function;
 using certify::Polynomial;
 using certify::System;
 
-// The variable x_j of a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine and at least one of them there; −1 for another equation.
+// The variable x_j of a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine and at least one of them there; −1 for another
+// equation.
 int value_of_functions(const Polynomial& f) {
   int value = -1;
   bool function = false;
@@ -25,8 +26,8 @@ int value_of_functions(const Polynomial& f) {
   return function ? value : -1;
 }
 
-// x_j occurs in one equation only, there linearly with a constant coefficient, and in no inequality; or an equation says that x_j is a sum
-// of sines, cosines and constants, whose arguments are the better ones to bisect.
+// x_j occurs in one equation only, there linearly with a constant coefficient, and in no inequality; or an equation says
+// that x_j is a sum of sines, cosines and constants, whose arguments are the better ones to bisect.
 std::vector<bool> linearly_defined(const System& system) {
   const std::size_t n = system.variables.size();
   std::vector<int> rows(n, 0);

@@ -78,7 +78,8 @@ TEST(Projection, HonoursAnInequalityOfACosine) {
   EXPECT_NEAR(x[t].hi(), 7 * std::numbers::pi / 3, 1e-14);
 }
 
-// a sin t + b cos u + c v² = w with a planted solution, w being the one computed value: enclosed, so that a solution is in the box.
+// a sin t + b cos u + c v² = w with a planted solution, w being the one computed value: enclosed, so that a solution is in
+// the box.
 TEST(Projection, NeverLosesAPlantedSolutionOfSinesAndCosines) {
   std::mt19937 random(20261122);
   const auto uniform = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
@@ -180,10 +181,12 @@ TEST(Domain, IsImpliedByACircleOrANorm) {
 TEST(Domain, IsImpliedByASineOrCosine) {
   SystemBuilder b;
   const int t = b.variable("t", "0", "9"), c = b.variable("c", "-1", "1"), q = b.variable("q", "-1/2", "1/2"),
-            r = b.variable("r", "-1/2", "0.49"), z = b.variable("z", "-3", "3"), y = b.variable("y", "-9", "9");
+            r = b.variable("r", "-1/2", "0.49"), z = b.variable("z", "-3", "3"), y = b.variable("y", "-9", "9"),
+            u = b.variable("u", "-0.49", "1/2");
   b.equation({{"1", {{c, 1}}}, {"-1", {{t, 1, Function::cosine}}}});
   b.equation({{"-2", {{q, 1}}}, {"1", {{t, 1, Function::sine}}}});
   b.equation({{"-2", {{r, 1}}}, {"1", {{t, 1, Function::sine}}}});
+  b.equation({{"-2", {{u, 1}}}, {"1", {{t, 1, Function::sine}}}});
   b.equation({{"-1", {{z, 1}}}, {"3/2", {{t, 1, Function::cosine}}}, {"1", {{t, 1, Function::sine}}}, {"-1/2", {}}});
   b.equation({{"1", {{y, 1}}}, {"1", {{t, 1, Function::cosine}}}, {"1", {{t, 1}}}});
   b.equation({{"1", {{t, 1, Function::cosine}}}, {"1", {{t, 1, Function::sine}}}, {"-1", {}}});
@@ -191,6 +194,7 @@ TEST(Domain, IsImpliedByASineOrCosine) {
   EXPECT_TRUE(implied[c]);
   EXPECT_TRUE(implied[q]) << "2q = sin t";
   EXPECT_FALSE(implied[r]) << "0.49 cuts it off";
+  EXPECT_FALSE(implied[u]) << "−0.49 cuts it off";
   EXPECT_TRUE(implied[z]) << "3/2 + 1 + 1/2 = 3";
   EXPECT_FALSE(implied[y]) << "t is not bounded by its equations";
   EXPECT_FALSE(implied[t]);
