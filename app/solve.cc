@@ -81,7 +81,8 @@ void mark_auxiliary(const symbolic::Mechanism& mechanism, report::Result& result
   for (const symbolic::Coordinate& c : mechanism.coordinates()) {
     if (c.auxiliary) names.insert(c.name);
   }
-  for (report::ResultVariable& v : result.variables) v.auxiliary = names.contains(v.name);
+  for (report::ResultVariable& v : result.variables)
+    v.auxiliary = names.contains(v.name) || v.kind == certify::VariableKind::auxiliary;
   for (const certify::Angle& a : result.angles) {
     for (const int v : {a.cosine, a.sine})
       result.variables.at(static_cast<std::size_t>(v)).auxiliary = names.contains(a.name);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "corank/certify/trigonometric.h"
+
 namespace corank::certify {
 namespace {
 
@@ -45,6 +47,8 @@ CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial>
       const auto& fs = m.factors;
       if (fs.empty()) {
         t.shape = Shape::constant;
+      } else if (m.is_trigonometric()) {
+        t.shape = fs[0].function == Function::sine ? Shape::sine : Shape::cosine;
       } else if (fs.size() == 1 && fs[0].power <= 2) {
         t.shape = fs[0].power == 1 ? Shape::linear : Shape::square;
       } else if (fs.size() == 2 && fs[0].power == 1 && fs[1].power == 1) {
@@ -83,6 +87,8 @@ Interval CompiledSystem::evaluate(const Term& t, const Interval* x) const {
     case Shape::linear: return t.c * x[t.x];
     case Shape::square: return t.c * square(x[t.x]);
     case Shape::bilinear: return t.c * (x[t.x] * x[t.y]);
+    case Shape::sine: return t.c * sine(x[t.x]);
+    case Shape::cosine: return t.c * cosine(x[t.x]);
     case Shape::general: break;
   }
   Interval product = t.c;
@@ -104,6 +110,8 @@ Interval CompiledSystem::evaluate_at(int row, const double* x) const {
       case Shape::linear: sum += scale(x[t.x], t.c); break;
       case Shape::square: sum += t.c * square(Interval(x[t.x])); break;
       case Shape::bilinear: sum += scale(x[t.y], scale(x[t.x], t.c)); break;
+      case Shape::sine: sum += t.c * sine(x[t.x]); break;
+      case Shape::cosine: sum += t.c * cosine(x[t.x]); break;
       case Shape::general: {
         Interval product = t.c;
         for (const GeneralFactor& f : factors(t)) product *= power(Interval(x[f.variable]), f.power);
@@ -132,6 +140,8 @@ void CompiledSystem::slopes(int from, int to, const Interval* x, const double* c
         s[t.x_entry] += t.c * half_way(x[t.y], c[t.y]);
         s[t.y_entry] += t.c * half_way(x[t.x], c[t.x]);
         break;
+      case Shape::sine: s[t.x_entry] += t.c * sine_slope(x[t.x], c[t.x]); break;
+      case Shape::cosine: s[t.x_entry] += t.c * cosine_slope(x[t.x], c[t.x]); break;
       case Shape::general: {  // telescoping: the factors before the j-th at c, those after it over X
         const auto fs = factors(t);
         for (std::size_t j = 0; j < fs.size(); ++j) {
@@ -159,6 +169,8 @@ void CompiledSystem::jacobian(const Interval* x, Interval* j) const {
         j[t.x_entry] += t.c * x[t.y];
         j[t.y_entry] += t.c * x[t.x];
         break;
+      case Shape::sine: j[t.x_entry] += t.c * cosine(x[t.x]); break;
+      case Shape::cosine: j[t.x_entry] -= t.c * sine(x[t.x]); break;
       case Shape::general: {
         const auto fs = factors(t);
         for (std::size_t a = 0; a < fs.size(); ++a) {
@@ -185,6 +197,8 @@ void CompiledSystem::approximate_jacobian(const double* x, double* j) const {
         j[t.x_entry] += c * x[t.y];
         j[t.y_entry] += c * x[t.x];
         break;
+      case Shape::sine: j[t.x_entry] += c * std::cos(x[t.x]); break;
+      case Shape::cosine: j[t.x_entry] -= c * std::sin(x[t.x]); break;
       case Shape::general: {
         const auto fs = factors(t);
         for (std::size_t a = 0; a < fs.size(); ++a) {

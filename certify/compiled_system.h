@@ -16,8 +16,8 @@ namespace corank::certify {
 
 class CompiledSystem {
  public:
-  /// How a term depends on its variables: c, c·x, c·x², c·x·y, or any other monomial.
-  enum class Shape : std::uint8_t { constant, linear, square, bilinear, general };
+  /// How a term depends on its variables: c, c·x, c·x², c·x·y, c·sin x, c·cos x, or any other monomial.
+  enum class Shape : std::uint8_t { constant, linear, square, bilinear, sine, cosine, general };
   struct GeneralFactor {
     int variable, power, entry;
   };
@@ -61,7 +61,7 @@ class CompiledSystem {
   Interval evaluate_at(int row, const double* x) const;
   /// Slopes of the equations: s with f(x) − f(c) ∈ s (x − c) for every x ∈ X, c the given point (inside X or not). For a
   /// quadratic f this is J((X + c)/2), half as wide as J(X). Slopes about one centre serve existence, never uniqueness.
-  /// Source: key Neumaier1990, § 2.3.
+  /// Source: key Neumaier1990, § 2.3; certify/trigonometric.h.
   void slopes(const Interval* x, const double* c, Interval* s) const;
   /// The same of one row of any kind, into its own entries of s.
   void slopes(int row, const Interval* x, const double* c, Interval* s) const;

@@ -22,25 +22,55 @@ bool is_positive_sum_of_squares(const Polynomial& f) {
 
 bool carries_no_tolerance(const Monomial& m) { return m.coefficient.enclose().contains(m.enclosure); }
 
+// The lemma about squares, for the variables of f.
+void imply_by_squares(const Polynomial& f, const System& system, std::vector<bool>& implied) {
+  if (!is_positive_sum_of_squares(f)) return;
+  ExactNumber b;
+  for (const Monomial& m : f.monomials)
+    if (m.factors.empty()) b = b - m.coefficient;
+  for (const Monomial& m : f.monomials) {
+    if (m.factors.empty()) continue;
+    const int j = m.factors[0].variable;
+    const Variable& v = system.variables[j];
+    const auto reaches = [&](const ExactNumber& h) {  // a h² ≥ b
+      return h.is_rational() && (m.coefficient * h * h - b).sign().value_or(-1) >= 0;
+    };
+    if (reaches(v.lower) && reaches(v.upper) && v.lower.sign() == -1 && v.upper.sign() == 1) implied[j] = true;
+  }
+}
+
+ExactNumber magnitude(const ExactNumber& x) { return x.sign() == -1 ? -x : x; }
+
+// The lemma about sines and cosines, for f's one other variable.
+void imply_by_functions(const Polynomial& f, const System& system, std::vector<bool>& implied) {
+  const Monomial* linear = nullptr;
+  ExactNumber bound;
+  for (const Monomial& m : f.monomials) {
+    if (!m.coefficient.is_rational()) return;
+    if (m.factors.empty() || m.is_trigonometric()) {
+      bound = bound + magnitude(m.coefficient);
+    } else {
+      if (linear || m.degree() > 1) return;
+      linear = &m;
+    }
+  }
+  if (!linear) return;
+  const int j = linear->factors[0].variable;
+  const Variable& v = system.variables[j];
+  const auto reaches = [&](const ExactNumber& h) {  // |a| h ≥ Σ|b|
+    return h.is_rational() && (magnitude(linear->coefficient) * h - bound).sign().value_or(-1) >= 0;
+  };
+  if (!linear->coefficient.is_zero() && reaches(v.upper) && reaches(-v.lower)) implied[j] = true;
+}
+
 }  // namespace
 
 std::vector<bool> implied_domains(const System& system) {
   std::vector<bool> implied(system.variables.size(), false);
   for (const Polynomial& f : system.equations) {
-    if (!is_positive_sum_of_squares(f)) continue;
     if (!std::all_of(f.monomials.begin(), f.monomials.end(), carries_no_tolerance)) continue;
-    ExactNumber b;
-    for (const Monomial& m : f.monomials)
-      if (m.factors.empty()) b = b - m.coefficient;
-    for (const Monomial& m : f.monomials) {
-      if (m.factors.empty()) continue;
-      const int j = m.factors[0].variable;
-      const Variable& v = system.variables[j];
-      const auto reaches = [&](const ExactNumber& h) {  // a h² ≥ b
-        return h.is_rational() && (m.coefficient * h * h - b).sign().value_or(-1) >= 0;
-      };
-      if (reaches(v.lower) && reaches(v.upper) && v.lower.sign() == -1 && v.upper.sign() == 1) implied[j] = true;
-    }
+    imply_by_squares(f, system, implied);
+    imply_by_functions(f, system, implied);
   }
   return implied;
 }

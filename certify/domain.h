@@ -10,9 +10,11 @@
 namespace corank::certify {
 
 /// implied[j] is true where the domain of variable j follows from one equation alone, and therefore is no boundary.
-/// Lemma: if Σ a_i x_i² = b with every a_i > 0, then a_j x_j² ≤ b; so |x_j| ≤ h wherever a_j h² ≥ b. The hypotheses are checked in
-/// exact rational arithmetic. Covers sines, cosines (circles) and kernel vectors (norm). Variable::lower_implied and upper_implied
-/// tell the same of one side, where a rewriting of the system knows it.
+/// Lemma: if Σ a_i x_i² = b with every a_i > 0, then a_j x_j² ≤ b; so |x_j| ≤ h wherever a_j h² ≥ b.
+/// Lemma: if a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine, then |a x_j| ≤ Σ |b_i|; so |x_j| ≤ h wherever
+/// |a| h ≥ Σ |b_i|.
+/// The hypotheses are checked in exact rational arithmetic. Covers sines and cosines of angles (circles) and lengths, and kernel
+/// vectors (norm). Variable::lower_implied and upper_implied tell the same of one side, where a rewriting of the system knows it.
 std::vector<bool> implied_domains(const System& system);
 
 enum class Location { inside, outside, across };

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "corank/certify/check.h"
 #include "corank/certify/rounding.h"
+#include "corank/certify/trigonometric.h"
 
 namespace corank::certify {
 namespace {
@@ -14,7 +16,7 @@ using Factors = std::vector<Factor>;
 struct ByVariables {
   bool operator()(const Factors& a, const Factors& b) const {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](const Factor& x, const Factor& y) {
-      return x.variable != y.variable ? x.variable < y.variable : x.power < y.power;
+      return std::tie(x.variable, x.power, x.function) < std::tie(y.variable, y.power, y.function);
     });
   }
 };
@@ -85,6 +87,7 @@ Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value
   CORANK_CHECK(UpwardRounding::active());
   Sum sum;
   for (const Monomial& m : f.monomials) {
+    CORANK_CHECK(!m.is_trigonometric() || m.factors[0].variable != variable);
     const auto at =
         std::find_if(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return x.variable == variable; });
     if (at == m.factors.end()) {
@@ -106,7 +109,7 @@ std::optional<Polynomial> solved_for(const Polynomial& f, int variable) {
   for (const Monomial& m : f.monomials)
     for (const Factor& x : m.factors) {
       if (x.variable != variable) continue;
-      if (own || m.factors.size() != 1 || x.power != 1) return std::nullopt;
+      if (own || m.factors.size() != 1 || x.power != 1 || m.is_trigonometric()) return std::nullopt;
       own = &m;
     }
   if (!own || !own->coefficient.is_rational() || own->enclosure.contains_zero()) return std::nullopt;
@@ -152,7 +155,14 @@ Interval evaluate(const Polynomial& f, const std::vector<Interval>& x) {
   Interval sum;
   for (const Monomial& m : f.monomials) {
     Interval term = m.enclosure;
-    for (const Factor& factor : m.factors) term *= power(x[factor.variable], factor.power);
+    for (const Factor& factor : m.factors) {
+      const Interval& side = x[static_cast<std::size_t>(factor.variable)];
+      switch (factor.function) {
+        case Function::identity: term *= power(side, factor.power); break;
+        case Function::sine: term *= sine(side); break;
+        case Function::cosine: term *= cosine(side); break;
+      }
+    }
     sum += term;
   }
   return sum;

@@ -1,6 +1,7 @@
 #include "corank/certify/projection.h"
 
 #include "corank/certify/check.h"
+#include "corank/certify/trigonometric.h"
 
 namespace corank::certify {
 namespace {
@@ -24,6 +25,14 @@ class Projector {
       }
       case Shape::bilinear:
         return set(t.x, divide(image, t.c * x_[t.y], x_[t.x])) && set(t.y, divide(image, t.c * x_[t.x], x_[t.y]));
+      case Shape::sine: {
+        const auto sines = divide(image, t.c, sine(x_[t.x]));
+        return sines && set(t.x, inverse_sine(*sines, x_[t.x]));
+      }
+      case Shape::cosine: {
+        const auto cosines = divide(image, t.c, cosine(x_[t.x]));
+        return cosines && set(t.x, inverse_cosine(*cosines, x_[t.x]));
+      }
       case Shape::general: break;
     }
     const auto factors = system_.factors(t);

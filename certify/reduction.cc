@@ -24,7 +24,7 @@ std::vector<int> variables_of(const Polynomial& f) {
 
 bool is_affine(const Polynomial& f) {
   return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
-    return m.factors.empty() || (m.factors.size() == 1 && m.factors[0].power == 1);
+    return m.factors.empty() || (m.factors.size() == 1 && m.factors[0].power == 1 && !m.is_trigonometric());
   });
 }
 
@@ -57,6 +57,7 @@ class Reducer {
   const Eliminate eliminate_;
   const bool tolerant_;
   std::vector<bool> gone_;
+  std::vector<bool> is_argument_;  // of a sine or cosine: stays
   std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
   bool consistent_ = true;
 };
@@ -65,8 +66,13 @@ Reducer::Reducer(const System& system, Eliminate eliminate)
     : system_(system),
       eliminate_(eliminate),
       tolerant_(system.coefficient_tolerance > 0 && eliminate != Eliminate::exact),
-      gone_(system.variables.size(), false) {
+      gone_(system.variables.size(), false),
+      is_argument_(system.variables.size(), false) {
   system.validate();
+  for (const auto* rows : {&system_.equations, &system_.inequalities})
+    for (const Polynomial& f : *rows)
+      for (const Monomial& m : f.monomials)
+        if (m.is_trigonometric()) is_argument_[static_cast<std::size_t>(m.factors[0].variable)] = true;
   const std::vector<bool> implied = implied_domains(system_);
   for (std::size_t j = 0; j < implied.size(); ++j)
     if (implied[j]) system_.variables[j].lower_implied = system_.variables[j].upper_implied = true;
@@ -181,7 +187,7 @@ void Reducer::eliminate_fixed() {
   if (eliminate_ == Eliminate::none) return;
   for (std::size_t j = 0; j < system_.variables.size(); ++j) {
     const Variable& v = system_.variables[j];
-    if (!(v.lower == v.upper)) continue;
+    if (!(v.lower == v.upper) || is_argument_[j]) continue;
     Polynomial value{{}, "domain of " + v.name};
     if (!v.lower.is_zero()) value.monomials.emplace_back(v.lower, std::vector<Factor>{});
     replace_everywhere(static_cast<int>(j), std::move(value));
@@ -209,7 +215,7 @@ bool Reducer::eliminate_tied() {
     if (variables.empty() || variables.size() > 2 || !is_affine(f) || !may_define(f)) continue;
     // The later variable goes: kernel unknowns and auxiliaries stand behind the configuration.
     for (auto v = variables.rbegin(); v != variables.rend(); ++v)
-      if (const auto value = solved_for(f, *v)) {
+      if (const auto value = is_argument_[static_cast<std::size_t>(*v)] ? std::nullopt : solved_for(f, *v)) {
         eliminate(i, *v, *value);
         return true;
       }
@@ -226,7 +232,7 @@ bool Reducer::eliminate_image() {
     const Polynomial& f = system_.equations[i];
     if (!may_define(f)) continue;
     for (int v : variables_of(f)) {
-      if (uses[static_cast<std::size_t>(v)] != 1 || variables_of(f).size() < 2) continue;
+      if (is_argument_[static_cast<std::size_t>(v)] || uses[static_cast<std::size_t>(v)] != 1 || variables_of(f).size() < 2) continue;
       if (const auto value = solved_for(f, v)) {
         eliminate(i, v, *value);
         return true;

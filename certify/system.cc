@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace corank::certify {
@@ -52,18 +53,20 @@ constexpr int kMaxPower = 1000;  // powers are evaluated factor by factor
 
 void validate_polynomial(const Polynomial& polynomial, int variables) {
   const std::string place = polynomial.source.empty() ? "a polynomial" : polynomial.source;
-  std::set<std::vector<std::pair<int, int>>> seen;
+  std::set<std::vector<std::tuple<int, int, Function>>> seen;
   for (const Monomial& monomial : polynomial.monomials) {
-    std::vector<std::pair<int, int>> key;
+    std::vector<std::tuple<int, int, Function>> key;
     for (const Factor& factor : monomial.factors) {
       if (factor.variable < 0 || factor.variable >= variables)
         throw std::invalid_argument(place + ": variable index " + std::to_string(factor.variable) + " is out of range");
       if (factor.power < 1) throw std::invalid_argument(place + ": a power is less than 1");
       if (factor.power > kMaxPower)
         throw std::invalid_argument(place + ": a power is greater than " + std::to_string(kMaxPower));
-      if (!key.empty() && key.back().first >= factor.variable)
+      if (factor.function != Function::identity && (monomial.factors.size() != 1 || factor.power != 1))
+        throw std::invalid_argument(place + ": a sine or cosine is not the only factor of its monomial");
+      if (!key.empty() && std::get<0>(key.back()) >= factor.variable)
         throw std::invalid_argument(place + ": the factors of a monomial are not sorted by variable");
-      key.emplace_back(factor.variable, factor.power);
+      key.emplace_back(factor.variable, factor.power, factor.function);
     }
     if (!seen.insert(std::move(key)).second) throw std::invalid_argument(place + ": a monomial occurs twice");
     if (!monomial.enclosure.is_bounded())

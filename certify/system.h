@@ -1,8 +1,9 @@
-// A compiled system of polynomial equations and inequalities over a box: the plain value that symbolic/ makes, solve/ encloses
-// and certify/ proves things about. It knows no GiNaC and may be shared by threads.
+// A compiled system of equations and inequalities over a box: the plain value that symbolic/ makes, solve/ encloses and
+// certify/ proves things about. It knows no GiNaC and may be shared by threads.
 //
 //   F(x) = 0 (m equations),   G(x) ≥ 0 (inequalities),   x ∈ D (n intervals)
 //
+// Each of F and G is a polynomial plus multiples of sines and cosines of single variables.
 // Coefficients are exact numbers with interval enclosures; every proof uses the enclosure, so it holds for the exact system.
 #pragma once
 
@@ -15,8 +16,9 @@
 
 namespace corank::certify {
 
-/// What a variable stands for. Only for reports and heuristics: no proof depends on it.
-enum class VariableKind : std::uint8_t { length, cosine, sine, kernel };
+/// What a variable stands for; auxiliary: a sine, a cosine or a sum of lengths, defined by an equation of its own. Only for
+/// reports and heuristics: no proof depends on it.
+enum class VariableKind : std::uint8_t { length, cosine, sine, kernel, auxiliary };
 
 struct Variable {
   std::string name;
@@ -29,10 +31,14 @@ struct Variable {
   Variable(std::string name, VariableKind kind, ExactNumber lower, ExactNumber upper);
 };
 
-/// variable^power, power ≥ 1.
+/// What a factor takes of its variable.
+enum class Function : std::uint8_t { identity, sine, cosine };
+
+/// variable^power, power ≥ 1; or the sine or cosine of the variable: then it is its monomial's only factor, and power = 1.
 struct Factor {
   int variable = 0;
   int power = 1;
+  Function function = Function::identity;
   friend bool operator==(const Factor&, const Factor&) = default;
 };
 
@@ -44,10 +50,12 @@ struct Monomial {
 
   Monomial() = default;
   Monomial(ExactNumber coefficient, std::vector<Factor> factors);
-  int degree() const;
+  /// c·sin x or c·cos x.
+  bool is_trigonometric() const { return factors.size() == 1 && factors[0].function != Function::identity; }
+  int degree() const;  ///< a sine or cosine counts as its variable
 };
 
-/// A sparse polynomial: monomials with distinct factors.
+/// A sparse polynomial and multiples of sines and cosines: monomials with distinct factors.
 struct Polynomial {
   std::vector<Monomial> monomials;
   std::string source;  ///< where it comes from, for messages and reports ("dextar.cuik:17", "norm of xi" …)
@@ -75,7 +83,7 @@ struct System {
   /// Relative tolerance of the coefficients that are no integers, for over-determined systems whose printed decimals are rounded and
   /// therefore inconsistent as exact numbers; certify::reduce() puts it into the enclosures. 0 (default): every coefficient is exact.
   double coefficient_tolerance = 0;
-  /// Number of leading variables that describe the configuration q; the others (kernel vector) follow.
+  /// Number of leading variables that describe the configuration q; the others (kernel vector, auxiliaries) follow.
   int configuration_size = 0;
 
   int size() const { return static_cast<int>(variables.size()); }
@@ -83,7 +91,8 @@ struct System {
   int dimension() const;
   /// Index of the variable, or −1.
   int find(const std::string& variable_name) const;
-  /// Throws std::invalid_argument where an index is out of range, a domain is empty or unbounded, or a factor list unsorted.
+  /// Throws std::invalid_argument where an index is out of range, a domain is empty or unbounded, a factor list unsorted, or a
+  /// sine or cosine is raised to a power or multiplied by a variable.
   void validate() const;
 };
 

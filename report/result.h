@@ -19,8 +19,8 @@ struct ResultVariable {
   std::string name;
   certify::VariableKind kind = certify::VariableKind::length;
   certify::Interval domain;  ///< search domain, enclosed
-  bool auxiliary =
-      false;  ///< declared in [DUMMY VARS] or [CARTESIAN VARS]: .sol files leave it out; .h5 files do not keep this
+  /// Declared in [DUMMY VARS] or [CARTESIAN VARS], or of that kind: .sol files leave it out; .h5 files keep the kind only.
+  bool auxiliary = false;
 };
 
 /// `-D NAME=EXPRESSION`.

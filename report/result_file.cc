@@ -53,7 +53,7 @@ std::vector<std::string> verdict_words() {
 }
 
 const std::vector<std::string>& kind_words() {
-  static const std::vector<std::string> words{"length", "cosine", "sine", "kernel"};
+  static const std::vector<std::string> words{"length", "cosine", "sine", "kernel", "auxiliary"};
   return words;
 }
 

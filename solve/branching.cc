@@ -8,25 +8,44 @@
 namespace corank::solve {
 namespace {
 
+using certify::Function;
 using certify::Polynomial;
 using certify::System;
 
-// x_j occurs in one equation only, there linearly with a constant coefficient, and in no inequality.
+// The variable x_j of a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine and at least one of them there; −1 for another
+// equation.
+int value_of_functions(const Polynomial& f) {
+  int value = -1;
+  bool function = false;
+  for (const auto& m : f.monomials) {
+    function = function || m.is_trigonometric();
+    if (m.factors.empty() || m.is_trigonometric()) continue;
+    if (value >= 0 || m.degree() > 1) return -1;
+    value = m.factors[0].variable;
+  }
+  return function ? value : -1;
+}
+
+// x_j occurs in one equation only, there linearly with a constant coefficient, and in no inequality; or an equation says
+// that x_j is a sum of sines, cosines and constants, whose arguments are the better ones to bisect.
 std::vector<bool> linearly_defined(const System& system) {
   const std::size_t n = system.variables.size();
   std::vector<int> rows(n, 0);
-  std::vector<bool> linear(n, false);
+  std::vector<bool> linear(n, false), function(n, false);
   const auto count = [&](const Polynomial& f, bool inequality) {
     std::set<int> seen;
     for (const auto& m : f.monomials)
       for (const auto& factor : m.factors) {
         if (seen.insert(factor.variable).second) rows[factor.variable] += inequality ? 2 : 1;
-        linear[factor.variable] = m.factors.size() == 1 && factor.power == 1;
+        linear[factor.variable] = m.factors.size() == 1 && factor.power == 1 && factor.function == Function::identity;
+        if (factor.function != Function::identity) function[factor.variable] = true;
       }
   };
   for (const Polynomial& f : system.equations) count(f, false);
   for (const Polynomial& g : system.inequalities) count(g, true);
-  for (std::size_t j = 0; j < n; ++j) linear[j] = linear[j] && rows[j] == 1;
+  for (std::size_t j = 0; j < n; ++j) linear[j] = linear[j] && rows[j] == 1 && !function[j];
+  for (const Polynomial& f : system.equations)
+    if (const int j = value_of_functions(f); j >= 0 && !function[j]) linear[j] = true;
   return linear;
 }
 
@@ -50,7 +69,8 @@ std::set<int> kernel_like(const System& system) {
       for (const auto& m : f.monomials) {
         int degree = 0;
         for (const auto& factor : m.factors)
-          if (group.count(factor.variable)) degree += factor.power;
+          if (group.count(factor.variable))
+            degree += factor.function == Function::identity ? factor.power : 2;  // 2: neither
         if (degree > 1) homogeneous = false;
         if (degree == 1) ++with;
       }

@@ -21,15 +21,15 @@ class BranchingRule {
  public:
   explicit BranchingRule(const certify::System& system);
 
-  /// The variable to bisect for an unproven box: the one of largest weight · width / domain width among those wider than σ or than
-  /// kProofShare of their domain (a wider box can hardly be proven, however large σ is); −1 where there is none that can be divided. A variable that a
-  /// linear equation defines waits until all others are narrow.
+  /// The variable to bisect for an unproven box: the one of largest weight · width / domain width among those wider than σ
+  /// or than kProofShare of their domain (a wider box can hardly be proven, however large σ is); −1 where there is none that
+  /// can be divided. A variable that a linear equation or a sine or cosine defines waits until all others are narrow.
   int choose(const certify::Interval* x, double sigma) const;
 
   const std::vector<double>& weights() const { return weight_; }
 
  private:
-  std::vector<double> weight_;         // 0: defined by a linear equation and in no other; 1/2: kernel; 1: else
+  std::vector<double> weight_;         // 0: defined by others, see branching.cc; 1/2: kernel; 1: else
   std::vector<double> inverse_width_;  // of the domain
 };
 

@@ -199,6 +199,7 @@ certify::System Algebrizer::run() {
     coordinate.kind == CoordinateKind::angle ? add_angle(coordinate) : add_length(coordinate);
   out_.configuration_size = out_.size();
   add_kernel_unknowns();
+  expander_.length_functions().start(out_.size());
 
   // The configuration's own equations and circles first, the kernel's after them.
   for (const auto& equation : in_.equations)
@@ -208,6 +209,7 @@ certify::System Algebrizer::run() {
     if (mentions_kernel(equation.relation)) add_equation(equation);
   for (const auto& inequality : in_.inequalities) add_inequality(inequality);
   out_.inequalities.insert(out_.inequalities.end(), chords_.begin(), chords_.end());
+  expander_.length_functions().settle(out_, [this](const std::string& name) { return fresh_name(name); });
   try {
     out_.validate();
   } catch (const std::invalid_argument& error) {

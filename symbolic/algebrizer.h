@@ -1,6 +1,7 @@
 // From sines and cosines to polynomials: every angle θ becomes two variables c_θ, s_θ with c_θ² + s_θ² = 1, sums of angles
 // and integer multiples are expanded, an angle's range becomes a linear condition on (c_θ, s_θ), and the way back is kept
-// (certify::System::angles). The result's coefficients are exact.
+// (certify::System::angles). A length keeps its variable; its sines and cosines become terms of the equations or variables
+// of their own, see length_functions.h. The result's coefficients are exact.
 //
 // Range: θ ∈ [α, β] with β − α < 2π, m = (α + β)/2, h = (β − α)/2:  θ ∈ [α, β] (mod 2π)  ⇔  cos(θ − m) ≥ cos h
 //        ⇔  cos(m) c_θ + sin(m) s_θ ≥ cos(h),   for any h ∈ (0, π).
@@ -12,9 +13,10 @@
 namespace corank::symbolic {
 
 /// Compiles a system. Variables: for each coordinate in order a length's own variable or an angle's pair (c_θ, s_θ), then
-/// the kernel unknowns. Throws ModelError, naming the equation and the term, for what is no polynomial: an angle outside sin
-/// and cos, tan of an angle, a quotient of unknowns, sin of a length, a fractional multiple of an angle, a non-integer power
-/// of an unknown; also for an empty range and a constant equation that is inconsistent.
+/// the kernel unknowns, then auxiliary ones for lengths in sin and cos. Throws ModelError, naming the equation and the term,
+/// for what is no polynomial: an angle outside sin and cos, tan of an unknown, a quotient of unknowns, sin of anything that
+/// is not linear, a fractional multiple of an angle, a non-integer power of an unknown; also for an empty range and a
+/// constant equation that is inconsistent.
 certify::System algebrize(const TrigonometricSystem& system);
 
 }  // namespace corank::symbolic

@@ -9,6 +9,10 @@ namespace corank::symbolic {
 
 using Kind = Expression::Kind;
 
+namespace {
+const std::string kArgument = "a sum of integer multiples of angles, multiples of lengths and a constant";
+}  // namespace
+
 void PolynomialExpander::fail(const Expression& e, const std::string& problem, const std::string& expectation) const {
   throw ModelError(e.where().line > 0 ? e.where() : where_, problem + " in " + what_, expectation);
 }
@@ -119,7 +123,7 @@ ExpandedPolynomial PolynomialExpander::expand_function(const Expression& e) {
   if (has_unknown(argument)) {
     if (e.name() == "sin" || e.name() == "cos") return expand_sine_or_cosine(e);
     fail(e, "the term " + in_quotes(e.text()) + " is " + e.name() + " of an unknown",
-         "a polynomial in unknowns and in sin and cos of angles");
+         "a polynomial in unknowns and in sin and cos");
   }
   const ConstantValue x = value(argument);
   return guarded(e, [&] { return ExpandedPolynomial(ConstantValue::function(e.name(), x)); });
@@ -128,20 +132,18 @@ ExpandedPolynomial PolynomialExpander::expand_function(const Expression& e) {
 PolynomialExpander::LinearForm PolynomialExpander::linear_form(const Expression& e) {
   if (!has_unknown(e)) return {{}, value(e)};
   const auto scaled = [](const ConstantValue& factor, LinearForm form) {
-    for (auto& [angle, multiple] : form.multiples) multiple = factor * multiple;
+    for (auto& [name, multiple] : form.multiples) multiple = factor * multiple;
     form.offset = factor * form.offset;
     return form;
   };
   switch (e.kind()) {
-    case Kind::symbol:
-      if (angles_.contains(e.name())) return {{{e.name(), ConstantValue(1)}}, 0};
-      fail(e, "sin or cos is applied to " + in_quotes(e.name()) + ", which is no angle,", "an angle, declared with ~");
+    case Kind::symbol: return {{{e.name(), ConstantValue(1)}}, 0};
     case Kind::negation: return scaled(-1, linear_form(e.operands()[0]));
     case Kind::sum: {
       LinearForm result;
       for (const Expression& term : e.operands()) {
         const LinearForm part = linear_form(term);
-        for (const auto& [angle, multiple] : part.multiples) result.multiples[angle] = result.multiples[angle] + multiple;
+        for (const auto& [name, multiple] : part.multiples) result.multiples[name] = result.multiples[name] + multiple;
         result.offset = result.offset + part.offset;
       }
       return result;
@@ -151,8 +153,7 @@ PolynomialExpander::LinearForm PolynomialExpander::linear_form(const Expression&
       for (const Expression& factor : e.operands()) {
         LinearForm part = linear_form(factor);
         if (!part.multiples.empty() && !result.multiples.empty())
-          fail(e, in_quotes(e.text()) + " inside sin or cos is a product of angles",
-               "a sum of integer multiples of angles and a constant");
+          fail(e, in_quotes(e.text()) + " inside sin or cos is a product of unknowns", kArgument);
         result = part.multiples.empty() ? scaled(part.offset, std::move(result)) : scaled(result.offset, std::move(part));
       }
       return result;
@@ -166,35 +167,54 @@ PolynomialExpander::LinearForm PolynomialExpander::linear_form(const Expression&
       break;
     default: break;
   }
-  fail(e, in_quotes(e.text()) + " stands inside sin or cos", "a sum of integer multiples of angles and a constant");
+  fail(e, in_quotes(e.text()) + " stands inside sin or cos", kArgument);
+}
+
+PolynomialExpander::CosineAndSine PolynomialExpander::of_angle(const Expression& e, const std::string& name,
+                                                               const ConstantValue& multiple) {
+  const std::optional<int> n = multiple.integer();
+  if (!n)
+    fail(e, "the term " + in_quotes(e.text()) + " has a fractional multiple of the angle " + in_quotes(name),
+         "integer multiples of angles");
+  if (std::abs(*n) > kMaxExponent)
+    fail(e, "the multiple of the angle " + in_quotes(name) + " in " + in_quotes(e.text()) + " is too large",
+         "at most " + std::to_string(kMaxExponent));
+  const AngleVariables& variables = angles_.at(name);
+  return multiple_angle(*n, ExpandedPolynomial::variable(variables.cosine), ExpandedPolynomial::variable(variables.sine));
+}
+
+PolynomialExpander::CosineAndSine PolynomialExpander::of_lengths(const std::map<std::string, ConstantValue>& multiples) {
+  ExpandedPolynomial sum;
+  for (const auto& [name, multiple] : multiples) sum += multiple * ExpandedPolynomial::variable(unknowns_.at(name));
+  // One argument for x − y and y − x.
+  const bool negative = sum.terms().begin()->second.sign() == -1;
+  const int argument = length_functions_.argument(negative ? -sum : sum);
+  const auto [c, s] = length_functions_.cosine_and_sine(argument);
+  return {c, negative ? -s : s};
 }
 
 ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e) {
   const LinearForm form = guarded(e, [&] { return linear_form(e.operands()[0]); });
-  // Multiples are checked before anything is expanded.
-  std::map<std::string, int> multiples;
-  for (const auto& [angle, multiple] : form.multiples) {
-    const std::optional<int> n = multiple.integer();
-    if (!n)
-      fail(e, "the term " + in_quotes(e.text()) + " has a fractional multiple of the angle " + in_quotes(angle),
-           "integer multiples of angles");
-    if (std::abs(*n) > kMaxExponent)
-      fail(e, "the multiple of the angle " + in_quotes(angle) + " in " + in_quotes(e.text()) + " is too large",
-           "at most " + std::to_string(kMaxExponent));
-    multiples.emplace(angle, *n);
+  std::map<std::string, ConstantValue> lengths;
+  for (const auto& [name, multiple] : form.multiples) {
+    if (angles_.contains(name) || multiple.is_zero()) continue;
+    if (!guarded(e, [&] { return multiple.sign(); }))
+      fail(e, "the multiple of " + in_quotes(name) + " in " + in_quotes(e.text()) + " cannot be told from zero",
+           "multiples whose sign is known");
+    lengths.emplace(name, multiple);
   }
   return guarded(e, [&] {
     // cos and sin of the sum so far; then cos(a + b) = cos a cos b − sin a sin b, sin(a + b) = sin a cos b + cos a sin b.
     ExpandedPolynomial cosine = ConstantValue::function("cos", form.offset),
                        sine = ConstantValue::function("sin", form.offset);
-    for (const auto& [angle, n] : multiples) {
-      const AngleVariables& variables = angles_.at(angle);
-      const auto [c, s] =
-          multiple_angle(n, ExpandedPolynomial::variable(variables.cosine), ExpandedPolynomial::variable(variables.sine));
-      ExpandedPolynomial next = cosine * c - sine * s;
-      sine = sine * c + cosine * s;
+    const auto add = [&](const CosineAndSine& b) {
+      ExpandedPolynomial next = cosine * b.first - sine * b.second;
+      sine = sine * b.first + cosine * b.second;
       cosine = std::move(next);
-    }
+    };
+    for (const auto& [name, multiple] : form.multiples)
+      if (angles_.contains(name)) add(of_angle(e, name, multiple));
+    if (!lengths.empty()) add(of_lengths(lengths));
     return e.name() == "cos" ? cosine : sine;
   });
 }

@@ -1,12 +1,14 @@
-// Turns expressions in lengths, sines and cosines of angles, and kernel unknowns into polynomials.
+// Turns expressions in lengths, kernel unknowns, and sines and cosines of angles and lengths into polynomials.
 #pragma once
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "corank/symbolic/expanded_polynomial.h"
 #include "corank/symbolic/expression.h"
+#include "corank/symbolic/length_functions.h"
 
 namespace corank::symbolic {
 
@@ -18,6 +20,8 @@ class PolynomialExpander {
   void add_constant(const std::string& name, ConstantValue value) { constants_.insert_or_assign(name, std::move(value)); }
   void add_unknown(const std::string& name, int variable) { unknowns_.emplace(name, variable); }
   void add_angle(const std::string& name, int cosine, int sine) { angles_.emplace(name, AngleVariables{cosine, sine}); }
+  /// Sines and cosines of lengths that polynomials hold, to be settled when all of them are made.
+  LengthFunctions& length_functions() { return length_functions_; }
 
   /// The value of an expression in constants. `what` ("the constant 'l'") and `where` are for messages: every error is a
   /// ModelError at the smallest faulty part.
@@ -29,11 +33,13 @@ class PolynomialExpander {
   struct AngleVariables {
     int cosine, sine;
   };
-  /// Σ multiples[θ]·θ + offset: what may stand inside a sine or a cosine.
+  /// Σ multiples[θ]·θ + offset, with angles and lengths θ: what may stand inside a sine or a cosine.
   struct LinearForm {
     std::map<std::string, ConstantValue> multiples;
     ConstantValue offset;
   };
+  /// cos α and sin α.
+  using CosineAndSine = std::pair<ExpandedPolynomial, ExpandedPolynomial>;
 
   ExpandedPolynomial expand(const Expression& e);
   ExpandedPolynomial expand_symbol(const Expression& e);
@@ -42,6 +48,8 @@ class PolynomialExpander {
   ExpandedPolynomial expand_function(const Expression& e);
   ExpandedPolynomial expand_sine_or_cosine(const Expression& e);
   LinearForm linear_form(const Expression& e);
+  CosineAndSine of_angle(const Expression& e, const std::string& name, const ConstantValue& multiple);
+  CosineAndSine of_lengths(const std::map<std::string, ConstantValue>& multiples);
   bool has_unknown(const Expression& e) const;
   /// What an expression without unknowns is worth.
   ConstantValue value(const Expression& e);
@@ -52,6 +60,7 @@ class PolynomialExpander {
   std::map<std::string, ConstantValue> constants_;
   std::map<std::string, int> unknowns_;
   std::map<std::string, AngleVariables> angles_;
+  LengthFunctions length_functions_;
   std::string what_;      // being expanded, for messages
   SourceLocation where_;  // its place
 };

@@ -120,7 +120,13 @@ std::string monomial_text(const certify::Monomial& monomial, const certify::Syst
   }
   std::string factors;
   for (const certify::Factor& factor : monomial.factors) {
-    factors += (factors.empty() ? "" : "*") + system.variables[static_cast<std::size_t>(factor.variable)].name;
+    const std::string& name = system.variables[static_cast<std::size_t>(factor.variable)].name;
+    if (!factors.empty()) factors += "*";
+    switch (factor.function) {
+      case certify::Function::identity: factors += name; break;
+      case certify::Function::sine: factors += "sin(" + name + ")"; break;
+      case certify::Function::cosine: factors += "cos(" + name + ")"; break;
+    }
     if (factor.power > 1) factors += "^" + std::to_string(factor.power);
   }
   std::string body;
@@ -210,7 +216,9 @@ std::string to_cuik(const certify::System& system) {
   for (const certify::Variable& variable : system.variables) width = std::max(width, variable.name.size());
   for (std::size_t i = 0; i < system.variables.size(); ++i) {
     const certify::Variable& variable = system.variables[i];
-    if (static_cast<int>(i) == system.configuration_size) out << "% the kernel vector\n";
+    const bool first = i == 0 || system.variables[i - 1].kind != variable.kind;
+    if (first && variable.kind == certify::VariableKind::kernel) out << "% the kernel vector\n";
+    if (first && variable.kind == certify::VariableKind::auxiliary) out << "\n[DUMMY VARS]\n";
     out << padded(variable.name, width) << " : [" << constant_text(variable.lower) << ", " << constant_text(variable.upper)
         << "]\n";
   }

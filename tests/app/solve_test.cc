@@ -118,6 +118,21 @@ TEST(Solve, GivesAnglesBackInRadians) {
   EXPECT_NEAR(angles[1], 11 * 3.141592653589793 / 6, 1e-6);
 }
 
+TEST(Solve, ShowsNoVariablesButTheModelsOwnInItsTable) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("kepler.cuik", "[SYSTEM VARS]\nE : [0, 4]\n[SYSTEM EQS]\nE - sin(2*E)*E = 1;\n");
+  const Outcome outcome = run_corank({"solve", file, "-o", folder.file("r.h5")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("3 variables, 3 equations"));
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("\n  point  E +verdict\n"));
+  const report::Result result = report::read_result(folder.file("r.h5"));
+  std::vector<certify::VariableKind> kinds;
+  for (const report::ResultVariable& v : result.variables) kinds.push_back(v.kind);
+  using enum certify::VariableKind;
+  EXPECT_THAT(kinds, ElementsAre(length, auxiliary, auxiliary));
+  EXPECT_THAT(result.system_text, HasSubstr("s_u_E - sin(u_E) = 0;"));
+}
+
 TEST(Solve, EndsAtABoxLimitWithAnIncompleteResult) {
   const TemporaryFolder folder;
   const std::string path = folder.file("r.h5");

@@ -42,6 +42,32 @@ TEST_F(Newton, ProvesASimpleRootAndEnclosesIt) {
   EXPECT_GE(sheet.image[0].hi(), std::nextafter(std::sqrt(2.0), 0));
 }
 
+// x = cos x has one solution, 0.7390851332151607.
+TEST_F(Newton, ProvesTheFixedPointOfTheCosine) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-4", "4");
+  b.equation({{"1", {{x, 1}}}, {"-1", {{x, 1, Function::cosine}}}});
+  const Sheet sheet = prove(b, Interval(0, 1));
+  ASSERT_TRUE(sheet.proven);
+  EXPECT_TRUE(sheet.image[0].contains(0.7390851332151607));
+  EXPECT_LE(sheet.image[0].width(), 0.4);
+}
+
+// sin x − x/2 has the roots 0 and ±1.895; 1 − cos x a double one at 0.
+TEST_F(Newton, NeverClaimsOneRootOfASineWhereThereAreMore) {
+  SystemBuilder sine, cosine;
+  const int x = sine.variable("x", "-4", "4");
+  sine.equation({{"1", {{x, 1, Function::sine}}}, {"-1/2", {{x, 1}}}});
+  cosine.variable("x", "-4", "4");
+  cosine.equation({{"1", {{x, 1, Function::cosine}}}, {"-1", {}}});
+  for (double radius = 1e-9; radius < 3; radius *= 1.7) {
+    const Sheet sheet = prove(sine, Interval(-radius, 0.9 * radius));
+    EXPECT_FALSE(sheet.proven && sheet.region[0].contains(1.8954942670339809)) << radius;
+    EXPECT_FALSE(prove(cosine, Interval(-radius, 0.9 * radius)).proven) << radius;
+  }
+  EXPECT_TRUE(prove(sine, Interval(-0.01, 0.012)).proven);
+}
+
 TEST_F(Newton, LeavesADoubleRootUndecided) {
   SystemBuilder b;
   const int x = b.variable("x", "-4", "4");
@@ -208,10 +234,13 @@ TEST_F(Newton, SlopesAndJacobiansEncloseDifferencesAndDerivatives) {
               {"5", {{x, 1}, {z, 1}}},
               {"-0.7", {{y, 2}}},
               {"1", {{x, 1}}},
+              {"2", {{x, 1, Function::sine}}},
+              {"-3/2", {{z, 1, Function::cosine}}},
               {"4", {}}});
   const CompiledSystem f(b.system());
   const auto value = [](double u, double v, double w) {
-    return 3 * u * u * v - u * v * w / 3 + 2 * w * w * w + 5 * u * w - 0.7 * v * v + u + 4;
+    return 3 * u * u * v - u * v * w / 3 + 2 * w * w * w + 5 * u * w - 0.7 * v * v + u + 2 * std::sin(u) -
+           1.5 * std::cos(w) + 4;
   };
   std::mt19937 random(3);
   std::uniform_real_distribution<double> in(-2, 2);
@@ -231,8 +260,12 @@ TEST_F(Newton, SlopesAndJacobiansEncloseDifferencesAndDerivatives) {
     for (int j = 0; j < 3; ++j) difference += s[j] * (Interval(p[j]) - Interval(c[j]));
     const Interval slack(-1e-11, 1e-11);  // the expected values carry rounding errors
     ASSERT_TRUE((difference + slack).contains(value(p[0], p[1], p[2]) - value(c[0], c[1], c[2])));
-    const double d[3] = {6 * p[0] * p[1] - p[1] * p[2] / 3 + 5 * p[2] + 1, 3 * p[0] * p[0] - p[0] * p[2] / 3 - 1.4 * p[1],
-                         -p[0] * p[1] / 3 + 6 * p[2] * p[2] + 5 * p[0]};
+    const double d[3] = {6 * p[0] * p[1] - p[1] * p[2] / 3 + 5 * p[2] + 1 + 2 * std::cos(p[0]),
+                         3 * p[0] * p[0] - p[0] * p[2] / 3 - 1.4 * p[1],
+                         -p[0] * p[1] / 3 + 6 * p[2] * p[2] + 5 * p[0] + 1.5 * std::sin(p[2])};
+    double approximate[3];
+    f.approximate_jacobian(p, approximate);
+    for (int j = 0; j < 3; ++j) ASSERT_NEAR(approximate[j], d[j], 1e-12) << j;
     for (int j = 0; j < 3; ++j) ASSERT_TRUE((jacobian[j] + slack).contains(d[j])) << j;
     ASSERT_TRUE((f.evaluate(0, box.data()) + slack).contains(value(p[0], p[1], p[2])));
     ASSERT_TRUE((f.evaluate_at(0, p) + slack).contains(value(p[0], p[1], p[2])));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
 #include "corank/certify/domain.h"
@@ -50,6 +51,59 @@ TEST(Projection, HonoursAnInequality) {
   EXPECT_FALSE(project_once(b.system(), none));
 }
 
+TEST(Projection, ShrinksTheArgumentOfASineToItsBranches) {
+  SystemBuilder b;
+  const int s = b.variable("s", "-1", "1"), t = b.variable("t", "-40", "40");
+  b.equation({{"1", {{s, 1}}}, {"-2", {{t, 1, Function::sine}}}});  // s = 2 sin t
+  std::vector<Interval> x{Interval(1, 2), Interval(-1, 10)};
+  ASSERT_TRUE(project_once(b.system(), x));
+  EXPECT_EQ(x[s], Interval(1, 2));
+  EXPECT_NEAR(x[t].lo(), std::numbers::pi / 6, 1e-14);
+  EXPECT_NEAR(x[t].hi(), 2 * std::numbers::pi + 5 * std::numbers::pi / 6, 1e-14);
+  x = {Interval(-2, 2), Interval(0.1, 0.2)};
+  ASSERT_TRUE(project_once(b.system(), x));
+  EXPECT_NEAR(x[s].lo(), 2 * std::sin(0.1), 1e-15);
+  EXPECT_NEAR(x[s].hi(), 2 * std::sin(0.2), 1e-15);
+  x = {Interval(1, 2), Interval(3, 6)};
+  EXPECT_FALSE(project_once(b.system(), x)) << "the sine is negative there";
+}
+
+TEST(Projection, HonoursAnInequalityOfACosine) {
+  SystemBuilder b;
+  const int t = b.variable("t", "-40", "40");
+  b.at_least_zero({{"1", {{t, 1, Function::cosine}}}, {"-1/2", {}}});  // cos t ≥ 1/2
+  std::vector<Interval> x{Interval(2, 8)};
+  ASSERT_TRUE(project_once(b.system(), x));
+  EXPECT_NEAR(x[t].lo(), 5 * std::numbers::pi / 3, 1e-14);
+  EXPECT_NEAR(x[t].hi(), 7 * std::numbers::pi / 3, 1e-14);
+}
+
+// a sin t + b cos u + c v² = w with a planted solution, w being the one computed value: enclosed, so that a solution is in
+// the box.
+TEST(Projection, NeverLosesAPlantedSolutionOfSinesAndCosines) {
+  std::mt19937 random(20261122);
+  const auto uniform = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+  SystemBuilder b;
+  for (const char* name : {"t", "u", "v", "w"}) b.variable(name, "-100", "100");
+  b.equation({{"3", {{0, 1, Function::sine}}}, {"-2", {{1, 1, Function::cosine}}}, {"1/3", {{2, 2}}}, {"-1", {{3, 1}}}});
+  int deleted = 0;
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const double t = uniform(-30, 30), u = uniform(-30, 30), v = uniform(-2, 2);
+    const double w = 3 * std::sin(t) - 2 * std::cos(u) + v * v / 3;  // rounded: the exact one is nearby
+    const auto around = [&](double at) {
+      const double size = std::ldexp(1.0, static_cast<int>(random() % 12) - 8);
+      return Interval(at - uniform(0, size), at + uniform(0, size));
+    };
+    std::vector<Interval> x{around(t), around(u), around(v), Interval(w - 1e-14, w + 1e-14)};
+    std::vector<Interval> elsewhere = x;
+    elsewhere[3] = Interval(w + 1, w + 1.1);
+    ASSERT_TRUE(project_once(b.system(), x)) << "trial " << trial;
+    ASSERT_TRUE(x[0].contains(t) && x[1].contains(u) && x[2].contains(v)) << "trial " << trial;
+    deleted += !project_once(b.system(), elsewhere);
+  }
+  EXPECT_GT(deleted, 5'000) << "the test must see projections that matter";
+}
+
 // Random polynomials with a planted root: whatever the box around it, no projection may lose it.
 TEST(Projection, NeverLosesAPlantedSolution) {
   std::mt19937 random(20261121);
@@ -94,6 +148,22 @@ TEST(Projection, NeverLosesAPlantedSolution) {
   }
 }
 
+TEST(System, RefusesASineOfAPowerOrInAProduct) {
+  for (const std::vector<Factor>& factors : {std::vector<Factor>{{0, 2, Function::sine}},
+                                             {{0, 1, Function::sine}, {1, 1}},
+                                             {{0, 1}, {1, 1, Function::cosine}},
+                                             {{0, 1, Function::sine}, {0, 1, Function::cosine}}}) {
+    SystemBuilder b;
+    b.variable("x", "-1", "1"), b.variable("y", "-1", "1");
+    b.equation({{"1", {{0, 1}}}, {"1", factors}});
+    EXPECT_THROW(b.system().validate(), std::invalid_argument);
+  }
+  SystemBuilder b;  // x, sin x and cos x are three monomials
+  b.variable("x", "-1", "1");
+  b.equation({{"1", {{0, 1}}}, {"1", {{0, 1, Function::sine}}}, {"1", {{0, 1, Function::cosine}}}});
+  EXPECT_NO_THROW(b.system().validate());
+}
+
 TEST(Domain, IsImpliedByACircleOrANorm) {
   SystemBuilder b;
   const int c = b.variable("c", "-1", "1"), s = b.variable("s", "-1/2", "1"), y = b.variable("y", "-0.8", "0.8"),
@@ -106,6 +176,28 @@ TEST(Domain, IsImpliedByACircleOrANorm) {
   EXPECT_FALSE(implied[s]) << "−1/2 cuts the circle";
   EXPECT_TRUE(implied[y]) << "0.8² = 0.64 exactly";
   EXPECT_FALSE(implied[z]) << "not a sum of squares";
+}
+
+TEST(Domain, IsImpliedByASineOrCosine) {
+  SystemBuilder b;
+  const int t = b.variable("t", "0", "9"), c = b.variable("c", "-1", "1"), q = b.variable("q", "-1/2", "1/2"),
+            r = b.variable("r", "-1/2", "0.49"), z = b.variable("z", "-3", "3"), y = b.variable("y", "-9", "9"),
+            u = b.variable("u", "-0.49", "1/2");
+  b.equation({{"1", {{c, 1}}}, {"-1", {{t, 1, Function::cosine}}}});
+  b.equation({{"-2", {{q, 1}}}, {"1", {{t, 1, Function::sine}}}});
+  b.equation({{"-2", {{r, 1}}}, {"1", {{t, 1, Function::sine}}}});
+  b.equation({{"-2", {{u, 1}}}, {"1", {{t, 1, Function::sine}}}});
+  b.equation({{"-1", {{z, 1}}}, {"3/2", {{t, 1, Function::cosine}}}, {"1", {{t, 1, Function::sine}}}, {"-1/2", {}}});
+  b.equation({{"1", {{y, 1}}}, {"1", {{t, 1, Function::cosine}}}, {"1", {{t, 1}}}});
+  b.equation({{"1", {{t, 1, Function::cosine}}}, {"1", {{t, 1, Function::sine}}}, {"-1", {}}});
+  const auto implied = implied_domains(b.system());
+  EXPECT_TRUE(implied[c]);
+  EXPECT_TRUE(implied[q]) << "2q = sin t";
+  EXPECT_FALSE(implied[r]) << "0.49 cuts it off";
+  EXPECT_FALSE(implied[u]) << "−0.49 cuts it off";
+  EXPECT_TRUE(implied[z]) << "3/2 + 1 + 1/2 = 3";
+  EXPECT_FALSE(implied[y]) << "t is not bounded by its equations";
+  EXPECT_FALSE(implied[t]);
 }
 
 TEST(Domain, LocatesPiecesInsideOutsideAndAcross) {

@@ -47,6 +47,20 @@ TEST(Cuik, SolvesWithTheParameterFileBesideTheModel) {
   }
 }
 
+TEST(Cuik, LeavesItsOwnVariablesForSinesOfLengthsOut) {
+  const Folder folder;
+  folder.write("wave.cuik", "[SYSTEM VARS]\ny : [1, 2]\nt : [0, 9]\n[SYSTEM EQS]\ny*sin(t) = 1;\n");
+  ASSERT_EQ(folder.run("cuik wave").status, 0);
+  const SolFile file = report::read_sol(folder.file("wave.sol"));
+  EXPECT_THAT(file.variables, ElementsAre("y", "t"));
+  for (int k = 0; k <= 50; ++k) {
+    const double t = 7 + k / 50.0, y = 1 / std::sin(t);
+    EXPECT_TRUE(std::any_of(file.boxes.begin(), file.boxes.end(), [&](const report::SolBox& b) {
+      return b.box[0].lo() <= y + 1e-12 && y - 1e-12 <= b.box[0].hi() && b.box[1].contains(t);
+    })) << t;
+  }
+}
+
 TEST(Cuik, TakesNamesWithExtensionAndInFoldersAndRunsWithoutParameters) {
   const Folder folder;
   folder.write("circle.cuik", kCircle);

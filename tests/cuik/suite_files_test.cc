@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "corank/report/cuik_param.h"
 #include "corank/report/cuik_sol.h"
 #include "corank/solve/solve.h"
@@ -98,7 +100,46 @@ TEST(SuiteFiles, AnglesEncloseTheSuitesOwn) {
   EXPECT_LT(crossing, 20);
 }
 
-// Solves NAME.cuik with the σ of NAME.param and asks for every box of the suite whether one of ours meets it in the variables of both.
+// y = 0 with t = x²/4 and the circles x² + y² = 4t at t = kπ, q = cos(t)/2 throughout; in the file x and y are q2 and q3.
+TEST(SuiteFiles, TheCurvesOfSimpleSingAreCovered) {
+  SKIP_WITHOUT_SUITE_FILES();
+  const fs::path model = suite_folder() / "problems/simple_sing.cuik";
+  if (!fs::exists(model)) GTEST_SKIP() << model << " is not there";
+  const certify::System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
+  solve::Options options;
+  options.sigma = report::read_param(fs::path(model).replace_extension(".param")).sigma;
+  const certify::Cover cover = solve::solve(system, options);
+  EXPECT_TRUE(cover.complete());
+  EXPECT_EQ(cover.dimension, 1);
+  EXPECT_GT(cover.count(certify::Verdict::regular), 5000u);
+  EXPECT_LT(cover.count(certify::Verdict::undecided), 100u) << "17 crossings";
+  const std::array<int, 4> order{system.find("q1"), system.find("q2"), system.find("q3"), system.find("ts")};
+  const auto expect_covered = [&](const std::array<double, 4>& point) {
+    EXPECT_TRUE(std::any_of(cover.boxes.begin(), cover.boxes.end(),
+                            [&](const certify::CoverBox& b) {
+                              for (std::size_t j = 0; j < 4; ++j) {
+                                const Interval& side = b.box[static_cast<std::size_t>(order[j])];
+                                if (point[j] < side.lo() - 1e-11 || point[j] > side.hi() + 1e-11) return false;
+                              }
+                              return true;
+                            }))
+        << point[0] << ' ' << point[1] << ' ' << point[2] << ' ' << point[3];
+  };
+  constexpr double kPi = 3.14159265358979323846;
+  const double largest = std::sqrt(32 * kPi);
+  for (int i = -400; i <= 400; ++i) {
+    const double x = largest * i / 400, t = x * x / 4;
+    expect_covered({std::cos(t) / 2, x, 0, t});
+  }
+  for (int k = 1; k <= 8; ++k)
+    for (int i = 0; i < 100; ++i) {
+      const double r = std::sqrt(4 * kPi * k), a = 2 * kPi * i / 100;
+      expect_covered({k % 2 == 0 ? 0.5 : -0.5, r * std::cos(a), r * std::sin(a), kPi * k});
+    }
+}
+
+// Solves NAME.cuik with the σ of NAME.param and asks for every box of the suite whether one of ours meets it in the
+// variables of both.
 using Problem = std::pair<std::string, std::string>;  // folder, name
 
 class Coverage : public ::testing::TestWithParam<Problem> {};

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "corank/certify/rounding.h"
+#include "corank/solve/branching.h"
 #include "corank/solve/preconditioner.h"
 #include "corank/tests/system_builder.h"
 
@@ -440,6 +441,21 @@ TEST(Solve, NeverLosesAPlantedSolution) {
     const Cover cover = solve(system, options);
     ASSERT_TRUE(covers(cover, root)) << "trial " << trial;
   }
+}
+
+// s = sin t is as narrow as t once t is narrow, while halves of [−1, 1] say little about many turns.
+TEST(Branching, BisectsArgumentsRatherThanTheirSines) {
+  SystemBuilder b;
+  const int y = b.variable("y", "-2", "2"), t = b.variable("t", "0", "30"), s = b.variable("s", "-1", "1");
+  b.equation({{"1", {{s, 1}}}, {"-1", {{t, 1, certify::Function::sine}}}})
+      .equation({{"1", {{y, 1}, {s, 1}}}, {"-1", {{t, 1}}}});
+  const BranchingRule rule(b.system());
+  EXPECT_EQ(rule.weights()[s], 0);
+  EXPECT_EQ(rule.weights()[t], 1);
+  const std::vector<Interval> x{Interval(-0.1, 0.1), Interval(0, 1), Interval(-1, 1)};
+  EXPECT_EQ(rule.choose(x.data(), 0.05), y);
+  const std::vector<Interval> narrow{Interval(0, 0.01), Interval(0, 0.01), Interval(-1, 1)};
+  EXPECT_EQ(rule.choose(narrow.data(), 0.05), s);
 }
 
 TEST(Preconditioner, InvertsTheDependentColumns) {

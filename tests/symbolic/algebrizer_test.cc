@@ -109,6 +109,80 @@ TEST(Algebrizer, GivesAnUnusedAngleItsVariables) {
   EXPECT_EQ(s.equations.size(), 3u);
 }
 
+// ---- sines and cosines of lengths
+// --------------------------------------------------------------------------------------------------------------------
+
+std::vector<std::string> names(const System& s) {
+  std::vector<std::string> result;
+  for (const auto& variable : s.variables) result.push_back(variable.name);
+  return result;
+}
+
+TEST(LengthFunctions, StandWhereTheyAreTermsAndBecomeVariablesWhereTheyAreFactors) {
+  const System s = compile(
+      "[SYSTEM VARS]\nq : [-2, 2]\ny : [-20, 20]\nt : [0, 8*pi]\n[SYSTEM EQS]\nq = 0.5*cos(t);\nt = y^2/4;\ny*sin(t)*3 = "
+      "0;");
+  EXPECT_THAT(names(s), ElementsAre("q", "y", "t", "s_t"));
+  EXPECT_THAT(canonical(s.equations), ElementsAre(" + 1·x0^1 + -1/2·cos(x2)", " + -1/4·x1^2 + 1·x2^1",  //
+                                                  " + 3·x1^1·x3^1", " + 1·x3^1 + -1·sin(x2)"));
+  EXPECT_EQ(s.configuration_size, 3);
+  EXPECT_EQ(s.variables[3].kind, VariableKind::auxiliary);
+  EXPECT_EQ(s.variables[3].domain, Interval(-1, 1));
+  EXPECT_EQ(s.equations[3].source, "definition of s_t");
+  EXPECT_THAT(s.angles, IsEmpty());
+}
+
+std::vector<std::string> with_lengths(const std::string& equations) {
+  return canonical(
+      compile("[SYSTEM VARS]\nx : [-1, 1]\ny : [-2, 3]\ntheta ~ [-pi, pi]\n[SYSTEM EQS]\n" + equations).equations);
+}
+
+TEST(LengthFunctions, UseOneVariableEverywhereOnceTheyNeedIt) {
+  // x0 = x, x1 = y, x2 = cos theta, x3 = sin theta, x4 the new one
+  EXPECT_THAT(
+      with_lengths("cos(x) = y;\ncos(x)^2 + sin(y) = 1;"),
+      ElementsAre(" + -1·x1^1 + 1·x4^1", " + -1 + 1·x4^2 + 1·sin(x1)", " + -1 + 1·x2^2 + 1·x3^2", " + 1·x4^1 + -1·cos(x0)"));
+  EXPECT_THAT(with_lengths("cos(x + theta) = y + sin(-x);"),
+              ElementsAre(" + -1·x1^1 + 1·x2^1·x4^1 + -1·x3^1·x5^1 + 1·x5^1", " + -1 + 1·x2^2 + 1·x3^2",
+                          " + 1·x4^1 + -1·cos(x0)", " + 1·x5^1 + -1·sin(x0)"));
+}
+
+TEST(LengthFunctions, TakeAnyLinearArgument) {
+  EXPECT_EQ(with_lengths("cos(x + pi/3) = y;")[0], " + -1·x1^1 + -1/2*sqrt(3)·sin(x0) + 1/2·cos(x0)");
+  EXPECT_EQ(with_lengths("sin(x - x) = y;")[0], " + -1·x1^1");
+  const System s = compile(
+      "[SYSTEM VARS]\nx : [-1, 1]\ny : [-2, 3]\n[SYSTEM EQS]\nsin(2*x - pi*y) + cos(pi*y - 2*x) = sin(y/2 + x/2 - y/2 + "
+      "x/2);");
+  EXPECT_THAT(names(s), ElementsAre("x", "y", "u_x_y"));
+  EXPECT_THAT(canonical(s.equations), ElementsAre(" + -1·sin(x0) + 1·sin(x2) + 1·cos(x2)", " + -2·x0^1 + pi·x1^1 + 1·x2^1"));
+  EXPECT_EQ(s.variables[2].lower.text(), "-2 - 3*pi");
+  EXPECT_EQ(s.variables[2].upper.text(), "2 + 2*pi");
+}
+
+TEST(LengthFunctions, MayStandInInequalities) {
+  const System s = compile(with_equation("x = cos(theta);\ncos(x) >= 1/2;\nx*sin(x) <= 1;"));
+  EXPECT_THAT(canonical(s.inequalities), ElementsAre(" + -1/2 + 1·cos(x0)", " + 1 + -1·x0^1·x5^1"));
+  EXPECT_EQ(canonical(s.equations.back()), " + 1·x5^1 + -1·sin(x0)");
+}
+
+TEST(LengthFunctions, AreDifferentiatedInKernelEquations) {
+  // A point on a helix: turning about z by t lifts it by t/10.
+  const Mechanism m = parse_model(
+      "[SYSTEM VARS]\nt : [0, 20]\nx : [-2, 2]\nz : [0, 2]\n[SYSTEM EQS]\nx = cos(t);\nz = t/10;\n[INPUTS] x\n[OUTPUTS] z",
+      "m.cuik");
+  const System s = algebrize(singularity_system(m, SingularitySet::forward));
+  EXPECT_THAT(names(s), ElementsAre("t", "x", "z", "xi1", "xi2", "s_t"));
+  EXPECT_THAT(canonical(s.equations),
+              ElementsAre(" + 1·x1^1 + -1·cos(x0)", " + -1/10·x0^1 + 1·x2^1", " + 1·x3^1·x5^1", " + -1/10·x3^1 + 1·x4^1",
+                          " + -1 + 1·x3^2 + 1·x4^2", " + 1·x5^1 + -1·sin(x0)"));
+}
+
+TEST(LengthFunctions, TakeNamesThatAreFree) {
+  const System s =
+      compile("[SYSTEM VARS]\nt : [0, 1]\ns_t : [0, 1]\nu_t : [0, 1]\n[SYSTEM EQS]\nt*sin(t) = s_t*sin(2*t) + u_t;");
+  EXPECT_THAT(names(s), ElementsAre("t", "s_t", "u_t", "u_t_", "s_t_", "s_u_t_"));
+}
+
 // ---- values
 // -----------------------------------------------------------------------------------------------------------------------
 
@@ -313,11 +387,16 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"AngleTimesSine", second("theta*sin(theta) = 0;"), 7, "the angle 'theta' stands outside"},
         Fault{"TangentOfAngle", second("tan(theta) = x;"), 7, "'tan(theta)' is tan of an unknown"},
         Fault{"QuotientOfUnknowns", second("x/cos(theta) = 1;"), 7, "'x/cos(theta)' divides by an unknown"},
-        Fault{"SineOfLength", second("sin(x) = 1;"), 7, "sin or cos is applied to 'x', which is no angle"},
-        Fault{"CosineOfSum", second("cos(theta + x) = 1;"), 7, "applied to 'x'"},
+        Fault{"TangentOfLength", second("tan(x) = 1;"), 7, "'tan(x)' is tan of an unknown"},
+        Fault{"ProductOfLengths", second("sin(x*x) = 1;"), 7, "'x*x' inside sin or cos is a product of unknowns"},
+        Fault{"LengthTimesAngle", second("sin(x*theta) = 1;"), 7, "'x*theta' inside sin or cos is a product of unknowns"},
+        Fault{"SquareOfLength", second("cos(1 - x^2) = x;"), 7, "'x^2' stands inside sin or cos"},
+        Fault{"CosineOfSineOfLength", second("cos(sin(x)) = x;"), 7, "'sin(x)' stands inside sin or cos"},
+        Fault{"HiddenZeroTimesLength", second("cos((sqrt(2)*sqrt(3) - sqrt(6))*x) = x;"), 7,
+              "the multiple of 'x' in 'cos((sqrt(2)*sqrt(3) - sqrt(6))*x)' cannot be told from zero"},
         Fault{"HalfAngle", second("cos(theta/2) = x;"), 7, "'cos(theta/2)' has a fractional multiple of the angle 'theta'"},
         Fault{"IrrationalMultiple", second("cos(sqrt(2)*theta) = x;"), 7, "fractional multiple"},
-        Fault{"ProductOfAngles", second("cos(theta*psi) = x;"), 7, "'theta*psi' inside sin or cos is a product of angles"},
+        Fault{"ProductOfAngles", second("cos(theta*psi) = x;"), 7, "'theta*psi' inside sin or cos is a product of unknowns"},
         Fault{"SquareOfAngle", second("cos(theta^2) = x;"), 7, "'theta^2' stands inside sin or cos"},
         Fault{"SineOfSine", second("sin(sin(theta)) = x;"), 7, "'sin(theta)' stands inside sin or cos"},
         Fault{"QuotientByAngle", second("sin(1/theta) = x;"), 7, "'1/theta' stands inside sin or cos"},

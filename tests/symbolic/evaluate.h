@@ -56,6 +56,24 @@ inline Values constant_values(const std::vector<Constant>& constants) {
   return values;
 }
 
+inline long double evaluate(const certify::Polynomial& polynomial, const std::vector<long double>& x) {
+  long double sum = 0;
+  for (const certify::Monomial& monomial : polynomial.monomials) {
+    // The middle of an enclosure of width ≤ 2 ulp: good to 10^-16.
+    long double term = (static_cast<long double>(monomial.enclosure.lo()) + monomial.enclosure.hi()) / 2;
+    for (const certify::Factor& factor : monomial.factors) {
+      const long double at = x[static_cast<std::size_t>(factor.variable)];
+      switch (factor.function) {
+        case certify::Function::identity: term *= std::pow(at, static_cast<long double>(factor.power)); break;
+        case certify::Function::sine: term *= std::sin(at); break;
+        case certify::Function::cosine: term *= std::cos(at); break;
+      }
+    }
+    sum += term;
+  }
+  return sum;
+}
+
 /// The point of the compiled system's variables that belongs to the coordinates and kernel unknowns in `values`.
 inline std::vector<long double> compiled_point(const certify::System& system, const Values& values) {
   std::vector<long double> x;
@@ -65,19 +83,10 @@ inline std::vector<long double> compiled_point(const certify::System& system, co
     x[static_cast<std::size_t>(angle.cosine)] = std::cos(values.at(angle.name));
     x[static_cast<std::size_t>(angle.sine)] = std::sin(values.at(angle.name));
   }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (const certify::Polynomial& equation : system.equations)  // 1·x_i − … = 0, with variables known by now
+      if (equation.source == "definition of " + system.variables[i].name) x[i] = -evaluate(equation, x);
   return x;
-}
-
-inline long double evaluate(const certify::Polynomial& polynomial, const std::vector<long double>& x) {
-  long double sum = 0;
-  for (const certify::Monomial& monomial : polynomial.monomials) {
-    // The middle of an enclosure of width ≤ 2 ulp: good to 10^-16.
-    long double term = (static_cast<long double>(monomial.enclosure.lo()) + monomial.enclosure.hi()) / 2;
-    for (const certify::Factor& factor : monomial.factors)
-      term *= std::pow(x[static_cast<std::size_t>(factor.variable)], static_cast<long double>(factor.power));
-    sum += term;
-  }
-  return sum;
 }
 
 /// Polynomials with their coefficients' texts, for comparison: "3/4·x0^2·x3 + …".
@@ -85,8 +94,14 @@ inline std::string canonical(const certify::Polynomial& polynomial) {
   std::string out;
   for (const certify::Monomial& monomial : polynomial.monomials) {
     out += " + " + monomial.coefficient.text();
-    for (const certify::Factor& factor : monomial.factors)
-      out += "·x" + std::to_string(factor.variable) + "^" + std::to_string(factor.power);
+    for (const certify::Factor& factor : monomial.factors) {
+      const std::string name = "x" + std::to_string(factor.variable);
+      switch (factor.function) {
+        case certify::Function::identity: out += "·" + name + "^" + std::to_string(factor.power); break;
+        case certify::Function::sine: out += "·sin(" + name + ")"; break;
+        case certify::Function::cosine: out += "·cos(" + name + ")"; break;
+      }
+    }
   }
   return out;
 }
@@ -139,8 +154,9 @@ class RandomMechanism {
     Expression sum = integer(1, 5) * any({"t1", "t2", "t3"});
     if (random_() % 2) sum = sum - any({"t1", "t2", "t3"});
     if (random_() % 2) sum = sum + any({"phi", "a"}) / integer(1, 3);
+    if (random_() % 4 == 0) sum = sum - any({"x1", "x2"}) * integer(1, 3) / integer(1, 2);
     if (random_() % 4 == 0) sum = -sum;
-    return sum;
+    return random_() % 4 == 0 ? any({"x1", "x2"}) : sum;
   }
 
   Expression term(int depth) {

@@ -61,6 +61,16 @@ TEST(CuikPrinter, ReadsBackWithRangesAndIrrationalCoefficients) {
       "m.cuik"))));
 }
 
+TEST(CuikPrinter, ReadsBackWithSinesAndCosinesOfLengths) {
+  const System s = algebrize(plain_system(parse_model(
+      "[SYSTEM VARS]\nx : [-2, 2]\nt : [0, 8*pi]\ntheta ~ [-pi, pi]\n[SYSTEM EQS]\n"
+      "x*sin(t) = cos(t) + sin(theta)*cos(x);\nt*cos(x + t/3) = sin(1 - x) + sin(x + t/3) + t^2;\ncos(x) <= sin(t)*x;\n",
+      "m.cuik")));
+  expect_round_trip(s);
+  EXPECT_THAT(to_cuik(s), HasSubstr("\n[DUMMY VARS]\nu_x_t   : [-2, 2 + 8/3*pi]\ns_t     : [-1, 1]\n"));
+  EXPECT_THAT(to_cuik(s), HasSubstr("\n% definition of s_t\ns_t - sin(t) = 0;\n"));
+}
+
 TEST(CuikPrinter, PrintsTheThreeSlider) {
   EXPECT_EQ(to_cuik(algebrize(singularity_system(reference("three_slider"), SingularitySet::forward))),
             "% three_slider forward: polynomial equations\n"
