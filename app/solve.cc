@@ -22,14 +22,12 @@
 namespace corank::app {
 namespace {
 
-// Relative. The decimals of an over-determined plain system are taken as rounded; corank's own systems are exact.
-constexpr double kPrintedTolerance = 1e-6;
-
 struct SolveCommand {
   Question question;
-  std::optional<double> sigma;
+  std::optional<double> sigma, tolerance;
   int threads = 1;
   std::uint64_t max_boxes = 0;
+  std::optional<std::uint64_t> max_solutions;
   double time_limit = 0;
   std::string param_path, result_path;
   std::optional<std::string> json_path;  ///< "": standard output
@@ -48,29 +46,18 @@ certify::Cover search(const certify::System& system, const SolveCommand& command
   options.sigma = command.sigma;
   options.threads = command.threads;
   options.max_boxes = command.max_boxes;
+  options.max_solutions = command.max_solutions.value_or(0);
   options.time_limit = command.time_limit;
   options.stop = &Interrupt::stop();
   if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
   return solve::solve(system, options);
 }
 
-// SIGMA of a parameter file; SMALL_SIGMA where the solutions are isolated (as many equations as variables), 1e-4 being the CUIK
-// suite's default of it. An over-determined system may have either kind of solutions.
-std::optional<double> sigma_of(const report::CuikParameters& parameters, const certify::System& system) {
-  if (system.equations.size() != system.variables.size()) return parameters.sigma;
-  constexpr double kDefaultSmallSigma = 1e-4;
-  if (parameters.small_sigma) return parameters.small_sigma;
-  return parameters.sigma ? std::optional(std::min(*parameters.sigma, kDefaultSmallSigma)) : std::nullopt;
-}
-
 void apply_parameters(SolveCommand& command, const certify::System& system) {
   if (command.param_path.empty()) return;
   const report::CuikParameters parameters = report::read_param(command.param_path);
-  if (!command.sigma) command.sigma = sigma_of(parameters, system);
-  if (parameters.n_solutions > 0) {
-    fmt::print(stderr, "corank: {}: N_SOLUTIONS = {} is not honoured, all solutions are computed\n", command.param_path,
-               parameters.n_solutions);
-  }
+  if (!command.sigma) command.sigma = report::sigma_for(parameters, system);
+  if (!command.max_solutions) command.max_solutions = parameters.n_solutions;
   if (!parameters.ignored.empty()) {
     fmt::print(stderr, "corank: {}: without effect here: {}\n", command.param_path, fmt::join(parameters.ignored, ", "));
   }
@@ -106,7 +93,7 @@ ExitStatus solve_model(SolveCommand command) {
   const symbolic::Mechanism mechanism = load(command.question);
   const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
   certify::System system = symbolic::algebrize(system_of(command.question, mechanism, set));
-  if (!set && system.equations.size() > system.variables.size()) system.coefficient_tolerance = kPrintedTolerance;
+  system.coefficient_tolerance = command.tolerance.value_or(set ? 0 : solve::printed_tolerance(system));
   apply_parameters(command, system);
   if (const double least = solve::smallest_sigma(system); command.sigma && *command.sigma < least)
     throw UsageError(fmt::format("--sigma: {} is below {}, what boxes of doubles resolve here", *command.sigma, least));
@@ -124,9 +111,14 @@ ExitStatus solve_model(SolveCommand command) {
   }
   report::describe_system(system, result);
   mark_auxiliary(mechanism, result);
-  result.options = {
-      kernel_of(command.question, set), result.cover.sigma, command.threads, command.max_boxes, command.time_limit,
-      overrides(command.question)};
+  result.options = {kernel_of(command.question, set),
+                    result.cover.sigma,
+                    system.coefficient_tolerance,
+                    command.threads,
+                    command.max_boxes,
+                    command.max_solutions.value_or(0),
+                    command.time_limit,
+                    overrides(command.question)};
 
   write_file(command.result_path, result);
   if (command.json_path) {
@@ -141,6 +133,15 @@ ExitStatus solve_model(SolveCommand command) {
   if (result.cover.complete()) return kDone;
   fmt::print(stderr, "corank: {}; the result is incomplete\n", Interrupt::stop() ? "interrupted" : "a limit was reached");
   return kIncomplete;
+}
+
+CLI::Validator tolerance() {
+  const auto check = [](const std::string& text) -> std::string {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && value >= 0 && value < certify::kCoefficientToleranceLimit;
+    return good ? "" : fmt::format("{} is not a number from 0 to below {}", text, certify::kCoefficientToleranceLimit);
+  };
+  return {check, ""};
 }
 
 // Finite numbers only: "inf" and "nan" are numbers to the parser of options.
@@ -161,12 +162,21 @@ void add_solve(CLI::App& program, Action& action) {
   const auto command = std::make_shared<SolveCommand>();
   command->question.add_options(*sub);
   sub->add_option("--sigma", command->sigma,
-                  "Largest edge that a box may have;\ndefault: 1e-6 for isolated points, else 0.1")
+                  "Largest edge that a box may have;\ndefault: 1e-6 for isolated points (sqrt(REL) if larger), else 0.1")
       ->check(finite(false));
+  sub->add_option("--tolerance", command->tolerance,
+                  "Take the coefficients that are no integers within so much of their size, each on its own; 0: exact;\n"
+                  "default: 1e-6 for a plain system with more equations than variables, else 0")
+      ->type_name("REL")
+      ->check(tolerance());
   sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   sub->add_option("--max-boxes", command->max_boxes, "End the search after so many processed boxes; 0: no limit")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--max-solutions", command->max_solutions,
+                  "End the search after so many proven boxes, or distinct isolated solutions; 0: all")
+      ->type_name("N")
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--time-limit", command->time_limit, "End the search after so many seconds; 0: no limit")
       ->type_name("SECONDS")
@@ -175,7 +185,8 @@ void add_solve(CLI::App& program, Action& action) {
                   "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's layout\n"
                   "where its name ends in .sol")
       ->type_name("RESULT.h5|.sol");
-  sub->add_option("--param", command->param_path, "A parameter file of the CUIK suite; its SIGMA gives way to --sigma")
+  sub->add_option("--param", command->param_path,
+                  "A parameter file of the CUIK suite; its SIGMA and N_SOLUTIONS give way to --sigma and --max-solutions")
       ->type_name("FILE.param");
   CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
       "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },

@@ -75,6 +75,10 @@ std::vector<bool> implied_domains(const System& system) {
   return implied;
 }
 
+void clip_to_domain(const System& system, std::vector<Interval>& x) {
+  for (std::size_t j = 0; j < x.size(); ++j) x[j].intersect(system.variables[j].domain);
+}
+
 DomainTest::DomainTest(const System& system) {
   const std::vector<bool> implied = implied_domains(system);
   for (std::size_t j = 0; j < implied.size(); ++j) {

@@ -17,6 +17,10 @@ namespace corank::certify {
 /// vectors (norm). Variable::lower_implied and upper_implied tell the same of one side, where a rewriting of the system knows it.
 std::vector<bool> implied_domains(const System& system);
 
+/// Intersects each side of x with its domain: no solution of the system, which lies in the domain, is lost. Sides that do not meet stay
+/// as they are. Not for proven pieces, whose claim is about the whole box.
+void clip_to_domain(const System& system, std::vector<Interval>& x);
+
 enum class Location { inside, outside, across };
 
 /// Is every point of x in the domain (implied sides need no check) and does it satisfy every inequality (inside), does no point

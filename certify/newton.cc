@@ -58,7 +58,7 @@ bool finite(const Preconditioner& p) {
 NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
   NewtonOutcome outcome;
   const int r = p.rank(), n = system.variables();
-  if (r == 0 || !finite(p)) return outcome;
+  if (!finite(p)) return outcome;
   set_center(x, n, w);
   w.slope.resize(system.entries());
   system.slopes(x, w.center.data(), w.slope.data());
@@ -160,7 +160,8 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
   CORANK_CHECK(UpwardRounding::active());
   Sheet sheet;
   const int r = p.rank(), n = system.variables();
-  if (r == 0 || r > n || !finite(p)) return sheet;
+  // No dependent variable and no equation: every point of x is a solution.
+  if ((r == 0 && system.equations() > 0) || r > n || !finite(p)) return sheet;
   set_center(x, n, w);
   multiply_residual(system, p, w.center.data(), w);
   std::vector<Interval>& b = w.region;  // X_F × Z

@@ -70,8 +70,10 @@ Factors product(const Factors& a, const Factors& b) {
 std::vector<Monomial> product(const std::vector<Monomial>& a, const std::vector<Monomial>& b) {
   Sum sum;
   for (const Monomial& x : a)
-    for (const Monomial& y : b)
+    for (const Monomial& y : b) {
+      CORANK_CHECK((!x.is_trigonometric() || y.factors.empty()) && (!y.is_trigonometric() || x.factors.empty()));
       sum.add(product(x.factors, y.factors), x.coefficient * y.coefficient, x.enclosure * y.enclosure);
+    }
   return sum.monomials();
 }
 

@@ -10,7 +10,8 @@
 
 namespace corank::certify {
 
-/// f with the variable, which must not stand inside a sine or cosine, replaced by a polynomial: f(…, value, …). Monomials whose exact coefficient is the rational number 0 are dropped.
+/// f with the variable, which must not stand inside a sine or cosine, replaced by a polynomial, which must have no sine or cosine if f
+/// has the variable in a product or power: f(…, value, …). Monomials whose exact coefficient is the rational number 0 are dropped.
 /// Requires UpwardRounding::active().
 Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value);
 

@@ -57,7 +57,7 @@ class Reducer {
   const Eliminate eliminate_;
   const bool tolerant_;
   std::vector<bool> gone_;
-  std::vector<bool> is_argument_;  // of a sine or cosine: stays
+  std::vector<bool> is_argument_;                        // of a sine or cosine: stays
   std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
   bool consistent_ = true;
 };
@@ -232,11 +232,18 @@ bool Reducer::eliminate_image() {
     const Polynomial& f = system_.equations[i];
     if (!may_define(f)) continue;
     for (int v : variables_of(f)) {
-      if (is_argument_[static_cast<std::size_t>(v)] || uses[static_cast<std::size_t>(v)] != 1 || variables_of(f).size() < 2) continue;
-      if (const auto value = solved_for(f, v)) {
-        eliminate(i, v, *value);
-        return true;
-      }
+      if (is_argument_[static_cast<std::size_t>(v)] || uses[static_cast<std::size_t>(v)] != 1 || variables_of(f).size() < 2)
+        continue;
+      const auto value = solved_for(f, v);
+      if (!value) continue;
+      // A sine or cosine is no factor: c = cos t stays where another image is r·c.
+      const bool has_function = std::any_of(value->monomials.begin(), value->monomials.end(),
+                                            [](const Monomial& m) { return m.is_trigonometric(); });
+      if (has_function && std::any_of(definitions_.begin(), definitions_.end(),
+                                      [&](const auto& definition) { return mentions(definition.second, v); }))
+        continue;
+      eliminate(i, v, *value);
+      return true;
     }
   }
   return false;
@@ -288,6 +295,8 @@ std::vector<Interval> Reduction::lift(const std::vector<Interval>& sides) const 
 Reduction reduce(const System& system, Eliminate eliminate) { return Reducer(system, eliminate).run(); }
 
 Reduction reduce(const System& system) {
+  if (system.coefficient_tolerance > 0 && system.equations.size() <= system.variables.size())
+    return reduce(system, Eliminate::integers);
   Reduction exact = reduce(system, Eliminate::exact);
   if (system.coefficient_tolerance == 0) return exact;
   if (exact.consistent && exact.system.equations.size() <= exact.system.variables.size()) return exact;

@@ -44,8 +44,8 @@ enum class Eliminate {
 /// Throws std::invalid_argument where the system is not valid.
 Reduction reduce(const System& system, Eliminate eliminate);
 
-/// Eliminate::exact where the system carries no tolerance, or where that ends consistent and no longer over-determined: then only
-/// `partial` needs the tolerance, every other proof is about the exact system. Else Eliminate::integers.
+/// Eliminate::exact where the system carries no tolerance, or where it is over-determined and that ends consistent and no longer so: then
+/// only `partial` needs the tolerance, every other proof is about the exact system. Else Eliminate::integers.
 Reduction reduce(const System& system);
 
 }  // namespace corank::certify

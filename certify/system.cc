@@ -93,8 +93,8 @@ void System::validate() const {
     if (angle.cosine < 0 || angle.cosine >= size() || angle.sine < 0 || angle.sine >= size() || angle.cosine == angle.sine)
       throw std::invalid_argument("the angle " + angle.name + " refers to a variable that does not exist");
   }
-  if (!(coefficient_tolerance >= 0 && coefficient_tolerance < 0.01))
-    throw std::invalid_argument("the coefficient tolerance must be in [0, 0.01)");
+  if (!(coefficient_tolerance >= 0 && coefficient_tolerance < kCoefficientToleranceLimit))
+    throw std::invalid_argument("the coefficient tolerance must be in [0, 0.1)");
   if (configuration_size < 0 || configuration_size > size())
     throw std::invalid_argument("configuration_size is out of range");
 }

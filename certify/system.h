@@ -74,14 +74,18 @@ struct Angle {
   Interval range;  ///< the declared range in radians; an angle is given back within it where possible
 };
 
+inline constexpr double kCoefficientToleranceLimit = 0.1;
+
 struct System {
   std::string name;                      ///< e.g. "dextar forward"
   std::vector<Variable> variables;       ///< n
   std::vector<Polynomial> equations;     ///< m, each = 0
   std::vector<Polynomial> inequalities;  ///< each ≥ 0
   std::vector<Angle> angles;
-  /// Relative tolerance of the coefficients that are no integers, for over-determined systems whose printed decimals are rounded and
-  /// therefore inconsistent as exact numbers; certify::reduce() puts it into the enclosures. 0 (default): every coefficient is exact.
+  /// Relative tolerance τ of the coefficients that are no integers, in [0, kCoefficientToleranceLimit); certify::reduce() puts it
+  /// into their enclosures. Every exclusion and every proof then holds for every choice of coefficients within τ, each on its own.
+  /// Where there are more equations than variables, it is for decimals that were rounded and are inconsistent as exact numbers, and
+  /// used only where that makes a difference. 0 (default): every coefficient is exact.
   double coefficient_tolerance = 0;
   /// Number of leading variables that describe the configuration q; the others (kernel vector, auxiliaries) follow.
   int configuration_size = 0;

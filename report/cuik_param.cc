@@ -332,6 +332,13 @@ const std::vector<CuikParameter>& cuik_parameters() {
   return all;
 }
 
+std::optional<double> sigma_for(const CuikParameters& parameters, const certify::System& system) {
+  if (system.equations.size() != system.variables.size()) return parameters.sigma;
+  constexpr double kDefaultSmallSigma = 1e-4;
+  if (parameters.small_sigma) return parameters.small_sigma;
+  return parameters.sigma ? std::optional(std::min(*parameters.sigma, kDefaultSmallSigma)) : std::nullopt;
+}
+
 CuikParameters parse_param(std::string_view text, const std::string& file) { return ParamParser(text, file).parse(); }
 
 CuikParameters read_param(const std::filesystem::path& path) {

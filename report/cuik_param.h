@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "corank/certify/system.h"
 #include "corank/report/cuik_sol.h"
 
 namespace corank::report {
@@ -26,9 +27,14 @@ const std::vector<CuikParameter>& cuik_parameters();
 struct CuikParameters {
   std::optional<double> sigma;        ///< SIGMA > 0: largest edge of a box
   std::optional<double> small_sigma;  ///< SMALL_SIGMA > 0: the same for isolated solutions
-  int n_solutions = 0;                ///< N_SOLUTIONS: boxes to deliver; 0: all
+  int n_solutions = 0;                ///< N_SOLUTIONS: proven boxes to find; 0: all
   std::vector<std::string> ignored;   ///< the parameters given that have no effect here, each once, in order
 };
+
+/// The σ that the parameters ask for, nothing where they have none: SIGMA; SMALL_SIGMA where the solutions are isolated (as many
+/// equations as variables), 1e-4 being the CUIK suite's default of it. An over-determined system may have either kind of
+/// solutions.
+std::optional<double> sigma_for(const CuikParameters& parameters, const certify::System& system);
 
 /// Grammar: NAME = value, with blanks and line ends anywhere; comments %, #, // to the end of the line and /* … */; names in capitals.
 /// A value is an expression of numbers, + − * / ^, parentheses, COS SIN TAN EXP LOG SQRT, PI, INF, TRUE, FALSE, ON, OFF and

@@ -103,8 +103,13 @@ std::string to_sol(const Result& result) {
   const SolFile boxes = boxes_of(result, false);
   std::string out = fmt::format("\n{}\nWritten by corank {}\n{}\n% PARAMETERS:\n", kRule, result.version, kRule);
   const std::string model = without_braces(result.model);
-  out += fmt::format("   SIGMA = {}\n\n{}\nEquations from file: {}.cuik\n", result.options.sigma, kRule, model);
+  out += fmt::format("   SIGMA = {}\n", result.options.sigma);
+  if (result.options.max_solutions > 0) out += fmt::format("   N_SOLUTIONS = {}\n", result.options.max_solutions);
+  out += fmt::format("\n{}\nEquations from file: {}.cuik\n", kRule, model);
   out += fmt::format("% the set solved: {}\n", result.set);
+  if (result.options.tolerance > 0) {
+    out += fmt::format("% coefficients that are no integers: within {} of their size\n", result.options.tolerance);
+  }
   for (const ConstantOverride& c : result.options.constants) {
     out += without_braces(fmt::format("% with {} = {}\n", c.name, c.expression));
   }

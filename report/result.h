@@ -31,11 +31,13 @@ struct ConstantOverride {
 
 /// The options of the run, as given.
 struct RunOptions {
-  std::string kernel;           ///< "right", "left"; empty where the set has no kernel
-  double sigma = 0;             ///< the one used, also where it was the default
-  int threads = 1;              ///< 0: one for each core
-  std::uint64_t max_boxes = 0;  ///< 0: no limit
-  double time_limit = 0;        ///< seconds; 0: no limit
+  std::string kernel;               ///< "right", "left"; empty where the set has no kernel
+  double sigma = 0;                 ///< the one used, also where it was the default
+  double tolerance = 0;             ///< of the coefficients, likewise; relative, 0: exact
+  int threads = 1;                  ///< 0: one for each core
+  std::uint64_t max_boxes = 0;      ///< 0: no limit
+  std::uint64_t max_solutions = 0;  ///< 0: all
+  double time_limit = 0;            ///< seconds; 0: no limit
   std::vector<ConstantOverride> constants;
   friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };

@@ -117,8 +117,10 @@ void write_options(Hdf5Writer& file, const RunOptions& options) {
   file.texts("/options/constants/expressions", expressions);
   file.attribute("/options", "kernel", options.kernel);
   file.attribute("/options", "sigma", options.sigma);
+  file.attribute("/options", "tolerance", options.tolerance);
   file.attribute("/options", "threads", std::int64_t{options.threads});
   file.attribute("/options", "max_boxes", options.max_boxes);
+  file.attribute("/options", "max_solutions", options.max_solutions);
   file.attribute("/options", "time_limit", options.time_limit);
 }
 
@@ -217,7 +219,9 @@ class ResultReader {
     options.kernel = file_.text_attribute("/options", "kernel");
     options.sigma = file_.double_attribute("/options", "sigma");
     options.threads = static_cast<int>(file_.integer_attribute("/options", "threads"));
+    options.tolerance = file_.double_attribute("/options", "tolerance");
     options.max_boxes = file_.unsigned_attribute("/options", "max_boxes");
+    options.max_solutions = file_.unsigned_attribute("/options", "max_solutions");
     options.time_limit = file_.double_attribute("/options", "time_limit");
   }
 

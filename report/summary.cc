@@ -111,15 +111,20 @@ std::string to_table(const Result& result) {
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
   if (const std::size_t wide = cover.wider_than_sigma(); wide > 0) {
-    text += fmt::format("  {} wider than sigma: rounding keeps proven boxes of an ill-conditioned system from narrowing\n",
-                        wide);
+    text += fmt::format("  {} wider than sigma: {} keeps proven boxes{} from narrowing\n", wide,
+                        cover.tolerance > 0 ? "the tolerance" : "rounding",
+                        cover.tolerance > 0 ? "" : " of an ill-conditioned system");
   }
   if (cover.tolerance > 0) {
-    text += fmt::format(
-        "\nmore equations than variables: coefficients that are no integers are taken within a relative tolerance of {:g};\n"
-        "partial: proven for independent equations, on the piece the others hold within {:g} (relative to their "
-        "coefficients)\n",
-        cover.tolerance / certify::kPartialTolerance, cover.tolerance);
+    const bool over_determined = static_cast<std::size_t>(result.equations) > result.variables.size();
+    text +=
+        fmt::format("\n{}coefficients that are no integers are taken within a relative tolerance of {:g};\n",
+                    over_determined ? "more equations than variables: " : "", cover.tolerance / certify::kPartialTolerance);
+    text += over_determined ? fmt::format(
+                                  "partial: proven for independent equations, on the piece the others hold within {:g} "
+                                  "(relative to their coefficients)\n",
+                                  cover.tolerance)
+                            : "what a verdict says holds for every choice of them\n";
   }
   if (cover.dimension == 0) {
     std::array<std::size_t, certify::kVerdicts> counts{};
@@ -151,8 +156,10 @@ std::string to_json(const Result& result) {
   for (const ConstantOverride& c : result.options.constants) constants[c.name] = c.expression;
   json["options"] = {{"kernel", result.options.kernel.empty() ? Json() : Json(result.options.kernel)},
                      {"sigma", result.options.sigma},
+                     {"tolerance", result.options.tolerance},
                      {"threads", result.options.threads},
                      {"max_boxes", result.options.max_boxes},
+                     {"max_solutions", result.options.max_solutions},
                      {"time_limit", result.options.time_limit},
                      {"constants", constants}};
   json["complete"] = cover.complete();

@@ -15,6 +15,8 @@
 #include <stdexcept>
 
 #include "corank/certify/check.h"
+#include "corank/certify/distinct.h"
+#include "corank/certify/domain.h"
 #include "corank/certify/rounding.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/points.h"
@@ -63,6 +65,34 @@ class WorkList {
   std::vector<double> shares_;
 };
 
+// Which isolated solutions have been found, as certify::compare_isolated sees it: what merge_isolated will remove or doubt at
+// the end does not count.
+class DistinctSolutions {
+ public:
+  void add(const certify::Sheet& sheet) {
+    bool unclear = false;
+    for (Known& known : known_) {
+      switch (certify::compare_isolated(known.sheet, sheet)) {
+        case certify::Identity::same: return;
+        case certify::Identity::different: break;
+        case certify::Identity::unknown: unclear = known.unclear = true; break;
+      }
+    }
+    known_.push_back({sheet, unclear});
+  }
+  std::uint64_t count() const {
+    return static_cast<std::uint64_t>(
+        std::count_if(known_.begin(), known_.end(), [](const Known& k) { return !k.unclear; }));
+  }
+
+ private:
+  struct Known {
+    certify::Sheet sheet;
+    bool unclear;
+  };
+  std::vector<Known> known_;
+};
+
 class Search {
  public:
   Search(const certify::Reduction& reduction, const Options& options, double sigma)
@@ -70,9 +100,10 @@ class Search {
         problem_(reduction, sigma,
                  [this] {
                    report(false);
+                   count_found(workers_.local());
                    return limit_reached();
                  }),
-        processors_([this] { return BoxProcessor(problem_); }) {}
+        workers_([this] { return Worker{BoxProcessor(problem_)}; }) {}
 
   void run(const certify::System& system) {
     const std::size_t n = system.variables.size();
@@ -97,16 +128,17 @@ class Search {
 
   std::vector<Found> take_found() {
     std::vector<Found> all;
-    for (BoxProcessor& p : processors_) std::move(p.found().begin(), p.found().end(), std::back_inserter(all));
+    for (Worker& w : workers_) std::move(w.processor.found().begin(), w.processor.found().end(), std::back_inserter(all));
     return all;
   }
   certify::Statistics statistics() {
     certify::Statistics sum;
-    for (BoxProcessor& p : processors_) {
-      sum.processed += p.statistics().processed;
-      sum.newton_steps += p.statistics().newton_steps;
-      sum.proofs_tried += p.statistics().proofs_tried;
-      sum.seconds_certify += p.statistics().seconds_certify / threads_;
+    for (Worker& w : workers_) {
+      const certify::Statistics& s = w.processor.statistics();
+      sum.processed += s.processed;
+      sum.newton_steps += s.newton_steps;
+      sum.proofs_tried += s.proofs_tried;
+      sum.seconds_certify += s.seconds_certify / threads_;
     }
     return sum;
   }
@@ -131,6 +163,11 @@ class Search {
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
  private:
+  struct Worker {  // one per thread
+    BoxProcessor processor;
+    std::size_t counted = 0;  // of processor.found()
+  };
+
   void spawn(WorkList list) {
     ++busy_;
     auto shared = std::make_shared<WorkList>(std::move(list));
@@ -149,6 +186,24 @@ class Search {
     return over;
   }
 
+  // Counts what this thread has found since the last call: for the progress, and towards max_solutions.
+  void count_found(Worker& worker) {
+    if (!options_.progress && options_.max_solutions == 0) return;
+    const std::vector<Found>& found = worker.processor.found();
+    for (; worker.counted < found.size(); ++worker.counted) {
+      const Found& f = found[worker.counted];
+      ++verdicts_[static_cast<int>(f.box.verdict)];
+      if (options_.max_solutions == 0 || f.box.verdict == Verdict::undecided || f.box.verdict == Verdict::pending) continue;
+      const std::lock_guard lock(solutions_mutex_);
+      if (f.sheet.proven) {
+        isolated_.add(f.sheet);
+      } else {
+        ++pieces_;
+      }
+      if (pieces_ + isolated_.count() >= options_.max_solutions) ended_ = true;
+    }
+  }
+
   // Counts a box that is about to be processed; false: there is to be none.
   bool count_one() {
     if (limit_reached()) return false;
@@ -159,9 +214,9 @@ class Search {
 
   void work(WorkList list) {
     const certify::UpwardRounding rounding;
-    BoxProcessor& processor = processors_.local();
+    Worker& worker = workers_.local();
+    BoxProcessor& processor = worker.processor;
     std::vector<Interval> x(problem_.compiled.variables());
-    std::size_t counted = processor.found().size();
     while (!list.empty()) {
       if (!count_one()) break;
       const double share = list.pop(x.data());
@@ -178,11 +233,8 @@ class Search {
       } else {
         waiting_.fetch_sub(1, std::memory_order_relaxed);
       }
-      if (options_.progress) {
-        if (outcome == BoxProcessor::Outcome::done) done_share_.fetch_add(share, std::memory_order_relaxed);
-        for (; counted < processor.found().size(); ++counted)
-          ++verdicts_[static_cast<int>(processor.found()[counted].box.verdict)];
-      }
+      if (outcome == BoxProcessor::Outcome::done) done_share_.fetch_add(share, std::memory_order_relaxed);
+      count_found(worker);
       if (busy_.load(std::memory_order_relaxed) < threads_ && threads_ > 1 && list.size() > 1) spawn(list.split_off());
     }
     while (!list.empty()) {
@@ -193,7 +245,7 @@ class Search {
 
   const Options& options_;
   Problem problem_;
-  tbb::enumerable_thread_specific<BoxProcessor> processors_;
+  tbb::enumerable_thread_specific<Worker> workers_;
   tbb::task_group group_;
   int threads_ = 1;
   std::atomic<int> busy_{0};
@@ -201,6 +253,9 @@ class Search {
   std::atomic<std::uint64_t> processed_{0}, waiting_{0};
   std::atomic<double> done_share_{0};
   std::array<std::atomic<std::uint64_t>, certify::kVerdicts> verdicts_{};
+  std::mutex solutions_mutex_;
+  DistinctSolutions isolated_;
+  std::uint64_t pieces_ = 0;  // proven boxes with free variables
   std::mutex progress_mutex_;
   double last_report_ = 0;
   Clock::time_point start_ = Clock::now();
@@ -219,8 +274,9 @@ bool before(const Found& a, const Found& b) {
 }
 
 // The box in all variables of the system that was reduced.
-certify::CoverBox lifted(const certify::Reduction& reduction, certify::CoverBox box) {
+certify::CoverBox lifted(const certify::System& system, const certify::Reduction& reduction, certify::CoverBox box) {
   box.box = reduction.lift(box.box);
+  if (box.verdict == Verdict::undecided || box.verdict == Verdict::pending) certify::clip_to_domain(system, box.box);
   for (int& j : box.free) j = reduction.kept[static_cast<std::size_t>(j)];
   return box;
 }
@@ -229,7 +285,15 @@ certify::CoverBox lifted(const certify::Reduction& reduction, certify::CoverBox 
 
 double default_sigma(const certify::System& system) {
   // An over-determined system with a tolerance may have a set of any dimension.
-  return system.dimension() == 0 && system.coefficient_tolerance == 0 ? 1e-6 : 0.1;
+  const bool over_determined = system.equations.size() > system.variables.size() && system.coefficient_tolerance > 0;
+  constexpr double kCurves = 0.1, kPoints = 1e-6;
+  if (system.dimension() > 0 || over_determined) return kCurves;
+  return std::clamp(std::sqrt(system.coefficient_tolerance), kPoints, kCurves);
+}
+
+double printed_tolerance(const certify::System& system) {
+  constexpr double kPrintedDecimals = 1e-6;
+  return system.equations.size() > system.variables.size() ? kPrintedDecimals : 0;
 }
 
 double smallest_sigma(const certify::System& system) {
@@ -259,13 +323,14 @@ Cover solve(const certify::System& system, const Options& options) {
     cover.tolerance = reduction.system.coefficient_tolerance * certify::kPartialTolerance;
   for (const Found& f : found)
     if (f.box.verdict == Verdict::partial) cover.dimension = std::max(cover.dimension, static_cast<int>(f.box.free.size()));
+  const certify::UpwardRounding rounding;  // and subnormal numbers stay
   std::sort(found.begin(), found.end(), before);
   if (cover.dimension == 0) {
     merge_isolated(found);
     cover.points = collect_points(found, sigma);
   }
-  for (certify::CoverBox& point : cover.points) point = lifted(reduction, std::move(point));
-  for (Found& f : found) cover.boxes.push_back(lifted(reduction, std::move(f.box)));
+  for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
+  for (Found& f : found) cover.boxes.push_back(lifted(system, reduction, std::move(f.box)));
   cover.statistics.seconds_total = search.seconds();
   cover.statistics.seconds_search = cover.statistics.seconds_total - cover.statistics.seconds_certify;
   search.report(true);

@@ -21,12 +21,17 @@ struct Progress {
 };
 
 struct Options {
-  /// Largest edge that a returned box may have. Default: default_sigma(system). Only where rounding in an ill-conditioned system keeps
-  /// a proven box from becoming that narrow it stays wider: Cover::wider_than_sigma counts such boxes.
+  /// Largest edge that a returned box may have. Default: default_sigma(system). Only where rounding in an ill-conditioned system
+  /// or the coefficients' tolerance keeps a proven box from becoming that narrow it stays wider: Cover::wider_than_sigma counts
+  /// such boxes.
   std::optional<double> sigma;
   int threads = 1;              ///< 0: one for each core
   std::uint64_t max_boxes = 0;  ///< stop after so many processed boxes; 0: no limit
-  double time_limit = 0;        ///< seconds; 0: no limit
+  /// Stop when so many proven boxes are found; 0: all. Isolated solutions count as distinct ones, as far as the boxes found
+  /// so far tell them apart. A sheet that is being cut, and other threads, may add a few more: no proof is thrown away. What
+  /// is not processed then is `pending`, as with the other limits. With one thread the result is always the same.
+  std::uint64_t max_solutions = 0;
+  double time_limit = 0;  ///< seconds; 0: no limit
   /// Called every `progress_interval` seconds or so, from one thread at a time.
   std::function<void(const Progress&)> progress;
   double progress_interval = 0.1;
@@ -34,8 +39,15 @@ struct Options {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// 1e-6 for a set of dimension 0, else, and for over-determined systems with a tolerance, 0.1 (the CUIK suite's default).
+/// 1e-6 for a set of dimension 0, and no less than the square root of the coefficient tolerance: so far apart may two solutions
+/// be that merge for some choice of the coefficients. Else, and for over-determined systems with a tolerance, 0.1 (the CUIK
+/// suite's default).
 double default_sigma(const certify::System& system);
+
+/// The coefficient tolerance (System::coefficient_tolerance) to take for a system as somebody printed it: 1e-6 where it has more
+/// equations than variables, since rounded decimals make redundant equations inconsistent; else 0, exact. Not for systems
+/// that symbolic/ derives from a mechanism: their redundancy is exact.
+double printed_tolerance(const certify::System& system);
 
 /// The least σ that solve() accepts: below it the rounding of doubles would keep boxes from becoming that narrow.
 double smallest_sigma(const certify::System& system);

@@ -67,14 +67,16 @@ TEST(Solve, PutsOverriddenConstantsIn) {
 TEST(Solve, WritesAResultThatSaysHowItWasMade) {
   const TemporaryFolder folder;
   const std::string path = folder.file("r.h5"), slider = model("three_slider");
-  const Outcome outcome = run_corank({"solve", slider, "--set", "cspace", "--sigma", "0.25", "-D", "L2=1/2", "--threads",
-                                      "2", "--max-boxes", "1000000", "--time-limit", "1e6", "-o", path});
+  const Outcome outcome =
+      run_corank({"solve",       slider, "--set",       "cspace",  "--sigma",         "0.25",  "-D",           "L2=1/2",
+                  "--threads",   "2",    "--max-boxes", "1000000", "--max-solutions", "20000", "--time-limit", "1e6",
+                  "--tolerance", "1e-9", "-o",          path});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const report::Result result = report::read_result(path);
   EXPECT_EQ(result.model, "three_slider");
   EXPECT_EQ(result.set, "cspace");
   EXPECT_EQ(result.model_text, read_text(slider));
-  EXPECT_EQ(result.options, (report::RunOptions{"", 0.25, 2, 1000000, 1e6, {{"L2", "1/2"}}}));
+  EXPECT_EQ(result.options, (report::RunOptions{"", 0.25, 1e-9, 2, 1000000, 20000, 1e6, {{"L2", "1/2"}}}));
   EXPECT_EQ(result.version, report::version());
   EXPECT_EQ(result.cover.dimension, 1);
   EXPECT_TRUE(result.cover.complete());
@@ -153,6 +155,75 @@ TEST(Solve, EndsAtATimeLimitWithAnIncompleteResult) {
       run_corank({"solve", model("dextar"), "--set", "cspace", "--sigma", "0.0001", "--time-limit", "0.2", "--json"});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_EQ(json::parse(outcome.out)["complete"], false);
+}
+
+TEST(Solve, EndsAfterSoManySolutionsWithAnIncompleteResult) {
+  const Outcome outcome = run_corank({"solve", model("three_slider"), "--set", "forward", "--max-solutions", "3", "--json"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("incomplete"));
+  const json summary = json::parse(outcome.out);
+  EXPECT_EQ(summary["complete"], false);
+  EXPECT_EQ(summary["options"]["max_solutions"], 3);
+  EXPECT_EQ(summary["points"].size(), 3u);
+  EXPECT_EQ(summary["boxes"]["isolated"], 3);
+  EXPECT_GT(summary["boxes"]["pending"], 0);
+  const Outcome all = run_corank({"solve", model("three_slider"), "--set", "forward", "--max-solutions", "9", "--json"});
+  EXPECT_EQ(all.status, 0) << "there are only eight";
+  EXPECT_EQ(json::parse(all.out)["complete"], true);
+}
+
+// √3/2 with six digits: as exact numbers the equations contradict each other.
+constexpr const char* kRounded =
+    "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx = 0.866025;\ny = 0.5;\nx^2 + y^2 = 1;\n";
+
+TEST(Solve, TakesTheDecimalsOfAnOverDeterminedSystemWithinTheToleranceAskedFor) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("rounded.cuik", kRounded), path = folder.file("r.h5");
+  const json usual = json::parse(run_corank({"solve", file, "--json"}).out);
+  EXPECT_EQ(usual["options"]["tolerance"], 1e-6);
+  EXPECT_EQ(usual["boxes"]["partial"], 1);
+  for (const char* tolerance : {"0", "1e-8"}) {
+    const Outcome outcome = run_corank({"solve", file, "--tolerance", tolerance, "--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const json none = json::parse(outcome.out);
+    EXPECT_EQ(none["complete"], true);
+    EXPECT_TRUE(none["points"].empty()) << "0.866025^2 + 0.5^2 is 0.9999993";
+  }
+  const Outcome wide = run_corank({"solve", file, "--tolerance", "1e-4", "-o", path});
+  EXPECT_EQ(wide.status, 0) << wide.err;
+  EXPECT_THAT(wide.out, HasSubstr("within a relative tolerance of 0.0001"));
+  const report::Result result = report::read_result(path);
+  EXPECT_EQ(result.options.tolerance, 1e-4);
+  EXPECT_EQ(result.cover.tolerance, 1e-4 * certify::kPartialTolerance);
+  EXPECT_EQ(result.cover.count(certify::Verdict::partial), 1u);
+}
+
+TEST(Solve, TakesTheLengthsOfAMechanismWithinTheToleranceAskedFor) {
+  const TemporaryFolder folder;
+  const auto solved = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> args{"solve", model("three_slider"), "--set", "forward", "--json"};
+    args.insert(args.end(), more.begin(), more.end());
+    const Outcome outcome = run_corank(args);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return json::parse(outcome.out);
+  };
+  const json exact = solved({}), wide = solved({"--tolerance", "1e-4"});
+  EXPECT_EQ(exact["options"]["tolerance"], 0);
+  EXPECT_EQ(wide["options"]["tolerance"], 1e-4);
+  EXPECT_EQ(wide["points"].size(), 8u);
+  // L2² = 16/25·(1 ± 10⁻⁴): the points of every such length are in the boxes.
+  for (const char* l2 : {"0.79997", "4/5", "0.80003"}) {
+    for (const json& point : solved({"-D", std::string("L2=") + l2})["points"]) {
+      const auto holds = [&](const json& box) {
+        for (const char* name : {"y_A", "y_B", "x_C"}) {
+          const json &inner = point["values"][name], &outer = box["values"][name];
+          if (outer["lo"] > inner["hi"] || outer["hi"] < inner["lo"]) return false;
+        }
+        return true;
+      };
+      EXPECT_EQ(std::count_if(wide["points"].begin(), wide["points"].end(), holds), 1) << l2;
+    }
+  }
 }
 
 std::vector<std::string> endless(const std::string& path) {

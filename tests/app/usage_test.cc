@@ -33,8 +33,8 @@ TEST(Help, OfTheProgramAndOfEverySubcommandHasAnExample) {
 
 TEST(Help, OfSolveNamesEveryOption) {
   const std::string help = run_corank({"solve", "--help"}).out;
-  for (const char* option :
-       {"FILE", "--set", "--sigma", "--kernel", "--threads", "--max-boxes", "--time-limit", "-D", "-o", "--json"}) {
+  for (const char* option : {"FILE", "--set", "--sigma", "--kernel", "--threads", "--max-boxes", "--max-solutions",
+                             "--time-limit", "--tolerance", "-D", "-o", "--json"}) {
     EXPECT_THAT(help, HasSubstr(option));
   }
 }
@@ -77,6 +77,11 @@ TEST(Usage, IsRefusedWithStatus2AndOneLine) {
       {{"solve", slider, "--set", "forward", "--threads", "1.5"}, "--threads"},
       {{"solve", slider, "--set", "forward", "--max-boxes", "-1"}, "--max-boxes"},
       {{"solve", slider, "--set", "forward", "--max-boxes", "many"}, "--max-boxes"},
+      {{"solve", slider, "--set", "forward", "--max-solutions", "-1"}, "--max-solutions"},
+      {{"solve", slider, "--set", "forward", "--max-solutions", "few"}, "--max-solutions"},
+      {{"solve", slider, "--set", "forward", "--tolerance", "-1e-6"}, "--tolerance"},
+      {{"solve", slider, "--set", "forward", "--tolerance", "nan"}, "--tolerance"},
+      {{"solve", slider, "--set", "forward", "--tolerance", "0.1"}, "--tolerance"},
       {{"solve", slider, "--set", "forward", "--time-limit", "-1"}, "--time-limit"},
       {{"solve", slider, "--set", "forward", "-D", "L2"}, "NAME=EXPR"},
       {{"solve", slider, "--set", "forward", "-D", "=1"}, "NAME=EXPR"},

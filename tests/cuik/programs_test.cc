@@ -95,6 +95,31 @@ TEST(Cuik, RefinesIsolatedSolutionsToSmallSigma) {
   EXPECT_THAT(folder.run("corank solve root.cuik --param root.param --sigma 0.01").out, HasSubstr("sigma 0.01"));
 }
 
+TEST(Cuik, EndsAfterAsManySolutionsAsTheParametersAskFor) {
+  const Folder folder;
+  folder.write("circle.cuik", kCircle);
+  folder.write("circle.param", "SIGMA = 0.01\nN_SOLUTIONS = 30\n");
+  const Outcome run = folder.run("cuik circle --threads 1");
+  EXPECT_EQ(run.status, 3) << run.err;
+  EXPECT_EQ(run.err, "corank: a limit was reached; the result is incomplete\n");
+  EXPECT_THAT(folder.read("circle.sol"), HasSubstr("   SIGMA = 0.01\n   N_SOLUTIONS = 30\n"));
+  const auto regular = [&] {
+    const SolFile file = report::read_sol(folder.file("circle.sol"));
+    return std::count_if(file.boxes.begin(), file.boxes.end(),
+                         [](const report::SolBox& b) { return b.verdict == certify::Verdict::regular; });
+  };
+  EXPECT_GE(regular(), 30);
+  EXPECT_LE(regular(), 50);
+  EXPECT_EQ(folder.run("cuik circle --max-solutions 60").status, 3);
+  EXPECT_GE(regular(), 60);
+  const Outcome all = folder.run("cuik circle --max-solutions 0");
+  EXPECT_EQ(all.status, 0) << all.err;
+  EXPECT_GT(regular(), 600);
+  folder.write("circle.param", "SIGMA = 0.01\nN_SOLUTIONS = 0\n");
+  EXPECT_EQ(folder.run("cuik circle").status, 0);
+  EXPECT_GT(regular(), 600);
+}
+
 TEST(CorankSolve, WritesSolByItsExtensionAndNeverOverInputs) {
   const Folder folder;
   folder.write("circle.cuik", kCircle);

@@ -217,9 +217,9 @@ class InconsistentFile : public ResultFile {
     file.doubles("/angles/range", std::vector{0.0, 1.0}, 1, 2);
     for (const char* name : {"names", "expressions"}) file.texts(std::string("/options/constants/") + name, {});
     file.attribute("/options", "kernel", std::string());
-    for (const char* name : {"sigma", "time_limit"}) file.attribute("/options", name, 0.1);
+    for (const char* name : {"sigma", "tolerance", "time_limit"}) file.attribute("/options", name, 0.1);
     file.attribute("/options", "threads", std::int64_t{1});
-    file.attribute("/options", "max_boxes", std::uint64_t{0});
+    for (const char* name : {"max_boxes", "max_solutions"}) file.attribute("/options", name, std::uint64_t{0});
     for (const std::string group : {"/boxes", "/points"}) {
       unless_changed(group + "/lower", [&] { file.doubles(group + "/lower", std::vector{0.25}, 1, 1); });
       file.doubles(group + "/upper", std::vector{0.5}, 1, 1);

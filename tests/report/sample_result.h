@@ -26,7 +26,7 @@ inline Result sample_result() {
   r.model_text = "% a model\n[SYSTEM VARS]\nα : [0, 1]\n";
   r.set = "forward";
   r.system_text = "x = 0;\n";
-  r.options = {"left", 0.1, 2, (std::uint64_t{1} << 53) + 1, 0.1, {{"L2", "4/5"}, {"d", "sqrt(2)"}}};
+  r.options = {"left", 0.1, 1e-6, 2, (std::uint64_t{1} << 53) + 1, 7, 0.1, {{"L2", "4/5"}, {"d", "sqrt(2)"}}};
   r.variables = {{"x", VariableKind::length, {-2.0, 2.0}},
                  {"c_t", VariableKind::cosine, {-1.0, 1.0}},
                  {"s_t", VariableKind::sine, {-1.0, 1.0}},

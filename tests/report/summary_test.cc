@@ -28,7 +28,8 @@ TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   EXPECT_THAT(keys(json),
               ElementsAre("model", "set", "system", "options", "complete", "boxes", "points", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
-  EXPECT_THAT(keys(json["options"]), ElementsAre("kernel", "sigma", "threads", "max_boxes", "time_limit", "constants"));
+  EXPECT_THAT(keys(json["options"]), ElementsAre("kernel", "sigma", "tolerance", "threads", "max_boxes", "max_solutions",
+                                                 "time_limit", "constants"));
   EXPECT_THAT(keys(json["boxes"]),
               ElementsAre("processed", "regular", "isolated", "exact", "boundary", "partial", "undecided", "pending"));
   EXPECT_THAT(keys(json["seconds"]), ElementsAre("total", "search", "certify"));
@@ -48,6 +49,8 @@ TEST(JsonSummary, SaysWhatTheResultHolds) {
     EXPECT_EQ(json["boxes"][verdict], 1) << verdict;
   }
   EXPECT_EQ(json["options"]["max_boxes"], (std::uint64_t{1} << 53) + 1);
+  EXPECT_EQ(json["options"]["max_solutions"], 7);
+  EXPECT_EQ(json["options"]["tolerance"], 1e-6);
   EXPECT_EQ(json["options"]["constants"]["L2"], "4/5");
   EXPECT_EQ(json["version"], version());
 }
@@ -97,6 +100,18 @@ TEST(Table, CountsVerdictsAndListsPointsWithAngles) {
   EXPECT_THAT(table, HasSubstr("[3.03093"));
   EXPECT_THAT(table, HasSubstr("[0.333333333, 0.333333334]"));
   EXPECT_THAT(table, Not(HasSubstr("c_t")));
+}
+
+TEST(Table, SaysWhatATolerancedSystemMeans) {
+  Result result = sample_result();
+  EXPECT_THAT(to_table(result),
+              HasSubstr("coefficients that are no integers are taken within a relative tolerance of 1e-06"));
+  EXPECT_THAT(to_table(result), HasSubstr("what a verdict says holds for every choice of them"));
+  result.equations = 5;
+  EXPECT_THAT(to_table(result), HasSubstr("more equations than variables: coefficients"));
+  EXPECT_THAT(to_table(result), HasSubstr("the others hold within 1e-05"));
+  result.cover.tolerance = 0;
+  EXPECT_THAT(to_table(result), Not(HasSubstr("coefficients")));
 }
 
 TEST(Table, IsShortForASurface) {

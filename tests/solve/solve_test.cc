@@ -232,6 +232,15 @@ TEST(Solve, GivesTheSameSortedResultForAnyNumberOfThreads) {
   }
 }
 
+// A grid of the torus' two angles.
+void expect_covers_torus(const Cover& cover) {
+  for (int i = 0; i < 100; ++i)
+    for (int k = 0; k < 60; ++k) {
+      const double u = 0.0628 * i, v = 0.105 * k, r = 1 + 0.5 * std::cos(v);
+      ASSERT_TRUE(covers(cover, {r * std::cos(u), r * std::sin(u), 0.5 * std::sin(v)}));
+    }
+}
+
 TEST(Solve, ABoxLimitGivesAValidIncompleteCover) {
   Options options;
   options.sigma = 0.1;
@@ -239,11 +248,66 @@ TEST(Solve, ABoxLimitGivesAValidIncompleteCover) {
   const Cover cover = solve(torus().system(), options);
   EXPECT_FALSE(cover.complete());
   EXPECT_GT(cover.count(Verdict::pending), 0u);
-  for (int i = 0; i < 100; ++i)
-    for (int k = 0; k < 60; ++k) {
-      const double u = 0.0628 * i, v = 0.105 * k, r = 1 + 0.5 * std::cos(v);
-      ASSERT_TRUE(covers(cover, {r * std::cos(u), r * std::sin(u), 0.5 * std::sin(v)}));
+  expect_covers_torus(cover);
+}
+
+std::size_t proven(const Cover& cover) {
+  return cover.boxes.size() - cover.count(Verdict::undecided) - cover.count(Verdict::pending);
+}
+
+TEST(Solve, EndsAfterSoManyProvenBoxesWithAValidIncompleteCover) {
+  Options options;
+  options.sigma = 0.1;
+  for (const std::uint64_t wanted : {1u, 40u, 1000u}) {
+    options.max_solutions = wanted;
+    const Cover cover = solve(torus().system(), options);
+    EXPECT_GE(proven(cover), wanted);
+    EXPECT_LE(proven(cover), wanted + 20) << "a sheet is left after a few pieces";
+    EXPECT_FALSE(cover.complete());
+    expect_covers_torus(cover);
+    const Cover again = solve(torus().system(), options);
+    ASSERT_EQ(cover.boxes.size(), again.boxes.size());
+    for (std::size_t k = 0; k < cover.boxes.size(); ++k) {
+      ASSERT_EQ(cover.boxes[k].box, again.boxes[k].box);
+      ASSERT_EQ(cover.boxes[k].verdict, again.boxes[k].verdict);
     }
+  }
+  options.threads = 3;
+  const Cover cover = solve(torus().system(), options);
+  EXPECT_GE(proven(cover), 1000u);
+  expect_covers_torus(cover);
+}
+
+TEST(Solve, FindsAllWhereThereAreFewerSolutionsThanAskedFor) {
+  Options options;
+  options.max_solutions = 1;
+  const Cover one = solve(circle_and_diagonal().system(), options);
+  EXPECT_FALSE(one.complete());
+  EXPECT_EQ(one.points.size(), 1u);
+  EXPECT_TRUE(covers(one, {std::sqrt(0.5), std::sqrt(0.5)}) && covers(one, {-std::sqrt(0.5), -std::sqrt(0.5)}));
+  options.max_solutions = 3;
+  const Cover both = solve(circle_and_diagonal().system(), options);
+  EXPECT_TRUE(both.complete());
+  EXPECT_EQ(both.points.size(), 2u);
+}
+
+TEST(Solve, CountsASolutionThatTwoBoxesProveOnceTowardsTheLimit) {
+  // x² + y² = 1, (x − p)(y + 1/2) = 0 where x = p is the first bisection: through two of the four solutions.
+  const double p = *split_point(Interval(-1, 1));
+  const auto exact = [](double value) {
+    std::array<char, 80> text;
+    std::snprintf(text.data(), text.size(), "%.60f", value);
+    return std::string(text.data());
+  };
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+  b.equation({{"2", {{x, 1}, {y, 1}}}, {"1", {{x, 1}}}, {exact(-2 * p), {{y, 1}}}, {exact(-p), {}}});
+  Options options;
+  for (const std::uint64_t wanted : {1u, 2u, 3u, 4u}) {
+    options.max_solutions = wanted;
+    EXPECT_EQ(solve(b.system(), options).points.size(), wanted);
+  }
 }
 
 TEST(Solve, ATimeLimitEndsTheCuttingOfAWideSheet) {
@@ -304,6 +368,23 @@ TEST(Solve, KeepsSubnormalNumbersWhateverTheCallersMode) {
   EXPECT_EQ(after & ~0x3fu, (former | 0x8040) & ~0x3fu) << "restored";
   ASSERT_EQ(cover.points.size(), 1u);
   EXPECT_GT(cover.points[0].box[y].hi(), 0);
+}
+
+TEST(Solve, ProvesWhatTheReductionAloneSolves) {
+  // 2x = 1, x + y = 2, and z in [0, 1] that no equation mentions.
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-2", "2");
+  b.equation({{"2", {{x, 1}}}, {"-1", {}}}).equation({{"1", {{x, 1}}}, {"1", {{y, 1}}}, {"-2", {}}});
+  const Cover point = solve_with(b.system(), 1e-6);
+  ASSERT_EQ(point.points.size(), 1u);
+  EXPECT_EQ(point.points[0].verdict, Verdict::isolated);
+  EXPECT_TRUE(covers(point, {0.5, 1.5}));
+  b.variable("z", "0", "1");
+  const Cover segment = solve_with(b.system(), 0.25);
+  EXPECT_EQ(segment.dimension, 1);
+  EXPECT_EQ(segment.count(Verdict::regular), segment.boxes.size());
+  EXPECT_GE(segment.boxes.size(), 4u);
+  EXPECT_LE(segment.boxes.size(), 8u);
 }
 
 TEST(Solve, AFixedVariableDoesNotStopTheSearch) {
@@ -391,6 +472,51 @@ TEST(Solve, ProvesARedundantCurvePartiallyAndNeverAContradiction) {
     }
     EXPECT_EQ(cover.count(Verdict::regular), 0u);
   }
+}
+
+// a·x² + b·y² = c; with x = y/2, x² = c/(a + 4b).
+SystemBuilder ellipse(const char* a, const char* b, const char* c) {
+  SystemBuilder system;
+  const int x = system.variable("x", "-2", "2"), y = system.variable("y", "-2", "2");
+  return system.equation({{a, {{x, 2}}}, {b, {{y, 2}}}, {std::string("-") + c, {}}});
+}
+
+TEST(Solve, ATolerancedSystemIsProvenForEveryChoiceOfItsCoefficients) {
+  System curve = ellipse("3/2", "1/4", "1/2").system();
+  curve.coefficient_tolerance = 1e-3;
+  System points = ellipse("3/2", "1/4", "1/2").equation({{"1", {{0, 1}}}, {"-1/2", {{1, 1}}}}).system();
+  points.coefficient_tolerance = 1e-3;
+  const Cover one = solve_with(curve, 0.05), zero = solve(points);
+  EXPECT_GT(one.count(Verdict::regular), 50u);
+  EXPECT_EQ(one.count(Verdict::regular), one.boxes.size());
+  EXPECT_EQ(one.tolerance, 1e-3 * certify::kPartialTolerance);
+  EXPECT_EQ(zero.count(Verdict::isolated), 2u);
+  ASSERT_EQ(zero.points.size(), 2u);
+  EXPECT_NEAR(zero.sigma, std::sqrt(1e-3), 1e-12);
+  for (const auto& [a, b, c] : {std::tuple(1.4986, 0.24976, 0.50049), {1.5014, 0.25024, 0.49951}, {1.4986, 0.25024, 0.5}}) {
+    for (int degree = 0; degree < 360; ++degree) {
+      const double t = degree * M_PI / 180;
+      EXPECT_TRUE(covers(one, {std::sqrt(c / a) * std::cos(t), std::sqrt(c / b) * std::sin(t)})) << degree;
+    }
+    const double x = std::sqrt(c / (a + 4 * b));
+    EXPECT_TRUE(covers(zero, {x, 2 * x}) && covers(zero, {-x, -2 * x}));
+  }
+  EXPECT_FALSE(covers(zero, {0.449, 0.898})) << "beyond the tolerance";
+}
+
+TEST(Solve, RefusesANonsensicalTolerance) {
+  System system = circle_and_diagonal().system();
+  for (double tolerance : {-1e-9, 0.1, std::nan(""), HUGE_VAL}) {
+    system.coefficient_tolerance = tolerance;
+    EXPECT_THROW(solve(system), std::invalid_argument) << tolerance;
+  }
+}
+
+TEST(Solve, TakesOnlyPrintedSystemsWithTooManyEquationsWithinATolerance) {
+  EXPECT_EQ(printed_tolerance(circle_and_diagonal().system()), 0);
+  EXPECT_EQ(printed_tolerance(torus().system()), 0);
+  SystemBuilder b = circle_and_diagonal();
+  EXPECT_EQ(printed_tolerance(b.equation({{"2", {{0, 1}}}, {"-2", {{1, 1}}}}).system()), 1e-6);
 }
 
 TEST(Solve, RefusesANonsensicalSigma) {
