@@ -213,10 +213,12 @@ Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, i
   return value;
 }
 
-void tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
+double tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
   // The dependents of p are the sheet's; newton_contract touches no other variable and deletes no solution. An empty outcome
   // would contradict the sheet's existence proof.
-  CORANK_CHECK(!newton_contract(system, p, x, w).empty);
+  const NewtonOutcome outcome = newton_contract(system, p, x, w);
+  CORANK_CHECK(!outcome.empty);
+  return outcome.regular ? outcome.spread : HUGE_VAL;
 }
 
 }  // namespace corank::certify

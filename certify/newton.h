@@ -69,7 +69,7 @@ Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, i
 
 /// One step of (1)'s image inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is known to
 /// hold the solutions, free sides within the sheet's, and p the sheet's rows and dependents. Shrinks dependent sides
-/// only, so that the sheet's claim carries over.
-void tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
+/// only, so that the sheet's claim carries over. Returns the step's NewtonOutcome::spread, infinite where Y·S_D is not regular.
+double tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
 
 }  // namespace corank::certify

@@ -1,0 +1,49 @@
+// What all threads of a search share, and what each of them finds.
+#pragma once
+
+#include <functional>
+
+#include "corank/certify/cover.h"
+#include "corank/certify/domain.h"
+#include "corank/certify/newton.h"
+#include "corank/certify/partial.h"
+#include "corank/certify/reduction.h"
+#include "corank/solve/branching.h"
+
+namespace corank::solve {
+
+/// Constant during a search.
+struct Problem {
+  /// `ended` tells, from any thread, that a limit or a stop has ended the search.
+  Problem(const certify::Reduction& reduction, double sigma, std::function<bool()> ended);
+
+  /// Are the sheet's proofs about an independent subset of the equations only?
+  bool is_partial(const certify::Sheet& sheet) const {
+    return static_cast<int>(sheet.equations.size()) < compiled.equations();
+  }
+  /// Appends the eliminated variables' sides over x to the n sides of x (what follows those is renewed).
+  void append_values(certify::Box& sides) const;
+
+  certify::CompiledSystem compiled;  ///< value rows: the eliminated variables
+  certify::RedundantEquations
+      redundant;  ///< applies(): a proof may speak of an independent subset of the equations (`partial`)
+  certify::DomainTest domain;
+  double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
+  BranchingRule branching;
+  double sigma;
+  std::function<bool()> ended;
+};
+
+/// A box of the result and, for an isolated solution, its sheet. The sides of the eliminated variables follow those of the others, as
+/// certify::Reduction::lift takes them; the sheet and `free` know only the others.
+struct Found {
+  certify::CoverBox box;
+  certify::Sheet sheet;
+};
+
+/// The variables that a sheet does not depend on, in order.
+std::vector<int> free_variables(const certify::Sheet& sheet, int variables);
+
+double widest(const certify::Box& x);
+
+}  // namespace corank::solve

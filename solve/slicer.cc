@@ -1,0 +1,205 @@
+#include "corank/solve/slicer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corank::solve {
+namespace {
+
+using certify::Box;
+using certify::Interval;
+using certify::Location;
+using certify::Preconditioner;
+using certify::Sheet;
+using certify::Verdict;
+
+// Measured on Dextar's sets, see bench/HISTORY.md.
+constexpr int kTightenings = 2;
+constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
+constexpr double kStaleSpread = 0.15;  // |I − Y·S| beyond which a part gets its own Y
+constexpr double kCutMargin = 0.98;    // aim a little below σ: the linearization is not exact
+constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
+constexpr double kFutileShare = 0.95;
+constexpr int kFutileCuts = 10;
+constexpr int kPartialDepth = 8;   // halvings of a piece on which redundant equations are bounded
+constexpr int kBoundaryDepth = 2;  // halvings of a piece that may leave the domain
+constexpr unsigned kPiecesBetweenChecks = 16;
+
+}  // namespace
+
+double Slicer::tighten(const Preconditioner& p, Box& piece) {
+  const auto& system = problem_.compiled;
+  const double spread = certify::tighten_sheet(system, p, piece.data(), workspace_);
+  piece.resize(static_cast<std::size_t>(system.variables()));
+  for (int k = 0; k < system.values(); ++k) {
+    Interval value = system.evaluate(system.value_row(k), piece.data());
+    value.intersect(certify::value_at_zeros(system, p, system.value_row(k), piece.data(), workspace_));
+    piece.push_back(value);
+  }
+  return spread;
+}
+
+void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& free, const Box& piece) {
+  const auto& system = problem_.compiled;
+  const std::size_t n = static_cast<std::size_t>(system.variables()), r = p.dependent.size();
+  steepness_.clear();
+  // Y·S has nearly the unit matrix in the dependent columns, so its free columns are −∂(dependent)/∂(free).
+  for (std::size_t a = 0; a < r; ++a)
+    for (int f : free) steepness_.push_back(std::fabs(workspace_.product[a * n + static_cast<std::size_t>(f)].mid()));
+  for (int k = 0; k < system.values(); ++k) {
+    const int row = system.value_row(k);
+    system.slopes(row, piece.data(), workspace_.center.data(), workspace_.slope.data());
+    gradient_.assign(n, 0.0);
+    for (int e = system.row_begin(row); e < system.row_begin(row + 1); ++e)
+      gradient_[static_cast<std::size_t>(system.column(e))] = workspace_.slope[static_cast<std::size_t>(e)].mid();
+    for (int f : free) {
+      double slope = gradient_[static_cast<std::size_t>(f)];
+      for (std::size_t a = 0; a < r; ++a)
+        slope -= gradient_[static_cast<std::size_t>(p.dependent[a])] *
+                 workspace_.product[a * n + static_cast<std::size_t>(f)].mid();
+      steepness_.push_back(std::fabs(slope));
+    }
+  }
+}
+
+std::vector<int> Slicer::parts_of(const Box& piece, const std::vector<int>& free) const {
+  constexpr double kMostParts = 1 << 20;
+  const std::size_t k = free.size();
+  const double sigma = kCutMargin * problem_.sigma;
+  std::vector<double> parts(k, 1.0);
+  const auto width = [&](std::size_t f) { return piece[static_cast<std::size_t>(free[f])].width(); };
+  for (std::size_t f = 0; f < k; ++f) parts[f] = std::clamp(std::ceil(width(f) / problem_.sigma), 1.0, kMostParts);
+  // The width of a is Σ_f |∂a/∂f| w_f / parts_f.
+  for (int step = 0; step < 1000; ++step) {
+    double worst = sigma;
+    std::size_t grow = k;
+    for (std::size_t a = 0; a * k < steepness_.size(); ++a) {
+      double sum = 0, best = 0;
+      std::size_t best_free = 0;
+      for (std::size_t f = 0; f < k; ++f) {
+        const double share = steepness_[a * k + f] * width(f) / parts[f];
+        sum += share;
+        // One part more takes share/(parts + 1) off at the price of a factor (parts + 1)/parts in cells.
+        if (const double gain = share * parts[f] / (parts[f] + 1); gain > best) best = gain, best_free = f;
+      }
+      if (sum > worst && best > 0) worst = sum, grow = best_free;
+    }
+    if (grow == k) break;
+    parts[grow] = std::min(std::max(parts[grow] + 1, std::floor(parts[grow] * 1.1)), kMostParts);
+  }
+  return {parts.begin(), parts.end()};
+}
+
+bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Box piece, int depth) {
+  const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent, &sheet.equations);
+  if (p.rank() != static_cast<int>(sheet.dependent.size())) return false;
+  certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
+  if (problem_.is_partial(sheet)) {
+    if (problem_.redundant.hold(problem_.compiled, problem_.domain, p, piece.data(), workspace_)) return true;
+  } else {
+    const Location location = problem_.domain.locate_zeros(problem_.compiled, p, piece.data(), workspace_);
+    if (location != Location::across) return location == Location::inside;
+  }
+  if (depth == 0 || free.empty()) return false;
+  // Halves every free side: part number `index` takes the upper half of side f where bit f is set.
+  for (unsigned index = 0; index < 1u << free.size(); ++index) {
+    Box part = piece;
+    for (std::size_t f = 0; f < free.size(); ++f) {
+      Interval& side = part[static_cast<std::size_t>(free[f])];
+      side = index >> f & 1u ? Interval(side.mid(), side.hi()) : Interval(side.lo(), side.mid());
+    }
+    if (!holds_on_parts(sheet, free, std::move(part), depth - 1)) return false;
+  }
+  return true;
+}
+
+void Slicer::add(Task& task, Box piece, Location location) {
+  const Sheet& sheet = task.sheet;
+  Verdict verdict = task.free.empty() ? Verdict::isolated : Verdict::regular;
+  if (problem_.is_partial(sheet)) {
+    verdict = holds_on_parts(sheet, task.free, piece, kPartialDepth) ? Verdict::partial : Verdict::undecided;
+  } else if (location == Location::across && !holds_on_parts(sheet, task.free, piece, kBoundaryDepth)) {
+    verdict = Verdict::boundary;
+  }
+  Found found{{std::move(piece), verdict, task.free}, {}};
+  if (task.free.empty() && verdict != Verdict::undecided) {
+    found.sheet = sheet;
+    found.sheet.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
+  }
+  task.found.push_back(std::move(found));
+}
+
+void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found) {
+  Task task{sheet, x, found, free_variables(sheet, problem_.compiled.variables())};
+  const Preconditioner p = preconditioners_.at_midpoint(sheet.image.data(), &sheet.dependent, &sheet.equations);
+  descend(task, {sheet.image, HUGE_VAL, 0}, p);
+}
+
+void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
+  const std::vector<int>& free = task.free;
+  Box& sides = piece.sides;
+  task.ended = task.ended || (++task.turns % kPiecesBetweenChecks == 0 && problem_.ended());
+  if (task.ended) {
+    problem_.append_values(sides);
+    task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}});
+    return;
+  }
+  const Preconditioner* p = &inherited;
+  Preconditioner own;
+  const auto renew = [&] {
+    own = preconditioners_.at_midpoint(sides.data(), &task.sheet.dependent, &task.sheet.equations);
+    p = &own;
+  };
+  double width = HUGE_VAL;
+  for (int k = 0; k < (free.empty() ? kPointTightenings : kTightenings); ++k) {
+    if (free.empty() && k > 0) renew();
+    if (tighten(*p, sides) > kStaleSpread && p == &inherited && !free.empty()) {
+      renew();
+      tighten(*p, sides);
+    }
+    const double tightened = widest(sides);
+    if (free.empty() ? tightened == width : tightened <= problem_.sigma || tightened > 0.9 * width) break;
+    width = tightened;
+  }
+  // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
+  for (int j = 0; j < problem_.compiled.variables(); ++j)
+    if (!sides[static_cast<std::size_t>(j)].overlaps(task.x[j])) return;
+  const Location location = problem_.domain.locate_zeros(problem_.compiled, *p, sides.data(), workspace_);
+  if (location == Location::outside) return;
+  width = widest(sides);
+  // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts in a row
+  // gain nothing, the piece stays as it is, proven.
+  const int futile_cuts = width > kFutileShare * piece.former_width ? piece.futile_cuts + 1 : 0;
+  const auto divisible = [&](int j) { return split_point(sides[static_cast<std::size_t>(j)]).has_value(); };
+  if (width <= problem_.sigma || futile_cuts > kFutileCuts || std::none_of(free.begin(), free.end(), divisible)) {
+    add(task, std::move(sides), location);
+    return;
+  }
+  measure_steepness(*p, free, sides);
+  const std::vector<int> parts = parts_of(sides, free);
+  std::size_t along = 0;
+  for (std::size_t f = 1; f < free.size(); ++f) {
+    const auto wider =
+        sides[static_cast<std::size_t>(free[f])].width() > sides[static_cast<std::size_t>(free[along])].width();
+    if (parts[f] > parts[along] || (parts[f] == parts[along] && wider)) along = f;
+  }
+  // Slabs of equal thickness; where there are many, two groups of such slabs first, since the sheet's steepness changes.
+  const int slabs = std::max(parts[along], 2);
+  const Interval side = sides[static_cast<std::size_t>(free[along])];
+  std::vector<double> cuts;
+  if (slabs <= kMostSlabs) {
+    for (int k = 1; k < slabs; ++k) cuts.push_back(side.lo() + side.width() * k / slabs);
+  } else {
+    cuts.push_back(side.lo() + side.width() * (slabs / 2) / slabs);
+  }
+  double from = side.lo();
+  for (std::size_t k = 0; k <= cuts.size(); ++k) {
+    const double to = k == cuts.size() ? side.hi() : std::clamp(cuts[k], from, side.hi());
+    Piece part{sides, width, futile_cuts};
+    part.sides[static_cast<std::size_t>(free[along])] = Interval(from, to);
+    descend(task, std::move(part), *p);
+    from = to;
+  }
+}
+
+}  // namespace corank::solve

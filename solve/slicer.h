@@ -1,0 +1,61 @@
+// From a proven sheet to boxes of the size asked for. Heuristic in where it cuts; what it says of a piece comes from certify/: each piece
+// inherits the sheet's proof, which holds for every value of the free variables.
+#pragma once
+
+#include <vector>
+
+#include "corank/solve/preconditioner.h"
+#include "corank/solve/problem.h"
+
+namespace corank::solve {
+
+/// One per thread.
+class Slicer {
+ public:
+  Slicer(const Problem& problem, PreconditionerFactory& preconditioners, certify::NewtonWorkspace& workspace)
+      : problem_(problem), preconditioners_(preconditioners), workspace_(workspace) {}
+
+  /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so. Where the
+  /// search ends meanwhile, the rest is added as pending boxes.
+  void slice(const certify::Sheet& sheet, const certify::Interval* x, std::vector<Found>& found);
+
+  /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the tolerance?
+  /// Cuts the piece as finely as the bounds need, `depth` times at most. True is proven, on each of the parts.
+  bool holds_on_parts(const certify::Sheet& sheet, const std::vector<int>& free, certify::Box piece, int depth);
+
+ private:
+  // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower.
+  struct Piece {
+    certify::Box sides;
+    double former_width;
+    int futile_cuts;
+  };
+  // What is the same for all pieces of one sheet.
+  struct Task {
+    const certify::Sheet& sheet;
+    const certify::Interval* x;
+    std::vector<Found>& found;
+    std::vector<int> free;
+    unsigned turns = 0;
+    bool ended = false;
+  };
+
+  // Tightens the piece, adds it where it is small enough, else cuts it and goes on with the parts. `p` is the preconditioner of the
+  // piece that this one was cut from; it is renewed where the sheet has turned too much.
+  void descend(Task& task, Piece piece, const certify::Preconditioner& p);
+  // Shrinks a piece and renews the eliminated variables' sides behind its own. Returns |I − Y·S| (certify::NewtonOutcome::spread).
+  double tighten(const certify::Preconditioner& p, certify::Box& piece);
+  // After tighten: steepness_[a·k + f] = |∂a/∂f| on the piece, linearized, of each dependent, then each eliminated variable a, with respect
+  // to the f-th of k free variables.
+  void measure_steepness(const certify::Preconditioner& p, const std::vector<int>& free, const certify::Box& piece);
+  // The number of equal parts along each free side that makes all sides narrower than σ in the linearization, few in all.
+  std::vector<int> parts_of(const certify::Box& piece, const std::vector<int>& free) const;
+  void add(Task& task, certify::Box piece, certify::Location location);
+
+  const Problem& problem_;
+  PreconditionerFactory& preconditioners_;
+  certify::NewtonWorkspace& workspace_;
+  std::vector<double> steepness_, gradient_;
+};
+
+}  // namespace corank::solve
