@@ -21,6 +21,7 @@ constexpr int kNewtonRepeats = 4;
 constexpr double kProofSpread = 1.5;   // try a proof below this spread |I − Y·S|
 constexpr double kFreeCutShare = 0.1;  // cut a free side unless it is already so much narrower than the others or σ
 constexpr double kLastCutShare = 1.0 / 64;
+constexpr double kRegularCutShare = 1.0 / 8;
 constexpr int kPartialDepth = 8;  // halvings of a piece on which redundant equations are bounded
 
 }  // namespace
@@ -57,7 +58,7 @@ bool BoxProcessor::propagate(Interval* x) {
 }
 
 bool BoxProcessor::contract(Interval* x) {
-  worth_proving_ = false;
+  worth_proving_ = regular_ = false;
   if (!propagate(x)) return false;
   const int n = problem_.compiled.variables();
   std::vector<double> before(n);
@@ -67,7 +68,8 @@ bool BoxProcessor::contract(Interval* x) {
     const auto newton = certify::newton_contract(problem_.compiled, p, x, workspace_);
     ++statistics_.newton_steps;
     if (newton.empty) return false;
-    worth_proving_ = newton.regular && newton.spread < kProofSpread && p.rank() == problem_.compiled.equations();
+    regular_ = newton.regular && p.rank() == problem_.compiled.equations();
+    worth_proving_ = regular_ && newton.spread < kProofSpread;
     bool gained = false;
     for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - kNewtonGain) * before[j];
     if (!gained) return true;
@@ -100,7 +102,10 @@ std::vector<int> BoxProcessor::chart_of_last() const {
 }
 
 certify::Sheet BoxProcessor::prove(const Interval* x) {
-  if (preconditioners_.at_midpoint(x).rank() < problem_.compiled.equations()) return {};
+  if (preconditioners_.at_midpoint(x).rank() < problem_.compiled.equations()) {
+    dependent_ = preconditioners_.last().dependent;
+    return {};
+  }
   dependent_ = chart_of_last();
   const auto& p = preconditioners_.at_midpoint(x, &dependent_);
   if (p.rank() < problem_.compiled.equations()) return {};
@@ -176,11 +181,13 @@ BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
   ++statistics_.processed;
   if (!contract(x)) return Outcome::done;
   if (worth_proving_ && certify(x, Proof::full)) return Outcome::done;
-  split_variable_ = problem_.branching.choose(x, problem_.sigma);
+  split_variable_ = problem_.branching.choose(problem_.compiled, x, problem_.sigma);
   if (split_variable_ < 0) split_variable_ = choose_for_values(x);
-  // Where Newton is regular, the solutions in x are a sheet over the free variables: cutting along those alone gives parts whose
-  // sheets do not overlap.
-  // Small boxes whose proof is near are cut on below σ, a bounded number of times.
+  // A small box in which Newton is regular may be proven when it is smaller still.
+  if (split_variable_ < 0 && regular_)
+    split_variable_ = problem_.branching.choose(problem_.compiled, x, kRegularCutShare * problem_.sigma);
+  // Where a proof is near, the solutions in x are a sheet over the free variables: cutting along those alone gives parts whose sheets do
+  // not overlap. Such boxes are cut on below σ, too, a bounded number of times.
   if (worth_proving_) {
     const int free = widest_free(x);
     const double least = split_variable_ >= 0 ? kFreeCutShare * x[split_variable_].width() : kLastCutShare * problem_.sigma;

@@ -61,7 +61,8 @@ class BoxProcessor {
   certify::Statistics statistics_;
   int split_variable_ = -1;
   std::vector<int> dependent_;
-  bool worth_proving_ = false;
+  bool regular_ = false;        // the last Newton step divided by no interval with 0
+  bool worth_proving_ = false;  // and was near a proof
 };
 
 }  // namespace corank::solve

@@ -8,6 +8,8 @@
 namespace corank::solve {
 namespace {
 
+constexpr double kLeastSmear = 1e-6;  // a variable that no equation holds has its turn, too
+
 using certify::Function;
 using certify::Polynomial;
 using certify::System;
@@ -49,47 +51,12 @@ std::vector<bool> linearly_defined(const System& system) {
   return linear;
 }
 
-// Variables of an equation Σ a_i x_i² = b that every other equation holds homogeneously, one of them in each monomial: a kernel
-// vector and its norm, whoever wrote the system.
-std::set<int> kernel_like(const System& system) {
-  std::set<int> result;
-  for (const Polynomial& norm : system.equations) {
-    std::set<int> group;
-    bool squares = true;
-    for (const auto& m : norm.monomials) {
-      if (m.factors.empty()) continue;
-      squares = squares && m.factors.size() == 1 && m.factors[0].power == 2;
-      group.insert(m.factors[0].variable);
-    }
-    if (!squares || group.empty()) continue;
-    bool homogeneous = true, used = false;
-    for (const Polynomial& f : system.equations) {
-      if (&f == &norm) continue;
-      std::size_t with = 0;
-      for (const auto& m : f.monomials) {
-        int degree = 0;
-        for (const auto& factor : m.factors)
-          if (group.count(factor.variable))
-            degree += factor.function == Function::identity ? factor.power : 2;  // 2: neither
-        if (degree > 1) homogeneous = false;
-        if (degree == 1) ++with;
-      }
-      if (with != 0 && with != f.monomials.size()) homogeneous = false;
-      used = used || with != 0;
-    }
-    if (homogeneous && used) result.insert(group.begin(), group.end());
-  }
-  return result;
-}
-
 }  // namespace
 
 BranchingRule::BranchingRule(const System& system) : weight_(system.variables.size(), 1.0) {
   const auto defined = linearly_defined(system);
-  const auto kernel = kernel_like(system);
   for (std::size_t j = 0; j < weight_.size(); ++j) {
     const auto& v = system.variables[j];
-    if (v.kind == certify::VariableKind::kernel || kernel.count(static_cast<int>(j))) weight_[j] = 0.5;
     if (defined[j]) weight_[j] = 0;
     const double width = v.domain.width();
     inverse_width_.push_back(width > 0 ? 1 / width : 0);  // an overflowing width counts as the largest double
@@ -104,7 +71,28 @@ std::optional<double> split_point(const certify::Interval& side) {
   return at > side.lo() && at < side.hi() ? std::optional(at) : std::nullopt;
 }
 
-int BranchingRule::choose(const certify::Interval* x, double sigma) const {
+std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, const certify::Interval* x) const {
+  std::vector<double> result(weight_.size(), 0.0), part(weight_.size());
+  std::vector<certify::Interval> jacobian(static_cast<std::size_t>(system.entries()));
+  system.jacobian(x, jacobian.data());
+  for (int row = 0; row < system.equations(); ++row) {
+    const int begin = system.row_begin(row), end = system.row_begin(row + 1);
+    double sum = 0;
+    for (int k = begin; k < end; ++k) {
+      const auto j = static_cast<std::size_t>(system.column(k));
+      sum += part[j] = jacobian[static_cast<std::size_t>(k)].mag() * x[j].width();
+    }
+    if (!(sum > 0 && std::isfinite(sum))) continue;
+    for (int k = begin; k < end; ++k) {
+      const auto j = static_cast<std::size_t>(system.column(k));
+      result[j] += part[j] / sum;
+    }
+  }
+  return result;
+}
+
+int BranchingRule::choose(const certify::CompiledSystem& system, const certify::Interval* x, double sigma) const {
+  const std::vector<double> smears = smear(system, x);
   int best = -1, widest = -1;
   double best_score = 0, widest_width = sigma;
   for (std::size_t j = 0; j < weight_.size(); ++j) {
@@ -112,7 +100,7 @@ int BranchingRule::choose(const certify::Interval* x, double sigma) const {
     const double share = width * inverse_width_[j];
     if (width <= sigma && (share <= kProofShare || weight_[j] == 0)) continue;
     if (!split_point(x[j])) continue;
-    const double score = weight_[j] * share;
+    const double score = weight_[j] * share * std::max(smears[j] * smears[j] * smears[j], kLeastSmear);
     if (score > best_score) best_score = score, best = static_cast<int>(j);
     if (width > widest_width) widest_width = width, widest = static_cast<int>(j);
   }

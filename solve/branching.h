@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "corank/certify/compiled_system.h"
 #include "corank/certify/system.h"
 
 namespace corank::solve {
@@ -21,15 +22,19 @@ class BranchingRule {
  public:
   explicit BranchingRule(const certify::System& system);
 
-  /// The variable to bisect for an unproven box: the one of largest weight · width / domain width among those wider than σ
-  /// or than kProofShare of their domain (a wider box can hardly be proven, however large σ is); −1 where there is none that
-  /// can be divided. A variable that a linear equation or a sine or cosine defines waits until all others are narrow.
-  int choose(const certify::Interval* x, double sigma) const;
+  /// The variable to bisect for an unproven box: the one of largest s³ · width / domain width among those wider than σ or than
+  /// kProofShare of their domain (a wider box can hardly be proven, however large σ is); −1 where there is none that can be
+  /// divided. s is the relative smear Σ_i |J_ij| w_j / Σ_k |J_ik| w_k over the equations i, the variable's share in what makes them
+  /// uncertain (key Trombettoni2011); its power is measured, see bench/HISTORY.md. A variable that a linear equation or a
+  /// sine or cosine defines waits until all others are narrow.
+  int choose(const certify::CompiledSystem& system, const certify::Interval* x, double sigma) const;
 
   const std::vector<double>& weights() const { return weight_; }
 
  private:
-  std::vector<double> weight_;         // 0: defined by others, see branching.cc; 1/2: kernel; 1: else
+  std::vector<double> smear(const certify::CompiledSystem& system, const certify::Interval* x) const;
+
+  std::vector<double> weight_;         // 0: defined by others, see branching.cc; 1: else
   std::vector<double> inverse_width_;  // of the domain
 };
 
