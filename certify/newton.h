@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
+#include "corank/certify/panel.h"
 
 namespace corank::certify {
 
@@ -19,7 +20,8 @@ struct Preconditioner {
 
 /// Buffers for one thread; contents mean nothing between calls but to value_at_zeros.
 struct NewtonWorkspace {
-  std::vector<Interval> slope, product, residual, offset, image, region, gradient;
+  Panel panel;
+  std::vector<Interval> slope, values, residual, offset, image, region, gradient;
   std::vector<double> center, magnitude, radius, next_radius;
   std::vector<unsigned char> is_dependent;
 };

@@ -19,6 +19,7 @@
 #include "corank/certify/domain.h"
 #include "corank/certify/rounding.h"
 #include "corank/solve/box_processor.h"
+#include "corank/solve/merging.h"
 #include "corank/solve/points.h"
 #include "corank/solve/solve.h"
 
@@ -131,6 +132,7 @@ class Search {
     for (Worker& w : workers_) std::move(w.processor.found().begin(), w.processor.found().end(), std::back_inserter(all));
     return all;
   }
+  void merge(std::vector<Found>& found) const { merge_regular(problem_, found); }
   certify::Statistics statistics() {
     certify::Statistics sum;
     for (Worker& w : workers_) {
@@ -328,6 +330,8 @@ Cover solve(const certify::System& system, const Options& options) {
   if (cover.dimension == 0) {
     merge_isolated(found);
     cover.points = collect_points(found, sigma);
+  } else {
+    search.merge(found);
   }
   for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
   for (Found& f : found) cover.boxes.push_back(lifted(system, reduction, std::move(f.box)));

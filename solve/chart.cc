@@ -4,7 +4,7 @@
 
 namespace corank::solve {
 namespace {
-constexpr double kGain = 1.1;  // an exchange costs a new elimination
+constexpr double kGain = 1.05;  // an exchange costs a new elimination
 constexpr int kExchanges = 16;
 }  // namespace
 

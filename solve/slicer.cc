@@ -17,7 +17,7 @@ using certify::Verdict;
 constexpr int kTightenings = 2;
 constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
 constexpr double kStaleSpread = 0.15;  // |I − Y·S| beyond which a part gets its own Y
-constexpr double kCutMargin = 0.98;    // aim a little below σ: the linearization is not exact
+constexpr double kCutMargin = 0.96;    // aim a little below σ: the linearization is not exact
 constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
@@ -45,7 +45,7 @@ void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& 
   steepness_.clear();
   // Y·S has nearly the unit matrix in the dependent columns, so its free columns are −∂(dependent)/∂(free).
   for (std::size_t a = 0; a < r; ++a)
-    for (int f : free) steepness_.push_back(std::fabs(workspace_.product[a * n + static_cast<std::size_t>(f)].mid()));
+    for (int f : free) steepness_.push_back(std::fabs(workspace_.panel.at(static_cast<int>(a), f).mid()));
   for (int k = 0; k < system.values(); ++k) {
     const int row = system.value_row(k);
     system.slopes(row, piece.data(), workspace_.center.data(), workspace_.slope.data());
@@ -55,8 +55,7 @@ void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& 
     for (int f : free) {
       double slope = gradient_[static_cast<std::size_t>(f)];
       for (std::size_t a = 0; a < r; ++a)
-        slope -= gradient_[static_cast<std::size_t>(p.dependent[a])] *
-                 workspace_.product[a * n + static_cast<std::size_t>(f)].mid();
+        slope -= gradient_[static_cast<std::size_t>(p.dependent[a])] * workspace_.panel.at(static_cast<int>(a), f).mid();
       steepness_.push_back(std::fabs(slope));
     }
   }

@@ -1,0 +1,45 @@
+// Y·S for a real r×r matrix Y and a sparse interval matrix S, and its products with interval vectors: the inner loops of the interval
+// Newton operator.
+//
+// Stored by columns, lower ends negated and apart from upper ones, so that one instruction works on several rows of a column. Every sum
+// and product is rounded upward, which bounds −lo and hi from above. Functions require UpwardRounding::active().
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "corank/certify/compiled_system.h"
+
+namespace corank::certify {
+
+class Panel {
+ public:
+  /// Y, r×r row-major, finite.
+  void set_matrix(const std::vector<double>& y, int r);
+
+  /// The panel becomes Y·S, r×n, S the rows `equations` of a matrix in the system's sparsity pattern. False where an entry is not
+  /// finite: then it may not be used.
+  bool assign_product(const CompiledSystem& system, const std::vector<int>& equations, const std::vector<Interval>& sparse);
+
+  /// result[a] := Σ_b Y_ab values[b], for finite values.
+  void multiply(const std::vector<Interval>& values, std::vector<Interval>& result) const;
+
+  /// sums[a] += Σ_j P_aj offset[j], P the panel with `diagonal` in place of the entries (a, dependent[a]).
+  enum class Diagonal { zero, minus_one };  ///< 0; the entry − 1
+  void accumulate(const Interval* offset, const std::vector<int>& dependent, Diagonal diagonal, std::vector<Interval>& sums);
+
+  Interval at(int a, int j) const { return {-negated_lower_[index(a, j)], upper_[index(a, j)]}; }
+  int rows() const { return r_; }
+  int columns() const { return n_; }
+
+ private:
+  std::size_t index(int a, int j) const { return static_cast<std::size_t>(j) * stride_ + static_cast<std::size_t>(a); }
+
+  int r_ = 0, n_ = 0;
+  std::size_t stride_ = 0;                     // r rounded up to a multiple of 4
+  std::vector<double> positive_, negative_;    // column b: max(Y_ab, 0), max(−Y_ab, 0)
+  std::vector<double> negated_lower_, upper_;  // column j of the panel
+  std::vector<double> sum_negated_lower_, sum_upper_;
+};
+
+}  // namespace corank::certify

@@ -1,0 +1,141 @@
+#include "corank/solve/merging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace corank::solve {
+namespace {
+
+using certify::Box;
+using certify::Interval;
+using certify::Verdict;
+
+constexpr double kFragment = 0.85;  // of σ: a wider box is not worth an attempt
+constexpr int kTightenings = 2;
+
+class Merger {
+ public:
+  Merger(const Problem& problem, std::vector<Found>& found)
+      : problem_(problem), found_(found), preconditioners_(problem.compiled), removed_(found.size(), false) {}
+
+  void run() {
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      if (found_[i].box.verdict == Verdict::regular && found_[i].box.free.size() == 1 &&
+          widest(found_[i].box.box) <= kFragment * problem_.sigma)
+        cells_.push_back({0, i});
+    if (cells_.size() < 2) return;
+    choose_axes();
+    for (Cell& cell : cells_) cell.key = key_of(cell.index, 0, 0);
+    std::sort(cells_.begin(), cells_.end(),
+              [](const Cell& a, const Cell& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+    std::vector<std::size_t> order;
+    for (const Cell& cell : cells_) order.push_back(cell.index);
+    std::sort(order.begin(), order.end());
+    for (std::size_t i : order)
+      while (!removed_[i] && grow(i)) {
+      }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      if (removed_[i]) continue;
+      if (kept != i) found_[kept] = std::move(found_[i]);
+      ++kept;
+    }
+    found_.resize(kept);
+  }
+
+ private:
+  struct Cell {
+    long key;
+    std::size_t index;
+  };
+
+  // The two variables that spread the boxes most.
+  void choose_axes() {
+    const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
+    std::vector<double> spread(n);
+    for (std::size_t j = 0; j < n; ++j) {
+      double least = HUGE_VAL, greatest = -HUGE_VAL;
+      for (const Cell& cell : cells_) {
+        least = std::min(least, found_[cell.index].box.box[j].lo());
+        greatest = std::max(greatest, found_[cell.index].box.box[j].lo());
+      }
+      spread[j] = greatest - least;
+    }
+    axes_[0] = static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) - spread.begin());
+    spread[axes_[0]] = -1;
+    axes_[1] = static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) - spread.begin());
+  }
+
+  // Boxes in one box of size σ have lower ends at most σ apart.
+  long key_of(std::size_t i, long d0, long d1) const {
+    constexpr long kStride = 1L << 30;
+    const auto cell = [&](std::size_t axis) {
+      return std::lround(std::floor(std::clamp(found_[i].box.box[axis].lo() / problem_.sigma, -5e8, 5e8)));
+    };
+    return (cell(axes_[0]) + d0) * kStride + cell(axes_[1]) + d1;
+  }
+
+  // Merges box i with one neighbour.
+  bool grow(std::size_t i) {
+    for (long d0 = -1; d0 <= 1; ++d0) {
+      // Three neighbouring cells are one range of keys.
+      const long first = key_of(i, d0, -1), last = key_of(i, d0, 1);
+      auto at = std::lower_bound(cells_.begin(), cells_.end(), first, [](const Cell& c, long key) { return c.key < key; });
+      for (; at != cells_.end() && at->key <= last; ++at) {
+        const std::size_t j = at->index;
+        if (j == i || removed_[j] || found_[i].box.free != found_[j].box.free) continue;
+        std::optional<Box> merged = merge(found_[i].box, found_[j].box);
+        if (!merged) continue;
+        found_[i].box.box = std::move(*merged);
+        removed_[j] = true;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::optional<Box> merge(const certify::CoverBox& a, const certify::CoverBox& b) {
+    const auto& system = problem_.compiled;
+    const std::size_t n = static_cast<std::size_t>(system.variables());
+    Box hull(a.box.size());
+    for (std::size_t j = 0; j < hull.size(); ++j) {
+      if (!a.box[j].overlaps(b.box[j])) return std::nullopt;
+      hull[j] = Interval::hull(a.box[j], b.box[j]);
+      if (hull[j].width() > problem_.sigma) return std::nullopt;
+    }
+    hull.resize(n);
+    std::vector<int> dependent;
+    for (int j = 0; j < system.variables(); ++j)
+      if (std::find(a.free.begin(), a.free.end(), j) == a.free.end()) dependent.push_back(j);
+    const auto& p = preconditioners_.at_midpoint(hull.data(), &dependent);
+    if (p.rank() < system.equations()) return std::nullopt;
+    certify::Sheet sheet = certify::newton_prove(system, p, hull.data(), workspace_);
+    if (!sheet.proven) return std::nullopt;
+    Box& image = sheet.image;
+    for (int k = 0; k < kTightenings; ++k) certify::tighten_sheet(system, p, image.data(), workspace_);
+    if (problem_.domain.locate_zeros(system, p, image.data(), workspace_) != certify::Location::inside) return std::nullopt;
+    for (int k = 0; k < system.values(); ++k) {
+      Interval value = system.evaluate(system.value_row(k), image.data());
+      value.intersect(certify::value_at_zeros(system, p, system.value_row(k), image.data(), workspace_));
+      image.push_back(value);
+    }
+    if (widest(image) > problem_.sigma) return std::nullopt;
+    return image;
+  }
+
+  const Problem& problem_;
+  std::vector<Found>& found_;
+  PreconditionerFactory preconditioners_;
+  certify::NewtonWorkspace workspace_;
+  std::vector<bool> removed_;
+  std::vector<Cell> cells_;
+  std::size_t axes_[2] = {0, 0};
+};
+
+}  // namespace
+
+void merge_regular(const Problem& problem, std::vector<Found>& found) { Merger(problem, found).run(); }
+
+}  // namespace corank::solve
