@@ -1,6 +1,6 @@
 // Runs the benchmark suite and prints a line for each problem, with times also in units of one 14×14 LU measured just before
 // and after. Usage: corank_bench [--threads N] [WORD]: only the lines that contain WORD, with N threads (default 1; 0: one for
-// each core).
+// each core). Lines of minutes run only where WORD has their model's name in it, and end after kLongTimeLimit seconds.
 //
 // The first lines are sets of corank's models. The others are files of the CUIK suite, solved as `corank solve FILE --param
 // FILE.param` does, but for at most kTimeLimit seconds; they are no part of the repository and are looked for in
@@ -44,7 +44,7 @@ using namespace corank;
 using certify::Verdict;
 using symbolic::SingularitySet;
 
-constexpr double kTimeLimit = 10;
+constexpr double kTimeLimit = 10, kLongTimeLimit = 300;
 // Seconds of the prototype and of the CUIK suite are on a core where the LU takes so long.
 constexpr double kReferenceUnit = 0.45e-6;
 
@@ -60,6 +60,7 @@ struct Line {
   double sigma;
   double prototype_kilo_lu = 0;  ///< 0 where not measured
   CuikRun cuik = {};
+  bool is_long = false;  ///< minutes: runs only where it is named
 };
 
 constexpr auto kForward = SingularitySet::forward, kInverse = SingularitySet::inverse, kCspace = SingularitySet::cspace;
@@ -78,6 +79,10 @@ const std::vector<Line> kSuite = {
     {"dextar", kCspace, 0.2, 182, {5775, 17.9}},
     {"dextar", kCspace, 0.1},
     {"dextar", kCspace, 0.05, 1778, {91933, 272}},
+    {"3rrr_fixed_orientation", kForward, 0.1},
+    {"3rrr_fixed_orientation", kForward, 0.01},
+    {"3rrr", kForward, 0.4, 0, {}, true},
+    {"3rrr", kForward, 0.2, 0, {}, true},
 };
 
 struct CuikLine {
@@ -140,8 +145,8 @@ std::optional<double> seconds_per_proof(const certify::System& system, const cer
 
 void print_header() {
   fmt::print("corank {}; one 14x14 LU: {:.3f} us\n", CORANK_VERSION, 1e6 * bench::lu_seconds());
-  fmt::print("{:105}{:>24}\n", "", "CUIK -------------------");
-  fmt::print("{:<26}{:>4}{:>4}{:>10}{:>8}{:>8}{:>5}{:>7}{:>6}{:>6}{:>8}{:>9}{:>9}{:>7}{:>7}{:>9}{:>8}\n", "problem", "n",
+  fmt::print("{:114}{:>24}\n", "", "CUIK -------------------");
+  fmt::print("{:<35}{:>4}{:>4}{:>10}{:>8}{:>8}{:>5}{:>7}{:>6}{:>6}{:>8}{:>9}{:>9}{:>7}{:>7}{:>9}{:>8}\n", "problem", "n",
              "m", "processed", "boxes", "regular", "iso", "bound.", "part.", "undec", "seconds", "kLU", "overhead", "/proto",
              "boxes", "kLU", "speedup");
 }
@@ -156,7 +161,7 @@ void run(const std::string& name, const certify::System& system, const solve::Op
   const std::optional<double> proof = seconds_per_proof(system, cover);
   const auto number = [](double x, int digits) { return x > 0 ? fmt::format("{:.{}f}", x, digits) : std::string(); };
   const double cuik_kilo_lu = cuik.seconds / kReferenceUnit / 1000;
-  fmt::print("{:<26}{:>4}{:>4}{:>10}{:>8}{:>8}{:>5}{:>7}{:>6}{:>6}{:>8.3f}{:>9.1f}{:>9}{:>7}{:>7}{:>9}{:>8}{}\n", name,
+  fmt::print("{:<35}{:>4}{:>4}{:>10}{:>8}{:>8}{:>5}{:>7}{:>6}{:>6}{:>8.3f}{:>9.1f}{:>9}{:>7}{:>7}{:>9}{:>8}{}\n", name,
              system.size(), system.equations.size(), cover.statistics.processed, cover.boxes.size(),
              cover.count(Verdict::regular), cover.count(Verdict::isolated), cover.count(Verdict::boundary),
              cover.count(Verdict::partial), cover.count(Verdict::undecided), seconds, kilo_lu,
@@ -171,10 +176,12 @@ void run_models(const std::string& only, int threads) {
   for (const Line& line : kSuite) {
     const std::string name = fmt::format("{} {} {}", line.model, symbolic::to_string(line.set), line.sigma);
     if (name.find(only) == std::string::npos) continue;
+    if (line.is_long && only.find(line.model) == std::string::npos) continue;
     const auto model = symbolic::read_model(std::string(CORANK_SOURCE_DIR "/models/") + line.model + ".cuik");
     solve::Options options;
     options.sigma = line.sigma;
     options.threads = threads;
+    if (line.is_long) options.time_limit = kLongTimeLimit;
     run(name, symbolic::algebrize(symbolic::singularity_system(model, line.set)), options, line.prototype_kilo_lu,
         line.cuik);
   }
@@ -202,7 +209,7 @@ void run_cuik_files(const std::string& only, int threads) {
       run(fmt::format("{} {}", line.name, options.sigma.value_or(solve::default_sigma(system))), system, options, 0,
           line.cuik);
     } catch (const symbolic::ModelError& error) {
-      fmt::print("{:<26}  refused: {}\n", line.name, error.what());
+      fmt::print("{:<35}  refused: {}\n", line.name, error.what());
     }
   }
 }

@@ -20,6 +20,11 @@ using certify::Polynomial;
 using certify::Variable;
 using certify::VariableKind;
 
+bool mentions(const Relation& relation, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return relation.lhs.mentions(name) || relation.rhs.mentions(name); });
+}
+
 class Algebrizer {
  public:
   explicit Algebrizer(const TrigonometricSystem& system) : in_(system) {}
@@ -31,20 +36,20 @@ class Algebrizer {
   void add_angle(const Coordinate& coordinate);
   void add_kernel_unknowns();
   void add_equation(const TrigonometricSystem::Equation& equation);
-  void add_circles();
   void add_inequality(const TrigonometricSystem::Equation& inequality);
   int add_variable(const std::string& name, VariableKind kind, const ConstantRange& range);
   ConstantRange range_of(const Coordinate& coordinate);
   /// lhs − rhs.
   ExpandedPolynomial difference(const TrigonometricSystem::Equation& equation);
-  bool mentions_kernel(const Relation& relation) const;
+  bool mentions_kernel(const Relation& relation) const { return mentions(relation, in_.kernel_unknowns); }
   std::string fresh_name(std::string name);
 
   const TrigonometricSystem& in_;
   certify::System out_;
   PolynomialExpander expander_;
   std::set<std::string> names_;
-  std::vector<Polynomial> chords_;
+  std::vector<Polynomial> angle_equations_, chords_;
+  std::vector<std::string> fixed_angles_;
 };
 
 std::string equation_text(const TrigonometricSystem::Equation& equation) {
@@ -114,12 +119,19 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
   angle.cosine = add_variable(fresh_name("c_" + coordinate.name), VariableKind::cosine, condition.cosine);
   angle.sine = add_variable(fresh_name("s_" + coordinate.name), VariableKind::sine, condition.sine);
   angle.range = Interval(range.lower.exact().enclose().lo(), range.upper.exact().enclose().hi());
-  expander_.add_angle(coordinate.name, angle.cosine, angle.sine);
+  const auto c = ExpandedPolynomial::variable(angle.cosine), s = ExpandedPolynomial::variable(angle.sine);
+  if (condition.value) {
+    expander_.add_fixed_angle(coordinate.name, range.lower);
+    fixed_angles_.push_back(coordinate.name);
+    angle_equations_.push_back((c - condition.value->cosine).compile("value of " + coordinate.name));
+    angle_equations_.push_back((s - condition.value->sine).compile("value of " + coordinate.name));
+  } else {
+    expander_.add_angle(coordinate.name, angle.cosine, angle.sine);
+    angle_equations_.push_back((pow(c, 2) + pow(s, 2) - 1).compile("circle of " + coordinate.name));
+  }
   if (condition.chord) {
     const auto& [cos_m, sin_m, cos_h] = *condition.chord;
-    const auto chord =
-        cos_m * ExpandedPolynomial::variable(angle.cosine) + sin_m * ExpandedPolynomial::variable(angle.sine) - cos_h;
-    chords_.push_back(chord.compile("range of " + coordinate.name));
+    chords_.push_back((cos_m * c + sin_m * s - cos_h).compile("range of " + coordinate.name));
   }
   out_.angles.push_back(std::move(angle));
 }
@@ -127,11 +139,6 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
 void Algebrizer::add_kernel_unknowns() {
   for (const std::string& name : in_.kernel_unknowns)
     expander_.add_unknown(name, add_variable(name, VariableKind::kernel, {-1, 1}));
-}
-
-bool Algebrizer::mentions_kernel(const Relation& relation) const {
-  return std::any_of(in_.kernel_unknowns.begin(), in_.kernel_unknowns.end(),
-                     [&](const std::string& name) { return relation.lhs.mentions(name) || relation.rhs.mentions(name); });
 }
 
 ExpandedPolynomial Algebrizer::difference(const TrigonometricSystem::Equation& equation) {
@@ -148,9 +155,9 @@ ExpandedPolynomial Algebrizer::difference(const TrigonometricSystem::Equation& e
 void Algebrizer::add_equation(const TrigonometricSystem::Equation& equation) {
   Polynomial polynomial = difference(equation).compile(equation.source);
   if (polynomial.monomials.empty()) {
-    // A kernel row that the constants make zero says nothing about xi; an equation of the model that says nothing is a
-    // mistake.
-    if (mentions_kernel(equation.relation)) return;
+    // A kernel row that the constants make zero says nothing about xi, and where an angle has one value an equation may say
+    // nothing there. Any other equation of the model that says nothing is a mistake.
+    if (mentions_kernel(equation.relation) || mentions(equation.relation, fixed_angles_)) return;
     throw ModelError(equation.where, "the equation " + equation_text(equation) + " holds always",
                      "an equation between unknowns");
   }
@@ -163,13 +170,6 @@ void Algebrizer::add_equation(const TrigonometricSystem::Equation& equation) {
   }
   require_bounded(polynomial, equation);
   out_.equations.push_back(std::move(polynomial));
-}
-
-void Algebrizer::add_circles() {
-  for (const certify::Angle& angle : out_.angles) {
-    const auto c = ExpandedPolynomial::variable(angle.cosine), s = ExpandedPolynomial::variable(angle.sine);
-    out_.equations.push_back((pow(c, 2) + pow(s, 2) - ExpandedPolynomial(1)).compile("circle of " + angle.name));
-  }
 }
 
 void Algebrizer::add_inequality(const TrigonometricSystem::Equation& inequality) {
@@ -201,10 +201,10 @@ certify::System Algebrizer::run() {
   add_kernel_unknowns();
   expander_.length_functions().start(out_.size());
 
-  // The configuration's own equations and circles first, the kernel's after them.
+  // The configuration's own equations and its angles' first, the kernel's after them.
   for (const auto& equation : in_.equations)
     if (!mentions_kernel(equation.relation)) add_equation(equation);
-  add_circles();
+  out_.equations.insert(out_.equations.end(), angle_equations_.begin(), angle_equations_.end());
   for (const auto& equation : in_.equations)
     if (mentions_kernel(equation.relation)) add_equation(equation);
   for (const auto& inequality : in_.inequalities) add_inequality(inequality);

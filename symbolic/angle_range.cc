@@ -37,8 +37,12 @@ AngleRange angle_range(const ConstantRange& range) {
   const ConstantValue width = range.upper - range.lower, pi = ConstantValue::pi();
   const std::optional<int> below_circle = (ConstantValue(2) * pi - width).sign();
   // Undecided: the range is the whole circle but for 10^-1000 of it. No condition is the safe reading.
-  if (below_circle.value_or(0) <= 0) return {{-1, 1}, {-1, 1}, std::nullopt};
-  AngleRange result;
+  AngleRange result{{-1, 1}, {-1, 1}, std::nullopt, std::nullopt};
+  if (below_circle.value_or(0) <= 0) return result;
+  if (width.sign() == 0) {
+    result.value = {ConstantValue::function("cos", range.lower), ConstantValue::function("sin", range.lower)};
+    return result;
+  }
   const ConstantValue half_pi = pi / 2;
   result.cosine = hull(range, "cos", 0, pi);
   result.sine = hull(range, "sin", half_pi, -half_pi);

@@ -14,11 +14,16 @@ struct ConstantRange {
 struct AngleRange {
   /// [lower, upper] ⊇ {cos θ}, {sin θ}: exact ends, the hull wherever signs of the constants involved can be decided.
   ConstantRange cosine, sine;
-  /// cos(m)·c + sin(m)·s ≥ cos(h), where the range is smaller than the circle.
+  /// cos(m)·c + sin(m)·s ≥ cos(h), where the range is smaller than the circle and more than one value.
   struct Chord {
     ConstantValue cos_m, sin_m, cos_h;
   };
   std::optional<Chord> chord;
+  /// cos α and sin α where α = β; then there is no chord, and `cosine` and `sine` are [-1, 1].
+  struct Value {
+    ConstantValue cosine, sine;
+  };
+  std::optional<Value> value;
 };
 
 /// Requires α ≤ β. Throws std::domain_error where the bounds are absurdly large.

@@ -45,7 +45,7 @@ ExpandedPolynomial PolynomialExpander::polynomial(const Expression& e, const std
 }
 
 bool PolynomialExpander::has_unknown(const Expression& e) const {
-  if (e.kind() == Kind::symbol) return unknowns_.contains(e.name()) || angles_.contains(e.name());
+  if (e.kind() == Kind::symbol) return unknowns_.contains(e.name()) || is_angle(e.name());
   return std::any_of(e.operands().begin(), e.operands().end(), [&](const Expression& part) { return has_unknown(part); });
 }
 
@@ -90,7 +90,7 @@ ExpandedPolynomial PolynomialExpander::expand_symbol(const Expression& e) {
   if (const auto known = constants_.find(e.name()); known != constants_.end()) return known->second;
   if (const auto known = unknowns_.find(e.name()); known != unknowns_.end())
     return ExpandedPolynomial::variable(known->second);
-  if (angles_.contains(e.name()))
+  if (is_angle(e.name()))
     fail(e, "the angle " + in_quotes(e.name()) + " stands outside sin and cos", "sin or cos of the angle");
   fail(e, "the name " + in_quotes(e.name()) + " is not declared", "a constant or a variable declared before");
 }
@@ -170,17 +170,15 @@ PolynomialExpander::LinearForm PolynomialExpander::linear_form(const Expression&
   fail(e, in_quotes(e.text()) + " stands inside sin or cos", kArgument);
 }
 
-PolynomialExpander::CosineAndSine PolynomialExpander::of_angle(const Expression& e, const std::string& name,
-                                                               const ConstantValue& multiple) {
+int PolynomialExpander::whole_multiple(const Expression& e, const std::string& angle, const ConstantValue& multiple) const {
   const std::optional<int> n = multiple.integer();
   if (!n)
-    fail(e, "the term " + in_quotes(e.text()) + " has a fractional multiple of the angle " + in_quotes(name),
+    fail(e, "the term " + in_quotes(e.text()) + " has a fractional multiple of the angle " + in_quotes(angle),
          "integer multiples of angles");
   if (std::abs(*n) > kMaxExponent)
-    fail(e, "the multiple of the angle " + in_quotes(name) + " in " + in_quotes(e.text()) + " is too large",
+    fail(e, "the multiple of the angle " + in_quotes(angle) + " in " + in_quotes(e.text()) + " is too large",
          "at most " + std::to_string(kMaxExponent));
-  const AngleVariables& variables = angles_.at(name);
-  return multiple_angle(*n, ExpandedPolynomial::variable(variables.cosine), ExpandedPolynomial::variable(variables.sine));
+  return *n;
 }
 
 PolynomialExpander::CosineAndSine PolynomialExpander::of_lengths(const std::map<std::string, ConstantValue>& multiples) {
@@ -195,9 +193,21 @@ PolynomialExpander::CosineAndSine PolynomialExpander::of_lengths(const std::map<
 
 ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e) {
   const LinearForm form = guarded(e, [&] { return linear_form(e.operands()[0]); });
+  std::map<std::string, int> angles;
   std::map<std::string, ConstantValue> lengths;
+  ConstantValue offset = form.offset;
   for (const auto& [name, multiple] : form.multiples) {
-    if (angles_.contains(name) || multiple.is_zero()) continue;
+    if (is_angle(name)) {
+      const int n = whole_multiple(e, name, multiple);
+      const auto fixed = fixed_angles_.find(name);
+      if (fixed == fixed_angles_.end()) {
+        angles.emplace(name, n);
+      } else {
+        offset = guarded(e, [&] { return offset + n * fixed->second; });
+      }
+      continue;
+    }
+    if (multiple.is_zero()) continue;
     if (!guarded(e, [&] { return multiple.sign(); }))
       fail(e, "the multiple of " + in_quotes(name) + " in " + in_quotes(e.text()) + " cannot be told from zero",
            "multiples whose sign is known");
@@ -205,15 +215,16 @@ ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e
   }
   return guarded(e, [&] {
     // cos and sin of the sum so far; then cos(a + b) = cos a cos b − sin a sin b, sin(a + b) = sin a cos b + cos a sin b.
-    ExpandedPolynomial cosine = ConstantValue::function("cos", form.offset),
-                       sine = ConstantValue::function("sin", form.offset);
+    ExpandedPolynomial cosine = ConstantValue::function("cos", offset), sine = ConstantValue::function("sin", offset);
     const auto add = [&](const CosineAndSine& b) {
       ExpandedPolynomial next = cosine * b.first - sine * b.second;
       sine = sine * b.first + cosine * b.second;
       cosine = std::move(next);
     };
-    for (const auto& [name, multiple] : form.multiples)
-      if (angles_.contains(name)) add(of_angle(e, name, multiple));
+    for (const auto& [name, n] : angles) {
+      const AngleVariables& own = angles_.at(name);
+      add(multiple_angle(n, ExpandedPolynomial::variable(own.cosine), ExpandedPolynomial::variable(own.sine)));
+    }
     if (!lengths.empty()) add(of_lengths(lengths));
     return e.name() == "cos" ? cosine : sine;
   });

@@ -20,6 +20,8 @@ class PolynomialExpander {
   void add_constant(const std::string& name, ConstantValue value) { constants_.insert_or_assign(name, std::move(value)); }
   void add_unknown(const std::string& name, int variable) { unknowns_.emplace(name, variable); }
   void add_angle(const std::string& name, int cosine, int sine) { angles_.emplace(name, AngleVariables{cosine, sine}); }
+  /// An angle of one value. It may stand where an angle may, and counts as that constant.
+  void add_fixed_angle(const std::string& name, ConstantValue value) { fixed_angles_.emplace(name, std::move(value)); }
   /// Sines and cosines of lengths that polynomials hold, to be settled when all of them are made.
   LengthFunctions& length_functions() { return length_functions_; }
 
@@ -48,8 +50,9 @@ class PolynomialExpander {
   ExpandedPolynomial expand_function(const Expression& e);
   ExpandedPolynomial expand_sine_or_cosine(const Expression& e);
   LinearForm linear_form(const Expression& e);
-  CosineAndSine of_angle(const Expression& e, const std::string& name, const ConstantValue& multiple);
+  int whole_multiple(const Expression& e, const std::string& angle, const ConstantValue& multiple) const;
   CosineAndSine of_lengths(const std::map<std::string, ConstantValue>& multiples);
+  bool is_angle(const std::string& name) const { return angles_.contains(name) || fixed_angles_.contains(name); }
   bool has_unknown(const Expression& e) const;
   /// What an expression without unknowns is worth.
   ConstantValue value(const Expression& e);
@@ -60,6 +63,7 @@ class PolynomialExpander {
   std::map<std::string, ConstantValue> constants_;
   std::map<std::string, int> unknowns_;
   std::map<std::string, AngleVariables> angles_;
+  std::map<std::string, ConstantValue> fixed_angles_;
   LengthFunctions length_functions_;
   std::string what_;      // being expanded, for messages
   SourceLocation where_;  // its place

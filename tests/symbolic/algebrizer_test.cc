@@ -315,13 +315,77 @@ TEST(AngleRange, NarrowsSineAndCosineExactly) {
   EXPECT_EQ(domains("[-8, -7]"), "[cos(8), cos(7)][-1, -sin(7)]");
   EXPECT_EQ(domains("[pi/2, 2*pi]"), "[-1, 1][-1, 1]");
   EXPECT_EQ(domains("[100*pi, 100*pi + pi/2]"), "[0, 1][0, 1]");
-  EXPECT_EQ(domains("[1, 1]"), "[cos(1), cos(1)][sin(1), sin(1)]");
 }
 
 TEST(AngleRange, BecomesTheChordInequality) {
   const System s = with_range("[0, pi/2]");
   EXPECT_THAT(canonical(s.inequalities), ElementsAre(" + -1/2*sqrt(2) + 1/2*sqrt(2)·x0^1 + 1/2*sqrt(2)·x1^1"));
   EXPECT_EQ(s.inequalities[0].source, "range of theta");
+}
+
+TEST(AngleRange, OfOneValueMakesTheAngleAConstant) {
+  // x0 = cos theta, x1 = sin theta, x2 = x
+  const auto equations = [](const char* value, const std::string& equation) {
+    return canonical(compile(std::string("[CONSTANTS]\na := ") + value +
+                             "\n[SYSTEM VARS]\ntheta ~ [a, a]\nx : [-1, 1]\n[SYSTEM EQS]\n" + equation)
+                         .equations);
+  };
+  EXPECT_THAT(equations("1", "x = cos(theta);"),
+              ElementsAre(" + -cos(1) + 1·x2^1", " + -cos(1) + 1·x0^1", " + -sin(1) + 1·x1^1"));
+  EXPECT_THAT(equations("pi/2", "x = 2*sin(theta) + cos(theta);"),
+              ElementsAre(" + -2 + 1·x2^1", " + 1·x0^1", " + -1 + 1·x1^1"));
+  EXPECT_EQ(equations("pi/9", "x = sin(3*theta - pi/6);")[0], " + -1/2 + 1·x2^1");
+  EXPECT_EQ(equations("pi/12", "x*cos(theta) = x*sin(5*theta) + x*cos(theta + pi/4) + x^2;")[0], " + -1/2·x2^1 + -1·x2^2");
+  EXPECT_EQ(equations("7*pi/3", "x = cos(theta);")[0], " + -1/2 + 1·x2^1");
+  const System s = with_range("[1, 1]");
+  EXPECT_THAT(s.inequalities, IsEmpty());
+  EXPECT_EQ(s.dimension(), 0);
+  EXPECT_EQ(s.equations[1].source, "value of theta");
+  ASSERT_EQ(s.angles.size(), 1u);
+  EXPECT_EQ(s.angles[0].range, Interval(1));
+}
+
+TEST(AngleRange, OfOneValueMayMakeAnEquationOfTheModelSayNothing) {
+  const auto equations = [](const char* value) {
+    return compile(std::string("[CONSTANTS]\na := ") + value +
+                   "\n[SYSTEM VARS]\ntheta ~ [a, a]\nx : [-1, 1]\n[SYSTEM EQS]\nx*sin(theta) = 0;\nx^3 = x;")
+        .equations.size();
+  };
+  EXPECT_EQ(equations("pi/5"), 4u);
+  EXPECT_EQ(equations("pi"), 3u);
+}
+
+// The system with theta in [alpha, alpha] is the one with theta in [-pi, pi] at that value, with the angle's own column.
+TEST(AngleRange, OfOneValueLeavesTheAngleItsColumn) {
+  const auto system = [](const char* range) {
+    return algebrize(singularity_system(
+        parse_model(std::string("[SYSTEM VARS]\ntheta ~ ") + range +
+                        "\npsi ~ [-pi, pi]\nx : [-3, 3]\n[SYSTEM EQS]\nx = 2*cos(theta) + cos(theta + psi);\n"
+                        "x*sin(theta) = sin(psi - 2*theta) + x;\n[INPUTS] x\n[OUTPUTS] psi",
+                    "m.cuik"),
+        SingularitySet::forward));
+  };
+  const System fixed = system("[3/5, 3/5]"), free = system("[-pi, pi]");
+  ASSERT_EQ(names(fixed), names(free));
+  EXPECT_EQ(fixed.configuration_size, free.configuration_size);
+  std::map<std::string, const certify::Polynomial*> by_source;
+  for (const auto& polynomial : fixed.equations) by_source[polynomial.source] = &polynomial;
+  RandomMechanism random(kSeed + 2);
+  for (int k = 0; k < 10; ++k) {
+    const Values values{{"theta", 0.6L},
+                        {"psi", random.uniform(-3, 3)},
+                        {"x", random.uniform(-3, 3)},
+                        {"xi1", random.uniform(-1, 1)},
+                        {"xi2", random.uniform(-1, 1)}};
+    const std::vector<long double> x = compiled_point(fixed, values);
+    for (const auto& equation : free.equations) {
+      if (equation.source == "circle of theta") continue;
+      ASSERT_TRUE(by_source.contains(equation.source)) << equation.source;
+      EXPECT_NEAR(static_cast<double>(evaluate(*by_source[equation.source], x)), static_cast<double>(evaluate(equation, x)),
+                  1e-14)
+          << equation.source;
+    }
+  }
 }
 
 TEST(AngleRange, HoldsExactlyForTheAnglesInIt) {
@@ -378,6 +442,10 @@ std::string with_constant(const std::string& value) {
 }
 
 std::string with_x_range(const std::string& range) { return "[SYSTEM VARS]\nx : " + range + "\n[SYSTEM EQS]\nx = 0;"; }
+
+std::string with_fixed_angle(const std::string& equation) {
+  return "[SYSTEM VARS]\nx : [-1, 1]\ntheta ~ [1, 1] psi ~ [0, 1]\n[SYSTEM EQS]\n" + equation;
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Every, AlgebrizerFault,
@@ -439,6 +507,14 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"EmptyRangeOfIrrationals", with_x_range("[sqrt(2), 1.41421356237309504880]"), 2, "is empty"},
         Fault{"UnboundedRange", with_x_range("[0, 1e400]"), 2, "is unbounded"},
         Fault{"RangeThatIsNotReal", with_x_range("[0, sqrt(-2)]"), 2, "sqrt of a number that is negative"},
+        Fault{"FixedAngleOutsideSine", with_fixed_angle("x = theta;"), 5,
+              "the angle 'theta' stands outside sin and cos in `x = theta`"},
+        Fault{"HalfFixedAngle", with_fixed_angle("x = sin(theta/2);"), 5,
+              "'sin(theta/2)' has a fractional multiple of the angle 'theta'"},
+        Fault{"FixedAngleTimesAngle", with_fixed_angle("x = sin(theta*psi);"), 5,
+              "'theta*psi' inside sin or cos is a product of unknowns"},
+        Fault{"EquationThatCanNeverHoldAtAFixedAngle", with_fixed_angle("sin(theta) = 1/2;"), 5,
+              "`sin(theta) = 1/2` contains no unknown and can never hold"},
         Fault{"EmptyAngleRange", "[SYSTEM VARS]\ntheta ~ [pi, -pi]\n[SYSTEM EQS]\nsin(theta) = 0;", 2, "is empty"}),
     [](const auto& test) { return std::string(test.param.name); });
 

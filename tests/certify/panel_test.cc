@@ -1,0 +1,130 @@
+// Products of a real matrix with interval matrices and vectors: exact on integers, outward on all other numbers.
+#include "corank/certify/panel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "corank/certify/rounding.h"
+#include "corank/tests/system_builder.h"
+
+namespace corank::certify {
+namespace {
+
+// m equations, each linear in all n variables: a full sparsity pattern, entry k of row i belonging to variable k.
+CompiledSystem full_system(int m, int n) {
+  test::SystemBuilder b;
+  for (int j = 0; j < n; ++j) b.variable("x" + std::to_string(j), "-1", "1");
+  for (int i = 0; i < m; ++i) {
+    std::vector<test::SystemBuilder::Term> terms;
+    for (int j = 0; j < n; ++j) terms.push_back({"1", {{j, 1}}});
+    b.equation(terms);
+  }
+  return CompiledSystem(b.system());
+}
+
+struct Case {
+  int r, n;
+  std::vector<double> y;
+  std::vector<Interval> sparse, offset, sums;
+  std::vector<int> equations, dependent;
+};
+
+template <class Number>
+Case random_case(std::mt19937& random, Number number) {
+  Case c;
+  c.r = 1 + static_cast<int>(random() % 7);
+  c.n = c.r + static_cast<int>(random() % 3);
+  const auto side = [&] {
+    const double a = number(), b = number();
+    return Interval(std::min(a, b), std::max(a, b));
+  };
+  for (int k = 0; k < c.r * c.r; ++k) c.y.push_back(number());
+  for (int k = 0; k < c.r * c.n; ++k) c.sparse.push_back(side());
+  for (int j = 0; j < c.n; ++j) c.offset.push_back(side());
+  for (int a = 0; a < c.r; ++a) {
+    c.equations.push_back(a);
+    c.dependent.push_back(c.n - 1 - a);
+    c.sums.push_back(side());
+  }
+  return c;
+}
+
+class PanelTest : public ::testing::Test {
+ protected:
+  const UpwardRounding rounding_;
+  std::mt19937 random_{20261121};
+};
+
+TEST_F(PanelTest, IsExactOnIntegers) {
+  std::uniform_int_distribution<int> digit(-9, 9);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Case c = random_case(random_, [&] { return static_cast<double>(digit(random_)); });
+    const CompiledSystem system = full_system(c.r, c.n);
+    Panel panel;
+    panel.set_matrix(c.y, c.r);
+    ASSERT_TRUE(panel.assign_product(system, c.equations, c.sparse));
+    for (int a = 0; a < c.r; ++a)
+      for (int j = 0; j < c.n; ++j) {
+        Interval expected;
+        for (int b = 0; b < c.r; ++b) expected += scale(c.y[a * c.r + b], c.sparse[b * c.n + j]);
+        ASSERT_EQ(panel.at(a, j), expected) << trial;
+      }
+    for (auto diagonal : {Panel::Diagonal::zero, Panel::Diagonal::minus_one}) {
+      std::vector<Interval> sums = c.sums;
+      panel.accumulate(c.offset.data(), c.dependent, diagonal, sums);
+      for (int a = 0; a < c.r; ++a) {
+        Interval expected = c.sums[a];
+        for (int j = 0; j < c.n; ++j) {
+          if (j != c.dependent[a])
+            expected += panel.at(a, j) * c.offset[j];
+          else if (diagonal == Panel::Diagonal::minus_one)
+            expected += (panel.at(a, j) - Interval(1.0)) * c.offset[j];
+        }
+        ASSERT_EQ(sums[a], expected) << trial << ": the diagonal is back, too";
+      }
+    }
+  }
+}
+
+TEST_F(PanelTest, RoundsOutward) {
+  std::uniform_real_distribution<double> real(-1, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Case c = random_case(random_, [&] { return std::ldexp(real(random_), static_cast<int>(random_() % 20)); });
+    const CompiledSystem system = full_system(c.r, c.n);
+    Panel panel;
+    panel.set_matrix(c.y, c.r);
+    ASSERT_TRUE(panel.assign_product(system, c.equations, c.sparse));
+    // Products of doubles by interval operations that are tested against MPFR: the panel may be no narrower than what one corner needs.
+    for (int a = 0; a < c.r; ++a)
+      for (int j = 0; j < c.n; ++j) {
+        Interval corner;
+        for (int b = 0; b < c.r; ++b) corner += scale(c.y[a * c.r + b], Interval(c.sparse[b * c.n + j].hi()));
+        ASSERT_TRUE(panel.at(a, j).overlaps(corner));
+        ASSERT_LE(panel.at(a, j).lo(), corner.hi());
+        ASSERT_GE(panel.at(a, j).hi(), corner.lo());
+      }
+    std::vector<Interval> product;
+    panel.multiply(c.sums, product);
+    for (int a = 0; a < c.r; ++a) {
+      Interval expected;
+      for (int b = 0; b < c.r; ++b) expected += scale(c.y[a * c.r + b], c.sums[b]);
+      ASSERT_EQ(product[a], expected) << "the same roundings in the same order";
+    }
+  }
+}
+
+TEST_F(PanelTest, RefusesWhatIsNotFinite) {
+  const CompiledSystem system = full_system(1, 1);
+  Panel panel;
+  panel.set_matrix({0.0}, 1);
+  EXPECT_TRUE(panel.assign_product(system, {0}, {Interval(1, 2)}));
+  EXPECT_FALSE(panel.assign_product(system, {0}, {Interval::whole()}));
+  panel.set_matrix({1e300}, 1);
+  EXPECT_FALSE(panel.assign_product(system, {0}, {Interval(-1, 1e300)}));
+}
+
+}  // namespace
+}  // namespace corank::certify
