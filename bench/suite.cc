@@ -10,7 +10,7 @@
 //   kLU         elapsed time in thousands of LU units
 //   overhead    elapsed time ÷ (returned boxes × mean time of one certified test): what all of the search costs, in proofs of
 //               each box that it returns. One certified test is the choice of Y at a box's middle for the box's own free
-//               variables (solve/preconditioner.h) and certify::newton_prove. Its mean time is measured here, on the same
+//               variables (solve/preconditioner.h) and certify::newton_prove. Its mean time is measured here, on the reduced
 //               system and up to kSamples of its proven boxes, evenly spaced in the sorted result, kRepeats times each.
 //               Pending boxes do not count. With several threads the elapsed time shrinks, and the factor with it.
 //   /proto      kLU ÷ that of a one-thread prototype of the same algorithm (150 lines, nothing tuned)
@@ -29,6 +29,7 @@
 
 #include "corank/bench/lu_unit.h"
 #include "corank/certify/newton.h"
+#include "corank/certify/reduction.h"
 #include "corank/certify/rounding.h"
 #include "corank/report/cuik_param.h"
 #include "corank/solve/preconditioner.h"
@@ -111,33 +112,37 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 // Mean seconds of one certified test, see above; nothing where no box is proven.
 std::optional<double> seconds_per_proof(const certify::System& system, const certify::Cover& cover) {
+  const certify::Reduction reduction = certify::reduce(system);
   constexpr std::size_t kSamples = 500;
   constexpr int kRepeats = 5;
   struct Sample {
-    const certify::Interval* box;
+    certify::Box box;
     std::vector<int> dependent;
   };
   std::vector<Sample> proven;
   for (const certify::CoverBox& b : cover.boxes) {
     if (b.verdict == Verdict::undecided || b.verdict == Verdict::pending) continue;
-    proven.push_back({b.box.data(), {}});
-    for (int v = 0; v < system.size(); ++v)
-      if (std::find(b.free.begin(), b.free.end(), v) == b.free.end()) proven.back().dependent.push_back(v);
+    proven.emplace_back();
+    for (int j = 0; j < reduction.system.size(); ++j) {
+      const int v = reduction.kept[static_cast<std::size_t>(j)];
+      proven.back().box.push_back(b.box[static_cast<std::size_t>(v)]);
+      if (std::find(b.free.begin(), b.free.end(), v) == b.free.end()) proven.back().dependent.push_back(j);
+    }
   }
   if (proven.empty()) return std::nullopt;
   std::vector<Sample> samples;
   const std::size_t count = std::min(kSamples, proven.size());
   for (std::size_t k = 0; k < count; ++k) samples.push_back(proven[k * proven.size() / count]);
 
-  const certify::CompiledSystem compiled(system);
+  const certify::CompiledSystem compiled(reduction.system);
   solve::PreconditionerFactory preconditioners(compiled);
   certify::NewtonWorkspace workspace;
   const certify::UpwardRounding rounding;
   const auto start = std::chrono::steady_clock::now();
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
     for (const Sample& s : samples) {
-      const certify::Preconditioner& p = preconditioners.at_midpoint(s.box, &s.dependent);
-      certify::newton_prove(compiled, p, s.box, workspace);
+      const certify::Preconditioner& p = preconditioners.at_midpoint(s.box.data(), &s.dependent);
+      certify::newton_prove(compiled, p, s.box.data(), workspace);
     }
   }
   return seconds_since(start) / static_cast<double>(kRepeats * count);
@@ -145,10 +150,10 @@ std::optional<double> seconds_per_proof(const certify::System& system, const cer
 
 void print_header() {
   fmt::print("corank {}; one 14x14 LU: {:.3f} us\n", CORANK_VERSION, 1e6 * bench::lu_seconds());
-  fmt::print("{:114}{:>24}\n", "", "CUIK -------------------");
-  fmt::print("{:<35}{:>4}{:>4}{:>10}{:>8}{:>8}{:>5}{:>7}{:>6}{:>6}{:>8}{:>9}{:>9}{:>7}{:>7}{:>9}{:>8}\n", "problem", "n",
-             "m", "processed", "boxes", "regular", "iso", "bound.", "part.", "undec", "seconds", "kLU", "overhead", "/proto",
-             "boxes", "kLU", "speedup");
+  fmt::print("{:123}{:>24}\n", "", "CUIK -------------------");
+  fmt::print("{:<35}{:>4}{:>4}{:>10}{:>9}{:>8}{:>8}{:>5}{:>7}{:>6}{:>6}{:>8}{:>9}{:>9}{:>7}{:>7}{:>9}{:>8}\n", "problem",
+             "n", "m", "processed", "newton", "boxes", "regular", "iso", "bound.", "part.", "undec", "seconds", "kLU",
+             "overhead", "/proto", "boxes", "kLU", "speedup");
 }
 
 void run(const std::string& name, const certify::System& system, const solve::Options& options, double prototype,
@@ -161,13 +166,13 @@ void run(const std::string& name, const certify::System& system, const solve::Op
   const std::optional<double> proof = seconds_per_proof(system, cover);
   const auto number = [](double x, int digits) { return x > 0 ? fmt::format("{:.{}f}", x, digits) : std::string(); };
   const double cuik_kilo_lu = cuik.seconds / kReferenceUnit / 1000;
-  fmt::print("{:<35}{:>4}{:>4}{:>10}{:>8}{:>8}{:>5}{:>7}{:>6}{:>6}{:>8.3f}{:>9.1f}{:>9}{:>7}{:>7}{:>9}{:>8}{}\n", name,
-             system.size(), system.equations.size(), cover.statistics.processed, cover.boxes.size(),
-             cover.count(Verdict::regular), cover.count(Verdict::isolated), cover.count(Verdict::boundary),
-             cover.count(Verdict::partial), cover.count(Verdict::undecided), seconds, kilo_lu,
-             proof ? number(seconds / (returned * *proof), 1) : "", number(prototype > 0 ? kilo_lu / prototype : 0, 2),
-             cuik.boxes > 0 ? std::to_string(cuik.boxes) : "", number(cuik_kilo_lu, 0),
-             number(cover.complete() ? cuik_kilo_lu / kilo_lu : 0, 1),
+  fmt::print("{:<35}{:>4}{:>4}{:>10}{:>9}{:>8}{:>8}{:>5}{:>7}{:>6}{:>6}{:>8.3f}{:>9.1f}{:>9}{:>7}{:>7}{:>9}{:>8}{}\n", name,
+             system.size(), system.equations.size(), cover.statistics.processed, cover.statistics.newton_steps,
+             cover.boxes.size(), cover.count(Verdict::regular), cover.count(Verdict::isolated),
+             cover.count(Verdict::boundary), cover.count(Verdict::partial), cover.count(Verdict::undecided), seconds,
+             kilo_lu, proof ? number(seconds / (returned * *proof), 1) : "",
+             number(prototype > 0 ? kilo_lu / prototype : 0, 2), cuik.boxes > 0 ? std::to_string(cuik.boxes) : "",
+             number(cuik_kilo_lu, 0), number(cover.complete() ? cuik_kilo_lu / kilo_lu : 0, 1),
              cover.complete() ? "" : fmt::format("  incomplete: {} pending", cover.count(Verdict::pending)));
   std::fflush(stdout);
 }

@@ -2,6 +2,8 @@
 // box, so threads only share the work and the sorted result is the same for any number of them.
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -11,8 +13,10 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 #include "corank/certify/check.h"
 #include "corank/certify/distinct.h"
@@ -104,7 +108,16 @@ class Search {
                    count_found(workers_.local());
                    return limit_reached();
                  }),
-        workers_([this] { return Worker{BoxProcessor(problem_)}; }) {}
+        workers_([this] { return Worker{BoxProcessor(problem_)}; }),
+        threads_(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()),
+        allow_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
+        arena_(threads_) {}
+
+  // Runs f where its parallel parts have the threads that the options allow.
+  template <class F>
+  void execute(F f) {
+    arena_.execute(f);
+  }
 
   void run(const certify::System& system) {
     const std::size_t n = system.variables.size();
@@ -112,12 +125,8 @@ class Search {
     for (const auto& v : system.variables) domain.push_back(v.domain);
     WorkList all(n);
     all.push(domain.data(), 1.0);
-    threads_ = options_.threads;
-    if (threads_ <= 0) threads_ = tbb::this_task_arena::max_concurrency();
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
-    tbb::task_arena arena(threads_);
     waiting_ = 1;
-    arena.execute([&] {
+    execute([&] {
       if (threads_ == 1) {
         work(std::move(all));
       } else {
@@ -248,8 +257,10 @@ class Search {
   const Options& options_;
   Problem problem_;
   tbb::enumerable_thread_specific<Worker> workers_;
+  int threads_;
+  tbb::global_control allow_;
+  tbb::task_arena arena_;
   tbb::task_group group_;
-  int threads_ = 1;
   std::atomic<int> busy_{0};
   std::atomic<bool> ended_{false};
   std::atomic<std::uint64_t> processed_{0}, waiting_{0};
@@ -270,9 +281,22 @@ std::string format(double x) {
 }
 
 bool before(const Found& a, const Found& b) {
-  return std::lexicographical_compare(
-      a.box.box.begin(), a.box.box.end(), b.box.box.begin(), b.box.box.end(),
-      [](const Interval& x, const Interval& y) { return x.lo() != y.lo() ? x.lo() < y.lo() : x.hi() < y.hi(); });
+  const certify::Box &x = a.box.box, &y = b.box.box;
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    if (x[j].lo() != y[j].lo()) return x[j].lo() < y[j].lo();
+    if (x[j].hi() != y[j].hi()) return x[j].hi() < y[j].hi();
+  }
+  return std::tie(a.box.verdict, a.box.free) < std::tie(b.box.verdict, b.box.free);
+}
+
+// Sorted by their sides: the same for any number of threads. In the calling thread's arena.
+void sort(std::vector<Found>& found) {
+  std::vector<std::size_t> order(found.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  tbb::parallel_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return before(found[i], found[j]); });
+  std::vector<Found> sorted(found.size());
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) { sorted[i] = std::move(found[order[i]]); });
+  found = std::move(sorted);
 }
 
 // The box in all variables of the system that was reduced.
@@ -325,16 +349,22 @@ Cover solve(const certify::System& system, const Options& options) {
     cover.tolerance = reduction.system.coefficient_tolerance * certify::kPartialTolerance;
   for (const Found& f : found)
     if (f.box.verdict == Verdict::partial) cover.dimension = std::max(cover.dimension, static_cast<int>(f.box.free.size()));
-  const certify::UpwardRounding rounding;  // and subnormal numbers stay
-  std::sort(found.begin(), found.end(), before);
-  if (cover.dimension == 0) {
-    merge_isolated(found);
-    cover.points = collect_points(found, sigma);
-  } else {
-    search.merge(found);
-  }
-  for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
-  for (Found& f : found) cover.boxes.push_back(lifted(system, reduction, std::move(f.box)));
+  search.execute([&] {
+    const certify::UpwardRounding rounding;  // and subnormal numbers stay
+    sort(found);
+    if (cover.dimension == 0) {
+      merge_isolated(found);
+      cover.points = collect_points(found, sigma);
+    } else {
+      search.merge(found);
+    }
+    for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
+    cover.boxes.resize(found.size());
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+      const certify::UpwardRounding here;
+      cover.boxes[i] = lifted(system, reduction, std::move(found[i].box));
+    });
+  });
   cover.statistics.seconds_total = search.seconds();
   cover.statistics.seconds_search = cover.statistics.seconds_total - cover.statistics.seconds_certify;
   search.report(true);
