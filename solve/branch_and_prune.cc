@@ -13,7 +13,6 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
@@ -291,11 +290,17 @@ bool before(const Found& a, const Found& b) {
 
 // Sorted by their sides: the same for any number of threads. In the calling thread's arena.
 void sort(std::vector<Found>& found) {
-  std::vector<std::size_t> order(found.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  tbb::parallel_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return before(found[i], found[j]); });
+  struct Key {
+    double lower;  // of the first side: most comparisons end here, without a look at the boxes
+    std::size_t index;
+  };
+  std::vector<Key> order(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) order[i] = {found[i].box.box.empty() ? 0 : found[i].box.box[0].lo(), i};
+  tbb::parallel_sort(order.begin(), order.end(), [&](const Key& a, const Key& b) {
+    return a.lower != b.lower ? a.lower < b.lower : before(found[a.index], found[b.index]);
+  });
   std::vector<Found> sorted(found.size());
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) { sorted[i] = std::move(found[order[i]]); });
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) { sorted[i] = std::move(found[order[i].index]); });
   found = std::move(sorted);
 }
 
