@@ -15,6 +15,7 @@ using certify::Verdict;
 
 // Measured on Dextar's sets, see bench/HISTORY.md.
 constexpr int kTightenings = 2;
+constexpr double kNearSigma = 1.2;     // of σ: a wider piece is cut anyway, however well it is tightened
 constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
 constexpr double kStaleSpread = 0.15;  // |I − Y·S| beyond which a part gets its own Y
 constexpr double kCutMargin = 0.96;    // aim a little below σ: the linearization is not exact
@@ -158,6 +159,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     }
     const double tightened = widest(sides);
     if (free.empty() ? tightened == width : tightened <= problem_.sigma || tightened > 0.9 * width) break;
+    if (!free.empty() && tightened > kNearSigma * problem_.sigma) break;  // to be cut anyway
     width = tightened;
   }
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
