@@ -48,6 +48,7 @@ class CompiledSystem {
   }
   int row_begin(int row) const { return row_begin_[row]; }
   int column(int entry) const { return columns_[entry]; }
+  const int* columns() const { return columns_.data(); }  ///< of all entries
   /// Equations and inequalities in which the variable occurs.
   std::span<const int> rows_of(int variable) const {
     return {rows_of_.data() + rows_of_begin_[variable], rows_of_.data() + rows_of_begin_[variable + 1]};

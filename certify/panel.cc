@@ -12,13 +12,27 @@
 namespace corank::certify {
 namespace {
 
-// (−lo, hi) += y·(−lo_s, hi_s) by rows: y⁺ takes the ends as they are, y⁻ exchanges them.
-CORANK_WIDE void add_scaled(const double* __restrict positive, const double* __restrict negative, double negated_lower,
-                            double upper, double* __restrict sum_negated_lower, double* __restrict sum_upper,
-                            std::size_t rows) {
-  for (std::size_t a = 0; a < rows; ++a) {
-    sum_negated_lower[a] += positive[a] * negated_lower + negative[a] * upper;
-    sum_upper[a] += positive[a] * upper + negative[a] * negated_lower;
+// One column of Y, split by sign, and the entries of S that it multiplies.
+struct ColumnOfY {
+  const double* positive;
+  const double* negative;
+  std::size_t rows;
+};
+
+// For each of `count` entries s in column columns[k]: (−lo, hi) of that column += y·(−lo_s, hi_s) by rows; y⁺ takes the ends as they are,
+// y⁻ exchanges them.
+CORANK_WIDE void add_scaled(const ColumnOfY& y, const Interval* entries, const int* columns, int count,
+                            double* negated_lower, double* upper) {
+  const double* __restrict const positive = y.positive;
+  const double* __restrict const negative = y.negative;
+  for (int k = 0; k < count; ++k) {
+    const double l = -entries[k].lo(), h = entries[k].hi();
+    double* __restrict const sum_l = negated_lower + static_cast<std::size_t>(columns[k]) * y.rows;
+    double* __restrict const sum_h = upper + static_cast<std::size_t>(columns[k]) * y.rows;
+    for (std::size_t a = 0; a < y.rows; ++a) {
+      sum_l[a] += positive[a] * l + negative[a] * h;
+      sum_h[a] += positive[a] * h + negative[a] * l;
+    }
   }
 }
 
@@ -56,12 +70,9 @@ bool Panel::assign_product(const CompiledSystem& system, const std::vector<int>&
   upper_.assign(static_cast<std::size_t>(n_) * stride_, 0.0);
   for (int b = 0; b < r_; ++b) {
     const int i = equations[static_cast<std::size_t>(b)];
-    for (int k = system.row_begin(i); k < system.row_begin(i + 1); ++k) {
-      const Interval& s = sparse[static_cast<std::size_t>(k)];
-      const std::size_t column = index(0, system.column(k));
-      add_scaled(&positive_[index(0, b)], &negative_[index(0, b)], -s.lo(), s.hi(), &negated_lower_[column], &upper_[column],
-                 stride_);
-    }
+    const int begin = system.row_begin(i);
+    add_scaled({&positive_[index(0, b)], &negative_[index(0, b)], stride_}, sparse.data() + begin, system.columns() + begin,
+               system.row_begin(i + 1) - begin, negated_lower_.data(), upper_.data());
   }
   // ∞ and NaN times 0 are NaN.
   double witness = 0;
@@ -71,9 +82,10 @@ bool Panel::assign_product(const CompiledSystem& system, const std::vector<int>&
 
 void Panel::multiply(const std::vector<Interval>& values, std::vector<Interval>& result) const {
   std::vector<double> negated_lower(stride_, 0.0), upper(stride_, 0.0);
+  const int one_column = 0;
   for (int b = 0; b < r_; ++b)
-    add_scaled(&positive_[index(0, b)], &negative_[index(0, b)], -values[static_cast<std::size_t>(b)].lo(),
-               values[static_cast<std::size_t>(b)].hi(), negated_lower.data(), upper.data(), stride_);
+    add_scaled({&positive_[index(0, b)], &negative_[index(0, b)], stride_}, &values[static_cast<std::size_t>(b)],
+               &one_column, 1, negated_lower.data(), upper.data());
   result.resize(static_cast<std::size_t>(r_));
   for (std::size_t a = 0; a < result.size(); ++a) result[a] = Interval(-negated_lower[a], upper[a]);
 }

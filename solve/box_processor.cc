@@ -61,9 +61,9 @@ bool BoxProcessor::contract(Interval* x) {
   worth_proving_ = regular_ = false;
   if (!propagate(x)) return false;
   const int n = problem_.compiled.variables();
-  std::vector<double> before(n);
+  widths_.resize(static_cast<std::size_t>(n));
   for (int repeat = 0; repeat < kNewtonRepeats; ++repeat) {
-    for (int j = 0; j < n; ++j) before[j] = x[j].width();
+    for (int j = 0; j < n; ++j) widths_[j] = x[j].width();
     const auto& p = preconditioners_.at_midpoint(x);
     const auto newton = certify::newton_contract(problem_.compiled, p, x, workspace_);
     ++statistics_.newton_steps;
@@ -71,7 +71,7 @@ bool BoxProcessor::contract(Interval* x) {
     regular_ = newton.regular && p.rank() == problem_.compiled.equations();
     worth_proving_ = regular_ && newton.spread < kProofSpread;
     bool gained = false;
-    for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - kNewtonGain) * before[j];
+    for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - kNewtonGain) * widths_[j];
     if (!gained) return true;
     if (!propagate(x)) return false;
   }

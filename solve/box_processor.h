@@ -57,6 +57,7 @@ class BoxProcessor {
   Slicer slicer_;
   std::vector<std::uint8_t> changed_, pending_rows_;
   std::vector<int> queue_;
+  std::vector<double> widths_;
   std::vector<Found> found_;
   certify::Statistics statistics_;
   int split_variable_ = -1;
