@@ -1,56 +1,16 @@
-#include "corank/solve/solve.h"
+// Covers of systems whose solutions are known.
+#include "corank/tests/solve/cover_questions.h"
 
 #include <gtest/gtest.h>
 
 #include <xmmintrin.h>
 
+#include <cfenv>
 #include <cmath>
 #include <random>
 
-#include "corank/certify/rounding.h"
-#include "corank/solve/branching.h"
-#include "corank/solve/preconditioner.h"
-#include "corank/tests/system_builder.h"
-
 namespace corank::solve {
 namespace {
-
-using certify::Cover;
-using certify::Interval;
-using certify::System;
-using certify::Verdict;
-using test::SystemBuilder;
-
-bool covers(const Cover& cover, const std::vector<double>& point) {
-  for (const auto& b : cover.boxes) {
-    bool inside = true;
-    for (std::size_t j = 0; j < point.size() && inside; ++j) inside = b.box[j].contains(point[j]);
-    if (inside) return true;
-  }
-  return false;
-}
-
-double widest(const Cover& cover) {
-  double width = 0;
-  for (const auto& b : cover.boxes)
-    for (const Interval& side : b.box) width = std::max(width, side.width());
-  return width;
-}
-
-Cover solve_with(const System& system, double sigma, int threads = 1) {
-  Options options;
-  options.sigma = sigma;
-  options.threads = threads;
-  return solve(system, options);
-}
-
-// (x² + y² − 1 = 0) ∩ (x − y = 0): ±(√½, √½).
-SystemBuilder circle_and_diagonal() {
-  SystemBuilder b;
-  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
-  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}}).equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}});
-  return b;
-}
 
 // The product of the lines x + 2y = 1/3 and 3x − y = 1/7: they cross at an angle to the axes.
 SystemBuilder crossing_lines() {
@@ -58,23 +18,6 @@ SystemBuilder crossing_lines() {
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
   b.equation(
       {{"3", {{x, 2}}}, {"5", {{x, 1}, {y, 1}}}, {"-2", {{y, 2}}}, {"-8/7", {{x, 1}}}, {"1/21", {{y, 1}}}, {"1/21", {}}});
-  return b;
-}
-
-// A torus, cut by nothing: (x² + y² + z² + 3/4)² = 4 (x² + y²), radii 1 and 1/2.
-SystemBuilder torus() {
-  SystemBuilder b;
-  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
-  b.equation({{"1", {{x, 4}}},
-              {"1", {{y, 4}}},
-              {"1", {{z, 4}}},
-              {"2", {{x, 2}, {y, 2}}},
-              {"2", {{x, 2}, {z, 2}}},
-              {"2", {{y, 2}, {z, 2}}},
-              {"-2.5", {{x, 2}}},
-              {"-2.5", {{y, 2}}},
-              {"1.5", {{z, 2}}},
-              {"9/16", {}}});
   return b;
 }
 
@@ -232,129 +175,6 @@ TEST(Solve, GivesTheSameSortedResultForAnyNumberOfThreads) {
   }
 }
 
-// A grid of the torus' two angles.
-void expect_covers_torus(const Cover& cover) {
-  for (int i = 0; i < 100; ++i)
-    for (int k = 0; k < 60; ++k) {
-      const double u = 0.0628 * i, v = 0.105 * k, r = 1 + 0.5 * std::cos(v);
-      ASSERT_TRUE(covers(cover, {r * std::cos(u), r * std::sin(u), 0.5 * std::sin(v)}));
-    }
-}
-
-TEST(Solve, ABoxLimitGivesAValidIncompleteCover) {
-  Options options;
-  options.sigma = 0.1;
-  options.max_boxes = 50;
-  const Cover cover = solve(torus().system(), options);
-  EXPECT_FALSE(cover.complete());
-  EXPECT_GT(cover.count(Verdict::pending), 0u);
-  expect_covers_torus(cover);
-}
-
-std::size_t proven(const Cover& cover) {
-  return cover.boxes.size() - cover.count(Verdict::undecided) - cover.count(Verdict::pending);
-}
-
-TEST(Solve, EndsAfterSoManyProvenBoxesWithAValidIncompleteCover) {
-  Options options;
-  options.sigma = 0.1;
-  for (const std::uint64_t wanted : {1u, 40u, 1000u}) {
-    options.max_solutions = wanted;
-    const Cover cover = solve(torus().system(), options);
-    EXPECT_GE(proven(cover), wanted);
-    EXPECT_LE(proven(cover), wanted + 20) << "a sheet is left after a few pieces";
-    EXPECT_FALSE(cover.complete());
-    expect_covers_torus(cover);
-    const Cover again = solve(torus().system(), options);
-    ASSERT_EQ(cover.boxes.size(), again.boxes.size());
-    for (std::size_t k = 0; k < cover.boxes.size(); ++k) {
-      ASSERT_EQ(cover.boxes[k].box, again.boxes[k].box);
-      ASSERT_EQ(cover.boxes[k].verdict, again.boxes[k].verdict);
-    }
-  }
-  options.threads = 3;
-  const Cover cover = solve(torus().system(), options);
-  EXPECT_GE(proven(cover), 1000u);
-  expect_covers_torus(cover);
-}
-
-TEST(Solve, FindsAllWhereThereAreFewerSolutionsThanAskedFor) {
-  Options options;
-  options.max_solutions = 1;
-  const Cover one = solve(circle_and_diagonal().system(), options);
-  EXPECT_FALSE(one.complete());
-  EXPECT_EQ(one.points.size(), 1u);
-  EXPECT_TRUE(covers(one, {std::sqrt(0.5), std::sqrt(0.5)}) && covers(one, {-std::sqrt(0.5), -std::sqrt(0.5)}));
-  options.max_solutions = 3;
-  const Cover both = solve(circle_and_diagonal().system(), options);
-  EXPECT_TRUE(both.complete());
-  EXPECT_EQ(both.points.size(), 2u);
-}
-
-TEST(Solve, CountsASolutionThatTwoBoxesProveOnceTowardsTheLimit) {
-  // x² + y² = 1, (x − p)(y + 1/2) = 0 where x = p is the first bisection: through two of the four solutions.
-  const double p = *split_point(Interval(-1, 1));
-  const auto exact = [](double value) {
-    std::array<char, 80> text;
-    std::snprintf(text.data(), text.size(), "%.60f", value);
-    return std::string(text.data());
-  };
-  SystemBuilder b;
-  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
-  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
-  b.equation({{"2", {{x, 1}, {y, 1}}}, {"1", {{x, 1}}}, {exact(-2 * p), {{y, 1}}}, {exact(-p), {}}});
-  Options options;
-  for (const std::uint64_t wanted : {1u, 2u, 3u, 4u}) {
-    options.max_solutions = wanted;
-    EXPECT_EQ(solve(b.system(), options).points.size(), wanted);
-  }
-}
-
-TEST(Solve, ATimeLimitEndsTheCuttingOfAWideSheet) {
-  // y = x² / 8 is one sheet, to be cut into 10⁸ pieces.
-  SystemBuilder b;
-  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
-  b.equation({{"8", {{y, 1}}}, {"-1", {{x, 2}}}});
-  Options options;
-  options.sigma = 2e-8;
-  options.time_limit = 0.05;
-  const Cover cover = solve(b.system(), options);
-  EXPECT_FALSE(cover.complete());
-  for (int k = -100; k <= 100; ++k) EXPECT_TRUE(covers(cover, {k / 128.0, k * k / 131072.0})) << k;
-}
-
-TEST(Solve, AStopAndATimeLimitEndTheSearch) {
-  std::atomic<bool> stop{true};
-  Options options;
-  options.sigma = 0.001;
-  options.stop = &stop;
-  EXPECT_FALSE(solve(torus().system(), options).complete());
-  options.stop = nullptr;
-  options.time_limit = 1e-6;
-  options.threads = 2;
-  EXPECT_FALSE(solve(torus().system(), options).complete());
-}
-
-TEST(Solve, ReportsProgressThatEndsWithAllOfTheDomain) {
-  Options options;
-  options.sigma = 0.2;
-  options.progress_interval = 0;
-  std::vector<Progress> reports;
-  options.progress = [&](const Progress& p) {
-    EXPECT_EQ(std::fegetround(), FE_TONEAREST) << "a callback runs under the caller's rounding mode";
-    reports.push_back(p);
-  };
-  const Cover cover = solve(torus().system(), options);
-  ASSERT_GT(reports.size(), 2u);
-  for (std::size_t k = 1; k < reports.size(); ++k) {
-    EXPECT_GE(reports[k].excluded, reports[k - 1].excluded - 1e-12);
-    EXPECT_GE(reports[k].processed, reports[k - 1].processed);
-  }
-  EXPECT_NEAR(reports.back().excluded, 1.0, 1e-9);
-  EXPECT_EQ(reports.back().waiting, 0u);
-  EXPECT_EQ(reports.back().verdicts[static_cast<std::size_t>(Verdict::regular)], cover.count(Verdict::regular));
-}
-
 TEST(Solve, KeepsSubnormalNumbersWhateverTheCallersMode) {
   // y = 1e-160·x at x = 1e-200: y = 1e-360 lies in no box [0, 0].
   SystemBuilder b;
@@ -435,90 +255,6 @@ TEST(Solve, EndsWhereThePivotOfASheetIsTiny) {
   EXPECT_LE(widest(cover), 1e6);
 }
 
-// Rounded decimals make x = √3/2, y = 1/2, x² + y² = 1 inconsistent: 0.866025² + 0.25 = 0.99999930….
-TEST(Solve, ProvesARoundedOverDeterminedPointPartially) {
-  SystemBuilder b;
-  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
-  b.equation({{"1", {{x, 1}}}, {"-0.866025", {}}}).equation({{"1", {{y, 1}}}, {"-0.5", {}}});
-  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
-  EXPECT_TRUE(solve_with(b.system(), 0.01).boxes.empty()) << "exactly, there is no solution";
-  System rounded = b.system();
-  rounded.coefficient_tolerance = 1e-6;
-  const Cover cover = solve_with(rounded, 0.01);
-  ASSERT_EQ(cover.points.size(), 1u);
-  EXPECT_EQ(cover.points[0].verdict, Verdict::partial);
-  EXPECT_EQ(cover.count(Verdict::partial), 1u);
-  EXPECT_TRUE(covers(cover, {std::sqrt(0.75), 0.5}));
-}
-
-TEST(Solve, ProvesARedundantCurvePartiallyAndNeverAContradiction) {
-  // The unit circle, (x² + y²)² = 1 in rounded decimals, z = x + y twice; then radius⁴ 1.001 instead, which no point of the circle has.
-  for (const char* radius : {"-0.333333", "-0.333666"}) {
-    SystemBuilder b;
-    const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-3", "3");
-    b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
-    b.equation({{"0.333333", {{x, 4}}}, {"0.666666", {{x, 2}, {y, 2}}}, {"0.333333", {{y, 4}}}, {radius, {}}});
-    b.equation({{"1", {{z, 1}}}, {"-1", {{x, 1}}}, {"-1", {{y, 1}}}});
-    b.equation({{"2", {{z, 1}}}, {"-2", {{x, 1}}}, {"-2", {{y, 1}}}});
-    System system = b.system();
-    system.coefficient_tolerance = 1e-6;
-    const Cover cover = solve_with(system, 0.05);
-    if (std::string(radius) == "-0.333333") {
-      EXPECT_EQ(cover.dimension, 1);
-      EXPECT_GT(cover.count(Verdict::partial), 100u);
-      EXPECT_EQ(cover.count(Verdict::partial), cover.boxes.size());
-    } else {
-      EXPECT_EQ(cover.count(Verdict::partial), 0u);
-    }
-    EXPECT_EQ(cover.count(Verdict::regular), 0u);
-  }
-}
-
-// a·x² + b·y² = c; with x = y/2, x² = c/(a + 4b).
-SystemBuilder ellipse(const char* a, const char* b, const char* c) {
-  SystemBuilder system;
-  const int x = system.variable("x", "-2", "2"), y = system.variable("y", "-2", "2");
-  return system.equation({{a, {{x, 2}}}, {b, {{y, 2}}}, {std::string("-") + c, {}}});
-}
-
-TEST(Solve, ATolerancedSystemIsProvenForEveryChoiceOfItsCoefficients) {
-  System curve = ellipse("3/2", "1/4", "1/2").system();
-  curve.coefficient_tolerance = 1e-3;
-  System points = ellipse("3/2", "1/4", "1/2").equation({{"1", {{0, 1}}}, {"-1/2", {{1, 1}}}}).system();
-  points.coefficient_tolerance = 1e-3;
-  const Cover one = solve_with(curve, 0.05), zero = solve(points);
-  EXPECT_GT(one.count(Verdict::regular), 50u);
-  EXPECT_EQ(one.count(Verdict::regular), one.boxes.size());
-  EXPECT_EQ(one.tolerance, 1e-3 * certify::kPartialTolerance);
-  EXPECT_EQ(zero.count(Verdict::isolated), 2u);
-  ASSERT_EQ(zero.points.size(), 2u);
-  EXPECT_NEAR(zero.sigma, std::sqrt(1e-3), 1e-12);
-  for (const auto& [a, b, c] : {std::tuple(1.4986, 0.24976, 0.50049), {1.5014, 0.25024, 0.49951}, {1.4986, 0.25024, 0.5}}) {
-    for (int degree = 0; degree < 360; ++degree) {
-      const double t = degree * M_PI / 180;
-      EXPECT_TRUE(covers(one, {std::sqrt(c / a) * std::cos(t), std::sqrt(c / b) * std::sin(t)})) << degree;
-    }
-    const double x = std::sqrt(c / (a + 4 * b));
-    EXPECT_TRUE(covers(zero, {x, 2 * x}) && covers(zero, {-x, -2 * x}));
-  }
-  EXPECT_FALSE(covers(zero, {0.449, 0.898})) << "beyond the tolerance";
-}
-
-TEST(Solve, RefusesANonsensicalTolerance) {
-  System system = circle_and_diagonal().system();
-  for (double tolerance : {-1e-9, 0.1, std::nan(""), HUGE_VAL}) {
-    system.coefficient_tolerance = tolerance;
-    EXPECT_THROW(solve(system), std::invalid_argument) << tolerance;
-  }
-}
-
-TEST(Solve, TakesOnlyPrintedSystemsWithTooManyEquationsWithinATolerance) {
-  EXPECT_EQ(printed_tolerance(circle_and_diagonal().system()), 0);
-  EXPECT_EQ(printed_tolerance(torus().system()), 0);
-  SystemBuilder b = circle_and_diagonal();
-  EXPECT_EQ(printed_tolerance(b.equation({{"2", {{0, 1}}}, {"-2", {{1, 1}}}}).system()), 1e-6);
-}
-
 TEST(Solve, RefusesANonsensicalSigma) {
   for (double sigma : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-20})
     EXPECT_THROW(solve_with(circle_and_diagonal().system(), sigma), std::invalid_argument) << sigma;
@@ -567,41 +303,6 @@ TEST(Solve, NeverLosesAPlantedSolution) {
     const Cover cover = solve(system, options);
     ASSERT_TRUE(covers(cover, root)) << "trial " << trial;
   }
-}
-
-// s = sin t is as narrow as t once t is narrow, while halves of [−1, 1] say little about many turns.
-TEST(Branching, BisectsArgumentsRatherThanTheirSines) {
-  SystemBuilder b;
-  const int y = b.variable("y", "-2", "2"), t = b.variable("t", "0", "30"), s = b.variable("s", "-1", "1");
-  b.equation({{"1", {{s, 1}}}, {"-1", {{t, 1, certify::Function::sine}}}})
-      .equation({{"1", {{y, 1}, {s, 1}}}, {"-1", {{t, 1}}}});
-  const certify::UpwardRounding rounding;
-  const BranchingRule rule(b.system());
-  const certify::CompiledSystem compiled(b.system());
-  EXPECT_EQ(rule.weights()[s], 0);
-  EXPECT_EQ(rule.weights()[t], 1);
-  const std::vector<Interval> x{Interval(-0.1, 0.1), Interval(0, 1), Interval(-1, 1)};
-  EXPECT_NE(rule.choose(compiled, x.data(), 0.05), s);
-  const std::vector<Interval> narrow{Interval(0, 0.01), Interval(0, 0.01), Interval(-1, 1)};
-  EXPECT_EQ(rule.choose(compiled, narrow.data(), 0.05), s);
-}
-
-TEST(Preconditioner, InvertsTheDependentColumns) {
-  const certify::UpwardRounding rounding;
-  const System system = circle_and_diagonal().system();
-  const certify::CompiledSystem compiled(system);
-  PreconditionerFactory factory(compiled);
-  const std::vector<Interval> x{Interval(0.5, 0.9), Interval(0.6, 0.8)};
-  const auto& p = factory.at_midpoint(x.data());
-  ASSERT_EQ(p.rank(), 2);
-  const double jacobian[2][2] = {{2 * 0.7, 2 * 0.7}, {1, -1}};  // at (0.7, 0.7)
-  for (int a = 0; a < 2; ++a)
-    for (int b = 0; b < 2; ++b) {
-      double entry = 0;
-      for (int k = 0; k < 2; ++k)
-        entry += p.y[static_cast<std::size_t>(a * 2 + k)] * jacobian[p.equations[k]][p.dependent[b]];
-      EXPECT_NEAR(entry, a == b ? 1 : 0, 1e-12);
-    }
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// Where to cut, and on what to lean: choices that no proof depends on.
+#include "corank/tests/solve/cover_questions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "corank/certify/rounding.h"
+#include "corank/solve/branching.h"
+#include "corank/solve/preconditioner.h"
+
+namespace corank::solve {
+namespace {
+
+// s = sin t is as narrow as t once t is narrow, while halves of [−1, 1] say little about many turns.
+TEST(Branching, BisectsArgumentsRatherThanTheirSines) {
+  SystemBuilder b;
+  const int y = b.variable("y", "-2", "2"), t = b.variable("t", "0", "30"), s = b.variable("s", "-1", "1");
+  b.equation({{"1", {{s, 1}}}, {"-1", {{t, 1, certify::Function::sine}}}})
+      .equation({{"1", {{y, 1}, {s, 1}}}, {"-1", {{t, 1}}}});
+  const certify::UpwardRounding rounding;
+  const BranchingRule rule(b.system());
+  const certify::CompiledSystem compiled(b.system());
+  EXPECT_EQ(rule.weights()[s], 0);
+  EXPECT_EQ(rule.weights()[t], 1);
+  const std::vector<Interval> x{Interval(-0.1, 0.1), Interval(0, 1), Interval(-1, 1)};
+  EXPECT_NE(rule.choose(compiled, x.data(), 0.05), s);
+  const std::vector<Interval> narrow{Interval(0, 0.01), Interval(0, 0.01), Interval(-1, 1)};
+  EXPECT_EQ(rule.choose(compiled, narrow.data(), 0.05), s);
+}
+
+TEST(Preconditioner, InvertsTheDependentColumns) {
+  const certify::UpwardRounding rounding;
+  const System system = circle_and_diagonal().system();
+  const certify::CompiledSystem compiled(system);
+  PreconditionerFactory factory(compiled);
+  const std::vector<Interval> x{Interval(0.5, 0.9), Interval(0.6, 0.8)};
+  const auto& p = factory.at_midpoint(x.data());
+  ASSERT_EQ(p.rank(), 2);
+  const double jacobian[2][2] = {{2 * 0.7, 2 * 0.7}, {1, -1}};  // at (0.7, 0.7)
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < 2; ++b) {
+      double entry = 0;
+      for (int k = 0; k < 2; ++k)
+        entry += p.y[static_cast<std::size_t>(a * 2 + k)] * jacobian[p.equations[k]][p.dependent[b]];
+      EXPECT_NEAR(entry, a == b ? 1 : 0, 1e-12);
+    }
+}
+
+}  // namespace
+}  // namespace corank::solve
