@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "corank/certify/check.h"
+#include "corank/certify/cover.h"
 #include "corank/certify/domain.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/rounding.h"
@@ -40,6 +41,10 @@ class Reducer {
  private:
   // Drops what holds identically; sets consistent_. False once the system is known to be inconsistent.
   bool tidy();
+  // Is |f| within `partial`'s tolerance all over the domain, for an equation of that scale?
+  bool within_tolerance(const Polynomial& f, double scale) const;
+  // Is the equation 0 = 0 but for its tolerance, and that small?
+  bool negligible(std::size_t row) const;
   void drop_repeated();
   // Replaces variables whose domain is one number by it.
   void eliminate_fixed();
@@ -59,6 +64,9 @@ class Reducer {
   std::vector<bool> gone_;
   std::vector<bool> is_argument_;                        // of a sine or cosine: stays
   std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
+  std::vector<double>
+      scales_;  // of each equation until drop_repeated: the sum of its |coefficients| as given, rounded downward
+  bool subset_ = false;
   bool consistent_ = true;
 };
 
@@ -73,13 +81,18 @@ Reducer::Reducer(const System& system, Eliminate eliminate)
     for (const Polynomial& f : *rows)
       for (const Monomial& m : f.monomials)
         if (m.is_trigonometric()) is_argument_[static_cast<std::size_t>(m.factors[0].variable)] = true;
-  const std::vector<bool> implied = implied_domains(system_);
-  for (std::size_t j = 0; j < implied.size(); ++j)
-    if (implied[j]) system_.variables[j].lower_implied = system_.variables[j].upper_implied = true;
   // From here on the tolerance stands in the enclosures.
   if (tolerant_)
     for (auto* rows : {&system_.equations, &system_.inequalities})
       for (Polynomial& f : *rows) widen(f, system_.coefficient_tolerance);
+  const std::vector<bool> implied = implied_domains(system_);
+  for (std::size_t j = 0; j < implied.size(); ++j)
+    if (implied[j]) system_.variables[j].lower_implied = system_.variables[j].upper_implied = true;
+  const UpwardRounding rounding;
+  for (const Polynomial& f : system_.equations) {
+    scales_.push_back(0);
+    for (const Monomial& m : f.monomials) scales_.back() = -(-scales_.back() - m.enclosure.mig());
+  }
 }
 
 bool Reducer::may_define(const Polynomial& f) const {
@@ -97,6 +110,19 @@ void Reducer::refresh(Polynomial& f) const {
   for (Monomial& m : f.monomials) m.enclosure = m.coefficient.enclose();
 }
 
+bool Reducer::within_tolerance(const Polynomial& f, double scale) const {
+  std::vector<Interval> domain;
+  for (const Variable& v : system_.variables) domain.push_back(v.domain);
+  return evaluate(f, domain).mag() <= -(-kPartialTolerance * system_.coefficient_tolerance * scale);
+}
+
+bool Reducer::negligible(std::size_t row) const {
+  const auto& monomials = system_.equations[row].monomials;
+  return tolerant_ &&
+         std::all_of(monomials.begin(), monomials.end(), [](const Monomial& m) { return m.coefficient.is_zero(); }) &&
+         within_tolerance(system_.equations[row], scales_[row]);
+}
+
 bool Reducer::tidy() {
   auto& rows = system_.equations;
   for (std::size_t i = 0; i < rows.size();) {
@@ -104,8 +130,10 @@ bool Reducer::tidy() {
     // A constant that may be 0 within its tolerance, or whose sign cannot be decided, is no contradiction.
     if (constant && !rows[i].monomials.empty() && !rows[i].monomials[0].enclosure.contains_zero())
       return consistent_ = false;
-    if (rows[i].monomials.empty() || (constant && tolerant_)) {
+    if (rows[i].monomials.empty() || negligible(i)) {
+      subset_ = subset_ || !rows[i].monomials.empty();
       rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
+      scales_.erase(scales_.begin() + static_cast<std::ptrdiff_t>(i));
     } else {
       ++i;
     }
@@ -116,9 +144,23 @@ bool Reducer::tidy() {
 void Reducer::drop_repeated() {
   auto& rows = system_.equations;
   std::vector<Polynomial> distinct;
-  for (Polynomial& f : rows)
-    if (std::none_of(distinct.begin(), distinct.end(), [&](const Polynomial& g) { return proportional(f, g); }))
-      distinct.push_back(std::move(f));
+  const auto is_exact = [](const Polynomial& f) {
+    return std::none_of(f.monomials.begin(), f.monomials.end(), carries_tolerance);
+  };
+  const auto repeats = [&](std::size_t row, const Polynomial& g) {
+    Polynomial f = rows[row];
+    const auto ratio = proportional(f, g);
+    if (!ratio || (is_exact(f) && is_exact(g))) return ratio.has_value();
+    for (Monomial& m : f.monomials)  // f − q·g
+      for (const Monomial& other : g.monomials)
+        if (other.factors == m.factors) m.enclosure -= ratio->enclose() * other.enclosure;
+    const bool nearly = within_tolerance(f, scales_[row]);
+    subset_ = subset_ || nearly;
+    return nearly;
+  };
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (std::none_of(distinct.begin(), distinct.end(), [&](const Polynomial& g) { return repeats(row, g); }))
+      distinct.push_back(rows[row]);
   rows = std::move(distinct);
 }
 
@@ -179,6 +221,7 @@ void Reducer::carry_domain(int x, const Polynomial& value) {
 
 void Reducer::eliminate(std::size_t row, int variable, const Polynomial& value) {
   system_.equations.erase(system_.equations.begin() + static_cast<std::ptrdiff_t>(row));
+  if (row < scales_.size()) scales_.erase(scales_.begin() + static_cast<std::ptrdiff_t>(row));
   carry_domain(variable, value);
   replace_everywhere(variable, value);
 }
@@ -259,6 +302,7 @@ Reduction Reducer::run() {
   }
   Reduction result;
   result.consistent = consistent_;
+  result.subset = subset_;
   std::vector<int> index(gone_.size(), -1);
   for (std::size_t j = 0; j < gone_.size(); ++j)
     if (!gone_[j]) {
