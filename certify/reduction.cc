@@ -52,6 +52,8 @@ class Reducer {
   bool eliminate_tied();
   bool eliminate_image();
   bool may_define(const Polynomial& f) const;
+  // Does the value put in for the variable leave polynomials of moderate length, degree and coefficients?
+  bool affordable(int variable, const Polynomial& value) const;
   void eliminate(std::size_t row, int variable, const Polynomial& value);
   void replace_everywhere(int variable, Polynomial value);
   // Narrows y's domain to where a·y + c lies in x's; or adds inequalities.
@@ -102,6 +104,30 @@ bool Reducer::may_define(const Polynomial& f) const {
     case Eliminate::integers: return std::all_of(f.monomials.begin(), f.monomials.end(), is_integer);
   }
   return false;
+}
+
+bool Reducer::affordable(int variable, const Polynomial& value) const {
+  constexpr double kMostTerms = 1000, kLargestCoefficient = 1e100;
+  constexpr int kLargestPower = 100;
+  int degree = 0;
+  double size = 1;
+  for (const Monomial& m : value.monomials) degree = std::max(degree, m.degree()), size += m.enclosure.mag();
+  const auto fits = [&](const Polynomial& f) {
+    return std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
+      for (const Factor& x : m.factors) {
+        if (x.variable != variable || x.power == 1) continue;
+        // value^p has at most C(p + t − 1, p) terms, t those of the value.
+        double terms = 1;
+        for (int k = 1; k <= x.power && terms <= kMostTerms; ++k)
+          terms *= (static_cast<double>(value.monomials.size()) + k - 1) / k;
+        return terms <= kMostTerms && degree <= kLargestPower / x.power && std::pow(size, x.power) <= kLargestCoefficient;
+      }
+      return true;
+    });
+  };
+  return std::all_of(system_.equations.begin(), system_.equations.end(), fits) &&
+         std::all_of(system_.inequalities.begin(), system_.inequalities.end(), fits) &&
+         std::all_of(definitions_.begin(), definitions_.end(), [&](const auto& d) { return fits(d.second); });
 }
 
 // In exact arithmetic an enclosure is the coefficient's own.
@@ -233,7 +259,7 @@ void Reducer::eliminate_fixed() {
     if (!(v.lower == v.upper) || is_argument_[j]) continue;
     Polynomial value{{}, "domain of " + v.name};
     if (!v.lower.is_zero()) value.monomials.emplace_back(v.lower, std::vector<Factor>{});
-    replace_everywhere(static_cast<int>(j), std::move(value));
+    if (affordable(static_cast<int>(j), value)) replace_everywhere(static_cast<int>(j), std::move(value));
   }
 }
 
@@ -258,7 +284,8 @@ bool Reducer::eliminate_tied() {
     if (variables.empty() || variables.size() > 2 || !is_affine(f) || !may_define(f)) continue;
     // The later variable goes: kernel unknowns and auxiliaries stand behind the configuration.
     for (auto v = variables.rbegin(); v != variables.rend(); ++v)
-      if (const auto value = is_argument_[static_cast<std::size_t>(*v)] ? std::nullopt : solved_for(f, *v)) {
+      if (const auto value = is_argument_[static_cast<std::size_t>(*v)] ? std::nullopt : solved_for(f, *v);
+          value && affordable(*v, *value)) {
         eliminate(i, *v, *value);
         return true;
       }
@@ -278,7 +305,7 @@ bool Reducer::eliminate_image() {
       if (is_argument_[static_cast<std::size_t>(v)] || uses[static_cast<std::size_t>(v)] != 1 || variables_of(f).size() < 2)
         continue;
       const auto value = solved_for(f, v);
-      if (!value) continue;
+      if (!value || !affordable(v, *value)) continue;
       // A sine or cosine is no factor: c = cos t stays where another image is r·c.
       const bool has_function = std::any_of(value->monomials.begin(), value->monomials.end(),
                                             [](const Monomial& m) { return m.is_trigonometric(); });

@@ -232,6 +232,18 @@ TEST(Reduction, TakesNoRangeAsImpliedWithinATolerance) {
   }
 }
 
+TEST(Reduction, ExpandsNoLongPowers) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "2"), w = b.variable("w", "-2", "2");
+  b.equation({{"1", {{y, 1}}}, {"-1", {{x, 1}}}, {"-1/3", {}}})
+      .equation({{"1", {{y, 1000}}}, {"1", {{x, 1000}}}, {"-1", {}}});
+  const int v = b.variable("v", "-1", "1"), u = b.variable("u", "-1", "1");
+  b.equation({{"1", {{w, 1}}}, {"-1", {{v, 1000}}}}).equation({{"1", {{v, 1}}}, {"-1", {{u, 1000}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  EXPECT_EQ(r.system.equations.size(), 3u);
+  EXPECT_EQ(r.definitions.size(), 1u) << "w only: v = u^1000 would make it u^1000000";
+}
+
 TEST(PolynomialAlgebra, SolvesOnlyForWhatIsLinearWithARationalFactor) {
   const UpwardRounding rounding;
   const auto f = SystemBuilder::polynomial({{"2", {{0, 1}}}, {"-4", {{1, 2}}}, {"3", {{1, 1}, {2, 1}}}, {"6", {}}});
