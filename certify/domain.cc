@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/certify/polynomial_algebra.h"
+
 namespace corank::certify {
 namespace {
 
@@ -19,8 +21,6 @@ bool is_positive_sum_of_squares(const Polynomial& f) {
   }
   return any;
 }
-
-bool carries_no_tolerance(const Monomial& m) { return m.coefficient.enclose().contains(m.enclosure); }
 
 // The lemma about squares, for the variables of f.
 void imply_by_squares(const Polynomial& f, const System& system, std::vector<bool>& implied) {
@@ -68,7 +68,7 @@ void imply_by_functions(const Polynomial& f, const System& system, std::vector<b
 std::vector<bool> implied_domains(const System& system) {
   std::vector<bool> implied(system.variables.size(), false);
   for (const Polynomial& f : system.equations) {
-    if (!std::all_of(f.monomials.begin(), f.monomials.end(), carries_no_tolerance)) continue;
+    if (std::any_of(f.monomials.begin(), f.monomials.end(), carries_tolerance)) continue;
     imply_by_squares(f, system, implied);
     imply_by_functions(f, system, implied);
   }

@@ -34,6 +34,7 @@ bool finite(const Preconditioner& p) {
 NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
   NewtonOutcome outcome;
   const int r = p.rank(), n = system.variables();
+  w.contracted = false;
   if (!finite(p)) return outcome;
   set_center(x, n, w);
   w.slope.resize(system.entries());
@@ -41,6 +42,7 @@ NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner
   w.panel.set_matrix(p.y, r);
   if (!w.panel.assign_product(system, p.equations, w.slope)) return outcome;
   multiply_residual(system, p, w);
+  w.contracted = true;
   w.offset.resize(n);
   for (int j = 0; j < n; ++j) w.offset[j] = x[j] - Interval(w.center[j]);
   w.image = w.residual;
@@ -165,6 +167,7 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
 Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
                         NewtonWorkspace& w) {
   CORANK_CHECK(UpwardRounding::active());
+  if (!w.contracted) return Interval::whole();
   const int r = p.rank(), n = system.variables();
   CORANK_CHECK(w.panel.rows() == r && w.panel.columns() == n && w.center.size() == static_cast<std::size_t>(n));
   w.slope.resize(system.entries());

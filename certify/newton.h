@@ -24,6 +24,7 @@ struct NewtonWorkspace {
   std::vector<Interval> slope, values, residual, offset, image, region, gradient;
   std::vector<double> center, magnitude, radius, next_radius;
   std::vector<unsigned char> is_dependent;
+  bool contracted = false;  ///< the last newton_contract had a bounded Y·S and Y·F(c)
 };
 
 struct NewtonOutcome {
@@ -65,7 +66,7 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
 
 /// After newton_contract(system, p, y, w): encloses f_row at the zeros of p's rows in x ⊂ Y, Y the box that the step was given and `row` any
 /// row. Let R = Y·F and λ real: R(c) + Y·S (z − c) ∋ 0 at a zero z, so f_row(z) ∈ f_row(c) − λ·R(c) + (S_row − λ·Y·S)(X − c). Here λ makes
-/// the dependent variables' part vanish nearly; any λ is valid.
+/// the dependent variables' part vanish nearly; any λ is valid. Where the step had no bounded Y·S: the whole line.
 Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
                         NewtonWorkspace& w);
 

@@ -24,25 +24,26 @@ struct ByVariables {
 struct Coefficient {
   ExactNumber exact;
   Interval enclosure;
+  bool tolerant;
 };
 
 // Terms by their factors, summed.
 class Sum {
  public:
-  void add(const Factors& factors, const ExactNumber& exact, const Interval& enclosure) {
-    const auto [at, is_new] = terms_.try_emplace(factors, Coefficient{exact, enclosure});
+  void add(const Factors& factors, const ExactNumber& exact, const Interval& enclosure, bool tolerant) {
+    const auto [at, is_new] = terms_.try_emplace(factors, Coefficient{exact, enclosure, tolerant});
     if (is_new) return;
     at->second.exact = at->second.exact + exact;
     at->second.enclosure += enclosure;
+    at->second.tolerant = at->second.tolerant || tolerant;
   }
+  void add(const Monomial& m) { add(m.factors, m.coefficient, m.enclosure, carries_tolerance(m)); }
   std::vector<Monomial> monomials() const {
     std::vector<Monomial> result;
     for (const auto& [factors, c] : terms_) {
-      if (c.exact.is_zero()) continue;
-      result.emplace_back();
-      result.back().coefficient = c.exact;
-      result.back().enclosure = c.enclosure;
-      result.back().factors = factors;
+      if (c.exact.is_zero() && !c.tolerant) continue;
+      result.emplace_back(c.exact, factors);
+      if (c.tolerant) result.back().enclosure = c.enclosure;
     }
     return result;
   }
@@ -72,12 +73,15 @@ std::vector<Monomial> product(const std::vector<Monomial>& a, const std::vector<
   for (const Monomial& x : a)
     for (const Monomial& y : b) {
       CORANK_CHECK((!x.is_trigonometric() || y.factors.empty()) && (!y.is_trigonometric() || x.factors.empty()));
-      sum.add(product(x.factors, y.factors), x.coefficient * y.coefficient, x.enclosure * y.enclosure);
+      sum.add(product(x.factors, y.factors), x.coefficient * y.coefficient, x.enclosure * y.enclosure,
+              carries_tolerance(x) || carries_tolerance(y));
     }
   return sum.monomials();
 }
 
 }  // namespace
+
+bool carries_tolerance(const Monomial& m) { return !m.coefficient.enclose().contains(m.enclosure); }
 
 bool mentions(const Polynomial& f, int variable) {
   return std::any_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
@@ -93,14 +97,14 @@ Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value
     const auto at =
         std::find_if(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return x.variable == variable; });
     if (at == m.factors.end()) {
-      sum.add(m.factors, m.coefficient, m.enclosure);
+      sum.add(m);
       continue;
     }
     Monomial rest = m;
     rest.factors.erase(rest.factors.begin() + (at - m.factors.begin()));
     std::vector<Monomial> terms{rest};
     for (int k = 0; k < at->power; ++k) terms = product(terms, value.monomials);
-    for (const Monomial& t : terms) sum.add(t.factors, t.coefficient, t.enclosure);
+    for (const Monomial& t : terms) sum.add(t);
   }
   return {sum.monomials(), f.source};
 }
@@ -122,34 +126,35 @@ std::optional<Polynomial> solved_for(const Polynomial& f, int variable) {
     CORANK_CHECK(quotient.has_value());
     Monomial t = m;
     t.coefficient = -(m.coefficient / own->coefficient);
-    t.enclosure = *quotient;
+    t.enclosure = carries_tolerance(m) || carries_tolerance(*own) ? *quotient : t.coefficient.enclose();
     value.monomials.push_back(std::move(t));
   }
   return value;
 }
 
-bool proportional(const Polynomial& f, const Polynomial& g) {
-  if (f.monomials.size() != g.monomials.size() || f.monomials.empty()) return false;
+std::optional<ExactNumber> proportional(const Polynomial& f, const Polynomial& g) {
+  if (f.monomials.size() != g.monomials.size() || f.monomials.empty()) return std::nullopt;
   Sum a, b;  // in the same order
-  for (const Monomial& m : f.monomials) a.add(m.factors, m.coefficient, m.enclosure);
-  for (const Monomial& m : g.monomials) b.add(m.factors, m.coefficient, m.enclosure);
+  for (const Monomial& m : f.monomials) a.add(m);
+  for (const Monomial& m : g.monomials) b.add(m);
   const auto x = a.monomials(), y = b.monomials();
-  if (x.size() != y.size() || x.empty()) return false;
+  if (x.size() != y.size() || x.empty()) return std::nullopt;
   std::optional<ExactNumber> ratio;
   for (std::size_t k = 0; k < x.size(); ++k) {
-    if (x[k].factors != y[k].factors) return false;
-    if (x[k].coefficient.is_rational() != y[k].coefficient.is_rational()) return false;
+    if (x[k].factors != y[k].factors) return std::nullopt;
+    if (x[k].coefficient.is_rational() != y[k].coefficient.is_rational()) return std::nullopt;
     if (!x[k].coefficient.is_rational()) continue;
+    if (y[k].coefficient.is_zero()) return std::nullopt;
     const ExactNumber r = x[k].coefficient / y[k].coefficient;
-    if (ratio && !(r == *ratio)) return false;
+    if (ratio && !(r == *ratio)) return std::nullopt;
     ratio = r;
   }
   for (std::size_t k = 0; k < x.size(); ++k) {
     if (x[k].coefficient.is_rational()) continue;
     const ExactNumber scaled = ratio ? *ratio * y[k].coefficient : y[k].coefficient;
-    if (!(scaled == x[k].coefficient)) return false;
+    if (!(scaled == x[k].coefficient)) return std::nullopt;
   }
-  return true;
+  return ratio.value_or(1);
 }
 
 Interval evaluate(const Polynomial& f, const std::vector<Interval>& x) {

@@ -10,8 +10,12 @@
 
 namespace corank::certify {
 
+/// Is the enclosure wider than the exact coefficient asks for?
+bool carries_tolerance(const Monomial& m);
+
 /// f with the variable, which must not stand inside a sine or cosine, replaced by a polynomial, which must have no sine or cosine if f
-/// has the variable in a product or power: f(…, value, …). Monomials whose exact coefficient is the rational number 0 are dropped.
+/// has the variable in a product or power: f(…, value, …). Monomials whose exact coefficient is the rational number 0 are dropped unless parts of
+/// it carry a tolerance: their sum is 0 for some choices only.
 /// Requires UpwardRounding::active().
 Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value);
 
@@ -19,8 +23,8 @@ Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value
 /// Requires UpwardRounding::active().
 std::optional<Polynomial> solved_for(const Polynomial& f, int variable);
 
-/// Is f = q·g for a rational number q ≠ 0? Coefficients that are not rational compare by structure: false proves nothing.
-bool proportional(const Polynomial& f, const Polynomial& g);
+/// The rational number q ≠ 0 with f = q·g in exact coefficients. Those that are not rational compare by structure: nothing proves nothing.
+std::optional<ExactNumber> proportional(const Polynomial& f, const Polynomial& g);
 
 /// Does the variable occur in f?
 bool mentions(const Polynomial& f, int variable);

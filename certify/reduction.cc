@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "corank/certify/check.h"
+#include "corank/certify/cover.h"
 #include "corank/certify/domain.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/rounding.h"
@@ -40,6 +41,10 @@ class Reducer {
  private:
   // Drops what holds identically; sets consistent_. False once the system is known to be inconsistent.
   bool tidy();
+  // Is |f| within `partial`'s tolerance all over the domain, for an equation of that scale?
+  bool within_tolerance(const Polynomial& f, double scale) const;
+  // Is the equation 0 = 0 but for its tolerance, and that small?
+  bool negligible(std::size_t row) const;
   void drop_repeated();
   // Replaces variables whose domain is one number by it.
   void eliminate_fixed();
@@ -47,6 +52,8 @@ class Reducer {
   bool eliminate_tied();
   bool eliminate_image();
   bool may_define(const Polynomial& f) const;
+  // Does the value put in for the variable leave polynomials of moderate length, degree and coefficients?
+  bool affordable(int variable, const Polynomial& value) const;
   void eliminate(std::size_t row, int variable, const Polynomial& value);
   void replace_everywhere(int variable, Polynomial value);
   // Narrows y's domain to where a·y + c lies in x's; or adds inequalities.
@@ -59,6 +66,9 @@ class Reducer {
   std::vector<bool> gone_;
   std::vector<bool> is_argument_;                        // of a sine or cosine: stays
   std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
+  std::vector<double>
+      scales_;  // of each equation until drop_repeated: the sum of its |coefficients| as given, rounded downward
+  bool subset_ = false;
   bool consistent_ = true;
 };
 
@@ -73,13 +83,18 @@ Reducer::Reducer(const System& system, Eliminate eliminate)
     for (const Polynomial& f : *rows)
       for (const Monomial& m : f.monomials)
         if (m.is_trigonometric()) is_argument_[static_cast<std::size_t>(m.factors[0].variable)] = true;
-  const std::vector<bool> implied = implied_domains(system_);
-  for (std::size_t j = 0; j < implied.size(); ++j)
-    if (implied[j]) system_.variables[j].lower_implied = system_.variables[j].upper_implied = true;
   // From here on the tolerance stands in the enclosures.
   if (tolerant_)
     for (auto* rows : {&system_.equations, &system_.inequalities})
       for (Polynomial& f : *rows) widen(f, system_.coefficient_tolerance);
+  const std::vector<bool> implied = implied_domains(system_);
+  for (std::size_t j = 0; j < implied.size(); ++j)
+    if (implied[j]) system_.variables[j].lower_implied = system_.variables[j].upper_implied = true;
+  const UpwardRounding rounding;
+  for (const Polynomial& f : system_.equations) {
+    scales_.push_back(0);
+    for (const Monomial& m : f.monomials) scales_.back() = -(-scales_.back() - m.enclosure.mig());
+  }
 }
 
 bool Reducer::may_define(const Polynomial& f) const {
@@ -91,10 +106,47 @@ bool Reducer::may_define(const Polynomial& f) const {
   return false;
 }
 
+bool Reducer::affordable(int variable, const Polynomial& value) const {
+  constexpr double kMostTerms = 1000, kLargestCoefficient = 1e100;
+  constexpr int kLargestPower = 100;
+  int degree = 0;
+  double size = 1;
+  for (const Monomial& m : value.monomials) degree = std::max(degree, m.degree()), size += m.enclosure.mag();
+  const auto fits = [&](const Polynomial& f) {
+    return std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
+      for (const Factor& x : m.factors) {
+        if (x.variable != variable || x.power == 1) continue;
+        // value^p has at most C(p + t − 1, p) terms, t those of the value.
+        double terms = 1;
+        for (int k = 1; k <= x.power && terms <= kMostTerms; ++k)
+          terms *= (static_cast<double>(value.monomials.size()) + k - 1) / k;
+        return terms <= kMostTerms && degree <= kLargestPower / x.power && std::pow(size, x.power) <= kLargestCoefficient;
+      }
+      return true;
+    });
+  };
+  return std::all_of(system_.equations.begin(), system_.equations.end(), fits) &&
+         std::all_of(system_.inequalities.begin(), system_.inequalities.end(), fits) &&
+         std::all_of(definitions_.begin(), definitions_.end(), [&](const auto& d) { return fits(d.second); });
+}
+
 // In exact arithmetic an enclosure is the coefficient's own.
 void Reducer::refresh(Polynomial& f) const {
   if (tolerant_) return;
   for (Monomial& m : f.monomials) m.enclosure = m.coefficient.enclose();
+}
+
+bool Reducer::within_tolerance(const Polynomial& f, double scale) const {
+  std::vector<Interval> domain;
+  for (const Variable& v : system_.variables) domain.push_back(v.domain);
+  return evaluate(f, domain).mag() <= -(-kPartialTolerance * system_.coefficient_tolerance * scale);
+}
+
+bool Reducer::negligible(std::size_t row) const {
+  const auto& monomials = system_.equations[row].monomials;
+  return tolerant_ &&
+         std::all_of(monomials.begin(), monomials.end(), [](const Monomial& m) { return m.coefficient.is_zero(); }) &&
+         within_tolerance(system_.equations[row], scales_[row]);
 }
 
 bool Reducer::tidy() {
@@ -104,8 +156,10 @@ bool Reducer::tidy() {
     // A constant that may be 0 within its tolerance, or whose sign cannot be decided, is no contradiction.
     if (constant && !rows[i].monomials.empty() && !rows[i].monomials[0].enclosure.contains_zero())
       return consistent_ = false;
-    if (rows[i].monomials.empty() || (constant && tolerant_)) {
+    if (rows[i].monomials.empty() || negligible(i)) {
+      subset_ = subset_ || !rows[i].monomials.empty();
       rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
+      scales_.erase(scales_.begin() + static_cast<std::ptrdiff_t>(i));
     } else {
       ++i;
     }
@@ -116,9 +170,23 @@ bool Reducer::tidy() {
 void Reducer::drop_repeated() {
   auto& rows = system_.equations;
   std::vector<Polynomial> distinct;
-  for (Polynomial& f : rows)
-    if (std::none_of(distinct.begin(), distinct.end(), [&](const Polynomial& g) { return proportional(f, g); }))
-      distinct.push_back(std::move(f));
+  const auto is_exact = [](const Polynomial& f) {
+    return std::none_of(f.monomials.begin(), f.monomials.end(), carries_tolerance);
+  };
+  const auto repeats = [&](std::size_t row, const Polynomial& g) {
+    Polynomial f = rows[row];
+    const auto ratio = proportional(f, g);
+    if (!ratio || (is_exact(f) && is_exact(g))) return ratio.has_value();
+    for (Monomial& m : f.monomials)  // f − q·g
+      for (const Monomial& other : g.monomials)
+        if (other.factors == m.factors) m.enclosure -= ratio->enclose() * other.enclosure;
+    const bool nearly = within_tolerance(f, scales_[row]);
+    subset_ = subset_ || nearly;
+    return nearly;
+  };
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (std::none_of(distinct.begin(), distinct.end(), [&](const Polynomial& g) { return repeats(row, g); }))
+      distinct.push_back(rows[row]);
   rows = std::move(distinct);
 }
 
@@ -179,6 +247,7 @@ void Reducer::carry_domain(int x, const Polynomial& value) {
 
 void Reducer::eliminate(std::size_t row, int variable, const Polynomial& value) {
   system_.equations.erase(system_.equations.begin() + static_cast<std::ptrdiff_t>(row));
+  if (row < scales_.size()) scales_.erase(scales_.begin() + static_cast<std::ptrdiff_t>(row));
   carry_domain(variable, value);
   replace_everywhere(variable, value);
 }
@@ -190,7 +259,7 @@ void Reducer::eliminate_fixed() {
     if (!(v.lower == v.upper) || is_argument_[j]) continue;
     Polynomial value{{}, "domain of " + v.name};
     if (!v.lower.is_zero()) value.monomials.emplace_back(v.lower, std::vector<Factor>{});
-    replace_everywhere(static_cast<int>(j), std::move(value));
+    if (affordable(static_cast<int>(j), value)) replace_everywhere(static_cast<int>(j), std::move(value));
   }
 }
 
@@ -215,7 +284,8 @@ bool Reducer::eliminate_tied() {
     if (variables.empty() || variables.size() > 2 || !is_affine(f) || !may_define(f)) continue;
     // The later variable goes: kernel unknowns and auxiliaries stand behind the configuration.
     for (auto v = variables.rbegin(); v != variables.rend(); ++v)
-      if (const auto value = is_argument_[static_cast<std::size_t>(*v)] ? std::nullopt : solved_for(f, *v)) {
+      if (const auto value = is_argument_[static_cast<std::size_t>(*v)] ? std::nullopt : solved_for(f, *v);
+          value && affordable(*v, *value)) {
         eliminate(i, *v, *value);
         return true;
       }
@@ -235,7 +305,7 @@ bool Reducer::eliminate_image() {
       if (is_argument_[static_cast<std::size_t>(v)] || uses[static_cast<std::size_t>(v)] != 1 || variables_of(f).size() < 2)
         continue;
       const auto value = solved_for(f, v);
-      if (!value) continue;
+      if (!value || !affordable(v, *value)) continue;
       // A sine or cosine is no factor: c = cos t stays where another image is r·c.
       const bool has_function = std::any_of(value->monomials.begin(), value->monomials.end(),
                                             [](const Monomial& m) { return m.is_trigonometric(); });
@@ -259,6 +329,7 @@ Reduction Reducer::run() {
   }
   Reduction result;
   result.consistent = consistent_;
+  result.subset = subset_;
   std::vector<int> index(gone_.size(), -1);
   for (std::size_t j = 0; j < gone_.size(); ++j)
     if (!gone_[j]) {

@@ -7,7 +7,8 @@
 // Theorem: let x_e = p_e(x') be the eliminated variables' values as polynomials in the variables x' that are kept. Then
 // x' ↦ (x', p(x')) is a bijection from the reduced system's solutions to the system's, and keeps boxes of values of kept variables. Proof:
 // each step replaces the pair {x = p, f = 0} by {x = p, f(p) = 0}, has p's range in x's domain as a condition (on the domain of y, or
-// as an inequality), and multiplies by no polynomial. A dropped equation is 0 = 0 or a rational multiple of one that is kept.
+// as an inequality), and multiplies by no polynomial. A dropped equation is 0 = 0 or a rational multiple of one that is kept,
+// for every choice of coefficients within their tolerance (but see Reduction::subset).
 // So exactly one solution of the reduced system for every value of some kept variables means exactly one of the system's.
 #pragma once
 
@@ -27,7 +28,10 @@ struct Reduction {
   std::vector<int> kept;                ///< kept[j]: index in the original system of variable j of `system`
   std::vector<Definition> definitions;  ///< the others
   bool tolerant = false;                ///< enclosures carry the coefficient tolerance
-  bool consistent = true;               ///< false: an equation became "a nonzero number = 0", the system has no solution
+  /// An equation was dropped that holds for some choices of coefficients only, and for the others to kPartialTolerance · τ, relative to
+  /// the sum of its |coefficients|: proofs about `system` are about a subset of the equations.
+  bool subset = false;
+  bool consistent = true;  ///< false: an equation became "a nonzero number = 0", the system has no solution
 
   /// The box of the original system whose kept sides are the first of `sides` and whose other sides are the rest, in the order of
   /// `definitions`.

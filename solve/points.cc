@@ -33,7 +33,7 @@ class Clusters {
 template <class Visit>
 void for_each_close_pair(const std::vector<const std::vector<Interval>*>& boxes, const std::vector<std::size_t>& first,
                          const std::vector<std::size_t>& second, double gap, Visit visit) {
-  if (first.empty() || second.empty()) return;
+  if (first.empty() || second.empty() || boxes[second[0]]->empty()) return;
   std::size_t along = 0;
   double best = -1;
   for (std::size_t j = 0; j < boxes[second[0]]->size(); ++j) {

@@ -20,6 +20,7 @@ Problem::Problem(const certify::Reduction& reduction, double s, std::function<bo
     : compiled(reduction.system, values_of(reduction)),
       redundant(reduction.system),
       domain(reduction.system),
+      subset(reduction.subset),
       rank_tolerance(reduction.tolerant ? kRoundedRankTolerance : kRedundantRankTolerance),
       branching(reduction.system),
       sigma(s),

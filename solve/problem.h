@@ -19,7 +19,7 @@ struct Problem {
 
   /// Are the sheet's proofs about an independent subset of the equations only?
   bool is_partial(const certify::Sheet& sheet) const {
-    return static_cast<int>(sheet.equations.size()) < compiled.equations();
+    return subset || static_cast<int>(sheet.equations.size()) < compiled.equations();
   }
   /// Appends the eliminated variables' sides over x to the n sides of x (what follows those is renewed).
   void append_values(certify::Box& sides) const;
@@ -28,6 +28,7 @@ struct Problem {
   certify::RedundantEquations
       redundant;  ///< applies(): a proof may speak of an independent subset of the equations (`partial`)
   certify::DomainTest domain;
+  bool subset;            ///< certify::Reduction::subset
   double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
   BranchingRule branching;
   double sigma;

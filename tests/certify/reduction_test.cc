@@ -177,6 +177,73 @@ TEST(Reduction, KeepsEverySolutionOfRandomSystems) {
   }
 }
 
+TEST(Reduction, KeepsWhatCancelsForSomeChoicesOfTheCoefficientsOnly) {
+  // x = y, then x z/2 − y z/2 is 0 for equal coefficients only: so z² = 1 as such would lose the zeros of z² + δ y z = 1.
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}});
+  b.equation({{"1", {{z, 2}}}, {"-1", {}}, {"0.5", {{x, 1}, {z, 1}}}, {"-0.5", {{y, 1}, {z, 1}}}});
+  System system = b.system();
+  system.coefficient_tolerance = 1e-3;
+  const Reduction r = reduce(system);
+  ASSERT_EQ(r.system.equations.size(), 1u);
+  const UpwardRounding rounding;
+  // z² − 1 + 0.001 x z at x = 2, z = 1.
+  EXPECT_TRUE(evaluate(r.system.equations[0], point({2, 1})).contains(0.001));
+  EXPECT_EQ(evaluate(reduce(b.system()).system.equations[0], point({2, 1})), Interval(0.0));
+}
+
+TEST(Reduction, SaysThatAnEquationRepeatsAnotherWithinTheToleranceOnly) {
+  for (const char* range : {"2", "200"}) {
+    SystemBuilder b;
+    const int x = b.variable("x", std::string("-") + range, range), y = b.variable("y", "-2", "2"),
+              z = b.variable("z", "-2", "2");
+    b.equation({{"0.5", {{x, 2}}}, {"-1", {{y, 2}}}, {"1", {{z, 2}}}});
+    b.equation({{"1", {{x, 2}}}, {"-2", {{y, 2}}}, {"2", {{z, 2}}}});
+    System system = b.system();
+    EXPECT_EQ(reduce(system).system.equations.size(), 1u);
+    EXPECT_FALSE(reduce(system).subset);
+    system.coefficient_tolerance = 1e-3;
+    const Reduction r = reduce(system);
+    EXPECT_EQ(r.subset, range == std::string("2")) << "20 is more than 10 · 0.001 · 5";
+    EXPECT_EQ(r.system.equations.size(), r.subset ? 1u : 2u);
+  }
+}
+
+TEST(Reduction, SaysThatAnEquationHoldsWithinTheToleranceOnly) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}}).equation({{"0.5", {{x, 1}}}, {"-0.5", {{y, 1}}}});
+  System system = b.system();
+  EXPECT_FALSE(reduce(system).subset);
+  system.coefficient_tolerance = 1e-3;
+  const Reduction r = reduce(system);
+  EXPECT_TRUE(r.subset && r.system.equations.empty());
+}
+
+TEST(Reduction, TakesNoRangeAsImpliedWithinATolerance) {
+  for (const bool tolerant : {false, true}) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-2", "2");
+    b.equation({{"0.9", {{x, 2}}}, {"1", {{y, 2}}}, {"-0.9", {}}});  // x² may reach (1 + τ)/(1 − τ)
+    System system = b.system();
+    system.coefficient_tolerance = tolerant ? 1e-3 : 0;
+    EXPECT_EQ(reduce(system).system.variables[0].upper_implied, !tolerant);
+  }
+}
+
+TEST(Reduction, ExpandsNoLongPowers) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "2"), w = b.variable("w", "-2", "2");
+  b.equation({{"1", {{y, 1}}}, {"-1", {{x, 1}}}, {"-1/3", {}}})
+      .equation({{"1", {{y, 1000}}}, {"1", {{x, 1000}}}, {"-1", {}}});
+  const int v = b.variable("v", "-1", "1"), u = b.variable("u", "-1", "1");
+  b.equation({{"1", {{w, 1}}}, {"-1", {{v, 1000}}}}).equation({{"1", {{v, 1}}}, {"-1", {{u, 1000}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  EXPECT_EQ(r.system.equations.size(), 3u);
+  EXPECT_EQ(r.definitions.size(), 1u) << "w only: v = u^1000 would make it u^1000000";
+}
+
 TEST(PolynomialAlgebra, SolvesOnlyForWhatIsLinearWithARationalFactor) {
   const UpwardRounding rounding;
   const auto f = SystemBuilder::polynomial({{"2", {{0, 1}}}, {"-4", {{1, 2}}}, {"3", {{1, 1}, {2, 1}}}, {"6", {}}});

@@ -207,6 +207,12 @@ TEST(Solve, ProvesWhatTheReductionAloneSolves) {
   EXPECT_LE(segment.boxes.size(), 8u);
 }
 
+TEST(Solve, ASystemWithoutVariablesHasOneSolution) {
+  const Cover cover = solve(certify::System{});
+  ASSERT_EQ(cover.boxes.size(), 1u);
+  EXPECT_EQ(cover.boxes[0].verdict, Verdict::isolated);
+}
+
 TEST(Solve, AFixedVariableDoesNotStopTheSearch) {
   // x² + y² = a, x = y, with a in [1/10, 1/10]: between two doubles.
   SystemBuilder b;
