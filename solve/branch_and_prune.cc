@@ -318,7 +318,7 @@ double default_sigma(const certify::System& system) {
   // An over-determined system with a tolerance may have a set of any dimension.
   const bool over_determined = system.equations.size() > system.variables.size() && system.coefficient_tolerance > 0;
   constexpr double kCurves = 0.1, kPoints = 1e-6;
-  if (system.dimension() > 0 || over_determined) return kCurves;
+  if (over_determined || certify::reduce(system).system.dimension() > 0) return kCurves;
   return std::clamp(std::sqrt(system.coefficient_tolerance), kPoints, kCurves);
 }
 

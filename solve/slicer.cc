@@ -22,8 +22,9 @@ constexpr double kCutMargin = 0.96;    // aim a little below σ: the linearizati
 constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
-constexpr int kPartialDepth = 8;   // halvings of a piece on which redundant equations are bounded
-constexpr int kBoundaryDepth = 2;  // halvings of a piece that may leave the domain
+constexpr int kPartialDepth = 8;              // halvings of a piece on which redundant equations are bounded
+constexpr int kBoundaryDepth = 2;             // halvings of a piece that may leave the domain
+constexpr std::size_t kMostHalvedSides = 12;  // at once: 4,096 parts
 constexpr unsigned kPiecesBetweenChecks = 16;
 
 }  // namespace
@@ -100,7 +101,7 @@ bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Bo
     const Location location = problem_.domain.locate_zeros(problem_.compiled, p, piece.data(), workspace_);
     if (location != Location::across) return location == Location::inside;
   }
-  if (depth == 0 || free.empty()) return false;
+  if (depth == 0 || free.empty() || free.size() > kMostHalvedSides) return false;
   // Halves every free side: part number `index` takes the upper half of side f where bit f is set.
   for (unsigned index = 0; index < 1u << free.size(); ++index) {
     Box part = piece;

@@ -39,7 +39,7 @@ struct Options {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// 1e-6 for a set of dimension 0, and no less than the square root of the coefficient tolerance: so far apart may two solutions
+/// 1e-6 for a set of dimension 0 (after certify::reduce), and no less than the square root of the coefficient tolerance: so far apart may two solutions
 /// be that merge for some choice of the coefficients. Else, and for over-determined systems with a tolerance, 0.1 (the CUIK
 /// suite's default).
 double default_sigma(const certify::System& system);

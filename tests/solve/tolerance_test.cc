@@ -93,5 +93,17 @@ TEST(Solve, TakesOnlyPrintedSystemsWithTooManyEquationsWithinATolerance) {
   EXPECT_EQ(printed_tolerance(b.equation({{"2", {{0, 1}}}, {"-2", {{1, 1}}}}).system()), 1e-6);
 }
 
+// The unit circle twice is a curve, as the reduced system shows: boxes of 0.1, not of 1e-6.
+TEST(Solve, TakesItsDefaultSigmaFromTheDimensionThatIsLeft) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  for (const char* factor : {"1", "2"}) {
+    const std::string minus = std::string("-") + factor;
+    b.equation({{factor, {{x, 2}}}, {factor, {{y, 2}}}, {minus, {}}});
+  }
+  EXPECT_EQ(default_sigma(b.system()), 0.1);
+  EXPECT_EQ(default_sigma(circle_and_diagonal().system()), 1e-6);
+}
+
 }  // namespace
 }  // namespace corank::solve
