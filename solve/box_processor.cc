@@ -22,7 +22,6 @@ constexpr double kProofSpread = 1.5;   // try a proof below this spread |I − Y
 constexpr double kFreeCutShare = 0.1;  // cut a free side unless it is already so much narrower than the others or σ
 constexpr double kLastCutShare = 1.0 / 64;
 constexpr double kRegularCutShare = 1.0 / 8;
-constexpr int kPartialDepth = 8;  // halvings of a piece on which redundant equations are bounded
 
 }  // namespace
 
@@ -84,10 +83,7 @@ std::vector<int> BoxProcessor::chart_of_last() const {
   const std::size_t n = static_cast<std::size_t>(system.variables()), k = n - static_cast<std::size_t>(p.rank());
   Chart chart;
   chart.tangent.assign(n * k, 0.0);
-  std::vector<bool> is_free(n, true);
-  for (int d : p.dependent) is_free[static_cast<std::size_t>(d)] = false;
-  for (std::size_t j = 0; j < n; ++j)
-    if (is_free[j]) chart.free.push_back(static_cast<int>(j));
+  chart.free = other_variables(p.dependent, system.variables());
   for (std::size_t f = 0; f < k; ++f) {
     chart.tangent[static_cast<std::size_t>(chart.free[f]) * k + f] = 1;
     for (int a = 0; a < p.rank(); ++a)
@@ -95,10 +91,7 @@ std::vector<int> BoxProcessor::chart_of_last() const {
           preconditioners_.sensitivity(a, chart.free[f]);
   }
   improve(chart);
-  std::vector<int> dependent;
-  for (int j = 0; j < system.variables(); ++j)
-    if (std::find(chart.free.begin(), chart.free.end(), j) == chart.free.end()) dependent.push_back(j);
-  return dependent;
+  return other_variables(chart.free, system.variables());
 }
 
 certify::Sheet BoxProcessor::prove(const Interval* x) {
@@ -124,7 +117,7 @@ certify::Sheet BoxProcessor::prove_partially(const Interval* x) {
   const auto& p = preconditioners_.near_solution(wide.data(), problem_.rank_tolerance);
   certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, wide.data(), workspace_);
   if (!sheet.proven || !problem_.is_partial(sheet)) return sheet;
-  const std::vector<int> free = free_variables(sheet, problem_.compiled.variables());
+  const std::vector<int> free = other_variables(sheet.dependent, problem_.compiled.variables());
   if (!slicer_.holds_on_parts(sheet, free, sheet.image, kPartialDepth)) return {};
   for (int j : free) sheet.region[j] = sheet.image[j] = x[j];  // for every value of the free variables: so for x's too
   return sheet;
@@ -148,10 +141,8 @@ void BoxProcessor::add_unproven(const Interval* x, Verdict verdict) {
 }
 
 int BoxProcessor::widest_free(const Interval* x) {
-  const auto& dependent = dependent_;
   int widest = -1;
-  for (int j = 0; j < problem_.compiled.variables(); ++j) {
-    if (std::find(dependent.begin(), dependent.end(), j) != dependent.end()) continue;
+  for (int j : other_variables(dependent_, problem_.compiled.variables())) {
     if (widest < 0 || x[j].width() > x[widest].width()) widest = j;
   }
   return widest;

@@ -106,9 +106,7 @@ class Merger {
       if (hull[j].width() > problem_.sigma) return std::nullopt;
     }
     hull.resize(n);
-    std::vector<int> dependent;
-    for (int j = 0; j < system.variables(); ++j)
-      if (std::find(a.free.begin(), a.free.end(), j) == a.free.end()) dependent.push_back(j);
+    const std::vector<int> dependent = other_variables(a.free, system.variables());
     const auto& p = preconditioners_.at_midpoint(hull.data(), &dependent);
     if (p.rank() < system.equations()) return std::nullopt;
     certify::Sheet sheet = certify::newton_prove(system, p, hull.data(), workspace_);
@@ -116,11 +114,7 @@ class Merger {
     Box& image = sheet.image;
     for (int k = 0; k < kTightenings; ++k) certify::tighten_sheet(system, p, image.data(), workspace_);
     if (problem_.domain.locate_zeros(system, p, image.data(), workspace_) != certify::Location::inside) return std::nullopt;
-    for (int k = 0; k < system.values(); ++k) {
-      Interval value = system.evaluate(system.value_row(k), image.data());
-      value.intersect(certify::value_at_zeros(system, p, system.value_row(k), image.data(), workspace_));
-      image.push_back(value);
-    }
+    problem_.append_values_at_zeros(p, image, workspace_);
     if (widest(image) > problem_.sigma) return std::nullopt;
     return image;
   }

@@ -31,11 +31,20 @@ void Problem::append_values(certify::Box& sides) const {
   for (int k = 0; k < compiled.values(); ++k) sides.push_back(compiled.evaluate(compiled.value_row(k), sides.data()));
 }
 
-std::vector<int> free_variables(const certify::Sheet& sheet, int variables) {
-  std::vector<int> free;
+void Problem::append_values_at_zeros(const certify::Preconditioner& p, certify::Box& sides,
+                                     certify::NewtonWorkspace& w) const {
+  append_values(sides);
+  const std::size_t n = static_cast<std::size_t>(compiled.variables());
+  for (int k = 0; k < compiled.values(); ++k)
+    sides[n + static_cast<std::size_t>(k)].intersect(
+        certify::value_at_zeros(compiled, p, compiled.value_row(k), sides.data(), w));
+}
+
+std::vector<int> other_variables(const std::vector<int>& given, int variables) {
+  std::vector<int> others;
   for (int j = 0; j < variables; ++j)
-    if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) free.push_back(j);
-  return free;
+    if (std::find(given.begin(), given.end(), j) == given.end()) others.push_back(j);
+  return others;
 }
 
 double widest(const certify::Box& x) {

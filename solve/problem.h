@@ -23,6 +23,8 @@ struct Problem {
   }
   /// Appends the eliminated variables' sides over x to the n sides of x (what follows those is renewed).
   void append_values(certify::Box& sides) const;
+  /// The same of the zeros of p's rows in x, after certify::newton_contract with p and w on a box that contains x.
+  void append_values_at_zeros(const certify::Preconditioner& p, certify::Box& sides, certify::NewtonWorkspace& w) const;
 
   certify::CompiledSystem compiled;  ///< value rows: the eliminated variables
   certify::RedundantEquations
@@ -42,8 +44,8 @@ struct Found {
   certify::Sheet sheet;
 };
 
-/// The variables that a sheet does not depend on, in order.
-std::vector<int> free_variables(const certify::Sheet& sheet, int variables);
+/// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the reverse.
+std::vector<int> other_variables(const std::vector<int>& given, int variables);
 
 double widest(const certify::Box& x);
 

@@ -22,7 +22,6 @@ constexpr double kCutMargin = 0.96;    // aim a little below σ: the linearizati
 constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
-constexpr int kPartialDepth = 8;              // halvings of a piece on which redundant equations are bounded
 constexpr int kBoundaryDepth = 2;             // halvings of a piece that may leave the domain
 constexpr std::size_t kMostHalvedSides = 12;  // at once: 4,096 parts
 constexpr unsigned kPiecesBetweenChecks = 16;
@@ -30,14 +29,8 @@ constexpr unsigned kPiecesBetweenChecks = 16;
 }  // namespace
 
 double Slicer::tighten(const Preconditioner& p, Box& piece) {
-  const auto& system = problem_.compiled;
-  const double spread = certify::tighten_sheet(system, p, piece.data(), workspace_);
-  piece.resize(static_cast<std::size_t>(system.variables()));
-  for (int k = 0; k < system.values(); ++k) {
-    Interval value = system.evaluate(system.value_row(k), piece.data());
-    value.intersect(certify::value_at_zeros(system, p, system.value_row(k), piece.data(), workspace_));
-    piece.push_back(value);
-  }
+  const double spread = certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
+  problem_.append_values_at_zeros(p, piece, workspace_);
   return spread;
 }
 
@@ -131,7 +124,7 @@ void Slicer::add(Task& task, Box piece, Location location) {
 }
 
 void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found) {
-  Task task{sheet, x, found, free_variables(sheet, problem_.compiled.variables())};
+  Task task{sheet, x, found, other_variables(sheet.dependent, problem_.compiled.variables())};
   const Preconditioner p = preconditioners_.at_midpoint(sheet.image.data(), &sheet.dependent, &sheet.equations);
   descend(task, {sheet.image, HUGE_VAL, 0}, p);
 }

@@ -9,6 +9,9 @@
 
 namespace corank::solve {
 
+/// Halvings of a piece on which redundant equations are bounded.
+inline constexpr int kPartialDepth = 8;
+
 /// One per thread.
 class Slicer {
  public:
