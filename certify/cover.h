@@ -4,10 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "corank/certify/exact_point.h"
 #include "corank/certify/interval.h"
+#include "corank/certify/proof.h"
 #include "corank/certify/system.h"
 
 namespace corank::certify {
@@ -40,6 +43,9 @@ struct CoverBox {
   Box box;
   Verdict verdict = Verdict::undecided;
   std::vector<int> free;  ///< indices of the free variables (regular, boundary, partial)
+  int region = -1;        ///< index in Cover::regions: the box of the proof, −1 where there is none
+  /// Index in Cover::exact_points: of an `exact` box its point; of an undecided one the point that explains it. −1: none.
+  int point = -1;
 };
 
 struct Statistics {
@@ -56,7 +62,12 @@ struct Cover {
   /// For a set of dimension 0: the distinct solutions. An `isolated` one is exactly one solution, and no two entries hold the
   /// same one; an `undecided` one is the hull of a cluster of touching boxes that may hold any number, none included.
   std::vector<CoverBox> points;
-  int dimension = 0;  ///< of the set; for an over-determined system, the largest that a partial box shows
+  /// In all variables: a box of proof holds, for every value of its box's free variables in it, exactly one solution (regular, boundary), or
+  /// exactly one solution (isolated). Boxes that were cut from one sheet share it.
+  std::vector<Box> regions;
+  std::vector<ExactPoint> exact_points;
+  std::shared_ptr<const Proof> proof;  ///< of completeness, where it was asked for
+  int dimension = 0;                   ///< of the set; for an over-determined system, the largest that a partial box shows
   double sigma = 0;
   double tolerance = 0;  ///< relative tolerance of the coefficients and of what `partial` says; 0: every equation is exact
   Statistics statistics;
