@@ -147,7 +147,7 @@ TEST(ProveExactly, FindsATangencyOfCircles) {
     test::SystemBuilder b;
     const int x = b.variable("x", "-3", "3"), y = b.variable("y", "-3", "3");
     b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
-    b.equation({{"1", {{x, 2}}}, {"-4", {{x, 1}}}, {"4", {}}, {"1", {{y, 2}}}, {tangent ? "-1" : "-10201/10000", {}}});
+    b.equation({{"1", {{x, 2}}}, {"-4", {{x, 1}}}, {"1", {{y, 2}}}, {tangent ? "3" : "29799/10000", {}}});
     const Cover cover = proven(b.system());
     EXPECT_EQ(cover.count(Verdict::exact), tangent ? 1u : 0u);
     EXPECT_EQ(cover.count(Verdict::isolated), tangent ? 0u : 2u);
