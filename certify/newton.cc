@@ -76,6 +76,34 @@ NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner
   return outcome;
 }
 
+bool contract_free(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
+  CORANK_CHECK(UpwardRounding::active());
+  if (!w.contracted) return true;
+  const int r = p.rank(), n = w.panel.columns();
+  w.is_dependent.assign(static_cast<std::size_t>(n), 0);
+  for (int d : p.dependent) w.is_dependent[d] = 1;
+  // image (r) := Y·F(c) + (Y·S)_D (x_D − c_D)
+  w.offset.assign(static_cast<std::size_t>(n), Interval());
+  for (int d : p.dependent) w.offset[d] = x[d] - Interval(w.center[d]);
+  w.image = w.residual;
+  w.panel.accumulate(w.offset.data(), p.dependent, Panel::Diagonal::zero, w.image);
+  for (int a = 0; a < r; ++a) w.image[a] += w.panel.at(a, p.dependent[a]) * w.offset[p.dependent[a]];
+  for (int f = 0; f < n; ++f) {
+    if (w.is_dependent[f]) continue;
+    for (int a = 0; a < r; ++a) {
+      const Interval slope = w.panel.at(a, f), offset = x[f] - Interval(w.center[f]);
+      Interval others = w.image[a];
+      for (int g = 0; g < n; ++g)
+        if (g != f && !w.is_dependent[g]) others += w.panel.at(a, g) * (x[g] - Interval(w.center[g]));
+      const Interval target = -others;
+      if (!target.is_bounded() || target.contains(slope * offset)) continue;  // no information
+      const auto shift = divide(target, slope, offset);
+      if (!shift || !x[f].intersect(Interval(w.center[f]) + *shift)) return false;
+    }
+  }
+  return true;
+}
+
 namespace {
 
 // image := Krawczyk image K over the box x about w.center; w.residual holds Y·F(c), the panel Y. False: no bounded image.

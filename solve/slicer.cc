@@ -34,6 +34,19 @@ double Slicer::tighten(const Preconditioner& p, Box& piece) {
   return spread;
 }
 
+bool Slicer::trim(const Task& task, const Preconditioner& p, Box& piece) {
+  Box met(piece.begin(), piece.begin() + problem_.compiled.variables());
+  bool inside = true;
+  for (std::size_t j = 0; j < met.size(); ++j) {
+    if (!met[j].intersect(task.x[j])) return false;
+    inside = inside && met[j] == piece[j];
+  }
+  if (inside) return true;
+  if (!certify::contract_free(p, met.data(), workspace_)) return false;
+  for (int f : task.free) piece[static_cast<std::size_t>(f)] = met[static_cast<std::size_t>(f)];
+  return true;
+}
+
 void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& free, const Box& piece) {
   const auto& system = problem_.compiled;
   const std::size_t n = static_cast<std::size_t>(system.variables()), r = p.dependent.size();
@@ -157,8 +170,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     width = tightened;
   }
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
-  for (int j = 0; j < problem_.compiled.variables(); ++j)
-    if (!sides[static_cast<std::size_t>(j)].overlaps(task.x[j])) return;
+  if (!trim(task, *p, sides)) return;
   const Location location = problem_.domain.locate_zeros(problem_.compiled, *p, sides.data(), workspace_);
   if (location == Location::outside) return;
   width = widest(sides);
