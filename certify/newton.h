@@ -24,6 +24,7 @@ struct NewtonWorkspace {
   std::vector<Interval> slope, values, residual, offset, image, region, gradient;
   std::vector<double> center, magnitude, radius, next_radius;
   std::vector<unsigned char> is_dependent;
+  std::vector<int> free;
   bool contracted = false;  ///< the last newton_contract had a bounded Y·S and Y·F(c)
 };
 

@@ -60,6 +60,7 @@ class Slicer {
   const Problem& problem_;
   PreconditionerFactory& preconditioners_;
   certify::NewtonWorkspace& workspace_;
+  certify::Box met_;
   std::vector<double> steepness_, gradient_;
 };
 
