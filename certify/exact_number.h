@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "corank/certify/interval.h"
 
@@ -56,6 +57,8 @@ class ExactNumber {
   /// std::domain_error where the expression is no real number (sqrt(-1), log(0), 1/(sqrt(2)*sqrt(2)-2) …).
   /// Independent of the current rounding mode.
   Interval enclose() const;
+  /// Rational numbers l ≤ x ≤ u, about 2^−bits |x| apart where x is not 0; both are x where it is rational. Throws like enclose().
+  std::pair<ExactNumber, ExactNumber> bounds(int bits) const;
   /// Sign −1, 0, +1 where it can be decided: by exact arithmetic for rationals, else by enclosures of up to `max_bits` bits
   /// (which can never prove 0). Nothing where undecided.
   std::optional<int> sign(int max_bits = 4096) const;
