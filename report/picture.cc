@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
 #include "corank/certify/angle.h"
+#include "corank/report/picture_style.h"
 
 namespace corank::report {
 namespace {
@@ -20,7 +20,7 @@ using certify::Verdict;
 
 constexpr double kTurn = 2 * std::numbers::pi;
 const Interval kCircle(-std::numbers::pi, std::numbers::pi);
-constexpr Color kPlain{0, 0, 1}, kNotSearched{0.93, 0.83, 0.45};
+constexpr Color kNotSearched{0.93, 0.83, 0.45};
 
 // A variable or an angle of one source.
 struct Coordinate {
@@ -94,19 +94,11 @@ PictureAxis axis(const PictureSource& source, const Coordinate& from, const std:
   return result;
 }
 
-std::string set_label(const PictureSource& source) {
-  static const std::map<std::string, std::string> kLabels{{"cspace", "C-space"},
-                                                          {"forward", "forward locus"},
-                                                          {"inverse", "inverse locus"},
-                                                          {"cspace-singular", "C-space singularities"}};
-  const auto known = kLabels.find(source.set);
-  return known != kLabels.end() ? known->second : std::filesystem::path(source.file).stem().string();
-}
-
-// The layer a box belongs to; `first` is the layer of the source itself, which there is even without boxes.
-PictureLayer layer_of(const PictureSource& source, ColorScheme scheme, std::optional<Verdict> verdict) {
-  PictureLayer layer{set_label(source), source.set, set_color(source.set), source.set == "cspace" ? 0.4 : 1.0, {}};
-  if (scheme == ColorScheme::plain) layer.color = kPlain, layer.opacity = 1;
+// The layer a box belongs to.
+PictureLayer layer_of(const PictureSource& source, const SetStyle& style, ColorScheme scheme,
+                      std::optional<Verdict> verdict) {
+  PictureLayer layer{style.label, source.set, style.color, style.opacity, {}};
+  if (scheme == ColorScheme::plain) layer.color = verdict_color(std::nullopt), layer.opacity = 1;
   if (scheme == ColorScheme::verdict) {
     layer.label = verdict ? to_string(*verdict) : "no verdict";
     layer.color = verdict_color(verdict);
@@ -118,17 +110,24 @@ PictureLayer layer_of(const PictureSource& source, ColorScheme scheme, std::opti
   return layer;
 }
 
-void add_layers(const PictureSource& source, const std::vector<Coordinate>& coordinates, const PictureOptions& options,
-                std::vector<PictureLayer>& layers) {
+// What is less certain lies above what is more so.
+int rank(const PictureLayer& layer) {
+  static const std::vector<std::string> kOrder{"regular", "boundary", "isolated", "exact",
+                                               "partial", "pending",  "undecided"};
+  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), layer.label) - kOrder.begin());
+}
+
+void add_layers(const PictureSource& source, const SetStyle& style, const std::vector<Coordinate>& coordinates,
+                const PictureOptions& options, std::vector<PictureLayer>& layers) {
   const std::size_t begin = layers.size();
-  if (options.color != ColorScheme::verdict) layers.push_back(layer_of(source, options.color, std::nullopt));
+  if (options.color != ColorScheme::verdict) layers.push_back(layer_of(source, style, options.color, std::nullopt));
   std::map<std::optional<Verdict>, std::size_t> index;
   for (std::size_t k = 0; k < source.boxes.boxes.size(); ++k) {
     const SolBox& from = source.boxes.boxes[k];
     const bool own =
         options.color == ColorScheme::verdict || (options.color == ColorScheme::set && from.verdict == Verdict::pending);
     const auto [at, is_new] = index.try_emplace(from.verdict, own ? layers.size() : begin);
-    if (is_new && own) layers.push_back(layer_of(source, options.color, from.verdict));
+    if (is_new && own) layers.push_back(layer_of(source, style, options.color, from.verdict));
     std::vector<PictureBox> parts{{{}, from.verdict, static_cast<int>(k)}};
     for (std::size_t j = 0; j < coordinates.size(); ++j) {
       std::vector<PictureBox> next;
@@ -147,34 +146,12 @@ void add_layers(const PictureSource& source, const std::vector<Coordinate>& coor
 
 }  // namespace
 
-Color verdict_color(std::optional<Verdict> verdict) {
-  if (!verdict) return kPlain;
-  switch (*verdict) {
-    case Verdict::regular: return {0, 0, 1};
-    case Verdict::isolated: return {0, 0.6, 0};
-    case Verdict::exact: return {0, 0.4, 0.4};
-    case Verdict::boundary: return {0.55, 0, 0.75};
-    case Verdict::undecided: return {1, 0, 0};
-    case Verdict::partial: return {1, 0.55, 0};
-    case Verdict::pending: return {0.6, 0.6, 0.6};
-  }
-  return {};
-}
-
-Color set_color(const std::string& set) {
-  if (set == "cspace") return {0.55, 0.56, 0.58};
-  if (set == "forward") return {0.80, 0.11, 0.14};
-  if (set == "inverse") return {0.09, 0.33, 0.75};
-  if (set == "cspace-singular") return {0.52, 0.18, 0.68};
-  return {0.35, 0.45, 0.58};
-}
-
 PictureSource picture_source(const Result& result, const std::string& file) {
-  return {file, result.set, boxes_of(result), result.angles};
+  return {file, result.set, boxes_of(result), result.angles, result.cover.dimension};
 }
 
 PictureSource picture_source(const SolFile& boxes, const std::string& file) {
-  PictureSource source{file, "", boxes, {}};
+  PictureSource source{file, "", boxes, {}, 2};
   const auto& names = boxes.variables;
   for (std::size_t c = 0; c < names.size(); ++c) {
     if (!names[c].starts_with("c_")) continue;
@@ -191,8 +168,10 @@ Picture make_picture(const std::vector<PictureSource>& sources, const PictureOpt
   std::vector<const PictureSource*> order;
   for (const PictureSource& source : sources) order.push_back(&source);
   std::stable_partition(order.begin(), order.end(), [](const PictureSource* s) { return s->set == "cspace"; });
+  const std::vector<SetStyle> styles = set_styles(order);
   Picture picture;
-  for (const PictureSource* source : order) {
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const PictureSource* const source = order[k];
     std::vector<Coordinate> coordinates;
     for (const std::string& name : options.axes) coordinates.push_back(coordinate(*source, name));
     for (std::size_t j = 0; j < coordinates.size(); ++j) {
@@ -205,7 +184,11 @@ Picture make_picture(const std::vector<PictureSource>& sources, const PictureOpt
       else
         there.range = Interval::hull(*there.range, *here.range);
     }
-    add_layers(*source, coordinates, options, picture.layers);
+    add_layers(*source, styles[k], coordinates, options, picture.layers);
+  }
+  if (options.color == ColorScheme::verdict) {
+    std::stable_sort(picture.layers.begin(), picture.layers.end(),
+                     [](const PictureLayer& a, const PictureLayer& b) { return rank(a) < rank(b); });
   }
   return picture;
 }

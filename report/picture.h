@@ -31,6 +31,7 @@ struct PictureSource {
   std::string set;   ///< "forward" …, empty where unknown
   SolFile boxes;
   std::vector<certify::Angle> angles;
+  int dimension = 2;  ///< of the set, where known
 };
 PictureSource picture_source(const Result& result, const std::string& file);
 /// A solution file says nothing about angles: c_NAME and s_NAME are taken for the cosine and sine of the angle NAME in [−π, π].
@@ -74,8 +75,9 @@ struct PictureOptions {
   double size = 0;  ///< 0: boxes as they are; else cubes with this edge about their centres
 };
 
-/// Throws std::invalid_argument where there are not two or three axes or a source lacks one. A source without boxes becomes a layer without
-/// boxes. Where colours tell sets apart, boxes that were not searched (`pending`) are a layer of their own.
+/// A source without boxes becomes a layer without boxes. Where colours tell sets apart, several sources of one set get shades and the
+/// names of their files, and boxes that were not searched (`pending`) are a layer of their own. Throws std::invalid_argument where there
+/// are not two or three axes or a source lacks one.
 Picture make_picture(const std::vector<PictureSource>& sources, const PictureOptions& options);
 
 /// True where no layer has a box.

@@ -27,7 +27,7 @@ certify::Box about(double angle, double half, Interval length = {0, 1}) {
 
 PictureSource source(const std::vector<certify::Box>& boxes, const std::string& set = "forward",
                      Interval range = {-pi, pi}) {
-  PictureSource s{"a.h5", set, {}, {{"theta", 1, 2, range}}};
+  PictureSource s{"a.h5", set, {}, {{"theta", 1, 2, range}}, 2};
   s.boxes.variables = {"x", "c_theta", "s_theta"};
   for (const auto& b : boxes) s.boxes.boxes.push_back({b, Verdict::regular, {}});
   return s;
@@ -125,6 +125,36 @@ TEST(Picture, ColoursVerdictsWhereAsked) {
   EXPECT_EQ(p.layers[0].boxes.size(), 2u);
   EXPECT_EQ(p.layers[1].color, verdict_color(Verdict::undecided));
   EXPECT_EQ(p.layers[1].boxes[0].number, 1);
+}
+
+TEST(Picture, DrawsWhatIsUndecidedAboveWhatIsProven) {
+  PictureSource s = source({about(0, 0.1), about(1, 0.1), about(2, 0.1)});
+  s.boxes.boxes[0].verdict = Verdict::undecided;
+  s.boxes.boxes[2].verdict = Verdict::boundary;
+  const Picture p = make_picture({s}, axes({"x", "theta"}, ColorScheme::verdict));
+  ASSERT_EQ(p.layers.size(), 3u);
+  EXPECT_EQ(p.layers[0].label, "regular");
+  EXPECT_EQ(p.layers[2].label, "undecided");
+}
+
+TEST(Picture, TellsSeveralResultsOfOneSetApart) {
+  PictureSource a = source({about(0, 0.1)}), b = a;
+  b.file = "dir/b.h5";
+  const Picture loci = make_picture({a, b}, axes({"x", "theta"}));
+  EXPECT_EQ(loci.layers[0].label, "forward locus (a)");
+  EXPECT_EQ(loci.layers[1].label, "forward locus (b)");
+  EXPECT_FALSE(loci.layers[0].color == loci.layers[1].color);
+  a.set = b.set = "";
+  const Picture others = make_picture({a, b}, axes({"x", "theta"}));
+  EXPECT_EQ(others.layers[0].label, "a");
+  EXPECT_EQ(others.layers[1].label, "b");
+  EXPECT_FALSE(others.layers[0].color == others.layers[1].color);
+}
+
+TEST(Picture, ShowsACurveInFullColour) {
+  PictureSource curve = source({about(0, 0.1)}, "cspace");
+  curve.dimension = 1;
+  EXPECT_EQ(make_picture({curve}, axes({"x", "theta"})).layers[0].opacity, 1);
 }
 
 TEST(Picture, SaysWhichAxesThereAre) {

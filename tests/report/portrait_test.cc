@@ -18,7 +18,7 @@ using certify::Verdict;
 using ::testing::HasSubstr;
 
 PictureSource boxes_about_a_circle(const std::string& set, double radius, int count, double half) {
-  PictureSource source{set + ".h5", set, {}, {}};
+  PictureSource source{set + ".h5", set, {}, {}, 2};
   source.boxes.variables = {"J3x", "J3y"};
   for (int k = 0; k < count; ++k) {
     const double t = 2 * M_PI * k / count, x = radius * std::cos(t), y = radius * std::sin(t);
@@ -31,7 +31,7 @@ PictureSource boxes_about_a_circle(const std::string& set, double radius, int co
 PictureSource random_boxes(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(-1, 1), exponent(-14, -0.5);
-  PictureSource source{"random.h5", "inverse", {}, {}};
+  PictureSource source{"random.h5", "inverse", {}, {}, 2};
   source.boxes.variables = {"x", "y"};
   for (int k = 0; k < 150; ++k) {
     const double x = place(random), y = place(random), w = std::pow(10, exponent(random)),
@@ -57,7 +57,7 @@ TEST(Svg, HasALayerForEachSetTicksNamesAndALegend) {
   const PictureFolder folder;
   PortraitOptions options;
   options.title = "Two circles & a <title>";
-  const PictureSource none{"none.h5", "cspace-singular", {{"J3x", "J3y"}, {}}, {}};
+  const PictureSource none{"none.h5", "cspace-singular", {{"J3x", "J3y"}, {}}, {}, 2};
   write_portrait(folder.file("a.svg"),
                  picture({boxes_about_a_circle("forward", 1, 100, 0.02), boxes_about_a_circle("cspace", 2, 100, 0.3), none}),
                  options);
@@ -144,7 +144,7 @@ TEST(Svg, MarksPointsSoThatTheyAreSeen) {
 
 TEST(Svg, HasOneScaleForLengthsAndAWholeTurnForAngles) {
   const PictureFolder folder;
-  PictureSource source{"a.h5", "cspace", {}, {{"t", 1, 2, {-M_PI, M_PI}}}};
+  PictureSource source{"a.h5", "cspace", {}, {{"t", 1, 2, {-M_PI, M_PI}}}, 2};
   source.boxes.variables = {"x", "c_t", "s_t"};
   for (int k = 0; k < 60; ++k) {
     const double t = 0.1 * k;
@@ -204,7 +204,7 @@ TEST(Png, ShowsThePixelsOfTheBoxesAndNoOthers) {
 
 TEST(Png, LaysTranslucentBoxesOverEachOtherOnce) {
   const PictureFolder folder;
-  PictureSource source{"a.h5", "cspace", {}, {}};
+  PictureSource source{"a.h5", "cspace", {}, {}, 2};
   for (int k = 0; k < 50; ++k) source.boxes.boxes.push_back({{{0, 1 + 0.001 * k}, {0, 1}}, Verdict::regular, {}});
   write_portrait(folder.file("a.png"), picture({source}), {});
   const Pixels png = read_png(folder.file("a.png"));
@@ -260,7 +260,7 @@ TEST(Portrait, DrawsOnePointAndHugeAndTinyCoordinates) {
   const PictureFolder folder;
   for (const double scale : {1.0, 1e200, 1e-200}) {
     for (const double width : {0.0, 1e-14, 0.5}) {
-      PictureSource source{"a.h5", "", {}, {}};
+      PictureSource source{"a.h5", "", {}, {}, 2};
       source.boxes.boxes.push_back({{{scale, scale * (1 + width)}, {-scale, -scale * (1 - width)}}, std::nullopt, {}});
       write_portrait(folder.file("a.svg"), picture({source}), bare(20));
       SvgPortrait svg;

@@ -67,7 +67,7 @@ std::vector<std::string> strings(const pugi::xml_node& field, const char* name) 
 }
 
 PictureSource random_boxes(int count, const std::string& set) {
-  PictureSource source{"a.h5", set, {}, {}};
+  PictureSource source{"a.h5", set, {}, {}, 2};
   source.boxes.variables = {"x", "y", "z"};
   for (int k = 0; k < count; ++k) {
     const double t = 0.37 * k;
