@@ -1,6 +1,8 @@
 // One line on a terminal that says how far the search is.
 #pragma once
 
+#include <string>
+
 #include "corank/solve/solve.h"
 
 namespace corank::app {
@@ -15,6 +17,7 @@ class ProgressLine {
 
   bool visible() const { return visible_; }
   void show(const solve::Progress& progress);
+  void show(const std::string& text);
   void clear();
 
  private:

@@ -136,6 +136,34 @@ Interval AlgebraicNumber::enclose(const RationalPolynomial& f) const {
   return Interval::hull(value.lower.enclose(), value.upper.enclose());
 }
 
+std::optional<std::string> text(const AlgebraicNumber& t, const RationalPolynomial& f) {
+  RationalPolynomial g = t.reduced(f);
+  if (g.size() < 2) return g.empty() ? "0" : g[0].text();
+  const RationalPolynomial& p = t.polynomial();
+  if (p.size() != 3) return std::nullopt;
+  // t = −b/2 ± √d with d = b²/4 − c, for t² + b t + c = 0; the sign is that of t + b/2.
+  const ExactNumber half = p[1] / (ExactNumber(2) * p[2]), c = p[0] / p[2], d = half * half - c;
+  const auto sign = t.sign({half, ExactNumber(1)});
+  if (!sign || *sign == 0) return std::nullopt;
+  const ExactNumber constant = g[0] - g[1] * half;
+  // √(n/m) = √(n m)/m, and squares of small numbers come out of the root.
+  const std::string fraction = d.text();
+  const std::size_t slash = fraction.find('/');
+  const ExactNumber n = ExactNumber::rational(fraction.substr(0, slash));
+  const ExactNumber m = slash == std::string::npos ? ExactNumber(1) : ExactNumber::rational(fraction.substr(slash + 1));
+  ExactNumber inside = n * m, outside = g[1] * ExactNumber(*sign) / m;
+  constexpr int kLargestFactor = 1000;
+  for (int k = 2; k <= kLargestFactor; ++k) {
+    const ExactNumber square(k * k);
+    for (ExactNumber q = inside / square; q.text().find('/') == std::string::npos; q = inside / square) {
+      inside = q;
+      outside = outside * ExactNumber(k);
+    }
+  }
+  const ExactNumber root = ExactNumber::apply(ConstantFunction::sqrt, inside);
+  return (constant + outside * root).text();
+}
+
 RationalPolynomial sum(const RationalPolynomial& f, const RationalPolynomial& g) {
   RationalPolynomial result(std::max(f.size(), g.size()));
   for (std::size_t k = 0; k < result.size(); ++k) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "corank/certify/exact_point.h"
 #include "corank/certify/interval.h"
@@ -42,6 +43,9 @@ class AlgebraicNumber {
   mutable ExactNumber lower_, upper_;  // narrowed where more digits are asked for
   int sign_at_upper_ = 0;
 };
+
+/// f(t) in the model language where t has degree 1 or 2: "-3/5", "59/100 + 1/180*sqrt(28919)"; nothing beyond.
+std::optional<std::string> text(const AlgebraicNumber& t, const RationalPolynomial& f);
 
 RationalPolynomial sum(const RationalPolynomial& f, const RationalPolynomial& g);
 RationalPolynomial scaled(const RationalPolynomial& f, const ExactNumber& factor);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/certify/elimination.h"
 #include "corank/certify/exact_point.h"
 #include "corank/certify/interval.h"
 #include "corank/certify/proof.h"
@@ -46,6 +47,8 @@ struct CoverBox {
   int region = -1;        ///< index in Cover::regions: the box of the proof, −1 where there is none
   /// Index in Cover::exact_points: of an `exact` box its point; of an undecided one the point that explains it. −1: none.
   int point = -1;
+  /// No solution in the box has a kernel of larger dimension (certify/kernel_bound.h); −1: the system has no kernel, or nobody asked.
+  int corank = -1;
 };
 
 struct Statistics {
@@ -58,6 +61,7 @@ struct Statistics {
 
 /// A list of boxes whose union holds every solution of the system in its domain, where complete().
 struct Cover {
+  /// Sorted by their sides in the variables that were kept: lower end, upper end of the first, of the second …
   std::vector<CoverBox> boxes;
   /// For a set of dimension 0: the distinct solutions. An `isolated` one is exactly one solution, and no two entries hold the
   /// same one; an `undecided` one is the hull of a cluster of touching boxes that may hold any number, none included.
@@ -66,6 +70,11 @@ struct Cover {
   /// exactly one solution (isolated). Boxes that were cut from one sheet share it.
   std::vector<Box> regions;
   std::vector<ExactPoint> exact_points;
+  /// Of each point and variable a decimal that is wrong by less than a unit of its last digit; no decimals where nothing is proven.
+  /// Empty where nobody asked.
+  std::vector<std::vector<std::string>> decimals;
+  /// The variables that were eliminated before the search, in that order; the sides of a box are of all variables.
+  std::vector<Elimination> eliminations;
   std::shared_ptr<const Proof> proof;  ///< of completeness, where it was asked for
   int dimension = 0;                   ///< of the set; for an over-determined system, the largest that a partial box shows
   double sigma = 0;

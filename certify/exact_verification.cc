@@ -139,4 +139,31 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point) 
   }
 }
 
+bool lies_in(const ExactPoint& point, const std::vector<Interval>& box) {
+  if (point.coordinates.size() != box.size()) return false;
+  const AlgebraicNumber t(point.polynomial, point.lower, point.upper);
+  for (std::size_t j = 0; j < box.size(); ++j) {
+    const RationalPolynomial& x = point.coordinates[j];
+    if (x.empty()) continue;
+    if (t.sign(sum(x, {-ExactNumber::dyadic(box[j].lo())})).value_or(-1) < 0) return false;
+    if (t.sign(sum(x, {-ExactNumber::dyadic(box[j].hi())})).value_or(1) > 0) return false;
+  }
+  return true;
+}
+
+ExactNumber reach(const ExactPoint& point, const std::vector<Interval>& box) {
+  if (point.coordinates.size() != box.size()) throw std::invalid_argument("the point has another number of coordinates");
+  const AlgebraicNumber t(point.polynomial, point.lower, point.upper);
+  const ExactNumber width = pow(ExactNumber(2), -80);
+  ExactNumber farthest;
+  for (std::size_t j = 0; j < box.size(); ++j) {
+    if (point.coordinates[j].empty()) continue;
+    const auto x = t.bounds(point.coordinates[j], width);
+    for (const ExactNumber& distance :
+         {ExactNumber::dyadic(box[j].hi()) - x.lower, x.upper - ExactNumber::dyadic(box[j].lo())})
+      if ((distance - farthest).sign() == 1) farthest = distance;
+  }
+  return farthest;
+}
+
 }  // namespace corank::certify

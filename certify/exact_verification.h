@@ -33,4 +33,11 @@ struct ExactVerification {
 /// independent ξ the kernel equations hold, too. Needs rational coefficients and no sines or cosines.
 ExactVerification verify_exactly(const System& system, const ExactPoint& point);
 
+/// Are the coordinates that are known all in the box's sides? True is proven.
+bool lies_in(const ExactPoint& point, const std::vector<Interval>& box);
+
+/// A rational number r that no known coordinate's distance from any point of its side exceeds: the box lies in the cube of radius r about
+/// the point.
+ExactNumber reach(const ExactPoint& point, const std::vector<Interval>& box);
+
 }  // namespace corank::certify

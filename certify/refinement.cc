@@ -290,6 +290,17 @@ std::optional<ProvenZero> prove_zero(const System& system, const std::vector<Exa
   return std::nullopt;
 }
 
+std::pair<ExactNumber, ExactNumber> bounds(const Polynomial& f,
+                                           const std::vector<std::pair<ExactNumber, ExactNumber>>& sides, int bits) {
+  const Precision precision(bits);
+  System one;  // whose only equation is f
+  one.equations.push_back(f);
+  std::vector<Range> x;
+  for (const auto& side : sides) x.push_back(to_range(side));
+  const Range value = Equations<Range>(one, [bits](const ExactNumber& c) { return to_range(c.bounds(bits)); }).value(0, x);
+  return {from_mpfr(lower_end(value)), from_mpfr(upper_end(value))};
+}
+
 std::string proven_decimal(const ExactNumber& lower, const ExactNumber& upper, int digits) {
   const mpq_class lo = rational(lower), hi = rational(upper);
   for (int places = digits; places >= 0; --places) {

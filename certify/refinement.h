@@ -29,6 +29,10 @@ struct ProvenZero {
 std::optional<ProvenZero> prove_zero(const System& system, const std::vector<ExactNumber>& start, int digits,
                                      int max_bits = 8192);
 
+/// Rational bounds of {f(x) : x within the sides}, computed with so many bits.
+std::pair<ExactNumber, ExactNumber> bounds(const Polynomial& f,
+                                           const std::vector<std::pair<ExactNumber, ExactNumber>>& sides, int bits);
+
 /// A decimal of the number in [lower, upper] that is wrong by less than one unit of its last digit, with as many digits after the point as
 /// that allows, `digits` at most: "0.7071067811". A rational number with a short decimal is that decimal.
 std::string proven_decimal(const ExactNumber& lower, const ExactNumber& upper, int digits);

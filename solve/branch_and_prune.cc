@@ -16,6 +16,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
+#include <unordered_map>
 
 #include "corank/certify/check.h"
 #include "corank/certify/distinct.h"
@@ -118,13 +119,12 @@ class Search {
     arena_.execute(f);
   }
 
-  void run(const certify::System& system) {
-    const std::size_t n = system.variables.size();
-    std::vector<Interval> domain;
-    for (const auto& v : system.variables) domain.push_back(v.domain);
-    WorkList all(n);
-    all.push(domain.data(), 1.0);
-    waiting_ = 1;
+  void run(const certify::Reduction& reduction) {
+    const std::vector<certify::Box> roots = roots_of(reduction);
+    WorkList all(reduction.kept.size());
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+      all.push(root->data(), 1.0 / static_cast<double>(roots.size()));
+    waiting_ = roots.size();
     execute([&] {
       if (threads_ == 1) {
         work(std::move(all));
@@ -177,6 +177,22 @@ class Search {
     BoxProcessor processor;
     std::size_t counted = 0;  // of processor.found()
   };
+
+  // The boxes to search, in the variables that are kept, within the domain.
+  std::vector<certify::Box> roots_of(const certify::Reduction& reduction) const {
+    certify::Box domain;
+    for (const auto& v : reduction.system.variables) domain.push_back(v.domain);
+    if (options_.roots.empty()) return {domain};
+    std::vector<certify::Box> roots;
+    for (const certify::Box& given : options_.roots) {
+      certify::Box root = domain;
+      bool empty = false;
+      for (std::size_t j = 0; j < root.size(); ++j)
+        empty = empty || !root[j].intersect(given.at(static_cast<std::size_t>(reduction.kept[j])));
+      if (!empty) roots.push_back(std::move(root));
+    }
+    return roots;
+  }
 
   void spawn(WorkList list) {
     ++busy_;
@@ -304,6 +320,19 @@ void sort(std::vector<Found>& found) {
   found = std::move(sorted);
 }
 
+// Numbers the regions of the boxes' proofs by the first box that has each.
+std::vector<certify::Box> number_regions(const certify::Reduction& reduction, std::vector<Found>& found) {
+  std::unordered_map<const certify::Box*, int> numbers;
+  std::vector<certify::Box> regions;
+  for (Found& f : found) {
+    if (!f.region) continue;
+    const auto [at, is_new] = numbers.try_emplace(f.region.get(), static_cast<int>(regions.size()));
+    if (is_new) regions.push_back(reduction.lift(*f.region));
+    f.box.region = at->second;
+  }
+  return regions;
+}
+
 // The box in all variables of the system that was reduced.
 certify::CoverBox lifted(const certify::System& system, const certify::Reduction& reduction, certify::CoverBox box) {
   box.box = reduction.lift(box.box);
@@ -341,11 +370,12 @@ Cover solve(const certify::System& system, const Options& options) {
 
   const certify::Reduction reduction = certify::reduce(system);
   Search search(reduction, options, sigma);
-  if (reduction.consistent) search.run(reduction.system);
+  if (reduction.consistent) search.run(reduction);
 
   Cover cover;
   cover.dimension = reduction.system.dimension();
   cover.sigma = sigma;
+  cover.eliminations = reduction.eliminations;
   cover.statistics = search.statistics();
   std::vector<Found> found = search.take_found();
   const bool some_partial =
@@ -359,9 +389,13 @@ Cover solve(const certify::System& system, const Options& options) {
     sort(found);
     if (cover.dimension == 0) {
       merge_isolated(found);
+      cover.regions = number_regions(reduction, found);
       cover.points = collect_points(found, sigma);
     } else {
+      const std::size_t before = found.size();
       search.merge(found);
+      if (found.size() < before) sort(found);  // merged boxes have other sides
+      cover.regions = number_regions(reduction, found);
     }
     for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
     cover.boxes.resize(found.size());
