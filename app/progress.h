@@ -1,6 +1,8 @@
 // One line on a terminal that says how far the search is.
 #pragma once
 
+#include <string>
+
 #include "corank/solve/solve.h"
 
 namespace corank::app {
@@ -8,7 +10,8 @@ namespace corank::app {
 /// Draws on standard error where that is a terminal, else does nothing.
 class ProgressLine {
  public:
-  ProgressLine();
+  /// `task` stands before all else, such as "forward (2 of 4)".
+  explicit ProgressLine(std::string task = "");
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -18,6 +21,7 @@ class ProgressLine {
   void clear();
 
  private:
+  std::string task_;
   bool visible_;
   bool drawn_ = false;
 };

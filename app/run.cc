@@ -28,6 +28,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   add_derive(program, action);
   add_solve(program, action);
   add_plot(program, action);
+  add_report(program, action);
   add_angles(program, action);
 
   try {

@@ -1,0 +1,16 @@
+// From a mechanism's set to its result: what corank solve and corank report share.
+#pragma once
+
+#include <optional>
+
+#include "corank/app/question.h"
+#include "corank/solve/solve.h"
+
+namespace corank::app {
+
+/// Solves the system of a set (nothing: of a plain system) and returns all that a result file holds.
+report::Result solve_set(const Question& question, const symbolic::Mechanism& mechanism,
+                         std::optional<symbolic::SingularitySet> set, const certify::System& system,
+                         const solve::Options& options);
+
+}  // namespace corank::app
