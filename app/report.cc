@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "corank/app/box_files.h"
@@ -22,9 +23,11 @@ namespace {
 
 using symbolic::SingularitySet;
 
+const std::vector<std::string> kSets = {"cspace", "forward", "inverse", "cspace-singular"};
+
 struct ReportCommand {
   Question question;
-  std::vector<std::string> sets = {"cspace", "forward", "inverse", "cspace-singular"}, results;
+  std::vector<std::string> sets = kSets, results;
   std::optional<double> sigma, cspace_sigma;
   int threads = 0;
   std::uint64_t max_boxes = 0;
@@ -68,18 +71,26 @@ std::vector<report::Result> solve_all(const ReportCommand& command, const symbol
   return results;
 }
 
-std::vector<report::Result> read_all(const std::vector<std::string>& paths) {
-  std::vector<report::Result> results;
+/// Reads results of one model, and brings them and their paths into the order of kSets.
+std::vector<report::Result> read_all(std::vector<std::string>& paths) {
+  std::map<std::ptrdiff_t, std::pair<std::string, report::Result>> by_set;
   for (const std::string& path : paths) {
-    results.push_back(report::read_result(path));
-    const report::Result &first = results.front(), &last = results.back();
-    if (last.model_text != first.model_text || last.options.constants != first.options.constants)
-      throw report::ResultFileError(
-          fmt::format("{}: is of another model than {}, or with other constants", path, paths.front()));
-    for (std::size_t i = 0; i + 1 < results.size(); ++i) {
-      if (results[i].set == last.set)
-        throw report::ResultFileError(fmt::format("{}: holds the set {} as {} does", path, last.set, paths[i]));
+    report::Result result = report::read_result(path);
+    const auto place = std::find(kSets.begin(), kSets.end(), result.set) - kSets.begin();
+    const auto [other, added] = by_set.try_emplace(place, path, result);
+    const auto& [first_path, first] = by_set.begin()->second;
+    if (!added) {
+      throw report::ResultFileError(fmt::format("{}: holds the set {}, as {} does", path, result.set, other->second.first));
     }
+    if (result.model_text != first.model_text || result.options.constants != first.options.constants) {
+      throw report::ResultFileError(fmt::format("{} and {} are of two models, or with other constants", path, first_path));
+    }
+  }
+  std::vector<report::Result> results;
+  paths.clear();
+  for (auto& [place, entry] : by_set) {
+    paths.push_back(entry.first);
+    results.push_back(std::move(entry.second));
   }
   return results;
 }
@@ -152,7 +163,7 @@ void add_report(CLI::App& program, Action& action) {
   sub->add_option("--sets", command->sets, "The sets, with commas")
       ->type_name("SET[,SET...]")
       ->delimiter(',')
-      ->check(CLI::IsMember({"cspace", "forward", "inverse", "cspace-singular"}))
+      ->check(CLI::IsMember(kSets))
       ->capture_default_str();
   sub->add_option("--sigma", command->sigma,
                   "Largest edge of a box in the sets of singularities; default: 0.01 for curves, 0.1 for surfaces")

@@ -11,6 +11,7 @@
 #include "corank/report/page_points.h"
 #include "corank/report/page_words.h"
 #include "corank/symbolic/display_name.h"
+#include "corank/symbolic/mathml.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::report {
@@ -82,6 +83,16 @@ mustache::data payload(const Result& result) {
   return data;
 }
 
+std::string constants_html(const symbolic::Mechanism& mechanism) {
+  std::string html;
+  for (const symbolic::Constant& c : mechanism.constants()) {
+    html += html.empty() ? "" : ", ";
+    html += "<span class=\"constant\">" +
+            symbolic::math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + symbolic::mathml(c.value)) + "</span>";
+  }
+  return html.empty() ? "none" : html;
+}
+
 std::string overridden(const std::vector<Result>& results) {
   std::string text;
   if (results.empty()) return text;
@@ -118,7 +129,12 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["coordinates"] = std::to_string(mechanism.coordinates().size());
   page["constraints"] = std::to_string(derivation.phi.size());
   page["mobility"] = std::to_string(mechanism.coordinates().size() - derivation.phi.size());
-  page["overridden"] = overridden(results);
+  page["constants"] = constants_html(mechanism);
+  const std::string changed = overridden(results);
+  page["overridden"] = changed;
+  page.set("hasOverrides", truth(!changed.empty()));
+  page["unit"] = mechanism.drawing().unit;
+  page.set("hasUnit", truth(!mechanism.drawing().unit.empty()));
   page.set("sets", cards);
   page["points"] = points_html(results);
   page["derivation"] = derivation_html(mechanism, results);

@@ -34,7 +34,7 @@ std::string matrix_html(const std::string& base, const std::string& subscript, c
   for (const std::string& name : matrix.columns) columns += (columns.empty() ? "" : ", ") + symbolic::html_name(name);
   return fmt::format(
       "<figure class=\"matrix\"><figcaption>{} · columns {}</figcaption><div class=\"scroll\">{}</div></figure>", words,
-      columns.empty() ? "none" : columns, math(symbol(base, subscript) + "<mo>=</mo>" + mathml(matrix), true));
+      columns.empty() ? "none" : columns, math(symbol(base, subscript) + "<mo>=</mo>" + mathml(matrix)));
 }
 
 std::string system_html(const symbolic::Mechanism& mechanism, const Result& result) {
@@ -58,12 +58,8 @@ std::string system_html(const symbolic::Mechanism& mechanism, const Result& resu
 
 std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vector<Result>& results) {
   const symbolic::Derivation derivation = derive(mechanism);
-  std::string html = "<h3>Constants</h3><p class=\"constants\">";
-  for (const symbolic::Constant& c : mechanism.constants())
-    html += math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + mathml(c.value)) + " ";
-  if (mechanism.constants().empty()) html += "none";
-  html += "</p><h3>Assembly constraints " +
-          math("<mi mathvariant=\"normal\">Φ</mi><mo>(</mo><mi>q</mi><mo>)</mo><mo>=</mo><mn>0</mn>") + "</h3>";
+  std::string html = "<h3>Assembly constraints " +
+                     math("<mi mathvariant=\"normal\">Φ</mi><mo>(</mo><mi>q</mi><mo>)</mo><mo>=</mo><mn>0</mn>") + "</h3>";
   std::vector<std::string> phi;
   for (const symbolic::Expression& e : derivation.phi) phi.push_back(mathml(e == symbolic::Expression(0)));
   html += "<div class=\"scroll\">" + numbered(phi, {}) + "</div><h3>Jacobian blocks</h3>";

@@ -26,10 +26,10 @@ std::string meaning(const std::string& set) {
 
 std::string shape(int dimension) {
   switch (dimension) {
-    case 0: return "isolated points";
-    case 1: return "curves";
-    case 2: return "surfaces";
-    default: return fmt::format("a set of dimension {}", dimension);
+    case 0: return "Isolated points";
+    case 1: return "Curves";
+    case 2: return "Surfaces";
+    default: return fmt::format("Dimension {}", dimension);
   }
 }
 
@@ -42,7 +42,7 @@ void say_points(const Result& result, SetWords& words) {
   const certify::Cover& cover = result.cover;
   const std::size_t isolated = count_points(cover, Verdict::isolated), exact = count_points(cover, Verdict::exact),
                     others = cover.points.size() - isolated - exact;
-  words.finding = isolated + exact == 0 ? "none proven to exist" : counted(isolated + exact, "point", "points");
+  words.finding = isolated + exact == 0 ? "None proven to exist" : counted(isolated + exact, "point", "points");
   if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place", "undecided places"));
   if (isolated > 0) {
     words.proven.push_back(fmt::format("{} exactly one solution each, and no two of them the same one.",
@@ -60,7 +60,7 @@ void say_points(const Result& result, SetWords& words) {
 
 void say_pieces(const Result& result, const Components& found, SetWords& words) {
   const certify::Cover& cover = result.cover;
-  words.finding = fmt::format("{} in {}, {} as boxes touch", shape(cover.dimension), boxes_text(cover.boxes.size()),
+  words.finding = fmt::format("{}: {} in {} as boxes touch", shape(cover.dimension), boxes_text(cover.boxes.size()),
                               counted(static_cast<std::size_t>(found.count), "component", "components"));
   const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
   if (regular > 0) {
@@ -132,7 +132,7 @@ SetWords set_words(const Result& result, const Components& found) {
       words.shares.push_back({verdict, n, static_cast<double>(n) / static_cast<double>(cover.boxes.size())});
   }
   if (cover.boxes.empty()) {
-    words.finding = "none";
+    words.finding = "None";
     words.proven.push_back(result.set == "cspace" ? "The mechanism cannot be assembled within the search domain."
                                                   : "There is none in the search domain.");
     return words;

@@ -41,7 +41,8 @@ std::string print_function(const Expression& e, const std::string& exponent = ""
   const bool arc = e.name() == "asin" || e.name() == "acos" || e.name() == "atan";
   const std::string name = element("mi", arc ? "arc" + e.name().substr(1) : e.name());
   const std::string head = exponent.empty() ? name : element("msup", name + exponent);
-  return row(head + sign(kApply) + in_parentheses_if(argument.kind() != Kind::symbol, argument));
+  const bool bare = argument.kind() == Kind::symbol;
+  return row(head + sign(kApply) + (bare ? "<mspace width=\"0.17em\"/>" : "") + in_parentheses_if(!bare, argument));
 }
 
 std::string print_power(const Expression& e) {
@@ -123,7 +124,7 @@ std::string mathml(const ExpressionMatrix& matrix) {
     for (const Expression& e : expressions) cells += element("mtd", mathml(e));
     rows += element("mtr", cells);
   }
-  return row(sign("(") + element("mtable", rows) + sign(")"));
+  return "<mtable class=\"matrix\">" + rows + "</mtable>";
 }
 
 std::string math(const std::string& inside, bool block) {

@@ -12,7 +12,7 @@ namespace corank::symbolic {
 std::string mathml(const Expression& e);
 std::string mathml(const Relation& relation);
 std::string mathml_name(const std::string& name);
-/// In parentheses.
+/// An <mtable class="matrix">; its parentheses are the style's to draw, for few fonts have tall ones.
 std::string mathml(const ExpressionMatrix& matrix);
 /// `<math>…</math>` around it, on a line of its own where `block`.
 std::string math(const std::string& inside, bool block = false);

@@ -48,7 +48,7 @@ export function paintCoverage(context, counts, width, height, [red, green, blue]
     image.data[4 * i] = red;
     image.data[4 * i + 1] = green;
     image.data[4 * i + 2] = blue;
-    image.data[4 * i + 3] = 255 * Math.min(1, count) * (0.12 + 0.5 * (1 - Math.exp(-(count - Math.min(1, count)) / 9)));
+    image.data[4 * i + 3] = 255 * Math.min(0.62, 0.17 * Math.min(1, count) + 0.06 * Math.log2(Math.max(1, count)));
   }
   context.putImageData(image, 0, 0);
 }

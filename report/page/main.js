@@ -7,29 +7,28 @@ import {Portrait} from "./portrait.js";
 import {Space} from "./space.js";
 import {coordinateValues} from "./values.js";
 
-// Configurations here and there in C-space, or in what other set there is.
-function sampleConfigurations(model, most) {
-  const set = model.sets.find((s) => s.name === "cspace" && s.count > 0) || model.sets.find((s) => s.count > 0);
+// Configurations here and there in a set: {set, box, values}.
+function sampleConfigurations(model, set, most) {
   if (!set) return [];
   const step = Math.max(1, Math.floor(set.count / most)), samples = [];
-  for (let box = step >> 1; box < set.count; box += step) samples.push(coordinateValues(model, pointOfBox(set, box).x));
+  for (let box = step >> 1; box < set.count; box += step) samples.push({set, box, values: coordinateValues(model, pointOfBox(set, box).x)});
   return samples;
 }
 
 // The clearest of some configurations: one that keeps its points apart, upright rather than hanging.
-function clearestConfiguration(model, samples) {
+function clearest(model, samples) {
   let best = null;
-  for (const values of samples) {
-    const at = drawnPoints(model, values).map(({position}) => position);
+  for (const sample of samples) {
+    const at = drawnPoints(model, sample.values).map(({position}) => position);
     let room = Infinity, height = 0;
     at.forEach((p, i) => {
       height += p[1] / at.length;
       for (let j = 0; j < i; ++j) room = Math.min(room, Math.hypot(p[0] - at[j][0], p[1] - at[j][1]));
     });
     const score = room + 0.15 * height;
-    if (!best || score > best.score) best = {score, values};
+    if (!best || score > best.score) best = {score, ...sample};
   }
-  return best && best.values;
+  return best;
 }
 
 // Outputs, inputs, passive coordinates; those of one value are no axes.
@@ -58,10 +57,11 @@ function followTheme(redraw) {
 
 function main() {
   document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-  const model = readModel(), samples = sampleConfigurations(model, 400);
-  const view = drawingWindow(model, samples);
-  const hero = document.querySelector("#mechanism svg"), clearest = clearestConfiguration(model, samples);
-  if (clearest && model.drawing.points.length > 0) drawMechanism(hero, model, clearest, null, drawingWindow(model, [clearest]), {unit: 0.8});
+  const model = readModel(), filled = (name) => model.sets.find((set) => set.count > 0 && (!name || set.name === name));
+  const samples = sampleConfigurations(model, filled("cspace") || filled(), 300);
+  const view = drawingWindow(model, samples.map(({values}) => values));
+  const hero = document.querySelector("#mechanism svg"), typical = clearest(model, samples);
+  if (typical && model.drawing.points.length > 0) drawMechanism(hero, model, typical.values, null, drawingWindow(model, [typical.values]), {unit: 0.9});
   else document.getElementById("mechanism").classList.add("undrawn");
 
   const order = axisOrder(model), views = [];
@@ -102,8 +102,8 @@ function main() {
     if (space) space.build();
   });
 
-  const start = model.sets.find((set) => set.name === "forward" && set.count > 0) || model.sets.find((set) => set.count > 0);
-  if (start) panel.offer([{set: start, box: start.count >> 2, leaders: 1}]);
+  const first = clearest(model, sampleConfigurations(model, filled("forward") || filled(), 100));
+  if (first) panel.offer([{set: first.set, box: first.box, leaders: 1}]);
   window.corank = {model, panel, portraits: views, space};
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 }

@@ -65,7 +65,7 @@ export function drawingWindow(model, configurations) {
     }
   }
   if (box[0] > box[2]) return [-1, -1, 1, 1];
-  const size = Math.max(box[2] - box[0], box[3] - box[1], 1e-9), margin = 0.1 * size;
+  const size = Math.max(box[2] - box[0], box[3] - box[1], 1e-9), margin = 0.08 * size;
   const grow = (low, high) => {
     const extra = Math.max(0, 0.35 * size - (high - low)) / 2 + margin;
     return [low - extra, high + extra];
@@ -108,8 +108,10 @@ export function drawMechanism(svg, model, values, rates, view, options = {}) {
       circle(i, 3.2, "effector");
     }
   }
-  if (rates) drawVelocities(svg, points, at, scale, unit, width);
-  drawLabels(svg, points, at, unit, width, height);
+  const arrows = rates ? drawVelocities(svg, points, at, scale, unit, width) : [];
+  const bars = ["link", "platform"].flatMap((kind) => parts(kind)).flatMap(({points: ends}) => ends.slice(1).map((b, k) => [at[ends[k]], at[b]]));
+  const pedestals = parts("ground").flatMap((part) => part.points.map((i) => [at[i], [at[i][0], at[i][1] + 22 * unit]]));
+  drawLabels(svg, points, at, [...bars, ...arrows, ...pedestals], unit, width, height);
 }
 
 function drawGround(svg, [x, y], unit) {
@@ -119,43 +121,46 @@ function drawGround(svg, [x, y], unit) {
   svgElement(group, "path", {d: "M-13 17 l-5 6 M-6 17 l-5 6 M1 17 l-5 6 M8 17 l-5 6 M15 17 l-5 6", class: "hatch"});
 }
 
-// The longest arrow has a fifth of the picture's width; ξ has no scale of its own.
+// The longest arrow has a fifth of the picture's width; ξ has no scale of its own. Returns the arrows as segments.
 function drawVelocities(svg, points, at, scale, unit, width) {
   const speeds = points.map(({velocity: [u, v]}) => Math.hypot(u, v));
   const fastest = Math.max(...speeds, 0);
-  if (!(fastest > 1e-9)) return;
+  const arrows = [];
+  if (!(fastest > 1e-9)) return arrows;
   points.forEach(({velocity: [u, v]}, i) => {
     if (speeds[i] < 1e-6 * fastest) return;
     const length = (0.2 * width * speeds[i]) / fastest, dx = u / speeds[i], dy = -v / speeds[i];
     const [x, y] = at[i], tip = [x + length * dx, y + length * dy], head = Math.min(9 * unit, 0.6 * length);
+    arrows.push([at[i], tip]);
     const back = [tip[0] - head * dx, tip[1] - head * dy];
     svgElement(svg, "line", {x1: x, y1: y, x2: back[0], y2: back[1], class: "velocity", "stroke-width": 2.6 * unit});
     svgElement(svg, "polygon", {points: [tip, [back[0] - 0.45 * head * dy, back[1] + 0.45 * head * dx],
                                          [back[0] + 0.45 * head * dy, back[1] - 0.45 * head * dx]].map((p) => p.join(",")).join(" "),
                                 class: "velocity-head"});
   });
+  return arrows;
 }
 
 // Each label goes to the side of its point where the other points are not; of points in one place the first is labelled for all.
-function drawLabels(svg, points, at, unit, width, height) {
+function drawLabels(svg, points, at, obstacles, unit, width, height) {
   const done = [];
   points.forEach((point, i) => {
     if (done.some((j) => Math.hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]) < 3)) return;
     done.push(i);
     let best = null;
     for (let k = 0; k < 8; ++k) {
-      const angle = (k * Math.PI) / 4 - Math.PI / 4, distance = 20 * unit;
+      const angle = (k * Math.PI) / 4 - Math.PI / 4, distance = 22 * unit;
       const place = [at[i][0] + distance * Math.cos(angle), at[i][1] + distance * Math.sin(angle)];
       let room = Math.min(place[0], width - place[0], place[1], height - place[1]) - 10;
       at.forEach((other, j) => {
         if (j !== i) room = Math.min(room, Math.hypot(place[0] - other[0], place[1] - other[1]) - 12);
       });
-      for (let a = 0; a < at.length; ++a) room = Math.min(room, distanceToLine(place, at[i], at[a]));
+      for (const [a, b] of obstacles) room = Math.min(room, distanceToLine(place, a, b));
       if (!best || room > best.room + 1e-6) best = {room, place};
     }
-    const text = svgElement(svg, "text", {x: best.place[0], y: best.place[1], class: "point-label", "font-size": 15 * unit});
+    const text = svgElement(svg, "text", {x: best.place[0], y: best.place[1], class: "point-label", "font-size": 17 * unit});
     svgElement(text, "tspan", {class: "symbol"}, point.label[0]);
-    if (point.label[1]) svgElement(text, "tspan", {"font-size": 10.5 * unit, dy: 3.5 * unit}, point.label[1]);
+    if (point.label[1]) svgElement(text, "tspan", {"font-size": 12 * unit, dy: 4 * unit}, point.label[1]);
   });
 }
 

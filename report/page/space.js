@@ -53,7 +53,7 @@ export class Space {
     this.frame.append(this.renderer.domElement);
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.05, 50);
     this.camera.up.set(0, 0, 1);
-    this.camera.position.set(1.7, -2.6, 1.6);
+    this.camera.position.set(2.0, -3.1, 1.75);
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.render());
     this.listen();
@@ -91,12 +91,12 @@ export class Space {
     this.scene = new THREE.Scene();
     const style = getComputedStyle(this.root), colour = (name) => style.getPropertyValue(name).trim();
     this.colours = {cspace: `rgb(${colour("--cspace")})`, forward: colour("--forward"), inverse: colour("--inverse"),
-                    "cspace-singular": colour("--crossing"), ink: colour("--ink"), line: colour("--line-strong")};
+                    "cspace-singular": colour("--crossing"), ink: colour("--ink"), paper: colour("--card"), line: colour("--line-strong")};
     this.dark = colour("--dark") === "1";
     this.clouds = this.model.sets.filter((set) => !this.hidden.has(set.name) && set.count > 0).map((set) => this.cloud(set));
     for (const {object} of this.clouds) this.scene.add(object);
     this.addFrame();
-    this.marker = this.sprite("◎", this.colours.ink, 0.06);
+    this.marker = this.ring();
     this.marker.visible = false;
     this.scene.add(this.marker);
     this.mark(this.shown);
@@ -167,7 +167,7 @@ export class Space {
     geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(lines), 3));
     this.scene.add(new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({color: this.colours.line, transparent: true, opacity: 0.7})));
     this.axes.forEach((axis, k) => {
-      const name = this.sprite(plainLabel(axis), this.colours.ink, 0.11);
+      const name = this.sprite(axis.label, this.colours.ink, 0.1);
       const at = [0, 0, 0];
       // x and y along the lower front edges, z along a vertical one.
       at[(k + 1) % 3] = -half[(k + 1) % 3];
@@ -180,17 +180,48 @@ export class Space {
     });
   }
 
-  sprite(text, colour, height) {
+  // A text that faces the eye: a name in italics with a subscript.
+  sprite([base, subscript], colour, height) {
     const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
-    context.font = "italic 64px Georgia, serif";
-    canvas.width = Math.ceil(context.measureText(text).width) + 16;
-    canvas.height = 88;
-    context.font = "italic 64px Georgia, serif";
-    context.fillStyle = colour;
-    context.fillText(text, 8, 64);
-    const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map: new THREE.CanvasTexture(canvas), depthTest: false, transparent: true}));
+    const pieces = [[base, "italic 64px Georgia, 'Liberation Serif', serif", 62], [subscript, "44px Georgia, 'Liberation Serif', serif", 76]];
+    let width = 12;
+    for (const [text, font] of pieces) {
+      context.font = font;
+      width += context.measureText(text).width;
+    }
+    canvas.width = Math.ceil(width);
+    canvas.height = 96;
+    let at = 6;
+    for (const [text, font, down] of pieces) {
+      context.font = font;
+      context.fillStyle = colour;
+      context.fillText(text, at, down);
+      at += context.measureText(text).width;
+    }
+    const map = new THREE.CanvasTexture(canvas);
+    map.colorSpace = THREE.SRGBColorSpace;
+    const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map, depthTest: false, transparent: true}));
     sprite.scale.set((height * canvas.width) / canvas.height, height, 1);
     sprite.renderOrder = 3;
+    return sprite;
+  }
+
+  // Where the shown configuration is.
+  ring() {
+    const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
+    canvas.width = canvas.height = 64;
+    for (const [colour, width] of [[this.colours.paper, 16], [this.colours.ink, 8]]) {
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.beginPath();
+      context.arc(32, 32, 20, 0, 7);
+      context.stroke();
+    }
+    const map = new THREE.CanvasTexture(canvas);
+    map.colorSpace = THREE.SRGBColorSpace;
+    const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map, depthTest: false, transparent: true}));
+    sprite.scale.set(0.05, 0.05, 1);
+    sprite.renderOrder = 4;
     return sprite;
   }
 

@@ -14,6 +14,7 @@ export {
   Points,
   Scene,
   ShaderMaterial,
+  SRGBColorSpace,
   Sprite,
   SpriteMaterial,
   Vector3,
