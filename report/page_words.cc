@@ -140,7 +140,7 @@ SetWords set_words(const Result& result, const Components& found) {
   if (cover.complete()) {
     words.proven.push_back("Every one in the search domain lies in a box: all else is excluded with outward rounding.");
   } else {
-    words.unproven.push_back(fmt::format("The search ended early: {} were not looked into, and may hold more.",
+    words.unproven.push_back(fmt::format("The search ended early: what {} may hold was not looked into.",
                                          boxes_text(cover.count(Verdict::pending))));
   }
   if (cover.dimension == 0) {

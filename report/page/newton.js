@@ -81,15 +81,22 @@ export function ontoSolutions(equations, start) {
   return {x, residual};
 }
 
-// A point of the set in or near a box: from its middle, moved by `adjust` where given.
-export function pointOfBox(set, box, adjust) {
+// A point of the set in a box, from its middle. With `conditions`, more equations, one where they hold, if there is one.
+export function pointOfBox(set, box, conditions = []) {
   const middle = new Float64Array(set.size);
   for (let j = 0; j < set.size; ++j) middle[j] = set.middle(box, j);
-  const start = Float64Array.from(middle);
-  if (adjust) adjust(start);
-  const found = ontoSolutions(set.equations, start);
-  let far = 0;
-  for (let j = 0; j < set.configuration; ++j) far = Math.max(far, Math.abs(found.x[j] - middle[j]) - (set.upper(box, j) - set.lower(box, j)));
-  const good = found.residual < 1e-9 && far <= 1e-6;
-  return good ? {x: found.x, residual: found.residual, moved: true} : {x: middle, residual: NaN, moved: false};
+  for (const equations of conditions.length > 0 ? [[...set.equations, ...conditions], set.equations] : [set.equations]) {
+    const {x, residual} = ontoSolutions(equations, middle);
+    if (residual < 1e-9 && isNear(set, box, x)) return {x, residual, moved: true};
+  }
+  return {x: middle, residual: NaN, moved: false};
+}
+
+// Is a configuration in the box, or next to it by at most the box's width?
+function isNear(set, box, x) {
+  for (let j = 0; j < set.configuration; ++j) {
+    const low = set.lower(box, j), high = set.upper(box, j), room = 0.5 * (high - low) + 1e-6;
+    if (!(x[j] >= low - room && x[j] <= high + room)) return false;
+  }
+  return true;
 }

@@ -71,22 +71,15 @@ export class Panel {
     this.chosen = k;
     [...this.modes.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === k)));
     const candidate = this.candidates[k], {set, box} = candidate;
-    const point = pointOfBox(set, box, (x) => this.moveToPlace(x, candidate));
+    const point = pointOfBox(set, box, this.conditions(candidate));
     this.show({set, box, ...point});
   }
 
-  // Over a surface the drawing follows the pointer within the box.
-  moveToPlace(x, {set, box, place, axes}) {
-    if (!place) return;
-    const clamp = (value, variable) => Math.min(set.upper(box, variable), Math.max(set.lower(box, variable), value));
-    axes.forEach((axis, k) => {
-      if (isAngle(axis)) {
-        x[axis.cosine] = clamp(Math.cos(place[k]), axis.cosine);
-        x[axis.sine] = clamp(Math.sin(place[k]), axis.sine);
-      } else {
-        x[axis.index] = clamp(place[k], axis.index);
-      }
-    });
+  // Over a surface the configuration is the one at the pointer: two equations more, x = value, or c sin θ − s cos θ = 0.
+  conditions({set, place, axes}) {
+    if (!place || set.dimension < 2) return [];
+    return axes.map((axis, k) => (isAngle(axis) ? [[Math.sin(place[k]), axis.cosine, 1, 0], [-Math.cos(place[k]), axis.sine, 1, 0]]
+                                                : [[1, axis.index, 1, 0], [-place[k]]]));
   }
 
   show(configuration) {
@@ -115,7 +108,7 @@ export class Panel {
       return `<tr><th>${htmlLabel(coordinate)}</th><td>${numberText(value)}${unit ? ` ${unit}` : ""}${degrees}</td><td>${
         coordinate.role === "passive" ? "" : coordinate.role}</td></tr>`;
     });
-    const how = moved ? `Drawn at a point of the box, brought onto the equations by Newton’s method (residual ${residual.toExponential(0)}).`
+    const how = moved ? `Drawn at a point in or next to the box, found by Newton’s method (residual ${residual.toExponential(0)}).`
                       : "Drawn at the middle of the box: Newton’s method found no point in it.";
     const arrows = set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
     return `<p class="headline"><span class="swatch ${set.name}"></span>${setTitles[set.name]} · box ${groupedText(box + 1)} of ${

@@ -67,6 +67,8 @@ class Browser:
         except (OSError, EOFError, RuntimeError):
             pass
         self.process.wait()
+        self.answers.close()
+        self.commands.close()
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def _read(self):
