@@ -25,6 +25,8 @@ using symbolic::SingularitySet;
 
 const std::vector<std::string> kSets = {"cspace", "forward", "inverse", "cspace-singular"};
 
+constexpr int kDigits = 12;  ///< of isolated points
+
 struct ReportCommand {
   Question question;
   std::vector<std::string> sets = kSets, results;
@@ -60,7 +62,7 @@ report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism
   options.stop = &Interrupt::stop();
   ProgressLine line(fmt::format("{} ({} of {})", command.sets[index], index + 1, command.sets.size()));
   if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
-  return solve_set(command.question, mechanism, set, system, options);
+  return solve_set(command.question, mechanism, set, system, options, kDigits);
 }
 
 std::vector<report::Result> solve_all(const ReportCommand& command, const symbolic::Mechanism& mechanism) {

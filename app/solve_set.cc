@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "corank/solve/exactness.h"
 #include "corank/symbolic/printer.h"
 
 namespace corank::app {
@@ -31,13 +32,15 @@ void mark_auxiliary(const symbolic::Mechanism& mechanism, report::Result& result
 
 report::Result solve_set(const Question& question, const symbolic::Mechanism& mechanism,
                          std::optional<symbolic::SingularitySet> set, const certify::System& system,
-                         const solve::Options& options) {
+                         const solve::Options& options, int digits) {
   report::Result result;
   result.model = mechanism.name();
   result.model_text = mechanism.source_text();
   result.set = set ? to_string(*set) : "system";
   result.system_text = symbolic::to_cuik(system);
   result.cover = solve::solve(system, options);
+  solve::prove_exactly(system, options, result.cover);
+  if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover);
   report::describe_system(system, result);
   mark_auxiliary(mechanism, result);
   result.options = {kernel_of(question, set), result.cover.sigma,    system.coefficient_tolerance, options.threads,

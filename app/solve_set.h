@@ -8,9 +8,10 @@
 
 namespace corank::app {
 
-/// Solves the system of a set (nothing: of a plain system) and returns all that a result file holds.
+/// Solves the system of a set (nothing: of a plain system), proves exactly what can be, and returns all that a result file holds.
+/// `digits`: isolated points get so many proven digits after the point; 0: none.
 report::Result solve_set(const Question& question, const symbolic::Mechanism& mechanism,
                          std::optional<symbolic::SingularitySet> set, const certify::System& system,
-                         const solve::Options& options);
+                         const solve::Options& options, int digits = 0);
 
 }  // namespace corank::app

@@ -181,6 +181,22 @@ Interval ExactNumber::enclose() const {
   }
 }
 
+std::pair<ExactNumber, ExactNumber> ExactNumber::bounds(int bits) const {
+  if (is_rational()) return {*this, *this};
+  const NearestRounding nearest;
+  try {
+    Mpfi x(bits);
+    evaluate(x, *node_, bits);
+    if (!mpfr_number_p(x.lo()) || !mpfr_number_p(x.hi())) throw std::domain_error("it exceeds every bound");
+    mpq_class lower, upper;
+    mpfr_get_q(lower.get_mpq_t(), x.lo());
+    mpfr_get_q(upper.get_mpq_t(), x.hi());
+    return {Node::number(std::move(lower)), Node::number(std::move(upper))};
+  } catch (const std::domain_error& error) {
+    throw std::domain_error(text() + " is no real number: " + error.what());
+  }
+}
+
 std::optional<int> ExactNumber::sign(int max_bits) const {
   if (is_rational()) return sgn(node_->value);
   const NearestRounding nearest;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "corank/certify/algebraic_number.h"
 #include "corank/certify/angle.h"
 #include "corank/report/page_words.h"
 #include "corank/symbolic/display_name.h"
+#include "corank/symbolic/mathml.h"
 
 namespace corank::report {
 namespace {
@@ -34,56 +36,56 @@ std::vector<Column> columns(const Result& result) {
   return list;
 }
 
-std::string cell(const Column& column, const certify::CoverBox& point) {
+/// "−3/5" or "√3/2" typeset; nothing where there is no short text.
+std::string exact_html(const certify::ExactPoint& point, int variable) {
+  const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(variable)];
+  if (x.empty()) return "";
+  const auto text = certify::text({point.polynomial, point.lower, point.upper}, x);
+  return text ? symbolic::math(symbolic::mathml(symbolic::Expression(*text))) : "";
+}
+
+/// The coordinate of a point as well as it is known: exactly, in decimals, or between bounds.
+std::string cell(const Result& result, const Column& column, std::size_t number) {
+  const certify::Cover& cover = result.cover;
+  const certify::CoverBox& point = cover.points[number];
   const auto at = [&point](int v) { return point.box[static_cast<std::size_t>(v)]; };
-  if (column.sine < 0) return digits_text(at(column.variable));
-  return digits_text(certify::angle_enclosure(at(column.variable), at(column.sine), column.range));
-}
-
-/// p(t) in HTML: "t<sup>2</sup> − 1/2".
-std::string polynomial_html(const certify::RationalPolynomial& p) {
-  std::string html;
-  for (std::size_t k = p.size(); k-- > 0;) {
-    if (p[k].is_zero()) continue;
-    std::string coefficient = p[k].text();
-    const bool negative = coefficient[0] == '-';
-    if (negative) coefficient.erase(0, 1);
-    const std::string power = k == 0 ? "" : k == 1 ? "<i>t</i>" : fmt::format("<i>t</i><sup>{}</sup>", k);
-    html += html.empty() ? (negative ? "−" : "") : (negative ? " − " : " + ");
-    html += k > 0 && coefficient == "1" ? power : coefficient + (power.empty() ? "" : " " + power);
-  }
-  return html.empty() ? "0" : html;
-}
-
-bool is_rational(const certify::ExactPoint& point) {
-  return std::all_of(point.coordinates.begin(), point.coordinates.end(), [](const auto& c) { return c.size() <= 1; });
+  if (column.sine >= 0) return digits_text(certify::angle_enclosure(at(column.variable), at(column.sine), column.range));
+  std::string exact, value = digits_text(at(column.variable));
+  if (point.point >= 0) exact = exact_html(cover.exact_points[static_cast<std::size_t>(point.point)], column.variable);
+  const bool has_decimals = number < cover.decimals.size() && !cover.decimals[number].empty();
+  if (has_decimals) value = with_minus(cover.decimals[number][static_cast<std::size_t>(column.variable)]);
+  if (exact.empty()) return value;
+  const bool is_decimal = value.find('[') == std::string::npos && value.find('.') == std::string::npos;
+  return is_decimal ? exact : exact + " <small>" + value + "</small>";  // an integer needs no decimals
 }
 
 std::string exact_cell(const Column& column, const certify::ExactPoint& point) {
   const auto text = [&point](int v) {
-    const certify::RationalPolynomial& p = point.coordinates[static_cast<std::size_t>(v)];
-    return p.empty() ? std::string("–") : polynomial_html(p);
+    const std::string html = exact_html(point, v);
+    return html.empty() ? fmt::format("a number of degree {}", point.polynomial.size() - 1) : html;
   };
   if (column.sine < 0) return text(column.variable);
-  return fmt::format("cos = {}, sin = {}", text(column.variable), text(column.sine));
+  return fmt::format("cos: {}, sin: {}", text(column.variable), text(column.sine));
 }
 
-std::string exact_html(const Result& result, const std::vector<Column>& shown) {
-  if (result.cover.exact_points.empty()) return "";
-  std::string html = "<h4>Known exactly</h4><div class=\"scroll\"><table><thead><tr><th>point</th>";
-  for (const Column& column : shown) html += "<th>" + symbolic::html_name(column.name) + "</th>";
-  html += "<th>corank</th><th>where</th></tr></thead><tbody>";
-  std::size_t number = 0;
+/// Points where the kernel has dimension 2 or more.
+std::string kernel_points_html(const Result& result, const std::vector<Column>& shown) {
+  std::string rows;
+  int number = 0;
   for (const certify::ExactPoint& point : result.cover.exact_points) {
-    html += fmt::format("<tr><td>{}</td>", ++number);
-    for (const Column& column : shown) html += "<td>" + exact_cell(column, point) + "</td>";
-    html +=
-        fmt::format("<td>{}</td><td>{}</td></tr>", point.corank < 0 ? "–" : std::to_string(point.corank),
-                    is_rational(point) ? "rational"
-                                       : fmt::format("{} = 0, {} &lt; <i>t</i> &lt; {}", polynomial_html(point.polynomial),
-                                                     point.lower.text(), point.upper.text()));
+    if (point.corank < 2) continue;
+    rows += fmt::format("<tr><td>{}</td>", ++number);
+    for (const Column& column : shown) rows += "<td>" + exact_cell(column, point) + "</td>";
+    rows += fmt::format("<td>{}</td></tr>", point.corank);
   }
-  return html + "</tbody></table></div>";
+  if (rows.empty()) return "";
+  std::string head;
+  for (const Column& column : shown) head += "<th>" + symbolic::html_name(column.name) + "</th>";
+  return fmt::format(
+      "<p>Known exactly, and proven in exact arithmetic: the kernel has a larger dimension there.</p><div "
+      "class=\"scroll\"><table>"
+      "<thead><tr><th>point</th>{}<th>kernel’s dimension</th></tr></thead><tbody>{}</tbody></table></div>",
+      head, rows);
 }
 
 std::string table_html(const Result& result) {
@@ -97,13 +99,13 @@ std::string table_html(const Result& result) {
     for (const certify::CoverBox& point : result.cover.points) {
       html += fmt::format("<tr data-point=\"{}\"><td><button type=\"button\" class=\"show-point\">{}</button></td>", number,
                           number + 1);
-      ++number;
-      for (const Column& column : shown) html += "<td>" + cell(column, point) + "</td>";
+      for (const Column& column : shown) html += "<td>" + cell(result, column, number) + "</td>";
       html += fmt::format("<td><span class=\"verdict {0}\">{0}</span></td></tr>", to_string(point.verdict));
+      ++number;
     }
     html += "</tbody></table></div>";
   }
-  return html + exact_html(result, shown) + "</section>";
+  return html + kernel_points_html(result, shown) + "</section>";
 }
 
 }  // namespace
@@ -112,7 +114,9 @@ std::string points_html(const std::vector<Result>& results) {
   std::string html;
   for (const Result& result : results) {
     const bool isolated = result.cover.dimension == 0 && !result.cover.points.empty();
-    if (isolated || !result.cover.exact_points.empty()) html += table_html(result);
+    const bool kernels = std::any_of(result.cover.exact_points.begin(), result.cover.exact_points.end(),
+                                     [](const certify::ExactPoint& point) { return point.corank > 1; });
+    if (isolated || kernels) html += table_html(result);
   }
   return html.empty() ? "<p>None: no set of this mechanism consists of isolated points.</p>" : html;
 }

@@ -58,6 +58,24 @@ void say_points(const Result& result, SetWords& words) {
   }
 }
 
+/// Where the kernel's dimension is known.
+void say_kernel(const certify::Cover& cover, SetWords& words) {
+  const auto count = [&cover](auto&& test) {
+    return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), test));
+  };
+  const std::size_t one = count([](const auto&b) { return b.corank == 1; }),
+                    asked = count([](const auto&b) { return b.corank >= 0; });
+  const auto larger = static_cast<std::size_t>(
+      std::count_if(cover.exact_points.begin(), cover.exact_points.end(), [](const auto& p) { return p.corank > 1; }));
+  if (asked == 0) return;
+  words.proven.push_back(
+      fmt::format("In {} of {} boxes the kernel has dimension 1.", grouped(one), grouped(cover.boxes.size())));
+  if (larger > 0) {
+    words.proven.push_back(fmt::format("At {} it has dimension 2 or more; {} known exactly.",
+                                       counted(larger, "point", "points"), larger == 1 ? "it is" : "they are"));
+  }
+}
+
 void say_pieces(const Result& result, const Components& found, SetWords& words) {
   const certify::Cover& cover = result.cover;
   words.finding = fmt::format("{}: {} in {} as boxes touch", shape(cover.dimension), boxes_text(cover.boxes.size()),
@@ -86,9 +104,19 @@ void say_pieces(const Result& result, const Components& found, SetWords& words) 
         fmt::format("In {} only independent equations are proven to hold, the others within a tolerance of {:g}.",
                     boxes_text(partial), cover.tolerance));
   }
-  if (const std::size_t undecided = cover.count(Verdict::undecided); undecided > 0) {
+  say_kernel(cover, words);
+  const auto explained = static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) {
+    return b.verdict == Verdict::undecided && b.point >= 0;
+  }));
+  const std::size_t open = cover.count(Verdict::undecided) - explained;
+  if (explained > 0) {
+    words.unproven.push_back(fmt::format(
+        "{} undecided around a point that is known exactly: what else {}, if anything, is open.",
+        explained == 1 ? "One box is" : grouped(explained) + " boxes are", explained == 1 ? "it holds" : "they hold"));
+  }
+  if (open > 0) {
     words.unproven.push_back(fmt::format("{} undecided: solutions may lie there, or none.",
-                                         undecided == 1 ? "One box is" : grouped(undecided) + " boxes are"));
+                                         open == 1 ? "One box is" : grouped(open) + " boxes are"));
   }
 }
 
@@ -115,11 +143,12 @@ std::string grouped(std::uint64_t n) {
   return digits;
 }
 
-std::string digits_text(const certify::Interval& x) {
-  std::string text = outward_text(x, 9);
+std::string with_minus(std::string text) {
   for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-', at + 3)) text.replace(at, 1, "−");
   return text;
 }
+
+std::string digits_text(const certify::Interval& x) { return with_minus(outward_text(x, 9)); }
 
 SetWords set_words(const Result& result, const Components& found) {
   const certify::Cover& cover = result.cover;

@@ -29,6 +29,8 @@ std::string set_title(const std::string& set);
 std::string percentage(std::size_t part, std::size_t whole);
 /// "94 004" with narrow spaces.
 std::string grouped(std::uint64_t n);
+/// Hyphens become minus signs.
+std::string with_minus(std::string text);
 /// One cell of a table for each coordinate: bounds with the digits that are proven, the rest in brackets.
 std::string digits_text(const certify::Interval& x);
 

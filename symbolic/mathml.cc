@@ -20,6 +20,12 @@ const char* const kApply = "&#x2061;";
 std::string in_parentheses(const std::string& inside) { return row(sign("(") + inside + sign(")")); }
 std::string in_parentheses_if(bool needed, const Expression& e) { return needed ? in_parentheses(mathml(e)) : mathml(e); }
 
+// One letter is slanted, digits and words stand upright.
+std::string base_and_subscript(const DisplayName& shown) {
+  const bool letter = shown.subscript.size() == 1 && !std::isdigit(static_cast<unsigned char>(shown.subscript[0]));
+  return element("mi", html_text(shown.base)) + element(letter ? "mi" : "mn", html_text(shown.subscript));
+}
+
 bool is_sum_or_negation(const Expression& e) { return e.kind() == Kind::sum || e.kind() == Kind::negation; }
 bool is_named_function(const Expression& e) { return e.kind() == Kind::function && e.name() != "sqrt" && e.name() != "abs"; }
 
@@ -49,6 +55,10 @@ std::string print_power(const Expression& e) {
   const Expression &base = e.operands()[0], &exponent = e.operands()[1];
   const bool whole = exponent.kind() == Kind::number && exponent.name().find_first_of(".e") == std::string::npos;
   if (is_named_function(base) && whole) return print_function(base, mathml(exponent));
+  if (base.kind() == Kind::symbol) {
+    const DisplayName shown = display_name(base.name());
+    if (!shown.subscript.empty()) return element("msubsup", base_and_subscript(shown) + row(mathml(exponent)));
+  }
   const bool bare = base.kind() == Kind::symbol ||
                     (base.kind() == Kind::number && base.name().find('e') == std::string::npos) ||
                     (base.kind() == Kind::function && !is_named_function(base));
@@ -89,11 +99,7 @@ std::string print_product(const Expression& e) {
 
 std::string mathml_name(const std::string& name) {
   const DisplayName shown = display_name(name);
-  const std::string base = element("mi", html_text(shown.base));
-  if (shown.subscript.empty()) return base;
-  // One letter is slanted, digits and words stand upright.
-  return element("msub", base + element(shown.subscript.size() == 1 && !std::isdigit(shown.subscript[0]) ? "mi" : "mn",
-                                        html_text(shown.subscript)));
+  return shown.subscript.empty() ? element("mi", html_text(shown.base)) : element("msub", base_and_subscript(shown));
 }
 
 std::string mathml(const Expression& e) {

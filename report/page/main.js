@@ -19,7 +19,7 @@ function sampleConfigurations(model, set, most) {
 function clearest(model, samples) {
   let best = null;
   for (const sample of samples) {
-    const at = drawnPoints(model, sample.values).map(({position}) => position);
+    const at = drawnPoints(model, sample.values).filter(({named}) => named).map(({position}) => position);
     let room = Infinity, height = 0;
     at.forEach((p, i) => {
       height += p[1] / at.length;

@@ -44,11 +44,13 @@ export function evaluateTree(tree, values, rates) {
 
 // Points of the drawing, flattened to the plane: spatial ones are seen from above a corner.
 export function drawnPoints(model, values, rates = {}) {
-  return model.drawing.points.map((point) => {
+  // The ends of rails have no meaning of their own.
+  const named = new Set(model.drawing.parts.flatMap(({kind, points}) => (kind === "slider" ? points.slice(0, 1) : points)));
+  return model.drawing.points.map((point, i) => {
     const at = point.at.map((tree) => evaluateTree(tree, values, rates));
     const flat = (k) => (at.length === 2 ? [at[0][k], at[1][k]]
                                          : [0.866 * (at[0][k] - at[1][k]), at[2][k] - 0.5 * (at[0][k] + at[1][k]) * 0.577]);
-    return {label: point.label, position: flat(0), velocity: flat(1)};
+    return {label: point.label, named: named.has(i), position: flat(0), velocity: flat(1)};
   });
 }
 
@@ -145,6 +147,7 @@ function drawVelocities(svg, points, at, scale, unit, width) {
 function drawLabels(svg, points, at, obstacles, unit, width, height) {
   const done = [];
   points.forEach((point, i) => {
+    if (!point.named) return;
     if (done.some((j) => Math.hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]) < 3)) return;
     done.push(i);
     let best = null;

@@ -79,7 +79,7 @@ export class Portrait {
   }
 
   layout() {
-    const pad = {left: 46, right: 12, top: 12, bottom: 40};
+    const pad = {left: 56, right: 12, top: 12, bottom: 40};
     const [[x0, x1], [y0, y1]] = this.limits;
     const inner = this.width - pad.left - pad.right;
     const alike = isAngle(this.axes[0]) === isAngle(this.axes[1]);
@@ -161,7 +161,7 @@ export class Portrait {
       context.fillText(text, pad.left - 6, this.toY(at));
     }
     this.drawAxisName(context, this.axes[0], pad.left + inner / 2, pad.top + height + 30, 0);
-    this.drawAxisName(context, this.axes[1], 11, pad.top + height / 2, -Math.PI / 2);
+    this.drawAxisName(context, this.axes[1], 10, pad.top + height / 2, -Math.PI / 2);
   }
 
   drawAxisName(context, axis, x, y, turn) {

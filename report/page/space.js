@@ -233,7 +233,7 @@ export class Space {
     this.renderer.setSize(width, Math.max(height, 300));
     this.camera.aspect = width / Math.max(height, 300);
     // A narrow window would cut the sides off.
-    this.camera.fov = this.camera.aspect > 1.2 ? 24 : 34;
+    this.camera.fov = this.camera.aspect > 1.2 ? 24 : 29;
     this.camera.updateProjectionMatrix();
     for (const {object} of this.clouds) {
       if (object.material.uniforms) object.material.uniforms.pixels.value = 0.5 * this.renderer.domElement.height;

@@ -149,8 +149,9 @@ TEST(Page, RefusesAPlainSystem) {
   EXPECT_THROW(report_page(plain, {}), symbolic::ModelError);
 }
 
-TEST(PointsTable, ShowsExactPointsAsPolynomialsInTheirRoot) {
+TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
   Result result = sample_result();
+  result.cover.dimension = 0;
   certify::ExactPoint point;  // t² = 1/2, t > 0: x = 3/5, the angle's cosine and sine t
   point.polynomial = {certify::ExactNumber::rational("-1/2"), 0, 1};
   point.lower = 0;
@@ -158,10 +159,15 @@ TEST(PointsTable, ShowsExactPointsAsPolynomialsInTheirRoot) {
   point.coordinates = {{certify::ExactNumber::rational("3/5")}, {0, 1}, {0, 1}, {}};
   point.corank = 2;
   result.cover.exact_points = {point};
+  result.cover.decimals = {{"-0.60", "0.71", "0.71", "0.00"}, {}};
+  result.cover.points[0].point = 0;
   const std::string html = points_html({result});
-  EXPECT_THAT(html, HasSubstr("<td>3/5</td>"));
-  EXPECT_THAT(html, HasSubstr("<td>cos = <i>t</i>, sin = <i>t</i></td><td>2</td>"));
-  EXPECT_THAT(html, HasSubstr("<i>t</i><sup>2</sup> − 1/2 = 0, 0 &lt; <i>t</i> &lt; 1"));
+  EXPECT_THAT(
+      html,
+      HasSubstr("<td><math><mfrac><mrow><mn>3</mn></mrow><mrow><mn>5</mn></mrow></mfrac></math> <small>−0.60</small></td>"));
+  EXPECT_THAT(html, HasSubstr("<td>0.333333333</td>")) << "the bounds of a point without decimals";
+  EXPECT_THAT(html, HasSubstr("<msqrt><mn>2</mn></msqrt>"));
+  EXPECT_THAT(html, HasSubstr("<td>2</td></tr>")) << "the dimension of the kernel";
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ TEST(MathMl, KeepsTheParenthesesThatMeanSomething) {
 }
 
 TEST(MathMl, SetsFunctionsRootsFractionsAndPowers) {
+  EXPECT_EQ(of("y_A^2"), "<msubsup><mi>y/<mi>A/<mn>2//");
   EXPECT_EQ(of("cos(t)^2"), "<msup><mi>cos/<mn>2//<mi>t/");
   EXPECT_EQ(of("sin(t + 1)"), "<mi>sin/<mo>(/<mi>t/<mo>+/<mn>1/<mo>)/");
   EXPECT_EQ(of("asin(a)"), "<mi>arcsin/<mi>a/");
