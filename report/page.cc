@@ -93,6 +93,17 @@ std::string constants_html(const symbolic::Mechanism& mechanism) {
   return html.empty() ? "none" : html;
 }
 
+/// Coordinates with a range of one value: "φ = π/10".
+std::string fixed_html(const symbolic::Mechanism& mechanism) {
+  std::string html;
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
+    if (!same_tree(c.lower, c.upper)) continue;
+    html += html.empty() ? "" : ", ";
+    html += symbolic::math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + symbolic::mathml(c.lower));
+  }
+  return html;
+}
+
 std::string overridden(const std::vector<Result>& results) {
   std::string text;
   if (results.empty()) return text;
@@ -133,6 +144,9 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   const std::string changed = overridden(results);
   page["overridden"] = changed;
   page.set("hasOverrides", truth(!changed.empty()));
+  const std::string cut = fixed_html(mechanism);
+  page["cut"] = cut;
+  page.set("hasCut", truth(!cut.empty()));
   page["unit"] = mechanism.drawing().unit;
   page.set("hasUnit", truth(!mechanism.drawing().unit.empty()));
   page.set("sets", cards);

@@ -145,7 +145,7 @@ function drawVelocities(svg, points, at, scale, unit, width) {
 
 // Each label goes to the side of its point where the other points are not; of points in one place the first is labelled for all.
 function drawLabels(svg, points, at, obstacles, unit, width, height) {
-  const done = [];
+  const done = [], taken = [];
   points.forEach((point, i) => {
     if (!point.named) return;
     if (done.some((j) => Math.hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]) < 3)) return;
@@ -158,9 +158,11 @@ function drawLabels(svg, points, at, obstacles, unit, width, height) {
       at.forEach((other, j) => {
         if (j !== i) room = Math.min(room, Math.hypot(place[0] - other[0], place[1] - other[1]) - 12);
       });
+      for (const other of taken) room = Math.min(room, Math.hypot((place[0] - other[0]) * 0.8, place[1] - other[1]) - 14 * unit);
       for (const [a, b] of obstacles) room = Math.min(room, distanceToLine(place, a, b));
       if (!best || room > best.room + 1e-6) best = {room, place};
     }
+    taken.push(best.place);
     const text = svgElement(svg, "text", {x: best.place[0], y: best.place[1], class: "point-label", "font-size": 17 * unit});
     svgElement(text, "tspan", {class: "symbol"}, point.label[0]);
     if (point.label[1]) svgElement(text, "tspan", {"font-size": 12 * unit, dy: 4 * unit}, point.label[1]);

@@ -127,7 +127,7 @@ export class Space {
     const colour = new THREE.Color(this.colours[set.name]);
     colour.convertLinearToSRGB();
     const material = new THREE.ShaderMaterial({vertexShader, fragmentShader, transparent: true, depthWrite: !faint,
-                                               uniforms: {colour: {value: colour}, opacity: {value: faint ? 0.16 : 1},
+                                               uniforms: {colour: {value: colour}, opacity: {value: faint ? 0.16 * Math.min(1, 9e4 / set.count) : 1},
                                                           pixels: {value: 400}, least: {value: faint ? 1.5 : set.dimension === 0 ? 9 : 3.5}}});
     const points = new THREE.Points(geometry, material);
     points.frustumCulled = false;

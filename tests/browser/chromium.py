@@ -145,3 +145,14 @@ class Browser:
     def screenshot(self, path, whole=False):
         answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
         pathlib.Path(path).write_bytes(base64.b64decode(answer["data"]))
+
+    def photograph(self, selector, path):
+        """A picture of one element."""
+        x, y, width, height = self.run(f"""(() => {{
+          const box = document.querySelector({json.dumps(selector)}).getBoundingClientRect();
+          return [box.left + scrollX, box.top + scrollY, box.width, box.height];
+        }})()""")
+        self.drawn()
+        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=True,
+                           clip={"x": x, "y": y, "width": width, "height": height, "scale": 1})
+        pathlib.Path(path).write_bytes(base64.b64decode(answer["data"]))
