@@ -44,6 +44,7 @@ const std::vector<LibraryRule>& library_rules() {
       {std::regex("^CLI/"), {"app"}, false},
       {std::regex("^tao/"), {"symbolic"}, false},
       {std::regex("^nlohmann/"), {"report", "bench"}, true},
+      {std::regex("^kainjow/"), {"report"}, false},
   };
   return rules;
 }
