@@ -223,7 +223,11 @@ class Checker {
       const CoverBox& point = cover_.points[k];
       std::string reason;
       if (!claimed[k]) reason = "no box stands for it";
-      if (reason.empty() && point.point >= 0) reason = exact_[static_cast<std::size_t>(point.point)]->inside(point.box);
+      if (reason.empty() && point.point >= 0) {
+        const auto p = static_cast<std::size_t>(point.point);
+        reason = exact_reasons_[p].empty() ? exact_[p]->inside(point.box) : "its exact point is not one";
+      }
+      if (reason.empty() && point.verdict == Verdict::exact && point.point < 0) reason = "it names no exact point";
       if (!reason.empty()) fail(Place::point, k, reason);
       const bool open = point.verdict == Verdict::undecided && point.point < 0;
       ++(!reason.empty()                             ? report_.points.failed
@@ -251,6 +255,10 @@ class Checker {
 
   // Different exact points, or one outside the other's box.
   bool told_apart(const CoverBox& a, const CoverBox& b) const {
+    for (const CoverBox* point : {&a, &b})
+      if (point->verdict == Verdict::exact &&
+          (point->point < 0 || !exact_reasons_[static_cast<std::size_t>(point->point)].empty()))
+        return false;
     if (a.verdict != Verdict::exact) return b.verdict == Verdict::exact && told_apart(b, a);
     const ExactCheck& x = *exact_[static_cast<std::size_t>(a.point)];
     for (int j = 0; j < system_.size(); ++j) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "corank/certify/checker/krawczyk.h"
+
 namespace corank::certify::checker {
 namespace {
 
@@ -102,6 +104,7 @@ bool Search::own_combination(const Sides& x, LinearCombination& p, std::vector<d
       if (!std::isfinite(y)) return false;
       p.y.push_back(y);
     }
+  drop_noise(p.y, r);
   return r > 0;
 }
 
