@@ -52,7 +52,8 @@ class Checker {
       fail(Place::cover, 0, error.what());
     }
     check_shapes();
-    if (problem_ && report_.failures.empty()) {
+    if (problem_ && report_.failures.empty()) {  // else nothing below has a meaning
+      check_order();
       check_exact_points();
       check_boxes();
       check_points();
@@ -87,7 +88,9 @@ class Checker {
     for (const Box& region : cover_.regions)
       if (region.size() != n || !bounded(region))
         fail(Place::cover, 0, "a region has not one bounded side for each variable");
-    if (!problem_ || !report_.failures.empty()) return;
+  }
+
+  void check_order() {
     for (std::size_t i = 1; i < cover_.boxes.size(); ++i)
       if (out_of_order(cover_.boxes[i - 1].box, cover_.boxes[i].box))
         fail(Place::box, i, "it is not in the order of the sides");
