@@ -16,6 +16,7 @@
 #include "corank/report/cuik_param.h"
 #include "corank/report/result_file.h"
 #include "corank/report/summary.h"
+#include "corank/solve/exactness.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/printer.h"
 
@@ -29,6 +30,7 @@ struct SolveCommand {
   std::uint64_t max_boxes = 0;
   std::optional<std::uint64_t> max_solutions;
   double time_limit = 0;
+  int digits = 0;
   std::string param_path, result_path;
   std::optional<std::string> json_path;  ///< "": standard output
 };
@@ -50,7 +52,10 @@ certify::Cover search(const certify::System& system, const SolveCommand& command
   options.time_limit = command.time_limit;
   options.stop = &Interrupt::stop();
   if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
-  return solve::solve(system, options);
+  certify::Cover cover = solve::solve(system, options);
+  solve::prove_exactly(system, options, cover);
+  if (command.digits > 0 && cover.dimension == 0) solve::prove_decimals(system, command.digits, cover);
+  return cover;
 }
 
 void apply_parameters(SolveCommand& command, const certify::System& system) {
@@ -181,6 +186,10 @@ void add_solve(CLI::App& program, Action& action) {
   sub->add_option("--time-limit", command->time_limit, "End the search after so many seconds; 0: no limit")
       ->type_name("SECONDS")
       ->check(finite(true));
+  sub->add_option("--digits", command->digits,
+                  "Isolated points with so many proven digits after the point; 0: only what boxes of doubles show")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000, "a number from 0 to 1000"));
   sub->add_option("-o", command->result_path,
                   "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's layout\n"
                   "where its name ends in .sol")
@@ -195,7 +204,7 @@ void add_solve(CLI::App& program, Action& action) {
   sub->footer(
       "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --sigma 0.01 -o forward.h5\n"
-      "  corank solve models/three_slider.cuik --set inverse -D L2=1 --json");
+      "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50");
   sub->callback([command, json, &action] {
     if (json->count() > 0 && !command->json_path) command->json_path = "";
     action = [command] { return solve_model(*command); };

@@ -47,6 +47,8 @@ struct CoverBox {
   int region = -1;        ///< index in Cover::regions: the box of the proof, −1 where there is none
   /// Index in Cover::exact_points: of an `exact` box its point; of an undecided one the point that explains it. −1: none.
   int point = -1;
+  /// No solution in the box has a kernel of larger dimension (certify/kernel_bound.h); −1: the system has no kernel, or nobody asked.
+  int corank = -1;
 };
 
 struct Statistics {
@@ -70,6 +72,9 @@ struct Cover {
   std::vector<ExactPoint> exact_points;
   /// The variables that were eliminated before the search, in that order; the sides of a box are of all variables.
   std::vector<Elimination> eliminations;
+  /// Of each point and variable a decimal that is wrong by less than a unit of its last digit; no decimals where nothing is proven.
+  /// Empty where nobody asked.
+  std::vector<std::vector<std::string>> decimals;
   std::shared_ptr<const Proof> proof;  ///< of completeness, where it was asked for
   int dimension = 0;                   ///< of the set; for an over-determined system, the largest that a partial box shows
   double sigma = 0;

@@ -1,6 +1,7 @@
 #include "corank/certify/exact_number.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <ostream>
@@ -151,6 +152,13 @@ std::optional<mpq_class> parse_decimal(const std::string& text) {
 }  // namespace
 
 ExactNumber::ExactNumber() : ExactNumber(0L) {}
+ExactNumber ExactNumber::Node::number(mpq_class q) { return ExactNumber(make_rational(std::move(q))); }
+
+ExactNumber ExactNumber::dyadic(double x) {
+  if (!std::isfinite(x)) throw std::invalid_argument("no rational number is infinite");
+  return Node::number(mpq_class(x));
+}
+
 ExactNumber::ExactNumber(long n) : node_(make_rational(mpq_class(n))) {}
 
 ExactNumber ExactNumber::rational(const std::string& text) {

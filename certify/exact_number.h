@@ -57,8 +57,10 @@ class ExactNumber {
   /// std::domain_error where the expression is no real number (sqrt(-1), log(0), 1/(sqrt(2)*sqrt(2)-2) …).
   /// Independent of the current rounding mode.
   Interval enclose() const;
-  /// Rational numbers l ≤ x ≤ u, about 2^−bits |x| apart where x is not 0; both are x where it is rational. Throws like enclose().
+  /// Rational bounds of the number, computed with so many bits: the number itself where it is rational. Throws as enclose() does.
   std::pair<ExactNumber, ExactNumber> bounds(int bits) const;
+  /// The double as the rational number it is. Throws std::invalid_argument for infinity and NaN.
+  static ExactNumber dyadic(double x);
   /// Sign −1, 0, +1 where it can be decided: by exact arithmetic for rationals, else by enclosures of up to `max_bits` bits
   /// (which can never prove 0). Nothing where undecided.
   std::optional<int> sign(int max_bits = 4096) const;

@@ -21,6 +21,8 @@ struct ExactNumber::Node {
   ConstantFunction function = ConstantFunction::sqrt;
   int exponent = 1;
   std::vector<std::shared_ptr<const Node>> operands;
+
+  static ExactNumber number(mpq_class q);  ///< canonical
 };
 
 /// "sqrt", "sin" … as in the model language.

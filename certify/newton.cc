@@ -76,6 +76,37 @@ NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner
   return outcome;
 }
 
+bool contract_free(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
+  CORANK_CHECK(UpwardRounding::active());
+  if (!w.contracted) return true;
+  const int r = p.rank(), n = w.panel.columns();
+  w.is_dependent.assign(static_cast<std::size_t>(n), 0);
+  for (int d : p.dependent) w.is_dependent[d] = 1;
+  w.free.clear();
+  for (int j = 0; j < n; ++j)
+    if (!w.is_dependent[j]) w.free.push_back(j);
+  // image (r) := Y·F(c) + (Y·S)_D (x_D − c_D)
+  w.offset.assign(static_cast<std::size_t>(n), Interval());
+  for (int d : p.dependent) w.offset[d] = x[d] - Interval(w.center[d]);
+  w.image = w.residual;
+  w.panel.accumulate(w.offset.data(), p.dependent, Panel::Diagonal::zero, w.image);
+  for (int a = 0; a < r; ++a) w.image[a] += w.panel.at(a, p.dependent[a]) * w.offset[p.dependent[a]];
+  for (int f : w.free) w.offset[f] = x[f] - Interval(w.center[f]);
+  for (int f : w.free) {
+    for (int a = 0; a < r; ++a) {
+      Interval others = w.image[a];
+      for (int g : w.free)
+        if (g != f) others += w.panel.at(a, g) * w.offset[g];
+      const Interval slope = w.panel.at(a, f);
+      if (!others.is_bounded() || (-others).contains(slope * w.offset[f])) continue;  // no information
+      const auto shift = divide(-others, slope, w.offset[f]);
+      if (!shift || !x[f].intersect(Interval(w.center[f]) + *shift)) return false;
+    }
+    w.offset[f] = x[f] - Interval(w.center[f]);
+  }
+  return true;
+}
+
 namespace {
 
 // image := Krawczyk image K over the box x about w.center; w.residual holds Y·F(c), the panel Y. False: no bounded image.

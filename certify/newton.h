@@ -24,6 +24,7 @@ struct NewtonWorkspace {
   std::vector<Interval> slope, values, residual, offset, image, region, gradient;
   std::vector<double> center, magnitude, radius, next_radius;
   std::vector<unsigned char> is_dependent;
+  std::vector<int> free;
   bool contracted = false;  ///< the last newton_contract had a bounded Y·S and Y·F(c)
 };
 
@@ -38,6 +39,10 @@ struct NewtonOutcome {
 /// satisfies Y·F(c) + Y·S(X)·(x − c) ∋ 0 row by row, so each row bounds its dependent variable by the others. Points of X outside
 /// the contracted box are no solutions; where a row is unsatisfiable, X holds none. Proves nothing about existence.
 NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
+
+/// After newton_contract(system, p, y, w): contracts the free variables of x ⊂ y in place. The same rows, each solved for a free variable,
+/// so the same theorem: every zero of F in x lies in what is left. False: x holds none. Where the step had no bounded Y·S: nothing happens.
+bool contract_free(const Preconditioner& p, Interval* x, NewtonWorkspace& w);
 
 /// What newton_prove shows about a box of values of the free variables.
 struct Sheet {

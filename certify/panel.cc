@@ -1,6 +1,7 @@
 #include "corank/certify/panel.h"
 
 #include <algorithm>
+#include <cmath>
 
 // The same loops for wider registers, chosen when the program starts. No fused operations: -ffp-contract=off.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
@@ -100,16 +101,18 @@ void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent
   }
   // The diagonal's own entries come back at the end.
   std::vector<Interval> own(dependent.size());
+  bool finite = true;  // largest + 1 rounds to infinity
   for (int a = 0; a < r_; ++a) {
     const std::size_t k = index(a, dependent[static_cast<std::size_t>(a)]);
     own[static_cast<std::size_t>(a)] = Interval(-negated_lower_[k], upper_[k]);
     negated_lower_[k] = diagonal == Diagonal::zero ? 0 : negated_lower_[k] + 1;
     upper_[k] = diagonal == Diagonal::zero ? 0 : upper_[k] - 1;
+    finite = finite && std::isfinite(negated_lower_[k]) && std::isfinite(upper_[k]);
   }
   for (int j = 0; j < n_; ++j) {
     double o1 = -offset[j].lo(), o2 = offset[j].hi();
     const std::size_t column = index(0, j);
-    if (o1 >= 0 && o2 >= 0) {
+    if (finite && o1 >= 0 && o2 >= 0 && std::isfinite(o1 + o2)) {  // no 0·∞
       add_product(&negated_lower_[column], &upper_[column], o1, o2, sum_negated_lower_.data(), sum_upper_.data(), stride_);
       continue;
     }

@@ -6,8 +6,10 @@
 #include <array>
 #include <cfenv>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "corank/certify/algebraic_number.h"
 #include "corank/certify/angle.h"
 
 namespace corank::report {
@@ -35,7 +37,19 @@ std::string decimal(double x, int digits, int rounding_mode) {
 struct Value {
   std::string name;
   Interval value;
+  int variable;  ///< −1: an angle
 };
+
+// "-3/5", "1/2*sqrt(3)": the coordinate of an exact point, where it has a short text.
+std::optional<std::string> exact_text(const certify::ExactPoint& point, int variable) {
+  const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(variable)];
+  if (x.empty()) return std::nullopt;
+  return certify::text({point.polynomial, point.lower, point.upper}, x);
+}
+
+const certify::ExactPoint* exact_point(const Result& result, const CoverBox& box) {
+  return box.point < 0 ? nullptr : &result.cover.exact_points[static_cast<std::size_t>(box.point)];
+}
 
 // The box in the model's own coordinates: an angle stands in place of its cosine and sine, in the order of the variables.
 std::vector<Value> values(const Result& result, const CoverBox& box, int variables) {
@@ -45,16 +59,18 @@ std::vector<Value> values(const Result& result, const CoverBox& box, int variabl
     const auto angle = std::find_if(result.angles.begin(), result.angles.end(), has);
     const auto at = [&box](int v) { return box.box[static_cast<std::size_t>(v)]; };
     if (angle == result.angles.end()) {
-      values.push_back({result.variables[static_cast<std::size_t>(i)].name, at(i)});
+      values.push_back({result.variables[static_cast<std::size_t>(i)].name, at(i), i});
     } else if (i == std::min(angle->cosine, angle->sine)) {
-      values.push_back({angle->name, certify::angle_enclosure(at(angle->cosine), at(angle->sine), angle->range)});
+      values.push_back({angle->name, certify::angle_enclosure(at(angle->cosine), at(angle->sine), angle->range), -1});
     }
   }
   return values;
 }
 
 std::string plural(std::size_t n, const std::string& word) {
-  const std::string many = word.back() == 'y' ? word.substr(0, word.size() - 1) + "ies" : word + "s";
+  const std::string many = word.back() == 'y'   ? word.substr(0, word.size() - 1) + "ies"
+                           : word.back() == 'x' ? word + "es"
+                                                : word + "s";
   return fmt::format("{} {}", n, n == 1 ? word : many);
 }
 
@@ -66,7 +82,9 @@ std::string points_table(const Result& result) {
     rows.push_back({std::to_string(rows.size())});
     for (const Value& v : values(result, point, result.configuration_size)) {
       if (rows.size() == 2) rows[0].push_back(v.name);
-      rows.back().push_back(outward_text(v.value, kDigits));
+      const certify::ExactPoint* exact = exact_point(result, point);
+      const auto text = exact && v.variable >= 0 ? exact_text(*exact, v.variable) : std::nullopt;
+      rows.back().push_back(text.value_or(outward_text(v.value, kDigits)));
     }
     rows.back().push_back(to_string(point.verdict));
   }
@@ -80,6 +98,57 @@ std::string points_table(const Result& result) {
     text += fmt::format("  {:>{}}", row[0], widths[0]);
     for (std::size_t c = 1; c + 1 < row.size(); ++c) text += fmt::format("  {:<{}}", row[c], widths[c]);
     text += fmt::format("  {}\n", row.back());
+  }
+  return text;
+}
+
+// Each point's configuration in proven decimals.
+std::string decimals_text(const Result& result) {
+  const certify::Cover& cover = result.cover;
+  std::string text = "\ndecimals, each wrong by less than a unit of its last digit\n";
+  for (std::size_t i = 0; i < cover.decimals.size(); ++i) {
+    text += fmt::format("  point {}\n", i + 1);
+    if (cover.decimals[i].empty()) text += "    not proven\n";
+    for (int v = 0; v < result.configuration_size && !cover.decimals[i].empty(); ++v)
+      text += fmt::format("    {} = {}\n", result.variables[static_cast<std::size_t>(v)].name,
+                          cover.decimals[i][static_cast<std::size_t>(v)]);
+  }
+  return text;
+}
+
+// What is known of the kernel's dimension, and the points where it is 2 or more.
+std::string kernel_text(const Result& result) {
+  const certify::Cover& cover = result.cover;
+  std::map<int, std::size_t> bounds;
+  std::size_t explained = 0;
+  for (const CoverBox& box : cover.boxes) {
+    if (box.corank >= 0) ++bounds[box.corank];
+    const certify::ExactPoint* point = exact_point(result, box);
+    if (box.corank > 1 && point && point->corank > 1) ++explained;
+  }
+  if (bounds.empty()) return "";
+  std::string text = "\nkernel:";
+  std::size_t larger = 0;
+  for (const auto& [bound, n] : bounds) {
+    text += bound <= 1
+                ? fmt::format(" dimension 1 in {}", plural(n, "box"))
+                : fmt::format("{} at most {} in {}", larger > 0 || bounds.begin()->first < bound ? "," : "", bound, n);
+    if (bound > 1) larger += n;
+  }
+  text += "\n";
+  if (larger > 0) text += fmt::format("  {} of these {} hold a point where it is proven:\n", explained, larger);
+  int number = 0;
+  for (const certify::ExactPoint& point : cover.exact_points) {
+    if (point.corank < 2) continue;
+    text += fmt::format("  {}: dimension {} at", ++number, point.corank);
+    const char* comma = " ";
+    for (int v = 0; v < result.configuration_size; ++v) {
+      text +=
+          fmt::format("{}{} = {}", comma, result.variables[static_cast<std::size_t>(v)].name,
+                      exact_text(point, v).value_or("a number of degree " + std::to_string(point.polynomial.size() - 1)));
+      comma = ", ";
+    }
+    text += "\n";
   }
   return text;
 }
@@ -136,12 +205,38 @@ std::string to_table(const Result& result) {
     }
     text += fmt::format("\n{}{}\n", plural(cover.points.size(), "point"), kinds);
     if (!cover.points.empty()) text += points_table(result);
+    if (!cover.decimals.empty()) text += decimals_text(result);
   }
+  text += kernel_text(result);
   const certify::Statistics& s = cover.statistics;
   text +=
       fmt::format("\n{:.3f} s: search {:.3f} s, certify {:.3f} s\n", s.seconds_total, s.seconds_search, s.seconds_certify);
   return text;
 }
+
+namespace {
+
+// The coordinates of an exact point that have a short text.
+Json exact_json(const Result& result, const certify::ExactPoint& point) {
+  Json json = Json::object();
+  for (std::size_t v = 0; v < result.variables.size(); ++v)
+    if (const auto text = exact_text(point, static_cast<int>(v))) json[result.variables[v].name] = *text;
+  return json;
+}
+
+// Boxes by the bound of the kernel's dimension, and the points where it is 2 or more.
+Json kernel_json(const Result& result) {
+  Json json = {{"at_most", Json::object()}, {"points", Json::array()}};
+  std::map<int, std::size_t> bounds;
+  for (const CoverBox& box : result.cover.boxes)
+    if (box.corank >= 0) ++bounds[box.corank];
+  for (const auto& [bound, n] : bounds) json["at_most"][std::to_string(bound)] = n;
+  for (const certify::ExactPoint& point : result.cover.exact_points)
+    if (point.corank > 1) json["points"].push_back({{"dimension", point.corank}, {"exact", exact_json(result, point)}});
+  return bounds.empty() ? Json() : json;
+}
+
+}  // namespace
 
 std::string to_json(const Result& result) {
   const certify::Cover& cover = result.cover;
@@ -173,9 +268,15 @@ std::string to_json(const Result& result) {
       for (const Value& v : values(result, point, static_cast<int>(result.variables.size()))) {
         entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
       }
+      if (const certify::ExactPoint* exact = exact_point(result, point)) entry["exact"] = exact_json(result, *exact);
+      const std::size_t i = static_cast<std::size_t>(&point - cover.points.data());
+      if (i < cover.decimals.size() && !cover.decimals[i].empty())
+        for (std::size_t v = 0; v < result.variables.size(); ++v)
+          entry["decimals"][result.variables[v].name] = cover.decimals[i][v];
       json["points"].push_back(std::move(entry));
     }
   }
+  json["kernel"] = kernel_json(result);
   json["seconds"] = {{"total", cover.statistics.seconds_total},
                      {"search", cover.statistics.seconds_search},
                      {"certify", cover.statistics.seconds_certify}};

@@ -66,7 +66,7 @@ bool BoxProcessor::contract(Interval* x) {
     const auto& p = preconditioners_.at_midpoint(x);
     const auto newton = certify::newton_contract(problem_.compiled, p, x, workspace_);
     ++statistics_.newton_steps;
-    if (newton.empty) return false;
+    if (newton.empty || !certify::contract_free(p, x, workspace_)) return false;
     regular_ = newton.regular && p.rank() == problem_.compiled.equations();
     worth_proving_ = regular_ && newton.spread < kProofSpread;
     bool gained = false;

@@ -119,13 +119,12 @@ class Search {
     arena_.execute(f);
   }
 
-  void run(const certify::System& system) {
-    const std::size_t n = system.variables.size();
-    std::vector<Interval> domain;
-    for (const auto& v : system.variables) domain.push_back(v.domain);
-    WorkList all(n);
-    all.push(domain.data(), 1.0);
-    waiting_ = 1;
+  void run(const certify::Reduction& reduction) {
+    const std::vector<certify::Box> roots = roots_of(reduction);
+    WorkList all(reduction.kept.size());
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+      all.push(root->data(), 1.0 / static_cast<double>(roots.size()));
+    waiting_ = roots.size();
     execute([&] {
       if (threads_ == 1) {
         work(std::move(all));
@@ -178,6 +177,22 @@ class Search {
     BoxProcessor processor;
     std::size_t counted = 0;  // of processor.found()
   };
+
+  // The boxes to search, in the variables that are kept, within the domain.
+  std::vector<certify::Box> roots_of(const certify::Reduction& reduction) const {
+    certify::Box domain;
+    for (const auto& v : reduction.system.variables) domain.push_back(v.domain);
+    if (options_.roots.empty()) return {domain};
+    std::vector<certify::Box> roots;
+    for (const certify::Box& given : options_.roots) {
+      certify::Box root = domain;
+      bool empty = false;
+      for (std::size_t j = 0; j < root.size(); ++j)
+        empty = empty || !root[j].intersect(given.at(static_cast<std::size_t>(reduction.kept[j])));
+      if (!empty) roots.push_back(std::move(root));
+    }
+    return roots;
+  }
 
   void spawn(WorkList list) {
     ++busy_;
@@ -355,7 +370,7 @@ Cover solve(const certify::System& system, const Options& options) {
 
   const certify::Reduction reduction = certify::reduce(system);
   Search search(reduction, options, sigma);
-  if (reduction.consistent) search.run(reduction.system);
+  if (reduction.consistent) search.run(reduction);
 
   Cover cover;
   cover.dimension = reduction.system.dimension();

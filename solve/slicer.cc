@@ -17,7 +17,7 @@ using certify::Verdict;
 constexpr int kTightenings = 2;
 constexpr double kNearSigma = 1.2;     // of σ: a wider piece is cut anyway, however well it is tightened
 constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
-constexpr double kStaleSpread = 0.15;  // |I − Y·S| beyond which a part gets its own Y
+constexpr double kStaleSpread = 0.1;   // |I − Y·S| beyond which a part gets its own Y
 constexpr double kCutMargin = 0.96;    // aim a little below σ: the linearization is not exact
 constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
 constexpr double kFutileShare = 0.95;
@@ -32,6 +32,21 @@ double Slicer::tighten(const Preconditioner& p, Box& piece) {
   const double spread = certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
   problem_.append_values_at_zeros(p, piece, workspace_);
   return spread;
+}
+
+bool Slicer::trim(const Task& task, const Preconditioner& p, Box& piece) {
+  const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
+  bool inside = true;
+  for (std::size_t j = 0; j < n; ++j) {
+    if (!piece[j].overlaps(task.x[j])) return false;
+    inside = inside && task.x[j].contains(piece[j]);
+  }
+  if (inside) return true;
+  met_.assign(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(n));
+  for (std::size_t j = 0; j < n; ++j) met_[j].intersect(task.x[j]);
+  if (!certify::contract_free(p, met_.data(), workspace_)) return false;
+  for (int f : task.free) piece[static_cast<std::size_t>(f)] = met_[static_cast<std::size_t>(f)];
+  return true;
 }
 
 void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& free, const Box& piece) {
@@ -160,8 +175,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     width = tightened;
   }
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
-  for (int j = 0; j < problem_.compiled.variables(); ++j)
-    if (!sides[static_cast<std::size_t>(j)].overlaps(task.x[j])) return;
+  if (!trim(task, *p, sides)) return;
   const Location location = problem_.domain.locate_zeros(problem_.compiled, *p, sides.data(), workspace_);
   if (location == Location::outside) return;
   width = widest(sides);

@@ -49,6 +49,8 @@ class Slicer {
   void descend(Task& task, Piece piece, const certify::Preconditioner& p);
   // Shrinks a piece and renews the eliminated variables' sides behind its own. Returns |I − Y·S| (certify::NewtonOutcome::spread).
   double tighten(const certify::Preconditioner& p, certify::Box& piece);
+  // After tighten: shrinks the piece's free sides to where its solutions may lie in x. False: none does.
+  bool trim(const Task& task, const certify::Preconditioner& p, certify::Box& piece);
   // After tighten: steepness_[a·k + f] = |∂a/∂f| on the piece, linearized, of each dependent, then each eliminated variable a, with respect
   // to the f-th of k free variables.
   void measure_steepness(const certify::Preconditioner& p, const std::vector<int>& free, const certify::Box& piece);
@@ -59,6 +61,7 @@ class Slicer {
   const Problem& problem_;
   PreconditionerFactory& preconditioners_;
   certify::NewtonWorkspace& workspace_;
+  certify::Box met_;
   std::vector<double> steepness_, gradient_;
 };
 

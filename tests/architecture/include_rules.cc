@@ -35,9 +35,10 @@ const std::vector<LibraryRule>& library_rules() {
   static const std::vector<LibraryRule> rules{
       {std::regex("^(ginac|cln)/"), {"symbolic"}, false},
       {std::regex("^(mpfr|mpfi|gmp|mpf2mpfr|mpfi_io)(xx)?\\.h|^boost/multiprecision/"
-                  "(mpfr|mpfi|gmp)|^(arb|acb|arf|mag|arblib|flint/)"),
+                  "(mpfr|mpfi|gmp|eigen)|^(arb|acb|arf|mag|arblib)"),
        {"certify", kChecker},
        true},
+      {std::regex("^flint/|^coin/"), {"solve"}, true},  // guesses, no proofs
       {std::regex("^hdf5|^H5"), {"report"}, false},
       {std::regex("^CLI/"), {"app"}, false},
       {std::regex("^tao/"), {"symbolic"}, false},

@@ -170,6 +170,46 @@ TEST_F(Newton, AnyPreconditionerKeepsEverySolution) {
   }
 }
 
+// x + z = y² (one equation, x dependent): zeros are planted in random boxes, with sensible and nonsensical Y.
+TEST_F(Newton, ContractingFreeVariablesKeepsEverySolution) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-9", "9"), y = b.variable("y", "-9", "9"), z = b.variable("z", "-9", "9");
+  b.equation({{"1", {{x, 1}}}, {"1", {{z, 1}}}, {"-1", {{y, 2}}}});
+  const CompiledSystem f(b.system());
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> any(-3, 3), size(0, 1);
+  int contracted = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const double at_y = std::ldexp(std::round(64 * any(random)), -6), at_z = std::ldexp(std::round(64 * any(random)), -6);
+    const double zero[] = {at_y * at_y - at_z, at_y, at_z};  // exact
+    std::vector<Interval> box;
+    for (double v : zero) box.emplace_back(v - size(random), v + size(random));
+    const std::vector<Interval> before = box;
+    const Preconditioner p{{0}, {x}, {trial % 2 ? 1.0 : any(random)}};
+    ASSERT_FALSE(newton_contract(f, p, box.data(), workspace_).empty);
+    ASSERT_TRUE(contract_free(p, box.data(), workspace_));
+    for (int j : {x, y, z}) ASSERT_TRUE(box[j].contains(zero[j]) && before[j].contains(box[j]));
+    contracted += box[z].width() < 0.9 * before[z].width();
+  }
+  EXPECT_GT(contracted, 1000);
+}
+
+TEST_F(Newton, ContractingFreeVariablesEmptiesABoxThatTheSheetMisses) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-9", "9"), y = b.variable("y", "-9", "9");
+  b.equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}});  // x = y
+  const CompiledSystem f(b.system());
+  const Preconditioner p{{0}, {x}, {1.0}};
+  std::vector<Interval> box{Interval(0, 1), Interval(0, 1)};
+  ASSERT_FALSE(newton_contract(f, p, box.data(), workspace_).empty);
+  box[x] = Interval(0.25, 0.5);
+  ASSERT_TRUE(contract_free(p, box.data(), workspace_));
+  EXPECT_NEAR(box[y].lo(), 0.25, 1e-12);
+  EXPECT_NEAR(box[y].hi(), 0.5, 1e-12);
+  box = {Interval(0.75, 1), Interval(0, 0.5)};
+  EXPECT_FALSE(contract_free(p, box.data(), workspace_));
+}
+
 TEST_F(Newton, ASingularPreconditionerProvesNothing) {
   SystemBuilder b;
   const int x = b.variable("x", "-9", "9"), y = b.variable("y", "-9", "9");

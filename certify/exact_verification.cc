@@ -1,0 +1,169 @@
+#include "corank/certify/exact_verification.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace corank::certify {
+namespace {
+
+bool is_kernel(const System& system, int j) {
+  return system.variables[static_cast<std::size_t>(j)].kind == VariableKind::kernel;
+}
+
+// Substitutes the point's coordinates. Requires that all of f's variables are known.
+RationalPolynomial value_of(const Polynomial& f, const ExactPoint& point, const AlgebraicNumber& t) {
+  RationalPolynomial value;
+  for (const Monomial& m : f.monomials) {
+    if (!m.coefficient.is_rational() || m.is_trigonometric())
+      throw std::domain_error(f.source + " has a coefficient that is no rational number, or a sine or cosine");
+    RationalPolynomial product{m.coefficient};
+    for (const Factor& x : m.factors)
+      for (int k = 0; k < x.power; ++k)
+        product = t.product(product, point.coordinates[static_cast<std::size_t>(x.variable)]);
+    value = sum(value, product);
+  }
+  return t.reduced(std::move(value));
+}
+
+using ExactMatrix = std::vector<std::vector<RationalPolynomial>>;
+
+// Elimination without division: a row a is replaced by pivot · a − a_column · (pivot row), so its rank counts as the pivot is not 0 at t.
+// Nothing where an entry's sign cannot be decided.
+std::optional<int> rank(ExactMatrix rows, const AlgebraicNumber& t) {
+  int rank = 0;
+  std::vector<bool> used(rows.empty() ? 0 : rows[0].size(), false);
+  for (std::size_t from = 0; from < rows.size(); ++from) {
+    std::size_t row = rows.size(), column = 0;
+    for (std::size_t i = from; i < rows.size() && row == rows.size(); ++i)
+      for (std::size_t j = 0; j < used.size() && row == rows.size(); ++j) {
+        if (used[j]) continue;
+        const auto s = t.sign(rows[i][j]);
+        if (!s) return std::nullopt;
+        if (*s != 0) row = i, column = j;
+      }
+    if (row == rows.size()) break;
+    std::swap(rows[from], rows[row]);
+    used[column] = true;
+    ++rank;
+    const RationalPolynomial pivot = rows[from][column];
+    for (std::size_t i = from + 1; i < rows.size(); ++i) {
+      const RationalPolynomial factor = scaled(rows[i][column], ExactNumber(-1));
+      for (std::size_t j = 0; j < used.size(); ++j)
+        rows[i][j] = sum(t.product(pivot, rows[i][j]), t.product(factor, rows[from][j]));
+    }
+  }
+  return rank;
+}
+
+ExactVerification fails(const std::string& reason) { return {false, reason, -1}; }
+
+}  // namespace
+
+KernelMatrix kernel_matrix(const System& system) {
+  KernelMatrix matrix;
+  for (int j = 0; j < system.size(); ++j)
+    if (is_kernel(system, j)) matrix.unknowns.push_back(j);
+  for (std::size_t i = 0; i < system.equations.size(); ++i) {
+    const Polynomial& f = system.equations[i];
+    std::vector<Polynomial> row(matrix.unknowns.size());
+    const auto place = [&](const Monomial& m) {  // false: not linear in the unknowns
+      Monomial entry = m;
+      int unknown = -1;
+      for (const Factor& x : m.factors) {
+        if (!is_kernel(system, x.variable)) continue;
+        if (unknown >= 0 || x.power != 1 || x.function != Function::identity) return false;
+        unknown = x.variable;
+      }
+      if (unknown < 0) return false;
+      std::erase_if(entry.factors, [&](const Factor& x) { return x.variable == unknown; });
+      const auto column = std::find(matrix.unknowns.begin(), matrix.unknowns.end(), unknown) - matrix.unknowns.begin();
+      row[static_cast<std::size_t>(column)].monomials.push_back(std::move(entry));
+      return true;
+    };
+    if (f.monomials.empty() || !std::all_of(f.monomials.begin(), f.monomials.end(), place)) continue;
+    matrix.equations.push_back(static_cast<int>(i));
+    matrix.rows.push_back(std::move(row));
+  }
+  return matrix;
+}
+
+ExactVerification verify_exactly(const System& system, const ExactPoint& point) {
+  try {
+    if (point.coordinates.size() != system.variables.size()) return fails("the point has another number of coordinates");
+    if (system.coefficient_tolerance > 0) return fails("the coefficients have a tolerance");
+    const AlgebraicNumber t(point.polynomial, point.lower, point.upper);
+    const auto known = [&](int j) { return !point.coordinates[static_cast<std::size_t>(j)].empty(); };
+    for (int j = 0; j < system.size(); ++j) {
+      if (!known(j)) {
+        if (!is_kernel(system, j))
+          return fails("the coordinate " + system.variables[static_cast<std::size_t>(j)].name + " is missing");
+        continue;
+      }
+      const Variable& v = system.variables[static_cast<std::size_t>(j)];
+      const RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(j)];
+      const bool rational = v.lower.is_rational() && v.upper.is_rational() &&
+                            std::all_of(x.begin(), x.end(), [](const ExactNumber& c) { return c.is_rational(); });
+      if (!rational) return fails("the domain of " + v.name + " or its coordinate is not rational");
+      if (t.sign(sum(x, {-v.lower})).value_or(-1) < 0 || t.sign(sum({v.upper}, scaled(x, ExactNumber(-1)))).value_or(-1) < 0)
+        return fails(v.name + " is not proven to lie in its domain");
+    }
+    const auto is_known = [&](const Polynomial& f) {
+      return std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
+        return std::all_of(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return known(x.variable); });
+      });
+    };
+    for (const Polynomial& f : system.equations)
+      if (is_known(f) && !value_of(f, point, t).empty()) return fails("the equation " + f.source + " does not hold exactly");
+    for (const Polynomial& g : system.inequalities)
+      if (is_known(g) && t.sign(value_of(g, point, t)).value_or(-1) < 0)
+        return fails("the inequality " + g.source + " is not proven to hold");
+
+    ExactVerification result{true, "", -1};
+    const KernelMatrix matrix = kernel_matrix(system);
+    if (matrix.rows.empty()) return result;
+    ExactMatrix values;
+    for (const auto& row : matrix.rows) {
+      values.emplace_back();
+      for (const Polynomial& entry : row) values.back().push_back(value_of(entry, point, t));
+    }
+    const auto r = rank(std::move(values), t);
+    if (!r) return fails("the rank of the kernel matrix cannot be decided");
+    result.corank = static_cast<int>(matrix.unknowns.size()) - *r;
+    if (result.corank == 0) return fails("the kernel matrix is regular there");
+    return result;
+  } catch (const std::invalid_argument& error) {
+    return fails(error.what());
+  } catch (const std::domain_error& error) {
+    return fails(error.what());
+  }
+}
+
+bool lies_in(const ExactPoint& point, const std::vector<Interval>& box) {
+  if (point.coordinates.size() != box.size()) return false;
+  const AlgebraicNumber t(point.polynomial, point.lower, point.upper);
+  for (std::size_t j = 0; j < box.size(); ++j) {
+    const RationalPolynomial& x = point.coordinates[j];
+    if (x.empty()) continue;
+    if (t.sign(sum(x, {-ExactNumber::dyadic(box[j].lo())})).value_or(-1) < 0) return false;
+    if (t.sign(sum(x, {-ExactNumber::dyadic(box[j].hi())})).value_or(1) > 0) return false;
+  }
+  return true;
+}
+
+ExactNumber reach(const ExactPoint& point, const std::vector<Interval>& box) {
+  if (point.coordinates.size() != box.size()) throw std::invalid_argument("the point has another number of coordinates");
+  const AlgebraicNumber t(point.polynomial, point.lower, point.upper);
+  const ExactNumber width = pow(ExactNumber(2), -80);
+  ExactNumber farthest;
+  for (std::size_t j = 0; j < box.size(); ++j) {
+    if (point.coordinates[j].empty()) continue;
+    const auto x = t.bounds(point.coordinates[j], width);
+    for (const ExactNumber& distance :
+         {ExactNumber::dyadic(box[j].hi()) - x.lower, x.upper - ExactNumber::dyadic(box[j].lo())})
+      if ((distance - farthest).sign() == 1) farthest = distance;
+  }
+  return farthest;
+}
+
+}  // namespace corank::certify

@@ -1,0 +1,43 @@
+// Does an exactly known point solve a system, and how large is the kernel there? Decided in exact rational arithmetic.
+//
+// Kernel matrix. The equations of a system that are linear and homogeneous in its variables of kind `kernel` read M(q) ξ = 0. The
+// dimension of M's kernel at a point is its number of columns less its rank, and the rank r is proven by exact elimination: r pivots that
+// are not 0, and nothing but zeros in the rows that remain.
+#pragma once
+
+#include <string>
+
+#include "corank/certify/algebraic_number.h"
+#include "corank/certify/system.h"
+
+namespace corank::certify {
+
+/// M(q): rows of equations, columns of kernel variables; entries are polynomials in the other variables.
+struct KernelMatrix {
+  std::vector<int> equations;  ///< of the system, one for each row
+  std::vector<int> unknowns;   ///< variables of kind kernel, one for each column
+  std::vector<std::vector<Polynomial>> rows;
+};
+
+/// No rows where the system has no kernel equations.
+KernelMatrix kernel_matrix(const System& system);
+
+struct ExactVerification {
+  bool holds = false;
+  std::string failure;  ///< where it does not: what fails, or cannot be decided
+  int corank = -1;      ///< dimension of the kernel of M at the point; −1: there is no M
+};
+
+/// Proves, where it holds: the point satisfies every equation and inequality of the system and lies in its domain. Where coordinates of
+/// kernel variables are missing, this is about the equations and inequalities without those, and corank tells for how many
+/// independent ξ the kernel equations hold, too. Needs rational coefficients and no sines or cosines.
+ExactVerification verify_exactly(const System& system, const ExactPoint& point);
+
+/// Are the coordinates that are known all in the box's sides? True is proven.
+bool lies_in(const ExactPoint& point, const std::vector<Interval>& box);
+
+/// A rational number r that no known coordinate's distance from any point of its side exceeds: the box lies in the cube of radius r about
+/// the point.
+ExactNumber reach(const ExactPoint& point, const std::vector<Interval>& box);
+
+}  // namespace corank::certify

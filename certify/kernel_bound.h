@@ -1,0 +1,33 @@
+// How large can the kernel of M(q) be in a box? M is the kernel matrix of a system (certify/exact_verification.h), k its number of columns.
+//
+// Theorem: let N(q) be an s×s submatrix of M(q) and Y real. If every row sum of |I − Y·N(B)| is below 1, N(q) is regular for every q in the box B
+// (a matrix A with ‖I − Y·A‖ < 1 is regular), so M(q) has rank ≥ s and its kernel a dimension ≤ k − s. At a solution of M(q) ξ = 0, ‖ξ‖ = 1 it
+// is at least 1: where the bound is 1, the dimension is proven.
+#pragma once
+
+#include <vector>
+
+#include "corank/certify/compiled_system.h"
+#include "corank/certify/cover.h"
+#include "corank/certify/exact_verification.h"
+
+namespace corank::certify {
+
+class KernelBound {
+ public:
+  explicit KernelBound(const System& system);
+
+  /// False: the system has no kernel equations.
+  bool applies() const { return !matrix_.rows.empty(); }
+  /// No q in the box has a kernel of larger dimension. The largest s for which the theorem applies to the submatrix that elimination at the midpoint
+  /// picks; k where none does. Requires applies() and UpwardRounding::active().
+  int at_most(const Box& box) const;
+
+ private:
+  bool is_regular(const std::vector<Interval>& m, const std::vector<int>& rows, const std::vector<int>& columns) const;
+
+  KernelMatrix matrix_;
+  CompiledSystem compiled_;  // value rows: M's entries, row by row
+};
+
+}  // namespace corank::certify

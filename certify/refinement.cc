@@ -1,0 +1,325 @@
+#include "corank/certify/refinement.h"
+
+#include <algorithm>
+#include <boost/multiprecision/eigen.hpp>
+#include <boost/multiprecision/mpfi.hpp>
+#include <boost/multiprecision/mpfr.hpp>
+#include <cfenv>
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include "corank/certify/check.h"
+#include "corank/certify/exact_number_node.h"
+
+namespace corank::certify {
+namespace {
+
+using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<0>, boost::multiprecision::et_off>;
+using Range = boost::multiprecision::number<boost::multiprecision::mpfi_float_backend<0>, boost::multiprecision::et_off>;
+using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
+// Default precision of new numbers, in bits, and the rounding that MPFR's own double computations expect.
+class Precision {
+ public:
+  explicit Precision(int bits)
+      : real_(Real::default_precision()), range_(Range::default_precision()), mode_(std::fegetround()) {
+    // Decimal digits, of which the backends make at least as many bits.
+    const unsigned digits = static_cast<unsigned>(std::ceil(bits * 0.30103)) + 1;
+    Real::default_precision(digits);
+    Range::default_precision(digits);
+    std::fesetround(FE_TONEAREST);
+  }
+  ~Precision() {
+    Real::default_precision(real_);
+    Range::default_precision(range_);
+    std::fesetround(mode_);
+  }
+  Precision(const Precision&) = delete;
+  Precision& operator=(const Precision&) = delete;
+
+ private:
+  unsigned real_, range_;
+  int mode_;
+};
+
+const mpq_class& rational(const ExactNumber& x) {
+  CORANK_CHECK(x.is_rational());
+  return x.node().value;
+}
+
+Real to_real(const ExactNumber& x) {
+  Real result;
+  mpfr_set_q(result.backend().data(), rational(x).get_mpq_t(), MPFR_RNDN);
+  return result;
+}
+
+ExactNumber from_mpfr(mpfr_srcptr x) {
+  mpq_class q;
+  mpfr_get_q(q.get_mpq_t(), x);
+  return ExactNumber::Node::number(std::move(q));
+}
+
+Range to_range(const std::pair<ExactNumber, ExactNumber>& bounds) {
+  Range lower, upper;
+  mpfi_set_q(lower.backend().data(), rational(bounds.first).get_mpq_t());
+  mpfi_set_q(upper.backend().data(), rational(bounds.second).get_mpq_t());
+  mpfi_union(lower.backend().data(), lower.backend().data(), upper.backend().data());
+  return lower;
+}
+
+mpfr_srcptr lower_end(const Range& x) { return &x.backend().data()->left; }
+mpfr_srcptr upper_end(const Range& x) { return &x.backend().data()->right; }
+Real to_real(mpfr_srcptr x) {
+  Real result;
+  mpfr_set(result.backend().data(), x, MPFR_RNDN);
+  return result;
+}
+Range to_range(const Real& x) {
+  Range result;
+  mpfi_set_fr(result.backend().data(), x.backend().data());
+  return result;
+}
+
+// The equations with coefficients of type T, and their values and derivatives.
+template <class T>
+class Equations {
+ public:
+  template <class Convert>
+  Equations(const System& system, Convert convert) : system_(system) {
+    for (const Polynomial& f : system.equations) {
+      coefficients_.emplace_back();
+      for (const Monomial& m : f.monomials) coefficients_.back().push_back(convert(m.coefficient));
+    }
+  }
+  int rows() const { return static_cast<int>(coefficients_.size()); }
+
+  T value(int row, const std::vector<T>& x) const {
+    T sum(0);
+    const auto& monomials = system_.equations[static_cast<std::size_t>(row)].monomials;
+    for (std::size_t k = 0; k < monomials.size(); ++k) {
+      T product = coefficients_[static_cast<std::size_t>(row)][k];
+      for (const Factor& f : monomials[k].factors) product *= factor(f, x, f.power);
+      sum += product;
+    }
+    return sum;
+  }
+
+  // Adds ∂f_row/∂x_j to j's entry of the gradient.
+  void gradient(int row, const std::vector<T>& x, std::vector<T>& gradient) const {
+    std::fill(gradient.begin(), gradient.end(), T(0));
+    const auto& monomials = system_.equations[static_cast<std::size_t>(row)].monomials;
+    for (std::size_t k = 0; k < monomials.size(); ++k)
+      for (const Factor& by : monomials[k].factors) {
+        T product = coefficients_[static_cast<std::size_t>(row)][k];
+        for (const Factor& f : monomials[k].factors)
+          if (f.variable != by.variable) product *= factor(f, x, f.power);
+        const T& at = x[static_cast<std::size_t>(by.variable)];
+        switch (by.function) {
+          case Function::identity: product *= T(by.power) * factor(by, x, by.power - 1); break;
+          case Function::sine: product *= cos(at); break;
+          case Function::cosine: product *= -sin(at); break;
+        }
+        gradient[static_cast<std::size_t>(by.variable)] += product;
+      }
+  }
+
+ private:
+  static T factor(const Factor& f, const std::vector<T>& x, int power) {
+    const T& at = x[static_cast<std::size_t>(f.variable)];
+    if (f.function == Function::sine) return sin(at);
+    if (f.function == Function::cosine) return cos(at);
+    T result(1);
+    for (int k = 0; k < power; ++k) result *= at;
+    return result;
+  }
+
+  const System& system_;
+  std::vector<std::vector<T>> coefficients_;
+};
+
+Equations<Real> real_equations(const System& system, int bits) {
+  return {system, [bits](const ExactNumber& c) {
+            const auto bounds = c.bounds(bits);
+            return Real((to_real(bounds.first) + to_real(bounds.second)) / 2);
+          }};
+}
+
+Matrix jacobian(const Equations<Real>& f, const std::vector<Real>& x) {
+  Matrix j(f.rows(), static_cast<int>(x.size()));
+  std::vector<Real> gradient(x.size());
+  for (int row = 0; row < f.rows(); ++row) {
+    f.gradient(row, x, gradient);
+    for (std::size_t k = 0; k < x.size(); ++k) j(row, static_cast<int>(k)) = gradient[k];
+  }
+  return j;
+}
+
+// Gauss–Newton until a step is below 2^−(bits/2); false where the steps do not become that short.
+bool iterate(const Equations<Real>& f, std::vector<Real>& x, int bits) {
+  const Real enough = ldexp(Real(1), -bits / 2 + 8), far = 1e6;
+  const int most = 2 * bits;
+  for (int step = 0; step < most; ++step) {
+    Vector value(f.rows());
+    for (int row = 0; row < f.rows(); ++row) value(row) = f.value(row, x);
+    const Vector shift = jacobian(f, x).completeOrthogonalDecomposition().solve(value);
+    Real length = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      x[k] -= shift(static_cast<int>(k));
+      length = std::max(length, Real(abs(shift(static_cast<int>(k)))));
+    }
+    if (!(length < far)) return false;
+    if (length < enough) {
+      Real residual = 0;
+      for (int row = 0; row < f.rows(); ++row) residual = std::max(residual, Real(abs(f.value(row, x))));
+      return residual < enough;
+    }
+  }
+  return false;
+}
+
+std::vector<Real> reals(const std::vector<ExactNumber>& x) {
+  std::vector<Real> result;
+  for (const ExactNumber& c : x) result.push_back(to_real(c));
+  return result;
+}
+
+// One test of the theorem with the bits of the current precision.
+std::optional<std::vector<Range>> krawczyk(const System& system, const std::vector<ExactNumber>& start, int bits) {
+  const std::size_t n = start.size();
+  std::vector<Real> c = reals(start);
+  const Equations<Real> approximate = real_equations(system, bits);
+  constexpr int kSteps = 60;
+  Matrix y;
+  std::vector<Real> step(n);
+  Real shortest = -1;
+  for (int k = 0; k < kSteps; ++k) {  // Newton: until the steps shrink no more
+    y = jacobian(approximate, c).fullPivHouseholderQr().inverse();
+    Real length = 0;
+    std::vector<Real> next = c;
+    for (std::size_t i = 0; i < n; ++i) {
+      Real shift = 0;
+      for (std::size_t j = 0; j < n; ++j)
+        shift += y(static_cast<int>(i), static_cast<int>(j)) * approximate.value(static_cast<int>(j), c);
+      step[i] = abs(shift);
+      next[i] -= shift;
+      length = std::max(length, step[i]);
+    }
+    if (!boost::multiprecision::isfinite(length)) return std::nullopt;
+    if (shortest >= 0 && length >= shortest) break;
+    shortest = length;
+    c = std::move(next);
+  }
+  const Equations<Range> f(system, [bits](const ExactNumber& x) { return to_range(x.bounds(bits)); });
+  std::vector<Range> center;
+  for (const Real& x : c) center.push_back(to_range(x));
+  std::vector<Range> value(n), newton(n);  // F(c), Y·F(c)
+  for (std::size_t i = 0; i < n; ++i) value[i] = f.value(static_cast<int>(i), center);
+  for (std::size_t i = 0; i < n; ++i) {
+    newton[i] = Range(0);
+    for (std::size_t j = 0; j < n; ++j) newton[i] += to_range(y(static_cast<int>(i), static_cast<int>(j))) * value[j];
+  }
+  // X = c + a symmetric range: twice the Newton correction, widened until the image fits.
+  const Real tiny = ldexp(Real(1), -bits + 4);
+  std::vector<Real> radius(n);
+  for (std::size_t i = 0; i < n; ++i)
+    radius[i] = 2 * std::max(Real(abs(to_real(lower_end(newton[i])))), Real(abs(to_real(upper_end(newton[i]))))) +
+                tiny * std::max(Real(1), Real(abs(c[i])));
+  constexpr int kInflations = 6;
+  std::vector<Range> offset(n), box(n), image(n), gradient(n);
+  for (int k = 0; k < kInflations; ++k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      Range r = to_range(radius[i]);
+      mpfi_neg(offset[i].backend().data(), r.backend().data());
+      mpfi_union(offset[i].backend().data(), offset[i].backend().data(), r.backend().data());
+      box[i] = center[i] + offset[i];
+    }
+    std::vector<std::vector<Range>> rows;
+    for (int row = 0; row < f.rows(); ++row) {
+      f.gradient(row, box, gradient);
+      rows.push_back(gradient);
+    }
+    bool inside = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      image[i] = -newton[i];
+      for (std::size_t j = 0; j < n; ++j) {
+        Range entry(i == j ? 1 : 0);
+        for (std::size_t b = 0; b < n; ++b) entry -= to_range(y(static_cast<int>(i), static_cast<int>(b))) * rows[b][j];
+        image[i] += entry * offset[j];
+      }
+      image[i] += center[i];
+      inside = inside && mpfi_is_strictly_inside(image[i].backend().data(), box[i].backend().data()) > 0;
+    }
+    if (inside) return image;
+    for (std::size_t i = 0; i < n; ++i) radius[i] *= 2;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::vector<ExactNumber>> approximate_zero(const System& system, const std::vector<ExactNumber>& start,
+                                                         int bits) {
+  CORANK_CHECK(start.size() == system.variables.size());
+  const Precision precision(bits);
+  std::vector<Real> x = reals(start);
+  if (!iterate(real_equations(system, bits), x, bits)) return std::nullopt;
+  std::vector<ExactNumber> result;
+  for (const Real& c : x) result.push_back(from_mpfr(c.backend().data()));
+  return result;
+}
+
+std::optional<ProvenZero> prove_zero(const System& system, const std::vector<ExactNumber>& start, int digits, int max_bits) {
+  CORANK_CHECK(start.size() == system.variables.size());
+  if (system.equations.size() != system.variables.size()) return std::nullopt;
+  for (int bits = 53; bits <= max_bits; bits *= 2) {
+    const Precision precision(bits);
+    const auto image = krawczyk(system, start, bits);
+    if (!image) continue;
+    const Real width = pow(Real(10), -digits);
+    const bool narrow = std::all_of(image->begin(), image->end(), [&](const Range& x) {
+      const Real lo = to_real(lower_end(x)), hi = to_real(upper_end(x));
+      return hi - lo <= width * std::max(Real(1), Real(abs(lo)));
+    });
+    if (!narrow) continue;
+    ProvenZero zero{{}, bits};
+    for (const Range& x : *image) zero.sides.emplace_back(from_mpfr(lower_end(x)), from_mpfr(upper_end(x)));
+    return zero;
+  }
+  return std::nullopt;
+}
+
+std::pair<ExactNumber, ExactNumber> bounds(const Polynomial& f,
+                                           const std::vector<std::pair<ExactNumber, ExactNumber>>& sides, int bits) {
+  const Precision precision(bits);
+  System one;  // whose only equation is f
+  one.equations.push_back(f);
+  std::vector<Range> x;
+  for (const auto& side : sides) x.push_back(to_range(side));
+  const Range value = Equations<Range>(one, [bits](const ExactNumber& c) { return to_range(c.bounds(bits)); }).value(0, x);
+  return {from_mpfr(lower_end(value)), from_mpfr(upper_end(value))};
+}
+
+std::string proven_decimal(const ExactNumber& lower, const ExactNumber& upper, int digits) {
+  const mpq_class lo = rational(lower), hi = rational(upper);
+  for (int places = digits; places >= 0; --places) {
+    mpz_class scale;
+    mpz_ui_pow_ui(scale.get_mpz_t(), 10, static_cast<unsigned long>(places));
+    // The integer nearest to the middle, in units of the last digit.
+    const mpq_class middle = (lo + hi) / 2 * scale + mpq_class(1, 2);
+    mpz_class last;
+    mpz_fdiv_q(last.get_mpz_t(), middle.get_num_mpz_t(), middle.get_den_mpz_t());
+    if (lo * scale <= last - 1 || hi * scale >= last + 1) continue;
+    std::string text = mpz_class(abs(last)).get_str();
+    if (static_cast<int>(text.size()) <= places) text.insert(0, static_cast<std::size_t>(places) + 1 - text.size(), '0');
+    if (places > 0) text.insert(text.size() - static_cast<std::size_t>(places), ".");
+    const bool exact = lo == hi && lo * scale == last;
+    while (exact && places > 0 && text.back() == '0') text.pop_back();
+    if (exact && text.back() == '.') text.pop_back();
+    return (last < 0 ? "-" : "") + text;
+  }
+  return "?";
+}
+
+}  // namespace corank::certify

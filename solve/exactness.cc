@@ -1,0 +1,389 @@
+#include "corank/solve/exactness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "corank/certify/domain.h"
+#include "corank/certify/exact_verification.h"
+#include "corank/certify/isolation.h"
+#include "corank/certify/kernel_bound.h"
+#include "corank/certify/polynomial_algebra.h"
+#include "corank/certify/reduction.h"
+#include "corank/certify/refinement.h"
+#include "corank/certify/rounding.h"
+#include "corank/solve/corank_system.h"
+#include "corank/solve/exact_guess.h"
+#include "corank/solve/polish.h"
+
+namespace corank::solve {
+namespace {
+
+using certify::Box;
+using certify::Cover;
+using certify::CoverBox;
+using certify::ExactNumber;
+using certify::ExactPoint;
+using certify::Interval;
+using certify::System;
+using certify::Verdict;
+
+constexpr int kBits = 512;                     // of the arithmetic of guesses
+constexpr int kGuessBits = 220;                // that are right in what it finds, also at double solutions
+constexpr int kDegree = 4;                     // of algebraic numbers
+constexpr std::uint64_t kFaceBoxes = 200'000;  // to search in one face of a blow-up
+constexpr double kSmallSingularValue = 0.2;    // relative to the largest: worth a try
+constexpr std::size_t kMostOpenBoxes = 3000;   // beyond, clusters are no longer sought
+constexpr int kCoreAttempts = 6;
+constexpr int kKernelDepth = 6;  // halvings of a box in which the kernel's dimension is bounded
+
+bool contains(const Box& outer, const Box& inner) {
+  for (std::size_t j = 0; j < outer.size(); ++j)
+    if (!outer[j].contains(inner[j])) return false;
+  return true;
+}
+
+bool overlap(const Box& a, const Box& b) {
+  for (std::size_t j = 0; j < a.size(); ++j)
+    if (!a[j].overlaps(b[j])) return false;
+  return true;
+}
+
+std::vector<double> midpoint(const Box& box) {
+  std::vector<double> x;
+  for (const Interval& side : box) x.push_back(side.mid());
+  return x;
+}
+
+std::vector<ExactNumber> dyadic(const std::vector<double>& x) {
+  std::vector<ExactNumber> result;
+  for (const double c : x) result.push_back(ExactNumber::dyadic(c));
+  return result;
+}
+
+// The order of Cover::boxes.
+bool before(const std::vector<int>& kept, const CoverBox& a, const CoverBox& b) {
+  for (const int k : kept) {
+    const auto j = static_cast<std::size_t>(k);
+    if (a.box[j].lo() != b.box[j].lo()) return a.box[j].lo() < b.box[j].lo();
+    if (a.box[j].hi() != b.box[j].hi()) return a.box[j].hi() < b.box[j].hi();
+  }
+  return std::tie(a.verdict, a.free) < std::tie(b.verdict, b.free);
+}
+
+class Prover {
+ public:
+  Prover(const System& system, const Options& options, Cover& cover) : system_(system), cover_(cover), options_(options) {
+    options_.progress = nullptr;
+    options_.max_boxes = options_.max_solutions = 0;
+    options_.time_limit = 0;
+    options_.sigma = cover.sigma;
+  }
+
+  void points() {
+    for (CoverBox& point : cover_.points) {
+      if (stopped()) return;
+      if (point.verdict != Verdict::isolated && point.verdict != Verdict::undecided) continue;
+      const std::optional<int> exact = exact_point(point.box);
+      if (!exact) continue;
+      if (point.verdict == Verdict::isolated) {
+        for (CoverBox& box : cover_.boxes)
+          if (box.verdict == Verdict::isolated && box.box == point.box) box.point = *exact;
+        point.point = *exact;
+      } else if (is_only_solution(*exact, point.box)) {
+        point.verdict = Verdict::exact;
+        point.point = *exact;
+        std::erase_if(cover_.boxes,
+                      [&](const CoverBox& b) { return b.verdict == Verdict::undecided && contains(point.box, b.box); });
+        cover_.boxes.push_back(point);
+      }
+    }
+    sort(cover_.boxes);
+  }
+
+  void coranks() {
+    const certify::KernelMatrix matrix = certify::kernel_matrix(system_);
+    if (matrix.rows.empty()) return;
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
+      if (cover_.boxes[i].verdict == Verdict::undecided) open.push_back(i);
+    if (open.empty() || open.size() > kMostOpenBoxes) return;
+    std::vector<bool> replaced(cover_.boxes.size(), false);
+    std::vector<CoverBox> found;
+    for (const std::vector<std::size_t>& cluster : clusters(open)) {
+      if (stopped()) break;
+      Box hull = cover_.boxes[cluster[0]].box;
+      for (const std::size_t i : cluster)
+        for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cover_.boxes[i].box[j]);
+      const std::optional<int> point = corank_point(matrix, hull);
+      if (!point) continue;
+      std::optional<std::vector<CoverBox>> around = search_around(*point, hull);
+      if (!around) continue;
+      for (const std::size_t i : cluster) replaced[i] = true;
+      std::move(around->begin(), around->end(), std::back_inserter(found));
+    }
+    std::vector<CoverBox> boxes;
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
+      if (!replaced[i]) boxes.push_back(std::move(cover_.boxes[i]));
+    std::move(found.begin(), found.end(), std::back_inserter(boxes));
+    sort(boxes);
+    cover_.boxes = std::move(boxes);
+  }
+
+  void kernel_dimensions() {
+    const certify::KernelBound bound(system_);
+    if (!bound.applies()) return;
+    const auto treat = [&](CoverBox& box) {
+      const certify::UpwardRounding rounding;
+      if (box.verdict == Verdict::pending) return;
+      box.corank = bound.at_most(box.box);
+      if (box.corank <= 1) return;
+      for (std::size_t i = 0; i < cover_.exact_points.size() && box.point < 0; ++i)
+        if (cover_.exact_points[i].corank >= box.corank && certify::lies_in(cover_.exact_points[i], box.box))
+          box.point = static_cast<int>(i);
+      if (box.point < 0) box.corank = at_most_on_parts(bound, box.box, kKernelDepth);
+    };
+    for (CoverBox& box : cover_.boxes) treat(box);
+    for (CoverBox& point : cover_.points) treat(point);
+  }
+
+ private:
+  int at_most_on_parts(const certify::KernelBound& bound, const Box& box, int depth) const {
+    const int whole = bound.at_most(box);
+    if (whole <= 1 || depth == 0) return whole;
+    std::size_t widest = 0;
+    for (std::size_t j = 1; j < box.size(); ++j)
+      if (system_.variables[j].kind != certify::VariableKind::kernel && box[j].width() > box[widest].width()) widest = j;
+    const Interval side = box[widest];
+    const double middle = side.mid();
+    if (!(side.lo() < middle && middle < side.hi())) return whole;
+    int most = 0;
+    for (const Interval& half : {Interval(side.lo(), middle), Interval(middle, side.hi())}) {
+      Box part = box;
+      part[widest] = half;
+      most = std::max(most, at_most_on_parts(bound, part, depth - 1));
+      if (most >= whole) return whole;
+    }
+    return most;
+  }
+
+  void sort(std::vector<CoverBox>& boxes) const {
+    std::sort(boxes.begin(), boxes.end(),
+              [&](const CoverBox& a, const CoverBox& b) { return before(reduction_.kept, a, b); });
+  }
+
+  bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
+
+  int add(ExactPoint point) {
+    const auto known = std::find(cover_.exact_points.begin(), cover_.exact_points.end(), point);
+    if (known != cover_.exact_points.end()) return static_cast<int>(known - cover_.exact_points.begin());
+    cover_.exact_points.push_back(std::move(point));
+    return static_cast<int>(cover_.exact_points.size()) - 1;
+  }
+
+  // A verified solution in the box.
+  std::optional<int> exact_point(const Box& box) {
+    const std::vector<double> start = polish(system_, box).value_or(midpoint(box));
+    const auto zero = certify::approximate_zero(system_, dyadic(start), kBits);
+    if (!zero) return std::nullopt;
+    auto point = guess_exactly({zero->begin(), zero->end()}, kGuessBits, kDegree);
+    if (!point) return std::nullopt;
+    const certify::ExactVerification verified = certify::verify_exactly(system_, *point);
+    if (!verified.holds || !certify::lies_in(*point, box)) return std::nullopt;
+    point->corank = verified.corank;
+    return add(std::move(*point));
+  }
+
+  bool is_only_solution(int index, const Box& box) {
+    ExactPoint& point = cover_.exact_points[static_cast<std::size_t>(index)];
+    // A power of two that is large enough: a double as well as a rational number.
+    double radius = std::ldexp(1.0, -60);
+    const ExactNumber needed = certify::reach(point, box);
+    while ((ExactNumber::dyadic(radius) - needed).sign() != 1) radius *= 2;
+    const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius));
+    if (!faces) return false;
+    Options options;
+    options.threads = options_.threads;
+    options.stop = options_.stop;
+    options.max_boxes = kFaceBoxes;
+    for (const System& face : *faces) {
+      const Cover solutions = solve(face, options);
+      if (!solutions.complete() || !solutions.boxes.empty()) return false;
+    }
+    point.sole_within = radius;
+    return true;
+  }
+
+  std::vector<std::vector<std::size_t>> clusters(const std::vector<std::size_t>& open) const {
+    std::vector<std::vector<std::size_t>> result;
+    std::vector<bool> taken(open.size(), false);
+    for (std::size_t a = 0; a < open.size(); ++a) {
+      if (taken[a]) continue;
+      std::vector<std::size_t> cluster{a};
+      taken[a] = true;
+      for (std::size_t at = 0; at < cluster.size(); ++at)
+        for (std::size_t b = 0; b < open.size(); ++b)
+          if (!taken[b] && overlap(cover_.boxes[open[cluster[at]]].box, cover_.boxes[open[b]].box)) {
+            taken[b] = true;
+            cluster.push_back(b);
+          }
+      for (std::size_t& i : cluster) i = open[i];
+      result.push_back(std::move(cluster));
+    }
+    return result;
+  }
+
+  // A verified configuration in or next to the box where the kernel has dimension 2 or more.
+  std::optional<int> corank_point(const certify::KernelMatrix& matrix, const Box& hull) {
+    const std::vector<double> x = midpoint(hull);
+    const std::vector<double> s = singular_values(matrix, x);
+    const int k = static_cast<int>(s.size());
+    for (int c = 2; c <= k && s[static_cast<std::size_t>(k - c)] < kSmallSingularValue * s[0]; ++c) {
+      const CorankSystem extended = corank_system(system_, matrix, x, c);
+      const auto zero = certify::approximate_zero(extended.system, dyadic(extended.start), kBits);
+      if (!zero) continue;
+      std::vector<std::optional<ExactNumber>> coordinates(x.size());
+      for (std::size_t j = 0; j < extended.configuration.size(); ++j)
+        coordinates[static_cast<std::size_t>(extended.configuration[j])] = (*zero)[j];
+      auto point = guess_exactly(coordinates, kGuessBits, kDegree);
+      if (!point) continue;
+      const certify::ExactVerification verified = certify::verify_exactly(system_, *point);
+      if (!verified.holds || verified.corank < 2) continue;
+      point->corank = verified.corank;
+      // Next to the box: no farther than a box may be wide.
+      const ExactNumber far = certify::reach(*point, hull);
+      if ((far - ExactNumber::dyadic(3 * cover_.sigma)).sign() == 1) continue;
+      return add(std::move(*point));
+    }
+    return std::nullopt;
+  }
+
+  // The search again, in the hull without a core about the point's known coordinates; then the core itself. Nothing where even large cores
+  // leave boxes undecided around them.
+  std::optional<std::vector<CoverBox>> search_around(int index, const Box& hull) {
+    const ExactPoint& point = cover_.exact_points[static_cast<std::size_t>(index)];
+    double half = 0;
+    for (std::size_t j = 0; j < hull.size(); ++j)
+      if (!point.coordinates[j].empty()) half = std::max(half, 0.25 * hull[j].width());
+    for (int attempt = 0; attempt < kCoreAttempts && 2 * half <= cover_.sigma; ++attempt, half *= 2) {
+      Box core = hull, all = hull;
+      const certify::AlgebraicNumber t(point.polynomial, point.lower, point.upper);
+      for (const int kept : reduction_.kept) {
+        const std::size_t j = static_cast<std::size_t>(kept);
+        if (point.coordinates[j].empty()) continue;
+        const auto bounds = t.bounds(point.coordinates[j], ExactNumber::dyadic(half / 64));
+        core[j] = Interval(bounds.lower.enclose().lo() - half, bounds.upper.enclose().hi() + half);
+        all[j] = Interval::hull(hull[j], core[j]);
+      }
+      Options options = options_;
+      options.roots = difference(all, core);
+      Cover around = solve(system_, options);
+      cover_.statistics.processed += around.statistics.processed;
+      cover_.statistics.newton_steps += around.statistics.newton_steps;
+      cover_.statistics.proofs_tried += around.statistics.proofs_tried;
+      if (!around.complete()) return std::nullopt;
+      if (around.count(Verdict::undecided) > 0) continue;
+      core = with_values(core);
+      if (!certify::lies_in(point, core)) return std::nullopt;
+      CoverBox middle{core, Verdict::undecided, {}};
+      middle.point = index;
+      for (CoverBox& box : around.boxes)
+        if (box.region >= 0) box.region += static_cast<int>(cover_.regions.size());
+      std::move(around.regions.begin(), around.regions.end(), std::back_inserter(cover_.regions));
+      around.boxes.push_back(std::move(middle));
+      return std::move(around.boxes);
+    }
+    return std::nullopt;
+  }
+
+  // The box with the sides of eliminated variables that those of the others imply.
+  Box with_values(const Box& box) const {
+    const certify::UpwardRounding rounding;
+    Box sides;
+    for (const int j : reduction_.kept) sides.push_back(box[static_cast<std::size_t>(j)]);
+    const Box kept = sides;
+    for (const auto& definition : reduction_.definitions) sides.push_back(certify::evaluate(definition.value, kept));
+    Box result = reduction_.lift(sides);
+    certify::clip_to_domain(system_, result);
+    return result;
+  }
+
+  // Boxes whose union with the core is `all`, in the variables that are kept.
+  std::vector<Box> difference(Box all, const Box& core) const {
+    std::vector<Box> parts;
+    for (const int kept : reduction_.kept) {
+      const std::size_t j = static_cast<std::size_t>(kept);
+      const Interval side = all[j];
+      if (side.lo() < core[j].lo()) {
+        parts.push_back(all);
+        parts.back()[j] = Interval(side.lo(), core[j].lo());
+      }
+      if (core[j].hi() < side.hi()) {
+        parts.push_back(all);
+        parts.back()[j] = Interval(core[j].hi(), side.hi());
+      }
+      all[j] = core[j];
+    }
+    return parts;
+  }
+
+  const System& system_;
+  Cover& cover_;
+  Options options_;
+  const certify::Reduction reduction_ = certify::reduce(system_);  // what solve() searches
+};
+
+}  // namespace
+
+void prove_exactly(const System& system, const Options& options, Cover& cover) {
+  if (system.coefficient_tolerance > 0) return;
+  Prover prover(system, options, cover);
+  if (cover.dimension == 0) {
+    prover.points();
+  } else {
+    prover.coranks();
+  }
+  prover.kernel_dimensions();
+}
+
+void prove_decimals(const System& system, int digits, Cover& cover) {
+  cover.decimals.clear();
+  const certify::Reduction reduction = certify::reduce(system);
+  for (const CoverBox& point : cover.points) {
+    std::vector<std::string>& decimals = cover.decimals.emplace_back();
+    if (point.point >= 0) {
+      const ExactPoint& exact = cover.exact_points[static_cast<std::size_t>(point.point)];
+      const certify::AlgebraicNumber t(exact.polynomial, exact.lower, exact.upper);
+      const ExactNumber width = pow(ExactNumber(10), -digits - 2);
+      for (const auto& x : exact.coordinates) {
+        const auto bounds = t.bounds(x, width);
+        decimals.push_back(certify::proven_decimal(bounds.lower, bounds.upper, digits));
+      }
+    } else if (point.verdict == Verdict::isolated) {
+      std::vector<ExactNumber> start;
+      for (const int j : reduction.kept) start.push_back(ExactNumber::dyadic(point.box[static_cast<std::size_t>(j)].mid()));
+      const auto zero = certify::prove_zero(reduction.system, start, digits + 2);
+      if (!zero || reduction.tolerant || reduction.subset) continue;
+      // The region of the proof holds exactly one solution: one that is proven in it is that.
+      const Box& region = point.region >= 0 ? cover.regions[static_cast<std::size_t>(point.region)] : point.box;
+      const auto inside = [&](std::size_t j) {
+        const Interval& side = region[static_cast<std::size_t>(reduction.kept[j])];
+        return (zero->sides[j].first - ExactNumber::dyadic(side.lo())).sign() != -1 &&
+               (zero->sides[j].second - ExactNumber::dyadic(side.hi())).sign() != 1;
+      };
+      bool same = true;
+      for (std::size_t j = 0; j < reduction.kept.size(); ++j) same = same && inside(j);
+      if (!same) continue;
+      decimals.resize(system.variables.size());
+      for (std::size_t j = 0; j < reduction.kept.size(); ++j)
+        decimals[static_cast<std::size_t>(reduction.kept[j])] =
+            certify::proven_decimal(zero->sides[j].first, zero->sides[j].second, digits);
+      for (const auto& definition : reduction.definitions) {
+        const auto value = certify::bounds(definition.value, zero->sides, zero->bits);
+        decimals[static_cast<std::size_t>(definition.variable)] = certify::proven_decimal(value.first, value.second, digits);
+      }
+    }
+  }
+}
+
+}  // namespace corank::solve

@@ -1,0 +1,15 @@
+// The point of a box that comes nearest to solving a system, found by Ipopt (key WaechterBiegler2006). Heuristic: a start for what
+// certify/refinement.h does with many digits.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "corank/certify/cover.h"
+
+namespace corank::solve {
+
+/// A local minimum of ½‖F(x)‖² over the box, each side widened by half its width, from its midpoint. Nothing where Ipopt fails.
+std::optional<std::vector<double>> polish(const certify::System& system, const certify::Box& box);
+
+}  // namespace corank::solve
