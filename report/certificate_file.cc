@@ -35,11 +35,13 @@ std::string to_text(const RationalPolynomial& f) {
 }
 
 void write_indices(Hdf5Writer& file, const std::string& name, const std::vector<CoverBox>& boxes) {
-  std::vector<std::int32_t> regions, points;
+  std::vector<std::int32_t> regions, points, coranks;
   for (const CoverBox& box : boxes) {
     regions.push_back(box.region);
     points.push_back(box.point);
+    coranks.push_back(box.corank);
   }
+  file.packed(kGroup + name + "_corank", coranks);
   file.packed(kGroup + name + "_region", regions);
   file.packed(kGroup + name + "_point", points);
 }
@@ -138,17 +140,20 @@ class Reader {
 
   void read_indices(const std::string& name, std::vector<CoverBox>& list) const {
     const auto regions = vector<std::int32_t>(kGroup + name + "_region"),
-               points = vector<std::int32_t>(kGroup + name + "_point");
-    if (regions.size() != list.size() || points.size() != list.size())
-      refuse(kGroup + name + "_region or _point has another length than the list of boxes");
+               points = vector<std::int32_t>(kGroup + name + "_point"),
+               coranks = vector<std::int32_t>(kGroup + name + "_corank");
+    if (regions.size() != list.size() || points.size() != list.size() || coranks.size() != list.size())
+      refuse(kGroup + name + "_region, _point or _corank has another length than the list of boxes");
     const auto fits = [](std::int32_t index, std::size_t size) {
       return index >= -1 && index < static_cast<std::int64_t>(size);
     };
     for (std::size_t i = 0; i < list.size(); ++i) {
-      if (!fits(regions[i], cover_.regions.size()) || !fits(points[i], cover_.exact_points.size()))
-        refuse(kGroup + name + "_region or _point is out of range");
+      if (!fits(regions[i], cover_.regions.size()) || !fits(points[i], cover_.exact_points.size()) ||
+          !fits(coranks[i], n_ + 1))
+        refuse(kGroup + name + "_region, _point or _corank is out of range");
       list[i].region = regions[i];
       list[i].point = points[i];
+      list[i].corank = coranks[i];
     }
   }
 

@@ -4,9 +4,6 @@
 #include <cmath>
 
 namespace corank::certify::checker {
-namespace {
-
-// The inverse of a row-major r×r matrix by Gauss–Jordan with partial pivoting; empty where it is singular to double precision.
 std::vector<double> inverse(std::vector<double> a, std::size_t r) {
   std::vector<double> b(r * r, 0.0);
   for (std::size_t i = 0; i < r; ++i) b[i * r + i] = 1;
@@ -31,7 +28,25 @@ std::vector<double> inverse(std::vector<double> a, std::size_t r) {
   return finite ? b : std::vector<double>();
 }
 
-}  // namespace
+bool is_contraction(const std::vector<double>& e, std::size_t r) {
+  constexpr int kCandidates = 8;
+  std::vector<double> radius(r, 1.0), next(r);
+  for (int candidate = 0; candidate < kCandidates; ++candidate) {
+    bool passes = true;
+    double largest = 0;
+    for (std::size_t a = 0; a < r; ++a) {
+      Enclosure sum;
+      for (std::size_t k = 0; k < r; ++k) sum.add_product(radius[k], Enclosure(e[a * r + k]));
+      if (!sum.is_bounded()) return false;
+      passes = passes && sum.below(Enclosure(radius[a]));
+      next[a] = sum.hi();
+      largest = std::max(largest, next[a]);
+    }
+    if (passes) return true;
+    for (std::size_t a = 0; a < r; ++a) radius[a] = next[a] / largest + 0.05;
+  }
+  return false;
+}
 
 void drop_noise(std::vector<double>& y, std::size_t r) {
   constexpr double kNoise = 1e-13;
@@ -120,7 +135,6 @@ Sides Krawczyk::image(const Sides& x) {
 }
 
 bool Krawczyk::is_injective(const Sides& x) {
-  constexpr int kCandidates = 8;
   const std::size_t r = dependent_.size();
   for (std::size_t b = 0; b < r; ++b) equations_[b].derivatives(x, entries_[b]);
   multiply(entries_, derivatives_);
@@ -130,22 +144,7 @@ bool Krawczyk::is_injective(const Sides& x) {
       const Enclosure& entry = derivatives_[a][static_cast<std::size_t>(dependent_[k])];
       excess[a * r + k] = (Enclosure(a == k ? 1.0 : 0.0) - entry).mag();
     }
-  std::vector<double> radius(r, 1.0), next(r);
-  for (int candidate = 0; candidate < kCandidates; ++candidate) {
-    bool passes = true;
-    double largest = 0;
-    for (std::size_t a = 0; a < r; ++a) {
-      Enclosure sum;
-      for (std::size_t k = 0; k < r; ++k) sum.add_product(radius[k], Enclosure(excess[a * r + k]));
-      if (!sum.is_bounded()) return false;
-      passes = passes && sum.below(Enclosure(radius[a]));
-      next[a] = sum.hi();
-      largest = std::max(largest, next[a]);
-    }
-    if (passes) return true;
-    for (std::size_t a = 0; a < r; ++a) radius[a] = next[a] / largest + 0.05;
-  }
-  return false;
+  return is_contraction(excess, r);
 }
 
 bool Krawczyk::center_is_zero() const {

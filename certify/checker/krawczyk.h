@@ -11,6 +11,12 @@ namespace corank::certify::checker {
 /// bound it on their own, however small its side.
 void drop_noise(std::vector<double>& y, std::size_t r);
 
+/// The inverse of a row-major r×r matrix in doubles; empty where it is singular to that precision.
+std::vector<double> inverse(std::vector<double> a, std::size_t r);
+
+/// Is E·x < x for some x > 0? Then every matrix I − A with |A| ≤ E is regular: the spectral radius of E is below 1. E ≥ 0, row-major r×r.
+bool is_contraction(const std::vector<double>& e, std::size_t r);
+
 /// Equations F, r of them, over the kept variables.
 class Krawczyk {
  public:

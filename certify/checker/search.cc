@@ -12,7 +12,6 @@ namespace {
 constexpr int kPasses = 6;
 constexpr double kGain = 0.2;
 constexpr double kRankTolerance = 1e-9;
-constexpr std::size_t kMostParts = 3000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double total_width(const Sides& x) {
@@ -141,7 +140,7 @@ int Search::widest(const Sides& x) const {
   return best;
 }
 
-bool Search::is_empty(Sides first) {
+bool Search::is_empty(Sides first, std::size_t most_parts) {
   std::vector<Sides> open{std::move(first)};
   std::size_t parts = 0;
   while (!open.empty()) {
@@ -149,7 +148,7 @@ bool Search::is_empty(Sides first) {
     open.pop_back();
     if (!contract(x)) continue;
     const int j = widest(x);
-    if (j < 0 || ++parts > kMostParts) return false;
+    if (j < 0 || ++parts > most_parts) return false;
     if (parts == 1) ++searched_;
     const auto v = static_cast<std::size_t>(j);
     const Enclosure side = x[v];

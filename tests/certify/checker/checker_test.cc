@@ -102,7 +102,7 @@ std::string reasons(const System& system, const Cover& cover) {
 
 TEST(Checker, RejectsAnotherSystem) {
   const Cover cover = solved(plain(kCircle), 0.1);
-  EXPECT_THAT(reasons(plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1.001;\n"), cover),
+  EXPECT_THAT(reasons(plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1.01;\n"), cover),
               HasSubstr("outside it"));
 }
 
@@ -256,6 +256,16 @@ TEST_F(ThreeSlider, HasNoPointOfUnknownCoordinates) {
   EXPECT_THAT(text(report()), HasSubstr("says nothing of xi1"));
 }
 
+TEST_F(ThreeSlider, HasNoOtherSolutionNearThePoint) {
+  point().sole_within = 1e-3;
+  EXPECT_EQ(report().exact_points, (Tally{1, 0, 0})) << text(report());
+}
+
+TEST_F(ThreeSlider, HasOtherSolutionsFarFromThePoint) {
+  point().sole_within = 1.5;  // (±1, ±1, 0) are as near as that
+  EXPECT_THAT(text(report()), HasSubstr("that no other solution is near it is not shown"));
+}
+
 // x = y = √(1/2), z = x + x²: t² = 1/2.
 class RootOfTwo : public testing::Test {
  protected:
@@ -289,6 +299,13 @@ TEST_F(RootOfTwo, IsNotItsConjugate) {
 TEST_F(RootOfTwo, IsNoRootOfAnotherPolynomial) {
   cover_.exact_points[0].polynomial = {number("-50000000001/100000000000"), 0, 1};
   EXPECT_THAT(text(check(system_, cover_)), HasSubstr("does not hold there"));
+}
+
+TEST_F(RootOfTwo, IsTheOnlySolutionNearby) {
+  cover_.exact_points[0].sole_within = 0.25;
+  EXPECT_TRUE(check(system_, cover_).verified()) << text(check(system_, cover_));
+  cover_.exact_points[0].sole_within = 3;  // −√(1/2) twice
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("that no other solution is near it is not shown"));
 }
 
 TEST_F(RootOfTwo, IsCountedOnce) {
