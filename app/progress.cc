@@ -16,12 +16,12 @@ std::size_t terminal_width() {
 
 }  // namespace
 
-ProgressLine::ProgressLine() : visible_(isatty(STDERR_FILENO) != 0) {}
+ProgressLine::ProgressLine(std::string task) : task_(std::move(task)), visible_(isatty(STDERR_FILENO) != 0) {}
 
 void ProgressLine::show(const solve::Progress& progress) {
   if (!visible_) return;
-  std::string line =
-      fmt::format("{} done, {} left, {:.1f} % excluded", progress.processed, progress.waiting, 100 * progress.excluded);
+  std::string line = task_.empty() ? "" : task_ + ": ";
+  line += fmt::format("{} done, {} left, {:.1f} % excluded", progress.processed, progress.waiting, 100 * progress.excluded);
   for (std::size_t v = 0; v < progress.verdicts.size(); ++v) {
     if (progress.verdicts[v] == 0) continue;
     line += fmt::format(", {} {}", progress.verdicts[v], certify::to_string(static_cast<certify::Verdict>(v)));

@@ -10,7 +10,8 @@ namespace corank::app {
 /// Draws on standard error where that is a terminal, else does nothing.
 class ProgressLine {
  public:
-  ProgressLine();
+  /// `task` stands before all else, such as "forward (2 of 4)".
+  explicit ProgressLine(std::string task = "");
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -21,6 +22,7 @@ class ProgressLine {
   void clear();
 
  private:
+  std::string task_;
   bool visible_;
   bool drawn_ = false;
 };

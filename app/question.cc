@@ -16,6 +16,10 @@ void Question::add_options(CLI::App& command) {
                   "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
                   "default: right where the matrix M is square, else left")
       ->check(CLI::IsMember({"right", "left"}));
+  add_definitions(command);
+}
+
+void Question::add_definitions(CLI::App& command) {
   command.add_option("-D", definitions, "Give a constant of the model another value; may be repeated")
       ->type_name("NAME=EXPR")
       ->allow_extra_args(false);

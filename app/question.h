@@ -18,6 +18,8 @@ struct Question {
 
   /// FILE, --set, --kernel and -D.
   void add_options(CLI::App& command);
+  /// -D alone.
+  void add_definitions(CLI::App& command);
 };
 
 /// "NAME=EXPR" → name and expression. Throws UsageError.

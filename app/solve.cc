@@ -6,19 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 
 #include "corank/app/box_files.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/cuik_param.h"
 #include "corank/report/result_file.h"
 #include "corank/report/summary.h"
-#include "corank/solve/exactness.h"
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/printer.h"
 
 namespace corank::app {
 namespace {
@@ -31,31 +29,21 @@ struct SolveCommand {
   std::optional<std::uint64_t> max_solutions;
   double time_limit = 0;
   int digits = 0;
+  bool proof = false;
   std::string param_path, result_path;
   std::optional<std::string> json_path;  ///< "": standard output
 };
 
-std::string kernel_of(const Question& question, std::optional<symbolic::SingularitySet> set) {
-  using symbolic::SingularitySet;
-  if (!set || *set == SingularitySet::cspace) return "";
-  if (!question.kernel.empty()) return question.kernel;
-  return to_string(*set == SingularitySet::cspace_singular ? symbolic::KernelSide::left : symbolic::KernelSide::right);
-}
-
-certify::Cover search(const certify::System& system, const SolveCommand& command) {
-  ProgressLine line;
+solve::Options options_of(const SolveCommand& command) {
   solve::Options options;
   options.sigma = command.sigma;
   options.threads = command.threads;
   options.max_boxes = command.max_boxes;
   options.max_solutions = command.max_solutions.value_or(0);
   options.time_limit = command.time_limit;
+  options.proof = command.proof;
   options.stop = &Interrupt::stop();
-  if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
-  certify::Cover cover = solve::solve(system, options);
-  solve::prove_exactly(system, options, cover);
-  if (command.digits > 0 && cover.dimension == 0) solve::prove_decimals(system, command.digits, cover);
-  return cover;
+  return options;
 }
 
 void apply_parameters(SolveCommand& command, const certify::System& system) {
@@ -65,19 +53,6 @@ void apply_parameters(SolveCommand& command, const certify::System& system) {
   if (!command.max_solutions) command.max_solutions = parameters.n_solutions;
   if (!parameters.ignored.empty()) {
     fmt::print(stderr, "corank: {}: without effect here: {}\n", command.param_path, fmt::join(parameters.ignored, ", "));
-  }
-}
-
-void mark_auxiliary(const symbolic::Mechanism& mechanism, report::Result& result) {
-  std::set<std::string> names;
-  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
-    if (c.auxiliary) names.insert(c.name);
-  }
-  for (report::ResultVariable& v : result.variables)
-    v.auxiliary = names.contains(v.name) || v.kind == certify::VariableKind::auxiliary;
-  for (const certify::Angle& a : result.angles) {
-    for (const int v : {a.cosine, a.sine})
-      result.variables.at(static_cast<std::size_t>(v)).auxiliary = names.contains(a.name);
   }
 }
 
@@ -102,28 +77,21 @@ ExitStatus solve_model(SolveCommand command) {
   apply_parameters(command, system);
   if (const double least = solve::smallest_sigma(system); command.sigma && *command.sigma < least)
     throw UsageError(fmt::format("--sigma: {} is below {}, what boxes of doubles resolve here", *command.sigma, least));
+  if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
+    throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
+  if (command.proof && system.coefficient_tolerance > 0)
+    throw UsageError("--proof: there is none for coefficients with a tolerance; --tolerance 0 takes them as exact");
   check_output(command.result_path);
   check_output(command.json_path.value_or(""));
 
+  solve::Options options = options_of(command);
   report::Result result;
-  result.model = mechanism.name();
-  result.model_text = mechanism.source_text();
-  result.set = set ? to_string(*set) : "system";
-  result.system_text = symbolic::to_cuik(system);
   {
     const Interrupt interrupt;
-    result.cover = search(system, command);
+    ProgressLine line;
+    if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
+    result = solve_set(command.question, mechanism, set, system, options, command.digits);
   }
-  report::describe_system(system, result);
-  mark_auxiliary(mechanism, result);
-  result.options = {kernel_of(command.question, set),
-                    result.cover.sigma,
-                    system.coefficient_tolerance,
-                    command.threads,
-                    command.max_boxes,
-                    command.max_solutions.value_or(0),
-                    command.time_limit,
-                    overrides(command.question)};
 
   write_file(command.result_path, result);
   if (command.json_path) {
@@ -190,6 +158,8 @@ void add_solve(CLI::App& program, Action& action) {
                   "Isolated points with so many proven digits after the point; 0: only what boxes of doubles show")
       ->type_name("N")
       ->check(CLI::Range(0, 1000, "a number from 0 to 1000"));
+  sub->add_flag("--proof", command->proof,
+                "Keep the search tree in RESULT.h5, so that corank verify can replay why nothing was lost");
   sub->add_option("-o", command->result_path,
                   "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's layout\n"
                   "where its name ends in .sol")

@@ -70,11 +70,11 @@ struct Cover {
   /// exactly one solution (isolated). Boxes that were cut from one sheet share it.
   std::vector<Box> regions;
   std::vector<ExactPoint> exact_points;
-  /// The variables that were eliminated before the search, in that order; the sides of a box are of all variables.
-  std::vector<Elimination> eliminations;
   /// Of each point and variable a decimal that is wrong by less than a unit of its last digit; no decimals where nothing is proven.
   /// Empty where nobody asked.
   std::vector<std::vector<std::string>> decimals;
+  /// The variables that were eliminated before the search, in that order; the sides of a box are of all variables.
+  std::vector<Elimination> eliminations;
   std::shared_ptr<const Proof> proof;  ///< of completeness, where it was asked for
   int dimension = 0;                   ///< of the set; for an over-determined system, the largest that a partial box shows
   double sigma = 0;

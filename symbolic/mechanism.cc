@@ -98,8 +98,6 @@ void Mechanism::outputs(const std::vector<Expression>& symbols, const SourceLoca
   if (outputs_where_.line == 0 && !symbols.empty()) outputs_where_ = place(symbols[0], where);
 }
 
-void Mechanism::drawing(const std::string& line, const SourceLocation& where) { drawing_.push_back({line, where}); }
-
 void Mechanism::set_constant(const std::string& name, const Expression& value) {
   if (!has_constant(name)) {
     std::string known;
@@ -125,6 +123,8 @@ void Mechanism::validate() const {
   for (const Constant& c : constants_) validator.add_constant(c);
   for (const Coordinate& c : coordinates_) validator.check_range(c);
   for (const Constraint& c : constraints_) validator.check_constraint(c);
+  for (const DrawingPoint& p : drawing_.points) validator.check_point(p);
+  drawing_.validate();
   if (coordinates_.empty()) throw ModelError({name_, 0, 0}, "the model has no variables", "at least one, in [SYSTEM VARS]");
   if (constraints_.empty()) throw ModelError({name_, 0, 0}, "the model has no equations", "at least one, in [SYSTEM EQS]");
 }

@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "corank/symbolic/drawing.h"
 #include "corank/symbolic/expression.h"
 
 namespace corank::symbolic {
@@ -37,12 +38,6 @@ struct Constraint {
   SourceLocation where;
 };
 
-/// A line of [DRAWING], kept as written until a report draws it.
-struct DrawingLine {
-  std::string text;
-  SourceLocation where;
-};
-
 class Mechanism {
  public:
   explicit Mechanism(std::string name = "mechanism") : name_(std::move(name)) {}
@@ -62,7 +57,7 @@ class Mechanism {
   /// already an output (input). Repeated calls add.
   void inputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
   void outputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
-  void drawing(const std::string& line, const SourceLocation& where = {});
+  void drawing(Drawing drawing) { drawing_ = std::move(drawing); }
 
   /// Replaces the value of a declared constant (`-D L2=1`). Throws ModelError where there is no such constant.
   void set_constant(const std::string& name, const Expression& value);
@@ -77,7 +72,7 @@ class Mechanism {
   const std::vector<Constraint>& constraints() const { return constraints_; }
   const std::vector<std::string>& inputs() const { return inputs_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
-  const std::vector<DrawingLine>& drawing() const { return drawing_; }
+  const Drawing& drawing() const { return drawing_; }
   /// Where the inputs (outputs) were named first.
   const SourceLocation& inputs_where() const { return inputs_where_; }
   const SourceLocation& outputs_where() const { return outputs_where_; }
@@ -88,7 +83,8 @@ class Mechanism {
   bool has_constant(const std::string& name) const;
 
   /// Throws ModelError, with the place, for: a name in a constant, range, constraint that is not declared (before, for
-  /// constants); a coordinate in a constant or range; an absurd power (9^9^9^9); no coordinates; no constraints.
+  /// constants); a coordinate in a constant or range; an absurd power (9^9^9^9); no coordinates; no constraints; a faulty
+  /// drawing (Drawing::validate), or one with an angle outside sin, cos and tan.
   void validate() const;
 
  private:
@@ -103,7 +99,7 @@ class Mechanism {
   std::vector<Constraint> constraints_;
   std::vector<std::string> inputs_, outputs_;
   SourceLocation inputs_where_, outputs_where_;
-  std::vector<DrawingLine> drawing_;
+  Drawing drawing_;
   /// A name in use: the constant or the coordinate of that index.
   struct Declaration {
     bool is_constant;

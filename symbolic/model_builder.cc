@@ -125,15 +125,17 @@ void ModelBuilder::finish_equation() {
   values.clear();
 }
 
-void ModelBuilder::finish_drawing_line() {
-  if (!drawing_line_open) return;
-  mechanism.drawing(drawing_line, drawing_where);
-  drawing_line_open = false;
+void ModelBuilder::finish_point() {
+  drawing.points.push_back({declared, std::move(values), declared_where});
+  values.clear();
+}
+
+void ModelBuilder::begin_part(DrawingPart::Kind part, const SourceLocation& where) {
+  drawing.parts.push_back({part, {}, where});
 }
 
 void ModelBuilder::finish(const SourceLocation& end) {
-  finish_drawing_line();
-  const bool is_empty = mechanism.constants().empty() && mechanism.drawing().empty() && inputs.empty() && outputs.empty();
+  const bool is_empty = mechanism.constants().empty() && drawing.empty() && inputs.empty() && outputs.empty();
   const bool has_equations = !mechanism.constraints().empty();
   if (mechanism.coordinates().empty() && !has_equations && is_empty) {
     throw ModelError(end, "the model is empty", "sections such as [SYSTEM VARS] and [SYSTEM EQS]");
@@ -142,6 +144,7 @@ void ModelBuilder::finish(const SourceLocation& end) {
   if (!has_equations) throw ModelError(end, "the model has no equations", "at least one, in [SYSTEM EQS]");
   mechanism.inputs(inputs);
   mechanism.outputs(outputs);
+  mechanism.drawing(std::move(drawing));
   mechanism.validate();
 }
 

@@ -85,14 +85,13 @@ struct ModelBuilder {
 
   bool names_are_inputs = true;
   std::vector<Expression> inputs, outputs;  ///< resolved at the end: their section may precede the variables
-  bool drawing_line_open = false;
-  std::string drawing_line;
-  SourceLocation drawing_where;
+  Drawing drawing;
 
   void finish_constant();
   void finish_variable();
   void finish_equation();
-  void finish_drawing_line();
+  void finish_point();
+  void begin_part(DrawingPart::Kind part, const SourceLocation& where);
   /// After the whole text: inputs, outputs, and the checks of Mechanism::validate().
   void finish(const SourceLocation& end);
 };

@@ -139,19 +139,17 @@ CORANK_ACTION(listed_name, {
     throw ModelError(where, in_quotes(in.string_view()) + " is no variable", "the name of a variable");
   (b.names_are_inputs ? b.inputs : b.outputs).push_back(Expression::symbol(in.string(), where));
 })
-CORANK_ACTION(drawing_text, {
-  std::string_view text = in.string_view();
-  text = text.substr(0, text.find_last_not_of(" \t\r\f\v") + 1);
-  const SourceLocation where = place(in, b);
-  if (b.drawing_line_open && b.drawing_where.line == where.line) {  // behind a comment in the line
-    b.drawing_line.append(" ").append(text);
-    return;
+CORANK_ACTION(point_name, { declare(in, b); })
+CORANK_ACTION0(point_end, { b.finish_point(); })
+CORANK_ACTION(unit_name, { b.drawing.unit = in.string(); })
+CORANK_ACTION(slider_word, { b.begin_part(DrawingPart::Kind::slider, place(in, b)); })
+CORANK_ACTION(part_word, {
+  for (const auto part : {DrawingPart::Kind::link, DrawingPart::Kind::platform, DrawingPart::Kind::joint,
+                          DrawingPart::Kind::ground, DrawingPart::Kind::effector}) {
+    if (in.string_view() == to_string(part)) b.begin_part(part, place(in, b));
   }
-  b.finish_drawing_line();
-  b.drawing_line = text;
-  b.drawing_where = where;
-  b.drawing_line_open = true;
 })
+CORANK_ACTION(part_point, { b.drawing.parts.back().points.push_back(in.string()); })
 #undef CORANK_ACTION
 #undef CORANK_ACTION0
 

@@ -127,9 +127,35 @@ struct names : seq<gap, must<listed_name>, star<gap, sor<if_must<one<','>, gap, 
                    opt<gap, one<';'>>, gap, must<list_end>> {};
 struct names_section : seq<sor<inputs_header, outputs_header>, names> {};
 
-// [DRAWING]  lines kept as they are, without comments.
-struct drawing_text : plus<not_at<eolf>, not_at<comment_start>, any> {};
-struct drawing_section : seq<drawing_header, star<gap, not_at<section_or_end>, drawing_text>> {};
+// [DRAWING]  point P = (x, y), or another word and the names of points; each ends with its line.
+template <typename Letters>
+struct word : seq<Letters, not_at<name_tail>> {};
+struct point_word : word<TAO_PEGTL_STRING("point")> {};
+struct unit_word : word<TAO_PEGTL_STRING("unit")> {};
+struct slider_word : word<TAO_PEGTL_STRING("slider")> {};
+struct along_word : word<TAO_PEGTL_STRING("along")> {};
+struct part_word : word<sor<TAO_PEGTL_STRING("link"), TAO_PEGTL_STRING("platform"), TAO_PEGTL_STRING("joint"),
+                            TAO_PEGTL_STRING("ground"), TAO_PEGTL_STRING("effector")>> {};
+struct point_name : identifier {};
+struct point_equals : one<'='> {};
+struct point_open : one<'('> {};
+struct point_comma : one<','> {};
+struct point_close : one<')'> {};
+struct point_end : success {};
+struct unit_name : identifier {};
+struct part_point : identifier {};
+struct drawing_line_end : sor<at<eolf>, one<';'>> {};
+struct third_coordinate : seq<one<','>, gap, expression<gap>, gap> {};
+struct drawing_point : seq<point_word, line_gap, must<point_name>, line_gap, must<point_equals>, line_gap, must<point_open>,
+                           gap, expression<gap>, gap, must<point_comma>, gap, expression<gap>, gap, opt<third_coordinate>,
+                           must<point_close>, point_end> {};
+struct drawing_unit : seq<unit_word, line_gap, must<unit_name>> {};
+struct drawing_slider : seq<slider_word, line_gap, must<part_point>, line_gap, must<along_word>, line_gap, must<part_point>,
+                            line_gap, must<part_point>> {};
+struct drawing_part : seq<part_word, line_gap, must<part_point>, star<line_gap, part_point>> {};
+struct drawing_statement : sor<drawing_point, drawing_unit, drawing_slider, drawing_part> {};
+struct drawing_section
+    : seq<drawing_header, star<gap, not_at<section_or_end>, must<drawing_statement>, line_gap, must<drawing_line_end>>> {};
 
 // [SEARCH]  DEPTH FIRST or BREADTH FIRST: the order in which the CUIK suite visits boxes.
 struct search_header : header<TAO_PEGTL_STRING("SEARCH")> {};

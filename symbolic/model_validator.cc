@@ -60,6 +60,28 @@ void ModelValidator::check_constraint(const Constraint& constraint) const {
   check(constraint.relation.rhs, context);
 }
 
+void ModelValidator::check_point(const DrawingPoint& point) const {
+  const Context context{"the point " + in_quotes(point.name), false, point.where};
+  for (const Expression& coordinate : point.coordinates) {
+    check(coordinate, context);
+    require_angles_inside_functions(coordinate, context);
+  }
+}
+
+// Angles that differ by a whole turn are the same, and so must be what is drawn.
+void ModelValidator::require_angles_inside_functions(const Expression& e, const Context& context) const {
+  const bool is_function = e.kind() == Expression::Kind::function;
+  if (is_function && (e.name() == "sin" || e.name() == "cos" || e.name() == "tan")) return;
+  if (e.kind() == Expression::Kind::symbol) {
+    const auto coordinate = coordinates_.find(e.name());
+    if (coordinate == coordinates_.end() || coordinate->second->kind != CoordinateKind::angle) return;
+    throw ModelError(place(e, context.where),
+                     "the angle " + in_quotes(e.name()) + " in " + context.owner + " stands outside sin, cos and tan",
+                     "cos(" + shortened(e.name()) + ") or the like");
+  }
+  for (const Expression& operand : e.operands()) require_angles_inside_functions(operand, context);
+}
+
 ModelValidator::Size ModelValidator::check(const Expression& e, const Context& context) const {
   using Kind = Expression::Kind;
   if (e.kind() == Kind::number) return {1, true, rough_number(e.name())};

@@ -23,6 +23,8 @@ class ModelValidator {
   void check_range(const Coordinate& coordinate) const;
   /// A constraint: constants and coordinates.
   void check_constraint(const Constraint& constraint) const;
+  /// A point of the drawing: constants and coordinates, angles inside sin, cos and tan only.
+  void check_point(const DrawingPoint& point) const;
 
  private:
   /// What an expression could grow to.
@@ -41,6 +43,7 @@ class ModelValidator {
   Size check(const Expression& e, const Context& context) const;
   Size check_symbol(const Expression& e, const Context& context) const;
   Size check_power(const Expression& e, const Context& context) const;
+  void require_angles_inside_functions(const Expression& e, const Context& context) const;
 
   std::unordered_map<std::string, Size> constants_;            ///< those added so far
   std::unordered_map<std::string, const Constant*> declared_;  ///< all constants

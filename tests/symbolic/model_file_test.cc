@@ -65,8 +65,11 @@ r <= 1e-6;
 -p^2 >= -c;
 [DRAWING]
 point P = (x, 0)   % the tip
-
+point O = (0,
+           a*cos(phi)); unit mm
   link O /* fixed */ P
+slider P along O Q
+point Q = (1, 1)
 [SYSTEM EQS]
 x/2 = r;
 )";
@@ -92,13 +95,22 @@ TEST(ModelFile, ReadsEveryConstruct) {
   EXPECT_EQ(m.constraints()[1].relation.text(), "p*q = 1");
   EXPECT_EQ(m.constraints()[2].relation.text(), "r <= 1e-6");
   EXPECT_EQ(m.constraints()[3].relation.text(), "-p^2 >= -c");
-  EXPECT_EQ(m.constraints()[4].where.line, 32);
+  EXPECT_EQ(m.constraints()[4].where.line, 35);
   EXPECT_THAT(m.inputs(), ElementsAre("phi"));
   EXPECT_THAT(m.outputs(), ElementsAre("x"));
-  ASSERT_EQ(m.drawing().size(), 2u);
-  EXPECT_EQ(m.drawing()[0].text, "point P = (x, 0)");
-  EXPECT_EQ(m.drawing()[1].text, "link O P");
-  EXPECT_EQ(m.drawing()[1].where.text(), "dir/every.cuik:30:3");
+  const Drawing& drawing = m.drawing();
+  EXPECT_EQ(drawing.unit, "mm");
+  EXPECT_EQ(drawing.dimension(), 2);
+  ASSERT_EQ(drawing.points.size(), 3u);
+  EXPECT_EQ(drawing.points[1].name, "O");
+  EXPECT_EQ(drawing.points[1].coordinates[1].text(), "a*cos(phi)");
+  EXPECT_EQ(drawing.points[1].where.text(), "dir/every.cuik:29:7");
+  ASSERT_EQ(drawing.parts.size(), 2u);
+  EXPECT_EQ(drawing.parts[0].kind, DrawingPart::Kind::link);
+  EXPECT_THAT(drawing.parts[0].points, ElementsAre("O", "P"));
+  EXPECT_EQ(drawing.parts[0].where.text(), "dir/every.cuik:31:3");
+  EXPECT_EQ(drawing.parts[1].kind, DrawingPart::Kind::slider);
+  EXPECT_THAT(drawing.parts[1].points, ElementsAre("P", "O", "Q"));
 }
 
 TEST(ModelFile, ExpressionsKnowTheirPlaces) {
@@ -119,8 +131,8 @@ TEST(ModelFile, AcceptsWindowsLineEndsAByteOrderMarkAndNoNewlineAtTheEnd) {
     EXPECT_EQ(m.constraints()[i].relation.text(), expected.constraints()[i].relation.text());
     EXPECT_EQ(m.constraints()[i].where.text(), expected.constraints()[i].where.text());
   }
-  EXPECT_EQ(m.drawing()[1].text, expected.drawing()[1].text);
-  EXPECT_EQ(m.drawing()[1].where.text(), expected.drawing()[1].where.text());
+  EXPECT_EQ(m.drawing().parts[0].points, expected.drawing().parts[0].points);
+  EXPECT_EQ(m.drawing().parts[0].where.text(), expected.drawing().parts[0].where.text());
 }
 
 TEST(ModelFile, AcceptsNamesSeparatedByCommasBlanksOrLines) {
@@ -145,7 +157,8 @@ TEST(ModelFile, ReadsTheModelsOfTheRepository) {
   EXPECT_EQ(dextar.name(), "dextar");
   EXPECT_EQ(dextar.coordinates().size(), 6u);
   EXPECT_EQ(dextar.constraints().size(), 4u);
-  EXPECT_EQ(dextar.drawing().size(), 9u);
+  EXPECT_EQ(dextar.drawing().points.size(), 5u);
+  EXPECT_EQ(dextar.drawing().parts.size(), 7u);
   EXPECT_THAT(dextar.inputs(), ElementsAre("theta2", "theta5"));
   EXPECT_THAT(dextar.outputs(), ElementsAre("J3x", "J3y"));
   EXPECT_EQ(dextar.source_text(), read_file(models / "dextar.cuik"));
@@ -161,7 +174,8 @@ TEST(ModelFile, ReadsTheExampleOfTheDocumentation) {
   const Mechanism m = parse_model(page.substr(begin, page.find(fence, begin) - begin), "crank.cuik");
   EXPECT_EQ(m.coordinates().size(), 3u);
   EXPECT_THAT(m.inputs(), ElementsAre("theta"));
-  EXPECT_EQ(m.drawing().size(), 5u);
+  EXPECT_EQ(m.drawing().points.size(), 4u);
+  EXPECT_EQ(m.drawing().parts.size(), 6u);
 }
 
 TEST(ModelFile, ReadsEveryFileOfTheCuikSuite) {

@@ -1,0 +1,51 @@
+#include "corank/app/solve_set.h"
+
+#include <set>
+
+#include "corank/solve/exactness.h"
+#include "corank/symbolic/printer.h"
+
+namespace corank::app {
+namespace {
+
+std::string kernel_of(const Question& question, std::optional<symbolic::SingularitySet> set) {
+  using symbolic::SingularitySet;
+  if (!set || *set == SingularitySet::cspace) return "";
+  if (!question.kernel.empty()) return question.kernel;
+  return to_string(*set == SingularitySet::cspace_singular ? symbolic::KernelSide::left : symbolic::KernelSide::right);
+}
+
+void mark_auxiliary(const symbolic::Mechanism& mechanism, report::Result& result) {
+  std::set<std::string> names;
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
+    if (c.auxiliary) names.insert(c.name);
+  }
+  for (report::ResultVariable& v : result.variables)
+    v.auxiliary = names.contains(v.name) || v.kind == certify::VariableKind::auxiliary;
+  for (const certify::Angle& a : result.angles) {
+    for (const int v : {a.cosine, a.sine})
+      result.variables.at(static_cast<std::size_t>(v)).auxiliary = names.contains(a.name);
+  }
+}
+
+}  // namespace
+
+report::Result solve_set(const Question& question, const symbolic::Mechanism& mechanism,
+                         std::optional<symbolic::SingularitySet> set, const certify::System& system,
+                         const solve::Options& options, int digits) {
+  report::Result result;
+  result.model = mechanism.name();
+  result.model_text = mechanism.source_text();
+  result.set = set ? to_string(*set) : "system";
+  result.system_text = symbolic::to_cuik(system);
+  result.cover = solve::solve(system, options);
+  solve::prove_exactly(system, options, result.cover);
+  if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover);
+  report::describe_system(system, result);
+  mark_auxiliary(mechanism, result);
+  result.options = {kernel_of(question, set), result.cover.sigma,    system.coefficient_tolerance, options.threads,
+                    options.max_boxes,        options.max_solutions, options.time_limit,           overrides(question)};
+  return result;
+}
+
+}  // namespace corank::app

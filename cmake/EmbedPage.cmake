@@ -1,0 +1,28 @@
+# Makes a C++ source of the files of report/page/, so that the program needs none of them:
+#   cmake -DPAGE=<report/page> -DTHREE=<three.js> -DMODULES=a.js,b.js -DOUTPUT=<page_assets.cc> -P EmbedPage.cmake
+# The modules become one: their imports of one another and the word `export` go, so names are distinct over all of them.
+function(literal name text)
+  set(result "const std::string_view ${name} = R\"corank_page(${text})corank_page\";\n\n" PARENT_SCOPE)
+endfunction()
+
+file(READ "${PAGE}/page.html" template)
+file(READ "${PAGE}/page.css" style)
+file(READ "${THREE}" three)
+string(REPLACE "," ";" MODULES "${MODULES}")
+set(script "")
+foreach(module IN LISTS MODULES)
+  file(READ "${PAGE}/${module}" text)
+  string(REGEX REPLACE "(^|\n)import [^\n]*" "\\1" text "${text}")
+  string(REGEX REPLACE "\nexport " "\n" text "${text}")
+  string(APPEND script "${text}\n")
+endforeach()
+
+set(source "// Made by cmake/EmbedPage.cmake.\n#include \"corank/report/page_assets.h\"\n\nnamespace corank::report {\n\n")
+foreach(item template:kPageTemplate style:kPageStyle script:kPageScript three:kThree)
+  string(REPLACE ":" ";" item "${item}")
+  list(GET item 0 variable)
+  list(GET item 1 name)
+  literal(${name} "${${variable}}")
+  string(APPEND source "${result}")
+endforeach()
+file(WRITE "${OUTPUT}" "${source}}  // namespace corank::report\n")

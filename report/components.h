@@ -1,0 +1,24 @@
+// How the boxes of a cover hang together.
+#pragma once
+
+#include <vector>
+
+#include "corank/report/result.h"
+
+namespace corank::report {
+
+/// The connected components of the union of the boxes, projected onto the configuration variables.
+///
+/// Where the cover is complete: solutions in different components belong to different pieces of the solution set, for a connected
+/// piece lies in the union of the boxes, whose components are closed and disjoint. That the solutions in one component are one
+/// piece is not proven, nor that a component without a proven solution holds any.
+struct Components {
+  std::vector<int> of_box;  ///< component of each box, from 0, by each component's first box
+  int count = 0;
+  int with_proven_solution = 0;  ///< those with a regular, isolated or exact box
+};
+
+/// Two boxes touch where they have a point in common; pending boxes count as any other.
+Components components(const Result& result);
+
+}  // namespace corank::report

@@ -1,0 +1,168 @@
+#include "corank/report/page.h"
+
+#include <fmt/format.h>
+
+#include <kainjow/mustache.hpp>
+#include <stdexcept>
+
+#include "corank/report/page_assets.h"
+#include "corank/report/page_data.h"
+#include "corank/report/page_derivation.h"
+#include "corank/report/page_points.h"
+#include "corank/report/page_words.h"
+#include "corank/symbolic/display_name.h"
+#include "corank/symbolic/mathml.h"
+#include "corank/symbolic/singularity_system.h"
+
+namespace corank::report {
+namespace {
+
+namespace mustache = kainjow::mustache;
+
+std::string names_html(const std::vector<std::string>& names) {
+  std::string html;
+  for (const std::string& name : names) html += (html.empty() ? "" : ", ") + symbolic::html_name(name);
+  return html;
+}
+
+mustache::data truth(bool value) {
+  return mustache::data{value ? mustache::data::type::bool_true : mustache::data::type::bool_false};
+}
+
+mustache::data sentences(const std::vector<std::string>& list) {
+  mustache::data items{mustache::data::type::list};
+  for (const std::string& sentence : list) items << mustache::data{"sentence", sentence};
+  return items;
+}
+
+mustache::data set_card(const Result& result) {
+  const SetWords words = set_words(result, components(result));
+  mustache::data card;
+  card["name"] = result.set;
+  card["title"] = words.title;
+  card["meaning"] = words.meaning;
+  card["finding"] = words.finding;
+  card.set("proven", sentences(words.proven));
+  card.set("unproven", sentences(words.unproven));
+  card.set("hasUnproven", truth(!words.unproven.empty()));
+  mustache::data bar{mustache::data::type::list};
+  for (const VerdictShare& share : words.shares) {
+    mustache::data part;
+    part["verdict"] = std::string(to_string(share.verdict));
+    part["count"] = grouped(share.count);
+    part["percent"] = percentage(share.count, result.cover.boxes.size());
+    part["grow"] = fmt::format("{:.6f}", share.share);
+    bar << part;
+  }
+  card.set("bar", bar);
+  return card;
+}
+
+mustache::data run_row(const Result& result, const std::string& file) {
+  const certify::Statistics& s = result.cover.statistics;
+  mustache::data row;
+  row["title"] = set_title(result.set);
+  row["sigma"] = fmt::format("{:g}", result.cover.sigma);
+  row["kernel"] = result.options.kernel.empty() ? "–" : result.options.kernel;
+  row["variables"] = std::to_string(result.variables.size());
+  row["equations"] = std::to_string(result.equations);
+  row["boxes"] = grouped(result.cover.boxes.size());
+  row["processed"] = grouped(s.processed);
+  row["seconds"] = fmt::format("{:.2f}", s.seconds_total);
+  row["threads"] = result.options.threads == 0 ? "all" : std::to_string(result.options.threads);
+  row["version"] = result.version;
+  row["file"] = file;
+  return row;
+}
+
+mustache::data payload(const Result& result) {
+  mustache::data data;
+  data["name"] = result.set;
+  data["boxes"] = box_payload(result);
+  data["verdicts"] = verdict_payload(result);
+  return data;
+}
+
+std::string constants_html(const symbolic::Mechanism& mechanism) {
+  std::string html;
+  for (const symbolic::Constant& c : mechanism.constants()) {
+    html += html.empty() ? "" : ", ";
+    html += "<span class=\"constant\">" +
+            symbolic::math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + symbolic::mathml(c.value)) + "</span>";
+  }
+  return html.empty() ? "none" : html;
+}
+
+/// Coordinates with a range of one value: "φ = π/10".
+std::string fixed_html(const symbolic::Mechanism& mechanism) {
+  std::string html;
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
+    if (!same_tree(c.lower, c.upper)) continue;
+    html += html.empty() ? "" : ", ";
+    html += symbolic::math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + symbolic::mathml(c.lower));
+  }
+  return html;
+}
+
+std::string overridden(const std::vector<Result>& results) {
+  std::string text;
+  if (results.empty()) return text;
+  for (const ConstantOverride& c : results.front().options.constants)
+    text += (text.empty() ? "" : ", ") + c.name + " = " + c.expression;
+  return text;
+}
+
+}  // namespace
+
+std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<Result>& results,
+                        const PageOptions& options) {
+  if (mechanism.is_plain_system()) {
+    throw symbolic::ModelError({mechanism.name(), 0, 0}, "the model names no inputs and outputs",
+                               "a mechanism, with [INPUTS] and [OUTPUTS]");
+  }
+  const symbolic::Derivation derivation = derive(mechanism);
+  mustache::data cards{mustache::data::type::list}, runs{mustache::data::type::list}, payloads{mustache::data::type::list};
+  bool complete = true;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    cards << set_card(results[i]);
+    runs << run_row(results[i], i < options.files.size() ? options.files[i] : "");
+    payloads << payload(results[i]);
+    complete = complete && results[i].cover.complete();
+  }
+  mustache::data page;
+  page["model"] = mechanism.name();
+  page["style"] = std::string(kPageStyle);
+  page["script"] = std::string(kPageScript);
+  page["three"] = std::string(kThree);
+  page["data"] = page_model(mechanism, results);
+  page["inputs"] = names_html(mechanism.inputs());
+  page["outputs"] = names_html(mechanism.outputs());
+  page["coordinates"] = std::to_string(mechanism.coordinates().size());
+  page["constraints"] = std::to_string(derivation.phi.size());
+  page["mobility"] = std::to_string(mechanism.coordinates().size() - derivation.phi.size());
+  page["constants"] = constants_html(mechanism);
+  const std::string changed = overridden(results);
+  page["overridden"] = changed;
+  page.set("hasOverrides", truth(!changed.empty()));
+  const std::string cut = fixed_html(mechanism);
+  page["cut"] = cut;
+  page.set("hasCut", truth(!cut.empty()));
+  page["unit"] = mechanism.drawing().unit;
+  page.set("hasUnit", truth(!mechanism.drawing().unit.empty()));
+  page.set("sets", cards);
+  page["points"] = points_html(results);
+  page["derivation"] = derivation_html(mechanism, results);
+  page.set("runs", runs);
+  page.set("payloads", payloads);
+  page["command"] = options.command;
+  page["version"] = version();
+  page["modelText"] = mechanism.source_text();
+  page.set("incomplete", truth(!complete));
+  page.set("hasFiles", truth(!options.files.empty()));
+
+  mustache::mustache pattern{std::string(kPageTemplate)};
+  if (!pattern.is_valid()) throw std::logic_error("the page's template: " + pattern.error_message());
+  return pattern.render(page);
+}
+
+}  // namespace corank::report

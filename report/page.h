@@ -1,0 +1,23 @@
+// The report of a mechanism as one HTML file that needs no other: data, pictures, scripts and style are in it. doc/report.md
+// describes it for users.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corank/report/result.h"
+#include "corank/symbolic/mechanism.h"
+
+namespace corank::report {
+
+struct PageOptions {
+  std::string command;             ///< the command line that made it; shown
+  std::vector<std::string> files;  ///< of the results, in their order; shown and linked. May be empty
+};
+
+/// Throws ResultFileError where a result is none of this mechanism's sets, ModelError where the mechanism has no singularities to
+/// speak of (a plain system).
+std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<Result>& results,
+                        const PageOptions& options = {});
+
+}  // namespace corank::report

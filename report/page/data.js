@@ -1,0 +1,51 @@
+// What the page carries, decoded: the model, and for each set its boxes as outward-rounded floats.
+
+export function bytesOfBase64(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+// The boxes of a set: bounds[2 * (size * i + j)] and the number behind it enclose variable j in box i.
+export class BoxSet {
+  constructor(description, bounds, verdicts) {
+    Object.assign(this, description);
+    this.size = description.variables.length;
+    this.bounds = bounds;
+    this.verdicts = verdicts;
+  }
+  lower(box, variable) {
+    return this.bounds[2 * (this.size * box + variable)];
+  }
+  upper(box, variable) {
+    return this.bounds[2 * (this.size * box + variable) + 1];
+  }
+  middle(box, variable) {
+    const at = 2 * (this.size * box + variable);
+    return 0.5 * (this.bounds[at] + this.bounds[at + 1]);
+  }
+  // Do two boxes have a configuration in common?
+  touch(a, b) {
+    for (let j = 0; j < this.configuration; ++j) {
+      if (this.lower(a, j) > this.upper(b, j) || this.lower(b, j) > this.upper(a, j)) return false;
+    }
+    return true;
+  }
+  singular() {
+    return this.name !== "cspace";
+  }
+}
+
+export function readModel() {
+  const model = JSON.parse(document.getElementById("model").textContent);
+  model.sets = model.sets.map((description) => {
+    const text = (what) => document.getElementById(`${what}-${description.name}`).textContent.trim();
+    const bytes = bytesOfBase64(text("boxes"));
+    const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
+    return new BoxSet(description, new Float32Array(aligned.buffer, aligned.byteOffset, bytes.length / 4),
+                      bytesOfBase64(text("verdicts")));
+  });
+  return model;
+}

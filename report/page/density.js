@@ -1,0 +1,54 @@
+// How many boxes lie over each pixel, with fractions at the rims, so that boxes side by side show no seam.
+
+// Adds the coverage of [a, b] over pixels of width 1 as differences at up to four places: out = [place, difference, …].
+function edgeDifferences(a, b, size, out) {
+  let n = 0;
+  const edge = (at, sign) => {
+    const pixel = Math.floor(at), rest = at - pixel;
+    for (const [place, part] of [[pixel, 1 - rest], [pixel + 1, rest]]) {
+      if (place < size && part > 0) {
+        out[n++] = Math.max(place, 0);
+        out[n++] = sign * part;
+      }
+    }
+  };
+  edge(Math.max(a, 0), 1);
+  edge(Math.max(b, 0), -1);
+  return n;
+}
+
+// Row-major counts; `toX`, `toY` bring a projection to pixels (y down).
+export function coverage(projection, width, height, toX, toY) {
+  const counts = new Float32Array(width * height);
+  const xs = new Float64Array(8), ys = new Float64Array(8);
+  for (let i = 0; i < projection.length; ++i) {
+    const left = toX(projection.x[2 * i]), right = toX(projection.x[2 * i + 1]);
+    const top = toY(projection.y[2 * i + 1]), bottom = toY(projection.y[2 * i]);
+    if (right <= 0 || left >= width || bottom <= 0 || top >= height) continue;
+    const nx = edgeDifferences(left, right, width, xs), ny = edgeDifferences(top, bottom, height, ys);
+    for (let v = 0; v < ny; v += 2) {
+      for (let u = 0; u < nx; u += 2) counts[ys[v] * width + xs[u]] += ys[v + 1] * xs[u + 1];
+    }
+  }
+  for (let row = 0; row < height; ++row) {
+    for (let x = 1; x < width; ++x) counts[row * width + x] += counts[row * width + x - 1];
+  }
+  for (let row = 1; row < height; ++row) {
+    for (let x = 0; x < width; ++x) counts[row * width + x] += counts[(row - 1) * width + x];
+  }
+  return counts;
+}
+
+// Paints counts in one colour: translucent where one box lies, darker where more do.
+export function paintCoverage(context, counts, width, height, [red, green, blue]) {
+  const image = context.createImageData(width, height);
+  for (let i = 0; i < counts.length; ++i) {
+    const count = counts[i];
+    if (count < 1e-3) continue;
+    image.data[4 * i] = red;
+    image.data[4 * i + 1] = green;
+    image.data[4 * i + 2] = blue;
+    image.data[4 * i + 3] = 255 * Math.min(0.62, 0.17 * Math.min(1, count) + 0.06 * Math.log2(Math.max(1, count)));
+  }
+  context.putImageData(image, 0, 0);
+}

@@ -1,0 +1,102 @@
+// Newton's method for the equations of a set, to bring the middle of a box onto the solution set before it is drawn. Floating point:
+// it makes pictures, and proves nothing.
+
+// Value and gradient of a polynomial: monomials [coefficient, variable, power, function, …], function 0: x, 1: sin x, 2: cos x.
+function evaluatePolynomial(monomials, x, gradient) {
+  gradient.fill(0);
+  let sum = 0;
+  for (const monomial of monomials) {
+    let product = monomial[0];
+    for (let k = 1; k < monomial.length; k += 3) product *= factorValue(monomial, k, x);
+    sum += product;
+    for (let k = 1; k < monomial.length; k += 3) {
+      let slope = monomial[0] * factorSlope(monomial, k, x);
+      for (let other = 1; other < monomial.length; other += 3) {
+        if (other !== k) slope *= factorValue(monomial, other, x);
+      }
+      gradient[monomial[k]] += slope;
+    }
+  }
+  return sum;
+}
+
+function factorValue(monomial, k, x) {
+  const t = x[monomial[k]];
+  return monomial[k + 2] === 1 ? Math.sin(t) : monomial[k + 2] === 2 ? Math.cos(t) : t ** monomial[k + 1];
+}
+
+function factorSlope(monomial, k, x) {
+  const t = x[monomial[k]], power = monomial[k + 1];
+  return monomial[k + 2] === 1 ? Math.cos(t) : monomial[k + 2] === 2 ? -Math.sin(t) : power * t ** (power - 1);
+}
+
+// Solves A y = b (symmetric, positive definite but for rounding) in place by Cholesky's method.
+function solveSymmetric(a, b, n) {
+  for (let i = 0; i < n; ++i) {
+    for (let j = 0; j <= i; ++j) {
+      let sum = a[i * n + j];
+      for (let k = 0; k < j; ++k) sum -= a[i * n + k] * a[j * n + k];
+      a[i * n + j] = i === j ? Math.sqrt(Math.max(sum, 1e-300)) : sum / a[j * n + j];
+    }
+  }
+  for (let i = 0; i < n; ++i) {
+    for (let k = 0; k < i; ++k) b[i] -= a[i * n + k] * b[k];
+    b[i] /= a[i * n + i];
+  }
+  for (let i = n - 1; i >= 0; --i) {
+    for (let k = i + 1; k < n; ++k) b[i] -= a[k * n + i] * b[k];
+    b[i] /= a[i * n + i];
+  }
+}
+
+// From x the nearby point of F = 0, each step the shortest one: dx = −Jᵀ (J Jᵀ + λ)⁻¹ F with a tiny λ, for F may be redundant.
+export function ontoSolutions(equations, start) {
+  const n = start.length, m = equations.length;
+  const x = Float64Array.from(start);
+  const jacobian = equations.map(() => new Float64Array(n));
+  const gram = new Float64Array(m * m), step = new Float64Array(m);
+  let residual = Infinity;
+  for (let round = 0; round < 20; ++round) {
+    residual = 0;
+    for (let i = 0; i < m; ++i) {
+      step[i] = evaluatePolynomial(equations[i], x, jacobian[i]);
+      residual = Math.max(residual, Math.abs(step[i]));
+    }
+    if (residual < 1e-13) break;
+    let trace = 0;
+    for (let i = 0; i < m; ++i) {
+      for (let j = 0; j <= i; ++j) {
+        let sum = 0;
+        for (let k = 0; k < n; ++k) sum += jacobian[i][k] * jacobian[j][k];
+        gram[i * m + j] = sum;
+      }
+      trace += gram[i * m + i];
+    }
+    for (let i = 0; i < m; ++i) gram[i * m + i] += 1e-12 * (trace / m + 1e-300);
+    solveSymmetric(gram, step, m);
+    for (let i = 0; i < m; ++i) {
+      for (let k = 0; k < n; ++k) x[k] -= jacobian[i][k] * step[i];
+    }
+  }
+  return {x, residual};
+}
+
+// A point of the set in a box, from its middle. With `conditions`, more equations, one where they hold, if there is one.
+export function pointOfBox(set, box, conditions = []) {
+  const middle = new Float64Array(set.size);
+  for (let j = 0; j < set.size; ++j) middle[j] = set.middle(box, j);
+  for (const equations of conditions.length > 0 ? [[...set.equations, ...conditions], set.equations] : [set.equations]) {
+    const {x, residual} = ontoSolutions(equations, middle);
+    if (residual < 1e-9 && isNear(set, box, x)) return {x, residual, moved: true};
+  }
+  return {x: middle, residual: NaN, moved: false};
+}
+
+// Is a configuration in the box, or next to it by at most the box's width?
+function isNear(set, box, x) {
+  for (let j = 0; j < set.configuration; ++j) {
+    const low = set.lower(box, j), high = set.upper(box, j), room = 0.5 * (high - low) + 1e-6;
+    if (!(x[j] >= low - room && x[j] <= high + room)) return false;
+  }
+  return true;
+}

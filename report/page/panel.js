@@ -1,0 +1,134 @@
+// The panel beside the portraits: the mechanism at the configuration that is pointed at or pinned, the assembly modes over that
+// place, and what is known of it.
+import {drawMechanism} from "./mechanism.js";
+import {pointOfBox} from "./newton.js";
+import {coordinateValues, groupedText, htmlLabel, isAngle, numberText, setTitles, unitOf} from "./values.js";
+
+export class Panel {
+  // `onShow(configuration)` is told what is drawn: {set, box, x}, or null.
+  constructor(model, root, view, onShow) {
+    this.model = model;
+    this.view = view;
+    this.onShow = onShow;
+    this.drawing = root.querySelector("svg");
+    this.modes = root.querySelector(".modes");
+    this.text = root.querySelector(".text");
+    this.state = root.querySelector(".state");
+    this.root = root;
+    this.candidates = [];
+    this.chosen = 0;
+    this.pinned = false;
+    root.querySelector(".unpin").addEventListener("click", () => this.unpin());
+  }
+
+  hover(candidates, place, portrait) {
+    if (this.pinned) return;
+    this.offer(candidates, place, portrait);
+  }
+
+  pin(candidates, place, portrait) {
+    this.pinned = false;
+    this.offer(candidates, place, portrait);
+    this.pinned = candidates.length > 0;
+    this.showState();
+  }
+
+  // A configuration that is named elsewhere: a point of a table, a pick in space.
+  pinBox(set, box) {
+    this.pin([{set, box, leaders: 1}]);
+  }
+
+  unpin() {
+    this.pinned = false;
+    this.showState();
+  }
+
+  step(direction) {
+    if (this.candidates.length > 0) this.choose((this.chosen + direction + this.candidates.length) % this.candidates.length);
+  }
+
+  offer(candidates, place, portrait) {
+    this.candidates = candidates;
+    this.chosen = 0;
+    this.modes.replaceChildren();
+    candidates.slice(0, 24).forEach((candidate, k) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.className = `mode ${candidate.set.name}`;
+      button.textContent = k + 1;
+      button.title = `${setTitles[candidate.set.name]}, box ${groupedText(candidate.box + 1)}`;
+      button.addEventListener("click", () => {
+        this.pinned = true;
+        this.choose(k);
+      });
+      this.modes.append(button);
+    });
+    if (candidates.length > 0) this.choose(0);
+    else this.showNothing(place, portrait);
+  }
+
+  choose(k) {
+    this.chosen = k;
+    [...this.modes.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === k)));
+    const candidate = this.candidates[k], {set, box} = candidate;
+    const point = pointOfBox(set, box, this.conditions(candidate));
+    this.show({set, box, ...point});
+  }
+
+  // Over a surface the configuration is the one at the pointer: two equations more, x = value, or c sin θ − s cos θ = 0.
+  conditions({set, place, axes}) {
+    if (!place || set.dimension < 2) return [];
+    return axes.map((axis, k) => (isAngle(axis) ? [[Math.sin(place[k]), axis.cosine, 1, 0], [-Math.cos(place[k]), axis.sine, 1, 0]]
+                                                : [[1, axis.index, 1, 0], [-place[k]]]));
+  }
+
+  show(configuration) {
+    const {set, x} = configuration;
+    this.current = configuration;
+    const values = coordinateValues(this.model, x);
+    drawMechanism(this.drawing, this.model, values, this.velocity(set, x), this.view);
+    this.text.innerHTML = this.describe(configuration, values);
+    this.showState();
+    this.onShow(configuration);
+  }
+
+  // The rates of the coordinates where ξ is a velocity.
+  velocity(set, x) {
+    if (set.columns.length === 0) return null;
+    const rates = {};
+    set.columns.forEach((coordinate, k) => (rates[this.model.coordinates[coordinate].name] = x[set.configuration + k]));
+    return rates;
+  }
+
+  describe({set, box, residual, moved}, values) {
+    const verdict = this.model.verdicts[set.verdicts[box]];
+    const rows = this.model.coordinates.filter(({role}) => role !== "auxiliary").map((coordinate) => {
+      const unit = unitOf(this.model, coordinate), value = values[coordinate.name];
+      const degrees = isAngle(coordinate) ? ` <small>${numberText((value * 180) / Math.PI, 4)}°</small>` : "";
+      return `<tr><th>${htmlLabel(coordinate)}</th><td>${numberText(value)}${unit ? ` ${unit}` : ""}${degrees}</td><td>${
+        coordinate.role === "passive" ? "" : coordinate.role}</td></tr>`;
+    });
+    const how = moved ? `Drawn at a point in or next to the box, found by Newton’s method (residual ${residual.toExponential(0)}).`
+                      : "Drawn at the middle of the box: Newton’s method found no point in it.";
+    const arrows = set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
+    return `<p class="headline"><span class="swatch ${set.name}"></span>${setTitles[set.name]} · box ${groupedText(box + 1)} of ${
+      groupedText(set.count)} · <span class="verdict ${verdict}">${verdict}</span></p><table>${rows.join("")}</table><p class="fine">${how}${arrows}</p>`;
+  }
+
+  showNothing(place, portrait) {
+    this.drawing.replaceChildren();
+    this.current = null;
+    const cspace = this.model.sets.find((set) => set.name === "cspace");
+    const proven = cspace && cspace.complete && cspace.dimension > 1;
+    this.text.innerHTML = `<p class="headline">${portrait.placeText(place)}</p><p class="fine">${
+      proven ? "No configuration has these values: every box lies elsewhere." : "No box lies there."}</p>`;
+    this.showState();
+    this.onShow(null);
+  }
+
+  showState() {
+    this.root.classList.toggle("pinned", this.pinned);
+    const n = this.candidates.length;
+    this.state.textContent = n === 0 ? "" : n === 1 ? "one mode" : `${n} modes over this place`;
+  }
+}

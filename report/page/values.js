@@ -1,0 +1,72 @@
+// From the variables of a box to the coordinates of the model, and numbers to text.
+
+export const isAngle = (coordinate) => coordinate.cosine !== undefined;
+export const fullTurn = 2 * Math.PI;
+
+// An angle in (−π, π].
+export function wrapped(angle) {
+  const rest = angle - fullTurn * Math.floor((angle + Math.PI) / fullTurn);
+  return rest === -Math.PI ? Math.PI : rest;
+}
+
+// The interval of a coordinate over a box, written to out[0], out[1]. Of an angle: the hull of atan2 over the rectangle of cosine and
+// sine, whose extremes are at corners; it may go on beyond π. A rectangle around the origin says nothing.
+export function coordinateInterval(set, box, coordinate, out) {
+  if (!isAngle(coordinate)) {
+    out[0] = set.lower(box, coordinate.index);
+    out[1] = set.upper(box, coordinate.index);
+    return out;
+  }
+  const c0 = set.lower(box, coordinate.cosine), c1 = set.upper(box, coordinate.cosine);
+  const s0 = set.lower(box, coordinate.sine), s1 = set.upper(box, coordinate.sine);
+  if (c0 <= 0 && c1 >= 0 && s0 <= 0 && s1 >= 0) {
+    out[0] = -Math.PI;
+    out[1] = Math.PI;
+    return out;
+  }
+  const centre = Math.atan2(s0 + s1, c0 + c1);
+  let low = 0, high = 0;
+  for (const c of [c0, c1]) {
+    for (const s of [s0, s1]) {
+      const turn = wrapped(Math.atan2(s, c) - centre);
+      low = Math.min(low, turn);
+      high = Math.max(high, turn);
+    }
+  }
+  out[0] = centre + low;
+  out[1] = centre + high;
+  return out;
+}
+
+// The value of a coordinate at x, a vector of a set's variables.
+export function coordinateValue(x, coordinate) {
+  return isAngle(coordinate) ? Math.atan2(x[coordinate.sine], x[coordinate.cosine]) : x[coordinate.index];
+}
+
+export function coordinateValues(model, x) {
+  const values = {};
+  for (const coordinate of model.coordinates) values[coordinate.name] = coordinateValue(x, coordinate);
+  return values;
+}
+
+// What a select box or an axis shows: "θ2", and the unit behind it.
+export const plainLabel = (item) => item.label[0] + item.label[1];
+export function htmlLabel(item) {
+  const escape = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
+  return `<i>${escape(item.label[0])}</i>` + (item.label[1] ? `<sub>${escape(item.label[1])}</sub>` : "");
+}
+export const unitOf = (model, coordinate) => (isAngle(coordinate) ? "rad" : model.drawing.unit);
+
+export const withMinus = (text) => text.replace(/-/g, "−");
+export function numberText(x, digits = 4) {
+  const text = Math.abs(x) < 1e-12 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6 ? x.toExponential(digits - 1) : x.toPrecision(digits);
+  return withMinus(text);
+}
+export const groupedText = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+
+export const setTitles = {
+  cspace: "C-space",
+  forward: "Forward singularity",
+  inverse: "Inverse singularity",
+  "cspace-singular": "C-space singularity",
+};

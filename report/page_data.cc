@@ -1,0 +1,199 @@
+#include "corank/report/page_data.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "corank/report/components.h"
+#include "corank/report/drawing_tree.h"
+#include "corank/report/hdf5_file.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/display_name.h"
+#include "corank/symbolic/singularity_system.h"
+
+namespace corank::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using symbolic::SingularitySet;
+
+static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
+
+std::string_view role(const symbolic::Mechanism& mechanism, const symbolic::Coordinate& c) {
+  const auto has = [&c](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), c.name) != names.end();
+  };
+  return has(mechanism.inputs()) ? "input" : has(mechanism.outputs()) ? "output" : c.auxiliary ? "auxiliary" : "passive";
+}
+
+Json coordinates(const symbolic::Mechanism& mechanism, const certify::System& system) {
+  Json list = Json::array();
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
+    const symbolic::DisplayName shown = symbolic::display_name(c.name);
+    Json entry = {{"name", c.name}, {"label", {shown.base, shown.subscript}}, {"role", role(mechanism, c)}};
+    if (c.kind == symbolic::CoordinateKind::angle) {
+      const auto angle = std::find_if(system.angles.begin(), system.angles.end(),
+                                      [&](const certify::Angle& a) { return a.name == c.name; });
+      entry["cosine"] = angle->cosine;
+      entry["sine"] = angle->sine;
+      entry["range"] = {angle->range.lo(), angle->range.hi()};
+    } else {
+      const int i = system.find(c.name);
+      const certify::Interval& domain = system.variables[static_cast<std::size_t>(i)].domain;
+      entry["index"] = i;
+      entry["range"] = {domain.lo(), domain.hi()};
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json drawing(const symbolic::Mechanism& mechanism) {
+  const symbolic::Drawing& d = mechanism.drawing();
+  Json json = {{"dimension", d.dimension()}, {"unit", d.unit}, {"points", Json::array()}, {"parts", Json::array()}};
+  const ConstantValues constants = constant_values(mechanism);
+  for (const symbolic::DrawingPoint& p : d.points) {
+    Json at = Json::array();
+    for (const symbolic::Expression& e : p.coordinates) at.push_back(Json::parse(drawing_tree(e, constants)));
+    const symbolic::DisplayName shown = symbolic::display_name(p.name);
+    json["points"].push_back({{"name", p.name}, {"label", {shown.base, shown.subscript}}, {"at", at}});
+  }
+  for (const symbolic::DrawingPart& part : d.parts) {
+    Json points = Json::array();
+    for (const std::string& name : part.points) points.push_back(d.find(name));
+    json["parts"].push_back({{"kind", to_string(part.kind)}, {"points", points}});
+  }
+  return json;
+}
+
+/// Each monomial: [coefficient, variable, power, function, variable, power, function …], function 0 x, 1 sin x, 2 cos x.
+Json polynomials(const std::vector<certify::Polynomial>& list) {
+  Json json = Json::array();
+  for (const certify::Polynomial& polynomial : list) {
+    Json monomials = Json::array();
+    for (const certify::Monomial& m : polynomial.monomials) {
+      Json entry = {m.coefficient.enclose().mid()};
+      for (const certify::Factor& f : m.factors) {
+        entry.push_back(f.variable);
+        entry.push_back(f.power);
+        entry.push_back(static_cast<int>(f.function));
+      }
+      monomials.push_back(std::move(entry));
+    }
+    json.push_back(std::move(monomials));
+  }
+  return json;
+}
+
+certify::System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
+  const std::optional<SingularitySet> set = symbolic::singularity_set_from_string(result.set);
+  if (!set) throw ResultFileError("the result's set '" + result.set + "' is no set of a mechanism");
+  certify::System system =
+      algebrize(singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel)));
+  const auto same = [](const certify::Variable& a, const ResultVariable& b) { return a.name == b.name; };
+  if (!std::equal(system.variables.begin(), system.variables.end(), result.variables.begin(), result.variables.end(), same))
+    throw ResultFileError("the result of the set '" + result.set + "' has other variables than the model " +
+                          mechanism.name());
+  return system;
+}
+
+/// The coordinates that the components of ξ belong to, where ξ is a velocity (M ξ = 0).
+Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const Result& result) {
+  Json columns = Json::array();
+  if (result.options.kernel != "right") return columns;
+  const symbolic::ExpressionMatrix& matrix = result.set == "forward" ? derivation.l_y : derivation.l_z;
+  for (const std::string& name : matrix.columns) columns.push_back(mechanism.find_coordinate(name));
+  return columns;
+}
+
+Json points(const Result& result) {
+  Json list = Json::array();
+  for (const certify::CoverBox& point : result.cover.points) {
+    Json bounds = Json::array();
+    for (const certify::Interval& side : point.box) bounds.push_back({side.lo(), side.hi()});
+    list.push_back({{"verdict", to_string(point.verdict)}, {"bounds", bounds}});
+  }
+  return list;
+}
+
+Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const Result& result) {
+  const certify::System system = system_of(mechanism, result);
+  Json names = Json::array(), domains = Json::array();
+  for (const ResultVariable& v : result.variables) {
+    names.push_back(v.name);
+    domains.push_back({v.domain.lo(), v.domain.hi()});
+  }
+  return {{"name", result.set},
+          {"dimension", result.cover.dimension},
+          {"sigma", result.cover.sigma},
+          {"complete", result.cover.complete()},
+          {"count", result.cover.boxes.size()},
+          {"variables", names},
+          {"domains", domains},
+          {"configuration", result.configuration_size},
+          {"columns", kernel_columns(mechanism, derivation, result)},
+          {"equations", polynomials(system.equations)},
+          {"points", points(result)}};
+}
+
+}  // namespace
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr const char* kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < n ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? kAlphabet[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+float float_below(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+
+float float_above(double x) { return -float_below(-x); }
+
+std::string box_payload(const Result& result) {
+  std::vector<float> numbers;
+  numbers.reserve(result.cover.boxes.size() * result.variables.size() * 2);
+  for (const certify::CoverBox& b : result.cover.boxes) {
+    for (const certify::Interval& side : b.box) {
+      numbers.push_back(float_below(side.lo()));
+      numbers.push_back(float_above(side.hi()));
+    }
+  }
+  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)});
+}
+
+std::string verdict_payload(const Result& result) {
+  std::vector<std::uint8_t> bytes;
+  for (const certify::CoverBox& b : result.cover.boxes) bytes.push_back(static_cast<std::uint8_t>(b.verdict));
+  return base64(bytes);
+}
+
+std::string page_model(const symbolic::Mechanism& mechanism, const std::vector<Result>& results) {
+  const certify::System cspace = algebrize(singularity_system(mechanism, SingularitySet::cspace));
+  const symbolic::Derivation derivation = derive(mechanism);
+  Json verdicts = Json::array(), sets = Json::array();
+  for (int v = 0; v < certify::kVerdicts; ++v) verdicts.push_back(to_string(static_cast<certify::Verdict>(v)));
+  for (const Result& result : results) sets.push_back(set_of(mechanism, derivation, result));
+  const Json model = {{"model", mechanism.name()},
+                      {"verdicts", verdicts},
+                      {"coordinates", coordinates(mechanism, cspace)},
+                      {"drawing", drawing(mechanism)},
+                      {"constraints", polynomials(cspace.equations)},
+                      {"sets", sets}};
+  std::string text = model.dump();
+  // Inside <script> a "</" could end the element.
+  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 2)) text.insert(at + 1, "\\");
+  return text;
+}
+
+}  // namespace corank::report

@@ -1,0 +1,76 @@
+#include "corank/report/page_derivation.h"
+
+#include <fmt/format.h>
+
+#include "corank/report/page_words.h"
+#include "corank/symbolic/display_name.h"
+#include "corank/symbolic/mathml.h"
+#include "corank/symbolic/singularity_system.h"
+
+namespace corank::report {
+namespace {
+
+using symbolic::math;
+using symbolic::mathml;
+
+std::string numbered(const std::vector<std::string>& equations, const std::vector<std::string>& sources) {
+  std::string html = "<ol class=\"equations\">";
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    html += "<li>" + math(equations[i]);
+    if (i < sources.size() && !sources[i].empty())
+      html += "<span class=\"source\">" + symbolic::html_text(sources[i]) + "</span>";
+    html += "</li>";
+  }
+  return html + "</ol>";
+}
+
+std::string symbol(const std::string& base, const std::string& subscript) {
+  return "<msub><mi>" + base + "</mi><mi>" + subscript + "</mi></msub>";
+}
+
+std::string matrix_html(const std::string& base, const std::string& subscript, const std::string& words,
+                        const symbolic::ExpressionMatrix& matrix) {
+  std::string columns;
+  for (const std::string& name : matrix.columns) columns += (columns.empty() ? "" : ", ") + symbolic::html_name(name);
+  return fmt::format(
+      "<figure class=\"matrix\"><figcaption>{} · columns {}</figcaption><div class=\"scroll\">{}</div></figure>", words,
+      columns.empty() ? "none" : columns, math(symbol(base, subscript) + "<mo>=</mo>" + mathml(matrix)));
+}
+
+std::string system_html(const symbolic::Mechanism& mechanism, const Result& result) {
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  const symbolic::TrigonometricSystem system =
+      singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel));
+  std::vector<std::string> equations, sources;
+  for (const auto* list : {&system.equations, &system.inequalities}) {
+    for (const auto& equation : *list) {
+      equations.push_back(mathml(equation.relation));
+      sources.push_back(equation.source);
+    }
+  }
+  return fmt::format("<details><summary>{}: {} equation{}{}</summary><div class=\"scroll\">{}</div></details>",
+                     set_title(result.set), system.equations.size(), system.equations.size() == 1 ? "" : "s",
+                     result.options.kernel.empty() ? "" : ", " + result.options.kernel + " kernel",
+                     numbered(equations, sources));
+}
+
+}  // namespace
+
+std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vector<Result>& results) {
+  const symbolic::Derivation derivation = derive(mechanism);
+  std::string html = "<h3>Assembly constraints " +
+                     math("<mi mathvariant=\"normal\">Φ</mi><mo>(</mo><mi>q</mi><mo>)</mo><mo>=</mo><mn>0</mn>") + "</h3>";
+  std::vector<std::string> phi;
+  for (const symbolic::Expression& e : derivation.phi) phi.push_back(mathml(e == symbolic::Expression(0)));
+  html += "<div class=\"scroll\">" + numbered(phi, {}) + "</div><h3>Jacobian blocks</h3>";
+  html += matrix_html("Φ", "q", "all coordinates", derivation.phi_q);
+  html += matrix_html("L", "y", "without the inputs; rank deficient at forward singularities", derivation.l_y);
+  html += matrix_html("L", "z", "without the outputs; rank deficient at inverse singularities", derivation.l_z);
+  html +=
+      "<h3>Systems solved</h3><p>Cosines and sines of angles are variables of their own in the search, with their circle as "
+      "an equation.</p>";
+  for (const Result& result : results) html += system_html(mechanism, result);
+  return html;
+}
+
+}  // namespace corank::report

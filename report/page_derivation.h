@@ -1,0 +1,15 @@
+// The derivation of a mechanism's singularities for a report, typeset in MathML: Φ, the Jacobian blocks, the systems.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corank/report/result.h"
+#include "corank/symbolic/mechanism.h"
+
+namespace corank::report {
+
+/// An HTML fragment; the systems of the results' sets, each folded away.
+std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vector<Result>& results);
+
+}  // namespace corank::report

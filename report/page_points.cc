@@ -1,0 +1,124 @@
+#include "corank/report/page_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "corank/certify/algebraic_number.h"
+#include "corank/certify/angle.h"
+#include "corank/report/page_words.h"
+#include "corank/symbolic/display_name.h"
+#include "corank/symbolic/mathml.h"
+
+namespace corank::report {
+namespace {
+
+using certify::Interval;
+
+/// A coordinate of the model: a variable, or an angle with its cosine and sine.
+struct Column {
+  std::string name;
+  int variable, sine = -1;
+  Interval range{};
+};
+
+std::vector<Column> columns(const Result& result) {
+  std::vector<Column> list;
+  for (int i = 0; i < result.configuration_size; ++i) {
+    const auto angle = std::find_if(result.angles.begin(), result.angles.end(),
+                                    [i](const certify::Angle& a) { return a.cosine == i || a.sine == i; });
+    if (angle == result.angles.end()) {
+      list.push_back({result.variables[static_cast<std::size_t>(i)].name, i});
+    } else if (i == std::min(angle->cosine, angle->sine)) {
+      list.push_back({angle->name, angle->cosine, angle->sine, angle->range});
+    }
+  }
+  return list;
+}
+
+/// "−3/5" or "√3/2" typeset; nothing where there is no short text.
+std::string exact_html(const certify::ExactPoint& point, int variable) {
+  const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(variable)];
+  if (x.empty()) return "";
+  const auto text = certify::text({point.polynomial, point.lower, point.upper}, x);
+  return text ? symbolic::math(symbolic::mathml(symbolic::Expression(*text))) : "";
+}
+
+/// The coordinate of a point as well as it is known: exactly, in decimals, or between bounds.
+std::string cell(const Result& result, const Column& column, std::size_t number) {
+  const certify::Cover& cover = result.cover;
+  const certify::CoverBox& point = cover.points[number];
+  const auto at = [&point](int v) { return point.box[static_cast<std::size_t>(v)]; };
+  if (column.sine >= 0) return digits_text(certify::angle_enclosure(at(column.variable), at(column.sine), column.range));
+  std::string exact, value = digits_text(at(column.variable));
+  if (point.point >= 0) exact = exact_html(cover.exact_points[static_cast<std::size_t>(point.point)], column.variable);
+  const bool has_decimals = number < cover.decimals.size() && !cover.decimals[number].empty();
+  if (has_decimals) value = with_minus(cover.decimals[number][static_cast<std::size_t>(column.variable)]);
+  if (exact.empty()) return value;
+  const bool is_decimal = value.find('[') == std::string::npos && value.find('.') == std::string::npos;
+  return is_decimal ? exact : exact + " <small>" + value + "</small>";  // an integer needs no decimals
+}
+
+std::string exact_cell(const Column& column, const certify::ExactPoint& point) {
+  const auto text = [&point](int v) {
+    const std::string html = exact_html(point, v);
+    return html.empty() ? fmt::format("a number of degree {}", point.polynomial.size() - 1) : html;
+  };
+  if (column.sine < 0) return text(column.variable);
+  return fmt::format("cos: {}, sin: {}", text(column.variable), text(column.sine));
+}
+
+/// Points where the kernel has dimension 2 or more.
+std::string kernel_points_html(const Result& result, const std::vector<Column>& shown) {
+  std::string rows;
+  int number = 0;
+  for (const certify::ExactPoint& point : result.cover.exact_points) {
+    if (point.corank < 2) continue;
+    rows += fmt::format("<tr><td>{}</td>", ++number);
+    for (const Column& column : shown) rows += "<td>" + exact_cell(column, point) + "</td>";
+    rows += fmt::format("<td>{}</td></tr>", point.corank);
+  }
+  if (rows.empty()) return "";
+  std::string head;
+  for (const Column& column : shown) head += "<th>" + symbolic::html_name(column.name) + "</th>";
+  return fmt::format(
+      "<p>Known exactly, and proven in exact arithmetic: the kernel has a larger dimension there.</p><div "
+      "class=\"scroll\"><table>"
+      "<thead><tr><th>point</th>{}<th>kernel’s dimension</th></tr></thead><tbody>{}</tbody></table></div>",
+      head, rows);
+}
+
+std::string table_html(const Result& result) {
+  const std::vector<Column> shown = columns(result);
+  std::string html = fmt::format("<section class=\"points\" data-set=\"{}\"><h3>{}</h3>", result.set, set_title(result.set));
+  if (!result.cover.points.empty()) {
+    html += "<div class=\"scroll\"><table><thead><tr><th>point</th>";
+    for (const Column& column : shown) html += "<th>" + symbolic::html_name(column.name) + "</th>";
+    html += "<th>verdict</th></tr></thead><tbody>";
+    std::size_t number = 0;
+    for (const certify::CoverBox& point : result.cover.points) {
+      html += fmt::format("<tr data-point=\"{}\"><td><button type=\"button\" class=\"show-point\">{}</button></td>", number,
+                          number + 1);
+      for (const Column& column : shown) html += "<td>" + cell(result, column, number) + "</td>";
+      html += fmt::format("<td><span class=\"verdict {0}\">{0}</span></td></tr>", to_string(point.verdict));
+      ++number;
+    }
+    html += "</tbody></table></div>";
+  }
+  return html + kernel_points_html(result, shown) + "</section>";
+}
+
+}  // namespace
+
+std::string points_html(const std::vector<Result>& results) {
+  std::string html;
+  for (const Result& result : results) {
+    const bool isolated = result.cover.dimension == 0 && !result.cover.points.empty();
+    const bool kernels = std::any_of(result.cover.exact_points.begin(), result.cover.exact_points.end(),
+                                     [](const certify::ExactPoint& point) { return point.corank > 1; });
+    if (isolated || kernels) html += table_html(result);
+  }
+  return html.empty() ? "<p>None: no set of this mechanism consists of isolated points.</p>" : html;
+}
+
+}  // namespace corank::report

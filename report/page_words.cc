@@ -1,0 +1,184 @@
+#include "corank/report/page_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "corank/report/summary.h"
+
+namespace corank::report {
+namespace {
+
+using certify::Verdict;
+
+std::string counted(std::size_t n, const std::string& one, const std::string& many) {
+  return grouped(n) + " " + (n == 1 ? one : many);
+}
+std::string boxes_text(std::size_t n) { return counted(n, "box", "boxes"); }
+
+std::string meaning(const std::string& set) {
+  if (set == "cspace") return "every way to assemble the mechanism";
+  if (set == "forward") return "with the actuators locked the mechanism can still move, to first order";
+  if (set == "inverse") return "with the output locked the mechanism can still move, to first order";
+  if (set == "cspace-singular") return "the constraints’ Jacobian loses rank: C-space may cross itself or end in a cusp";
+  return "the solutions of the system";
+}
+
+std::string shape(int dimension) {
+  switch (dimension) {
+    case 0: return "Isolated points";
+    case 1: return "Curves";
+    case 2: return "Surfaces";
+    default: return fmt::format("Dimension {}", dimension);
+  }
+}
+
+std::size_t count_points(const certify::Cover& cover, Verdict verdict) {
+  return static_cast<std::size_t>(std::count_if(cover.points.begin(), cover.points.end(),
+                                                [=](const certify::CoverBox& p) { return p.verdict == verdict; }));
+}
+
+void say_points(const Result& result, SetWords& words) {
+  const certify::Cover& cover = result.cover;
+  const std::size_t isolated = count_points(cover, Verdict::isolated), exact = count_points(cover, Verdict::exact),
+                    others = cover.points.size() - isolated - exact;
+  words.finding = isolated + exact == 0 ? "None proven to exist" : counted(isolated + exact, "point", "points");
+  if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place", "undecided places"));
+  if (isolated > 0) {
+    words.proven.push_back(fmt::format("{} exactly one solution each, and no two of them the same one.",
+                                       isolated == 1 ? "One small box holds" : grouped(isolated) + " small boxes hold"));
+  }
+  if (exact > 0)
+    words.proven.push_back(fmt::format("{} known exactly.", exact == 1 ? "One point is" : grouped(exact) + " points are"));
+  if (others > 0) {
+    words.unproven.push_back(
+        fmt::format("At {} nothing is proven: {} may hold any number of solutions, or none. Solutions that merge into a "
+                    "double one look so.",
+                    counted(others, "place", "places"), others == 1 ? "it" : "each"));
+  }
+}
+
+/// Where the kernel's dimension is known.
+void say_kernel(const certify::Cover& cover, SetWords& words) {
+  const auto count = [&cover](auto&& test) {
+    return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), test));
+  };
+  const std::size_t one = count([](const auto&b) { return b.corank == 1; }),
+                    asked = count([](const auto&b) { return b.corank >= 0; });
+  const auto larger = static_cast<std::size_t>(
+      std::count_if(cover.exact_points.begin(), cover.exact_points.end(), [](const auto& p) { return p.corank > 1; }));
+  if (asked == 0) return;
+  words.proven.push_back(
+      fmt::format("In {} of {} boxes the kernel has dimension 1.", grouped(one), grouped(cover.boxes.size())));
+  if (larger > 0) {
+    words.proven.push_back(fmt::format("At {} it has dimension 2 or more; {} known exactly.",
+                                       counted(larger, "point", "points"), larger == 1 ? "it is" : "they are"));
+  }
+}
+
+void say_pieces(const Result& result, const Components& found, SetWords& words) {
+  const certify::Cover& cover = result.cover;
+  words.finding = fmt::format("{}: {} in {} as boxes touch", shape(cover.dimension), boxes_text(cover.boxes.size()),
+                              counted(static_cast<std::size_t>(found.count), "component", "components"));
+  const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
+  if (regular > 0) {
+    words.proven.push_back(
+        fmt::format("In {} of {} boxes ({}) the set is one smooth piece: for every value of {} free coordinate{} there is "
+                    "exactly one solution.",
+                    grouped(regular), grouped(cover.boxes.size()), percentage(regular, cover.boxes.size()), cover.dimension,
+                    cover.dimension == 1 ? "" : "s"));
+  }
+  if (boundary > 0) {
+    words.proven.push_back(
+        fmt::format("In {} the same is proven of a piece that may reach beyond the search domain.", boxes_text(boundary)));
+  }
+  if (found.count > 1 && cover.complete()) {
+    words.proven.push_back(fmt::format("No two of the {} components are connected; {} of them {} solutions for certain.",
+                                       found.count, found.with_proven_solution,
+                                       found.with_proven_solution == 1 ? "holds" : "hold"));
+  }
+  words.unproven.push_back(
+      "That the solutions in one component are one piece is not proven: the count is of boxes that touch.");
+  if (const std::size_t partial = cover.count(Verdict::partial); partial > 0) {
+    words.unproven.push_back(
+        fmt::format("In {} only independent equations are proven to hold, the others within a tolerance of {:g}.",
+                    boxes_text(partial), cover.tolerance));
+  }
+  say_kernel(cover, words);
+  const auto explained = static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) {
+    return b.verdict == Verdict::undecided && b.point >= 0;
+  }));
+  const std::size_t open = cover.count(Verdict::undecided) - explained;
+  if (explained > 0) {
+    words.unproven.push_back(fmt::format(
+        "{} undecided around a point that is known exactly: what else {}, if anything, is open.",
+        explained == 1 ? "One box is" : grouped(explained) + " boxes are", explained == 1 ? "it holds" : "they hold"));
+  }
+  if (open > 0) {
+    words.unproven.push_back(fmt::format("{} undecided: solutions may lie there, or none.",
+                                         open == 1 ? "One box is" : grouped(open) + " boxes are"));
+  }
+}
+
+}  // namespace
+
+std::string percentage(std::size_t part, std::size_t whole) {
+  if (part == whole) return "100 %";
+  const double share = 100 * static_cast<double>(part) / static_cast<double>(whole);
+  return share > 99.9 ? "over 99.9 %" : fmt::format("{:.1f} %", share);
+}
+
+std::string set_title(const std::string& set) {
+  if (set == "cspace") return "C-space";
+  if (set == "forward") return "Forward singularities";
+  if (set == "inverse") return "Inverse singularities";
+  if (set == "cspace-singular") return "C-space singularities";
+  return "Solutions";
+}
+
+std::string grouped(std::uint64_t n) {
+  std::string digits = std::to_string(n);
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), "\u202F");
+  return digits;
+}
+
+std::string with_minus(std::string text) {
+  for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-', at + 3)) text.replace(at, 1, "−");
+  return text;
+}
+
+std::string digits_text(const certify::Interval& x) { return with_minus(outward_text(x, 9)); }
+
+SetWords set_words(const Result& result, const Components& found) {
+  const certify::Cover& cover = result.cover;
+  SetWords words;
+  words.title = set_title(result.set);
+  words.meaning = meaning(result.set);
+  for (int v = 0; v < certify::kVerdicts; ++v) {
+    const auto verdict = static_cast<Verdict>(v);
+    if (const std::size_t n = cover.count(verdict); n > 0)
+      words.shares.push_back({verdict, n, static_cast<double>(n) / static_cast<double>(cover.boxes.size())});
+  }
+  if (cover.boxes.empty()) {
+    words.finding = "None";
+    words.proven.push_back(result.set == "cspace" ? "The mechanism cannot be assembled within the search domain."
+                                                  : "There is none in the search domain.");
+    return words;
+  }
+  if (cover.complete()) {
+    words.proven.push_back("Every one in the search domain lies in a box: all else is excluded with outward rounding.");
+  } else {
+    words.unproven.push_back(fmt::format("The search ended early: what {} may hold was not looked into.",
+                                         boxes_text(cover.count(Verdict::pending))));
+  }
+  if (cover.dimension == 0) {
+    say_points(result, words);
+  } else {
+    say_pieces(result, found, words);
+  }
+  if (!cover.complete()) words.finding += ", incomplete";
+  return words;
+}
+
+}  // namespace corank::report

@@ -1,0 +1,39 @@
+// A result in words, for a report: what was found, what of it is proven, and what is not. HTML fragments.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corank/report/components.h"
+#include "corank/report/result.h"
+
+namespace corank::report {
+
+struct VerdictShare {
+  certify::Verdict verdict;
+  std::size_t count = 0;
+  double share = 0;  ///< of all boxes, 0 … 1
+};
+
+struct SetWords {
+  std::string title;                          ///< "Forward singularities"
+  std::string meaning;                        ///< what the set is, in one clause
+  std::string finding;                        ///< "curves in 2 486 boxes"
+  std::vector<std::string> proven, unproven;  ///< one sentence each
+  std::vector<VerdictShare> shares;           ///< of the verdicts that occur
+};
+
+/// "C-space", "Forward singularities" …
+std::string set_title(const std::string& set);
+/// "100 %" only where it is all.
+std::string percentage(std::size_t part, std::size_t whole);
+/// "94 004" with narrow spaces.
+std::string grouped(std::uint64_t n);
+/// Hyphens become minus signs.
+std::string with_minus(std::string text);
+/// One cell of a table for each coordinate: bounds with the digits that are proven, the rest in brackets.
+std::string digits_text(const certify::Interval& x);
+
+SetWords set_words(const Result& result, const Components& components);
+
+}  // namespace corank::report

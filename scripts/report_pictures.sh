@@ -1,0 +1,21 @@
+#!/bin/bash
+# Makes doc/images/ anew: photographs of Dextar's report in a headless Chromium.
+source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
+build_release corank
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$build/app/corank" report "$root/models/dextar.cuik" --sigma 0.01 -o "$work"
+PYTHONPATH="$root/tests/browser" python3 -B - "$work/index.html" "$root/doc/images" <<'PYTHON'
+import pathlib
+import sys
+
+from chromium import Browser
+
+page, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+folder.mkdir(exist_ok=True)
+with Browser(1240, 1000) as browser:
+    browser.open(page)
+    browser.drawn()
+    browser.photograph(".stage", folder / "dextar_report.png")
+    browser.photograph("#space .frame", folder / "dextar_space.png")
+PYTHON

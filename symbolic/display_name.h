@@ -1,0 +1,20 @@
+// How a name of a model is shown: theta2 → θ with the subscript 2, J3x → J with 3x, y_A → y with A.
+#pragma once
+
+#include <string>
+
+namespace corank::symbolic {
+
+struct DisplayName {
+  std::string base;       ///< UTF-8; a Greek letter where the name's letters spell one
+  std::string subscript;  ///< parts with commas between them; empty where there is none
+};
+
+DisplayName display_name(const std::string& name);
+
+/// & < > " as HTML entities.
+std::string html_text(const std::string& text);
+/// `<i>θ</i><sub>2</sub>`.
+std::string html_name(const std::string& name);
+
+}  // namespace corank::symbolic

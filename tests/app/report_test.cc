@@ -1,0 +1,98 @@
+// corank report: its page shows what its result files hold.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corank/report/page_data.h"
+#include "corank/report/result_file.h"
+#include "corank/tests/app/program.h"
+#include "corank/tests/report/page_text.h"
+
+namespace corank::app {
+namespace {
+
+using nlohmann::json;
+using report::script_text;
+using testing::HasSubstr;
+
+const std::vector<std::string> kSets{"cspace", "forward", "inverse", "cspace-singular"};
+
+void expect_page_of_results(const std::string& page, const std::string& folder) {
+  const json model = json::parse(script_text(page, "model"));
+  ASSERT_EQ(model["sets"].size(), kSets.size());
+  for (std::size_t i = 0; i < kSets.size(); ++i) {
+    const report::Result result = report::read_result(folder + "/" + kSets[i] + ".h5");
+    EXPECT_EQ(model["sets"][i]["name"], kSets[i]);
+    EXPECT_EQ(model["sets"][i]["count"], result.cover.boxes.size());
+    EXPECT_EQ(script_text(page, "boxes-" + kSets[i]), report::box_payload(result));
+    EXPECT_EQ(script_text(page, "verdicts-" + kSets[i]), report::verdict_payload(result));
+  }
+}
+
+TEST(Report, OfTheThreeSliderHoldsItsResultFiles) {
+  const TemporaryFolder folder;
+  const std::string to = folder.file("new/slider");
+  const Outcome outcome = run_corank({"report", model("three_slider"), "-o", to});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Forward singularities: 8 points\nInverse singularities: 4 points\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("C-space singularities: None\n"));
+  const std::string page = read_text(to + "/index.html");
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  EXPECT_NE(page.find("corank report three_slider.cuik"), std::string::npos);
+  expect_page_of_results(page, to);
+
+  const std::string again = folder.file("again");
+  const Outcome second = run_corank({"report", "--results", to + "/inverse.h5", to + "/cspace-singular.h5",
+                                     to + "/forward.h5", to + "/cspace.h5", "-o", again});
+  EXPECT_EQ(second.status, 0) << second.err;
+  EXPECT_EQ(second.out.substr(0, second.out.rfind('\n', second.out.size() - 2)),
+            outcome.out.substr(0, outcome.out.rfind('\n', outcome.out.size() - 2)));
+  expect_page_of_results(read_text(again + "/index.html"), to);
+}
+
+TEST(Report, TakesConstantsAndSigmas) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_corank({"report", model("three_slider"), "--sets", "cspace,forward", "--cspace-sigma", "0.1",
+                                      "-D", "L2=1", "-o", folder.file("r")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(report::read_result(folder.file("r/cspace.h5")).cover.sigma, 0.1);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("r/inverse.h5")));
+  EXPECT_NE(read_text(folder.file("r/index.html")).find("L2 = 1"), std::string::npos);
+}
+
+TEST(Report, OfALimitedSearchSaysSoAndHasStatus3) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_corank({"report", model("dextar"), "--max-boxes", "20", "-o", folder.file("r")});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("the report is incomplete"));
+  EXPECT_NE(read_text(folder.file("r/index.html")).find("A search ended before its end"), std::string::npos);
+}
+
+TEST(Report, RefusesResultsThatDoNotBelongTogether) {
+  const TemporaryFolder folder;
+  const auto solve = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> args{"solve", model("three_slider"), "--set", "forward", "-o", folder.file(name)};
+    args.insert(args.end(), more.begin(), more.end());
+    EXPECT_EQ(run_corank(args).status, 0);
+    return folder.file(name);
+  };
+  const std::string one = solve("one.h5", {}), same = solve("same.h5", {}), other = solve("other.h5", {"-D", "L2=1"});
+  const Outcome twice = run_corank({"report", "--results", one, same, "-o", folder.file("r")});
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_THAT(twice.err, HasSubstr("holds the set forward"));
+  const Outcome both = run_corank({"report", model("three_slider"), "--results", other, "-o", folder.file("r")});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("take the place of FILE"));
+}
+
+TEST(Report, RefusesAPlainSystemBeforeItSolvesAnything) {
+  const TemporaryFolder folder;
+  const std::string plain = folder.write("plain.cuik", "[SYSTEM VARS]\nx : [0, 2]\n[SYSTEM EQS]\nx^2 = 2;\n");
+  const Outcome outcome = run_corank({"report", plain, "-o", folder.file("r")});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("[INPUTS]"));
+}
+
+}  // namespace
+}  // namespace corank::app

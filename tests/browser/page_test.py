@@ -1,0 +1,214 @@
+"""Dextar's report in a browser: python3 page_test.py REPORT/index.html. Exit status 77 where there is no Chromium.
+
+Dextar: l2 = l3 = l4 = l5 = 0.9, J5 = (0, 0), J1 = (1.18, 0). J3 reaches the points within 1.8 of both J5 and J1.
+"""
+import math
+import sys
+import unittest
+
+import chromium
+
+PAGE = sys.argv[1] if len(sys.argv) > 1 else ""
+REACH, BASE = 1.8, 1.18
+
+
+class Dextar(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = chromium.Browser(1360, 1000)
+        cls.browser.open(PAGE)
+        cls.browser.drawn()
+        cls.browser.run("document.documentElement.style.scrollBehavior = 'auto'")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+
+    def setUp(self):
+        self.run_js("corank.panel.unpin()")
+
+    def run_js(self, script):
+        return self.browser.run(script)
+
+    def place(self, portrait, x, y):
+        """The place on the screen of (x, y) in a portrait, which is scrolled into sight."""
+        return self.run_js(f"""(() => {{
+          const portrait = corank.portraits[{portrait}];
+          portrait.frame.scrollIntoView({{block: "center"}});
+          const box = portrait.overlay.getBoundingClientRect();
+          return [box.left + portrait.toX({x}), box.top + portrait.toY({y})];
+        }})()""")
+
+    def shown(self):
+        return self.run_js("corank.panel.current && {set: corank.panel.current.set.name, box: corank.panel.current.box, "
+                           "x: [...corank.panel.current.x]}")
+
+    def arrows(self):
+        return self.run_js("document.querySelectorAll('#panel svg .velocity').length")
+
+    def test_asks_nothing_of_the_network_and_throws_nothing(self):
+        own = [url for url in self.browser.requests if url.startswith("file:") or url.startswith("data:") or url.startswith("blob:")]
+        self.assertEqual(own, self.browser.requests)
+        self.assertEqual(len([url for url in own if url.startswith("file:")]), 1)
+        self.assertEqual(self.browser.messages, [])
+        print(f"\nready {self.run_js('document.documentElement.dataset.ready')} ms after the page was asked for", file=sys.stderr)
+
+    def test_output_portrait_has_boxes_over_the_reach_of_both_arms_and_over_nothing_else(self):
+        sigma = self.run_js("corank.model.sets.find((s) => s.name === 'cspace').sigma")
+        places = [(0.1 * i + 0.003, 0.1 * k + 0.007) for i in range(-12, 31) for k in range(-20, 21)]
+        over = self.run_js(f"{[list(place) for place in places]}.map(([x, y]) => corank.portraits[0].boxesOver('cspace', x, y))")
+        for (x, y), count in zip(places, over):
+            inside = REACH - max(math.hypot(x, y), math.hypot(x - BASE, y))
+            if inside >= 0:
+                self.assertGreater(count, 0, f"no configuration drawn over ({x}, {y})")
+            elif -inside > 1.5 * sigma:
+                self.assertEqual(count, 0, f"({x}, {y}) is out of reach")
+
+    def test_inverse_locus_lies_on_the_arcs_that_bound_the_reach(self):
+        places = []
+        for k in range(100):
+            for centre, other in ((0, BASE), (BASE, 0)):
+                x, y = centre + REACH * math.cos(math.pi * k / 50), REACH * math.sin(math.pi * k / 50)
+                if math.hypot(x - other, y) < REACH - 1e-6:
+                    places.append([x, y])
+        near = self.run_js(f"{places}.map(([x, y]) => corank.portraits[0].projections[corank.model.sets.findIndex("
+                           "(s) => s.name === 'inverse')].near(x, y, 1e-6, 1e-6).length)")
+        self.assertGreater(len(places), 40)
+        for place, count in zip(places, near):
+            self.assertGreater(count, 0, f"no inverse singularity drawn at {place}")
+
+    def test_hover_draws_the_mechanism_there_in_four_assembly_modes(self):
+        self.browser.move(*self.place(0, 0.6, 0.55))
+        shown = self.shown()
+        self.assertEqual(shown["set"], "cspace")
+        self.assertAlmostEqual(shown["x"][0], 0.6, delta=1e-2)
+        self.assertAlmostEqual(shown["x"][1], 0.55, delta=1e-2)
+        x, y, c2, s2, c3, s3, c4, s4, c5, s5 = shown["x"]
+        self.assertAlmostEqual(x, BASE + 0.9 * c2 + 0.9 * c3, delta=1e-9)
+        self.assertAlmostEqual(y, 0.9 * s5 - 0.9 * s4, delta=1e-9)
+        self.assertEqual(self.run_js("document.querySelectorAll('#panel .mode').length"), 4)
+        self.assertGreater(self.run_js("document.querySelectorAll('#panel svg .link').length"), 3)
+        self.assertEqual(self.arrows(), 0)
+
+    def test_hover_beyond_reach_says_that_nothing_is_there(self):
+        self.browser.move(*self.place(0, -0.5, 1.6))
+        self.assertIsNone(self.shown())
+        self.assertIn("No configuration has these values", self.run_js("document.getElementById('panel-text').textContent"))
+
+    def test_click_pins_a_forward_singularity_with_its_velocity(self):
+        # J2, J4 both 0.9 above the base's ends and J3 between them: stretched where |J2 J4| = 1.8 on the symmetry axis.
+        y = math.sqrt(0.9**2 - 0.31**2)
+        self.browser.click(*self.place(0, 0.59, y))
+        shown = self.shown()
+        self.assertEqual(shown["set"], "forward")
+        self.assertGreater(self.arrows(), 0)
+        self.assertTrue(self.run_js("document.getElementById('panel').classList.contains('pinned')"))
+        # The velocity is in the kernel of L_y: links 3 and 4 keep their lengths while J3 moves by (xi1, xi2).
+        c3, s3, c4, s4 = shown["x"][4:8]
+        u, v = shown["x"][10:12]
+        self.assertGreater(math.hypot(u, v), 0.1)
+        self.assertAlmostEqual(u * c3 + v * s3, 0, delta=1e-9)
+        self.assertAlmostEqual(u * c4 + v * s4, 0, delta=1e-9)
+        self.browser.move(*self.place(0, 0.6, -0.55))
+        self.assertEqual(self.shown(), shown, "pinned, but the pointer changed it")
+        self.browser.press("Escape")
+        self.browser.move(*self.place(0, 0.61, -0.55))
+        self.assertEqual(self.shown()["set"], "cspace")
+
+    def test_input_portrait_wraps_angles(self):
+        index = "corank.model.sets.findIndex((s) => s.name === 'cspace')"
+        for angle in (-3.1415, 3.1415):
+            self.assertGreater(self.run_js(f"corank.portraits[1].projections[{index}].near({angle}, -0.5, 0, 0).length"), 0)
+
+    def test_keyboard_moves_pins_and_steps_through_modes(self):
+        self.browser.click(*self.place(0, 0.6, 0.5))
+        self.run_js("corank.portraits[0].frame.focus()")
+        self.browser.press("Escape")
+        before = self.shown()
+        for _ in range(4):
+            self.browser.press("ArrowUp")
+        moved = self.shown()
+        self.assertGreater(moved["x"][1], before["x"][1])
+        self.browser.press("Enter")
+        self.assertTrue(self.run_js("corank.panel.pinned"))
+        self.browser.press("n")
+        other = self.shown()
+        self.assertNotEqual(other["box"], moved["box"])
+        self.assertEqual(self.run_js("[...document.querySelectorAll('#panel .mode')].findIndex((b) => b.ariaPressed === 'true')"), 1)
+        self.browser.press("p")
+        self.assertEqual(self.shown()["box"], self.run_js("corank.panel.candidates[0].box"))
+        self.browser.press("Escape")
+        self.assertFalse(self.run_js("corank.panel.pinned"))
+
+    def test_other_axes_may_be_chosen(self):
+        self.run_js("""(() => {
+          const select = corank.portraits[1].selects[0];
+          select.value = 0;
+          select.dispatchEvent(new Event("change"));
+        })()""")
+        self.assertEqual(self.run_js("corank.portraits[1].axes.map((axis) => axis.name)"), ["J3x", "theta5"])
+        self.run_js("(() => { const s = corank.portraits[1].selects[0]; s.value = 2; s.dispatchEvent(new Event('change')); })()")
+
+    def test_theme_switch_redraws_in_dark(self):
+        paper = "getComputedStyle(document.body).backgroundColor"
+        light = self.run_js(paper)
+        self.run_js("document.getElementById('theme').click()")
+        self.assertNotEqual(self.run_js(paper), light)
+        self.run_js("document.getElementById('theme').click()")
+        self.assertEqual(self.run_js(paper), light)
+
+    def test_space_orbits_and_picks(self):
+        if self.run_js("document.getElementById('space').dataset.webgl") == "none":
+            self.assertIn("WebGL", self.run_js("document.querySelector('#space .frame').textContent"))
+            self.skipTest("this browser offers no WebGL; the page says so")
+        self.run_js("document.querySelector('#space .frame').scrollIntoView({block: 'center'})")
+        self.browser.drawn()
+        painted = """(() => {
+          const from = corank.space.renderer.domElement, canvas = document.createElement("canvas");
+          [canvas.width, canvas.height] = [from.width, from.height];
+          const context = canvas.getContext("2d");
+          context.drawImage(from, 0, 0);
+          const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
+          let count = 0;
+          for (let i = 3; i < data.length; i += 4) if (data[i] > 0) ++count;
+          return count / (canvas.width * canvas.height);
+        })()"""
+        self.assertGreater(self.run_js(painted), 0.02)
+        left, top, width, height = self.run_js("(() => { const b = corank.space.renderer.domElement.getBoundingClientRect(); "
+                                               "return [b.left, b.top, b.width, b.height]; })()")
+        eye = self.run_js("corank.space.camera.position.toArray()")
+        self.browser.drag(left + width / 2, top + height / 2, 120, 40)
+        self.browser.drawn()
+        self.assertNotEqual(self.run_js("corank.space.camera.position.toArray()"), eye)
+        far = self.run_js("corank.space.camera.position.length()")
+        self.browser.mouse("mouseWheel", left + width / 2, top + height / 2, deltaX=0, deltaY=-240)
+        self.browser.drawn()
+        self.assertLess(self.run_js("corank.space.camera.position.length()"), far)
+        # Where some box of the forward locus is seen, a click picks a singular configuration.
+        x, y = self.run_js("""(() => {
+          const {middles} = corank.space.clouds.find(({set}) => set.name === "forward");
+          const at = new THREE.Vector3(middles[0], middles[1], middles[2]).project(corank.space.camera);
+          return [(at.x + 1) / 2, (1 - at.y) / 2];
+        })()""")
+        self.browser.click(left + x * width, top + y * height)
+        self.assertNotEqual(self.shown()["set"], "cspace")
+        self.assertTrue(self.run_js("corank.panel.pinned"))
+        self.assertIn("Picked", self.run_js("document.querySelector('#space .note').textContent"))
+        self.run_js("(() => { const f = corank.space.form; f.value = 'boxes'; f.dispatchEvent(new Event('change')); })()")
+        self.browser.drawn()
+        self.assertGreater(self.run_js(painted), 0.02)
+
+    def test_a_phone_shows_the_page_without_scrolling_sideways(self):
+        with chromium.Browser(390, 844, dark=True, touch=True) as phone:
+            phone.open(PAGE)
+            phone.drawn()
+            self.assertLessEqual(phone.run("document.documentElement.scrollWidth"), 390)
+            self.assertEqual(phone.run("document.documentElement.dataset.theme"), "dark")
+            self.assertEqual(phone.messages, [])
+
+
+if __name__ == "__main__":
+    if not chromium.find():
+        print("skipped: there is no Chromium on this machine", file=sys.stderr)
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1], verbosity=1)

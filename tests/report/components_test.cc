@@ -1,0 +1,90 @@
+// Which boxes hang together, and what is said about it.
+#include "corank/report/components.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "corank/report/page_words.h"
+
+namespace corank::report {
+namespace {
+
+using certify::Interval;
+using certify::Verdict;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Boxes in the plane; a third variable is no part of the configuration.
+Result boxes(const std::vector<std::pair<certify::Box, Verdict>>& list) {
+  Result result;
+  result.set = "forward";
+  result.variables.resize(3);
+  result.configuration_size = 2;
+  result.cover.dimension = 1;
+  result.cover.sigma = 1;
+  for (const auto& [box, verdict] : list) result.cover.boxes.push_back({box, verdict, {}});
+  return result;
+}
+
+TEST(Components, JoinBoxesThatShareACornerAndPartThoseThatDoNot) {
+  const Result result = boxes({{{{0, 1}, {0, 1}, 0.5}, Verdict::regular},
+                               {{{3, 4}, {0, 1}, 0.5}, Verdict::undecided},
+                               {{{1, 2}, {1, 2}, -0.5}, Verdict::regular},
+                               {{{2, 3}, {2, 2.5}, 0.5}, Verdict::boundary},
+                               {{{4.0625, 5}, {0, 1}, 0.5}, Verdict::boundary}});
+  const Components found = components(result);
+  EXPECT_EQ(found.count, 3);
+  EXPECT_THAT(found.of_box, ElementsAre(0, 1, 0, 0, 2));
+  EXPECT_EQ(found.with_proven_solution, 1);
+}
+
+TEST(Components, OfALongChainAreOne) {
+  std::vector<std::pair<certify::Box, Verdict>> chain;
+  for (int i = 0; i < 500; ++i) {
+    const double x = (i * 37) % 500;  // each touches the next, in no order
+    chain.push_back({{{x, x + 1}, {-x, 1 - x}, 0.5}, Verdict::regular});
+  }
+  EXPECT_EQ(components(boxes(chain)).count, 1);
+}
+
+TEST(Components, OfPointsAreThePoints) {
+  EXPECT_EQ(components(boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{0.5, 0.75, 0.5}, Verdict::isolated}})).count, 2);
+  EXPECT_EQ(components(boxes({})).count, 0);
+}
+
+TEST(SetWords, ClaimSeparatenessOnlyOfACompleteCover) {
+  Result result = boxes({{{{0, 1}, {0, 1}, 0.5}, Verdict::regular}, {{{3, 4}, {0, 1}, 0.5}, Verdict::regular}});
+  EXPECT_THAT(set_words(result, components(result)).proven, Contains(HasSubstr("No two of the 2 components are connected")));
+  result.cover.boxes.push_back({{{8, 9}, {0, 1}, 0.5}, Verdict::pending, {}});
+  const SetWords words = set_words(result, components(result));
+  EXPECT_THAT(words.proven, Not(Contains(HasSubstr("connected"))));
+  EXPECT_THAT(words.proven, Not(Contains(HasSubstr("excluded"))));
+  EXPECT_THAT(words.unproven, Contains(HasSubstr("ended early")));
+  EXPECT_THAT(words.finding, HasSubstr("incomplete"));
+}
+
+TEST(SetWords, CountUndecidedPlacesApartFromPoints) {
+  Result result = boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{0.75, 0.5, 0.5}, Verdict::undecided}});
+  result.cover.dimension = 0;
+  result.cover.points = result.cover.boxes;
+  const SetWords words = set_words(result, components(result));
+  EXPECT_EQ(words.finding, "1 point and 1 undecided place");
+  EXPECT_THAT(words.unproven, Contains(HasSubstr("nothing is proven")));
+}
+
+TEST(SetWords, OfAnEmptyCompleteCoverSayThatThereIsNone) {
+  const SetWords words = set_words(boxes({}), {});
+  EXPECT_EQ(words.finding, "None");
+  EXPECT_THAT(words.proven, ElementsAre("There is none in the search domain."));
+}
+
+TEST(Percentage, IsAHundredOnlyWhereItIsAll) {
+  EXPECT_EQ(percentage(5, 5), "100 %");
+  EXPECT_EQ(percentage(99'999, 100'000), "over 99.9 %");
+  EXPECT_EQ(percentage(1, 8), "12.5 %");
+}
+
+}  // namespace
+}  // namespace corank::report

@@ -1,0 +1,174 @@
+// A report's page holds what the results hold, and loads nothing.
+#include "corank/report/page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "corank/report/hdf5_file.h"
+#include "corank/report/page_data.h"
+#include "corank/report/page_points.h"
+#include "corank/solve/solve.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/model_file.h"
+#include "corank/tests/report/page_text.h"
+#include "corank/tests/report/sample_result.h"
+
+namespace corank::report {
+namespace {
+
+using certify::Verdict;
+using nlohmann::json;
+using symbolic::Mechanism;
+using symbolic::SingularitySet;
+using testing::HasSubstr;
+
+// y_A² + x_C² = 1, y_B² + x_C² = 16/25: eight forward singularities (Bohigas2017).
+Mechanism slider() { return symbolic::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik"); }
+
+Result solved(const Mechanism& mechanism, SingularitySet set) {
+  const certify::System system = algebrize(singularity_system(mechanism, set));
+  Result result;
+  result.model = mechanism.name();
+  result.model_text = mechanism.source_text();
+  result.set = to_string(set);
+  result.cover = solve::solve(system);
+  describe_system(system, result);
+  result.options.kernel = set == SingularitySet::cspace ? "" : "right";
+  return result;
+}
+
+/// Without printing the page where it does not.
+bool holds(const std::string& page, const std::string& text) { return page.find(text) != std::string::npos; }
+
+TEST(Base64, KnowsTheVectorsOfRfc4648) {
+  const auto encoded = [](const std::string& text) {
+    return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(encoded("\xFF\xFE\xFD\x00"), "//79");  // the text ends before the zero
+}
+
+TEST(PageBoxes, EncloseTheResultsBoxesWithinOneFloatOnEachSide) {
+  const Result result = sample_result();
+  const std::vector<float> numbers = decoded_floats(box_payload(result));
+  ASSERT_EQ(numbers.size(), result.cover.boxes.size() * result.variables.size() * 2);
+  std::size_t k = 0;
+  for (const certify::CoverBox& b : result.cover.boxes) {
+    for (const certify::Interval& side : b.box) {
+      const float lower = numbers[k++], upper = numbers[k++];
+      EXPECT_LE(static_cast<double>(lower), side.lo());
+      EXPECT_GE(static_cast<double>(upper), side.hi());
+      EXPECT_GT(static_cast<double>(std::nextafter(lower, INFINITY)), side.lo());
+      EXPECT_LT(static_cast<double>(std::nextafter(upper, -INFINITY)), side.hi());
+    }
+  }
+}
+
+TEST(PageBoxes, CarryTheirVerdictsInOrder) {
+  const Result result = sample_result();
+  const std::vector<std::uint8_t> bytes = decoded(verdict_payload(result));
+  ASSERT_EQ(bytes.size(), result.cover.boxes.size());
+  for (std::size_t i = 0; i < bytes.size(); ++i) EXPECT_EQ(static_cast<Verdict>(bytes[i]), result.cover.boxes[i].verdict);
+}
+
+TEST(PageModel, NamesCoordinatesVariablesAndVelocities) {
+  const Mechanism dextar = symbolic::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
+  const json model = json::parse(page_model(dextar, {}));
+  EXPECT_EQ(model["coordinates"][0]["role"], "output");
+  EXPECT_EQ(model["coordinates"][2]["role"], "input");
+  EXPECT_EQ(model["coordinates"][2]["label"], json({"θ", "2"}));
+  EXPECT_EQ(model["coordinates"][2]["cosine"], 2);
+  EXPECT_EQ(model["coordinates"][2]["sine"], 3);
+  EXPECT_EQ(model["constraints"].size(), 8u);  // four loop equations, four circles
+  EXPECT_EQ(model["drawing"]["unit"], "dm");
+  EXPECT_EQ(model["drawing"]["points"][1]["at"], json({1.18, 0}));
+  EXPECT_EQ(model["drawing"]["points"][2]["at"][0], json({"*", 0.9, {"cos", "theta5"}}));
+  EXPECT_EQ(model["drawing"]["points"][4]["at"][0], "J3x");
+
+  const json set = json::parse(page_model(slider(), {solved(slider(), SingularitySet::forward)}))["sets"][0];
+  EXPECT_EQ(set["count"], 8);
+  EXPECT_EQ(set["points"].size(), 8u);
+  EXPECT_EQ(set["columns"], json({1, 2}));  // L_y has the columns of y_B and x_C
+}
+
+TEST(PageModel, RefusesAResultOfAnotherMechanism) {
+  EXPECT_THROW(page_model(slider(), {sample_result()}), ResultFileError);
+  Result plain = solved(slider(), SingularitySet::cspace);
+  plain.set = "system";
+  EXPECT_THROW(page_model(slider(), {plain}), ResultFileError);
+}
+
+TEST(Page, HoldsTheResultsAndLoadsNothing) {
+  const Mechanism mechanism = slider();
+  const std::vector<Result> results = {solved(mechanism, SingularitySet::cspace),
+                                       solved(mechanism, SingularitySet::forward)};
+  const std::string page = report_page(mechanism, results, {"corank report x.cuik", {"cspace.h5", "forward.h5"}});
+  for (const Result& result : results) {
+    EXPECT_EQ(script_text(page, "boxes-" + result.set), box_payload(result));
+    EXPECT_EQ(script_text(page, "verdicts-" + result.set), verdict_payload(result));
+  }
+  EXPECT_EQ(json::parse(script_text(page, "model")), json::parse(page_model(mechanism, results)));
+  const std::string before_scripts = page.substr(0, page.find("<script"));
+  EXPECT_FALSE(std::regex_search(before_scripts, std::regex("(src|href)=\"(https?:)?//"))) << "the page loads something";
+  EXPECT_FALSE(holds(page, "<link rel=\"stylesheet\""));
+  EXPECT_FALSE(holds(page, "\nimport "));
+  EXPECT_TRUE(holds(page, "corank verify forward.h5"));
+  EXPECT_TRUE(holds(page, "8 points"));
+  EXPECT_TRUE(holds(page, "<td>[−0.6"));
+}
+
+TEST(Page, EscapesWhatAModelMaySay) {
+  const std::string text = "% </script><b>&\n" + slider().source_text();
+  const Mechanism mechanism = symbolic::parse_model(text, "a<b.cuik");
+  const std::string page = report_page(mechanism, {solved(mechanism, SingularitySet::forward)});
+  EXPECT_TRUE(holds(page, "% &lt;/script&gt;&lt;b&gt;&amp;"));
+  EXPECT_TRUE(holds(page, "<h1>a&lt;b</h1>"));
+  EXPECT_FALSE(holds(page, "</script><b>"));
+}
+
+TEST(Page, SaysWhereASearchEndedEarly) {
+  const Mechanism mechanism = slider();
+  Result result = solved(mechanism, SingularitySet::forward);
+  EXPECT_FALSE(holds(report_page(mechanism, {result}), "ended before its end"));
+  result.cover.boxes.front().verdict = Verdict::pending;
+  const std::string page = report_page(mechanism, {result});
+  EXPECT_TRUE(holds(page, "ended before its end"));
+  EXPECT_TRUE(holds(page, "what 1 box may hold was not looked into"));
+}
+
+TEST(Page, RefusesAPlainSystem) {
+  const Mechanism plain = symbolic::parse_model("[SYSTEM VARS]\nx : [0, 2]\n[SYSTEM EQS]\nx^2 = 2;\n", "plain.cuik");
+  EXPECT_THROW(report_page(plain, {}), symbolic::ModelError);
+}
+
+TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
+  Result result = sample_result();
+  result.cover.dimension = 0;
+  certify::ExactPoint point;  // t² = 1/2, t > 0: x = 3/5, the angle's cosine and sine t
+  point.polynomial = {certify::ExactNumber::rational("-1/2"), 0, 1};
+  point.lower = 0;
+  point.upper = 1;
+  point.coordinates = {{certify::ExactNumber::rational("3/5")}, {0, 1}, {0, 1}, {}};
+  point.corank = 2;
+  result.cover.exact_points = {point};
+  result.cover.decimals = {{"-0.60", "0.71", "0.71", "0.00"}, {}};
+  result.cover.points[0].point = 0;
+  const std::string html = points_html({result});
+  EXPECT_THAT(
+      html,
+      HasSubstr("<td><math><mfrac><mrow><mn>3</mn></mrow><mrow><mn>5</mn></mrow></mfrac></math> <small>−0.60</small></td>"));
+  EXPECT_THAT(html, HasSubstr("<td>[0.333333333, 0.333333334]</td>")) << "the bounds of a point without decimals";
+  EXPECT_THAT(html, HasSubstr("<msqrt><mn>2</mn></msqrt>"));
+  EXPECT_THAT(html, HasSubstr("<td>2</td></tr>")) << "the dimension of the kernel";
+}
+
+}  // namespace
+}  // namespace corank::report
