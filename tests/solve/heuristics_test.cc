@@ -43,7 +43,7 @@ TEST(Preconditioner, InvertsTheDependentColumns) {
       double entry = 0;
       for (int k = 0; k < 2; ++k)
         entry += p.y[static_cast<std::size_t>(a * 2 + k)] * jacobian[p.equations[k]][p.dependent[b]];
-      EXPECT_NEAR(entry, a == b ? 1 : 0, 1e-12);
+      EXPECT_NEAR(entry, a == b ? 1 : 0, 4e-7);  // Y's entries are floats, for scripts to hold
     }
 }
 
