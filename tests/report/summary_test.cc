@@ -93,7 +93,8 @@ TEST(OutwardText, RoundsEachBoundOutward) {
 
 TEST(Table, CountsVerdictsAndListsPointsWithAngles) {
   Result result = sample_result();
-  for (certify::CoverBox& point : result.cover.points) point.point = -1;
+  EXPECT_THAT(to_table(result), HasSubstr("  2  1  ")) << "an exact coordinate";
+  result.cover.points[1].point = -1;
   const std::string table = to_table(result);
   EXPECT_THAT(table, HasSubstr("sample, forward: 4 variables, 4 equations, 1 inequality; dimension 0"));
   EXPECT_THAT(table, HasSubstr("INCOMPLETE"));
@@ -101,7 +102,7 @@ TEST(Table, CountsVerdictsAndListsPointsWithAngles) {
   EXPECT_THAT(table, HasSubstr("2 points: 1 isolated, 1 undecided"));
   EXPECT_THAT(table, HasSubstr("[3.03093"));
   EXPECT_THAT(table, HasSubstr("[0.333333333, 0.333333334]"));
-  EXPECT_THAT(table.substr(0, table.find("kernel:")), Not(HasSubstr("c_t")));
+  EXPECT_THAT(table, Not(HasSubstr("c_t")));
 }
 
 TEST(Table, SaysWhatATolerancedSystemMeans) {
