@@ -27,7 +27,12 @@ void ProgressLine::show(const solve::Progress& progress) {
     line += fmt::format(", {} {}", progress.verdicts[v], certify::to_string(static_cast<certify::Verdict>(v)));
   }
   line += fmt::format(", {:.1f} s", progress.seconds);
-  fmt::print(stderr, "\r{}\x1b[K", line.substr(0, terminal_width() - 1));
+  show(line);
+}
+
+void ProgressLine::show(const std::string& text) {
+  if (!visible_) return;
+  fmt::print(stderr, "\r{}\x1b[K", text.substr(0, terminal_width() - 1));
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -18,6 +18,7 @@ class ProgressLine {
 
   bool visible() const { return visible_; }
   void show(const solve::Progress& progress);
+  void show(const std::string& text);
   void clear();
 
  private:

@@ -27,6 +27,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   Action action;
   add_derive(program, action);
   add_solve(program, action);
+  add_verify(program, action);
   add_plot(program, action);
   add_report(program, action);
   add_angles(program, action);

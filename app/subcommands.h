@@ -12,6 +12,7 @@ using Action = std::function<ExitStatus()>;
 
 void add_derive(CLI::App& program, Action& action);
 void add_solve(CLI::App& program, Action& action);
+void add_verify(CLI::App& program, Action& action);
 void add_plot(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_angles(CLI::App& program, Action& action);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/certify/elimination.h"
 #include "corank/certify/exact_point.h"
 #include "corank/certify/interval.h"
 #include "corank/certify/proof.h"
@@ -60,6 +61,7 @@ struct Statistics {
 
 /// A list of boxes whose union holds every solution of the system in its domain, where complete().
 struct Cover {
+  /// Sorted by their sides in the variables that were kept: lower end, upper end of the first, of the second …
   std::vector<CoverBox> boxes;
   /// For a set of dimension 0: the distinct solutions. An `isolated` one is exactly one solution, and no two entries hold the
   /// same one; an `undecided` one is the hull of a cluster of touching boxes that may hold any number, none included.
@@ -71,6 +73,8 @@ struct Cover {
   /// Of each point and variable a decimal that is wrong by less than a unit of its last digit; no decimals where nothing is proven.
   /// Empty where nobody asked.
   std::vector<std::vector<std::string>> decimals;
+  /// The variables that were eliminated before the search, in that order; the sides of a box are of all variables.
+  std::vector<Elimination> eliminations;
   std::shared_ptr<const Proof> proof;  ///< of completeness, where it was asked for
   int dimension = 0;                   ///< of the set; for an over-determined system, the largest that a partial box shows
   double sigma = 0;

@@ -57,7 +57,7 @@ class ExactNumber {
   /// std::domain_error where the expression is no real number (sqrt(-1), log(0), 1/(sqrt(2)*sqrt(2)-2) …).
   /// Independent of the current rounding mode.
   Interval enclose() const;
-  /// Rational bounds of the number, computed with so many bits: the number itself where it is rational. Throws as enclose() does.
+  /// Rational numbers l ≤ x ≤ u, about 2^−bits |x| apart where x is not 0; both are x where it is rational. Throws like enclose().
   std::pair<ExactNumber, ExactNumber> bounds(int bits) const;
   /// The double as the rational number it is. Throws std::invalid_argument for infinity and NaN.
   static ExactNumber dyadic(double x);

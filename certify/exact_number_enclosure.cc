@@ -184,16 +184,24 @@ Interval ExactNumber::enclose() const {
 std::pair<ExactNumber, ExactNumber> ExactNumber::bounds(int bits) const {
   if (is_rational()) return {*this, *this};
   const NearestRounding nearest;
-  try {
-    Mpfi x(bits);
-    evaluate(x, *node_, bits);
-    if (!mpfr_number_p(x.lo()) || !mpfr_number_p(x.hi())) throw std::domain_error("it exceeds every bound");
-    mpq_class lower, upper;
-    mpfr_get_q(lower.get_mpq_t(), x.lo());
-    mpfr_get_q(upper.get_mpq_t(), x.hi());
-    return {Node::number(std::move(lower)), Node::number(std::move(upper))};
-  } catch (const std::domain_error& error) {
-    throw std::domain_error(text() + " is no real number: " + error.what());
+  constexpr int kGuardBits = 32;
+  const auto rational_of = [](mpfr_srcptr end) {
+    if (!mpfr_number_p(end)) throw Undecided("a number of unknown size");
+    mpq_class q;
+    mpfr_get_q(q.get_mpq_t(), end);
+    return Node::number(std::move(q));
+  };
+  for (int precision = bits + kGuardBits;; precision *= 2) {
+    try {
+      Mpfi x(precision);
+      evaluate(x, *node_, precision);
+      return {rational_of(x.lo()), rational_of(x.hi())};
+    } catch (const Undecided& undecided) {
+      if (2 * precision > std::max(kLastBits, 2 * bits))
+        throw std::domain_error(text() + " is no real number: " + undecided.what());
+    } catch (const std::domain_error& error) {
+      throw std::domain_error(text() + " is no real number: " + error.what());
+    }
   }
 }
 

@@ -55,6 +55,7 @@ class Reducer {
   // Does the value put in for the variable leave polynomials of moderate length, degree and coefficients?
   bool affordable(int variable, const Polynomial& value) const;
   void eliminate(std::size_t row, int variable, const Polynomial& value);
+  void erase_row(std::size_t row);
   void replace_everywhere(int variable, Polynomial value);
   // Narrows y's domain to where a·y + c lies in x's; or adds inequalities.
   void carry_domain(int x, const Polynomial& value);
@@ -66,8 +67,9 @@ class Reducer {
   std::vector<bool> gone_;
   std::vector<bool> is_argument_;                        // of a sine or cosine: stays
   std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
-  std::vector<double>
-      scales_;  // of each equation until drop_repeated: the sum of its |coefficients| as given, rounded downward
+  std::vector<Elimination> eliminations_;
+  std::vector<int> origins_;    // of each equation: its index in the system as given
+  std::vector<double> scales_;  // of each equation: the sum of its |coefficients| as given, rounded downward
   bool subset_ = false;
   bool consistent_ = true;
 };
@@ -92,6 +94,7 @@ Reducer::Reducer(const System& system, Eliminate eliminate)
     if (implied[j]) system_.variables[j].lower_implied = system_.variables[j].upper_implied = true;
   const UpwardRounding rounding;
   for (const Polynomial& f : system_.equations) {
+    origins_.push_back(static_cast<int>(origins_.size()));
     scales_.push_back(0);
     for (const Monomial& m : f.monomials) scales_.back() = -(-scales_.back() - m.enclosure.mig());
   }
@@ -158,8 +161,7 @@ bool Reducer::tidy() {
       return consistent_ = false;
     if (rows[i].monomials.empty() || negligible(i)) {
       subset_ = subset_ || !rows[i].monomials.empty();
-      rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
-      scales_.erase(scales_.begin() + static_cast<std::ptrdiff_t>(i));
+      erase_row(i);
     } else {
       ++i;
     }
@@ -167,9 +169,15 @@ bool Reducer::tidy() {
   return true;
 }
 
+void Reducer::erase_row(std::size_t row) {
+  const auto at = static_cast<std::ptrdiff_t>(row);
+  system_.equations.erase(system_.equations.begin() + at);
+  origins_.erase(origins_.begin() + at);
+  scales_.erase(scales_.begin() + at);
+}
+
 void Reducer::drop_repeated() {
   auto& rows = system_.equations;
-  std::vector<Polynomial> distinct;
   const auto is_exact = [](const Polynomial& f) {
     return std::none_of(f.monomials.begin(), f.monomials.end(), carries_tolerance);
   };
@@ -184,10 +192,14 @@ void Reducer::drop_repeated() {
     subset_ = subset_ || nearly;
     return nearly;
   };
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (std::none_of(distinct.begin(), distinct.end(), [&](const Polynomial& g) { return repeats(row, g); }))
-      distinct.push_back(rows[row]);
-  rows = std::move(distinct);
+  for (std::size_t row = 0; row < rows.size();) {
+    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(row);
+    if (std::any_of(rows.begin(), end, [&](const Polynomial& g) { return repeats(row, g); })) {
+      erase_row(row);
+    } else {
+      ++row;
+    }
+  }
 }
 
 void Reducer::carry_domain(int x, const Polynomial& value) {
@@ -246,8 +258,8 @@ void Reducer::carry_domain(int x, const Polynomial& value) {
 }
 
 void Reducer::eliminate(std::size_t row, int variable, const Polynomial& value) {
-  system_.equations.erase(system_.equations.begin() + static_cast<std::ptrdiff_t>(row));
-  if (row < scales_.size()) scales_.erase(scales_.begin() + static_cast<std::ptrdiff_t>(row));
+  eliminations_.push_back({variable, origins_[row]});
+  erase_row(row);
   carry_domain(variable, value);
   replace_everywhere(variable, value);
 }
@@ -259,7 +271,9 @@ void Reducer::eliminate_fixed() {
     if (!(v.lower == v.upper) || is_argument_[j]) continue;
     Polynomial value{{}, "domain of " + v.name};
     if (!v.lower.is_zero()) value.monomials.emplace_back(v.lower, std::vector<Factor>{});
-    if (affordable(static_cast<int>(j), value)) replace_everywhere(static_cast<int>(j), std::move(value));
+    if (!affordable(static_cast<int>(j), value)) continue;
+    eliminations_.push_back({static_cast<int>(j), -1});
+    replace_everywhere(static_cast<int>(j), std::move(value));
   }
 }
 
@@ -349,6 +363,7 @@ Reduction Reducer::run() {
   for (const Polynomial& f : system_.equations) result.system.equations.push_back(renamed(f));
   for (const Polynomial& g : system_.inequalities) result.system.inequalities.push_back(renamed(g));
   for (const auto& [x, p] : definitions_) result.definitions.push_back({x, renamed(p)});
+  result.eliminations = eliminations_;
   return result;
 }
 

@@ -14,6 +14,7 @@
 
 #include <vector>
 
+#include "corank/certify/elimination.h"
 #include "corank/certify/system.h"
 
 namespace corank::certify {
@@ -27,7 +28,9 @@ struct Reduction {
   System system;                        ///< in the kept variables
   std::vector<int> kept;                ///< kept[j]: index in the original system of variable j of `system`
   std::vector<Definition> definitions;  ///< the others
-  bool tolerant = false;                ///< enclosures carry the coefficient tolerance
+  std::vector<Elimination>
+      eliminations;       ///< in the order of `definitions`, equations by their indices in the original system
+  bool tolerant = false;  ///< enclosures carry the coefficient tolerance
   /// An equation was dropped that holds for some choices of coefficients only, and for the others to kPartialTolerance · τ, relative to
   /// the sum of its |coefficients|: proofs about `system` are about a subset of the equations.
   bool subset = false;

@@ -21,11 +21,14 @@ if(CORANK_SANITIZE)
   target_link_options(corank_flags INTERFACE -fsanitize=${CORANK_SANITIZE})
 endif()
 
-# corank_library(<folder> SOURCES … PUBLIC_HEADERS … PUBLIC_LINK … PRIVATE_LINK … HEADER_ONLY …): the target corank_<folder>,
-# alias corank::<folder>. PUBLIC_HEADERS are installed. HEADER_ONLY libraries are private, and nothing is left of them for whoever
+# corank_library(<folder> PATH … SOURCES … PUBLIC_HEADERS … PUBLIC_LINK … PRIVATE_LINK … HEADER_ONLY …): the target corank_<folder>,
+# alias corank::<folder>. PATH: of the folder, where it is no folder of the repository's root. PUBLIC_HEADERS are installed. HEADER_ONLY libraries are private, and nothing is left of them for whoever
 # links the installed library.
 function(corank_library folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC_HEADERS;PUBLIC_LINK;PRIVATE_LINK;HEADER_ONLY" ${ARGN})
+  cmake_parse_arguments(ARG "" "PATH" "SOURCES;PUBLIC_HEADERS;PUBLIC_LINK;PRIVATE_LINK;HEADER_ONLY" ${ARGN})
+  if(NOT ARG_PATH)
+    set(ARG_PATH ${folder})
+  endif()
   add_library(corank_${folder} STATIC ${ARG_SOURCES})
   add_library(corank::${folder} ALIAS corank_${folder})
   set_target_properties(corank_${folder} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON)
@@ -39,5 +42,5 @@ function(corank_library folder)
   list(TRANSFORM ARG_PUBLIC_HEADERS REPLACE "^.*/" "")
   list(TRANSFORM ARG_PUBLIC_HEADERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   set_property(GLOBAL APPEND PROPERTY CORANK_PUBLIC_HEADERS ${ARG_PUBLIC_HEADERS})
-  install(FILES ${ARG_PUBLIC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corank/${folder})
+  install(FILES ${ARG_PUBLIC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corank/${ARG_PATH})
 endfunction()

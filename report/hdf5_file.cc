@@ -77,14 +77,26 @@ struct Scalar : Handle {
   explicit Scalar(const std::string& path) : Handle(H5Screate(H5S_SCALAR), H5Sclose, path, "cannot describe a value") {}
 };
 
-void write_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space, const void* data) {
+void write_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space, const void* data,
+                   hid_t properties = H5P_DEFAULT) {
   const QuietErrors quiet;
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path, "cannot write " + name);
   H5Pset_create_intermediate_group(links, 1);
-  const Handle set(H5Dcreate2(file, name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, path,
+  const Handle set(H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT), H5Dclose, path,
                    "cannot write " + name);
   if (H5Sget_simple_extent_npoints(space) == 0) return;
   if (H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail(path, "cannot write " + name + " (disk full?)");
+}
+
+void write_packed(hid_t file, const std::string& path, const std::string& name, hid_t type, std::size_t size,
+                  const void* data) {
+  constexpr hsize_t kChunk = 1 << 16;
+  constexpr unsigned kLevel = 6;
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path, "cannot write " + name);
+  const hsize_t chunk = std::clamp<hsize_t>(size, 1, kChunk);
+  if (H5Pset_chunk(properties, 1, &chunk) < 0 || H5Pset_shuffle(properties) < 0 || H5Pset_deflate(properties, kLevel) < 0)
+    fail(path, "cannot compress " + name);
+  write_dataset(file, path, name, type, Shape(size, 0, path), data, properties);
 }
 
 void write_attribute(hid_t file, const std::string& path, const std::string& object, const std::string& name, hid_t type,
@@ -142,6 +154,16 @@ void read_attribute(hid_t file, const std::string& path, const std::string& obje
   }
 }
 
+template <class T>
+void read_vector(hid_t file, const std::string& path, const std::string& name, H5T_class_t expected, hid_t type,
+                 std::vector<T>& data) {
+  const QuietErrors quiet;
+  const Dataset set(file, path, name);
+  if (set.rank() != 1 || H5Tget_class(set.type()) != expected) fail(path, name + " is no vector of numbers of its kind");
+  data.resize(set.size());
+  set.read(type, data.data());
+}
+
 std::string unpadded(const char* begin, std::size_t length) {
   while (length > 0 && begin[length - 1] == '\0') --length;
   return {begin, length};
@@ -185,6 +207,19 @@ void Hdf5Writer::bytes(const std::string& name, std::span<const std::uint8_t> da
 
 void Hdf5Writer::integers(const std::string& name, std::span<const std::int64_t> data) {
   write_dataset(file_, path_, name, H5T_NATIVE_INT64, Shape(data.size(), 0, path_), data.data());
+}
+
+void Hdf5Writer::packed(const std::string& name, std::span<const std::uint8_t> data) {
+  write_packed(file_, path_, name, H5T_NATIVE_UINT8, data.size(), data.data());
+}
+void Hdf5Writer::packed(const std::string& name, std::span<const std::int32_t> data) {
+  write_packed(file_, path_, name, H5T_NATIVE_INT32, data.size(), data.data());
+}
+void Hdf5Writer::packed(const std::string& name, std::span<const float> data) {
+  write_packed(file_, path_, name, H5T_NATIVE_FLOAT, data.size(), data.data());
+}
+void Hdf5Writer::packed(const std::string& name, std::span<const double> data) {
+  write_packed(file_, path_, name, H5T_NATIVE_DOUBLE, data.size(), data.data());
 }
 
 void Hdf5Writer::enumeration(const std::string& name, std::span<const std::uint8_t> data,
@@ -258,6 +293,19 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name) const {
   return data;
 }
 
+void Hdf5Reader::read(const std::string& name, std::vector<std::uint8_t>& data) const {
+  read_vector(file_, path_, name, H5T_INTEGER, H5T_NATIVE_UINT8, data);
+}
+void Hdf5Reader::read(const std::string& name, std::vector<std::int32_t>& data) const {
+  read_vector(file_, path_, name, H5T_INTEGER, H5T_NATIVE_INT32, data);
+}
+void Hdf5Reader::read(const std::string& name, std::vector<float>& data) const {
+  read_vector(file_, path_, name, H5T_FLOAT, H5T_NATIVE_FLOAT, data);
+}
+void Hdf5Reader::read(const std::string& name, std::vector<double>& data) const {
+  read_vector(file_, path_, name, H5T_FLOAT, H5T_NATIVE_DOUBLE, data);
+}
+
 std::vector<std::uint8_t> Hdf5Reader::enumeration(const std::string& name, const std::vector<std::string>& words) const {
   const QuietErrors quiet;
   const Dataset set(file_, path_, name);
@@ -305,6 +353,13 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& name) const {
   return texts;
 }
 
+bool Hdf5Reader::has(const std::string& name) const {
+  const QuietErrors quiet;
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {  // H5Lexists wants every group on the way
+    if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
 bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
   const QuietErrors quiet;
   return H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;

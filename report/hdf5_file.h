@@ -31,6 +31,11 @@ class Hdf5Writer {
   void integers(const std::string& name, std::span<const std::int64_t> data);
   /// Values that index `words`, stored as an enumeration of these words.
   void enumeration(const std::string& name, std::span<const std::uint8_t> data, const std::vector<std::string>& words);
+  /// Vectors of any length, compressed (deflate).
+  void packed(const std::string& name, std::span<const std::uint8_t> data);
+  void packed(const std::string& name, std::span<const std::int32_t> data);
+  void packed(const std::string& name, std::span<const float> data);
+  void packed(const std::string& name, std::span<const double> data);
   void text(const std::string& name, const std::string& text);
   void texts(const std::string& name, const std::vector<std::string>& texts);
 
@@ -58,11 +63,17 @@ class Hdf5Reader {
   std::vector<double> doubles(const std::string& name, std::size_t rows, std::size_t columns) const;
   std::vector<std::uint8_t> bytes(const std::string& name, std::size_t rows, std::size_t columns) const;
   std::vector<std::int64_t> integers(const std::string& name) const;
+  /// Vectors of any length.
+  void read(const std::string& name, std::vector<std::uint8_t>& data) const;
+  void read(const std::string& name, std::vector<std::int32_t>& data) const;
+  void read(const std::string& name, std::vector<float>& data) const;
+  void read(const std::string& name, std::vector<double>& data) const;
   /// Indices into `words`, matched by word, not by number.
   std::vector<std::uint8_t> enumeration(const std::string& name, const std::vector<std::string>& words) const;
   std::string text(const std::string& name) const;
   std::vector<std::string> texts(const std::string& name) const;
 
+  bool has(const std::string& name) const;  ///< a group or an array
   bool has_attribute(const std::string& object, const std::string& name) const;
   double double_attribute(const std::string& object, const std::string& name) const;
   std::int64_t integer_attribute(const std::string& object, const std::string& name) const;

@@ -9,11 +9,13 @@
 #include <fstream>
 
 #include "corank/certify/check.h"
+#include "corank/report/certificate_file.h"
 
 namespace corank::report {
 namespace {
 
 constexpr const char* kFormat = "corank result";
+constexpr int kFirstWithCertificates = 2;
 
 // A name beside the final one, removed at the end unless it was renamed.
 class PartFile {
@@ -75,6 +77,14 @@ void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<c
   file.doubles(group + "/upper", upper, boxes.size(), n);
   file.enumeration(group + "/verdict", verdict, verdict_words());
   file.bytes(group + "/free", free, boxes.size(), n);
+}
+
+void write_counts(Hdf5Writer& file, const certify::Cover& cover) {
+  for (int v = 0; v < certify::kVerdicts; ++v) {
+    const auto verdict = static_cast<certify::Verdict>(v);
+    file.attribute("/boxes", to_string(verdict), std::uint64_t{cover.count(verdict)});
+  }
+  file.attribute("/boxes", "wider_than_sigma", std::uint64_t{cover.wider_than_sigma()});
 }
 
 void write_variables(Hdf5Writer& file, const Result& result) {
@@ -142,9 +152,9 @@ class ResultReader {
     if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != kFormat) {
       refuse("this is no corank result");
     }
-    const std::int64_t format = file_.integer_attribute("/", "format_version");
-    if (format < 1 || format > kFormatVersion) {
-      refuse("format version " + std::to_string(format) + "; this corank reads up to " + std::to_string(kFormatVersion));
+    format_ = file_.integer_attribute("/", "format_version");
+    if (format_ < 1 || format_ > kFormatVersion) {
+      refuse("format version " + std::to_string(format_) + "; this corank reads up to " + std::to_string(kFormatVersion));
     }
   }
 
@@ -170,6 +180,10 @@ class ResultReader {
     if ((file_.integer_attribute("/", "complete") != 0) != result.cover.complete()) {
       refuse("the attribute complete contradicts the boxes");
     }
+    if (format_ >= kFirstWithCertificates) {
+      check_counts(result.cover);
+      read_certificates(file_, result.cover, result.variables.size());
+    }
     return result;
   }
 
@@ -185,6 +199,18 @@ class ResultReader {
   certify::Interval interval(double lower, double upper, const std::string& where) const {
     if (!(lower <= upper)) refuse(where + " holds an empty interval");
     return {lower, upper};
+  }
+
+  void check_counts(const certify::Cover& cover) const {
+    const auto check = [&](const std::string& name, std::size_t boxes) {
+      if (file_.unsigned_attribute("/boxes", name) != boxes)
+        refuse("the attribute " + name + " of /boxes contradicts the boxes");
+    };
+    for (int v = 0; v < certify::kVerdicts; ++v) {
+      const auto verdict = static_cast<certify::Verdict>(v);
+      check(to_string(verdict), cover.count(verdict));
+    }
+    check("wider_than_sigma", cover.wider_than_sigma());
   }
 
   void read_variables(Result& result) const {
@@ -251,6 +277,7 @@ class ResultReader {
   }
 
   Hdf5Reader file_;
+  std::int64_t format_ = 0;
 };
 
 }  // namespace
@@ -278,8 +305,10 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   write_angles(file, result);
   write_options(file, result.options);
   write_boxes(file, "/boxes", result.cover.boxes, result.variables.size());
+  write_counts(file, result.cover);
   write_boxes(file, "/points", result.cover.points, result.variables.size());
   write_statistics(file, result.cover.statistics);
+  write_certificates(file, result.cover, result.variables.size());
   file.close();
   target.finish();
 }

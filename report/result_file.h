@@ -4,6 +4,8 @@
 //   /model/text         the model file as read            /model/system       the solved system in the model language
 //   /variables/…        names, kinds, domain (n×2)        /angles/…           names, cosine, sine (indices), range (k×2)
 //   /boxes/…            lower, upper (N×n), verdict (enumeration), free (N×n mask)          /points/… likewise
+//   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes
+//   /certificates/…     what `corank verify` needs, see report/certificate_file.h
 //   /options, /statistics   attributes; /options/constants/… names, expressions
 #pragma once
 
@@ -14,8 +16,8 @@
 
 namespace corank::report {
 
-/// The layout that write_result writes; read_result refuses a newer one.
-inline constexpr int kFormatVersion = 1;
+/// The layout that write_result writes; read_result refuses a newer one. Version 1 had no certificates and no counts.
+inline constexpr int kFormatVersion = 2;
 
 /// Throws ResultFileError where no file can be created at `path`: to be asked before a long computation.
 void check_writable(const std::filesystem::path& path);

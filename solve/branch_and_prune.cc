@@ -16,6 +16,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
+#include <unordered_map>
 
 #include "corank/certify/check.h"
 #include "corank/certify/distinct.h"
@@ -319,6 +320,19 @@ void sort(std::vector<Found>& found) {
   found = std::move(sorted);
 }
 
+// Numbers the regions of the boxes' proofs by the first box that has each.
+std::vector<certify::Box> number_regions(const certify::Reduction& reduction, std::vector<Found>& found) {
+  std::unordered_map<const certify::Box*, int> numbers;
+  std::vector<certify::Box> regions;
+  for (Found& f : found) {
+    if (!f.region) continue;
+    const auto [at, is_new] = numbers.try_emplace(f.region.get(), static_cast<int>(regions.size()));
+    if (is_new) regions.push_back(reduction.lift(*f.region));
+    f.box.region = at->second;
+  }
+  return regions;
+}
+
 // The box in all variables of the system that was reduced.
 certify::CoverBox lifted(const certify::System& system, const certify::Reduction& reduction, certify::CoverBox box) {
   box.box = reduction.lift(box.box);
@@ -361,6 +375,7 @@ Cover solve(const certify::System& system, const Options& options) {
   Cover cover;
   cover.dimension = reduction.system.dimension();
   cover.sigma = sigma;
+  cover.eliminations = reduction.eliminations;
   cover.statistics = search.statistics();
   std::vector<Found> found = search.take_found();
   const bool some_partial =
@@ -374,9 +389,13 @@ Cover solve(const certify::System& system, const Options& options) {
     sort(found);
     if (cover.dimension == 0) {
       merge_isolated(found);
+      cover.regions = number_regions(reduction, found);
       cover.points = collect_points(found, sigma);
     } else {
+      const std::size_t before = found.size();
       search.merge(found);
+      if (found.size() < before) sort(found);  // merged boxes have other sides
+      cover.regions = number_regions(reduction, found);
     }
     for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
     cover.boxes.resize(found.size());

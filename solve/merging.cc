@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 namespace corank::solve {
 namespace {
@@ -86,9 +85,7 @@ class Merger {
       for (; at != cells_.end() && at->key <= last; ++at) {
         const std::size_t j = at->index;
         if (j == i || removed_[j] || found_[i].box.free != found_[j].box.free) continue;
-        std::optional<Box> merged = merge(found_[i].box, found_[j].box);
-        if (!merged) continue;
-        found_[i].box.box = std::move(*merged);
+        if (!merge(found_[i], found_[j].box)) continue;
         removed_[j] = true;
         return true;
       }
@@ -96,27 +93,32 @@ class Merger {
     return false;
   }
 
-  std::optional<Box> merge(const certify::CoverBox& a, const certify::CoverBox& b) {
+  // Puts the proven hull of both in a's place. False: there is none.
+  bool merge(Found& found, const certify::CoverBox& b) {
+    const certify::CoverBox& a = found.box;
     const auto& system = problem_.compiled;
     const std::size_t n = static_cast<std::size_t>(system.variables());
     Box hull(a.box.size());
     for (std::size_t j = 0; j < hull.size(); ++j) {
-      if (!a.box[j].overlaps(b.box[j])) return std::nullopt;
+      if (!a.box[j].overlaps(b.box[j])) return false;
       hull[j] = Interval::hull(a.box[j], b.box[j]);
-      if (hull[j].width() > problem_.sigma) return std::nullopt;
+      if (hull[j].width() > problem_.sigma) return false;
     }
     hull.resize(n);
     const std::vector<int> dependent = other_variables(a.free, system.variables());
     const auto& p = preconditioners_.at_midpoint(hull.data(), &dependent);
-    if (p.rank() < system.equations()) return std::nullopt;
+    if (p.rank() < system.equations()) return false;
     certify::Sheet sheet = certify::newton_prove(system, p, hull.data(), workspace_);
-    if (!sheet.proven) return std::nullopt;
+    if (!sheet.proven) return false;
     Box& image = sheet.image;
     for (int k = 0; k < kTightenings; ++k) certify::tighten_sheet(system, p, image.data(), workspace_);
-    if (problem_.domain.locate_zeros(system, p, image.data(), workspace_) != certify::Location::inside) return std::nullopt;
+    if (problem_.domain.locate_zeros(system, p, image.data(), workspace_) != certify::Location::inside) return false;
     problem_.append_values_at_zeros(p, image, workspace_);
-    if (widest(image) > problem_.sigma) return std::nullopt;
-    return image;
+    if (widest(image) > problem_.sigma) return false;
+    problem_.append_values(sheet.region);
+    found.region = std::make_shared<const Box>(std::move(sheet.region));
+    found.box.box = std::move(image);
+    return true;
   }
 
   const Problem& problem_;

@@ -105,6 +105,7 @@ void merge_isolated(std::vector<Found>& found) {
     if (unclear[i]) {
       found[i].box.verdict = Verdict::undecided;
       found[i].sheet = {};
+      found[i].region = nullptr;
     }
     if (kept != i) found[kept] = std::move(found[i]);
     ++kept;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "corank/certify/cover.h"
 #include "corank/certify/domain.h"
@@ -42,6 +43,8 @@ struct Problem {
 struct Found {
   certify::CoverBox box;
   certify::Sheet sheet;
+  std::shared_ptr<const certify::Box>
+      region;  ///< that of the proof, as `box` has its sides; one for all boxes cut from a sheet
 };
 
 /// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the reverse.

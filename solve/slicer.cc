@@ -130,7 +130,7 @@ void Slicer::add(Task& task, Box piece, Location location) {
   } else if (location == Location::across && !holds_on_parts(sheet, task.free, piece, kBoundaryDepth)) {
     verdict = Verdict::boundary;
   }
-  Found found{{std::move(piece), verdict, task.free}, {}};
+  Found found{{std::move(piece), verdict, task.free}, {}, verdict == Verdict::undecided ? nullptr : task.region};
   if (task.free.empty() && verdict != Verdict::undecided) {
     found.sheet = sheet;
     found.sheet.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
@@ -139,7 +139,10 @@ void Slicer::add(Task& task, Box piece, Location location) {
 }
 
 void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found) {
-  Task task{sheet, x, found, other_variables(sheet.dependent, problem_.compiled.variables())};
+  Box region = sheet.region;
+  problem_.append_values(region);
+  Task task{sheet, x, found, other_variables(sheet.dependent, problem_.compiled.variables()),
+            std::make_shared<const Box>(std::move(region))};
   const Preconditioner p = preconditioners_.at_midpoint(sheet.image.data(), &sheet.dependent, &sheet.equations);
   descend(task, {sheet.image, HUGE_VAL, 0}, p);
 }
@@ -150,7 +153,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   task.ended = task.ended || (++task.turns % kPiecesBetweenChecks == 0 && problem_.ended());
   if (task.ended) {
     problem_.append_values(sides);
-    task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}});
+    task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr});
     return;
   }
   const Preconditioner* p = &inherited;

@@ -39,6 +39,7 @@ class Slicer {
     const certify::Interval* x;
     std::vector<Found>& found;
     std::vector<int> free;
+    std::shared_ptr<const certify::Box> region;
     unsigned turns = 0;
     bool ended = false;
   };

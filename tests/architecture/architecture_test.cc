@@ -105,6 +105,24 @@ TEST(IncludeRules, NoticeAnArrowThatIsNotThere) {
   EXPECT_THAT(violations("tests/solve/a.cc", "#include \"corank/symbolic/mechanism.h\"\n"), IsEmpty());
 }
 
+TEST(IncludeRules, NoticeACheckerThatLearnsFromWhatItChecks) {
+  for (const char* header : {"newton.h", "panel.h", "compiled_system.h", "projection.h", "domain.h", "reduction.h",
+                             "polynomial_algebra.h", "trigonometric.h", "distinct.h", "rounding.h"}) {
+    const std::string include = std::string("#include \"corank/certify/") + header + "\"\n";
+    EXPECT_THAT(violations("certify/checker/a.cc", include), ElementsAre(HasSubstr("plain values only"))) << header;
+    EXPECT_THAT(violations("certify/a.cc", include), IsEmpty());
+  }
+  EXPECT_THAT(
+      violations("certify/checker/a.cc",
+                 "#include <mpfi.h>\n#include \"corank/certify/cover.h\"\n#include \"corank/certify/checker/rows.h\"\n"),
+      IsEmpty());
+  EXPECT_THAT(violations("certify/checker/a.cc", "#include \"corank/solve/solve.h\"\n"),
+              ElementsAre(HasSubstr("certify/checker may not include solve")));
+  EXPECT_THAT(violations("certify/a.cc", "#include \"corank/certify/checker/checker.h\"\n"),
+              ElementsAre(HasSubstr("certify may not include certify/checker")));
+  EXPECT_EQ(violations("solve/CMakeLists.txt", "corank_library(solve PUBLIC_LINK corank::checker)\n").size(), 1u);
+}
+
 TEST(IncludeRules, NoticeALibraryOutOfItsFolder) {
   for (const char* header : {"ginac/ginac.h", "cln/cln.h", "mpfr.h", "mpfi.h", "gmp.h", "boost/multiprecision/mpfi.hpp",
                              "hdf5.h", "CLI/CLI.hpp", "tao/pegtl.hpp"}) {

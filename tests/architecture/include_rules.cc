@@ -11,12 +11,18 @@ namespace {
 // A folder may include itself and these. There is no cycle: every folder names only folders above it.
 const std::map<std::string, std::set<std::string>> kArrows{
     {"certify", {}},
+    {"certify/checker", {"certify"}},
     {"symbolic", {"certify"}},
     {"solve", {"certify"}},
-    {"report", {"certify", "symbolic", "solve"}},
-    {"app", {"certify", "symbolic", "solve", "report"}},
+    {"report", {"certify", "certify/checker", "symbolic", "solve"}},
+    {"app", {"certify", "certify/checker", "symbolic", "solve", "report"}},
     {"bench", {"certify", "symbolic", "solve", "report"}},
 };
+
+// What the checker may know of certify/: plain values, nothing that proves.
+const std::set<std::string> kPlainValues{"check.h",       "cover.h",    "elimination.h", "exact_number.h",
+                                         "exact_point.h", "interval.h", "proof.h",       "system.h"};
+constexpr const char* kChecker = "certify/checker";
 
 // Headers of a library, by the beginning of their names, and the only folders that may include them. A folder's tests may do
 // what the folder may.
@@ -30,7 +36,7 @@ const std::vector<LibraryRule>& library_rules() {
       {std::regex("^(ginac|cln)/"), {"symbolic"}, false},
       {std::regex("^(mpfr|mpfi|gmp|mpf2mpfr|mpfi_io)(xx)?\\.h|^boost/multiprecision/"
                   "(mpfr|mpfi|gmp|eigen)|^(arb|acb|arf|mag|arblib)"),
-       {"certify"},
+       {"certify", kChecker},
        true},
       {std::regex("^flint/|^coin/"), {"solve"}, true},  // guesses, no proofs
       {std::regex("^hdf5|^H5"), {"report"}, false},
@@ -42,7 +48,9 @@ const std::vector<LibraryRule>& library_rules() {
   return rules;
 }
 
-std::string first_folder(const std::string& path) { return path.substr(0, path.find('/')); }
+std::string first_folder(const std::string& path) {
+  return path.starts_with("certify/checker/") ? kChecker : path.substr(0, path.find('/'));
+}
 
 template <typename Visit>
 void for_each_line(const std::string& text, const Visit& visit) {
@@ -80,7 +88,8 @@ void check_links(const std::string& folder, const std::string& text, Findings& f
   static const std::regex target("corank::([a-z]+)");
   for_each_line(text, [&](const std::string& line, int number) {
     for (std::sregex_iterator it(line.begin(), line.end(), target), end; it != end; ++it) {
-      if (!arrows->second.contains((*it)[1])) findings.add(number, folder + " may not link corank::" + (*it)[1].str());
+      const std::string linked = (*it)[1] == "checker" ? kChecker : (*it)[1].str();
+      if (!arrows->second.contains(linked)) findings.add(number, folder + " may not link corank::" + (*it)[1].str());
     }
   });
 }
@@ -105,6 +114,8 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
       const std::string target = first_folder(header.substr(7));
       if (arrows != kArrows.end() && target != folder && !arrows->second.contains(target)) {
         findings.add(line, folder + " may not include " + target);
+      } else if (folder == kChecker && target == "certify" && !kPlainValues.contains(header.substr(15))) {
+        findings.add(line, folder + " may include plain values only, not " + header);
       }
       return;
     }

@@ -11,8 +11,10 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <sstream>
 
+#include "corank/report/certificate_file.h"
 #include "corank/tests/report/sample_result.h"
 
 namespace corank::report {
@@ -52,7 +54,23 @@ void expect_same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBo
     for (std::size_t v = 0; v < a[i].box.size(); ++v) ASSERT_TRUE(same_bits(a[i].box[v], b[i].box[v])) << i << " " << v;
     ASSERT_EQ(a[i].verdict, b[i].verdict);
     ASSERT_EQ(a[i].free, b[i].free);
+    ASSERT_EQ(a[i].region, b[i].region);
+    ASSERT_EQ(a[i].point, b[i].point);
   }
+}
+
+void expect_same_proofs(const certify::Proof* a, const certify::Proof* b) {
+  ASSERT_EQ(a == nullptr, b == nullptr);
+  if (a == nullptr) return;
+  ASSERT_EQ(a->roots.size(), b->roots.size());
+  for (std::size_t i = 0; i < a->roots.size(); ++i) {
+    ASSERT_EQ(a->roots[i].size(), b->roots[i].size());
+    for (std::size_t v = 0; v < a->roots[i].size(); ++v) EXPECT_TRUE(same_bits(a->roots[i][v], b->roots[i][v]));
+  }
+  EXPECT_EQ(a->combinations, b->combinations);
+  EXPECT_EQ(a->steps, b->steps);
+  EXPECT_EQ(a->integers, b->integers);
+  EXPECT_EQ(a->reals, b->reals);
 }
 
 void expect_same(const Result& a, const Result& b) {
@@ -83,6 +101,15 @@ void expect_same(const Result& a, const Result& b) {
   EXPECT_TRUE(same_bits(a.cover.tolerance, b.cover.tolerance));
   expect_same_boxes(a.cover.boxes, b.cover.boxes);
   expect_same_boxes(a.cover.points, b.cover.points);
+  ASSERT_EQ(a.cover.regions.size(), b.cover.regions.size());
+  for (std::size_t i = 0; i < a.cover.regions.size(); ++i) {
+    ASSERT_EQ(a.cover.regions[i].size(), b.cover.regions[i].size());
+    for (std::size_t v = 0; v < a.cover.regions[i].size(); ++v)
+      EXPECT_TRUE(same_bits(a.cover.regions[i][v], b.cover.regions[i][v]));
+  }
+  EXPECT_EQ(a.cover.exact_points, b.cover.exact_points);
+  EXPECT_EQ(a.cover.eliminations, b.cover.eliminations);
+  expect_same_proofs(a.cover.proof.get(), b.cover.proof.get());
   const certify::Statistics &s = a.cover.statistics, &t = b.cover.statistics;
   EXPECT_EQ(s.processed, t.processed);
   EXPECT_EQ(s.newton_steps, t.newton_steps);
@@ -176,7 +203,7 @@ TEST_F(ResultFile, RefusesANewerFormat) {
   file.attribute("/", "format", std::string("corank result"));
   file.attribute("/", "format_version", std::int64_t{kFormatVersion + 1});
   file.close();
-  EXPECT_THAT(refusal(path()), HasSubstr("format version 2"));
+  EXPECT_THAT(refusal(path()), HasSubstr("format version 3"));
 }
 
 TEST_F(ResultFile, RefusesAFileCutShortAnywhere) {
@@ -199,7 +226,7 @@ class InconsistentFile : public ResultFile {
       name == changed ? write(file) : write_good();
     };
     file.attribute("/", "format", std::string("corank result"));
-    file.attribute("/", "format_version", std::int64_t{kFormatVersion});
+    file.attribute("/", "format_version", std::int64_t{certificates_ ? kFormatVersion : 1});
     for (const char* name : {"version", "model", "set"}) file.attribute("/", name, std::string("x"));
     for (const char* name : {"complete", "dimension", "configuration_size", "equations", "inequalities"}) {
       unless_changed(name, [&] { file.attribute("/", name, std::int64_t{1}); });
@@ -231,10 +258,52 @@ class InconsistentFile : public ResultFile {
     for (const char* name : {"processed", "newton_steps", "proofs_tried"})
       file.attribute("/statistics", name, std::uint64_t{1});
     for (const char* name : {"seconds_total", "seconds_search", "seconds_certify"}) file.attribute("/statistics", name, 0.1);
+    if (certificates_) {
+      for (int v = 0; v < certify::kVerdicts; ++v) {
+        const std::string verdict = to_string(static_cast<certify::Verdict>(v));
+        unless_changed(verdict, [&] { file.attribute("/boxes", verdict, std::uint64_t{v == 0}); });
+      }
+      file.attribute("/boxes", "wider_than_sigma", std::uint64_t{1});
+      write_certificates(file, *certificates_, 1);
+    }
     file.close();
     return refusal(path());
   }
+
+  // One box and one point, without a region; a file of the first format has none.
+  static certify::Cover certificates() {
+    certify::Cover cover;
+    cover.boxes.resize(1);
+    cover.points.resize(1);
+    return cover;
+  }
+
+  std::optional<certify::Cover> certificates_;
 };
+
+TEST_F(InconsistentFile, WithCertificatesIsFineWithNothingChanged) {
+  certificates_ = certificates();
+  EXPECT_EQ(refusal_of("nothing", [](Hdf5Writer&) {}), "");
+}
+
+TEST_F(InconsistentFile, IsRefusedForACountThatIsNotThatOfTheBoxes) {
+  certificates_ = certificates();
+  EXPECT_THAT(refusal_of("undecided", [](Hdf5Writer& f) { f.attribute("/boxes", "undecided", std::uint64_t{1}); }),
+              HasSubstr("undecided of /boxes contradicts the boxes"));
+}
+
+TEST_F(InconsistentFile, IsRefusedForIndicesOutOfRange) {
+  const auto refused = [&](const std::function<void(certify::Cover&)>& change) {
+    certificates_ = certificates();
+    change(*certificates_);
+    return refusal_of("nothing", [](Hdf5Writer&) {});
+  };
+  EXPECT_THAT(refused([](certify::Cover& c) { c.boxes[0].region = 0; }), HasSubstr("out of range"));
+  EXPECT_THAT(refused([](certify::Cover& c) { c.points[0].point = -2; }), HasSubstr("out of range"));
+  EXPECT_THAT(refused([](certify::Cover& c) { c.boxes.clear(); }), HasSubstr("another length"));
+  EXPECT_THAT(refused([](certify::Cover& c) { c.eliminations = {{1, 0}}; }), HasSubstr("names no variable"));
+  EXPECT_THAT(refused([](certify::Cover& c) { c.regions = {{{1.0, 0.0}}}; }), HasSubstr("empty interval"));
+}
 
 TEST_F(InconsistentFile, IsFineWithNothingChanged) {
   EXPECT_EQ(refusal_of("nothing", [](Hdf5Writer&) {}), "");

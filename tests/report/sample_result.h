@@ -47,6 +47,22 @@ inline Result sample_result() {
                    sample_box({0.1, 0.2, 0.3, 0.4}, Verdict::pending, {})};
   r.cover.points = {sample_box({{0.1, 0.2}, {-1.0, -0.9}, {-0.1, 0.1}, 0.5}, Verdict::isolated, {}),
                     sample_box({1.0 / 3, {0.0, 1e-17}, 1.0, -0.5}, Verdict::undecided, {})};
+  r.cover.regions = {{{-0.0, 0.0}, {-kTiny, kTiny}, {-kTiny, kTiny}, {-kHuge, kHuge}}, {{0.0, 1.0}, 0.2, 0.3, {-1.0, 0.0}}};
+  r.cover.boxes[0].region = 0;
+  r.cover.boxes[1].region = r.cover.points[0].region = 1;
+  r.cover.boxes[2].point = 0;
+  r.cover.boxes[4].point = r.cover.points[1].point = 1;
+  const auto number = [](const char* text) { return certify::ExactNumber::rational(text); };
+  r.cover.exact_points = {{{0, 1}, -1, 1, {{number("1/3")}, {0, 1}, {}, {number("-2/7"), 0, 5}}, -1, 0.25},
+                          {{-2, 0, 1}, 1, number("3/2"), {{1}, {2}, {}, {}}, 2, 0}};
+  r.cover.eliminations = {{3, -1}, {1, 2}};
+  certify::Proof proof;
+  proof.roots = {{{-2.0, 2.0}, {-kTiny, kHuge}}};
+  proof.combinations = {{{2, 0}, {1, 0}, {1.0f, -0.1f, 0.0f, 3e-39f}}, {{}, {}, {}}, {{1}, {1}, {2.5f}}};
+  proof.steps = {2, 0, 3, 5, 6};
+  proof.integers = {1, -5, 1 << 30};
+  proof.reals = {0.1, -0.0, kTiny, kHuge};
+  r.cover.proof = std::make_shared<const certify::Proof>(std::move(proof));
   return r;
 }
 

@@ -1,0 +1,14 @@
+// No two boxes hold the same point: boxes are disjoint.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "corank/certify/cover.h"
+
+namespace corank::certify::checker {
+
+/// Pairs of boxes that have a point in common, each once; at most `limit`. Sweep along the side that spreads the boxes most.
+std::vector<std::pair<std::size_t, std::size_t>> meeting_pairs(const std::vector<const Box*>& boxes, std::size_t limit);
+
+}  // namespace corank::certify::checker

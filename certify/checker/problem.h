@@ -1,0 +1,59 @@
+// What the checker knows of a system after the eliminations: rows over the kept variables, and what its equations imply about its domain.
+#pragma once
+
+#include <vector>
+
+#include "corank/certify/checker/rows.h"
+#include "corank/certify/cover.h"
+
+namespace corank::certify::checker {
+
+/// One side of a variable's domain as a condition: row(x) ≥ 0 at every point of the set.
+struct Condition {
+  Row row;
+  bool implied = false;  ///< it holds at every solution of the equations
+  int variable = -1;     ///< whose domain it is; −1: an inequality of the system
+};
+
+class Problem {
+ public:
+  /// Throws std::invalid_argument where an elimination is not legal.
+  Problem(const System& system, const std::vector<Elimination>& eliminations);
+
+  const System& system() const { return system_; }
+  int size() const { return static_cast<int>(kept_.size()); }
+  const std::vector<int>& kept() const { return kept_; }
+  int place(int variable) const { return place_[static_cast<std::size_t>(variable)]; }  ///< among the kept, −1: eliminated
+  const std::vector<Row>& equations() const { return equations_; }
+  bool contradiction() const { return contradiction_; }
+  /// Eliminated variables' values.
+  struct Value {
+    int variable;
+    Row row;
+  };
+  const std::vector<Value>& values() const { return values_; }
+  /// Both sides of every domain, then the inequalities.
+  const std::vector<Condition>& conditions() const { return conditions_; }
+  /// Intersects with the domains that the equations imply: no solution is lost. False: that is empty.
+  bool clip_to_implied(Sides& x) const;
+  /// The domain of the kept variables, enclosed.
+  Sides domain() const;
+
+ private:
+  bool implied_by_squares(const Terms& f, int y, const ExactNumber& h) const;
+  bool implied_by_functions(const Terms& f, int y, const ExactNumber& h) const;
+  // Do the equations imply y ≤ h (sign 1), y ≥ h (sign −1)?
+  bool implied(int y, const ExactNumber& h, int sign) const;
+  void add_domain(int variable, const std::optional<Terms>& value, int sign);
+
+  System system_;
+  std::vector<Terms> sources_;  // the equations before and after the eliminations
+  std::vector<int> kept_, place_;
+  std::vector<Row> equations_;
+  std::vector<Value> values_;
+  std::vector<Condition> conditions_;
+  std::vector<unsigned char> implied_lower_, implied_upper_;  // of the kept
+  bool contradiction_ = false;
+};
+
+}  // namespace corank::certify::checker

@@ -1,0 +1,198 @@
+#include "corank/certify/checker/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corank::certify::checker {
+namespace {
+
+constexpr int kMostParts = 4096;
+constexpr int kProofSteps = 12;
+constexpr int kTightenings = 2, kPointTightenings = 30;
+
+class SheetCheck {
+ public:
+  SheetCheck(const Problem& problem, const CoverBox& box, const Box& region)
+      : problem_(problem), box_(box), region_(region), newton_(problem.equations(), problem.size()) {}
+
+  std::string run() {
+    if (std::string fault = check_shape(); !fault.empty()) return fault;
+    Sides x;
+    for (const int j : problem_.kept()) {
+      const auto v = static_cast<std::size_t>(j);
+      x.push_back(Enclosure(is_free_[v] ? box_.box[v] : region_[v]));
+    }
+    examine(x, false);
+    return reason_;
+  }
+
+ private:
+  std::string check_shape() {
+    const std::size_t n = problem_.system().variables.size();
+    if (box_.box.size() != n || region_.size() != n) return "it has not one side for each variable";
+    is_free_.assign(n, 0);
+    for (const int j : box_.free) {
+      if (j < 0 || j >= static_cast<int>(n) || problem_.place(j) < 0 || is_free_[static_cast<std::size_t>(j)])
+        return "its free variables are not distinct variables that were kept";
+      is_free_[static_cast<std::size_t>(j)] = 1;
+    }
+    for (std::size_t k = 0; k < problem_.kept().size(); ++k)
+      if (!is_free_[static_cast<std::size_t>(problem_.kept()[k])]) dependent_.push_back(static_cast<int>(k));
+    if (dependent_.size() != problem_.equations().size())
+      return "the equations that remain are not as many as the dependent variables";
+    if ((box_.verdict == Verdict::isolated && !box_.free.empty()) || (box_.verdict == Verdict::regular && box_.free.empty()))
+      return "its free variables contradict its verdict";
+    for (std::size_t v = 0; v < n; ++v)
+      if (!region_[v].contains(box_.box[v])) return "it is not inside the region of its proof";
+    return {};
+  }
+
+  bool fail(const std::string& reason) {
+    if (reason_.empty()) reason_ = reason;
+    return false;
+  }
+
+  // x: a part of the box's free sides, dependent sides that hold every solution of the region over them. `proven`: there is exactly one for
+  // every value. False: stop.
+  bool examine(Sides x, bool proven) {
+    if (++parts_ > kMostParts) return fail(pending_reason_.empty() ? "too many parts" : pending_reason_);
+    if (!newton_.set(dependent_, x)) {
+      pending_reason_ = "the Jacobian is singular";
+      return bisect(x, proven);
+    }
+    if (!proven) {
+      const auto shown = prove(x);
+      if (!reason_.empty()) return false;
+      if (!shown) return bisect(x, false);
+    }
+    const int steps = box_.free.empty() ? kPointTightenings : kTightenings;
+    for (int step = 0;; ++step) {
+      if (!shrink(x, newton_.image(x))) return fail("a part of it has no solution");
+      if (settled(x)) return true;
+      if (!reason_.empty()) return false;
+      if (step == steps) break;
+      if (box_.free.empty() && newton_.center_is_zero() && center_in_region()) {
+        x.assign(newton_.center().begin(), newton_.center().end());  // the region's one solution
+        return settled(x) || fail(pending_reason_);
+      }
+      if (box_.free.empty() && !newton_.set(dependent_, x)) break;
+    }
+    return bisect(x, true);
+  }
+
+  // Existence and uniqueness over x; shrinks its dependent sides to what holds the solutions. False: not shown.
+  bool prove(Sides& x) {
+    bool exists = false;
+    for (int step = 0; step < kProofSteps; ++step) {
+      const Sides image = newton_.image(x);
+      bool within = true;
+      for (std::size_t a = 0; a < image.size() && within; ++a) within = image[a].strictly_inside(x[place(a)]);
+      exists = exists || within;  // K ⊂ int Z: a fixed point for every value of the free variables
+      if (exists && newton_.is_injective(x)) {
+        newton_.image(x);  // Y·S again, in place of Y·J
+        return shrink(x, image) || fail("existence and emptiness contradict each other");
+      }
+      double former = 0, now = 0;
+      for (std::size_t a = 0; a < image.size(); ++a) former = std::max(former, x[place(a)].width());
+      if (!shrink(x, image)) return fail("a part of it has no solution in its region");
+      for (std::size_t a = 0; a < image.size(); ++a) now = std::max(now, x[place(a)].width());
+      if (now > 0.9 * former) break;
+    }
+    pending_reason_ = exists ? "uniqueness in its region is not shown" : "existence in its region is not shown";
+    return false;
+  }
+
+  bool center_in_region() const {
+    for (std::size_t k = 0; k < problem_.kept().size(); ++k)
+      if (!region_[static_cast<std::size_t>(problem_.kept()[k])].contains(newton_.center()[k])) return false;
+    return true;
+  }
+
+  std::size_t place(std::size_t a) const { return static_cast<std::size_t>(dependent_[a]); }
+
+  bool shrink(Sides& x, const Sides& image) {
+    for (std::size_t a = 0; a < image.size(); ++a)
+      if (!x[place(a)].intersect(image[a])) return false;
+    return true;
+  }
+
+  // After image(x0), x ⊂ x0 holding the solutions over x's free sides: do they lie in the box, and where asked in the domain?
+  bool settled(const Sides& x) {
+    for (const int k : dependent_) {
+      const auto v = static_cast<std::size_t>(problem_.kept()[static_cast<std::size_t>(k)]);
+      if (!inside(x[static_cast<std::size_t>(k)], static_cast<int>(v))) return false;
+    }
+    Sides clipped = x;
+    if (!problem_.clip_to_implied(clipped)) return fail("a part of it lies outside a domain that the equations imply");
+    const auto at_zeros = [&](const Row& row) {
+      Enclosure value = row.value(clipped);
+      value.intersect(newton_.value_at_zeros(row, x));
+      return value;
+    };
+    for (const Problem::Value& value : problem_.values())
+      if (!inside(at_zeros(value.row), value.variable)) return false;
+    if (box_.verdict == Verdict::boundary) return true;
+    for (const Condition& condition : problem_.conditions()) {
+      if (condition.implied) continue;
+      const Enclosure value = at_zeros(condition.row);
+      if (value.is_nonnegative()) continue;
+      const std::string what =
+          condition.variable < 0
+              ? "an inequality"
+              : "the domain of " + problem_.system().variables[static_cast<std::size_t>(condition.variable)].name;
+      if (value.is_negative()) return fail("a part of it violates " + what);
+      pending_reason_ = "it may violate " + what;
+      return false;
+    }
+    return true;
+  }
+
+  bool inside(const Enclosure& side, int variable) {
+    const Interval& bound = box_.box[static_cast<std::size_t>(variable)];
+    if (side.inside(bound)) return true;
+    const std::string& name = problem_.system().variables[static_cast<std::size_t>(variable)].name;
+    if (!side.overlaps(bound)) return fail("a solution of its region lies outside it (" + name + ")");
+    pending_reason_ = "a solution of its region may lie outside it (" + name + ")";
+    return false;
+  }
+
+  bool bisect(const Sides& x, bool proven) {
+    int along = -1;
+    double most = 0;
+    for (const int j : box_.free) {
+      const auto k = static_cast<std::size_t>(problem_.place(j));
+      double share = 1;
+      for (std::size_t a = 0; proven && a < dependent_.size(); ++a)
+        share = std::max(share, newton_.steepness(a, static_cast<int>(k)));
+      const double width = x[k].width(), middle = x[k].mid();
+      if (share * width > most && x[k].lo() < middle && middle < x[k].hi())
+        most = share * width, along = static_cast<int>(k);
+    }
+    if (along < 0) return fail(pending_reason_);
+    const auto k = static_cast<std::size_t>(along);
+    const double middle = x[k].mid();
+    for (const auto& half : {Enclosure(x[k].lo(), middle), Enclosure(middle, x[k].hi())}) {
+      Sides part = x;
+      part[k] = half;
+      if (!examine(std::move(part), proven)) return false;
+    }
+    return true;
+  }
+
+  const Problem& problem_;
+  const CoverBox& box_;
+  const Box& region_;
+  Krawczyk newton_;
+  std::vector<unsigned char> is_free_;
+  std::vector<int> dependent_;
+  int parts_ = 0;
+  std::string reason_, pending_reason_;
+};
+
+}  // namespace
+
+std::string check_sheet(const Problem& problem, const CoverBox& box, const Box& region) {
+  return SheetCheck(problem, box, region).run();
+}
+
+}  // namespace corank::certify::checker

@@ -1,0 +1,76 @@
+// The checker's own sparse polynomials with exact coefficients, and its repetition of the reduction that came before a search.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/certify/checker/enclosure.h"
+#include "corank/certify/elimination.h"
+#include "corank/certify/system.h"
+
+namespace corank::certify::checker {
+
+struct FactorOrder {
+  bool operator()(const std::vector<Factor>& a, const std::vector<Factor>& b) const;
+};
+
+/// A coefficient; `range` encloses it, or all choices within the tolerance.
+struct Coefficient {
+  ExactNumber exact;
+  Enclosure range;
+  bool tolerant = false;  ///< range has more than the exact number
+};
+
+/// Σ coefficient · Π factors, as certify::Polynomial, with distinct factor lists.
+class Terms {
+ public:
+  Terms() = default;
+  Terms(const Polynomial& f, double tolerance);
+  explicit Terms(const ExactNumber& constant);
+
+  const std::map<std::vector<Factor>, Coefficient, FactorOrder>& list() const { return list_; }
+  bool mentions(int variable) const;
+  bool mentions_inside_function(int variable) const;
+  bool is_constant() const;
+  bool is_exact() const;  ///< no coefficient has a tolerance
+  ExactNumber constant() const;
+  /// a and c where this is a·x_variable + c.
+  struct Affine {
+    int variable;
+    ExactNumber a, c;
+  };
+  std::optional<Affine> affine() const;
+
+  /// −g/a where this is a·x + g with a rational a ≠ 0 and x not in g.
+  std::optional<Terms> solved_for(int variable) const;
+  /// x replaced by a value; nothing where a sine or cosine would become a factor.
+  std::optional<Terms> substituted(int variable, const Terms& value) const;
+  /// Is this q·g with a rational q, in exact coefficients?
+  bool is_multiple_of(const Terms& g) const;
+
+  friend Terms operator-(const Terms& f, const ExactNumber& c);
+  friend Terms operator-(const Terms& f);
+
+ private:
+  void add(const std::vector<Factor>& factors, const Coefficient& c);
+  void drop_zeros();
+
+  std::map<std::vector<Factor>, Coefficient, FactorOrder> list_;
+};
+
+/// A system with variables eliminated. Variables keep their indices in the original system.
+struct Eliminated {
+  std::vector<int> kept;
+  std::vector<Terms> equations;              ///< none vanishes or is a multiple of one before
+  std::vector<Terms> inequalities;           ///< the system's
+  std::vector<std::optional<Terms>> values;  ///< of each eliminated variable: its value in the kept ones
+  bool contradiction = false;                ///< an equation became a nonzero number = 0
+};
+
+/// Repeats the eliminations. Theorem: certify/reduction.h. Each is legal: the equation is a·x + g = 0 with a rational a ≠ 0 and x not in g, or
+/// the domain of x is one number. Throws std::invalid_argument, with the reason, where one is not.
+Eliminated eliminate(const System& system, const std::vector<Elimination>& eliminations);
+
+}  // namespace corank::certify::checker

@@ -1,0 +1,19 @@
+// The certificates of a cover in a result file, the group /certificates:
+//
+//   eliminations/variable, equation     region_lower, region_upper (R×n)     box_region, box_point (N; −1: none)
+//   point_region, point_point           of the entries of /points
+//   exact_points/polynomial, lower, upper, coordinates (texts; coefficients of 1, t, t² … with commas between), corank, sole_within
+//   proof/…                             the vectors of certify/proof.h, compressed; missing where the cover has no proof
+#pragma once
+
+#include "corank/certify/cover.h"
+#include "corank/report/hdf5_file.h"
+
+namespace corank::report {
+
+void write_certificates(Hdf5Writer& file, const certify::Cover& cover, std::size_t variables);
+
+/// Into a cover that has its boxes and points. Throws ResultFileError where an index is out of range or a number is none.
+void read_certificates(const Hdf5Reader& file, certify::Cover& cover, std::size_t variables);
+
+}  // namespace corank::report

@@ -1,0 +1,138 @@
+#include "corank/report/verification.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "corank/report/summary.h"
+
+namespace corank::report {
+namespace {
+
+using certify::Verdict;
+using certify::checker::Failure;
+using certify::checker::Report;
+using certify::checker::Tally;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kShownFailures = 10;
+
+std::string without_comments(const std::string& text) {
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(std::min(line.find('%'), line.size()));
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    if (!line.empty()) result += line + "\n";
+  }
+  return result;
+}
+
+const char* word(Failure::Place place) {
+  switch (place) {
+    case Failure::Place::cover: return "cover";
+    case Failure::Place::box: return "box";
+    case Failure::Place::point: return "point";
+    case Failure::Place::exact_point: return "exact point";
+    case Failure::Place::step: return "step of the proof";
+  }
+  return "?";
+}
+
+bool any(const Tally& t) { return t.verified + t.failed + t.unchecked > 0; }
+
+std::string row(const std::string& name, const Tally& t) {
+  return any(t) ? fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", name, t.verified, t.failed, t.unchecked) : "";
+}
+
+std::string completeness(const Report& report, bool complete) {
+  const certify::checker::ProofTally& proof = report.proof;
+  if (!proof.present) return "completeness: no proof in the file\n";
+  std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched anew\n",
+                                 proof.verified ? "replayed" : "NOT SHOWN", proof.steps, proof.leaves, proof.searched);
+  if (proof.verified && !complete) text += "  but for the pending boxes: the search ended early\n";
+  return text;
+}
+
+Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.failed}, {"not_checkable", t.unchecked}}; }
+
+}  // namespace
+
+std::vector<std::string> contradictions(const Result& result, const certify::System& system,
+                                        const std::string& system_text) {
+  std::vector<std::string> list;
+  const auto check = [&list](bool good, const std::string& what) {
+    if (!good) list.push_back(what + " not that of the model");
+  };
+  Result expected;
+  describe_system(system, expected);
+  bool variables = result.variables.size() == expected.variables.size();
+  for (std::size_t i = 0; variables && i < expected.variables.size(); ++i) {
+    const ResultVariable &a = result.variables[i], &b = expected.variables[i];
+    variables = a.name == b.name && a.kind == b.kind;
+    check(!variables || a.domain == b.domain, "the domain of " + b.name + " is");
+  }
+  check(variables, "the list of variables is");
+  bool angles = result.angles.size() == expected.angles.size();
+  for (std::size_t i = 0; angles && i < expected.angles.size(); ++i) {
+    const certify::Angle &a = result.angles[i], &b = expected.angles[i];
+    angles = a.name == b.name && a.cosine == b.cosine && a.sine == b.sine && a.range == b.range;
+  }
+  check(angles, "the list of angles is");
+  check(result.configuration_size == expected.configuration_size, "the number of configuration variables is");
+  check(result.equations == expected.equations, "the number of equations is");
+  check(result.inequalities == expected.inequalities, "the number of inequalities is");
+  check(without_comments(result.system_text) == without_comments(system_text), "the system is");
+  if (!(result.options.sigma == result.cover.sigma)) list.emplace_back("two different values of sigma");
+  const double tolerance = certify::kPartialTolerance * system.coefficient_tolerance;
+  const bool square = system.equations.size() <= system.variables.size();
+  if (!(result.cover.tolerance == tolerance || (!square && result.cover.tolerance == 0)))
+    list.emplace_back("the tolerance is not that of the options");
+  return list;
+}
+
+std::string to_table(const Verification& verification, const Result& result) {
+  const Report& report = verification.report;
+  std::string text = fmt::format("{}, {}: checked against its model with intervals of 160 bits and exact numbers\n\n",
+                                 result.model, result.set);
+  text += fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", "verdict", "verified", "failed", "not checkable");
+  for (int v = 0; v < certify::kVerdicts; ++v)
+    text += row(to_string(static_cast<Verdict>(v)), report.boxes[static_cast<std::size_t>(v)]);
+  text += row("points", report.points) + row("exact points", report.exact_points);
+  text += "\n" + completeness(report, result.cover.complete());
+  for (const std::string& c : verification.contradictions) text += "file: " + c + "\n";
+  for (std::size_t i = 0; i < std::min(report.failures.size(), kShownFailures); ++i) {
+    const Failure& f = report.failures[i];
+    text += f.place == Failure::Place::cover ? fmt::format("cover: {}\n", f.reason)
+                                             : fmt::format("{} {}: {}\n", word(f.place), f.index + 1, f.reason);
+  }
+  if (report.failures.size() > kShownFailures)
+    text += fmt::format("… and {} more\n", report.failures.size() - kShownFailures);
+  text += verification.verified() ? "verified\n" : report.interrupted ? "interrupted\n" : "NOT VERIFIED\n";
+  return text;
+}
+
+std::string to_json(const Verification& verification) {
+  const Report& report = verification.report;
+  Json json;
+  json["verified"] = verification.verified();
+  json["interrupted"] = report.interrupted;
+  for (int v = 0; v < certify::kVerdicts; ++v)
+    json["verdicts"][to_string(static_cast<Verdict>(v))] = to_json(report.boxes[static_cast<std::size_t>(v)]);
+  json["points"] = to_json(report.points);
+  json["exact_points"] = to_json(report.exact_points);
+  const certify::checker::ProofTally& proof = report.proof;
+  json["completeness"] = {{"proof", proof.present},
+                          {"verified", proof.verified},
+                          {"steps", proof.steps},
+                          {"leaves", proof.leaves},
+                          {"searched", proof.searched}};
+  json["contradictions"] = verification.contradictions;
+  json["failures"] = Json::array();
+  for (const Failure& f : report.failures)
+    json["failures"].push_back({{"what", word(f.place)}, {"number", f.index + 1}, {"reason", f.reason}});
+  return json.dump(2);
+}
+
+}  // namespace corank::report

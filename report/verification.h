@@ -1,0 +1,32 @@
+// What the independent checker found about a result, for people and for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corank/certify/checker/checker.h"
+#include "corank/report/result.h"
+
+namespace corank::report {
+
+struct Verification {
+  /// Where the file contradicts the model that it holds: variables, domains, equations, options.
+  std::vector<std::string> contradictions;
+  certify::checker::Report report;
+
+  /// No contradiction, and every claim is confirmed.
+  bool verified() const { return contradictions.empty() && report.verified(); }
+};
+
+/// Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the polynomials'
+/// text (comments aside) and the options.
+std::vector<std::string> contradictions(const Result& result, const certify::System& system, const std::string& system_text);
+
+/// A table of counts per verdict, the completeness proof, the first failures.
+std::string to_table(const Verification& verification, const Result& result);
+
+/// {"verified", "interrupted", "verdicts": {"regular": {"verified", "failed", "not_checkable"} …}, "points", "exact_points", "completeness":
+/// {"proof", "verified", "steps", "leaves", "searched"}, "contradictions", "failures": [{"what", "number", "reason"}]}; numbers count from 1.
+std::string to_json(const Verification& verification);
+
+}  // namespace corank::report
