@@ -9,9 +9,11 @@ int main(int argc, char** argv) {
       "Draws the boxes of NAME.sol in three variables, numbered from 1, and writes PICTURE.gcl for Geomview.\n"
       "SIZE 0 draws boxes as they are, another number cubes with this edge about their centres.\n";
   if (const auto status = usage_status(usage, args, 6)) return *status;
-  std::vector<std::string> command{
-      "plot", with_extension(args[0], ".sol"), "--axes", args[1] + "," + args[2] + "," + args[3], "--size", args[4],
-      "-o",   with_extension(args[5], ".gcl")};
+  std::vector<std::string> command{"plot",    with_extension(args[0], ".sol"),
+                                   "--axes",  args[1] + "," + args[2] + "," + args[3],
+                                   "--size",  args[4],
+                                   "-o",      with_extension(args[5], ".gcl"),
+                                   "--color", "plain"};
   command.insert(command.end(), args.begin() + 6, args.end());
   return run("cuikplot3d", command);
 }

@@ -1,62 +1,117 @@
-// corank plot: the boxes of a result in two or three coordinates, for Geomview.
+// corank plot: the boxes of results in two or three coordinates, for papers, ParaView and Geomview.
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "corank/app/box_files.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/gcl.h"
+#include "corank/report/portrait.h"
 #include "corank/report/result_file.h"
+#include "corank/report/vtp.h"
 
 namespace corank::app {
 namespace {
 
+const std::map<std::string, report::ColorScheme> kSchemes{
+    {"set", report::ColorScheme::set}, {"verdict", report::ColorScheme::verdict}, {"plain", report::ColorScheme::plain}};
+
 struct PlotCommand {
-  std::string input, output;
-  std::vector<std::string> axes;
-  double size = 0;
-  std::string color = "plain";
+  std::vector<std::string> inputs;
+  std::string output;
+  report::PictureOptions picture;
+  report::PortraitOptions portrait;
 };
 
-ExitStatus plot(const PlotCommand& command) {
-  if (std::filesystem::path(command.output).extension() != ".gcl") {
+report::PictureSource read_source(const std::string& path) {
+  if (std::filesystem::path(path).extension() == ".h5") return report::picture_source(report::read_result(path), path);
+  return report::picture_source(report::read_sol(path), path);
+}
+
+void check_format(const PlotCommand& command) {
+  const std::string extension = std::filesystem::path(command.output).extension().string();
+  const bool flat = report::is_portrait_format(command.output);
+  if (!flat && extension != ".gcl" && extension != ".vtp") {
     throw UsageError(
-        fmt::format("-o {}: the picture has an unknown format; expected a name that ends in .gcl", command.output));
+        fmt::format("-o {}: the picture has an unknown format; expected a name that ends in .svg, .pdf, .png, .vtp or .gcl",
+                    command.output));
   }
-  if (command.axes.size() < 2 || command.axes.size() > 3) throw UsageError("--axes: expected two or three variables");
-  const report::SolFile boxes = read_boxes(command.input);
-  if (boxes.boxes.empty()) throw report::ResultFileError(command.input + ": holds no boxes to draw");
+  const std::size_t axes = command.picture.axes.size();
+  if (axes < 2 || axes > 3) throw UsageError(fmt::format("--axes: {} given; expected two or three variables", axes));
+  if (flat && axes == 3) {
+    throw UsageError(
+        fmt::format("-o {}: {} pictures are flat; expected two axes, or a name that ends in .vtp or .gcl for three",
+                    command.output, extension));
+  }
+}
+
+ExitStatus plot(const PlotCommand& command) {
+  check_format(command);
+  std::vector<report::PictureSource> sources;
+  for (const std::string& path : command.inputs) sources.push_back(read_source(path));
+  report::Picture picture;
+  try {
+    picture = report::make_picture(sources, command.picture);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  if (is_empty(picture)) throw report::ResultFileError(fmt::format("{}: no boxes to draw", fmt::join(command.inputs, ", ")));
   check_output(command.output);
-  report::GclOptions options;
-  for (const std::string& axis : command.axes) options.axes.push_back(variable_index(boxes, command.input, axis));
-  options.size = command.size;
-  options.color_by_verdict = command.color == "verdict";
-  options.name = std::filesystem::path(command.input).stem().string();
-  options.comment =
-      fmt::format("corank plot {} --axes {} --size {}", command.input, fmt::join(command.axes, ","), command.size);
-  report::write_text(command.output, report::to_gcl(boxes, options));
-  return completeness(boxes, command.input);
+  if (report::is_portrait_format(command.output)) {
+    report::write_portrait(command.output, picture, command.portrait);
+  } else if (command.output.ends_with(".vtp")) {
+    report::write_text(command.output, report::to_vtp(picture));
+  } else {
+    const std::string words = fmt::format("corank plot {} --axes {} --size {}", fmt::join(command.inputs, " "),
+                                          fmt::join(command.picture.axes, ","), command.picture.size);
+    report::write_text(command.output,
+                       report::to_gcl(picture, {std::filesystem::path(command.inputs[0]).stem().string(), words}));
+  }
+  ExitStatus status = kDone;
+  for (const report::PictureSource& source : sources) status = std::max(status, completeness(source.boxes, source.file));
+  return status;
 }
 
 }  // namespace
 
 void add_plot(CLI::App& program, Action& action) {
-  CLI::App* sub = program.add_subcommand("plot", "Draw the boxes of a result in two or three coordinates, for Geomview");
+  CLI::App* sub = program.add_subcommand("plot", "Draw the boxes of results in two or three coordinates");
   const auto command = std::make_shared<PlotCommand>();
-  sub->add_option("RESULT", command->input, "The boxes (.sol or .h5)")->required();
-  sub->add_option("--axes", command->axes, "Two or three variables, by name or number from 1, with commas")
+  sub->add_option("RESULT", command->inputs, "The boxes (.h5 or .sol) of one or several sets")->required();
+  sub->add_option("--axes", command->picture.axes,
+                  "Two or three variables, by name or number from 1, or angles by name, with commas")
       ->type_name("X,Y[,Z]")
       ->delimiter(',')
       ->required();
-  sub->add_option("--size", command->size, "0: boxes as they are; else cubes with this edge about their centres")
+  sub->add_option(
+         "--color", command->picture.color,
+         "set: C-space grey, forward red, inverse blue, cspace-singular violet, others grey-blue; verdict: a colour for "
+         "each verdict; plain: all blue")
+      ->transform(CLI::Transformer(kSchemes))
+      ->type_name("set|verdict|plain")
+      ->default_str("set");
+  sub->add_option("--size", command->picture.size, "0: boxes as they are; else cubes with this edge about their centres")
       ->check(CLI::Range(0.0, 1e300, "a non-negative number"))
       ->capture_default_str();
-  sub->add_option("--color", command->color, "plain: all blue; verdict: a colour for each verdict")
-      ->check(CLI::IsMember({"plain", "verdict"}))
+  sub->add_option("--title", command->portrait.title, "A line above a .svg, .pdf or .png")->type_name("TEXT");
+  sub->add_flag("--legend,!--no-legend", command->portrait.legend,
+                "Say what the colours mean in a .svg, .pdf or .png (default)");
+  sub->add_option("--width", command->portrait.width_mm, "Width in mm of a .svg, .pdf or .png")
+      ->check(CLI::Range(20.0, 1000.0))
       ->capture_default_str();
-  sub->add_option("-o", command->output, "The picture")->type_name("PICTURE.gcl")->required();
-  sub->footer("Example:\n  corank plot forward.h5 --axes J3x,J3y,c_theta2 -o forward.gcl");
+  sub->add_option("--dpi", command->portrait.dots_per_inch, "Dots per inch of a .png")
+      ->check(CLI::Range(10.0, 2400.0))
+      ->capture_default_str();
+  sub->add_option("-o", command->output, "The picture: .svg, .pdf or .png (flat), .vtp (ParaView), .gcl (Geomview)")
+      ->type_name("PICTURE")
+      ->required();
+  sub->footer(
+      "Examples:\n"
+      "  corank plot cspace.h5 forward.h5 inverse.h5 --axes J3x,J3y -o output.pdf\n"
+      "  corank plot forward.h5 inverse.h5 --axes theta2,theta5 --width 120 -o input.svg\n"
+      "  corank plot cspace.h5 forward.h5 --axes J3x,J3y,theta2 -o cspace.vtp");
   sub->callback([command, &action] { action = [command] { return plot(*command); }; });
 }
 

@@ -29,6 +29,7 @@ struct SolveCommand {
   std::optional<std::uint64_t> max_solutions;
   double time_limit = 0;
   int digits = 0;
+  bool proof = false;
   std::string param_path, result_path;
   std::optional<std::string> json_path;  ///< "": standard output
 };
@@ -40,6 +41,7 @@ solve::Options options_of(const SolveCommand& command) {
   options.max_boxes = command.max_boxes;
   options.max_solutions = command.max_solutions.value_or(0);
   options.time_limit = command.time_limit;
+  options.proof = command.proof;
   options.stop = &Interrupt::stop();
   return options;
 }
@@ -75,6 +77,10 @@ ExitStatus solve_model(SolveCommand command) {
   apply_parameters(command, system);
   if (const double least = solve::smallest_sigma(system); command.sigma && *command.sigma < least)
     throw UsageError(fmt::format("--sigma: {} is below {}, what boxes of doubles resolve here", *command.sigma, least));
+  if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
+    throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
+  if (command.proof && system.coefficient_tolerance > 0)
+    throw UsageError("--proof: there is none for coefficients with a tolerance; --tolerance 0 takes them as exact");
   check_output(command.result_path);
   check_output(command.json_path.value_or(""));
 
@@ -152,6 +158,8 @@ void add_solve(CLI::App& program, Action& action) {
                   "Isolated points with so many proven digits after the point; 0: only what boxes of doubles show")
       ->type_name("N")
       ->check(CLI::Range(0, 1000, "a number from 0 to 1000"));
+  sub->add_flag("--proof", command->proof,
+                "Keep the search tree in RESULT.h5, so that corank verify can replay why nothing was lost");
   sub->add_option("-o", command->result_path,
                   "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's layout\n"
                   "where its name ends in .sol")

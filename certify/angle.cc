@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace corank::certify {
 namespace {
 
-// Wide enough that the only rounding that shows is the last one, to double.
-constexpr mpfr_prec_t kBits = 160;
+// Wide enough that the only rounding that shows is nearly always the last one, to double. Wider is slower.
+constexpr mpfr_prec_t kBits = 80;
 
 class Real {
  public:
@@ -27,10 +26,12 @@ class Real {
 
 // atan2(s, c) + 2πk, rounded in the direction `rounding` (RNDD or RNDU) at every step.
 double angle(double c, double s, long k, mpfr_rnd_t rounding) {
-  Real x, y, turn;
+  Real x, y;
   mpfr_set_d(x.get(), c, MPFR_RNDN);  // exact
   mpfr_set_d(y.get(), s, MPFR_RNDN);  // exact
   mpfr_atan2(y.get(), y.get(), x.get(), rounding);
+  if (k == 0) return mpfr_get_d(y.get(), rounding);
+  Real turn;
   mpfr_const_pi(turn.get(), (k >= 0) == (rounding == MPFR_RNDU) ? MPFR_RNDU : MPFR_RNDD);
   mpfr_mul_si(turn.get(), turn.get(), 2 * k, rounding);
   mpfr_add(y.get(), y.get(), turn.get(), rounding);
@@ -40,34 +41,32 @@ double angle(double c, double s, long k, mpfr_rnd_t rounding) {
 // A corner of the box with so many extra turns.
 struct Corner {
   double c, s;
-  long turns;
+  long turns = 0;
 };
 
-// Over a box without the origin the angle is monotone along every edge: its extremes are taken at corners.
-struct Corners {
-  std::vector<Corner> low, high;  // one of them has the smallest, the largest angle
+// Where the smallest and the largest angle are taken. By dθ = (c ds − s dc)/(c² + s²) the angle decreases with c where s > 0 and increases
+// where s < 0; it increases with s where c > 0 and decreases where c < 0. So over a box without the origin the extremes are at corners.
+struct Extremes {
+  Corner low, high;
 };
 
-Corners corners(const Interval& c, const Interval& s) {
-  if (c.contains_zero() && s.contains_zero()) return {{{-1.0, -0.0, 0}}, {{-1.0, 0.0, 0}}};  // [−π, π]
+Extremes extremes(const Interval& c, const Interval& s) {
   // The sign of a zero sine decides between −π and π in atan2: 0 is +0 but where said otherwise.
-  const double sl = s.lo() == 0 ? 0.0 : s.lo(), sh = s.hi() == 0 ? 0.0 : s.hi();
-  if (c.hi() < 0 && sl < 0 && sh >= 0) {
+  const double cl = c.lo(), ch = c.hi(), sl = s.lo() == 0 ? 0.0 : s.lo(), sh = s.hi() == 0 ? 0.0 : s.hi();
+  if (c.contains_zero() && s.contains_zero()) return {{-1.0, -0.0}, {-1.0, 0.0}};  // [−π, π]
+  if (sl >= 0) return {{ch, ch > 0 ? sl : sh}, {cl, cl > 0 ? sh : sl}};
+  if (ch < 0 && sh >= 0) {
     // Across the cut: the part above it is [low, π], the part below is one turn later, [π, high]. A box that only touches the
     // cut from below keeps to the lower side, [−π, high].
     const long turn = sh == 0 ? 0 : 1;
-    const double top = sh == 0 ? -0.0 : sh;
-    return {{{c.lo(), top, 0}, {c.hi(), top, 0}}, {{c.lo(), sl, turn}, {c.hi(), sl, turn}}};
+    return {{turn == 0 ? cl : ch, turn == 0 ? -0.0 : sh}, {ch, sl, turn}};
   }
-  const std::vector<Corner> all{{c.lo(), sl, 0}, {c.lo(), sh, 0}, {c.hi(), sl, 0}, {c.hi(), sh, 0}};
-  return {all, all};
+  if (sh <= 0) return {{cl, cl > 0 ? sl : sh}, {ch, ch > 0 ? sh : sl}};
+  return {{cl, sl}, {cl, sh}};  // c > 0, across the positive axis
 }
 
-Interval turned(const Corners& corners, long k) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Corner& p : corners.low) low = std::min(low, angle(p.c, p.s, p.turns + k, MPFR_RNDD));
-  for (const Corner& p : corners.high) high = std::max(high, angle(p.c, p.s, p.turns + k, MPFR_RNDU));
-  return {low, high};
+Interval turned(const Extremes& e, long k) {
+  return {angle(e.low.c, e.low.s, e.low.turns + k, MPFR_RNDD), angle(e.high.c, e.high.s, e.high.turns + k, MPFR_RNDU)};
 }
 
 // Length of the overlap; only for the choice of k.
@@ -76,13 +75,13 @@ double overlap(const Interval& x, const Interval& y) { return std::min(x.hi(), y
 }  // namespace
 
 Interval angle_enclosure(const Interval& c, const Interval& s, const Interval& range) {
-  const Corners extremes = corners(c, s);
-  Interval best = turned(extremes, 0);
+  const Extremes ends = extremes(c, s);
+  Interval best = turned(ends, 0);
   const double turns = (0.5 * (range.lo() - best.lo()) + 0.5 * (range.hi() - best.hi())) / (2 * M_PI);
   if (range.contains(best) || !(std::fabs(turns) < 1e9)) return best;
   constexpr double kTie = 1e-9;
   for (const long nearest = std::lround(turns); const long k : {nearest, nearest - 1, nearest + 1}) {
-    const Interval candidate = turned(extremes, k);
+    const Interval candidate = turned(ends, k);
     if (range.contains(candidate)) return candidate;
     if (overlap(candidate, range) > overlap(best, range) + kTie) best = candidate;
   }

@@ -80,6 +80,7 @@ bool contract_free(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
   CORANK_CHECK(UpwardRounding::active());
   if (!w.contracted) return true;
   const int r = p.rank(), n = w.panel.columns();
+  CORANK_CHECK(w.panel.rows() == r && w.center.size() == static_cast<std::size_t>(n));
   w.is_dependent.assign(static_cast<std::size_t>(n), 0);
   for (int d : p.dependent) w.is_dependent[d] = 1;
   w.free.clear();

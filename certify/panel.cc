@@ -47,11 +47,20 @@ CORANK_WIDE void add_product(const double* __restrict negated_lower, const doubl
   }
 }
 
+// `count` is a multiple of kLanes. ∞ and NaN times 0 are NaN; sums apart from each other need not wait for one another.
+constexpr std::size_t kLanes = 4;
+CORANK_WIDE bool all_finite(const double* __restrict a, const double* __restrict b, std::size_t count) {
+  double witness[kLanes] = {};
+  for (std::size_t k = 0; k < count; k += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) witness[lane] += 0 * a[k + lane] + 0 * b[k + lane];
+  return witness[0] + witness[1] + witness[2] + witness[3] == 0;
+}
+
 }  // namespace
 
 void Panel::set_matrix(const std::vector<double>& y, int r) {
   r_ = r;
-  stride_ = (static_cast<std::size_t>(r) + 3) / 4 * 4;
+  stride_ = (static_cast<std::size_t>(r) + kLanes - 1) / kLanes * kLanes;
   positive_.resize(static_cast<std::size_t>(r) * stride_);
   negative_.resize(positive_.size());
   for (int b = 0; b < r; ++b) {
@@ -75,10 +84,7 @@ bool Panel::assign_product(const CompiledSystem& system, const std::vector<int>&
     add_scaled({&positive_[index(0, b)], &negative_[index(0, b)], stride_}, sparse.data() + begin, system.columns() + begin,
                system.row_begin(i + 1) - begin, negated_lower_.data(), upper_.data());
   }
-  // ∞ and NaN times 0 are NaN.
-  double witness = 0;
-  for (std::size_t k = 0; k < upper_.size(); ++k) witness += 0 * negated_lower_[k] + 0 * upper_[k];
-  return witness == 0;
+  return all_finite(negated_lower_.data(), upper_.data(), upper_.size());
 }
 
 void Panel::multiply(const std::vector<Interval>& values, std::vector<Interval>& result) const {

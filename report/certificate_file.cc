@@ -35,11 +35,13 @@ std::string to_text(const RationalPolynomial& f) {
 }
 
 void write_indices(Hdf5Writer& file, const std::string& name, const std::vector<CoverBox>& boxes) {
-  std::vector<std::int32_t> regions, points;
+  std::vector<std::int32_t> regions, points, coranks;
   for (const CoverBox& box : boxes) {
     regions.push_back(box.region);
     points.push_back(box.point);
+    coranks.push_back(box.corank);
   }
+  file.packed(kGroup + name + "_corank", coranks);
   file.packed(kGroup + name + "_region", regions);
   file.packed(kGroup + name + "_point", points);
 }
@@ -98,6 +100,7 @@ class Reader {
     read_points();
     read_indices("box", cover_.boxes);
     read_indices("point", cover_.points);
+    read_decimals();
     if (file_.has(kGroup + "proof")) cover_.proof = std::make_shared<const Proof>(proof());
   }
 
@@ -138,17 +141,32 @@ class Reader {
 
   void read_indices(const std::string& name, std::vector<CoverBox>& list) const {
     const auto regions = vector<std::int32_t>(kGroup + name + "_region"),
-               points = vector<std::int32_t>(kGroup + name + "_point");
-    if (regions.size() != list.size() || points.size() != list.size())
-      refuse(kGroup + name + "_region or _point has another length than the list of boxes");
+               points = vector<std::int32_t>(kGroup + name + "_point"),
+               coranks = vector<std::int32_t>(kGroup + name + "_corank");
+    if (regions.size() != list.size() || points.size() != list.size() || coranks.size() != list.size())
+      refuse(kGroup + name + "_region, _point or _corank has another length than the list of boxes");
     const auto fits = [](std::int32_t index, std::size_t size) {
       return index >= -1 && index < static_cast<std::int64_t>(size);
     };
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (!fits(regions[i], cover_.regions.size()) || !fits(points[i], cover_.exact_points.size()))
         refuse(kGroup + name + "_region or _point is out of range");
+      if (coranks[i] < -1 || coranks[i] > static_cast<std::int64_t>(n_)) refuse(kGroup + name + "_corank is out of range");
       list[i].region = regions[i];
       list[i].point = points[i];
+      list[i].corank = coranks[i];
+    }
+  }
+
+  void read_decimals() {
+    const std::vector<std::string> texts = file_.texts(kGroup + "decimals");
+    if (texts.empty()) return;
+    if (n_ == 0 || texts.size() != cover_.points.size() * n_)
+      refuse(kGroup + "decimals has another length than the list of points");
+    for (std::size_t i = 0; i < cover_.points.size(); ++i) {
+      const auto from = texts.begin() + static_cast<std::ptrdiff_t>(i * n_);
+      cover_.decimals.emplace_back(from, from + static_cast<std::ptrdiff_t>(n_));
+      if (cover_.decimals.back().front().empty()) cover_.decimals.back().clear();  // nothing proven
     }
   }
 
@@ -247,6 +265,12 @@ void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variab
   file.packed(kGroup + "region_upper", upper);
   write_indices(file, "box", cover.boxes);
   write_indices(file, "point", cover.points);
+  std::vector<std::string> decimals;
+  for (std::vector<std::string> of_point : cover.decimals) {
+    of_point.resize(variables);
+    decimals.insert(decimals.end(), of_point.begin(), of_point.end());
+  }
+  file.texts(kGroup + "decimals", decimals);
   write_points(file, cover.exact_points, variables);
   if (cover.proof) write_proof(file, *cover.proof);
 }

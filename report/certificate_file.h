@@ -1,7 +1,8 @@
 // The certificates of a cover in a result file, the group /certificates:
 //
-//   eliminations/variable, equation     region_lower, region_upper (R×n)     box_region, box_point (N; −1: none)
-//   point_region, point_point           of the entries of /points
+//   eliminations/variable, equation     region_lower, region_upper (R×n)     box_region, box_point, box_corank (N; −1: none)
+//   point_region, point_point, point_corank                             of the entries of /points
+//   decimals                            of each of these points and variable; empty texts where nothing is proven
 //   exact_points/polynomial, lower, upper, coordinates (texts; coefficients of 1, t, t² … with commas between), corank, sole_within
 //   proof/…                             the vectors of certify/proof.h, compressed; missing where the cover has no proof
 #pragma once

@@ -68,8 +68,8 @@ void say_kernel(const certify::Cover& cover, SetWords& words) {
   const auto larger = static_cast<std::size_t>(
       std::count_if(cover.exact_points.begin(), cover.exact_points.end(), [](const auto& p) { return p.corank > 1; }));
   if (asked == 0) return;
-  words.proven.push_back(
-      fmt::format("In {} of {} boxes the kernel has dimension 1.", grouped(one), grouped(cover.boxes.size())));
+  words.proven.push_back(fmt::format("The kernel has dimension 1 at every solution in {} of {} boxes.", grouped(one),
+                                     grouped(cover.boxes.size())));
   if (larger > 0) {
     words.proven.push_back(fmt::format("At {} it has dimension 2 or more; {} known exactly.",
                                        counted(larger, "point", "points"), larger == 1 ? "it is" : "they are"));
@@ -163,7 +163,9 @@ SetWords set_words(const Result& result, const Components& found) {
   if (cover.boxes.empty()) {
     words.finding = "None";
     words.proven.push_back(result.set == "cspace" ? "The mechanism cannot be assembled within the search domain."
-                                                  : "There is none in the search domain.");
+                           : result.set == "cspace-singular"
+                               ? "There is none in the search domain, so C-space is smooth there."
+                               : "There is none in the search domain.");
     return words;
   }
   if (cover.complete()) {

@@ -25,8 +25,11 @@ constexpr double kRegularCutShare = 1.0 / 8;
 
 }  // namespace
 
-BoxProcessor::BoxProcessor(const Problem& problem)
-    : problem_(problem), preconditioners_(problem.compiled), slicer_(problem, preconditioners_, workspace_) {
+BoxProcessor::BoxProcessor(const Problem& problem, Recorder* recorder)
+    : problem_(problem),
+      recorder_(recorder),
+      preconditioners_(problem.compiled),
+      slicer_(problem, preconditioners_, workspace_, recorder) {
   changed_.resize(problem.compiled.variables());
   pending_rows_.resize(problem.compiled.rows());
 }
@@ -43,7 +46,10 @@ bool BoxProcessor::propagate(Interval* x) {
     const int row = queue_[head];
     pending_rows_[row] = 0;
     std::fill(changed_.begin(), changed_.end(), 0);
-    if (!certify::project(system, row, x, kWorthwhileShare, changed_.data())) return false;
+    if (recorder_) before_.assign(x, x + system.variables());
+    const bool empty = !certify::project(system, row, x, kWorthwhileShare, changed_.data());
+    if (recorder_ && (empty || !std::equal(before_.begin(), before_.end(), x))) recorder_->row(row);
+    if (empty) return false;
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) {
       if (!changed_[system.column(k)]) continue;
       for (int other : system.rows_of(system.column(k)))
@@ -64,6 +70,7 @@ bool BoxProcessor::contract(Interval* x) {
   for (int repeat = 0; repeat < kNewtonRepeats; ++repeat) {
     for (int j = 0; j < n; ++j) widths_[j] = x[j].width();
     const auto& p = preconditioners_.at_midpoint(x);
+    if (recorder_) recorder_->newton(p, x);
     const auto newton = certify::newton_contract(problem_.compiled, p, x, workspace_);
     ++statistics_.newton_steps;
     if (newton.empty || !certify::contract_free(p, x, workspace_)) return false;
@@ -127,7 +134,10 @@ bool BoxProcessor::certify(Interval* x, Proof proof) {
   const auto start = std::chrono::steady_clock::now();
   ++statistics_.proofs_tried;
   const certify::Sheet sheet = proof == Proof::full ? prove(x) : prove_partially(x);
-  if (sheet.proven) slicer_.slice(sheet, x, found_);
+  if (sheet.proven) {
+    if (recorder_) recorder_->newton(preconditioners_.last(), x);
+    slicer_.slice(sheet, x, found_);
+  }
   statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sheet.proven;
 }
@@ -137,6 +147,7 @@ void BoxProcessor::add_unproven(const Interval* x, Verdict verdict) {
   found.box.box.assign(x, x + problem_.compiled.variables());
   problem_.append_values(found.box.box);
   found.box.verdict = verdict;
+  if (recorder_) recorder_->leaf_box(found_.size());
   found_.push_back(std::move(found));
 }
 
@@ -170,7 +181,10 @@ int BoxProcessor::choose_for_values(const Interval* x) const {
 
 BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
   ++statistics_.processed;
-  if (!contract(x)) return Outcome::done;
+  if (!contract(x)) {
+    if (recorder_) recorder_->leaf_empty();
+    return Outcome::done;
+  }
   if (worth_proving_ && certify(x, Proof::full)) return Outcome::done;
   split_variable_ = problem_.branching.choose(problem_.compiled, x, problem_.sigma);
   if (split_variable_ < 0) split_variable_ = choose_for_values(x);
@@ -184,7 +198,10 @@ BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
     const double least = split_variable_ >= 0 ? kFreeCutShare * x[split_variable_].width() : kLastCutShare * problem_.sigma;
     if (free >= 0 && x[free].width() > least && split_point(x[free])) split_variable_ = free;
   }
-  if (split_variable_ >= 0) return Outcome::split;
+  if (split_variable_ >= 0) {
+    if (recorder_) recorder_->keep(x);
+    return Outcome::split;
+  }
   // At its final size: where equations may be redundant, the box gets its one chance of such a proof here, where its rank shows.
   if (problem_.redundant.applies() && certify(x, Proof::partial)) return Outcome::done;
   add_unproven(x, Verdict::undecided);

@@ -7,6 +7,7 @@
 
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/problem.h"
+#include "corank/solve/recorder.h"
 #include "corank/solve/slicer.h"
 
 namespace corank::solve {
@@ -16,7 +17,8 @@ class BoxProcessor {
  public:
   enum class Outcome { done, split };
 
-  explicit BoxProcessor(const Problem& problem);
+  /// Where given, the recorder keeps what is done.
+  explicit BoxProcessor(const Problem& problem, Recorder* recorder = nullptr);
   BoxProcessor(const BoxProcessor&) = delete;  // the slicer refers to its siblings
   BoxProcessor& operator=(const BoxProcessor&) = delete;
 
@@ -52,6 +54,8 @@ class BoxProcessor {
   void add_unproven(const certify::Interval* x, certify::Verdict verdict);
 
   const Problem& problem_;
+  Recorder* const recorder_;
+  std::vector<certify::Interval> before_;  // for the recorder
   PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
   Slicer slicer_;

@@ -11,8 +11,10 @@
 #include <cfenv>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
@@ -25,6 +27,7 @@
 #include "corank/solve/box_processor.h"
 #include "corank/solve/merging.h"
 #include "corank/solve/points.h"
+#include "corank/solve/recorder.h"
 #include "corank/solve/solve.h"
 
 namespace corank::solve {
@@ -41,12 +44,15 @@ class WorkList {
   explicit WorkList(std::size_t n) : n_(n) {}
   bool empty() const { return shares_.empty(); }
   std::size_t size() const { return shares_.size(); }
-  void push(const Interval* x, double share) {
+  void push(const Interval* x, double share, NodeId node) {
     sides_.insert(sides_.end(), x, x + n_);
     shares_.push_back(share);
+    nodes_.push_back(node);
   }
+  NodeId node() const { return nodes_.back(); }  // of the newest
   // Copies the newest box to x and removes it; returns its share.
   double pop(Interval* x) {
+    nodes_.pop_back();
     std::copy(sides_.end() - static_cast<std::ptrdiff_t>(n_), sides_.end(), x);
     sides_.resize(sides_.size() - n_);
     const double share = shares_.back();
@@ -59,6 +65,8 @@ class WorkList {
     const std::size_t half = size() / 2;
     older.sides_.assign(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(half * n_));
     older.shares_.assign(shares_.begin(), shares_.begin() + static_cast<std::ptrdiff_t>(half));
+    older.nodes_.assign(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(half));
+    nodes_.erase(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(half));
     sides_.erase(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(half * n_));
     shares_.erase(shares_.begin(), shares_.begin() + static_cast<std::ptrdiff_t>(half));
     return older;
@@ -68,6 +76,7 @@ class WorkList {
   std::size_t n_;
   std::vector<Interval> sides_;
   std::vector<double> shares_;
+  std::vector<NodeId> nodes_;
 };
 
 // Which isolated solutions have been found, as certify::compare_isolated sees it: what merge_isolated will remove or doubt at
@@ -108,7 +117,7 @@ class Search {
                    count_found(workers_.local());
                    return limit_reached();
                  }),
-        workers_([this] { return Worker{BoxProcessor(problem_)}; }),
+        workers_([this] { return Worker(problem_, options_.proof ? ++recorders_ : 0); }),
         threads_(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()),
         allow_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
         arena_(threads_) {}
@@ -120,11 +129,10 @@ class Search {
   }
 
   void run(const certify::Reduction& reduction) {
-    const std::vector<certify::Box> roots = roots_of(reduction);
+    roots_ = roots_of(reduction);
     WorkList all(reduction.kept.size());
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-      all.push(root->data(), 1.0 / static_cast<double>(roots.size()));
-    waiting_ = roots.size();
+    for (std::size_t r = roots_.size(); r-- > 0;) all.push(roots_[r].data(), 1.0 / static_cast<double>(roots_.size()), r);
+    waiting_ = roots_.size();
     execute([&] {
       if (threads_ == 1) {
         work(std::move(all));
@@ -137,8 +145,24 @@ class Search {
 
   std::vector<Found> take_found() {
     std::vector<Found> all;
-    for (Worker& w : workers_) std::move(w.processor.found().begin(), w.processor.found().end(), std::back_inserter(all));
+    for (Worker& w : workers_) {
+      std::vector<Found>& found = w.processor.found();
+      for (std::size_t i = 0; i < found.size() && w.recorder; ++i) found[i].leaves.push_back(w.recorder->leaf(i));
+      std::move(found.begin(), found.end(), std::back_inserter(all));
+    }
     return all;
+  }
+  // The script; `found` are the boxes as the cover has them.
+  std::shared_ptr<const certify::Proof> proof(const std::vector<Found>& found) {
+    std::map<LeafId, int> place;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      for (const LeafId leaf : found[i].leaves) place[leaf] = static_cast<int>(i);
+    std::vector<const Recorder*> recorders;
+    for (Worker& w : workers_)
+      if (w.recorder) recorders.push_back(w.recorder.get());
+    std::vector<NodeId> nodes(roots_.size());
+    std::iota(nodes.begin(), nodes.end(), NodeId{0});
+    return std::make_shared<const certify::Proof>(Recorder::assemble(recorders, roots_, nodes, place));
   }
   void merge(std::vector<Found>& found) const { merge_regular(problem_, found); }
   certify::Statistics statistics() {
@@ -174,6 +198,9 @@ class Search {
 
  private:
   struct Worker {  // one per thread
+    Worker(const Problem& problem, int number)
+        : recorder(number > 0 ? std::make_unique<Recorder>(number) : nullptr), processor(problem, recorder.get()) {}
+    std::unique_ptr<Recorder> recorder;
     BoxProcessor processor;
     std::size_t counted = 0;  // of processor.found()
   };
@@ -245,16 +272,24 @@ class Search {
     std::vector<Interval> x(problem_.compiled.variables());
     while (!list.empty()) {
       if (!count_one()) break;
+      const NodeId node = list.node();
       const double share = list.pop(x.data());
+      if (worker.recorder) worker.recorder->begin(node, x.data(), problem_.compiled.variables());
       const auto outcome = processor.process(x.data());
       if (outcome == BoxProcessor::Outcome::split) {
         const int j = processor.split_variable();
         const Interval side = x[j];
         const double at = *split_point(side);
+        NodeId lower = 0, upper = 0;
+        if (worker.recorder) {
+          lower = worker.recorder->new_node();
+          upper = worker.recorder->new_node();
+          worker.recorder->split(j, at, lower, upper);
+        }
         x[j] = Interval(at, side.hi());
-        list.push(x.data(), share * (1 - kBisectionPoint));
+        list.push(x.data(), share * (1 - kBisectionPoint), upper);
         x[j] = Interval(side.lo(), at);
-        list.push(x.data(), share * kBisectionPoint);
+        list.push(x.data(), share * kBisectionPoint, lower);
         waiting_.fetch_add(1, std::memory_order_relaxed);
       } else {
         waiting_.fetch_sub(1, std::memory_order_relaxed);
@@ -264,7 +299,9 @@ class Search {
       if (busy_.load(std::memory_order_relaxed) < threads_ && threads_ > 1 && list.size() > 1) spawn(list.split_off());
     }
     while (!list.empty()) {
+      const NodeId node = list.node();
       list.pop(x.data());
+      if (worker.recorder) worker.recorder->begin(node, x.data(), problem_.compiled.variables());
       processor.leave(x.data());
     }
   }
@@ -276,7 +313,8 @@ class Search {
   tbb::global_control allow_;
   tbb::task_arena arena_;
   tbb::task_group group_;
-  std::atomic<int> busy_{0};
+  std::vector<certify::Box> roots_;
+  std::atomic<int> busy_{0}, recorders_{0};
   std::atomic<bool> ended_{false};
   std::atomic<std::uint64_t> processed_{0}, waiting_{0};
   std::atomic<double> done_share_{0};
@@ -397,6 +435,7 @@ Cover solve(const certify::System& system, const Options& options) {
       if (found.size() < before) sort(found);  // merged boxes have other sides
       cover.regions = number_regions(reduction, found);
     }
+    if (options.proof && reduction.consistent && !reduction.tolerant && !some_partial) cover.proof = search.proof(found);
     for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
     cover.boxes.resize(found.size());
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {

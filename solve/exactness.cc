@@ -61,14 +61,6 @@ std::vector<ExactNumber> dyadic(const std::vector<double>& x) {
   return result;
 }
 
-bool before(const CoverBox& a, const CoverBox& b) {
-  for (std::size_t j = 0; j < a.box.size(); ++j) {
-    if (a.box[j].lo() != b.box[j].lo()) return a.box[j].lo() < b.box[j].lo();
-    if (a.box[j].hi() != b.box[j].hi()) return a.box[j].hi() < b.box[j].hi();
-  }
-  return std::tie(a.verdict, a.free) < std::tie(b.verdict, b.free);
-}
-
 class Prover {
  public:
   Prover(const System& system, const Options& options, Cover& cover) : system_(system), cover_(cover), options_(options) {
@@ -91,12 +83,13 @@ class Prover {
       } else if (is_only_solution(*exact, point.box)) {
         point.verdict = Verdict::exact;
         point.point = *exact;
-        std::erase_if(cover_.boxes,
-                      [&](const CoverBox& b) { return b.verdict == Verdict::undecided && contains(point.box, b.box); });
+        for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
+          if (cover_.boxes[i].verdict == Verdict::undecided && contains(point.box, cover_.boxes[i].box))
+            replace(i, static_cast<int>(cover_.boxes.size()));
         cover_.boxes.push_back(point);
       }
     }
-    std::sort(cover_.boxes.begin(), cover_.boxes.end(), before);
+    finish();
   }
 
   void coranks() {
@@ -106,8 +99,6 @@ class Prover {
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
       if (cover_.boxes[i].verdict == Verdict::undecided) open.push_back(i);
     if (open.empty() || open.size() > kMostOpenBoxes) return;
-    std::vector<bool> replaced(cover_.boxes.size(), false);
-    std::vector<CoverBox> found;
     for (const std::vector<std::size_t>& cluster : clusters(open)) {
       if (stopped()) break;
       Box hull = cover_.boxes[cluster[0]].box;
@@ -115,17 +106,9 @@ class Prover {
         for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cover_.boxes[i].box[j]);
       const std::optional<int> point = corank_point(matrix, hull);
       if (!point) continue;
-      std::optional<std::vector<CoverBox>> around = search_around(*point, hull);
-      if (!around) continue;
-      for (const std::size_t i : cluster) replaced[i] = true;
-      std::move(around->begin(), around->end(), std::back_inserter(found));
+      search_around(*point, hull, cluster);
     }
-    std::vector<CoverBox> boxes;
-    for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
-      if (!replaced[i]) boxes.push_back(std::move(cover_.boxes[i]));
-    std::move(found.begin(), found.end(), std::back_inserter(boxes));
-    std::sort(boxes.begin(), boxes.end(), before);
-    cover_.boxes = std::move(boxes);
+    finish();
   }
 
   void kernel_dimensions() {
@@ -146,6 +129,17 @@ class Prover {
   }
 
  private:
+  // Boxes whose union with the core is `all`, and how it is split into them; in the variables that are kept, by their numbers there.
+  struct Split {
+    int variable;
+    double where;
+    bool part_is_lower;
+  };
+  struct Parts {
+    std::vector<Box> boxes;
+    std::vector<Split> splits;
+  };
+
   int at_most_on_parts(const certify::KernelBound& bound, const Box& box, int depth) const {
     const int whole = bound.at_most(box);
     if (whole <= 1 || depth == 0) return whole;
@@ -251,9 +245,50 @@ class Prover {
     return std::nullopt;
   }
 
-  // The search again, in the hull without a core about the point's known coordinates; then the core itself. Nothing where even large cores
-  // leave boxes undecided around them.
-  std::optional<std::vector<CoverBox>> search_around(int index, const Box& hull) {
+  // Box i of the cover goes; in the proof, `box i` becomes `box by`.
+  void replace(std::size_t i, int by) {
+    replaced_.resize(cover_.boxes.size(), kStays);
+    replaced_[i] = by;
+  }
+
+  // Removes the boxes that were replaced, sorts the others as solve() does, and renumbers them in the proof.
+  void finish() {
+    replaced_.resize(cover_.boxes.size(), kStays);
+    std::vector<int> order;
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
+      if (replaced_[i] == kStays) order.push_back(static_cast<int>(i));
+    std::vector<int> variables = reduction_.kept;
+    for (const auto& definition : reduction_.definitions) variables.push_back(definition.variable);
+    const auto before = [&](int i, int k) {
+      const CoverBox &a = cover_.boxes[static_cast<std::size_t>(i)], &b = cover_.boxes[static_cast<std::size_t>(k)];
+      for (const int v : variables) {
+        const Interval &x = a.box[static_cast<std::size_t>(v)], &y = b.box[static_cast<std::size_t>(v)];
+        if (x.lo() != y.lo()) return x.lo() < y.lo();
+        if (x.hi() != y.hi()) return x.hi() < y.hi();
+      }
+      return std::tie(a.verdict, a.free) < std::tie(b.verdict, b.free);
+    };
+    std::sort(order.begin(), order.end(), before);
+    std::vector<int> place(cover_.boxes.size(), -1);
+    std::vector<CoverBox> boxes;
+    for (const int i : order) {
+      place[static_cast<std::size_t>(i)] = static_cast<int>(boxes.size());
+      boxes.push_back(std::move(cover_.boxes[static_cast<std::size_t>(i)]));
+    }
+    cover_.boxes = std::move(boxes);
+    if (!cover_.proof) return;
+    auto proof = std::make_shared<certify::Proof>(*cover_.proof);
+    change_leaves(*proof, [&](int i) {
+      const int by = replaced_[static_cast<std::size_t>(i)];
+      if (by <= kInRoot) return Leaf{certify::Proof::Step::root, kInRoot - by};
+      return Leaf{certify::Proof::Step::box, place[static_cast<std::size_t>(by == kStays ? i : by)]};
+    });
+    cover_.proof = std::move(proof);
+  }
+
+  // The search again, in the hull without a core about the point's known coordinates; then the core itself. Nothing changes where even large
+  // cores leave boxes undecided around them.
+  void search_around(int index, const Box& hull, const std::vector<std::size_t>& cluster) {
     const ExactPoint& point = cover_.exact_points[static_cast<std::size_t>(index)];
     double half = 0;
     for (std::size_t j = 0; j < hull.size(); ++j)
@@ -269,21 +304,119 @@ class Prover {
         all[j] = Interval::hull(hull[j], core[j]);
       }
       Options options = options_;
-      options.roots = difference(all, core);
+      const Parts parts = difference(all, core);
+      if (parts.boxes.empty()) return;
+      options.roots = parts.boxes;
       Cover around = solve(system_, options);
       cover_.statistics.processed += around.statistics.processed;
       cover_.statistics.newton_steps += around.statistics.newton_steps;
       cover_.statistics.proofs_tried += around.statistics.proofs_tried;
-      if (!around.complete()) return std::nullopt;
+      if (!around.complete()) return;
       if (around.count(Verdict::undecided) > 0) continue;
       core = with_values(core);
-      if (!certify::lies_in(point, core)) return std::nullopt;
-      CoverBox middle{core, Verdict::undecided, {}};
-      middle.point = index;
-      around.boxes.push_back(std::move(middle));
-      return std::move(around.boxes);
+      if (!certify::lies_in(point, core)) return;
+      if (cover_.proof && !around.proof) return;
+      const int first = static_cast<int>(cover_.boxes.size()), region = static_cast<int>(cover_.regions.size());
+      std::move(around.regions.begin(), around.regions.end(), std::back_inserter(cover_.regions));
+      for (CoverBox& box : around.boxes) {
+        if (box.region >= 0) box.region += region;
+        cover_.boxes.push_back(std::move(box));
+      }
+      cover_.boxes.emplace_back(std::move(core), Verdict::undecided, std::vector<int>{});
+      cover_.boxes.back().point = index;
+      const int root = cover_.proof ? append_proof(all, parts, *around.proof, first) : 0;
+      for (const std::size_t i : cluster) replace(i, kInRoot - root);
+      return;
     }
-    return std::nullopt;
+  }
+
+  // Adds to the proof: a root for the box `all`, which is split into the parts, each the root of its own search, and the core,
+  // the last box of the cover. Returns the root's number.
+  int append_proof(const Box& all, const Parts& parts, certify::Proof around, int first_box) {
+    using Step = certify::Proof::Step;
+    certify::Proof proof = *cover_.proof;
+    const int root = static_cast<int>(proof.roots.size());
+    const auto add_leaf = [&](Step kind, int index) {
+      proof.steps.push_back(static_cast<std::uint8_t>(kind));
+      proof.integers.push_back(index);
+    };
+    proof.roots.emplace_back();
+    for (std::size_t k = 0; k < reduction_.kept.size(); ++k) {
+      Interval side = all[static_cast<std::size_t>(reduction_.kept[k])];
+      side.intersect(reduction_.system.variables[k].domain);
+      proof.roots.back().push_back(side);
+    }
+    // The parts came one after the other: each split leaves one part and what goes on. Those that lie below come at once, those above after
+    // all that follows.
+    std::vector<int> above;
+    for (std::size_t k = 0; k < parts.splits.size(); ++k) {
+      const Split& split = parts.splits[k];
+      proof.steps.push_back(static_cast<std::uint8_t>(Step::split));
+      proof.integers.push_back(split.variable);
+      proof.reals.push_back(split.where);
+      const int part = root + 1 + static_cast<int>(k);
+      if (split.part_is_lower) {
+        add_leaf(Step::root, part);
+      } else {
+        above.push_back(part);
+      }
+    }
+    add_leaf(Step::box, static_cast<int>(cover_.boxes.size()) - 1);
+    for (auto part = above.rbegin(); part != above.rend(); ++part) add_leaf(Step::root, *part);
+    // The searches of the parts follow.
+    const auto combination = static_cast<std::int32_t>(proof.combinations.size());
+    change_steps(around, [&](Step kind, std::int32_t* integers) {
+      if (kind == Step::newton) integers[0] += combination;
+      if (kind == Step::box) integers[0] += first_box;
+    });
+    std::move(around.roots.begin(), around.roots.end(), std::back_inserter(proof.roots));
+    std::move(around.combinations.begin(), around.combinations.end(), std::back_inserter(proof.combinations));
+    proof.steps.insert(proof.steps.end(), around.steps.begin(), around.steps.end());
+    proof.integers.insert(proof.integers.end(), around.integers.begin(), around.integers.end());
+    proof.reals.insert(proof.reals.end(), around.reals.begin(), around.reals.end());
+    cover_.proof = std::make_shared<const certify::Proof>(std::move(proof));
+    return root;
+  }
+
+  // Calls change(kind, its first integer) for every step.
+  template <class Change>
+  static void change_steps(certify::Proof& proof, Change change) {
+    using Step = certify::Proof::Step;
+    std::size_t integer = 0;
+    for (const std::uint8_t s : proof.steps) {
+      const Step kind = static_cast<Step>(s);
+      std::int32_t* const at = proof.integers.data() + integer;
+      switch (kind) {
+        case Step::row:
+        case Step::newton:
+        case Step::split:
+        case Step::box:
+        case Step::root: integer += 1; break;
+        case Step::keep: integer += 1 + static_cast<std::size_t>(*at); break;
+        case Step::cut: integer += 2; break;
+        case Step::empty:
+        case Step::elsewhere: break;
+      }
+      change(kind, at);
+    }
+  }
+
+  struct Leaf {
+    certify::Proof::Step step;
+    int index;
+  };
+  // Every leaf `box i` becomes leaf_of(i).
+  template <class LeafOf>
+  static void change_leaves(certify::Proof& proof, LeafOf leaf_of) {
+    std::size_t step = 0;
+    change_steps(proof, [&](certify::Proof::Step kind, std::int32_t* integers) {
+      if (kind == certify::Proof::Step::box) {
+        const Leaf leaf = leaf_of(*integers);
+        *integers = leaf.index;
+        proof.steps[step] = static_cast<std::uint8_t>(leaf.step);
+      }
+      ++step;
+    });
   }
 
   // The box with the sides of eliminated variables that those of the others imply.
@@ -298,21 +431,23 @@ class Prover {
     return result;
   }
 
-  // Boxes whose union with the core is `all`, in the variables that are kept.
-  std::vector<Box> difference(Box all, const Box& core) const {
-    std::vector<Box> parts;
-    for (const int kept : reduction_.kept) {
-      const std::size_t j = static_cast<std::size_t>(kept);
-      const Interval side = all[j];
-      if (side.lo() < core[j].lo()) {
-        parts.push_back(all);
-        parts.back()[j] = Interval(side.lo(), core[j].lo());
+  Parts difference(Box all, const Box& core) const {
+    Parts parts;
+    for (std::size_t k = 0; k < reduction_.kept.size(); ++k) {
+      const std::size_t j = static_cast<std::size_t>(reduction_.kept[k]);
+      Interval side = all[j], inner = core[j];
+      if (!side.intersect(reduction_.system.variables[k].domain) || !inner.intersect(side)) return {};
+      if (side.lo() < inner.lo()) {
+        parts.boxes.push_back(all);
+        parts.boxes.back()[j] = Interval(side.lo(), inner.lo());
+        parts.splits.push_back({static_cast<int>(k), inner.lo(), true});
       }
-      if (core[j].hi() < side.hi()) {
-        parts.push_back(all);
-        parts.back()[j] = Interval(core[j].hi(), side.hi());
+      if (inner.hi() < side.hi()) {
+        parts.boxes.push_back(all);
+        parts.boxes.back()[j] = Interval(inner.hi(), side.hi());
+        parts.splits.push_back({static_cast<int>(k), inner.hi(), false});
       }
-      all[j] = core[j];
+      all[j] = inner;
     }
     return parts;
   }
@@ -321,6 +456,9 @@ class Prover {
   Cover& cover_;
   Options options_;
   const certify::Reduction reduction_ = certify::reduce(system_);  // what solve() searches
+  // Of each box of the cover: it stays; the box that takes its place; or kInRoot − the root of the proof that does.
+  static constexpr int kStays = -1, kInRoot = -2;
+  std::vector<int> replaced_;
 };
 
 }  // namespace

@@ -86,6 +86,7 @@ class Merger {
         const std::size_t j = at->index;
         if (j == i || removed_[j] || found_[i].box.free != found_[j].box.free) continue;
         if (!merge(found_[i], found_[j].box)) continue;
+        found_[i].leaves.insert(found_[i].leaves.end(), found_[j].leaves.begin(), found_[j].leaves.end());
         removed_[j] = true;
         return true;
       }

@@ -87,13 +87,17 @@ void merge_isolated(std::vector<Found>& found) {
   std::vector<bool> remove(found.size(), false), unclear(found.size(), false);
   const auto proven = indices(found, is_proven);
   const auto all = indices(found, [](const Found&) { return true; });
+  const auto absorb = [&](std::size_t i, std::size_t j) {  // box j's solutions, if it has any, are in box i
+    remove[j] = true;
+    found[i].leaves.insert(found[i].leaves.end(), found[j].leaves.begin(), found[j].leaves.end());
+  };
   for_each_close_pair(sides(found), proven, all, 0.0, [&](std::size_t i, std::size_t j) {
     if (remove[i] || remove[j]) return;
     if (!is_proven(found[j])) {
-      if (certify::holds_nothing_else(found[i].sheet, found[j].box.box.data())) remove[j] = true;
+      if (certify::holds_nothing_else(found[i].sheet, found[j].box.box.data())) absorb(i, j);
     } else if (i < j) {
       switch (certify::compare_isolated(found[i].sheet, found[j].sheet)) {
-        case certify::Identity::same: remove[j] = true; break;
+        case certify::Identity::same: absorb(i, j); break;
         case certify::Identity::different: break;
         case certify::Identity::unknown: unclear[i] = unclear[j] = true; break;
       }

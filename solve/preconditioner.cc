@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/solve/recorder.h"
+
 namespace corank::solve {
 namespace {
 // Pivots below this share of a row's largest entry count as zero.
@@ -117,6 +119,7 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
     for (int b = 0; b < r; ++b)
       result_.y[static_cast<std::size_t>(a) * r + b] =
           tableau_[static_cast<std::size_t>(result_.equations[a]) * n_ + result_.dependent[b]];
+  round_to_floats(result_);
   return result_;
 }
 

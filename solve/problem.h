@@ -1,6 +1,7 @@
 // What all threads of a search share, and what each of them finds.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -44,7 +45,8 @@ struct Found {
   certify::CoverBox box;
   certify::Sheet sheet;
   std::shared_ptr<const certify::Box>
-      region;  ///< that of the proof, as `box` has its sides; one for all boxes cut from a sheet
+      region;                         ///< that of the proof, as `box` has its sides; one for all boxes cut from a sheet
+  std::vector<std::uint64_t> leaves;  ///< of a recorded search: those whose solutions are in the box (solve/recorder.h)
 };
 
 /// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the reverse.

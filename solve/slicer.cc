@@ -130,11 +130,12 @@ void Slicer::add(Task& task, Box piece, Location location) {
   } else if (location == Location::across && !holds_on_parts(sheet, task.free, piece, kBoundaryDepth)) {
     verdict = Verdict::boundary;
   }
-  Found found{{std::move(piece), verdict, task.free}, {}, verdict == Verdict::undecided ? nullptr : task.region};
+  Found found{{std::move(piece), verdict, task.free}, {}, verdict == Verdict::undecided ? nullptr : task.region, {}};
   if (task.free.empty() && verdict != Verdict::undecided) {
     found.sheet = sheet;
     found.sheet.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
   }
+  if (recorder_) recorder_->leaf_box(task.found.size());
   task.found.push_back(std::move(found));
 }
 
@@ -153,7 +154,8 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   task.ended = task.ended || (++task.turns % kPiecesBetweenChecks == 0 && problem_.ended());
   if (task.ended) {
     problem_.append_values(sides);
-    task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr});
+    if (recorder_) recorder_->leaf_box(task.found.size());
+    task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
     return;
   }
   const Preconditioner* p = &inherited;
@@ -175,9 +177,12 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     width = tightened;
   }
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
-  if (!trim(task, *p, sides)) return;
+  const auto elsewhere = [&] {
+    if (recorder_) recorder_->leaf_elsewhere();
+  };
+  if (!trim(task, *p, sides)) return elsewhere();
   const Location location = problem_.domain.locate_zeros(problem_.compiled, *p, sides.data(), workspace_);
-  if (location == Location::outside) return;
+  if (location == Location::outside) return elsewhere();
   width = widest(sides);
   // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts in a row
   // gain nothing, the piece stays as it is, proven.
@@ -204,6 +209,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   } else {
     cuts.push_back(side.lo() + side.width() * (slabs / 2) / slabs);
   }
+  if (recorder_) recorder_->cut(free[along], cuts);
   double from = side.lo();
   for (std::size_t k = 0; k <= cuts.size(); ++k) {
     const double to = k == cuts.size() ? side.hi() : std::clamp(cuts[k], from, side.hi());

@@ -6,6 +6,7 @@
 
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/problem.h"
+#include "corank/solve/recorder.h"
 
 namespace corank::solve {
 
@@ -15,8 +16,10 @@ inline constexpr int kPartialDepth = 8;
 /// One per thread.
 class Slicer {
  public:
-  Slicer(const Problem& problem, PreconditionerFactory& preconditioners, certify::NewtonWorkspace& workspace)
-      : problem_(problem), preconditioners_(preconditioners), workspace_(workspace) {}
+  /// Where given, the recorder keeps what becomes of the sheet.
+  Slicer(const Problem& problem, PreconditionerFactory& preconditioners, certify::NewtonWorkspace& workspace,
+         Recorder* recorder = nullptr)
+      : problem_(problem), preconditioners_(preconditioners), workspace_(workspace), recorder_(recorder) {}
 
   /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so. Where the
   /// search ends meanwhile, the rest is added as pending boxes.
@@ -61,6 +64,7 @@ class Slicer {
   const Problem& problem_;
   PreconditionerFactory& preconditioners_;
   certify::NewtonWorkspace& workspace_;
+  Recorder* recorder_;
   certify::Box met_;
   std::vector<double> steepness_, gradient_;
 };

@@ -32,6 +32,8 @@ struct Options {
   /// is not processed then is `pending`, as with the other limits. With one thread the result is always the same.
   std::uint64_t max_solutions = 0;
   double time_limit = 0;  ///< seconds; 0: no limit
+  /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a tolerance have none.
+  bool proof = false;
   /// Where given: search these boxes, in all variables, instead of the whole domain; the cover is of their solutions.
   std::vector<certify::Box> roots;
   /// Called every `progress_interval` seconds or so, from one thread at a time.

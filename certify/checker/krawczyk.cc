@@ -51,9 +51,10 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x) {
       if (const int a = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; a >= 0)
         matrix[b * r + static_cast<std::size_t>(a)] = entries[k];
   }
-  y_ = inverse(matrix, r);
-  if (y_.size() != r * r) return false;
+  const std::vector<double> rough = inverse(matrix, r);
+  if (rough.size() != r * r) return false;
   center_sides_.assign(center_.begin(), center_.end());
+  refine(rough, row_of);
   at_center_.clear();
   for (const Row& f : equations_) at_center_.push_back(f.value(center_sides_));
   residual_.assign(r, Enclosure());
@@ -62,13 +63,44 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x) {
   return true;
 }
 
+void Krawczyk::refine(const std::vector<double>& rough, const std::vector<int>& row_of) {
+  const std::size_t r = equations_.size();
+  Sides a(r * r), entries;
+  for (std::size_t b = 0; b < r; ++b) {
+    equations_[b].derivatives(center_sides_, entries);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      if (const int column = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; column >= 0)
+        a[b * r + static_cast<std::size_t>(column)] = entries[k];
+  }
+  y_.assign(rough.begin(), rough.end());
+  constexpr int kSteps = 2;  // 2⁻⁵³ → 2⁻¹⁰⁶ → all bits
+  for (int step = 0; step < kSteps; ++step) {
+    Sides residual(r * r), next(y_);  // I − A·Y, Y + Y·(I − A·Y)
+    for (std::size_t i = 0; i < r; ++i)
+      for (std::size_t j = 0; j < r; ++j) {
+        if (i == j) residual[i * r + j] = Enclosure(1.0);
+        for (std::size_t k = 0; k < r; ++k)
+          if (!a[i * r + k].is_zero() && !y_[k * r + j].is_zero()) residual[i * r + j] -= a[i * r + k] * y_[k * r + j];
+      }
+    for (std::size_t i = 0; i < r; ++i)
+      for (std::size_t j = 0; j < r; ++j)
+        for (std::size_t k = 0; k < r; ++k)
+          if (!y_[i * r + k].is_zero() && !residual[k * r + j].is_zero())
+            next[i * r + j].add_product(y_[i * r + k], residual[k * r + j]);
+    for (std::size_t i = 0; i < y_.size(); ++i) {
+      if (!next[i].is_bounded()) return;
+      y_[i] = next[i].lower_end();  // some point: any Y is valid
+    }
+  }
+}
+
 void Krawczyk::multiply(const std::vector<Sides>& rows) {
   const std::size_t r = equations_.size();
   product_.assign(r, Sides(static_cast<std::size_t>(n_)));
   for (std::size_t a = 0; a < r; ++a)
     for (std::size_t b = 0; b < r; ++b) {
-      const double y = y_[a * r + b];
-      if (y == 0) continue;
+      const Enclosure& y = y_[a * r + b];
+      if (y.is_zero()) continue;
       for (std::size_t k = 0; k < rows[b].size(); ++k)
         product_[a][static_cast<std::size_t>(equations_[b].columns()[k])].add_product(y, rows[b][k]);
     }

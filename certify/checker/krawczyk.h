@@ -31,13 +31,17 @@ class Krawczyk {
   const std::vector<double>& center() const { return center_; }
 
  private:
+  // y_ := the inverse to all bits (Newton–Schulz steps from a rough one): where exact cancellation makes a variable all but constant, a Y of
+  // doubles would couple it to the others by its rounding.
+  void refine(const std::vector<double>& rough, const std::vector<int>& row_of);
   // product_ := Y·M, M the rows' entries in their columns.
   void multiply(const std::vector<Sides>& rows);
 
   const std::vector<Row>& equations_;
   int n_;
   std::vector<int> dependent_;
-  std::vector<double> center_, y_;
+  std::vector<double> center_;
+  Sides y_;                                    // points
   Sides center_sides_, at_center_, residual_;  // c, F(c), Y·F(c)
   std::vector<Sides> entries_, product_;
 };

@@ -38,6 +38,8 @@ bool Search::newton(Sides& x, const LinearCombination& p, const std::vector<doub
     f.slopes(x, c, slopes[b]);
     at_center.push_back(f.value(c));
   }
+  std::vector<Sides> products;
+  Sides sums;  // Y·F(c)
   for (std::size_t a = 0; a < r; ++a) {
     Sides product(n);
     Enclosure sum;
@@ -49,12 +51,26 @@ bool Search::newton(Sides& x, const LinearCombination& p, const std::vector<doub
       for (std::size_t k = 0; k < columns.size(); ++k)
         product[static_cast<std::size_t>(columns[k])].add_product(y, slopes[b][k]);
     }
-    const auto d = static_cast<std::size_t>(p.dependent[a]);
-    for (std::size_t j = 0; j < n; ++j)
-      if (j != d && !product[j].is_zero()) sum.add_product(product[j], x[j] - c[j]);
-    const auto shift = divide(-sum, product[d], x[d] - c[d]);
-    if (!shift || !x[d].intersect(c[d] + *shift)) return false;
+    products.push_back(std::move(product));
+    sums.push_back(std::move(sum));
   }
+  // Row a, solved for x_v. False: it has no solution.
+  const auto solve_for = [&](std::size_t a, std::size_t v) {
+    Enclosure sum = sums[a];
+    for (std::size_t j = 0; j < n; ++j)
+      if (j != v && !products[a][j].is_zero()) sum.add_product(products[a][j], x[j] - c[j]);
+    const auto shift = divide(-sum, products[a][v], x[v] - c[v]);
+    return shift && x[v].intersect(c[v] + *shift);
+  };
+  std::vector<bool> is_free(n, true);
+  for (std::size_t a = 0; a < r; ++a) {
+    const auto d = static_cast<std::size_t>(p.dependent[a]);
+    is_free[d] = false;
+    if (!solve_for(a, d)) return false;
+  }
+  for (std::size_t v = 0; v < n; ++v)
+    for (std::size_t a = 0; a < r && is_free[v]; ++a)
+      if (!products[a][v].is_zero() && !solve_for(a, v)) return false;
   return true;
 }
 

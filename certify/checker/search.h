@@ -20,7 +20,8 @@ class Search {
 
   /// Shrinks x to a box that holds its solutions (equations, domain, inequalities). False: it has none.
   bool project(Sides& x, int row) const;  ///< an equation; from equations().size() on: all that is no equation
-  /// A Hansen–Sengupta step: a zero z of F in X satisfies Y·F(c) + Y·S·(z − c) ∋ 0 row by row, for any c and Y (HansenSengupta1981).
+  /// A Hansen–Sengupta step: a zero z of F in X satisfies Y·F(c) + Y·S·(z − c) ∋ 0 row by row, for any c and Y (HansenSengupta1981): a row may be solved for its
+  /// dependent variable, and for each free one.
   bool newton(Sides& x, const LinearCombination& p, const std::vector<double>& center);
   bool contract(Sides& x);
 

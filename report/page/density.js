@@ -21,12 +21,13 @@ function edgeDifferences(a, b, size, out) {
   return n;
 }
 
-// Row-major counts; `toX`, `toY` bring a projection to pixels (y down).
-export function coverage(projection, width, height, toX, toY) {
+// Row-major counts; `toX`, `toY` bring a projection to pixels (y down). Boxes for which `skip` is true do not count.
+export function coverage(projection, width, height, toX, toY, skip) {
   const counts = new Float32Array(width * height);
   const xs = new Float64Array(8),
     ys = new Float64Array(8);
   for (let i = 0; i < projection.length; ++i) {
+    if (skip(projection.owners[i])) continue;
     const left = toX(projection.x[2 * i]),
       right = toX(projection.x[2 * i + 1]);
     const top = toY(projection.y[2 * i + 1]),

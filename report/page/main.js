@@ -76,7 +76,7 @@ function main() {
     typical = clearest(model, samples);
   if (typical && model.drawing.points.length > 0)
     drawMechanism(hero, model, typical.values, null, drawingWindow(model, [typical.values]), {unit: 0.9});
-  else document.getElementById("mechanism").classList.add("undrawn");
+  else document.body.classList.add("undrawn");
 
   const order = axisOrder(model),
     views = [];
@@ -94,6 +94,7 @@ function main() {
   for (const role of ["output", "input"]) {
     const root = document.getElementById(`${role}-portrait`);
     if (order.length > 1) views.push(new Portrait(model, root, firstOf(order, model, role), listener));
+    else root.remove();
   }
   const three = [...new Set([...order, 0, 1, 2].filter((i) => i < model.coordinates.length))].slice(0, 3);
   if (three.length === 3) {

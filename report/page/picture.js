@@ -5,7 +5,6 @@ import {Projection, groupTouching} from "./projection.js";
 import {fullTurn, isAngle} from "./values.js";
 
 const reach = 9; // pixels within which a curve or a point is taken to be meant
-const undecidedVerdicts = ["undecided", "pending"];
 
 // The colours of the page's style, as an element has them.
 export function pageColours(element) {
@@ -84,16 +83,13 @@ export class Picture {
   }
 
   drawDensity(context, projection) {
-    const {pad, inner, height} = this.plane,
-      width = Math.round(inner * this.ratio),
-      rows = Math.round(height * this.ratio);
-    const counts = coverage(
-      projection,
-      width,
-      rows,
-      (x) => (this.plane.toX(x) - pad.left) * this.ratio,
-      (y) => (this.plane.toY(y) - pad.top) * this.ratio,
-    );
+    const {pad, inner, height} = this.plane;
+    const width = Math.round(inner * this.ratio);
+    const rows = Math.round(height * this.ratio);
+    const toX = (x) => (this.plane.toX(x) - pad.left) * this.ratio;
+    const toY = (y) => (this.plane.toY(y) - pad.top) * this.ratio;
+    const isPending = (box) => this.verdictOf(projection.set, box) === "pending";
+    const counts = coverage(projection, width, rows, toX, toY, isPending);
     const layer = document.createElement("canvas");
     layer.width = width;
     layer.height = rows;
@@ -106,40 +102,59 @@ export class Picture {
     context.fillStyle = name === "cspace" ? `rgba(${this.colours.cspace}, 0.55)` : this.colours[name];
     const dots = projection.set.dimension === 0;
     for (let i = 0; i < projection.length; ++i) {
-      const left = this.plane.toX(projection.x[2 * i]),
-        right = this.plane.toX(projection.x[2 * i + 1]);
-      const top = this.plane.toY(projection.y[2 * i + 1]),
-        bottom = this.plane.toY(projection.y[2 * i]);
+      if (this.verdictOf(projection.set, projection.owners[i]) === "pending") continue;
+      const {left, right, top, bottom} = this.rectangle(projection, i);
       if (dots && right - left < 7 && bottom - top < 7) {
         context.beginPath();
         context.arc((left + right) / 2, (top + bottom) / 2, name === "forward" ? 3.8 : 6.2, 0, 7);
         context.fill();
         continue;
       }
-      const wide = Math.max(right - left, 1.8),
-        high = Math.max(bottom - top, 1.8);
+      const wide = Math.max(right - left, 1.8);
+      const high = Math.max(bottom - top, 1.8);
       context.fillRect((left + right - wide) / 2, (top + bottom - high) / 2, wide, high);
     }
   }
 
+  // Rings or dots where nothing is proven; what was not searched is tinted all over.
   drawUndecided(context, projection) {
-    const {set} = projection;
-    const isOpen = (box) => undecidedVerdicts.includes(this.model.verdicts[set.verdicts[box]]);
-    const few = set.verdicts.reduce((n, _, box) => n + (isOpen(box) ? 1 : 0), 0) <= 60;
+    const verdictIs = (name) => (box) => this.verdictOf(projection.set, box) === name;
+    const isUndecided = verdictIs("undecided");
+    const isPending = verdictIs("pending");
+    const few = projection.owners.filter(isUndecided).length <= 60;
     context.strokeStyle = context.fillStyle = this.colours.undecided;
     context.lineWidth = 2;
     for (let i = 0; i < projection.length; ++i) {
-      if (!isOpen(projection.owners[i])) continue;
-      const x = this.plane.toX((projection.x[2 * i] + projection.x[2 * i + 1]) / 2),
-        y = this.plane.toY((projection.y[2 * i] + projection.y[2 * i + 1]) / 2);
-      context.beginPath();
-      if (few) {
+      if (!isUndecided(projection.owners[i]) && !isPending(projection.owners[i])) continue;
+      const {left, right, top, bottom} = this.rectangle(projection, i);
+      const [x, y] = [(left + right) / 2, (top + bottom) / 2];
+      if (isPending(projection.owners[i])) {
+        context.globalAlpha = 0.25;
+        context.fillRect(left, top, Math.max(right - left, 2), Math.max(bottom - top, 2));
+        context.globalAlpha = 1;
+      } else if (few) {
+        context.beginPath();
         context.arc(x, y, 6.5, 0, 7);
         context.stroke();
       } else {
         context.fillRect(x - 1.5, y - 1.5, 3, 3);
       }
     }
+  }
+
+  verdictOf(set, box) {
+    return this.model.verdicts[set.verdicts[box]];
+  }
+
+  // Rectangle i of a projection in pixels.
+  rectangle(projection, i) {
+    const {plane} = this;
+    return {
+      left: plane.toX(projection.x[2 * i]),
+      right: plane.toX(projection.x[2 * i + 1]),
+      top: plane.toY(projection.y[2 * i + 1]),
+      bottom: plane.toY(projection.y[2 * i]),
+    };
   }
 
   // The number of boxes of a set over a place: what a picture claims, for a test to compare.

@@ -40,6 +40,7 @@ const std::vector<LibraryRule>& library_rules() {
        true},
       {std::regex("^flint/|^coin/"), {"solve"}, true},  // guesses, no proofs
       {std::regex("^hdf5|^H5"), {"report"}, false},
+      {std::regex("^(cairo|pugi|zlib)"), {"report"}, true},
       {std::regex("^CLI/"), {"app"}, false},
       {std::regex("^tao/"), {"symbolic"}, false},
       {std::regex("^nlohmann/"), {"report", "bench"}, true},

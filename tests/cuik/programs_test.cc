@@ -152,7 +152,7 @@ TEST(Cuikplot3d, RefusesWhatItCannotDraw) {
               HasSubstr("cuikplot3d: a.sol has no variable '4'; expected a number from 1 to 3 or one of x, y, z"));
   EXPECT_EQ(folder.run("cuikplot3d a 1 2 3 -1 a").status, 2);
   EXPECT_EQ(folder.run("cuikplot3d b 1 2 3 0 a").status, 1);
-  EXPECT_EQ(folder.run("corank plot a.sol --axes 1,2 -o a.png").status, 2);
+  EXPECT_EQ(folder.run("corank plot a.sol --axes 1,2 -o a.jpg").status, 2);
   EXPECT_EQ(folder.run("corank plot a.sol --axes 1 -o a.gcl").status, 2);
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.gcl")));
 }

@@ -23,64 +23,53 @@ SolFile two_boxes() {
   return file;
 }
 
+std::string gcl(const SolFile& file, const PictureOptions& options, const GclOptions& names = {}) {
+  return to_gcl(make_picture({picture_source(file, "boxes.sol")}, options), names);
+}
+PictureOptions axes(std::vector<std::string> names, ColorScheme color = ColorScheme::plain) {
+  return {std::move(names), color, 0};
+}
+
 TEST(Gcl, DrawsABoxByItsEightCornersAndSixFaces) {
-  GclOptions options;
-  options.axes = {0, 1, 3};
   SolFile file = two_boxes();
   file.boxes.pop_back();
-  const std::string text = to_gcl(file, options);
+  const std::string text = gcl(file, axes({"1", "2", "4"}));
   EXPECT_THAT(text, HasSubstr("OFF 8 6 1\n0 2 7\n0 3 7\n1 3 7\n1 2 7\n0 2 8\n0 3 8\n1 3 8\n1 2 8\n4 3 2 1 0\n"));
   EXPECT_THAT(text, HasSubstr("diffuse 0.000000 0.000000 1.000000"));
 }
 
 TEST(Gcl, DrawsManyBoxesAsOneMesh) {
-  GclOptions options;
-  options.axes = {0, 1, 2};
-  const std::string text = to_gcl(two_boxes(), options);
+  const std::string text = gcl(two_boxes(), axes({"x", "y", "z"}));
   EXPECT_THAT(text, HasSubstr("OFF 16 12 1\n"));
   EXPECT_THAT(text, HasSubstr("\n4 11 10 9 8\n"));
 }
 
 TEST(Gcl, DrawsCubesOfTheSizeAskedForAboutTheCentres) {
-  GclOptions options;
-  options.axes = {0, 1, 2};
+  PictureOptions options = axes({"x", "y", "z"});
   options.size = 0.5;
-  EXPECT_THAT(to_gcl(two_boxes(), options), HasSubstr("\n0.25 2.25 4.75\n0.25 2.75 4.75\n0.75 2.75 4.75\n"));
+  EXPECT_THAT(gcl(two_boxes(), options), HasSubstr("\n0.25 2.25 4.75\n0.25 2.75 4.75\n0.75 2.75 4.75\n"));
 }
 
 TEST(Gcl, DrawsSquaresInThePlane) {
-  GclOptions options;
-  options.axes = {1, 0};
-  EXPECT_THAT(to_gcl(two_boxes(), options), HasSubstr("OFF 8 2 1\n2 0 0\n2 1 0\n3 1 0\n3 0 0\n"));
+  EXPECT_THAT(gcl(two_boxes(), axes({"y", "x"})), HasSubstr("OFF 8 2 1\n2 0 0\n2 1 0\n3 1 0\n3 0 0\n"));
 }
 
 TEST(Gcl, GivesEachVerdictItsColour) {
-  GclOptions options;
-  options.axes = {0, 1, 2};
-  options.color_by_verdict = true;
-  const std::string text = to_gcl(two_boxes(), options);
+  const std::string text = gcl(two_boxes(), axes({"x", "y", "z"}, ColorScheme::verdict));
   EXPECT_THAT(text, HasSubstr("diffuse 0.000000 0.000000 1.000000"));
   EXPECT_THAT(text, HasSubstr("diffuse 1.000000 0.000000 0.000000"));
   EXPECT_THAT(text, HasSubstr("OFF 8 6 1\n"));
 }
 
 TEST(Gcl, KeepsStrangeNamesOutOfGeomviewsLanguage) {
-  GclOptions options;
-  options.axes = {0, 1, 2};
-  options.name = "a (b) {c}";
-  options.comment = "line\n(exit)";
-  const std::string text = to_gcl(two_boxes(), options);
+  const std::string text = gcl(two_boxes(), axes({"x", "y", "z"}), {"a (b) {c}", "line\n(exit)"});
   EXPECT_THAT(text, HasSubstr("(geometry a__b___c_ { LIST"));
   EXPECT_THAT(text, Not(HasSubstr("\n(exit)")));
 }
 
-TEST(Gcl, RefusesToDrawNothing) {
-  GclOptions options;
-  options.axes = {0, 1, 2};
-  EXPECT_THROW(to_gcl(SolFile{}, options), ResultFileError);
-}
+TEST(Gcl, RefusesToDrawNothing) { EXPECT_THROW(to_gcl(Picture{}, {}), ResultFileError); }
 
-struct Picture {
+struct Snapshot {
   int width = 0, height = 0;
   std::vector<unsigned char> rgb;
   // Pixels whose strongest channel is that one by far.
@@ -94,17 +83,17 @@ struct Picture {
   }
 };
 
-Picture read_ppm(const std::filesystem::path& path) {
+Snapshot read_ppm(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::string magic;
   int depth = 0;
-  Picture picture;
+  Snapshot picture;
   in >> magic >> picture.width >> picture.height >> depth;
   in.get();
   if (magic != "P6" || depth != 255) return {};
   picture.rgb.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 3);
   in.read(reinterpret_cast<char*>(picture.rgb.data()), static_cast<std::streamsize>(picture.rgb.size()));
-  return in ? picture : Picture{};
+  return in ? picture : Snapshot{};
 }
 
 // Geomview loads the file on a screen of its own, as a user's would, and takes a picture of its window.
@@ -120,14 +109,11 @@ TEST(Gcl, GeomviewShowsTheBoxesInTheirColours) {
     const double x = 0.5 * i, y = i < 20 ? x : 20 - x;
     file.boxes.push_back({{{x, x + 1}, {y, y + 1}, {0, 1}}, i < 20 ? Verdict::regular : Verdict::undecided, {}});
   }
-  GclOptions options;
-  options.axes = {0, 1, 2};
-  options.color_by_verdict = true;
-  options.name = "roof";
   // A window exists before the file is loaded, and is photographed and closed behind it.
   std::ofstream(folder / "scene.gcl") << "(new-camera c0)\n"
-                                      << to_gcl(file, options) << "(look World c0)\n(redraw c0)\n(snapshot c0 "
-                                      << (folder / "shot.ppm").string() << " ppm)\n(exit)\n";
+                                      << gcl(file, axes({"1", "2", "3"}, ColorScheme::verdict), {"roof", ""})
+                                      << "(look World c0)\n(redraw c0)\n(snapshot c0 " << (folder / "shot.ppm").string()
+                                      << " ppm)\n(exit)\n";
   const std::string at = "'" + folder.string() + "'";
   const std::string command =
       "cd " + at + " && HOME=" + at +
@@ -138,7 +124,7 @@ TEST(Gcl, GeomviewShowsTheBoxesInTheirColours) {
   log << std::ifstream(folder / "log").rdbuf();
   EXPECT_EQ(log.str().find("expected"), std::string::npos) << log.str();
   EXPECT_EQ(log.str().find("rror"), std::string::npos) << log.str();
-  const Picture picture = read_ppm(folder / "shot.ppm");
+  const Snapshot picture = read_ppm(folder / "shot.ppm");
   EXPECT_EQ(picture.width, 600);
   EXPECT_GT(picture.count(2), 2000) << "blue";
   EXPECT_GT(picture.count(0), 2000) << "red";

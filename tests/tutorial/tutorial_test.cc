@@ -52,6 +52,10 @@ TEST(Tutorial, RunsWordForWordAndShowsWhatItPromises) {
        {"cspace", "fwd", "inv", "cspace_output", "fwd_output", "inv_output", "cspace_input", "fwd_input", "inv_input"}) {
     EXPECT_THAT(folder.read(std::string(name) + ".gcl"), HasSubstr("OFF ")) << name;
   }
+  for (const char* name : {"output.svg", "input.svg"}) {
+    for (const char* set : {"cspace", "forward", "inverse"})
+      EXPECT_THAT(folder.read(name), HasSubstr(std::string("data-set=\"") + set + "\"")) << name;
+  }
 
   // Inverse: the arcs of radius 2l about both motors, and J3 on a motor, the folded arm in any direction.
   const SolFile inv = report::read_sol(folder.file("inv.sol"));

@@ -1,0 +1,163 @@
+#include "corank/report/drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corank/certify/check.h"
+
+namespace corank::report {
+namespace {
+
+using certify::Interval;
+
+constexpr double kPointsPerMm = 72 / 25.4, kCell = 72.0 / 1200;
+constexpr int kMostCells = 8192;
+constexpr double kTitleSize = 9, kNameSize = 8.5, kTickSize = 7.5, kLegendSize = 7.5;
+constexpr double kEdge = 3, kGap = 3, kTickLength = 2.5, kLine = 0.5;
+
+// What an axis shows.
+struct View {
+  double lo, hi;
+  double extent() const { return hi - lo; }
+};
+
+View view(const Picture& picture, std::size_t j) {
+  View data{HUGE_VAL, -HUGE_VAL};
+  for (const PictureLayer& layer : picture.layers)
+    for (const PictureBox& box : layer.boxes)
+      data = {std::min(data.lo, box.sides[j].lo()), std::max(data.hi, box.sides[j].hi())};
+  const auto& range = picture.axes[j].range;
+  if (range && range->width() < 2 * data.extent()) return {range->lo(), range->hi()};
+  const double least = 1e-9 * std::max({1e-3, std::fabs(data.lo), std::fabs(data.hi)});  // a point has an extent, too
+  const double margin = std::max(0.04 * data.extent(), least);
+  return {data.lo - margin, data.hi + margin};
+}
+
+// Height of the frame over its width.
+double proportion(const Picture& picture, const View& x, const View& y) {
+  constexpr double kFree = 0.75, kLeast = 0.3, kMost = 2;
+  if (picture.axes[0].angle != picture.axes[1].angle) return kFree;
+  const double equal = y.extent() / x.extent();
+  return equal >= kLeast && equal <= kMost ? equal : kFree;
+}
+
+// Outward to cells of the frame.
+struct Scale {
+  double lo, cells_per_unit;
+  int cells;
+  int below(double v) const { return static_cast<int>(std::clamp(std::floor((v - lo) * cells_per_unit), 0.0, cells - 1.0)); }
+  int above(double v, int at_least) const {
+    return std::max(at_least, static_cast<int>(std::clamp(std::ceil((v - lo) * cells_per_unit), 0.0, double(cells))));
+  }
+};
+
+Drawing::Shape shape(const PictureLayer& layer, const Scale& x, const Scale& y, double mark_cells) {
+  CellUnion cells(x.cells, y.cells);
+  for (const PictureBox& box : layer.boxes) {
+    const int x0 = x.below(box.sides[0].lo()), x1 = x.above(box.sides[0].hi(), x0 + 1);
+    const int y0 = y.below(box.sides[1].lo()), y1 = y.above(box.sides[1].hi(), y0 + 1);
+    cells.add(x0, y.cells - y1, x1, y.cells - y0);
+  }
+  Drawing::Shape result{layer.label, layer.set, layer.color, layer.opacity, cells.outlines(), {}};
+  for (const GridPolygon& p : result.polygons) {
+    const auto [left, right] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.x < b.x; });
+    const auto [top, bottom] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.y < b.y; });
+    if (std::max(right->x - left->x, bottom->y - top->y) >= 2 * mark_cells) continue;
+    const GridPoint first =
+        *std::min_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); });
+    if (cells.holds(first.x, first.y)) result.marked.push_back(p);  // else a hole
+  }
+  return result;
+}
+
+// Swatches and their words in rows from y on, as many to a row as there is room. Returns the y below.
+double add_legend(const Picture& picture, const TextWidth& text_width, double left, double right, double y, Drawing& out) {
+  constexpr double kSwatch = 6, kSpace = 9, kRow = 10.5;
+  std::vector<std::string> seen;
+  double x = left;
+  y += kRow;
+  for (const PictureLayer& layer : picture.layers) {
+    const Label label{{layer.label + (layer.boxes.empty() ? " (none)" : "")}};
+    if (std::find(seen.begin(), seen.end(), label[0].text) != seen.end()) continue;
+    seen.push_back(label[0].text);
+    const double width = kSwatch + kGap + text_width(label, kLegendSize);
+    if (x > left && x + width > right) x = left, y += kRow;
+    out.swatches.push_back({x, y - kSwatch + 0.3, kSwatch, kSwatch, layer.color, layer.opacity});
+    out.texts.push_back({x + kSwatch + kGap, y, kLegendSize, Drawing::Anchor::start, false, label});
+    x += width + kSpace;
+  }
+  return y + 5;
+}
+
+double widest(const std::vector<Tick>& marks, const TextWidth& text_width) {
+  double width = 0;
+  for (const Tick& t : marks) width = std::max(width, text_width({{t.text}}, kTickSize));
+  return width;
+}
+
+void add_axes(const Picture& picture, const View& x, const View& y, const std::vector<Tick>& x_ticks,
+              const std::vector<Tick>& y_ticks, double y_tick_width, Drawing& out) {
+  const double left = out.frame_x, top = out.frame_y, right = left + out.frame_width, bottom = top + out.frame_height;
+  for (const auto& [x0, y0, x1, y1] : {std::array{left, top, right, top},
+                                       {right, top, right, bottom},
+                                       {right, bottom, left, bottom},
+                                       {left, bottom, left, top}})
+    out.lines.push_back({x0, y0, x1, y1, kLine});
+  for (const Tick& t : x_ticks) {
+    const double at = left + (t.at - x.lo) / x.extent() * out.frame_width;
+    out.lines.push_back({at, bottom, at, bottom + kTickLength, kLine});
+    out.texts.push_back({at, bottom + kTickLength + kTickSize, kTickSize, Drawing::Anchor::middle, false, {{t.text}}});
+  }
+  for (const Tick& t : y_ticks) {
+    const double at = bottom - (t.at - y.lo) / y.extent() * out.frame_height;
+    out.lines.push_back({left - kTickLength, at, left, at, kLine});
+    out.texts.push_back({left - kTickLength - 2, at + 0.36 * kTickSize, kTickSize, Drawing::Anchor::end, false, {{t.text}}});
+  }
+  out.texts.push_back({(left + right) / 2, bottom + kTickLength + kTickSize + kGap + kNameSize, kNameSize,
+                       Drawing::Anchor::middle, false, axis_label(picture.axes[0])});
+  out.texts.push_back({left - kTickLength - 2 - y_tick_width - 4, (top + bottom) / 2, kNameSize, Drawing::Anchor::middle,
+                       true, axis_label(picture.axes[1])});
+}
+
+}  // namespace
+
+std::pair<double, double> centre(const GridPolygon& p) {
+  const auto [left, right] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.x < b.x; });
+  const auto [top, bottom] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.y < b.y; });
+  return {0.5 * (left->x + right->x), 0.5 * (top->y + bottom->y)};
+}
+
+Drawing lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width) {
+  CORANK_CHECK(picture.axes.size() == 2 && !is_empty(picture));
+  const View x = view(picture, 0), y = view(picture, 1);
+  const double ratio = proportion(picture, x, y);
+  Drawing out;
+  out.width = options.width_mm * kPointsPerMm;
+  out.x_range = {x.lo, x.hi}, out.y_range = {y.lo, y.hi};
+  out.outline = options.outline, out.mark = options.mark;
+  const auto tick_count = [](double length, double spacing) { return std::clamp(static_cast<int>(length / spacing), 2, 9); };
+  // The frame's width depends on that of the numbers beside it, which depend on its height: a guess settles it.
+  const std::vector<Tick> y_ticks = ticks(y.lo, y.hi, picture.axes[1].angle, tick_count((out.width - 40) * ratio, 28));
+  const double y_tick_width = widest(y_ticks, text_width);
+  out.frame_x = kEdge + kNameSize + 4 + y_tick_width + 2 + kTickLength;
+  const std::vector<Tick> x_ticks = ticks(x.lo, x.hi, picture.axes[0].angle, tick_count(out.width - out.frame_x, 36));
+  const double overhang = x_ticks.empty() ? 0 : 0.5 * text_width({{x_ticks.back().text}}, kTickSize);
+  const double room = std::max(20.0, out.width - out.frame_x - std::max(kEdge, overhang));
+  out.cell = std::max(kCell, room / kMostCells);
+  const int columns = static_cast<int>(room / out.cell), rows = std::max(1, static_cast<int>(std::lround(columns * ratio)));
+  out.frame_width = columns * out.cell, out.frame_height = rows * out.cell;
+  out.frame_y = kEdge;
+  if (!options.title.empty()) {
+    out.frame_y += kTitleSize + 3;
+    out.texts.push_back({out.frame_x, out.frame_y - 3, kTitleSize, Drawing::Anchor::start, false, {{options.title}}});
+  }
+  if (options.legend) out.frame_y = add_legend(picture, text_width, out.frame_x, out.width - kEdge, out.frame_y, out);
+  if (options.title.empty() && !options.legend) out.frame_y += 0.5 * kTickSize;
+  add_axes(picture, x, y, x_ticks, y_ticks, y_tick_width, out);
+  out.height = out.frame_y + out.frame_height + kTickLength + kTickSize + kGap + kNameSize + 4;
+  const Scale across{x.lo, columns / x.extent(), columns}, up{y.lo, rows / y.extent(), rows};
+  for (const PictureLayer& layer : picture.layers) out.shapes.push_back(shape(layer, across, up, out.mark / out.cell));
+  return out;
+}
+
+}  // namespace corank::report

@@ -1,0 +1,81 @@
+// A flat picture laid out on a page: shapes, lines and words at their places, the same for every format. Lengths in points (1/72 inch)
+// from the upper left corner.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "corank/report/cell_union.h"
+#include "corank/report/portrait.h"
+
+namespace corank::report {
+
+struct TextRun {
+  std::string text;
+  bool italic = false, subscript = false;
+  friend bool operator==(const TextRun&, const TextRun&) = default;
+};
+using Label = std::vector<TextRun>;
+
+/// A name as mathematics sets it: theta2 → θ₂, J3x → J with the subscript 3x, phi_a → φ with the subscript a; other names as they are.
+Label math_label(const std::string& name);
+/// The name of an axis, with its unit where that is known.
+Label axis_label(const PictureAxis& axis);
+
+/// A text's width in points at a font size.
+using TextWidth = std::function<double(const Label&, double)>;
+
+inline constexpr double kSubscriptSize = 0.72, kSubscriptDrop = 0.22;  ///< in font sizes
+
+struct Drawing {
+  struct Line {
+    double x0, y0, x1, y1, width;
+  };
+  enum class Anchor { start, middle, end };
+  struct Text {
+    double x, y;  ///< of the base line's start, middle or end
+    double size;
+    Anchor anchor;
+    bool upward;  ///< turned by a quarter to the left
+    Label label;
+  };
+  struct Swatch {
+    double x, y, width, height;
+    Color color;
+    double opacity;
+  };
+  /// In cells from the frame's upper left corner.
+  struct Shape {
+    std::string label, set;
+    Color color;
+    double opacity;
+    std::vector<GridPolygon> polygons;  ///< even-odd rule
+    std::vector<GridPolygon> marked;    ///< those that need a mark, about the centres of their bounds
+  };
+
+  double width = 0, height = 0;
+  double frame_x = 0, frame_y = 0, frame_width = 0, frame_height = 0;
+  certify::Interval x_range, y_range;  ///< of the coordinates over the frame
+  double cell = 0;                     ///< edge of a cell
+  double outline = 0, mark = 0;        ///< width of the shapes' line, radius of a mark
+  std::vector<Shape> shapes;
+  std::vector<Swatch> swatches;
+  std::vector<Line> lines;
+  std::vector<Text> texts;
+};
+
+/// Requires two axes and a box.
+Drawing lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width);
+
+/// The centre of the bounds.
+std::pair<double, double> centre(const GridPolygon& polygon);
+
+/// Numbers at the ticks of an axis over [lo, hi], about `count` of them.
+struct Tick {
+  double at;
+  std::string text;
+};
+std::vector<Tick> ticks(double lo, double hi, bool angle, int count);
+
+}  // namespace corank::report

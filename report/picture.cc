@@ -1,0 +1,200 @@
+#include "corank/report/picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+#include "corank/certify/angle.h"
+#include "corank/report/picture_style.h"
+
+namespace corank::report {
+namespace {
+
+using certify::Angle;
+using certify::Interval;
+using certify::Verdict;
+
+constexpr double kTurn = 2 * std::numbers::pi;
+const Interval kCircle(-std::numbers::pi, std::numbers::pi);
+constexpr Color kNotSearched{0.93, 0.83, 0.45};
+
+// A variable or an angle of one source.
+struct Coordinate {
+  int variable = -1;
+  std::optional<Angle> angle;
+
+  // The one piece, or the pieces, of a box.
+  std::vector<Interval> values(const certify::Box& box, double size) const {
+    const auto side = [&](int v) { return box.at(static_cast<std::size_t>(v)); };
+    Interval x = angle ? certify::angle_enclosure(side(angle->cosine), side(angle->sine), angle->range) : side(variable);
+    if (size > 0) x = Interval(x.mid() - size / 2, x.mid() + size / 2);
+    return angle ? pieces(x) : std::vector<Interval>{x};
+  }
+
+ private:
+  // The parts of x + 2πk, k any integer, in the angle's range.
+  std::vector<Interval> pieces(const Interval& x) const {
+    constexpr double kSliver = 1e-9;  // what sticks out by rounding only
+    std::vector<Interval> parts;
+    const Interval& range = angle->range;
+    const double last = std::ceil((range.hi() - x.lo()) / kTurn);
+    for (double k = std::floor((range.lo() - x.hi()) / kTurn); k <= last; ++k) {
+      Interval turned(x.lo() + k * kTurn, x.hi() + k * kTurn);
+      if (turned.intersect(range)) parts.push_back(turned);
+    }
+    if (parts.empty()) return {x};
+    const auto wide = [](const Interval& part) { return part.width() > kSliver; };
+    if (std::any_of(parts.begin(), parts.end(), wide))
+      std::erase_if(parts, [&](const Interval& part) { return !wide(part); });
+    else
+      parts.resize(1);
+    return parts;
+  }
+};
+
+std::string choices(const PictureSource& source) {
+  std::vector<std::string> names = source.boxes.variables;
+  for (const Angle& a : source.angles) names.push_back(a.name);
+  return names.empty() ? "" : fmt::format(" or one of {}", fmt::join(names, ", "));
+}
+
+Coordinate coordinate(const PictureSource& source, const std::string& name) {
+  Coordinate result;
+  result.variable = source.boxes.find(name);
+  if (result.variable >= 0) return result;
+  for (const Angle& a : source.angles) {
+    if (a.name != name) continue;
+    result.angle = a;
+    if (a.range.width() > kTurn + 1e-9) result.angle->range = kCircle;
+    return result;
+  }
+  throw std::invalid_argument(fmt::format("{} has no variable '{}'; expected a number from 1 to {}{}", source.file, name,
+                                          source.boxes.size(), choices(source)));
+}
+
+PictureAxis axis(const PictureSource& source, const Coordinate& from, const std::string& name) {
+  PictureAxis result;
+  if (from.angle) {
+    result.name = from.angle->name;
+    result.angle = true;
+    result.range = from.angle->range;
+    return result;
+  }
+  const auto& names = source.boxes.variables;
+  result.name = names.empty() ? "x" + name : names.at(static_cast<std::size_t>(from.variable));
+  for (const Angle& a : source.angles) {
+    if (from.variable != a.cosine && from.variable != a.sine) continue;
+    result.function = from.variable == a.cosine ? "cos" : "sin";
+    result.name = a.name;
+  }
+  return result;
+}
+
+// The layer a box belongs to.
+PictureLayer layer_of(const PictureSource& source, const SetStyle& style, ColorScheme scheme,
+                      std::optional<Verdict> verdict) {
+  PictureLayer layer{style.label, source.set, style.color, style.opacity, {}};
+  if (scheme == ColorScheme::plain) layer.color = verdict_color(std::nullopt), layer.opacity = 1;
+  if (scheme == ColorScheme::verdict) {
+    layer.label = verdict ? to_string(*verdict) : "no verdict";
+    layer.color = verdict_color(verdict);
+  }
+  if (scheme == ColorScheme::set && verdict == Verdict::pending) {
+    layer.label += ", not searched";
+    layer.color = kNotSearched, layer.opacity = 0.5;
+  }
+  return layer;
+}
+
+// What is less certain lies above what is more so.
+int rank(const PictureLayer& layer) {
+  static const std::vector<std::string> kOrder{"regular", "boundary", "isolated", "exact",
+                                               "partial", "pending",  "undecided"};
+  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), layer.label) - kOrder.begin());
+}
+
+void add_layers(const PictureSource& source, const SetStyle& style, const std::vector<Coordinate>& coordinates,
+                const PictureOptions& options, std::vector<PictureLayer>& layers) {
+  const std::size_t begin = layers.size();
+  if (options.color != ColorScheme::verdict) layers.push_back(layer_of(source, style, options.color, std::nullopt));
+  std::map<std::optional<Verdict>, std::size_t> index;
+  for (std::size_t k = 0; k < source.boxes.boxes.size(); ++k) {
+    const SolBox& from = source.boxes.boxes[k];
+    const bool own =
+        options.color == ColorScheme::verdict || (options.color == ColorScheme::set && from.verdict == Verdict::pending);
+    const auto [at, is_new] = index.try_emplace(from.verdict, own ? layers.size() : begin);
+    if (is_new && own) layers.push_back(layer_of(source, style, options.color, from.verdict));
+    std::vector<PictureBox> parts{{{}, from.verdict, static_cast<int>(k)}};
+    for (std::size_t j = 0; j < coordinates.size(); ++j) {
+      std::vector<PictureBox> next;
+      for (const Interval& value : coordinates[j].values(from.box, options.size)) {
+        for (PictureBox part : parts) {
+          part.sides[j] = value;
+          next.push_back(part);
+        }
+      }
+      parts = std::move(next);
+    }
+    auto& boxes = layers[at->second].boxes;
+    boxes.insert(boxes.end(), parts.begin(), parts.end());
+  }
+}
+
+}  // namespace
+
+PictureSource picture_source(const Result& result, const std::string& file) {
+  return {file, result.set, boxes_of(result), result.angles, result.cover.dimension};
+}
+
+PictureSource picture_source(const SolFile& boxes, const std::string& file) {
+  PictureSource source{file, "", boxes, {}, 2};
+  const auto& names = boxes.variables;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (!names[c].starts_with("c_")) continue;
+    const auto s = std::find(names.begin(), names.end(), "s_" + names[c].substr(2));
+    if (s == names.end()) continue;
+    source.angles.push_back({names[c].substr(2), static_cast<int>(c), static_cast<int>(s - names.begin()), kCircle});
+  }
+  return source;
+}
+
+Picture make_picture(const std::vector<PictureSource>& sources, const PictureOptions& options) {
+  if (options.axes.size() < 2 || options.axes.size() > 3)
+    throw std::invalid_argument("expected two or three variables for axes");
+  std::vector<const PictureSource*> order;
+  for (const PictureSource& source : sources) order.push_back(&source);
+  std::stable_partition(order.begin(), order.end(), [](const PictureSource* s) { return s->set == "cspace"; });
+  const std::vector<SetStyle> styles = set_styles(order);
+  Picture picture;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const PictureSource* const source = order[k];
+    std::vector<Coordinate> coordinates;
+    for (const std::string& name : options.axes) coordinates.push_back(coordinate(*source, name));
+    for (std::size_t j = 0; j < coordinates.size(); ++j) {
+      const PictureAxis here = axis(*source, coordinates[j], options.axes[j]);
+      if (picture.axes.size() <= j) picture.axes.push_back(here);
+      PictureAxis& there = picture.axes[j];
+      there.angle = there.angle && here.angle;
+      if (!there.angle)
+        there.range.reset();
+      else
+        there.range = Interval::hull(*there.range, *here.range);
+    }
+    add_layers(*source, styles[k], coordinates, options, picture.layers);
+  }
+  if (options.color == ColorScheme::verdict) {
+    std::stable_sort(picture.layers.begin(), picture.layers.end(),
+                     [](const PictureLayer& a, const PictureLayer& b) { return rank(a) < rank(b); });
+  }
+  return picture;
+}
+
+bool is_empty(const Picture& picture) {
+  return std::all_of(picture.layers.begin(), picture.layers.end(), [](const PictureLayer& l) { return l.boxes.empty(); });
+}
+
+}  // namespace corank::report

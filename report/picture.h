@@ -1,0 +1,86 @@
+// What a picture shows: the boxes of one or several results in two or three coordinates. Here it is decided which coordinates, colours
+// and names there are; how it is drawn is the matter of portrait.h (.svg, .pdf, .png), vtp.h (ParaView) and gcl.h (Geomview).
+//
+// A coordinate is a variable or an angle θ, whose values over a box are certify::angle_enclosure of the box's cosine and sine. A box
+// across the end of the angle's range is drawn in pieces, one at each end: every piece is the box, a turn apart.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/report/cuik_sol.h"
+#include "corank/report/result.h"
+
+namespace corank::report {
+
+/// Red, green and blue, each from 0 to 1.
+struct Color {
+  double red = 0, green = 0, blue = 0;
+  friend bool operator==(const Color&, const Color&) = default;
+};
+/// Of a verdict; blue where there is none.
+Color verdict_color(std::optional<certify::Verdict> verdict);
+/// "cspace": grey, "forward": red, "inverse": blue, "cspace-singular": violet; any other set grey-blue.
+Color set_color(const std::string& set);
+
+/// Boxes and the coordinates that they can be drawn in.
+struct PictureSource {
+  std::string file;  ///< for messages, and for the legend where the set is unknown
+  std::string set;   ///< "forward" …, empty where unknown
+  SolFile boxes;
+  std::vector<certify::Angle> angles;
+  int dimension = 2;  ///< of the set, where known
+};
+PictureSource picture_source(const Result& result, const std::string& file);
+/// A solution file says nothing about angles: c_NAME and s_NAME are taken for the cosine and sine of the angle NAME in [−π, π].
+PictureSource picture_source(const SolFile& boxes, const std::string& file);
+
+struct PictureBox {
+  /// With two axes the third side is [0, 0].
+  std::array<certify::Interval, 3> sides;
+  std::optional<certify::Verdict> verdict;
+  int number = 0;  ///< of the box in its result, from 0; the pieces of a box share it
+};
+
+/// Boxes of one colour, an entry of the legend.
+struct PictureLayer {
+  std::string label;
+  std::string set;
+  Color color;
+  double opacity = 1;
+  std::vector<PictureBox> boxes;
+};
+
+struct PictureAxis {
+  std::string name;      ///< "J3x", "theta2"
+  std::string function;  ///< "cos", "sin" where the variable is that of the angle `name`
+  bool angle = false;    ///< in radians
+  /// Of an angle: its range, of one turn at most.
+  std::optional<certify::Interval> range;
+};
+
+struct Picture {
+  std::vector<PictureAxis> axes;     ///< two or three
+  std::vector<PictureLayer> layers;  ///< in the order of drawing: C-space before its subsets
+};
+
+/// What the colours tell apart: sets, verdicts, or nothing (all blue).
+enum class ColorScheme { set, verdict, plain };
+
+struct PictureOptions {
+  std::vector<std::string> axes;  ///< variables by name or number from 1, angles by name; two or three
+  ColorScheme color = ColorScheme::set;
+  double size = 0;  ///< 0: boxes as they are; else cubes with this edge about their centres
+};
+
+/// A source without boxes becomes a layer without boxes. Where colours tell sets apart, several sources of one set get shades and the
+/// names of their files, and boxes that were not searched (`pending`) are a layer of their own. Throws std::invalid_argument where there
+/// are not two or three axes or a source lacks one.
+Picture make_picture(const std::vector<PictureSource>& sources, const PictureOptions& options);
+
+/// True where no layer has a box.
+bool is_empty(const Picture& picture);
+
+}  // namespace corank::report

@@ -1,0 +1,152 @@
+#include "corank/solve/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corank/certify/check.h"
+
+namespace corank::solve {
+namespace {
+
+using certify::Interval;
+using certify::Proof;
+using Step = Proof::Step;
+
+bool fits_float(double y) { return y == 0 || (std::fabs(y) > 1e-30 && std::fabs(y) < 1e30); }
+
+}  // namespace
+
+void round_to_floats(certify::Preconditioner& p) {
+  if (!std::all_of(p.y.begin(), p.y.end(), fits_float)) return;
+  for (double& y : p.y) y = static_cast<double>(static_cast<float>(y));
+}
+
+void Recorder::step(Step s) {
+  script_.steps.push_back(static_cast<std::uint8_t>(s));
+  close();
+}
+
+void Recorder::close() { open_->end = {script_.steps.size(), script_.integers.size(), script_.reals.size()}; }
+
+void Recorder::begin(NodeId node, const Interval* x, int variables) {
+  const Cursor here{script_.steps.size(), script_.integers.size(), script_.reals.size()};
+  open_ = &nodes_.try_emplace(node, Node{here, here}).first->second;
+  kept_.assign(x, x + variables);
+}
+
+void Recorder::row(int row) {
+  script_.integers.push_back(row);
+  step(Step::row);
+}
+
+void Recorder::newton(const certify::Preconditioner& p, const Interval* x) {
+  if (p.rank() == 0 || !std::all_of(p.y.begin(), p.y.end(), fits_float)) return;
+  keep(x);
+  script_.integers.push_back(static_cast<std::int32_t>(script_.combinations.size()));
+  script_.combinations.push_back({p.equations, p.dependent, {p.y.begin(), p.y.end()}});
+  step(Step::newton);
+}
+
+void Recorder::keep(const Interval* x) {
+  std::vector<std::int32_t> sides;
+  std::vector<double> bounds;
+  for (std::size_t j = 0; j < kept_.size(); ++j) {
+    const auto side = static_cast<std::int32_t>(2 * j);
+    if (x[j].lo() != kept_[j].lo()) sides.push_back(side), bounds.push_back(x[j].lo());
+    if (x[j].hi() != kept_[j].hi()) sides.push_back(side + 1), bounds.push_back(x[j].hi());
+    kept_[j] = x[j];
+  }
+  if (sides.empty()) return;
+  script_.integers.push_back(static_cast<std::int32_t>(sides.size()));
+  script_.integers.insert(script_.integers.end(), sides.begin(), sides.end());
+  script_.reals.insert(script_.reals.end(), bounds.begin(), bounds.end());
+  step(Step::keep);
+}
+
+void Recorder::split(int variable, double where, NodeId lower, NodeId upper) {
+  script_.integers.push_back(variable);
+  script_.reals.push_back(where);
+  step(Step::split);
+  open_->is_split = true;
+  open_->lower = lower;
+  open_->upper = upper;
+}
+
+void Recorder::cut(int variable, const std::vector<double>& places) {
+  script_.integers.push_back(variable);
+  script_.integers.push_back(static_cast<std::int32_t>(places.size()));
+  script_.reals.insert(script_.reals.end(), places.begin(), places.end());
+  step(Step::cut);
+}
+
+void Recorder::leaf_box(std::size_t found) {
+  script_.integers.push_back(static_cast<std::int32_t>(found));
+  step(Step::box);
+}
+
+Proof Recorder::assemble(const std::vector<const Recorder*>& recorders, std::vector<std::vector<Interval>> roots,
+                         const std::vector<NodeId>& nodes, const std::map<LeafId, int>& place) {
+  Proof proof;
+  proof.roots = std::move(roots);
+  std::vector<int> first_combination;
+  std::map<std::uint64_t, std::size_t> by_prefix;
+  for (std::size_t k = 0; k < recorders.size(); ++k) {
+    first_combination.push_back(static_cast<int>(proof.combinations.size()));
+    by_prefix[recorders[k]->prefix_] = k;
+    const auto& own = recorders[k]->script_.combinations;
+    proof.combinations.insert(proof.combinations.end(), own.begin(), own.end());
+  }
+  // A node may have been recorded by another thread than that which made it.
+  std::map<NodeId, std::pair<std::size_t, const Node*>> all;
+  for (std::size_t k = 0; k < recorders.size(); ++k)
+    for (const auto& [id, node] : recorders[k]->nodes_) all[id] = {k, &node};
+
+  const auto copy = [&](std::size_t thread, const Node& node) {
+    const Recorder& from = *recorders[thread];
+    std::size_t integer = node.begin.integer, real = node.begin.real;
+    const auto take = [&](std::size_t integers, std::size_t reals) {
+      for (std::size_t k = 0; k < integers; ++k) proof.integers.push_back(from.script_.integers[integer++]);
+      for (std::size_t k = 0; k < reals; ++k) proof.reals.push_back(from.script_.reals[real++]);
+    };
+    for (std::size_t s = node.begin.step; s < node.end.step; ++s) {
+      const Step kind = static_cast<Step>(from.script_.steps[s]);
+      proof.steps.push_back(from.script_.steps[s]);
+      const std::int32_t first = integer < from.script_.integers.size() ? from.script_.integers[integer] : 0;
+      switch (kind) {
+        case Step::row: take(1, 0); break;
+        case Step::newton:
+          take(1, 0);
+          proof.integers.back() += first_combination[thread];
+          break;
+        case Step::keep: take(1 + static_cast<std::size_t>(first), static_cast<std::size_t>(first)); break;
+        case Step::split: take(1, 1); break;
+        case Step::cut: {
+          const auto places = static_cast<std::size_t>(from.script_.integers[integer + 1]);
+          take(2, places);
+          break;
+        }
+        case Step::box:
+          take(1, 0);
+          proof.integers.back() = place.at(from.leaf(static_cast<std::size_t>(first)));
+          break;
+        case Step::empty:
+        case Step::elsewhere: break;
+        case Step::root: CORANK_CHECK(false); break;
+      }
+    }
+  };
+  for (const NodeId root : nodes) {
+    std::vector<NodeId> open{root};
+    while (!open.empty()) {
+      const auto& [thread, node] = all.at(open.back());
+      open.pop_back();
+      copy(thread, *node);
+      if (!node->is_split) continue;
+      open.push_back(node->upper);
+      open.push_back(node->lower);
+    }
+  }
+  return proof;
+}
+
+}  // namespace corank::solve

@@ -1,0 +1,65 @@
+// Keeps the script of a search (certify/proof.h): each thread records what it does to its boxes, in the end the parts are put together in
+// preorder. It decides nothing and costs nothing where there is none.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "corank/certify/newton.h"
+#include "corank/certify/proof.h"
+
+namespace corank::solve {
+
+/// A box of the search; a leaf `box i` of a script names the place of the box among those that its thread has found.
+using NodeId = std::uint64_t;
+using LeafId = std::uint64_t;
+
+class Recorder {
+ public:
+  /// Each thread's number differs.
+  explicit Recorder(int thread) : prefix_(static_cast<std::uint64_t>(thread) << 40) {}
+
+  NodeId new_node() { return prefix_ | next_++; }
+  LeafId leaf(std::size_t found) const { return prefix_ | found; }
+
+  /// What follows is done to this box, until it is split or ends in a leaf.
+  void begin(NodeId node, const certify::Interval* x, int variables);
+  void row(int row);
+  /// A step with p about the midpoint of x, the box as it is before. Nothing is kept of a p that floats cannot hold.
+  void newton(const certify::Preconditioner& p, const certify::Interval* x);
+  void keep(const certify::Interval* x);
+  void split(int variable, double where, NodeId lower, NodeId upper);
+  void cut(int variable, const std::vector<double>& places);
+  void leaf_box(std::size_t found);
+  void leaf_empty() { step(certify::Proof::Step::empty); }
+  void leaf_elsewhere() { step(certify::Proof::Step::elsewhere); }
+
+  /// Script by script, from the roots' nodes on. `place` gives the place in the cover of each LeafId.
+  static certify::Proof assemble(const std::vector<const Recorder*>& recorders,
+                                 std::vector<std::vector<certify::Interval>> roots, const std::vector<NodeId>& nodes,
+                                 const std::map<LeafId, int>& place);
+
+ private:
+  struct Cursor {
+    std::size_t step, integer, real;
+  };
+  struct Node {
+    Cursor begin, end;
+    NodeId lower = 0, upper = 0;  // where it was split
+    bool is_split = false;
+  };
+  void step(certify::Proof::Step s);
+  void close();
+
+  std::uint64_t prefix_, next_ = 1;
+  certify::Proof script_;
+  std::map<NodeId, Node> nodes_;
+  Node* open_ = nullptr;
+  std::vector<certify::Interval> kept_;
+};
+
+/// Makes Y's entries floats, which scripts hold, where all are of a size that floats keep to 24 bits. Any Y is valid.
+void round_to_floats(certify::Preconditioner& p);
+
+}  // namespace corank::solve
