@@ -161,6 +161,7 @@ TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
   result.cover.exact_points = {point};
   result.cover.decimals = {{"-0.60", "0.71", "0.71", "0.00"}, {}};
   result.cover.points[0].point = 0;
+  result.cover.points[1].point = -1;
   const std::string html = points_html({result});
   EXPECT_THAT(
       html,
