@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,6 +13,8 @@
 
 #include "corank/certify/checker/distinct.h"
 #include "corank/certify/checker/exact.h"
+#include "corank/certify/checker/isolation.h"
+#include "corank/certify/checker/kernel.h"
 #include "corank/certify/checker/replay.h"
 #include "corank/certify/checker/sheets.h"
 
@@ -31,7 +34,8 @@ bool contains(const Box& outer, const Box& inner) {
 }
 
 bool same(const CoverBox& a, const CoverBox& b) {
-  return a.box == b.box && a.verdict == b.verdict && a.free == b.free && a.region == b.region && a.point == b.point;
+  return a.box == b.box && a.verdict == b.verdict && a.free == b.free && a.region == b.region && a.point == b.point &&
+         a.corank == b.corank;
 }
 
 class Checker {
@@ -40,6 +44,7 @@ class Checker {
       : system_(system),
         cover_(cover),
         options_(options),
+        kernel_(system),
         threads_(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()),
         allow_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
         arena_(threads_) {}
@@ -52,7 +57,8 @@ class Checker {
       fail(Place::cover, 0, error.what());
     }
     check_shapes();
-    if (problem_ && report_.failures.empty()) {
+    if (problem_ && report_.failures.empty()) {  // else nothing below has a meaning
+      check_order();
       check_exact_points();
       check_boxes();
       check_points();
@@ -76,7 +82,8 @@ class Checker {
     if (!(cover_.sigma > 0)) fail(Place::cover, 0, "sigma is no positive number");
     const auto valid = [&](const CoverBox& b) {
       return b.box.size() == n && bounded(b.box) && b.region >= -1 && b.region < static_cast<int>(cover_.regions.size()) &&
-             b.point >= -1 && b.point < static_cast<int>(cover_.exact_points.size());
+             b.point >= -1 && b.point < static_cast<int>(cover_.exact_points.size()) && b.corank >= -1 &&
+             b.corank <= static_cast<int>(n);
     };
     const std::string fault =
         "it has not one bounded side for each variable, or names a region or a point that does not exist";
@@ -87,7 +94,9 @@ class Checker {
     for (const Box& region : cover_.regions)
       if (region.size() != n || !bounded(region))
         fail(Place::cover, 0, "a region has not one bounded side for each variable");
-    if (!problem_ || !report_.failures.empty()) return;
+  }
+
+  void check_order() {
     for (std::size_t i = 1; i < cover_.boxes.size(); ++i)
       if (out_of_order(cover_.boxes[i - 1].box, cover_.boxes[i].box))
         fail(Place::box, i, "it is not in the order of the sides");
@@ -119,6 +128,8 @@ class Checker {
       std::string reason = exact_.back()->fault();
       if (reason.empty()) reason = exact_.back()->holds();
       if (reason.empty()) reason = exact_.back()->kernel();
+      if (reason.empty() && !(point.sole_within >= 0 && std::isfinite(point.sole_within))) reason = "a radius is no number";
+      if (reason.empty() && point.sole_within > 0) reason = check_sole(system_, *exact_.back(), point.sole_within);
       exact_reasons_.push_back(reason);
       if (!reason.empty()) fail(Place::exact_point, i, reason);
       ++(reason.empty() ? report_.exact_points.verified : report_.exact_points.failed);
@@ -127,19 +138,29 @@ class Checker {
 
   // What could not be shown of the box; nothing where all was, or where there is nothing to check (`checkable`).
   std::string check_box(const CoverBox& box, bool& checkable) const {
+    std::string reason = check_verdict(box, checkable);
+    if (reason.empty() && box.corank >= 0 && !kernel_.is_at_most(box.corank, box.box))
+      reason = "a kernel of a dimension above " + std::to_string(box.corank) + " is not excluded";
+    checkable = checkable || !reason.empty();
+    return reason;
+  }
+
+  std::string check_verdict(const CoverBox& box, bool& checkable) const {
     checkable = true;
     switch (box.verdict) {
       case Verdict::regular:
       case Verdict::isolated:
       case Verdict::boundary: {
-        if (box.point >= 0) return "it names an exact point";
         if (box.region < 0) return "the file has no region for it";
+        // A solution, or a configuration in the box whose kernel is larger.
+        if (std::string reason = box.point < 0 ? "" : check_point_in(box, box.verdict != Verdict::isolated); !reason.empty())
+          return reason;
         return check_sheet(*problem_, box, cover_.regions[static_cast<std::size_t>(box.region)]);
       }
-      case Verdict::exact: return check_exact_box(box, false);
+      case Verdict::exact: return check_point_in(box, false);
       case Verdict::undecided:
         if (box.region >= 0) return "it names a region";
-        if (box.point >= 0) return check_exact_box(box, true);
+        if (box.point >= 0) return check_point_in(box, true);
         checkable = false;
         return {};
       case Verdict::partial:
@@ -148,8 +169,8 @@ class Checker {
     return {};
   }
 
-  // An exact box, or an undecided one that a point with a kernel of dimension ≥ 2 explains.
-  std::string check_exact_box(const CoverBox& box, bool explained) const {
+  // The box holds its exact point: a solution, or a configuration that explains it, with a kernel of dimension ≥ 2.
+  std::string check_point_in(const CoverBox& box, bool explained) const {
     if (box.point < 0) return "the file has no exact point for it";
     const auto p = static_cast<std::size_t>(box.point);
     if (!exact_reasons_[p].empty()) return "its exact point is not one: " + exact_reasons_[p];
@@ -223,7 +244,11 @@ class Checker {
       const CoverBox& point = cover_.points[k];
       std::string reason;
       if (!claimed[k]) reason = "no box stands for it";
-      if (reason.empty() && point.point >= 0) reason = exact_[static_cast<std::size_t>(point.point)]->inside(point.box);
+      if (reason.empty() && point.point >= 0) {
+        const auto p = static_cast<std::size_t>(point.point);
+        reason = exact_reasons_[p].empty() ? exact_[p]->inside(point.box) : "its exact point is not one";
+      }
+      if (reason.empty() && point.verdict == Verdict::exact && point.point < 0) reason = "it names no exact point";
       if (!reason.empty()) fail(Place::point, k, reason);
       const bool open = point.verdict == Verdict::undecided && point.point < 0;
       ++(!reason.empty()                             ? report_.points.failed
@@ -251,6 +276,10 @@ class Checker {
 
   // Different exact points, or one outside the other's box.
   bool told_apart(const CoverBox& a, const CoverBox& b) const {
+    for (const CoverBox* point : {&a, &b})
+      if (point->verdict == Verdict::exact &&
+          (point->point < 0 || !exact_reasons_[static_cast<std::size_t>(point->point)].empty()))
+        return false;
     if (a.verdict != Verdict::exact) return b.verdict == Verdict::exact && told_apart(b, a);
     const ExactCheck& x = *exact_[static_cast<std::size_t>(a.point)];
     for (int j = 0; j < system_.size(); ++j) {
@@ -285,6 +314,7 @@ class Checker {
   const System& system_;
   const Cover& cover_;
   const Options& options_;
+  const KernelCheck kernel_;
   int threads_;
   tbb::global_control allow_;
   tbb::task_arena arena_;
@@ -299,7 +329,7 @@ class Checker {
 
 bool Report::verified() const {
   if (!consistent() || (proof.present && !proof.verified)) return false;
-  return points.unchecked == 0 && exact_points.unchecked == 0 &&
+  return points.unchecked == 0 &&
          std::all_of(boxes.begin(), boxes.end(), [](const Tally& t) { return t.failed == 0 && t.unchecked == 0; });
 }
 

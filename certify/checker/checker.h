@@ -4,6 +4,7 @@
 // What is checked, by verdict; theorems in certify/checker/*.h:
 //   regular, isolated, boundary   the box of the proof, see certify/checker/sheets.h
 //   exact                         the exact point, see certify/checker/exact.h
+//   CoverBox::corank              the bound of the kernel's dimension, see certify/checker/kernel.h
 //   undecided                     claims nothing. With an exact point: that is a configuration with a kernel of dimension 2 or more, in the box
 //   partial, pending              not checkable
 // and that the eliminations are legal, isolated boxes are disjoint, points belong to boxes, boxes are sorted and in bounds.
@@ -41,8 +42,8 @@ struct ProofTally {
 
 struct Report {
   std::array<Tally, kVerdicts> boxes;
-  Tally points;        ///< entries of Cover::points, for sets of dimension 0
-  Tally exact_points;  ///< unchecked: Cover claims more of it than can be checked (ExactPoint::sole_within)
+  Tally points;  ///< entries of Cover::points, for sets of dimension 0
+  Tally exact_points;
   ProofTally proof;
   std::vector<Failure> failures;  ///< in the order of places and indices
   bool interrupted = false;

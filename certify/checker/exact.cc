@@ -93,6 +93,8 @@ std::string ExactCheck::check_root() {
     if (here == 0) break;
     (here == sign ? lower : upper) = middle;
   }
+  lower_ = lower;
+  upper_ = upper;
   t_ = Enclosure::hull(Enclosure(lower), Enclosure(upper));
   return {};
 }
@@ -104,6 +106,15 @@ RationalPolynomial ExactCheck::product(const RationalPolynomial& f, const Ration
   RationalPolynomial result(f.size() + g.size() - 1);
   for (std::size_t i = 0; i < f.size(); ++i)
     for (std::size_t k = 0; k < g.size(); ++k) result[i + k] = result[i + k] + f[i] * g[k];
+  return reduced(std::move(result));
+}
+
+RationalPolynomial ExactCheck::sum(const RationalPolynomial& f, const RationalPolynomial& g) const {
+  RationalPolynomial result(std::max(f.size(), g.size()));
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    if (k < f.size()) result[k] = result[k] + f[k];
+    if (k < g.size()) result[k] = result[k] + g[k];
+  }
   return reduced(std::move(result));
 }
 

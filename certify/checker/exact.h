@@ -29,21 +29,29 @@ class ExactCheck {
   /// Encloses a known coordinate.
   const Enclosure& coordinate(int variable) const { return coordinates_[static_cast<std::size_t>(variable)]; }
 
+  // Arithmetic modulo p: no coefficients stand for 0.
+  const RationalPolynomial& polynomial(int variable) const { return reduced_[static_cast<std::size_t>(variable)]; }
+  const RationalPolynomial& minimal() const { return p_; }  ///< p, monic
+  const ExactNumber& lower() const { return lower_; }       ///< bounds of t, narrow
+  const ExactNumber& upper() const { return upper_; }
+  RationalPolynomial product(const RationalPolynomial& f, const RationalPolynomial& g) const;
+  RationalPolynomial sum(const RationalPolynomial& f, const RationalPolynomial& g) const;
+  Enclosure enclose(const RationalPolynomial& f) const;
+
  private:
   std::string check_root();
-  RationalPolynomial reduced(RationalPolynomial f) const;  // modulo p
-  RationalPolynomial product(const RationalPolynomial& f, const RationalPolynomial& g) const;
+  RationalPolynomial reduced(RationalPolynomial f) const;
   // c·Π factors but those of kind kernel; nothing where a value is not known or not rational.
   std::optional<RationalPolynomial> value(const Monomial& m) const;
   std::optional<RationalPolynomial> value(const Polynomial& f) const;
-  Enclosure enclose(const RationalPolynomial& f) const;
   bool is_nonnegative(const RationalPolynomial& f) const { return f.empty() || enclose(f).is_positive(); }
   bool is_known(const Polynomial& f) const;
   bool is_kernel(int variable) const;
 
   const System& system_;
   const ExactPoint& point_;
-  RationalPolynomial p_;  // monic
+  RationalPolynomial p_;
+  ExactNumber lower_, upper_;
   Enclosure t_;
   std::vector<RationalPolynomial> reduced_;  // coordinates modulo p
   std::vector<Enclosure> coordinates_;

@@ -4,9 +4,6 @@
 #include <cmath>
 
 namespace corank::certify::checker {
-namespace {
-
-// The inverse of a row-major r×r matrix by Gauss–Jordan with partial pivoting; empty where it is singular to double precision.
 std::vector<double> inverse(std::vector<double> a, std::size_t r) {
   std::vector<double> b(r * r, 0.0);
   for (std::size_t i = 0; i < r; ++i) b[i * r + i] = 1;
@@ -31,30 +28,59 @@ std::vector<double> inverse(std::vector<double> a, std::size_t r) {
   return finite ? b : std::vector<double>();
 }
 
-}  // namespace
+bool is_contraction(const std::vector<double>& e, std::size_t r) {
+  constexpr int kCandidates = 8;
+  std::vector<double> radius(r, 1.0), next(r);
+  for (int candidate = 0; candidate < kCandidates; ++candidate) {
+    bool passes = true;
+    double largest = 0;
+    for (std::size_t a = 0; a < r; ++a) {
+      Enclosure sum;
+      for (std::size_t k = 0; k < r; ++k) sum.add_product(radius[k], Enclosure(e[a * r + k]));
+      if (!sum.is_bounded()) return false;
+      passes = passes && sum.below(Enclosure(radius[a]));
+      next[a] = sum.hi();
+      largest = std::max(largest, next[a]);
+    }
+    if (passes) return true;
+    for (std::size_t a = 0; a < r; ++a) radius[a] = next[a] / largest + 0.05;
+  }
+  return false;
+}
+
+void drop_noise(std::vector<double>& y, std::size_t r) {
+  constexpr double kNoise = 1e-13;
+  for (std::size_t a = 0; a < r; ++a) {
+    double most = 0;
+    for (std::size_t b = 0; b < r; ++b) most = std::max(most, std::fabs(y[a * r + b]));
+    for (std::size_t b = 0; b < r; ++b)
+      if (std::fabs(y[a * r + b]) <= kNoise * most) y[a * r + b] = 0;
+  }
+}
 
 Krawczyk::Krawczyk(const std::vector<Row>& equations, int variables)
     : equations_(equations), n_(variables), entries_(equations.size()) {}
 
-bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x) {
+bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, bool polished) {
+  constexpr int kSteps = 4;
   const std::size_t r = equations_.size();
   if (dependent.size() != r) return false;
   dependent_ = dependent;
   center_.resize(static_cast<std::size_t>(n_));
   for (std::size_t j = 0; j < center_.size(); ++j) center_[j] = x[j].mid();
-  std::vector<int> row_of(center_.size(), -1);
-  for (std::size_t a = 0; a < r; ++a) row_of[static_cast<std::size_t>(dependent[a])] = static_cast<int>(a);
-  std::vector<double> matrix(r * r, 0.0), entries;
-  for (std::size_t b = 0; b < r; ++b) {
-    equations_[b].approximate(center_, entries);
-    for (std::size_t k = 0; k < entries.size(); ++k)
-      if (const int a = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; a >= 0)
-        matrix[b * r + static_cast<std::size_t>(a)] = entries[k];
+  if (!invert()) return false;
+  std::vector<double> values(r);
+  for (int step = 0; polished && step < kSteps; ++step) {
+    for (std::size_t b = 0; b < r; ++b) values[b] = equations_[b].approximate(center_);
+    for (std::size_t a = 0; a < r; ++a) {
+      const auto d = static_cast<std::size_t>(dependent_[a]);
+      double shift = 0;
+      for (std::size_t b = 0; b < r; ++b) shift += y_[a * r + b] * values[b];
+      if (std::isfinite(shift)) center_[d] = std::clamp(center_[d] - shift, x[d].lo(), x[d].hi());
+    }
+    if (!invert()) return false;
   }
-  const std::vector<double> rough = inverse(matrix, r);
-  if (rough.size() != r * r) return false;
   center_sides_.assign(center_.begin(), center_.end());
-  refine(rough, row_of);
   at_center_.clear();
   for (const Row& f : equations_) at_center_.push_back(f.value(center_sides_));
   residual_.assign(r, Enclosure());
@@ -63,52 +89,38 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x) {
   return true;
 }
 
-void Krawczyk::refine(const std::vector<double>& rough, const std::vector<int>& row_of) {
+bool Krawczyk::invert() {
   const std::size_t r = equations_.size();
-  Sides a(r * r), entries;
+  std::vector<int> row_of(center_.size(), -1);
+  for (std::size_t a = 0; a < r; ++a) row_of[static_cast<std::size_t>(dependent_[a])] = static_cast<int>(a);
+  std::vector<double> matrix(r * r, 0.0), entries;
   for (std::size_t b = 0; b < r; ++b) {
-    equations_[b].derivatives(center_sides_, entries);
+    equations_[b].approximate(center_, entries);
     for (std::size_t k = 0; k < entries.size(); ++k)
-      if (const int column = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; column >= 0)
-        a[b * r + static_cast<std::size_t>(column)] = entries[k];
+      if (const int a = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; a >= 0)
+        matrix[b * r + static_cast<std::size_t>(a)] = entries[k];
   }
-  y_.assign(rough.begin(), rough.end());
-  constexpr int kSteps = 2;  // 2⁻⁵³ → 2⁻¹⁰⁶ → all bits
-  for (int step = 0; step < kSteps; ++step) {
-    Sides residual(r * r), next(y_);  // I − A·Y, Y + Y·(I − A·Y)
-    for (std::size_t i = 0; i < r; ++i)
-      for (std::size_t j = 0; j < r; ++j) {
-        if (i == j) residual[i * r + j] = Enclosure(1.0);
-        for (std::size_t k = 0; k < r; ++k)
-          if (!a[i * r + k].is_zero() && !y_[k * r + j].is_zero()) residual[i * r + j] -= a[i * r + k] * y_[k * r + j];
-      }
-    for (std::size_t i = 0; i < r; ++i)
-      for (std::size_t j = 0; j < r; ++j)
-        for (std::size_t k = 0; k < r; ++k)
-          if (!y_[i * r + k].is_zero() && !residual[k * r + j].is_zero())
-            next[i * r + j].add_product(y_[i * r + k], residual[k * r + j]);
-    for (std::size_t i = 0; i < y_.size(); ++i) {
-      if (!next[i].is_bounded()) return;
-      y_[i] = next[i].lower_end();  // some point: any Y is valid
-    }
-  }
+  y_ = inverse(matrix, r);
+  if (y_.size() != r * r) return false;
+  drop_noise(y_, r);
+  return true;
 }
 
-void Krawczyk::multiply(const std::vector<Sides>& rows) {
+void Krawczyk::multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const {
   const std::size_t r = equations_.size();
-  product_.assign(r, Sides(static_cast<std::size_t>(n_)));
+  product.assign(r, Sides(static_cast<std::size_t>(n_)));
   for (std::size_t a = 0; a < r; ++a)
     for (std::size_t b = 0; b < r; ++b) {
-      const Enclosure& y = y_[a * r + b];
-      if (y.is_zero()) continue;
+      const double y = y_[a * r + b];
+      if (y == 0) continue;
       for (std::size_t k = 0; k < rows[b].size(); ++k)
-        product_[a][static_cast<std::size_t>(equations_[b].columns()[k])].add_product(y, rows[b][k]);
+        product[a][static_cast<std::size_t>(equations_[b].columns()[k])].add_product(y, rows[b][k]);
     }
 }
 
 Sides Krawczyk::image(const Sides& x) {
   for (std::size_t b = 0; b < equations_.size(); ++b) equations_[b].slopes(x, center_sides_, entries_[b]);
-  multiply(entries_);
+  multiply(entries_, product_);
   Sides image;
   for (std::size_t a = 0; a < dependent_.size(); ++a) {
     Enclosure sum = residual_[a];
@@ -123,32 +135,16 @@ Sides Krawczyk::image(const Sides& x) {
 }
 
 bool Krawczyk::is_injective(const Sides& x) {
-  constexpr int kCandidates = 8;
   const std::size_t r = dependent_.size();
   for (std::size_t b = 0; b < r; ++b) equations_[b].derivatives(x, entries_[b]);
-  multiply(entries_);
+  multiply(entries_, derivatives_);
   std::vector<double> excess(r * r);  // ≥ |I − Y·J_D|
   for (std::size_t a = 0; a < r; ++a)
     for (std::size_t k = 0; k < r; ++k) {
-      const Enclosure& entry = product_[a][static_cast<std::size_t>(dependent_[k])];
+      const Enclosure& entry = derivatives_[a][static_cast<std::size_t>(dependent_[k])];
       excess[a * r + k] = (Enclosure(a == k ? 1.0 : 0.0) - entry).mag();
     }
-  std::vector<double> radius(r, 1.0), next(r);
-  for (int candidate = 0; candidate < kCandidates; ++candidate) {
-    bool passes = true;
-    double largest = 0;
-    for (std::size_t a = 0; a < r; ++a) {
-      Enclosure sum;
-      for (std::size_t k = 0; k < r; ++k) sum.add_product(radius[k], Enclosure(excess[a * r + k]));
-      if (!sum.is_bounded()) return false;
-      passes = passes && sum.below(Enclosure(radius[a]));
-      next[a] = sum.hi();
-      largest = std::max(largest, next[a]);
-    }
-    if (passes) return true;
-    for (std::size_t a = 0; a < r; ++a) radius[a] = next[a] / largest + 0.05;
-  }
-  return false;
+  return is_contraction(excess, r);
 }
 
 bool Krawczyk::center_is_zero() const {

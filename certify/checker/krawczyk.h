@@ -7,14 +7,25 @@
 
 namespace corank::certify::checker {
 
+/// Sets entries that are rounding noise beside the largest of their row to 0: where a variable is 0 on the whole set, its equations then
+/// bound it on their own, however small its side.
+void drop_noise(std::vector<double>& y, std::size_t r);
+
+/// The inverse of a row-major r×r matrix in doubles; empty where it is singular to that precision.
+std::vector<double> inverse(std::vector<double> a, std::size_t r);
+
+/// Is E·x < x for some x > 0? Then every matrix I − A with |A| ≤ E is regular: the spectral radius of E is below 1. E ≥ 0, row-major r×r.
+bool is_contraction(const std::vector<double>& e, std::size_t r);
+
 /// Equations F, r of them, over the kept variables.
 class Krawczyk {
  public:
   explicit Krawczyk(const std::vector<Row>& equations, int variables);
 
-  /// Chooses the r dependent variables, the centre c (a point, the middle of x) and Y, about the inverse of the dependent columns of the
-  /// Jacobian at c. Any Y is valid. False where that matrix is singular.
-  bool set(const std::vector<int>& dependent, const Sides& x);
+  /// Chooses the r dependent variables, the centre c (a point) and Y, about the inverse of the dependent columns of the
+  /// Jacobian at c. Any c and Y are valid. c: the middle of x; `polished`: moved towards a zero, within x, by Newton's method in doubles. False
+  /// where the matrix is singular.
+  bool set(const std::vector<int>& dependent, const Sides& x, bool polished);
 
   /// K = c_D − Y·F(c) + (I − Y·S_D)(Z − c_D) − Y·S_F (X_F − c_F) over x = X_F × Z, with slopes S about c: every zero of F in x has its dependent
   /// variables in K. Entry a belongs to dependent[a].
@@ -23,7 +34,7 @@ class Krawczyk {
   bool is_injective(const Sides& x);
   /// Is the centre a zero of all equations, exactly?
   bool center_is_zero() const;
-  /// After image(x0), of x ⊂ x0: encloses the row at the zeros of F in x.
+  /// After image(x0), for x ⊂ x0: encloses the row at the zeros of F in x.
   Enclosure value_at_zeros(const Row& row, const Sides& x) const;
   /// After image: about |∂(dependent a)/∂x_j|.
   double steepness(std::size_t a, int j) const { return product_[a][static_cast<std::size_t>(j)].mag(); }
@@ -31,19 +42,17 @@ class Krawczyk {
   const std::vector<double>& center() const { return center_; }
 
  private:
-  // y_ := the inverse to all bits (Newton–Schulz steps from a rough one): where exact cancellation makes a variable all but constant, a Y of
-  // doubles would couple it to the others by its rounding.
-  void refine(const std::vector<double>& rough, const std::vector<int>& row_of);
-  // product_ := Y·M, M the rows' entries in their columns.
-  void multiply(const std::vector<Sides>& rows);
+  // y_ := inverse of the dependent columns at the centre.
+  bool invert();
+  // Y·M, M the rows' entries in their columns.
+  void multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const;
 
   const std::vector<Row>& equations_;
   int n_;
   std::vector<int> dependent_;
-  std::vector<double> center_;
-  Sides y_;                                    // points
-  Sides center_sides_, at_center_, residual_;  // c, F(c), Y·F(c)
-  std::vector<Sides> entries_, product_;
+  std::vector<double> center_, y_;
+  Sides center_sides_, at_center_, residual_;           // c, F(c), Y·F(c)
+  std::vector<Sides> entries_, product_, derivatives_;  // product_: Y·S of image()
 };
 
 }  // namespace corank::certify::checker

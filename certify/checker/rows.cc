@@ -117,20 +117,35 @@ void Row::derivatives(const Sides& x, Sides& s) const {
     }
 }
 
+double Row::approximate(const Part& p, double x) {
+  if (p.function == Function::sine) return std::sin(x);
+  if (p.function == Function::cosine) return std::cos(x);
+  return p.power == 1 ? x : p.power == 2 ? x * x : std::pow(x, p.power);
+}
+
+double Row::approximate_derivative(const Part& p, double x) {
+  if (p.function == Function::sine) return std::cos(x);
+  if (p.function == Function::cosine) return -std::sin(x);
+  return p.power == 1 ? 1 : p.power == 2 ? 2 * x : p.power * std::pow(x, p.power - 1);
+}
+
+double Row::approximate(const std::vector<double>& x) const {
+  double sum = 0;
+  for (const Term& t : terms_) {
+    double product = t.approximate;
+    for (const Part& p : t.parts) product *= approximate(p, x[static_cast<std::size_t>(p.variable)]);
+    sum += product;
+  }
+  return sum;
+}
+
 void Row::approximate(const std::vector<double>& x, std::vector<double>& s) const {
   s.assign(columns_.size(), 0.0);
-  const auto at = [&](const Part& p) {
-    const double v = x[static_cast<std::size_t>(p.variable)];
-    return p.function == Function::sine ? std::sin(v) : p.function == Function::cosine ? std::cos(v) : std::pow(v, p.power);
-  };
   for (const Term& t : terms_)
     for (const Part& p : t.parts) {
-      const double v = x[static_cast<std::size_t>(p.variable)];
-      double product = t.approximate * (p.function == Function::sine     ? std::cos(v)
-                                        : p.function == Function::cosine ? -std::sin(v)
-                                                                         : p.power * std::pow(v, p.power - 1));
+      double product = t.approximate * approximate_derivative(p, x[static_cast<std::size_t>(p.variable)]);
       for (const Part& q : t.parts)
-        if (&q != &p) product *= at(q);
+        if (&q != &p) product *= approximate(q, x[static_cast<std::size_t>(q.variable)]);
       s[static_cast<std::size_t>(p.column)] += product;
     }
 }

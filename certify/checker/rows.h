@@ -24,7 +24,8 @@ class Row {
   void slopes(const Sides& x, const Sides& c, Sides& s) const;
   /// Encloses ∂f/∂x over X.
   void derivatives(const Sides& x, Sides& s) const;
-  /// ∂f/∂x at a point in plain doubles: nothing is proven by it.
+  /// f and ∂f/∂x at a point in plain doubles: nothing is proven by them.
+  double approximate(const std::vector<double>& x) const;
   void approximate(const std::vector<double>& x, std::vector<double>& s) const;
   /// Shrinks X to a box that holds every x ∈ X with f(x) = 0 (f(x) ≥ 0). False: there is none. Theorem: if Σ tₖ(x) = 0 then tₖ(x) ∈ −Σ_{j≠k} Tⱼ,
   /// Tⱼ an enclosure of tⱼ over X, and each variable of tₖ lies in the inverse image of that set (Benhamou1999).
@@ -43,6 +44,8 @@ class Row {
   static Enclosure value(const Part& p, const Enclosure& x);
   static Enclosure derivative(const Part& p, const Enclosure& x);
   static Enclosure slope(const Part& p, const Enclosure& x, const Enclosure& c);
+  static double approximate(const Part& p, double x);
+  static double approximate_derivative(const Part& p, double x);
   static Enclosure value(const Term& t, const Sides& x);
   static bool invert(const Term& t, const Enclosure& image, Sides& x);
 

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "corank/certify/checker/krawczyk.h"
+
 namespace corank::certify::checker {
 namespace {
 
 constexpr int kPasses = 6;
 constexpr double kGain = 0.2;
 constexpr double kRankTolerance = 1e-9;
-constexpr std::size_t kMostParts = 3000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double total_width(const Sides& x) {
@@ -118,6 +119,7 @@ bool Search::own_combination(const Sides& x, LinearCombination& p, std::vector<d
       if (!std::isfinite(y)) return false;
       p.y.push_back(y);
     }
+  drop_noise(p.y, r);
   return r > 0;
 }
 
@@ -154,7 +156,7 @@ int Search::widest(const Sides& x) const {
   return best;
 }
 
-bool Search::is_empty(Sides first) {
+bool Search::is_empty(Sides first, std::size_t most_parts) {
   std::vector<Sides> open{std::move(first)};
   std::size_t parts = 0;
   while (!open.empty()) {
@@ -162,7 +164,7 @@ bool Search::is_empty(Sides first) {
     open.pop_back();
     if (!contract(x)) continue;
     const int j = widest(x);
-    if (j < 0 || ++parts > kMostParts) return false;
+    if (j < 0 || ++parts > most_parts) return false;
     if (parts == 1) ++searched_;
     const auto v = static_cast<std::size_t>(j);
     const Enclosure side = x[v];

@@ -16,6 +16,8 @@ struct LinearCombination {
 /// One for each thread.
 class Search {
  public:
+  static constexpr std::size_t kMostParts = 3000;
+
   explicit Search(const Problem& problem) : problem_(problem) {}
 
   /// Shrinks x to a box that holds its solutions (equations, domain, inequalities). False: it has none.
@@ -26,7 +28,7 @@ class Search {
   bool contract(Sides& x);
 
   /// Is there no solution in x? Bisects it where need be; false: not shown within the bounds.
-  bool is_empty(Sides x);
+  bool is_empty(Sides x, std::size_t most_parts = kMostParts);
   /// Do all solutions in x lie between the bounds? Shrinks x to a part that holds them and lies there. False: not shown; then x means nothing.
   /// `empty`: x was found to have none.
   bool confine(Sides& x, const std::vector<Interval>& bounds, bool& empty);

@@ -56,42 +56,55 @@ class SheetCheck {
   // every value. False: stop.
   bool examine(Sides x, bool proven) {
     if (++parts_ > kMostParts) return fail(pending_reason_.empty() ? "too many parts" : pending_reason_);
-    if (!newton_.set(dependent_, x)) {
-      pending_reason_ = "the Jacobian is singular";
-      return bisect(x, proven);
-    }
     if (!proven) {
-      const auto shown = prove(x);
+      const bool shown = prove(x);
       if (!reason_.empty()) return false;
       if (!shown) return bisect(x, false);
+    } else if (!newton_.set(dependent_, x, true)) {
+      pending_reason_ = "the Jacobian is singular";
+      return bisect(x, true);
     }
     const int steps = box_.free.empty() ? kPointTightenings : kTightenings;
     for (int step = 0;; ++step) {
-      if (!shrink(x, newton_.image(x))) return fail("a part of it has no solution");
+      if ((step > 0 || proven) && !shrink(x, newton_.image(x))) return fail("a part of it has no solution");
       if (settled(x)) return true;
       if (!reason_.empty()) return false;
-      if (step == steps) break;
+      if (step == steps) {
+        // A bound that a solution touches: where one equation alone gives it exactly, no combination may.
+        for (const Row& f : problem_.equations())
+          if (!f.project(x, true)) return fail("a part of it has no solution");
+        if (settled(x)) return true;
+        break;
+      }
       if (box_.free.empty() && newton_.center_is_zero() && center_in_region()) {
         x.assign(newton_.center().begin(), newton_.center().end());  // the region's one solution
         return settled(x) || fail(pending_reason_);
       }
-      if (box_.free.empty() && !newton_.set(dependent_, x)) break;
+      if ((box_.free.empty() || step == 0) && !newton_.set(dependent_, x, !box_.free.empty())) break;
     }
     return bisect(x, true);
   }
 
   // Existence and uniqueness over x; shrinks its dependent sides to what holds the solutions. False: not shown.
   bool prove(Sides& x) {
+    pending_reason_ = "the Jacobian is singular";
+    if (newton_.set(dependent_, x, true) && prove_about_center(x)) return true;
+    if (!reason_.empty()) return false;
+    // As the search may have done it: about the middle of the whole region.
+    Sides region;
+    for (const int j : problem_.kept()) region.emplace_back(region_[static_cast<std::size_t>(j)]);
+    return newton_.set(dependent_, region, false) && prove_about_center(x);
+  }
+
+  bool prove_about_center(Sides& x) {
     bool exists = false;
     for (int step = 0; step < kProofSteps; ++step) {
       const Sides image = newton_.image(x);
       bool within = true;
       for (std::size_t a = 0; a < image.size() && within; ++a) within = image[a].strictly_inside(x[place(a)]);
       exists = exists || within;  // K ⊂ int Z: a fixed point for every value of the free variables
-      if (exists && newton_.is_injective(x)) {
-        newton_.image(x);  // Y·S again, in place of Y·J
+      if (exists && newton_.is_injective(x))
         return shrink(x, image) || fail("existence and emptiness contradict each other");
-      }
       double former = 0, now = 0;
       for (std::size_t a = 0; a < image.size(); ++a) former = std::max(former, x[place(a)].width());
       if (!shrink(x, image)) return fail("a part of it has no solution in its region");
@@ -124,17 +137,17 @@ class SheetCheck {
     }
     Sides clipped = x;
     if (!problem_.clip_to_implied(clipped)) return fail("a part of it lies outside a domain that the equations imply");
-    const auto at_zeros = [&](const Row& row) {
-      Enclosure value = row.value(clipped);
-      value.intersect(newton_.value_at_zeros(row, x));
-      return value;
-    };
-    for (const Problem::Value& value : problem_.values())
-      if (!inside(at_zeros(value.row), value.variable)) return false;
+    for (const Problem::Value& v : problem_.values()) {
+      Enclosure value = v.row.value(clipped);
+      if (value.inside(box_.box[static_cast<std::size_t>(v.variable)])) continue;
+      value.intersect(newton_.value_at_zeros(v.row, x));
+      if (!inside(value, v.variable)) return false;
+    }
     if (box_.verdict == Verdict::boundary) return true;
     for (const Condition& condition : problem_.conditions()) {
       if (condition.implied) continue;
-      const Enclosure value = at_zeros(condition.row);
+      Enclosure value = condition.row.value(clipped);
+      if (!value.is_nonnegative()) value.intersect(newton_.value_at_zeros(condition.row, x));
       if (value.is_nonnegative()) continue;
       const std::string what =
           condition.variable < 0

@@ -56,6 +56,7 @@ void expect_same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBo
     ASSERT_EQ(a[i].free, b[i].free);
     ASSERT_EQ(a[i].region, b[i].region);
     ASSERT_EQ(a[i].point, b[i].point);
+    ASSERT_EQ(a[i].corank, b[i].corank);
   }
 }
 

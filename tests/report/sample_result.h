@@ -51,6 +51,7 @@ inline Result sample_result() {
   r.cover.boxes[0].region = 0;
   r.cover.boxes[1].region = r.cover.points[0].region = 1;
   r.cover.boxes[2].point = 0;
+  r.cover.boxes[3].corank = 1;
   r.cover.boxes[4].point = r.cover.points[1].point = 1;
   const auto number = [](const char* text) { return certify::ExactNumber::rational(text); };
   r.cover.exact_points = {{{0, 1}, -1, 1, {{number("1/3")}, {0, 1}, {}, {number("-2/7"), 0, 5}}, -1, 0.25},

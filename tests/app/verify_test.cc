@@ -1,0 +1,97 @@
+// corank verify: what it prints and returns. What the checker accepts and rejects is for tests/certify/checker to say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "corank/report/result_file.h"
+#include "corank/tests/app/program.h"
+
+namespace corank::app {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class Verify : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Outcome outcome =
+        run_corank({"solve", model("three_slider"), "--set", "forward", "-D", "L2=3/4", "--kernel", "left", "-o", path()});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+  std::string path() const { return folder_.file("r.h5"); }
+  void change(const std::function<void(report::Result&)>& how) {
+    report::Result result = report::read_result(path());
+    how(result);
+    report::write_result(path(), result);
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Verify, PrintsATableAndReturnsZeroWhereAllIsVerified) {
+  const Outcome outcome = run_corank({"verify", path(), "--threads", "0"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_THAT(outcome.out, StartsWith("three_slider, forward: checked"));
+  EXPECT_THAT(outcome.out, HasSubstr("isolated              8          0              0\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("completeness: no proof in the file\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nverified\n"));
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Verify, PrintsJson) {
+  const Outcome outcome = run_corank({"verify", path(), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.out;
+  const json summary = json::parse(outcome.out);
+  EXPECT_EQ(summary["verified"], true);
+  EXPECT_EQ(summary["verdicts"]["isolated"], (json{{"verified", 8}, {"failed", 0}, {"not_checkable", 0}}));
+  EXPECT_EQ(summary["completeness"]["proof"], false);
+  EXPECT_TRUE(summary["failures"].empty());
+}
+
+TEST_F(Verify, NamesTheBoxThatFails) {
+  change([](report::Result& r) { r.cover.boxes[2].box[3] = {0.25, 0.5}; });
+  const Outcome outcome = run_corank({"verify", path()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("box 3: it is not inside the region of its proof\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nNOT VERIFIED\n"));
+}
+
+TEST_F(Verify, NamesWhatIsNotTheModels) {
+  change([](report::Result& r) {
+    r.variables[0].domain = {-3.0, 1.0};
+    r.options.constants[0].expression = "0.74";
+  });
+  const Outcome outcome = run_corank({"verify", path()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("file: the domain of y_A is not that of the model\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("file: the system is not that of the model\n"));
+}
+
+TEST_F(Verify, SaysWhereAModelHasNoSuchSet) {
+  change([](report::Result& r) { r.set = "system"; });
+  const Outcome outcome = run_corank({"verify", path()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("its model has no set 'system'"));
+}
+
+TEST_F(Verify, RefusesAFileThatIsNoResult) {
+  EXPECT_EQ(run_corank({"verify", model("dextar")}).status, 1);
+  EXPECT_EQ(run_corank({"verify"}).status, 2);
+}
+
+TEST_F(Verify, ReturnsOneWhereAClaimCannotBeChecked) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("s.h5");
+  ASSERT_EQ(run_corank({"solve", model("three_slider"), "--set", "cspace", "--max-boxes", "5", "-o", file}).status, 3);
+  const Outcome outcome = run_corank({"verify", file});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("pending"));
+}
+
+}  // namespace
+}  // namespace corank::app

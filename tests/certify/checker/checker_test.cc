@@ -1,0 +1,357 @@
+// The independent checker: what solve() proves it accepts; what is false it rejects.
+#include "corank/certify/checker/checker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "corank/tests/certify/checker/covers.h"
+
+namespace corank::certify::checker {
+namespace {
+
+using symbolic::SingularitySet;
+using testing::HasSubstr;
+
+constexpr const char* kCircle = "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n";
+constexpr const char* kCirclesAndLine =
+    "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\nz : [-9, 9]\n[SYSTEM EQS]\nx^2 + y^2 = 2;\n3*x - 2*y = 1/3;\nz = x*y + x;\n";
+
+void expect_verified(const System& system, const Cover& cover) {
+  const Report report = check(system, cover);
+  EXPECT_TRUE(report.verified()) << text(report);
+  std::size_t boxes = 0;
+  for (const Tally& t : report.boxes) boxes += t.verified;
+  EXPECT_EQ(boxes, cover.boxes.size());
+  EXPECT_GT(boxes, 0u);
+  EXPECT_FALSE(report.proof.present);
+}
+
+TEST(Checker, AcceptsACircle) { expect_verified(plain(kCircle), solved(plain(kCircle), 0.1)); }
+
+TEST(Checker, AcceptsPointsWithAnEliminatedVariable) {
+  const System system = plain(kCirclesAndLine);
+  const Cover cover = solved(system, 1e-6);
+  ASSERT_EQ(cover.boxes.size(), 2u);
+  ASSERT_FALSE(cover.eliminations.empty());
+  expect_verified(system, cover);
+}
+
+TEST(Checker, AcceptsSinesOfLengths) {
+  const System system = plain("[SYSTEM VARS]\nt : [0, 20]\nx : [-2, 2]\n[SYSTEM EQS]\nx - sin(t) + 1/5*cos(3*t) = 0;\n");
+  expect_verified(system, solved(system, 0.1));
+}
+
+TEST(Checker, AcceptsASystemWithATolerance) {
+  System system = plain(kCirclesAndLine);
+  system.coefficient_tolerance = 1e-7;
+  expect_verified(system, solved(system, 0.01));
+}
+
+TEST(Checker, AcceptsTheSetsOfTheThreeSlider) {
+  for (const auto set : {SingularitySet::cspace, SingularitySet::forward, SingularitySet::inverse}) {
+    const System system = model("three_slider", set);
+    expect_verified(system, solved(system, set == SingularitySet::cspace ? 0.1 : 1e-6));
+  }
+}
+
+TEST(Checker, AcceptsDextarsForwardLocus) {
+  const System system = model("dextar", SingularitySet::forward);
+  expect_verified(system, solved(system, 0.25));
+}
+
+TEST(Checker, GivesTheSameReportForAnyNumberOfThreads) {
+  const System system = model("three_slider", SingularitySet::cspace);
+  Cover cover = solved(system, 0.1);
+  for (std::size_t i = 0; i < cover.boxes.size(); i += 7) cover.boxes[i].region = -1;
+  Options four;
+  four.threads = 4;
+  EXPECT_EQ(text(check(system, cover)), text(check(system, cover, four)));
+}
+
+TEST(Checker, EndsWhereItIsStopped) {
+  const std::atomic<bool> stop = true;
+  Options options;
+  options.stop = &stop;
+  const Report report = check(plain(kCircle), solved(plain(kCircle), 0.1), options);
+  EXPECT_TRUE(report.interrupted);
+  EXPECT_FALSE(report.verified());
+}
+
+TEST(Checker, CallsWhatClaimsNothingNotCheckable) {
+  Cover cover = solved(plain(kCircle), 0.1);
+  const std::size_t n = cover.boxes.size();
+  cover.boxes[0].verdict = Verdict::undecided;
+  cover.boxes[0].free.clear();
+  const int region = std::exchange(cover.boxes[0].region, -1);
+  cover.boxes[1].region = region;  // so that each region has a box
+  const Report report = check(plain(kCircle), cover);
+  EXPECT_EQ(tally(report, Verdict::undecided), (Tally{0, 0, 1}));
+  EXPECT_FALSE(report.verified());
+  EXPECT_LE(tally(report, Verdict::regular).verified, n - 1);
+}
+
+// --- what is false ---
+
+std::string reasons(const System& system, const Cover& cover) {
+  const Report report = check(system, cover);
+  EXPECT_FALSE(report.verified());
+  return text(report);
+}
+
+TEST(Checker, RejectsAnotherSystem) {
+  const Cover cover = solved(plain(kCircle), 0.1);
+  EXPECT_THAT(reasons(plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1.01;\n"), cover),
+              HasSubstr("outside it"));
+}
+
+TEST(Checker, RejectsABoxThatItsSolutionsLeave) {
+  const System system = plain(kCircle);
+  for (const double share : {0.01, 0.3}) {
+    Cover cover = solved(system, 0.1);
+    CoverBox& box = cover.boxes[first(cover, Verdict::regular)];
+    for (std::size_t j = 0; j < 2; ++j)
+      if (box.free != std::vector<int>{static_cast<int>(j)})
+        box.box[j] = {box.box[j].lo(), box.box[j].hi() - share * (box.box[j].hi() - box.box[j].lo())};
+    EXPECT_NE(reasons(system, cover), "") << share;
+  }
+}
+
+TEST(Checker, RejectsABoxOutsideItsRegion) {
+  const System system = plain(kCircle);
+  Cover cover = solved(system, 0.1);
+  CoverBox& box = cover.boxes.back();
+  box.box[static_cast<std::size_t>(box.free.at(0))] = {-2, 2};
+  EXPECT_THAT(reasons(system, cover), HasSubstr("not inside the region"));
+}
+
+TEST(Checker, RejectsARegionWithTwoSolutions) {
+  const System system = plain(kCircle);
+  Cover cover = solved(system, 0.1);
+  for (Box& region : cover.regions) region = {{-2, 2}, {-2, 2}};
+  EXPECT_THAT(reasons(system, cover), HasSubstr("the Jacobian is singular"));
+  for (Box& region : cover.regions) region = {{-2, 2}, {-2, 1.9}};
+  EXPECT_THAT(reasons(system, cover), HasSubstr("is not shown"));
+}
+
+TEST(Checker, RejectsAWiderDomainThanThatOfTheModel) {
+  // In x ≤ 1/2 the pieces beyond are none of the set's; regular says that they are.
+  const System system = plain("[SYSTEM VARS]\nx : [-2, 1/2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n");
+  EXPECT_THAT(reasons(system, solved(plain(kCircle), 0.1)), HasSubstr("domain of x"));
+}
+
+TEST(Checker, RejectsAViolatedInequality) {
+  const System system = plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\nx + y <= 1;\n");
+  EXPECT_THAT(reasons(system, solved(plain(kCircle), 0.1)), HasSubstr("an inequality"));
+}
+
+TEST(Checker, RejectsIllegalEliminations) {
+  const System system = plain(kCirclesAndLine);
+  const Cover good = solved(system, 1e-6);
+  const auto with = [&](std::vector<Elimination> eliminations) {
+    Cover cover = good;
+    cover.eliminations = std::move(eliminations);
+    return reasons(system, cover);
+  };
+  EXPECT_THAT(with({{0, 0}}), HasSubstr("does not define it"));
+  EXPECT_THAT(with({{0, -1}}), HasSubstr("more than one number"));
+  EXPECT_THAT(with({{0, 1}, {0, 2}}), HasSubstr("gone already"));
+  EXPECT_THAT(with({{0, 1}, {1, 1}}), HasSubstr("has been used"));
+  EXPECT_THAT(with({{7, 1}}), HasSubstr("no variable"));
+}
+
+TEST(Checker, RejectsSwappedBoxesAndPointsThatAreNone) {
+  const System system = plain(kCirclesAndLine);
+  const Cover good = solved(system, 1e-6);
+  Cover cover = good;
+  std::swap(cover.boxes[0], cover.boxes[1]);
+  EXPECT_THAT(reasons(system, cover), HasSubstr("order of the sides"));
+  cover = good;
+  cover.points.pop_back();
+  EXPECT_THAT(reasons(system, cover), HasSubstr("stands for it"));
+  cover = good;
+  cover.points.push_back(cover.points[0]);
+  EXPECT_THAT(reasons(system, cover), HasSubstr("same solution"));
+  cover = good;
+  cover.boxes.insert(cover.boxes.begin(), cover.boxes[0]);
+  cover.points.insert(cover.points.begin(), cover.points[0]);
+  EXPECT_THAT(reasons(system, cover), HasSubstr("same solution"));
+}
+
+TEST(Checker, RejectsSidesThatAreNoNumbers) {
+  const System system = plain(kCircle);
+  Cover cover = solved(system, 0.1);
+  cover.boxes[0].box[0] = {-HUGE_VAL, 1};
+  EXPECT_THAT(reasons(system, cover), HasSubstr("bounded side"));
+}
+
+// --- exact points ---
+
+ExactNumber number(const char* text) { return ExactNumber::rational(text); }
+
+// The three-slider with L1 = L2 = 1 has its forward singularities at (0, 0, ±1) and (±1, ±1, 0): y_A, y_B, x_C.
+class ThreeSlider : public testing::Test {
+ protected:
+  void SetUp() override {
+    system_ = model("three_slider", SingularitySet::forward, {{"L2", "1"}});
+    cover_ = solved(system_, 1e-6);
+    const auto undecided = first(cover_, Verdict::undecided);
+    const bool below = cover_.boxes[undecided].box[2].hi() < 0;
+    // The half-space of the kernel's sign: xi1 = ±1.
+    const double xi1 = cover_.boxes[undecided].box[3].mid();
+    const RationalPolynomial x_c{below ? -1 : 1}, xi{xi1 < 0 ? -1 : 1};
+    cover_.exact_points = {{{0, 1}, -1, 1, {{0}, {0}, x_c, xi, {0}}, 1, 0}};
+    // Of the undecided boxes around the point only those that hold it are claimed.
+    for (CoverBox& b : cover_.boxes)
+      if (b.verdict == Verdict::undecided && holds(b.box, x_c)) b.verdict = Verdict::exact, b.point = 0;
+    for (CoverBox& p : cover_.points)
+      if (p.verdict == Verdict::undecided && holds(p.box, x_c)) p.verdict = Verdict::exact, p.point = 0;
+  }
+  static bool holds(const Box& box, const RationalPolynomial& x_c) {
+    return box[2].contains(x_c[0].enclose()) && box[0].contains(0.0) && box[1].contains(0.0) && box[4].contains(0.0);
+  }
+  Report report() const { return check(system_, cover_); }
+  ExactPoint& point() { return cover_.exact_points[0]; }
+
+  System system_;
+  Cover cover_;
+};
+
+TEST_F(ThreeSlider, HasAnExactPoint) {
+  EXPECT_GE(tally(report(), Verdict::exact).verified, 1u);
+  EXPECT_EQ(tally(report(), Verdict::exact).failed, 0u) << text(report());
+  EXPECT_EQ(report().exact_points, (Tally{1, 0, 0})) << text(report());
+}
+
+TEST_F(ThreeSlider, HasNoPointThatViolatesAnEquation) {
+  point().coordinates[1] = {number("1/10000000000000000")};
+  EXPECT_THAT(text(report()), HasSubstr("does not hold there"));
+}
+
+TEST_F(ThreeSlider, HasNoPointWithAnotherKernel) {
+  for (const int corank : {0, 2}) {
+    point().corank = corank;
+    EXPECT_THAT(text(report()), HasSubstr("the kernel's dimension is 1")) << corank;
+  }
+}
+
+TEST_F(ThreeSlider, HasNoPointOutsideItsBox) {
+  point().coordinates[2] = {-point().coordinates[2][0]};
+  EXPECT_THAT(text(report()), HasSubstr("x_C of its exact point lies outside it"));
+}
+
+TEST_F(ThreeSlider, HasNoPointOfAnUndefinedNumber) {
+  point().lower = 0;
+  EXPECT_THAT(text(report()), HasSubstr("opposite signs"));
+  point().lower = -1;
+  point().polynomial = {0, number("-1/4"), 0, 1};  // roots 0, ±1/2
+  EXPECT_THAT(text(report()), HasSubstr("exactly one root"));
+  point().polynomial = {5};
+  EXPECT_THAT(text(report()), HasSubstr("not defined"));
+}
+
+TEST_F(ThreeSlider, HasNoPointOfUnknownCoordinates) {
+  point().coordinates[3].clear();
+  EXPECT_THAT(text(report()), HasSubstr("says nothing of xi1"));
+}
+
+TEST_F(ThreeSlider, HasNoOtherSolutionNearThePoint) {
+  point().sole_within = 1e-3;
+  EXPECT_EQ(report().exact_points, (Tally{1, 0, 0})) << text(report());
+}
+
+TEST_F(ThreeSlider, HasOtherSolutionsFarFromThePoint) {
+  point().sole_within = 1.5;  // (±1, ±1, 0) are as near as that
+  EXPECT_THAT(text(report()), HasSubstr("that no other solution is near it is not shown"));
+}
+
+// x = y = √(1/2), z = x + x²: t² = 1/2.
+class RootOfTwo : public testing::Test {
+ protected:
+  void SetUp() override {
+    system_ = plain(
+        "[SYSTEM VARS]\nx : [0, 2]\ny : [-2, 2]\nz : [-9, 9]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\nx*y = 1/2;\nz = x + x^2;\n");
+    const double t = std::sqrt(0.5);
+    const Interval side(t - 1e-7, t + 1e-7);
+    cover_.boxes.push_back({{side, side, {1.2, 1.21}}, Verdict::exact, {}, -1, 0});
+    cover_.points = cover_.boxes;
+    cover_.sigma = 0.1;
+    cover_.exact_points = {{{number("-1/2"), 0, 1}, 0, 1, {{0, 1}, {0, 1}, {number("1/2"), 1}}, -1, 0}};
+    cover_.eliminations = {{2, 2}};
+  }
+  System system_;
+  Cover cover_;
+};
+
+TEST_F(RootOfTwo, IsVerified) {
+  const Report report = check(system_, cover_);
+  EXPECT_TRUE(report.verified()) << text(report);
+  EXPECT_EQ(tally(report, Verdict::exact), (Tally{1, 0, 0}));
+}
+
+TEST_F(RootOfTwo, IsNotItsConjugate) {
+  cover_.exact_points[0].lower = -1;
+  cover_.exact_points[0].upper = 0;
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("not shown to lie in its domain"));
+}
+
+TEST_F(RootOfTwo, IsNoRootOfAnotherPolynomial) {
+  cover_.exact_points[0].polynomial = {number("-50000000001/100000000000"), 0, 1};
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("does not hold there"));
+}
+
+TEST_F(RootOfTwo, IsTheOnlySolutionNearby) {
+  cover_.exact_points[0].sole_within = 0.25;
+  EXPECT_TRUE(check(system_, cover_).verified()) << text(check(system_, cover_));
+  cover_.exact_points[0].sole_within = 3;  // −√(1/2) twice
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("that no other solution is near it is not shown"));
+}
+
+TEST_F(RootOfTwo, IsCountedOnce) {
+  cover_.boxes.push_back(cover_.boxes[0]);
+  cover_.points.push_back(cover_.points[0]);
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("same solution"));
+}
+
+// An undecided box around a configuration whose kernel is a plane: M = diag(x, y, x) at the origin … has rank 0 but for its last entry.
+class Plane : public testing::Test {
+ protected:
+  void SetUp() override {
+    system_ = plain(
+        "[SYSTEM VARS]\nx : [-1, 1]\ny : [-1, 1]\na : [-1, 1]\nb : [-1, 1]\nc : [-1, 1]\n"
+        "[SYSTEM EQS]\nx^2 + y^2 = 0;\nx*a + y*b = 0;\ny*a - x*b = 0;\n3*c - x*a = 0;\na^2 + b^2 + c^2 = 1;\n");
+    for (std::size_t j = 2; j < 5; ++j) system_.variables[j].kind = VariableKind::kernel;
+    system_.configuration_size = 2;
+    const Interval all(-1, 1), zero(-1e-9, 1e-9);
+    cover_.boxes.push_back({{zero, zero, all, all, all}, Verdict::undecided, {}, -1, 0});
+    cover_.points = cover_.boxes;
+    cover_.sigma = 0.1;
+    cover_.exact_points = {{{0, 1}, -1, 1, {{0}, {0}, {}, {}, {}}, 2, 0}};
+  }
+  System system_;
+  Cover cover_;
+};
+
+TEST_F(Plane, ExplainsAnUndecidedBox) {
+  const Report report = check(system_, cover_);
+  EXPECT_TRUE(report.verified()) << text(report);
+  EXPECT_EQ(tally(report, Verdict::undecided), (Tally{1, 0, 0}));
+}
+
+TEST_F(Plane, HasNotAnotherDimension) {
+  for (const int corank : {1, 3}) {
+    cover_.exact_points[0].corank = corank;
+    EXPECT_THAT(text(check(system_, cover_)), HasSubstr("the kernel's dimension is 2"));
+  }
+  cover_.exact_points[0].corank = -1;
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("no kernel of dimension 2"));
+}
+
+TEST_F(Plane, IsNotElsewhere) {
+  cover_.boxes[0].box[0] = cover_.points[0].box[0] = {0.1, 0.2};
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("lies outside it"));
+}
+
+}  // namespace
+}  // namespace corank::certify::checker
