@@ -41,8 +41,10 @@ std::size_t count_points(const certify::Cover& cover, Verdict verdict) {
 void say_points(const Result& result, SetWords& words) {
   const certify::Cover& cover = result.cover;
   const std::size_t isolated = count_points(cover, Verdict::isolated), exact = count_points(cover, Verdict::exact),
-                    others = cover.points.size() - isolated - exact;
+                    border = count_points(cover, Verdict::boundary),
+                    others = cover.points.size() - isolated - exact - border;
   words.finding = isolated + exact == 0 ? "None proven to exist" : counted(isolated + exact, "point", "points");
+  if (border > 0) words.finding += fmt::format(", {} at the border of the search domain", border);
   if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place", "undecided places"));
   if (isolated > 0) {
     words.proven.push_back(fmt::format("{} exactly one solution each, and no two of them the same one.",
@@ -50,6 +52,11 @@ void say_points(const Result& result, SetWords& words) {
   }
   if (exact > 0)
     words.proven.push_back(fmt::format("{} known exactly.", exact == 1 ? "One point is" : grouped(exact) + " points are"));
+  if (border > 0) {
+    words.unproven.push_back(
+        fmt::format("Whether {} inside the search domain is not proven.",
+                    border == 1 ? "the solution at its border lies" : "the solutions at its border lie"));
+  }
   if (others > 0) {
     words.unproven.push_back(
         fmt::format("At {} nothing is proven: {} may hold any number of solutions, or none. Solutions that merge into a "

@@ -3,10 +3,10 @@ import {coordinateInterval, fullTurn, isAngle} from "./values.js";
 
 const gridSize = 64;
 
-// The turn that brings the part of an angle's interval beyond ±π back; 0 where there is none.
+// The turn to the other end for an angle's interval that reaches ±π; 0 where it does not.
 function turnAround(sides, box, axis) {
   if (!isAngle(axis)) return 0;
-  return sides[2 * box + 1] > Math.PI ? -fullTurn : sides[2 * box] < -Math.PI ? fullTurn : 0;
+  return sides[2 * box + 1] >= Math.PI ? -fullTurn : sides[2 * box] <= -Math.PI ? fullTurn : 0;
 }
 
 export class Projection {
@@ -24,7 +24,7 @@ export class Projection {
       [y[2 * box], y[2 * box + 1]] = side;
       const dx = turnAround(x, box, xAxis),
         dy = turnAround(y, box, yAxis);
-      // A box across ±π is seen at both ends.
+      // A box at ±π is seen at both ends.
       if (dx !== 0) more.push([box, dx, 0]);
       if (dy !== 0) more.push([box, 0, dy]);
       if (dx !== 0 && dy !== 0) more.push([box, dx, dy]);
