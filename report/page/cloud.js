@@ -20,13 +20,27 @@ const fragmentShader = `
     gl_FragColor = vec4(colour, opacity * rim);
   }`;
 
+// While the view turns, faint clouds show so many boxes only, spread over all.
+const mostWhileTurning = 25000;
+
+// 0 … n − 1 in an order of which every beginning is spread evenly: steps by a number coprime to n, near the golden section of it.
+function spreadOrder(n) {
+  const divisor = (a, b) => (b === 0 ? a : divisor(b, a % b));
+  let step = Math.max(1, Math.round(0.618 * n));
+  while (divisor(step, n) > 1) ++step;
+  return Uint32Array.from({length: n}, (_, i) => (i * step) % n);
+}
+
 // A set of `dimension` 2 or more that is not singular is drawn faint: one sees the others through it.
 const isFaint = (set) => !set.singular() && set.dimension > 1;
+
+const pointOpacity = (set) => (isFaint(set) ? 0.16 * Math.min(1, 9e4 / set.count) : 1);
 
 export function pointCloud(set, middles, extents, colourText) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(middles, 3));
   geometry.setAttribute("extent", new THREE.BufferAttribute(extents, 3));
+  geometry.setIndex(new THREE.BufferAttribute(spreadOrder(set.count), 1));
   const faint = isFaint(set);
   const colour = new THREE.Color(colourText);
   colour.convertLinearToSRGB();
@@ -37,7 +51,7 @@ export function pointCloud(set, middles, extents, colourText) {
     depthWrite: !faint,
     uniforms: {
       colour: {value: colour},
-      opacity: {value: faint ? 0.16 * Math.min(1, 9e4 / set.count) : 1},
+      opacity: {value: pointOpacity(set)},
       pixels: {value: 400},
       least: {value: faint ? 1.5 : set.dimension === 0 ? 9 : 3.5},
     },
@@ -58,11 +72,11 @@ export function boxCloud(set, middles, extents, colourText) {
   const mesh = new THREE.InstancedMesh(new THREE.BoxGeometry(1, 1, 1), material, set.count);
   const matrix = new THREE.Matrix4(),
     least = set.singular() ? 0.004 : 0.001;
-  for (let i = 0; i < set.count; ++i) {
+  spreadOrder(set.count).forEach((i, place) => {
     matrix.makeScale(...[0, 1, 2].map((k) => Math.max(extents[3 * i + k], least)));
     matrix.setPosition(middles[3 * i], middles[3 * i + 1], middles[3 * i + 2]);
-    mesh.setMatrixAt(i, matrix);
-  }
+    mesh.setMatrixAt(place, matrix);
+  });
   mesh.frustumCulled = false;
   return mesh;
 }
@@ -118,4 +132,17 @@ export function ringSprite(ink, paper) {
   sprite.scale.set(0.05, 0.05, 1);
   sprite.renderOrder = 4;
   return sprite;
+}
+
+// Fewer boxes, each a little stronger, while the view turns; all of them at rest.
+export function setDetail(set, object, turning) {
+  const shown = turning && isFaint(set) ? Math.min(set.count, mostWhileTurning) : set.count;
+  const strength = Math.sqrt(set.count / shown);
+  if (object.isInstancedMesh) {
+    object.count = shown;
+    if (isFaint(set)) object.material.opacity = 0.07 * strength;
+  } else {
+    object.geometry.setDrawRange(0, shown);
+    object.material.uniforms.opacity.value = pointOpacity(set) * strength;
+  }
 }

@@ -1,5 +1,5 @@
 // The 3-D view: C-space and loci in any three coordinates, as points or boxes, by three.js.
-import {boxCloud, nameSprite, pointCloud, ringSprite} from "./cloud.js";
+import {boxCloud, nameSprite, pointCloud, ringSprite, setDetail} from "./cloud.js";
 import {pageColours} from "./picture.js";
 import {
   coordinateInterval,
@@ -34,7 +34,7 @@ export class Space {
 
   start() {
     try {
-      this.renderer = new THREE.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
+      this.renderer = new THREE.WebGLRenderer({antialias: false, alpha: true, preserveDrawingBuffer: true});
     } catch {
       this.frame.innerHTML = `<p class="fallback">This browser offers no WebGL, which the view in space needs. All else on this page works without.</p>`;
       this.root.dataset.webgl = "none";
@@ -47,6 +47,8 @@ export class Space {
     this.camera.position.set(2.0, -3.1, 1.75);
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.render());
+    this.controls.addEventListener("start", () => this.turn(true));
+    this.controls.addEventListener("end", () => this.turn(false));
     this.listen();
     return true;
   }
@@ -175,6 +177,11 @@ export class Space {
     for (const {object} of this.clouds) {
       if (object.material.uniforms) object.material.uniforms.pixels.value = 0.5 * this.renderer.domElement.height;
     }
+    this.render();
+  }
+
+  turn(turning) {
+    for (const {set, object} of this.clouds) setDetail(set, object, turning);
     this.render();
   }
 
