@@ -110,7 +110,7 @@ TEST(Page, HoldsTheResultsAndLoadsNothing) {
   const Mechanism mechanism = slider();
   const std::vector<Result> results = {solved(mechanism, SingularitySet::cspace),
                                        solved(mechanism, SingularitySet::forward)};
-  const std::string page = report_page(mechanism, results, {"corank report x.cuik", {"cspace.h5", "forward.h5"}});
+  const std::string page = report_page(mechanism, results, {"corank report x.cuik", {}, {"cspace.h5", "forward.h5"}});
   for (const Result& result : results) {
     EXPECT_EQ(script_text(page, "boxes-" + result.set), box_payload(result));
     EXPECT_EQ(script_text(page, "verdicts-" + result.set), verdict_payload(result));
