@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "corank/app/box_files.h"
+#include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
@@ -34,6 +35,7 @@ struct ReportCommand {
   int threads = 0;
   std::uint64_t max_boxes = 0;
   double time_limit = 0;
+  bool proof = false;
   std::string folder;
 };
 
@@ -59,6 +61,7 @@ report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism
   options.threads = command.threads;
   options.max_boxes = command.max_boxes;
   options.time_limit = command.time_limit;
+  options.proof = command.proof;
   options.stop = &Interrupt::stop();
   ProgressLine line(fmt::format("{} ({} of {})", command.sets[index], index + 1, command.sets.size()));
   if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
@@ -113,10 +116,11 @@ std::string command_line(const ReportCommand& command, const std::string& file) 
   return text;
 }
 
-void make_folder(const std::string& folder) {
+void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw report::ResultFileError(fmt::format("{}: no folder can be made there: {}", folder, error.message()));
+  if (error)
+    throw report::ResultFileError(fmt::format("{}: no folder can be made there: {}", folder.string(), error.message()));
 }
 
 ExitStatus write_report(ReportCommand command) {
@@ -127,7 +131,7 @@ ExitStatus write_report(ReportCommand command) {
   const symbolic::Mechanism mechanism = results.empty() ? load(command.question) : mechanism_of(results.front());
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
-  make_folder(folder);
+  make_folder(folder / "figures");
   report::check_writable(folder / "index.html");
 
   report::PageOptions options;
@@ -142,6 +146,8 @@ ExitStatus write_report(ReportCommand command) {
     options.command = "corank report --results " + fmt::format("{}", fmt::join(command.results, " "));
     for (const std::string& path : command.results) options.files.push_back(std::filesystem::path(path).filename().string());
   }
+  for (const std::string& name : write_figures(folder / "figures", mechanism, results))
+    options.figures.push_back("figures/" + name);
   report::write_text(folder / "index.html", report_page(mechanism, results, options));
 
   bool complete = true;
@@ -181,6 +187,8 @@ void add_report(CLI::App& program, Action& action) {
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--time-limit", command->time_limit, "End each search after so many seconds; 0: no limit")
       ->check(CLI::NonNegativeNumber);
+  sub->add_flag("--proof", command->proof,
+                "Keep in the result files why no solution is missing, so that corank verify can check that, too");
   sub->add_option("--results", command->results, "Take these results, of one model, instead of solving")
       ->type_name("RESULT.h5...");
   sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-report")

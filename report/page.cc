@@ -158,6 +158,10 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["version"] = version();
   page["modelText"] = mechanism.source_text();
   page.set("incomplete", truth(!complete));
+  mustache::data figures{mustache::data::type::list};
+  for (const std::string& figure : options.figures) figures << mustache::data{"figure", figure};
+  page.set("figures", figures);
+  page.set("hasFigures", truth(!options.figures.empty()));
   page.set("hasFiles", truth(!options.files.empty()));
 
   mustache::mustache pattern{std::string(kPageTemplate)};

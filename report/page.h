@@ -11,8 +11,9 @@
 namespace corank::report {
 
 struct PageOptions {
-  std::string command;             ///< the command line that made it; shown
-  std::vector<std::string> files;  ///< of the results, in their order; shown and linked. May be empty
+  std::string command;               ///< the command line that made it; shown
+  std::vector<std::string> figures;  ///< files, shown and linked
+  std::vector<std::string> files;    ///< of the results, in their order; shown and linked. May be empty
 };
 
 /// Throws ResultFileError where a result is none of this mechanism's sets, ModelError where the mechanism has no singularities to

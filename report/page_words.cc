@@ -41,8 +41,10 @@ std::size_t count_points(const certify::Cover& cover, Verdict verdict) {
 void say_points(const Result& result, SetWords& words) {
   const certify::Cover& cover = result.cover;
   const std::size_t isolated = count_points(cover, Verdict::isolated), exact = count_points(cover, Verdict::exact),
-                    others = cover.points.size() - isolated - exact;
+                    border = count_points(cover, Verdict::boundary),
+                    others = cover.points.size() - isolated - exact - border;
   words.finding = isolated + exact == 0 ? "None proven to exist" : counted(isolated + exact, "point", "points");
+  if (border > 0) words.finding += fmt::format(", {} at the border of the search domain", border);
   if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place", "undecided places"));
   if (isolated > 0) {
     words.proven.push_back(fmt::format("{} exactly one solution each, and no two of them the same one.",
@@ -50,6 +52,11 @@ void say_points(const Result& result, SetWords& words) {
   }
   if (exact > 0)
     words.proven.push_back(fmt::format("{} known exactly.", exact == 1 ? "One point is" : grouped(exact) + " points are"));
+  if (border > 0) {
+    words.unproven.push_back(
+        fmt::format("Whether {} inside the search domain is not proven.",
+                    border == 1 ? "the solution at its border lies" : "the solutions at its border lie"));
+  }
   if (others > 0) {
     words.unproven.push_back(
         fmt::format("At {} nothing is proven: {} may hold any number of solutions, or none. Solutions that merge into a "
@@ -68,8 +75,8 @@ void say_kernel(const certify::Cover& cover, SetWords& words) {
   const auto larger = static_cast<std::size_t>(
       std::count_if(cover.exact_points.begin(), cover.exact_points.end(), [](const auto& p) { return p.corank > 1; }));
   if (asked == 0) return;
-  words.proven.push_back(
-      fmt::format("In {} of {} boxes the kernel has dimension 1.", grouped(one), grouped(cover.boxes.size())));
+  words.proven.push_back(fmt::format("The kernel has dimension 1 at every solution in {} of {} boxes.", grouped(one),
+                                     grouped(cover.boxes.size())));
   if (larger > 0) {
     words.proven.push_back(fmt::format("At {} it has dimension 2 or more; {} known exactly.",
                                        counted(larger, "point", "points"), larger == 1 ? "it is" : "they are"));
@@ -163,7 +170,9 @@ SetWords set_words(const Result& result, const Components& found) {
   if (cover.boxes.empty()) {
     words.finding = "None";
     words.proven.push_back(result.set == "cspace" ? "The mechanism cannot be assembled within the search domain."
-                                                  : "There is none in the search domain.");
+                           : result.set == "cspace-singular"
+                               ? "There is none in the search domain, so C-space is smooth there."
+                               : "There is none in the search domain.");
     return words;
   }
   if (cover.complete()) {

@@ -4,7 +4,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
 build_release corank
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-"$build/app/corank" report "$root/models/dextar.cuik" --sigma 0.01 -o "$work"
+"$build/app/corank" report "$root/models/dextar.cuik" -o "$work"
 PYTHONPATH="$root/tests/browser" python3 -B - "$work/index.html" "$root/doc/images" <<'PYTHON'
 import pathlib
 import sys

@@ -13,6 +13,7 @@
 #include "corank/certify/refinement.h"
 #include "corank/certify/rounding.h"
 #include "corank/solve/corank_system.h"
+#include "corank/solve/cover_edit.h"
 #include "corank/solve/exact_guess.h"
 #include "corank/solve/polish.h"
 
@@ -72,24 +73,20 @@ class Prover {
 
   void points() {
     for (CoverBox& point : cover_.points) {
-      if (stopped()) return;
-      if (point.verdict != Verdict::isolated && point.verdict != Verdict::undecided) continue;
+      if (point.verdict != Verdict::isolated || stopped()) continue;
       const std::optional<int> exact = exact_point(point.box);
       if (!exact) continue;
-      if (point.verdict == Verdict::isolated) {
-        for (CoverBox& box : cover_.boxes)
-          if (box.verdict == Verdict::isolated && box.box == point.box) box.point = *exact;
-        point.point = *exact;
-      } else if (is_only_solution(*exact, point.box)) {
-        point.verdict = Verdict::exact;
-        point.point = *exact;
-        for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
-          if (cover_.boxes[i].verdict == Verdict::undecided && contains(point.box, cover_.boxes[i].box))
-            replace(i, static_cast<int>(cover_.boxes.size()));
-        cover_.boxes.push_back(point);
-      }
+      point.point = *exact;
+      for (CoverBox& box : cover_.boxes)
+        if (box.verdict == Verdict::isolated && box.box == point.box) box.point = *exact;
     }
-    finish();
+    std::vector<CoverBox> points;
+    for (CoverBox& point : cover_.points) {
+      if (point.verdict == Verdict::undecided && !stopped() && settle(point)) continue;
+      points.push_back(std::move(point));
+    }
+    cover_.points = std::move(points);
+    edit_.finish();
   }
 
   void coranks() {
@@ -108,7 +105,7 @@ class Prover {
       if (!point) continue;
       search_around(*point, hull, cluster);
     }
-    finish();
+    edit_.finish();
   }
 
   void kernel_dimensions() {
@@ -129,16 +126,23 @@ class Prover {
   }
 
  private:
-  // Boxes whose union with the core is `all`, and how it is split into them; in the variables that are kept, by their numbers there.
-  struct Split {
-    int variable;
-    double where;
-    bool part_is_lower;
-  };
-  struct Parts {
-    std::vector<Box> boxes;
-    std::vector<Split> splits;
-  };
+  // Proves an undecided cluster. True: it holds nothing but the solution of an isolated box.
+  bool settle(CoverBox& cluster) {
+    const std::optional<int> exact = exact_point(cluster.box);
+    if (!exact || !is_only_solution(*exact, cluster.box)) return false;
+    const auto same = [&](const CoverBox& b) { return b.verdict == Verdict::isolated && b.point == *exact; };
+    const auto known = std::find_if(cover_.boxes.begin(), cover_.boxes.end(), same);
+    const bool is_known = known != cover_.boxes.end();
+    const int by = static_cast<int>(known - cover_.boxes.begin());
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
+      if (cover_.boxes[i].verdict == Verdict::undecided && contains(cluster.box, cover_.boxes[i].box))
+        edit_.replace(static_cast<int>(i), by);
+    if (is_known) return true;
+    cluster.verdict = Verdict::exact;
+    cluster.point = *exact;
+    cover_.boxes.push_back(cluster);
+    return false;
+  }
 
   int at_most_on_parts(const certify::KernelBound& bound, const Box& box, int depth) const {
     const int whole = bound.at_most(box);
@@ -245,47 +249,6 @@ class Prover {
     return std::nullopt;
   }
 
-  // Box i of the cover goes; in the proof, `box i` becomes `box by`.
-  void replace(std::size_t i, int by) {
-    replaced_.resize(cover_.boxes.size(), kStays);
-    replaced_[i] = by;
-  }
-
-  // Removes the boxes that were replaced, sorts the others as solve() does, and renumbers them in the proof.
-  void finish() {
-    replaced_.resize(cover_.boxes.size(), kStays);
-    std::vector<int> order;
-    for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
-      if (replaced_[i] == kStays) order.push_back(static_cast<int>(i));
-    std::vector<int> variables = reduction_.kept;
-    for (const auto& definition : reduction_.definitions) variables.push_back(definition.variable);
-    const auto before = [&](int i, int k) {
-      const CoverBox &a = cover_.boxes[static_cast<std::size_t>(i)], &b = cover_.boxes[static_cast<std::size_t>(k)];
-      for (const int v : variables) {
-        const Interval &x = a.box[static_cast<std::size_t>(v)], &y = b.box[static_cast<std::size_t>(v)];
-        if (x.lo() != y.lo()) return x.lo() < y.lo();
-        if (x.hi() != y.hi()) return x.hi() < y.hi();
-      }
-      return std::tie(a.verdict, a.free) < std::tie(b.verdict, b.free);
-    };
-    std::sort(order.begin(), order.end(), before);
-    std::vector<int> place(cover_.boxes.size(), -1);
-    std::vector<CoverBox> boxes;
-    for (const int i : order) {
-      place[static_cast<std::size_t>(i)] = static_cast<int>(boxes.size());
-      boxes.push_back(std::move(cover_.boxes[static_cast<std::size_t>(i)]));
-    }
-    cover_.boxes = std::move(boxes);
-    if (!cover_.proof) return;
-    auto proof = std::make_shared<certify::Proof>(*cover_.proof);
-    change_leaves(*proof, [&](int i) {
-      const int by = replaced_[static_cast<std::size_t>(i)];
-      if (by <= kInRoot) return Leaf{certify::Proof::Step::root, kInRoot - by};
-      return Leaf{certify::Proof::Step::box, place[static_cast<std::size_t>(by == kStays ? i : by)]};
-    });
-    cover_.proof = std::move(proof);
-  }
-
   // The search again, in the hull without a core about the point's known coordinates; then the core itself. Nothing changes where even large
   // cores leave boxes undecided around them.
   void search_around(int index, const Box& hull, const std::vector<std::size_t>& cluster) {
@@ -304,9 +267,9 @@ class Prover {
         all[j] = Interval::hull(hull[j], core[j]);
       }
       Options options = options_;
-      const Parts parts = difference(all, core);
-      if (parts.boxes.empty()) return;
-      options.roots = parts.boxes;
+      const Partition partition = difference(all, core);
+      if (partition.parts.empty()) return;
+      options.roots = partition.parts;
       Cover around = solve(system_, options);
       cover_.statistics.processed += around.statistics.processed;
       cover_.statistics.newton_steps += around.statistics.newton_steps;
@@ -316,107 +279,11 @@ class Prover {
       core = with_values(core);
       if (!certify::lies_in(point, core)) return;
       if (cover_.proof && !around.proof) return;
-      const int first = static_cast<int>(cover_.boxes.size()), region = static_cast<int>(cover_.regions.size());
-      std::move(around.regions.begin(), around.regions.end(), std::back_inserter(cover_.regions));
-      for (CoverBox& box : around.boxes) {
-        if (box.region >= 0) box.region += region;
-        cover_.boxes.push_back(std::move(box));
-      }
-      cover_.boxes.emplace_back(std::move(core), Verdict::undecided, std::vector<int>{});
-      cover_.boxes.back().point = index;
-      const int root = cover_.proof ? append_proof(all, parts, *around.proof, first) : 0;
-      for (const std::size_t i : cluster) replace(i, kInRoot - root);
+      CoverBox middle{std::move(core), Verdict::undecided, {}};
+      middle.point = index;
+      edit_.replace(cluster, partition, std::move(around), std::move(middle));
       return;
     }
-  }
-
-  // Adds to the proof: a root for the box `all`, which is split into the parts, each the root of its own search, and the core,
-  // the last box of the cover. Returns the root's number.
-  int append_proof(const Box& all, const Parts& parts, certify::Proof around, int first_box) {
-    using Step = certify::Proof::Step;
-    certify::Proof proof = *cover_.proof;
-    const int root = static_cast<int>(proof.roots.size());
-    const auto add_leaf = [&](Step kind, int index) {
-      proof.steps.push_back(static_cast<std::uint8_t>(kind));
-      proof.integers.push_back(index);
-    };
-    proof.roots.emplace_back();
-    for (std::size_t k = 0; k < reduction_.kept.size(); ++k) {
-      Interval side = all[static_cast<std::size_t>(reduction_.kept[k])];
-      side.intersect(reduction_.system.variables[k].domain);
-      proof.roots.back().push_back(side);
-    }
-    // The parts came one after the other: each split leaves one part and what goes on. Those that lie below come at once, those above after
-    // all that follows.
-    std::vector<int> above;
-    for (std::size_t k = 0; k < parts.splits.size(); ++k) {
-      const Split& split = parts.splits[k];
-      proof.steps.push_back(static_cast<std::uint8_t>(Step::split));
-      proof.integers.push_back(split.variable);
-      proof.reals.push_back(split.where);
-      const int part = root + 1 + static_cast<int>(k);
-      if (split.part_is_lower) {
-        add_leaf(Step::root, part);
-      } else {
-        above.push_back(part);
-      }
-    }
-    add_leaf(Step::box, static_cast<int>(cover_.boxes.size()) - 1);
-    for (auto part = above.rbegin(); part != above.rend(); ++part) add_leaf(Step::root, *part);
-    // The searches of the parts follow.
-    const auto combination = static_cast<std::int32_t>(proof.combinations.size());
-    change_steps(around, [&](Step kind, std::int32_t* integers) {
-      if (kind == Step::newton) integers[0] += combination;
-      if (kind == Step::box) integers[0] += first_box;
-    });
-    std::move(around.roots.begin(), around.roots.end(), std::back_inserter(proof.roots));
-    std::move(around.combinations.begin(), around.combinations.end(), std::back_inserter(proof.combinations));
-    proof.steps.insert(proof.steps.end(), around.steps.begin(), around.steps.end());
-    proof.integers.insert(proof.integers.end(), around.integers.begin(), around.integers.end());
-    proof.reals.insert(proof.reals.end(), around.reals.begin(), around.reals.end());
-    cover_.proof = std::make_shared<const certify::Proof>(std::move(proof));
-    return root;
-  }
-
-  // Calls change(kind, its first integer) for every step.
-  template <class Change>
-  static void change_steps(certify::Proof& proof, Change change) {
-    using Step = certify::Proof::Step;
-    std::size_t integer = 0;
-    for (const std::uint8_t s : proof.steps) {
-      const Step kind = static_cast<Step>(s);
-      std::int32_t* const at = proof.integers.data() + integer;
-      switch (kind) {
-        case Step::row:
-        case Step::newton:
-        case Step::split:
-        case Step::box:
-        case Step::root: integer += 1; break;
-        case Step::keep: integer += 1 + static_cast<std::size_t>(*at); break;
-        case Step::cut: integer += 2; break;
-        case Step::empty:
-        case Step::elsewhere: break;
-      }
-      change(kind, at);
-    }
-  }
-
-  struct Leaf {
-    certify::Proof::Step step;
-    int index;
-  };
-  // Every leaf `box i` becomes leaf_of(i).
-  template <class LeafOf>
-  static void change_leaves(certify::Proof& proof, LeafOf leaf_of) {
-    std::size_t step = 0;
-    change_steps(proof, [&](certify::Proof::Step kind, std::int32_t* integers) {
-      if (kind == certify::Proof::Step::box) {
-        const Leaf leaf = leaf_of(*integers);
-        *integers = leaf.index;
-        proof.steps[step] = static_cast<std::uint8_t>(leaf.step);
-      }
-      ++step;
-    });
   }
 
   // The box with the sides of eliminated variables that those of the others imply.
@@ -431,34 +298,34 @@ class Prover {
     return result;
   }
 
-  Parts difference(Box all, const Box& core) const {
-    Parts parts;
+  // What `all` is beside the core. No parts where it misses the domain.
+  Partition difference(Box all, const Box& core) const {
+    Partition partition;
+    partition.whole = all;
     for (std::size_t k = 0; k < reduction_.kept.size(); ++k) {
       const std::size_t j = static_cast<std::size_t>(reduction_.kept[k]);
       Interval side = all[j], inner = core[j];
       if (!side.intersect(reduction_.system.variables[k].domain) || !inner.intersect(side)) return {};
       if (side.lo() < inner.lo()) {
-        parts.boxes.push_back(all);
-        parts.boxes.back()[j] = Interval(side.lo(), inner.lo());
-        parts.splits.push_back({static_cast<int>(k), inner.lo(), true});
+        partition.parts.push_back(all);
+        partition.parts.back()[j] = Interval(side.lo(), inner.lo());
+        partition.splits.push_back({static_cast<int>(k), inner.lo(), true});
       }
       if (inner.hi() < side.hi()) {
-        parts.boxes.push_back(all);
-        parts.boxes.back()[j] = Interval(inner.hi(), side.hi());
-        parts.splits.push_back({static_cast<int>(k), inner.hi(), false});
+        partition.parts.push_back(all);
+        partition.parts.back()[j] = Interval(inner.hi(), side.hi());
+        partition.splits.push_back({static_cast<int>(k), inner.hi(), false});
       }
       all[j] = inner;
     }
-    return parts;
+    return partition;
   }
 
   const System& system_;
   Cover& cover_;
   Options options_;
   const certify::Reduction reduction_ = certify::reduce(system_);  // what solve() searches
-  // Of each box of the cover: it stays; the box that takes its place; or kInRoot − the root of the proof that does.
-  static constexpr int kStays = -1, kInRoot = -2;
-  std::vector<int> replaced_;
+  CoverEdit edit_{cover_, reduction_};
 };
 
 }  // namespace
@@ -472,46 +339,6 @@ void prove_exactly(const System& system, const Options& options, Cover& cover) {
     prover.coranks();
   }
   prover.kernel_dimensions();
-}
-
-void prove_decimals(const System& system, int digits, Cover& cover) {
-  cover.decimals.clear();
-  const certify::Reduction reduction = certify::reduce(system);
-  for (const CoverBox& point : cover.points) {
-    std::vector<std::string>& decimals = cover.decimals.emplace_back();
-    if (point.point >= 0) {
-      const ExactPoint& exact = cover.exact_points[static_cast<std::size_t>(point.point)];
-      const certify::AlgebraicNumber t(exact.polynomial, exact.lower, exact.upper);
-      const ExactNumber width = pow(ExactNumber(10), -digits - 2);
-      for (const auto& x : exact.coordinates) {
-        const auto bounds = t.bounds(x, width);
-        decimals.push_back(certify::proven_decimal(bounds.lower, bounds.upper, digits));
-      }
-    } else if (point.verdict == Verdict::isolated) {
-      std::vector<ExactNumber> start;
-      for (const int j : reduction.kept) start.push_back(ExactNumber::dyadic(point.box[static_cast<std::size_t>(j)].mid()));
-      const auto zero = certify::prove_zero(reduction.system, start, digits + 2);
-      if (!zero || reduction.tolerant || reduction.subset) continue;
-      // The region of the proof holds exactly one solution: one that is proven in it is that.
-      const Box& region = point.region >= 0 ? cover.regions[static_cast<std::size_t>(point.region)] : point.box;
-      const auto inside = [&](std::size_t j) {
-        const Interval& side = region[static_cast<std::size_t>(reduction.kept[j])];
-        return (zero->sides[j].first - ExactNumber::dyadic(side.lo())).sign() != -1 &&
-               (zero->sides[j].second - ExactNumber::dyadic(side.hi())).sign() != 1;
-      };
-      bool same = true;
-      for (std::size_t j = 0; j < reduction.kept.size(); ++j) same = same && inside(j);
-      if (!same) continue;
-      decimals.resize(system.variables.size());
-      for (std::size_t j = 0; j < reduction.kept.size(); ++j)
-        decimals[static_cast<std::size_t>(reduction.kept[j])] =
-            certify::proven_decimal(zero->sides[j].first, zero->sides[j].second, digits);
-      for (const auto& definition : reduction.definitions) {
-        const auto value = certify::bounds(definition.value, zero->sides, zero->bits);
-        decimals[static_cast<std::size_t>(definition.variable)] = certify::proven_decimal(value.first, value.second, digits);
-      }
-    }
-  }
 }
 
 }  // namespace corank::solve

@@ -44,8 +44,11 @@ export function readModel() {
     const text = (what) => document.getElementById(`${what}-${description.name}`).textContent.trim();
     const bytes = bytesOfBase64(text("boxes"));
     const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
-    return new BoxSet(description, new Float32Array(aligned.buffer, aligned.byteOffset, bytes.length / 4),
-                      bytesOfBase64(text("verdicts")));
+    return new BoxSet(
+      description,
+      new Float32Array(aligned.buffer, aligned.byteOffset, bytes.length / 4),
+      bytesOfBase64(text("verdicts")),
+    );
   });
   return model;
 }

@@ -4,8 +4,12 @@
 function edgeDifferences(a, b, size, out) {
   let n = 0;
   const edge = (at, sign) => {
-    const pixel = Math.floor(at), rest = at - pixel;
-    for (const [place, part] of [[pixel, 1 - rest], [pixel + 1, rest]]) {
+    const pixel = Math.floor(at),
+      rest = at - pixel;
+    for (const [place, part] of [
+      [pixel, 1 - rest],
+      [pixel + 1, rest],
+    ]) {
       if (place < size && part > 0) {
         out[n++] = Math.max(place, 0);
         out[n++] = sign * part;
@@ -17,15 +21,20 @@ function edgeDifferences(a, b, size, out) {
   return n;
 }
 
-// Row-major counts; `toX`, `toY` bring a projection to pixels (y down).
-export function coverage(projection, width, height, toX, toY) {
+// Row-major counts; `toX`, `toY` bring a projection to pixels (y down). Boxes for which `skip` is true do not count.
+export function coverage(projection, width, height, toX, toY, skip) {
   const counts = new Float32Array(width * height);
-  const xs = new Float64Array(8), ys = new Float64Array(8);
+  const xs = new Float64Array(8),
+    ys = new Float64Array(8);
   for (let i = 0; i < projection.length; ++i) {
-    const left = toX(projection.x[2 * i]), right = toX(projection.x[2 * i + 1]);
-    const top = toY(projection.y[2 * i + 1]), bottom = toY(projection.y[2 * i]);
+    if (skip(projection.owners[i])) continue;
+    const left = toX(projection.x[2 * i]),
+      right = toX(projection.x[2 * i + 1]);
+    const top = toY(projection.y[2 * i + 1]),
+      bottom = toY(projection.y[2 * i]);
     if (right <= 0 || left >= width || bottom <= 0 || top >= height) continue;
-    const nx = edgeDifferences(left, right, width, xs), ny = edgeDifferences(top, bottom, height, ys);
+    const nx = edgeDifferences(left, right, width, xs),
+      ny = edgeDifferences(top, bottom, height, ys);
     for (let v = 0; v < ny; v += 2) {
       for (let u = 0; u < nx; u += 2) counts[ys[v] * width + xs[u]] += ys[v + 1] * xs[u + 1];
     }

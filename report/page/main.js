@@ -10,8 +10,10 @@ import {coordinateValues} from "./values.js";
 // Configurations here and there in a set: {set, box, values}.
 function sampleConfigurations(model, set, most) {
   if (!set) return [];
-  const step = Math.max(1, Math.floor(set.count / most)), samples = [];
-  for (let box = step >> 1; box < set.count; box += step) samples.push({set, box, values: coordinateValues(model, pointOfBox(set, box).x)});
+  const step = Math.max(1, Math.floor(set.count / most)),
+    samples = [];
+  for (let box = step >> 1; box < set.count; box += step)
+    samples.push({set, box, values: coordinateValues(model, pointOfBox(set, box).x)});
   return samples;
 }
 
@@ -19,8 +21,11 @@ function sampleConfigurations(model, set, most) {
 function clearest(model, samples) {
   let best = null;
   for (const sample of samples) {
-    const at = drawnPoints(model, sample.values).filter(({named}) => named).map(({position}) => position);
-    let room = Infinity, height = 0;
+    const at = drawnPoints(model, sample.values)
+      .filter(({named}) => named)
+      .map(({position}) => position);
+    let room = Infinity,
+      height = 0;
     at.forEach((p, i) => {
       height += p[1] / at.length;
       for (let j = 0; j < i; ++j) room = Math.min(room, Math.hypot(p[0] - at[j][0], p[1] - at[j][1]));
@@ -34,7 +39,9 @@ function clearest(model, samples) {
 // Outputs, inputs, passive coordinates; those of one value are no axes.
 function axisOrder(model) {
   const rank = {output: 0, input: 1, passive: 2, auxiliary: 3};
-  const indices = model.coordinates.map((_, i) => i).filter((i) => model.coordinates[i].range[1] - model.coordinates[i].range[0] > 1e-9);
+  const indices = model.coordinates
+    .map((_, i) => i)
+    .filter((i) => model.coordinates[i].range[1] - model.coordinates[i].range[0] > 1e-9);
   return indices.sort((a, b) => rank[model.coordinates[a].role] - rank[model.coordinates[b].role] || a - b);
 }
 
@@ -44,7 +51,8 @@ function firstOf(order, model, role) {
 }
 
 function followTheme(redraw) {
-  const button = document.getElementById("theme"), media = matchMedia("(prefers-color-scheme: dark)");
+  const button = document.getElementById("theme"),
+    media = matchMedia("(prefers-color-scheme: dark)");
   const apply = (theme) => {
     document.documentElement.dataset.theme = theme;
     button.setAttribute("aria-pressed", String(theme === "dark"));
@@ -57,14 +65,21 @@ function followTheme(redraw) {
 
 function main() {
   document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-  const model = readModel(), filled = (name) => model.sets.find((set) => set.count > 0 && (!name || set.name === name));
+  const model = readModel(),
+    filled = (name) => model.sets.find((set) => set.count > 0 && (!name || set.name === name));
   const samples = sampleConfigurations(model, filled("cspace") || filled(), 300);
-  const view = drawingWindow(model, samples.map(({values}) => values));
-  const hero = document.querySelector("#mechanism svg"), typical = clearest(model, samples);
-  if (typical && model.drawing.points.length > 0) drawMechanism(hero, model, typical.values, null, drawingWindow(model, [typical.values]), {unit: 0.9});
-  else document.getElementById("mechanism").classList.add("undrawn");
+  const view = drawingWindow(
+    model,
+    samples.map(({values}) => values),
+  );
+  const hero = document.querySelector("#mechanism svg"),
+    typical = clearest(model, samples);
+  if (typical && model.drawing.points.length > 0)
+    drawMechanism(hero, model, typical.values, null, drawingWindow(model, [typical.values]), {unit: 0.9});
+  else document.body.classList.add("undrawn");
 
-  const order = axisOrder(model), views = [];
+  const order = axisOrder(model),
+    views = [];
   const panel = new Panel(model, document.getElementById("panel"), view, (configuration) => {
     for (const portrait of views) portrait.show(configuration);
     if (space) space.mark(configuration);
@@ -72,7 +87,6 @@ function main() {
   const listener = {
     hover: (candidates, place, portrait) => panel.hover(candidates, place, portrait),
     pin: (candidates, place, portrait) => panel.pin(candidates, place, portrait),
-    leave: () => {},
     step: (direction) => panel.step(direction),
     escape: () => panel.unpin(),
   };
@@ -80,6 +94,7 @@ function main() {
   for (const role of ["output", "input"]) {
     const root = document.getElementById(`${role}-portrait`);
     if (order.length > 1) views.push(new Portrait(model, root, firstOf(order, model, role), listener));
+    else root.remove();
   }
   const three = [...new Set([...order, 0, 1, 2].filter((i) => i < model.coordinates.length))].slice(0, 3);
   if (three.length === 3) {
@@ -96,26 +111,30 @@ function main() {
       if (space) space.build();
     });
   }
-  for (const button of document.querySelectorAll(".show-point")) button.addEventListener("click", () => showPoint(model, panel, button));
+  for (const button of document.querySelectorAll(".show-point"))
+    button.addEventListener("click", () => showPoint(model, panel, button));
   followTheme(() => {
     for (const portrait of views) portrait.draw();
     if (space) space.build();
   });
 
   const first = clearest(model, sampleConfigurations(model, filled("forward") || filled(), 100));
-  if (first) panel.offer([{set: first.set, box: first.box, leaders: 1}]);
+  if (first) panel.offer([{set: first.set, box: first.box}]);
   window.corank = {model, panel, portraits: views, space};
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 }
 
 // The box that holds the middle of an isolated point.
 function showPoint(model, panel, button) {
-  const row = button.closest("tr"), set = model.sets.find(({name}) => name === button.closest("section").dataset.set);
+  const row = button.closest("tr"),
+    set = model.sets.find(({name}) => name === button.closest("section").dataset.set);
   const {bounds} = set.points[Number(row.dataset.point)];
-  let best = 0, least = Infinity;
+  let best = 0,
+    least = Infinity;
   for (let box = 0; box < set.count; ++box) {
     let far = 0;
-    for (let j = 0; j < set.configuration; ++j) far = Math.max(far, Math.abs(set.middle(box, j) - (bounds[j][0] + bounds[j][1]) / 2));
+    for (let j = 0; j < set.configuration; ++j)
+      far = Math.max(far, Math.abs(set.middle(box, j) - (bounds[j][0] + bounds[j][1]) / 2));
     if (far < least) [best, least] = [box, far];
   }
   panel.pinBox(set, best);

@@ -30,11 +30,16 @@ export function evaluateTree(tree, values, rates) {
   const parts = tree.slice(1).map((part) => evaluateTree(part, values, rates));
   const [[a, da], [b, db] = [0, 0]] = parts;
   switch (tree[0]) {
-    case "+": return parts.reduce(([s, ds], [t, dt]) => [s + t, ds + dt]);
-    case "*": return parts.reduce(([s, ds], [t, dt]) => [s * t, ds * t + s * dt]);
-    case "/": return [a / b, (da * b - a * db) / (b * b)];
-    case "^": return [a ** b, (da ? b * a ** (b - 1) * da : 0) + (db ? a ** b * Math.log(a) * db : 0)];
-    case "-": return [-a, -da];
+    case "+":
+      return parts.reduce(([s, ds], [t, dt]) => [s + t, ds + dt]);
+    case "*":
+      return parts.reduce(([s, ds], [t, dt]) => [s * t, ds * t + s * dt]);
+    case "/":
+      return [a / b, (da * b - a * db) / (b * b)];
+    case "^":
+      return [a ** b, (da ? b * a ** (b - 1) * da : 0) + (db ? a ** b * Math.log(a) * db : 0)];
+    case "-":
+      return [-a, -da];
     default: {
       const [value, slope] = dualFunctions[tree[0]](a);
       return [value, slope * da];
@@ -48,8 +53,10 @@ export function drawnPoints(model, values, rates = {}) {
   const named = new Set(model.drawing.parts.flatMap(({kind, points}) => (kind === "slider" ? points.slice(0, 1) : points)));
   return model.drawing.points.map((point, i) => {
     const at = point.at.map((tree) => evaluateTree(tree, values, rates));
-    const flat = (k) => (at.length === 2 ? [at[0][k], at[1][k]]
-                                         : [0.866 * (at[0][k] - at[1][k]), at[2][k] - 0.5 * (at[0][k] + at[1][k]) * 0.577]);
+    const flat = (k) =>
+      at.length === 2
+        ? [at[0][k], at[1][k]]
+        : [0.866 * (at[0][k] - at[1][k]), at[2][k] - 0.5 * (at[0][k] + at[1][k]) * 0.577];
     return {label: point.label, named: named.has(i), position: flat(0), velocity: flat(1)};
   });
 }
@@ -58,7 +65,9 @@ export function drawnPoints(model, values, rates = {}) {
 export function drawingWindow(model, configurations) {
   const box = [Infinity, Infinity, -Infinity, -Infinity];
   for (const values of configurations) {
-    for (const {position: [x, y]} of drawnPoints(model, values)) {
+    for (const {
+      position: [x, y],
+    } of drawnPoints(model, values)) {
       if (!Number.isFinite(x + y)) continue;
       box[0] = Math.min(box[0], x);
       box[1] = Math.min(box[1], y);
@@ -67,20 +76,24 @@ export function drawingWindow(model, configurations) {
     }
   }
   if (box[0] > box[2]) return [-1, -1, 1, 1];
-  const size = Math.max(box[2] - box[0], box[3] - box[1], 1e-9), margin = 0.08 * size;
+  const size = Math.max(box[2] - box[0], box[3] - box[1], 1e-9),
+    margin = 0.08 * size;
   const grow = (low, high) => {
     const extra = Math.max(0, 0.35 * size - (high - low)) / 2 + margin;
     return [low - extra, high + extra];
   };
-  const [x0, x1] = grow(box[0], box[2]), [y0, y1] = grow(box[1], box[3]);
+  const [x0, x1] = grow(box[0], box[2]),
+    [y0, y1] = grow(box[1], box[3]);
   return [x0, y0, x1, y1];
 }
 
 // Draws into an <svg>, replacing what it holds. `rates` may be null: no arrows.
 export function drawMechanism(svg, model, values, rates, view, options = {}) {
   const [x0, y0, x1, y1] = view;
-  const width = 400, scale = width / (x1 - x0), height = scale * (y1 - y0);
-  const unit = options.unit || 1;  // thicknesses, in a picture of width 400
+  const width = 400,
+    scale = width / (x1 - x0),
+    height = scale * (y1 - y0);
+  const unit = options.unit || 1; // thicknesses, in a picture of width 400
   svg.replaceChildren();
   svg.setAttribute("viewBox", `0 0 ${width} ${height.toFixed(1)}`);
   const points = drawnPoints(model, values, rates || {});
@@ -89,18 +102,34 @@ export function drawMechanism(svg, model, values, rates, view, options = {}) {
   const parts = (kind) => model.drawing.parts.filter((part) => part.kind === kind);
   const circle = (i, radius, name) => svgElement(svg, "circle", {cx: at[i][0], cy: at[i][1], r: radius * unit, class: name});
 
-  for (const {points: [, a, b]} of parts("slider")) svgElement(svg, "polyline", {points: path([a, b]), class: "rail"});
+  for (const {
+    points: [, a, b],
+  } of parts("slider"))
+    svgElement(svg, "polyline", {points: path([a, b]), class: "rail"});
   for (const part of parts("ground")) for (const i of part.points) drawGround(svg, at[i], unit);
   for (const part of parts("platform")) svgElement(svg, "polygon", {points: path(part.points), class: "platform"});
   for (const name of ["casing", "link"]) {
     for (const part of parts("link")) {
-      svgElement(svg, "polyline", {points: path(part.points), class: name, "stroke-width": (name === "link" ? 7 : 10) * unit});
+      svgElement(svg, "polyline", {
+        points: path(part.points),
+        class: name,
+        "stroke-width": (name === "link" ? 7 : 10) * unit,
+      });
     }
   }
-  for (const {points: [p, a, b]} of parts("slider")) {
+  for (const {
+    points: [p, a, b],
+  } of parts("slider")) {
     const angle = (Math.atan2(at[b][1] - at[a][1], at[b][0] - at[a][0]) * 180) / Math.PI;
-    svgElement(svg, "rect", {x: -13 * unit, y: -8 * unit, width: 26 * unit, height: 16 * unit, rx: 3 * unit, class: "block",
-                             transform: `translate(${at[p][0]} ${at[p][1]}) rotate(${angle})`});
+    svgElement(svg, "rect", {
+      x: -13 * unit,
+      y: -8 * unit,
+      width: 26 * unit,
+      height: 16 * unit,
+      rx: 3 * unit,
+      class: "block",
+      transform: `translate(${at[p][0]} ${at[p][1]}) rotate(${angle})`,
+    });
   }
   for (const part of parts("ground")) for (const i of part.points) circle(i, 6, "joint");
   for (const part of parts("joint")) for (const i of part.points) circle(i, 5, "joint");
@@ -111,7 +140,9 @@ export function drawMechanism(svg, model, values, rates, view, options = {}) {
     }
   }
   const arrows = rates ? drawVelocities(svg, points, at, scale, unit, width) : [];
-  const bars = ["link", "platform"].flatMap((kind) => parts(kind)).flatMap(({points: ends}) => ends.slice(1).map((b, k) => [at[ends[k]], at[b]]));
+  const bars = ["link", "platform"]
+    .flatMap((kind) => parts(kind))
+    .flatMap(({points: ends}) => ends.slice(1).map((b, k) => [at[ends[k]], at[b]]));
   const pedestals = parts("ground").flatMap((part) => part.points.map((i) => [at[i], [at[i][0], at[i][1] + 22 * unit]]));
   drawLabels(svg, points, at, [...bars, ...arrows, ...pedestals], unit, width, height);
 }
@@ -131,34 +162,48 @@ function drawVelocities(svg, points, at, scale, unit, width) {
   if (!(fastest > 1e-9)) return arrows;
   points.forEach(({velocity: [u, v]}, i) => {
     if (speeds[i] < 1e-6 * fastest) return;
-    const length = (0.2 * width * speeds[i]) / fastest, dx = u / speeds[i], dy = -v / speeds[i];
-    const [x, y] = at[i], tip = [x + length * dx, y + length * dy], head = Math.min(9 * unit, 0.6 * length);
+    const length = (0.2 * width * speeds[i]) / fastest,
+      dx = u / speeds[i],
+      dy = -v / speeds[i];
+    const [x, y] = at[i],
+      tip = [x + length * dx, y + length * dy],
+      head = Math.min(9 * unit, 0.6 * length);
     arrows.push([at[i], tip]);
     const back = [tip[0] - head * dx, tip[1] - head * dy];
     svgElement(svg, "line", {x1: x, y1: y, x2: back[0], y2: back[1], class: "velocity", "stroke-width": 2.6 * unit});
-    svgElement(svg, "polygon", {points: [tip, [back[0] - 0.45 * head * dy, back[1] + 0.45 * head * dx],
-                                         [back[0] + 0.45 * head * dy, back[1] - 0.45 * head * dx]].map((p) => p.join(",")).join(" "),
-                                class: "velocity-head"});
+    svgElement(svg, "polygon", {
+      points: [
+        tip,
+        [back[0] - 0.45 * head * dy, back[1] + 0.45 * head * dx],
+        [back[0] + 0.45 * head * dy, back[1] - 0.45 * head * dx],
+      ]
+        .map((p) => p.join(","))
+        .join(" "),
+      class: "velocity-head",
+    });
   });
   return arrows;
 }
 
 // Each label goes to the side of its point where the other points are not; of points in one place the first is labelled for all.
 function drawLabels(svg, points, at, obstacles, unit, width, height) {
-  const done = [], taken = [];
+  const done = [],
+    taken = [];
   points.forEach((point, i) => {
     if (!point.named) return;
     if (done.some((j) => Math.hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]) < 3)) return;
     done.push(i);
     let best = null;
     for (let k = 0; k < 8; ++k) {
-      const angle = (k * Math.PI) / 4 - Math.PI / 4, distance = 22 * unit;
+      const angle = (k * Math.PI) / 4 - Math.PI / 4,
+        distance = 22 * unit;
       const place = [at[i][0] + distance * Math.cos(angle), at[i][1] + distance * Math.sin(angle)];
       let room = Math.min(place[0], width - place[0], place[1], height - place[1]) - 10;
       at.forEach((other, j) => {
         if (j !== i) room = Math.min(room, Math.hypot(place[0] - other[0], place[1] - other[1]) - 12);
       });
-      for (const other of taken) room = Math.min(room, Math.hypot((place[0] - other[0]) * 0.8, place[1] - other[1]) - 14 * unit);
+      for (const other of taken)
+        room = Math.min(room, Math.hypot((place[0] - other[0]) * 0.8, place[1] - other[1]) - 14 * unit);
       for (const [a, b] of obstacles) room = Math.min(room, distanceToLine(place, a, b));
       if (!best || room > best.room + 1e-6) best = {room, place};
     }

@@ -26,7 +26,8 @@ function factorValue(monomial, k, x) {
 }
 
 function factorSlope(monomial, k, x) {
-  const t = x[monomial[k]], power = monomial[k + 1];
+  const t = x[monomial[k]],
+    power = monomial[k + 1];
   return monomial[k + 2] === 1 ? Math.cos(t) : monomial[k + 2] === 2 ? -Math.sin(t) : power * t ** (power - 1);
 }
 
@@ -51,10 +52,12 @@ function solveSymmetric(a, b, n) {
 
 // From x the nearby point of F = 0, each step the shortest one: dx = −Jᵀ (J Jᵀ + λ)⁻¹ F with a tiny λ, for F may be redundant.
 export function ontoSolutions(equations, start) {
-  const n = start.length, m = equations.length;
+  const n = start.length,
+    m = equations.length;
   const x = Float64Array.from(start);
   const jacobian = equations.map(() => new Float64Array(n));
-  const gram = new Float64Array(m * m), step = new Float64Array(m);
+  const gram = new Float64Array(m * m),
+    step = new Float64Array(m);
   let residual = Infinity;
   for (let round = 0; round < 20; ++round) {
     residual = 0;
@@ -95,7 +98,9 @@ export function pointOfBox(set, box, conditions = []) {
 // Is a configuration in the box, or next to it by at most the box's width?
 function isNear(set, box, x) {
   for (let j = 0; j < set.configuration; ++j) {
-    const low = set.lower(box, j), high = set.upper(box, j), room = 0.5 * (high - low) + 1e-6;
+    const low = set.lower(box, j),
+      high = set.upper(box, j),
+      room = 0.5 * (high - low) + 1e-6;
     if (!(x[j] >= low - room && x[j] <= high + room)) return false;
   }
   return true;

@@ -35,7 +35,7 @@ export class Panel {
 
   // A configuration that is named elsewhere: a point of a table, a pick in space.
   pinBox(set, box) {
-    this.pin([{set, box, leaders: 1}]);
+    this.pin([{set, box}]);
   }
 
   unpin() {
@@ -70,7 +70,8 @@ export class Panel {
   choose(k) {
     this.chosen = k;
     [...this.modes.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === k)));
-    const candidate = this.candidates[k], {set, box} = candidate;
+    const candidate = this.candidates[k],
+      {set, box} = candidate;
     const point = pointOfBox(set, box, this.conditions(candidate));
     this.show({set, box, ...point});
   }
@@ -78,8 +79,14 @@ export class Panel {
   // Over a surface the configuration is the one at the pointer: two equations more, x = value, or c sin θ − s cos θ = 0.
   conditions({set, place, axes}) {
     if (!place || set.dimension < 2) return [];
-    return axes.map((axis, k) => (isAngle(axis) ? [[Math.sin(place[k]), axis.cosine, 1, 0], [-Math.cos(place[k]), axis.sine, 1, 0]]
-                                                : [[1, axis.index, 1, 0], [-place[k]]]));
+    return axes.map((axis, k) =>
+      isAngle(axis)
+        ? [
+            [Math.sin(place[k]), axis.cosine, 1, 0],
+            [-Math.cos(place[k]), axis.sine, 1, 0],
+          ]
+        : [[1, axis.index, 1, 0], [-place[k]]],
+    );
   }
 
   show(configuration) {
@@ -102,17 +109,23 @@ export class Panel {
 
   describe({set, box, residual, moved}, values) {
     const verdict = this.model.verdicts[set.verdicts[box]];
-    const rows = this.model.coordinates.filter(({role}) => role !== "auxiliary").map((coordinate) => {
-      const unit = unitOf(this.model, coordinate), value = values[coordinate.name];
-      const degrees = isAngle(coordinate) ? ` <small>${numberText((value * 180) / Math.PI, 4)}°</small>` : "";
-      return `<tr><th>${htmlLabel(coordinate)}</th><td>${numberText(value)}${unit ? ` ${unit}` : ""}${degrees}</td><td>${
-        coordinate.role === "passive" ? "" : coordinate.role}</td></tr>`;
-    });
-    const how = moved ? `Drawn at a point in or next to the box, found by Newton’s method (residual ${residual.toExponential(0)}).`
-                      : "Drawn at the middle of the box: Newton’s method found no point in it.";
+    const rows = this.model.coordinates
+      .filter(({role}) => role !== "auxiliary")
+      .map((coordinate) => {
+        const unit = unitOf(this.model, coordinate),
+          value = values[coordinate.name];
+        const degrees = isAngle(coordinate) ? ` <small>${numberText((value * 180) / Math.PI, 4)}°</small>` : "";
+        return `<tr><th>${htmlLabel(coordinate)}</th><td>${numberText(value)}${unit ? ` ${unit}` : ""}${degrees}</td><td>${
+          coordinate.role === "passive" ? "" : coordinate.role
+        }</td></tr>`;
+      });
+    const how = moved
+      ? `Drawn at a point in or next to the box, found by Newton’s method (residual ${residual.toExponential(0)}).`
+      : "Drawn at the middle of the box: Newton’s method found no point in it.";
     const arrows = set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
-    return `<p class="headline"><span class="swatch ${set.name}"></span>${setTitles[set.name]} · box ${groupedText(box + 1)} of ${
-      groupedText(set.count)} · <span class="verdict ${verdict}">${verdict}</span></p><table>${rows.join("")}</table><p class="fine">${how}${arrows}</p>`;
+    return `<p class="headline"><span class="swatch ${set.name}"></span>${setTitles[set.name]} · box ${groupedText(box + 1)} of ${groupedText(
+      set.count,
+    )} · <span class="verdict ${verdict}">${verdict}</span></p><table>${rows.join("")}</table><p class="fine">${how}${arrows}</p>`;
   }
 
   showNothing(place, portrait) {
@@ -121,7 +134,8 @@ export class Panel {
     const cspace = this.model.sets.find((set) => set.name === "cspace");
     const proven = cspace && cspace.complete && cspace.dimension > 1;
     this.text.innerHTML = `<p class="headline">${portrait.placeText(place)}</p><p class="fine">${
-      proven ? "No configuration has these values: every box lies elsewhere." : "No box lies there."}</p>`;
+      proven ? "No configuration has these values: every box lies elsewhere." : "No box lies there."
+    }</p>`;
     this.showState();
     this.onShow(null);
   }

@@ -1,25 +1,16 @@
 // The 3-D view: C-space and loci in any three coordinates, as points or boxes, by three.js.
-import {coordinateInterval, coordinateValue, fullTurn, groupedText, isAngle, plainLabel, setTitles, wrapped} from "./values.js";
-
-const vertexShader = `
-  attribute vec3 extent;
-  uniform float pixels;
-  uniform float least;
-  void main() {
-    vec4 seen = modelViewMatrix * vec4(position, 1.0);
-    gl_Position = projectionMatrix * seen;
-    float size = (extent.x + extent.y + extent.z) / 3.0;
-    gl_PointSize = max(least, pixels * size * projectionMatrix[1][1] / gl_Position.w);
-  }`;
-const fragmentShader = `
-  uniform vec3 colour;
-  uniform float opacity;
-  void main() {
-    vec2 at = gl_PointCoord - 0.5;
-    float rim = 1.0 - smoothstep(0.16, 0.25, dot(at, at));
-    if (rim <= 0.0) discard;
-    gl_FragColor = vec4(colour, opacity * rim);
-  }`;
+import {boxCloud, nameSprite, pointCloud, ringSprite, setDetail} from "./cloud.js";
+import {pageColours} from "./picture.js";
+import {
+  coordinateInterval,
+  coordinateValue,
+  fullTurn,
+  groupedText,
+  isAngle,
+  plainLabel,
+  setTitles,
+  wrapped,
+} from "./values.js";
 
 export class Space {
   constructor(model, root, axes, onPick) {
@@ -43,7 +34,7 @@ export class Space {
 
   start() {
     try {
-      this.renderer = new THREE.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
+      this.renderer = new THREE.WebGLRenderer({antialias: false, alpha: true, preserveDrawingBuffer: true});
     } catch {
       this.frame.innerHTML = `<p class="fallback">This browser offers no WebGL, which the view in space needs. All else on this page works without.</p>`;
       this.root.dataset.webgl = "none";
@@ -56,6 +47,8 @@ export class Space {
     this.camera.position.set(2.0, -3.1, 1.75);
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.render());
+    this.controls.addEventListener("start", () => this.turn(true));
+    this.controls.addEventListener("end", () => this.turn(false));
     this.listen();
     return true;
   }
@@ -66,7 +59,8 @@ export class Space {
     this.axes = this.selects.map((select) => this.model.coordinates[Number(select.value)]);
     this.ranges = this.axes.map((axis) => {
       if (isAngle(axis)) return [-Math.PI, Math.PI];
-      let low = Infinity, high = -Infinity;
+      let low = Infinity,
+        high = -Infinity;
       for (const set of this.model.sets) {
         for (let box = 0; box < set.count; ++box) {
           coordinateInterval(set, box, axis, side);
@@ -88,68 +82,52 @@ export class Space {
   build() {
     if (!this.renderer) return;
     this.measure();
+    this.discard();
     this.scene = new THREE.Scene();
-    const style = getComputedStyle(this.root), colour = (name) => style.getPropertyValue(name).trim();
-    this.colours = {cspace: `rgb(${colour("--cspace")})`, forward: colour("--forward"), inverse: colour("--inverse"),
-                    "cspace-singular": colour("--crossing"), ink: colour("--ink"), paper: colour("--card"), line: colour("--line-strong")};
-    this.dark = colour("--dark") === "1";
+    const colours = pageColours(this.root);
+    this.colours = {...colours, cspace: `rgb(${colours.cspace})`};
     this.clouds = this.model.sets.filter((set) => !this.hidden.has(set.name) && set.count > 0).map((set) => this.cloud(set));
     for (const {object} of this.clouds) this.scene.add(object);
     this.addFrame();
-    this.marker = this.ring();
+    this.marker = ringSprite(this.colours.ink, this.colours.card);
     this.marker.visible = false;
     this.scene.add(this.marker);
     this.mark(this.shown);
     this.resize(true);
   }
 
+  // Gives back what the former scene holds of the graphics card.
+  discard() {
+    if (!this.scene) return;
+    this.scene.traverse(({geometry, material}) => {
+      if (geometry) geometry.dispose();
+      if (material && material.map) material.map.dispose();
+      if (material) material.dispose();
+    });
+  }
+
   // Middles and extents of a set's boxes in the cube.
   cloud(set) {
-    const middles = new Float32Array(3 * set.count), extents = new Float32Array(3 * set.count), side = [0, 0];
+    const middles = new Float32Array(3 * set.count),
+      extents = new Float32Array(3 * set.count),
+      side = [0, 0];
     for (let box = 0; box < set.count; ++box) {
       for (let k = 0; k < 3; ++k) {
-        const [low, high] = coordinateInterval(set, box, this.axes[k], side), middle = (low + high) / 2;
+        const [low, high] = coordinateInterval(set, box, this.axes[k], side),
+          middle = (low + high) / 2;
         middles[3 * box + k] = this.toCube(isAngle(this.axes[k]) ? wrapped(middle) : middle, k);
         extents[3 * box + k] = Math.min(high - low, isAngle(this.axes[k]) ? fullTurn : Infinity) * this.scales[k];
       }
     }
-    const boxes = this.form.value === "boxes";
-    const object = boxes ? this.boxes(set, middles, extents) : this.points(set, middles, extents);
+    const make = this.form.value === "boxes" ? boxCloud : pointCloud;
+    const object = make(set, middles, extents, this.colours[set.name]);
     object.renderOrder = set.singular() ? 2 : 1;
     return {set, middles, object};
   }
 
-  points(set, middles, extents) {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(middles, 3));
-    geometry.setAttribute("extent", new THREE.BufferAttribute(extents, 3));
-    const faint = !set.singular() && set.dimension > 1;
-    const colour = new THREE.Color(this.colours[set.name]);
-    colour.convertLinearToSRGB();
-    const material = new THREE.ShaderMaterial({vertexShader, fragmentShader, transparent: true, depthWrite: !faint,
-                                               uniforms: {colour: {value: colour}, opacity: {value: faint ? 0.16 * Math.min(1, 9e4 / set.count) : 1},
-                                                          pixels: {value: 400}, least: {value: faint ? 1.5 : set.dimension === 0 ? 9 : 3.5}}});
-    const points = new THREE.Points(geometry, material);
-    points.frustumCulled = false;
-    return points;
-  }
-
-  boxes(set, middles, extents) {
-    const faint = !set.singular() && set.dimension > 1;
-    const material = new THREE.MeshBasicMaterial({color: this.colours[set.name], transparent: faint, opacity: faint ? 0.07 : 1, depthWrite: !faint});
-    const mesh = new THREE.InstancedMesh(new THREE.BoxGeometry(1, 1, 1), material, set.count);
-    const matrix = new THREE.Matrix4(), least = set.singular() ? 0.004 : 0.001;
-    for (let i = 0; i < set.count; ++i) {
-      matrix.makeScale(...[0, 1, 2].map((k) => Math.max(extents[3 * i + k], least)));
-      matrix.setPosition(middles[3 * i], middles[3 * i + 1], middles[3 * i + 2]);
-      mesh.setMatrixAt(i, matrix);
-    }
-    mesh.frustumCulled = false;
-    return mesh;
-  }
-
   addFrame() {
-    const half = this.ranges.map(([a, b], k) => ((b - a) / 2) * this.scales[k]), lines = [];
+    const half = this.ranges.map(([a, b], k) => ((b - a) / 2) * this.scales[k]),
+      lines = [];
     for (let axis = 0; axis < 3; ++axis) {
       for (const u of [-1, 1]) {
         for (const v of [-1, 1]) {
@@ -165,68 +143,29 @@ export class Space {
     }
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(lines), 3));
-    this.scene.add(new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({color: this.colours.line, transparent: true, opacity: 0.7})));
+    this.scene.add(
+      new THREE.LineSegments(
+        geometry,
+        new THREE.LineBasicMaterial({color: this.colours.line, transparent: true, opacity: 0.7}),
+      ),
+    );
     this.axes.forEach((axis, k) => {
-      const name = this.sprite(axis.label, this.colours.ink, 0.1);
+      const name = nameSprite(axis.label, this.colours.ink, 0.1);
       const at = [0, 0, 0];
       // x and y along the lower front edges, z along a vertical one.
       at[(k + 1) % 3] = -half[(k + 1) % 3];
       at[(k + 2) % 3] = -half[(k + 2) % 3];
       if (k === 0) at[1] -= 0.1;
-      if (k === 1) (at[0] = half[0] + 0.1), (at[2] = -half[2]);
-      if (k === 2) (at[0] = -half[0] - 0.09);
+      if (k === 1) ((at[0] = half[0] + 0.1), (at[2] = -half[2]));
+      if (k === 2) at[0] = -half[0] - 0.09;
       name.position.set(...at);
       this.scene.add(name);
     });
   }
 
-  // A text that faces the eye: a name in italics with a subscript.
-  sprite([base, subscript], colour, height) {
-    const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
-    const pieces = [[base, "italic 64px Georgia, 'Liberation Serif', serif", 62], [subscript, "44px Georgia, 'Liberation Serif', serif", 76]];
-    let width = 12;
-    for (const [text, font] of pieces) {
-      context.font = font;
-      width += context.measureText(text).width;
-    }
-    canvas.width = Math.ceil(width);
-    canvas.height = 96;
-    let at = 6;
-    for (const [text, font, down] of pieces) {
-      context.font = font;
-      context.fillStyle = colour;
-      context.fillText(text, at, down);
-      at += context.measureText(text).width;
-    }
-    const map = new THREE.CanvasTexture(canvas);
-    map.colorSpace = THREE.SRGBColorSpace;
-    const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map, depthTest: false, transparent: true}));
-    sprite.scale.set((height * canvas.width) / canvas.height, height, 1);
-    sprite.renderOrder = 3;
-    return sprite;
-  }
-
-  // Where the shown configuration is.
-  ring() {
-    const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
-    canvas.width = canvas.height = 64;
-    for (const [colour, width] of [[this.colours.paper, 16], [this.colours.ink, 8]]) {
-      context.strokeStyle = colour;
-      context.lineWidth = width;
-      context.beginPath();
-      context.arc(32, 32, 20, 0, 7);
-      context.stroke();
-    }
-    const map = new THREE.CanvasTexture(canvas);
-    map.colorSpace = THREE.SRGBColorSpace;
-    const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map, depthTest: false, transparent: true}));
-    sprite.scale.set(0.05, 0.05, 1);
-    sprite.renderOrder = 4;
-    return sprite;
-  }
-
   resize(force) {
-    const width = this.frame.clientWidth, height = Math.round(Math.min(0.62 * width, 560));
+    const width = this.frame.clientWidth,
+      height = Math.round(Math.min(0.62 * width, 560));
     if (!width || (!force && width === this.width)) return;
     this.width = width;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio || 1, 2));
@@ -238,6 +177,11 @@ export class Space {
     for (const {object} of this.clouds) {
       if (object.material.uniforms) object.material.uniforms.pixels.value = 0.5 * this.renderer.domElement.height;
     }
+    this.render();
+  }
+
+  turn(turning) {
+    for (const {set, object} of this.clouds) setDetail(set, object, turning);
     this.render();
   }
 
@@ -255,13 +199,15 @@ export class Space {
     this.shown = configuration;
     if (!this.marker) return;
     this.marker.visible = Boolean(configuration);
-    if (configuration) this.marker.position.set(...this.axes.map((axis, k) => this.toCube(coordinateValue(configuration.x, axis), k)));
+    if (configuration)
+      this.marker.position.set(...this.axes.map((axis, k) => this.toCube(coordinateValue(configuration.x, axis), k)));
     this.render();
   }
 
   // The box whose middle is nearest to a place of the canvas, singular ones first; null where none is within some pixels.
   nearest(px, py) {
-    const {clientWidth: width, clientHeight: height} = this.renderer.domElement, at = new THREE.Vector3();
+    const {clientWidth: width, clientHeight: height} = this.renderer.domElement,
+      at = new THREE.Vector3();
     let best = null;
     for (const {set, middles} of this.clouds) {
       for (let box = 0; box < set.count; ++box) {
@@ -281,7 +227,7 @@ export class Space {
     let pressed = null;
     canvas.addEventListener("pointerdown", (event) => (pressed = [event.clientX, event.clientY]));
     canvas.addEventListener("click", (event) => {
-      if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4) return;  // the end of an orbit
+      if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4) return; // the end of an orbit
       const box = canvas.getBoundingClientRect();
       const found = this.nearest(event.clientX - box.left, event.clientY - box.top);
       this.note.textContent = found ? `Picked: ${setTitles[found.set.name]}, box ${groupedText(found.box + 1)}` : "";
@@ -293,8 +239,11 @@ export class Space {
   // Arrow keys turn the view, + and − zoom.
   key(event) {
     const turns = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
-    const position = this.camera.position, radius = position.length();
-    let around = Math.atan2(position.y, position.x), down = Math.acos(position.z / radius), far = radius;
+    const position = this.camera.position,
+      radius = position.length();
+    let around = Math.atan2(position.y, position.x),
+      down = Math.acos(position.z / radius),
+      far = radius;
     if (turns[event.key]) {
       around += 0.1 * turns[event.key][0];
       down = Math.min(Math.PI - 0.05, Math.max(0.05, down + 0.08 * turns[event.key][1]));

@@ -17,24 +17,25 @@ export function coordinateInterval(set, box, coordinate, out) {
     out[1] = set.upper(box, coordinate.index);
     return out;
   }
-  const c0 = set.lower(box, coordinate.cosine), c1 = set.upper(box, coordinate.cosine);
-  const s0 = set.lower(box, coordinate.sine), s1 = set.upper(box, coordinate.sine);
+  const c0 = set.lower(box, coordinate.cosine),
+    c1 = set.upper(box, coordinate.cosine);
+  const s0 = set.lower(box, coordinate.sine),
+    s1 = set.upper(box, coordinate.sine);
   if (c0 <= 0 && c1 >= 0 && s0 <= 0 && s1 >= 0) {
     out[0] = -Math.PI;
     out[1] = Math.PI;
     return out;
   }
-  const centre = Math.atan2(s0 + s1, c0 + c1);
-  let low = 0, high = 0;
-  for (const c of [c0, c1]) {
-    for (const s of [s0, s1]) {
-      const turn = wrapped(Math.atan2(s, c) - centre);
-      low = Math.min(low, turn);
-      high = Math.max(high, turn);
-    }
-  }
-  out[0] = centre + low;
-  out[1] = centre + high;
+  // Corners relative to the direction (u, v) of the middle: less than half a turn away.
+  const u = c0 + c1,
+    v = s0 + s1,
+    centre = Math.atan2(v, u);
+  const a = Math.atan2(s0 * u - c0 * v, c0 * u + s0 * v),
+    b = Math.atan2(s0 * u - c1 * v, c1 * u + s0 * v);
+  const c = Math.atan2(s1 * u - c0 * v, c0 * u + s1 * v),
+    d = Math.atan2(s1 * u - c1 * v, c1 * u + s1 * v);
+  out[0] = centre + Math.min(a, b, c, d);
+  out[1] = centre + Math.max(a, b, c, d);
   return out;
 }
 
@@ -59,7 +60,12 @@ export const unitOf = (model, coordinate) => (isAngle(coordinate) ? "rad" : mode
 
 export const withMinus = (text) => text.replace(/-/g, "−");
 export function numberText(x, digits = 4) {
-  const text = Math.abs(x) < 1e-12 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6 ? x.toExponential(digits - 1) : x.toPrecision(digits);
+  const text =
+    Math.abs(x) < 1e-12
+      ? "0"
+      : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6
+        ? x.toExponential(digits - 1)
+        : x.toPrecision(digits);
   return withMinus(text);
 }
 export const groupedText = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");

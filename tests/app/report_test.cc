@@ -41,6 +41,10 @@ TEST(Report, OfTheThreeSliderHoldsItsResultFiles) {
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   EXPECT_NE(page.find("corank report three_slider.cuik"), std::string::npos);
   expect_page_of_results(page, to);
+  for (const char* figure : {"output-portrait.svg", "output-portrait.pdf", "input-portrait.svg", "input-portrait.pdf"}) {
+    EXPECT_GT(std::filesystem::file_size(to + "/figures/" + figure), 1000u) << figure;
+    EXPECT_NE(page.find(std::string("figures/") + figure), std::string::npos);
+  }
 
   const std::string again = folder.file("again");
   const Outcome second = run_corank({"report", "--results", to + "/inverse.h5", to + "/cspace-singular.h5",

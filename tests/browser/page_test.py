@@ -36,7 +36,7 @@ class Dextar(unittest.TestCase):
           const portrait = corank.portraits[{portrait}];
           portrait.frame.scrollIntoView({{block: "center"}});
           const box = portrait.overlay.getBoundingClientRect();
-          return [box.left + portrait.toX({x}), box.top + portrait.toY({y})];
+          return [box.left + portrait.picture.plane.toX({x}), box.top + portrait.picture.plane.toY({y})];
         }})()""")
 
     def shown(self):
@@ -56,7 +56,7 @@ class Dextar(unittest.TestCase):
     def test_output_portrait_has_boxes_over_the_reach_of_both_arms_and_over_nothing_else(self):
         sigma = self.run_js("corank.model.sets.find((s) => s.name === 'cspace').sigma")
         places = [(0.1 * i + 0.003, 0.1 * k + 0.007) for i in range(-12, 31) for k in range(-20, 21)]
-        over = self.run_js(f"{[list(place) for place in places]}.map(([x, y]) => corank.portraits[0].boxesOver('cspace', x, y))")
+        over = self.run_js(f"{[list(place) for place in places]}.map(([x, y]) => corank.portraits[0].picture.boxesOver('cspace', x, y))")
         for (x, y), count in zip(places, over):
             inside = REACH - max(math.hypot(x, y), math.hypot(x - BASE, y))
             if inside >= 0:
@@ -71,8 +71,7 @@ class Dextar(unittest.TestCase):
                 x, y = centre + REACH * math.cos(math.pi * k / 50), REACH * math.sin(math.pi * k / 50)
                 if math.hypot(x - other, y) < REACH - 1e-6:
                     places.append([x, y])
-        near = self.run_js(f"{places}.map(([x, y]) => corank.portraits[0].projections[corank.model.sets.findIndex("
-                           "(s) => s.name === 'inverse')].near(x, y, 1e-6, 1e-6).length)")
+        near = self.run_js(f"{places}.map(([x, y]) => corank.portraits[0].picture.near('inverse', x, y, 1e-6).length)")
         self.assertGreater(len(places), 40)
         for place, count in zip(places, near):
             self.assertGreater(count, 0, f"no inverse singularity drawn at {place}")
@@ -116,9 +115,8 @@ class Dextar(unittest.TestCase):
         self.assertEqual(self.shown()["set"], "cspace")
 
     def test_input_portrait_wraps_angles(self):
-        index = "corank.model.sets.findIndex((s) => s.name === 'cspace')"
         for angle in (-3.1415, 3.1415):
-            self.assertGreater(self.run_js(f"corank.portraits[1].projections[{index}].near({angle}, -0.5, 0, 0).length"), 0)
+            self.assertGreater(self.run_js(f"corank.portraits[1].picture.boxesOver('cspace', {angle}, -0.5)"), 0)
 
     def test_keyboard_moves_pins_and_steps_through_modes(self):
         self.browser.click(*self.place(0, 0.6, 0.5))
@@ -146,7 +144,7 @@ class Dextar(unittest.TestCase):
           select.value = 0;
           select.dispatchEvent(new Event("change"));
         })()""")
-        self.assertEqual(self.run_js("corank.portraits[1].axes.map((axis) => axis.name)"), ["J3x", "theta5"])
+        self.assertEqual(self.run_js("corank.portraits[1].picture.axes.map((axis) => axis.name)"), ["J3x", "theta5"])
         self.run_js("(() => { const s = corank.portraits[1].selects[0]; s.value = 2; s.dispatchEvent(new Event('change')); })()")
 
     def test_theme_switch_redraws_in_dark(self):

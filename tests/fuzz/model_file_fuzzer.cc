@@ -35,6 +35,9 @@ void check(const Mechanism& mechanism) {
     round_trip(c.relation.lhs);
     round_trip(c.relation.rhs);
   }
+  for (const corank::symbolic::DrawingPoint& p : mechanism.drawing().points) {
+    for (const Expression& e : p.coordinates) round_trip(e);
+  }
   mechanism.validate();
 }
 

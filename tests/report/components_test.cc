@@ -74,6 +74,15 @@ TEST(SetWords, CountUndecidedPlacesApartFromPoints) {
   EXPECT_THAT(words.unproven, Contains(HasSubstr("nothing is proven")));
 }
 
+TEST(SetWords, TellPointsAtTheBorderOfTheDomainApart) {
+  Result result = boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{1.0, 0.5, 0.5}, Verdict::boundary}});
+  result.cover.dimension = 0;
+  result.cover.points = result.cover.boxes;
+  const SetWords words = set_words(result, components(result));
+  EXPECT_EQ(words.finding, "1 point, 1 at the border of the search domain");
+  EXPECT_THAT(words.unproven, Contains(HasSubstr("inside the search domain is not proven")));
+}
+
 TEST(SetWords, OfAnEmptyCompleteCoverSayThatThereIsNone) {
   const SetWords words = set_words(boxes({}), {});
   EXPECT_EQ(words.finding, "None");

@@ -110,7 +110,7 @@ TEST(Page, HoldsTheResultsAndLoadsNothing) {
   const Mechanism mechanism = slider();
   const std::vector<Result> results = {solved(mechanism, SingularitySet::cspace),
                                        solved(mechanism, SingularitySet::forward)};
-  const std::string page = report_page(mechanism, results, {"corank report x.cuik", {"cspace.h5", "forward.h5"}});
+  const std::string page = report_page(mechanism, results, {"corank report x.cuik", {}, {"cspace.h5", "forward.h5"}});
   for (const Result& result : results) {
     EXPECT_EQ(script_text(page, "boxes-" + result.set), box_payload(result));
     EXPECT_EQ(script_text(page, "verdicts-" + result.set), verdict_payload(result));
@@ -161,6 +161,7 @@ TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
   result.cover.exact_points = {point};
   result.cover.decimals = {{"-0.60", "0.71", "0.71", "0.00"}, {}};
   result.cover.points[0].point = 0;
+  result.cover.points[1].point = -1;
   const std::string html = points_html({result});
   EXPECT_THAT(
       html,

@@ -1,0 +1,43 @@
+#include "corank/app/figures.h"
+
+#include <algorithm>
+
+#include "corank/report/portrait.h"
+
+namespace corank::app {
+
+std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first) {
+  std::vector<std::string> axes;
+  const auto add = [&](const std::string& name) {
+    const symbolic::Coordinate& c = mechanism.coordinates()[static_cast<std::size_t>(mechanism.find_coordinate(name))];
+    const bool known = std::find(axes.begin(), axes.end(), name) != axes.end();
+    if (!known && axes.size() < 2 && !same_tree(c.lower, c.upper)) axes.push_back(name);
+  };
+  for (const auto* names : {&first, &mechanism.outputs(), &mechanism.inputs()})
+    std::for_each(names->begin(), names->end(), add);
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) add(c.name);
+  return axes;
+}
+
+std::vector<std::string> write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
+                                       const std::vector<report::Result>& results) {
+  std::vector<report::PictureSource> sources;
+  for (const report::Result& result : results) {
+    if (!result.cover.boxes.empty()) sources.push_back(report::picture_source(result, result.set));
+  }
+  std::vector<std::string> files;
+  for (const auto& [name, first] :
+       {std::pair{"output-portrait", &mechanism.outputs()}, std::pair{"input-portrait", &mechanism.inputs()}}) {
+    report::PictureOptions options;
+    options.axes = portrait_axes(mechanism, *first);
+    if (options.axes.size() < 2 || sources.empty()) continue;
+    const report::Picture picture = report::make_picture(sources, options);
+    for (const char* extension : {".svg", ".pdf"}) {
+      files.push_back(std::string(name) + extension);
+      report::write_portrait(folder / files.back(), picture, {});
+    }
+  }
+  return files;
+}
+
+}  // namespace corank::app

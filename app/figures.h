@@ -1,0 +1,22 @@
+// The figures of a report: its portraits as files for a paper.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "corank/report/result.h"
+#include "corank/symbolic/mechanism.h"
+
+namespace corank::app {
+
+/// The two coordinates of a portrait: the first inputs or outputs, those of one value aside; then other coordinates. Fewer where the
+/// mechanism has no two.
+std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first);
+
+/// Writes output-portrait and input-portrait, each as .svg and .pdf, into a folder that exists; nothing where there is no box or no plane.
+/// Returns the names of the files.
+std::vector<std::string> write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
+                                       const std::vector<report::Result>& results);
+
+}  // namespace corank::app

@@ -1,0 +1,186 @@
+// A picture of C-space and the loci over two coordinates, painted on a canvas; and what lies where in it.
+import {Plane, drawAxes} from "./axes.js";
+import {coverage, paintCoverage} from "./density.js";
+import {Projection, groupTouching} from "./projection.js";
+import {fullTurn, isAngle} from "./values.js";
+
+const reach = 9; // pixels within which a curve or a point is taken to be meant
+
+// The colours of the page's style, as an element has them.
+export function pageColours(element) {
+  const style = getComputedStyle(element);
+  const colour = (name) => style.getPropertyValue(name).trim();
+  return {
+    ink: colour("--ink"),
+    faint: colour("--line"),
+    quiet: colour("--quiet"),
+    paper: colour("--plot"),
+    card: colour("--card"),
+    line: colour("--line-strong"),
+    cspace: colour("--cspace").split(",").map(Number),
+    forward: colour("--forward"),
+    inverse: colour("--inverse"),
+    "cspace-singular": colour("--crossing"),
+    undecided: colour("--undecided"),
+  };
+}
+
+export class Picture {
+  // Of these sets over two coordinates.
+  constructor(model, sets, axes) {
+    this.model = model;
+    this.sets = sets;
+    this.axes = axes;
+    this.hidden = new Set(); // names of sets
+    this.projections = sets.map((set) => new Projection(set, ...axes));
+    this.limits = [0, 1].map((k) => this.range(k));
+  }
+
+  // Of an angle the whole turn, unless the boxes are far from it; of a length what the boxes need.
+  range(k) {
+    let low = Infinity,
+      high = -Infinity;
+    for (const projection of this.projections) {
+      const [a, b] = projection.hull(k);
+      low = Math.min(low, a);
+      high = Math.max(high, b);
+    }
+    if (!(low < high)) [low, high] = low === high ? [low - 1, high + 1] : [-1, 1];
+    if (isAngle(this.axes[k]) && high - low > 0.6 * fullTurn) return [-Math.PI, Math.PI];
+    const margin = 0.05 * (high - low);
+    return [low - margin, high + margin];
+  }
+
+  // The height, in pixels of the page, of a picture that wide.
+  layOut(width) {
+    this.plane = new Plane(this.axes, this.limits, width);
+    const {x0, y0, x1, y1} = this.plane;
+    for (const projection of this.projections) projection.index([x0, y0, x1, y1]);
+    return this.plane.fullHeight;
+  }
+
+  // After layOut(). `ratio`: pixels of the canvas to one of the page.
+  paint(canvas, ratio, colours) {
+    this.ratio = ratio;
+    this.colours = colours;
+    const context = canvas.getContext("2d");
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, this.plane.width, this.plane.fullHeight);
+    drawAxes(context, this.model, this.axes, this.plane, colours);
+    context.save();
+    context.beginPath();
+    context.rect(this.plane.pad.left, this.plane.pad.top, this.plane.inner, this.plane.height);
+    context.clip();
+    const shown = this.projections.filter(({set}) => !this.hidden.has(set.name));
+    for (const name of ["cspace", "inverse", "forward", "cspace-singular"]) {
+      for (const projection of shown.filter(({set}) => set.name === name)) {
+        if (name === "cspace" && projection.set.dimension > 1) this.drawDensity(context, projection);
+        else this.drawBoxes(context, projection, name);
+      }
+    }
+    for (const projection of shown) this.drawUndecided(context, projection);
+    context.restore();
+  }
+
+  drawDensity(context, projection) {
+    const {pad, inner, height} = this.plane;
+    const width = Math.round(inner * this.ratio);
+    const rows = Math.round(height * this.ratio);
+    const toX = (x) => (this.plane.toX(x) - pad.left) * this.ratio;
+    const toY = (y) => (this.plane.toY(y) - pad.top) * this.ratio;
+    const isPending = (box) => this.verdictOf(projection.set, box) === "pending";
+    const counts = coverage(projection, width, rows, toX, toY, isPending);
+    const layer = document.createElement("canvas");
+    layer.width = width;
+    layer.height = rows;
+    paintCoverage(layer.getContext("2d"), counts, width, rows, this.colours.cspace);
+    context.drawImage(layer, pad.left, pad.top, inner, height);
+  }
+
+  // Boxes as they are, though never thinner than a line; few tiny ones as dots.
+  drawBoxes(context, projection, name) {
+    context.fillStyle = name === "cspace" ? `rgba(${this.colours.cspace}, 0.55)` : this.colours[name];
+    const dots = projection.set.dimension === 0;
+    for (let i = 0; i < projection.length; ++i) {
+      if (this.verdictOf(projection.set, projection.owners[i]) === "pending") continue;
+      const {left, right, top, bottom} = this.rectangle(projection, i);
+      if (dots && right - left < 7 && bottom - top < 7) {
+        context.beginPath();
+        context.arc((left + right) / 2, (top + bottom) / 2, name === "forward" ? 3.8 : 6.2, 0, 7);
+        context.fill();
+        continue;
+      }
+      const wide = Math.max(right - left, 1.8);
+      const high = Math.max(bottom - top, 1.8);
+      context.fillRect((left + right - wide) / 2, (top + bottom - high) / 2, wide, high);
+    }
+  }
+
+  // Rings or dots where nothing is proven; what was not searched is tinted all over.
+  drawUndecided(context, projection) {
+    const verdictIs = (name) => (box) => this.verdictOf(projection.set, box) === name;
+    const isUndecided = verdictIs("undecided");
+    const isPending = verdictIs("pending");
+    const few = projection.owners.filter(isUndecided).length <= 60;
+    context.strokeStyle = context.fillStyle = this.colours.undecided;
+    context.lineWidth = 2;
+    for (let i = 0; i < projection.length; ++i) {
+      if (!isUndecided(projection.owners[i]) && !isPending(projection.owners[i])) continue;
+      const {left, right, top, bottom} = this.rectangle(projection, i);
+      const [x, y] = [(left + right) / 2, (top + bottom) / 2];
+      if (isPending(projection.owners[i])) {
+        context.globalAlpha = 0.25;
+        context.fillRect(left, top, Math.max(right - left, 2), Math.max(bottom - top, 2));
+        context.globalAlpha = 1;
+      } else if (few) {
+        context.beginPath();
+        context.arc(x, y, 6.5, 0, 7);
+        context.stroke();
+      } else {
+        context.fillRect(x - 1.5, y - 1.5, 3, 3);
+      }
+    }
+  }
+
+  verdictOf(set, box) {
+    return this.model.verdicts[set.verdicts[box]];
+  }
+
+  // Rectangle i of a projection in pixels.
+  rectangle(projection, i) {
+    const {plane} = this;
+    return {
+      left: plane.toX(projection.x[2 * i]),
+      right: plane.toX(projection.x[2 * i + 1]),
+      top: plane.toY(projection.y[2 * i + 1]),
+      bottom: plane.toY(projection.y[2 * i]),
+    };
+  }
+
+  // The number of boxes of a set over a place: what a picture claims, for a test to compare.
+  boxesOver(name, x, y) {
+    return this.near(name, x, y, 0).length;
+  }
+
+  // Those within a distance, in the units of the axes.
+  near(name, x, y, distance) {
+    return this.projections.find(({set}) => set.name === name).near(x, y, distance, distance);
+  }
+
+  // Assembly modes at a place: singular ones nearby first, then the C-space's over it, as groups of touching boxes.
+  candidates([x, y]) {
+    const dx = reach / this.plane.sx,
+      dy = reach / this.plane.sy,
+      found = [];
+    this.projections.forEach((projection) => {
+      const {set} = projection;
+      if (this.hidden.has(set.name)) return;
+      const surface = !set.singular() && set.dimension > 1;
+      const boxes = projection.near(x, y, surface ? 0 : dx, surface ? 0 : dy);
+      const groups = groupTouching(set, boxes).map((group) => ({...group, place: [x, y], axes: this.axes}));
+      if (set.singular()) found.unshift(...groups);
+      else found.push(...groups);
+    });
+    return found;
+  }
+}

@@ -1,0 +1,156 @@
+#include "corank/solve/cover_edit.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace corank::solve {
+namespace {
+
+using certify::Box;
+using certify::CoverBox;
+using certify::Interval;
+using certify::Proof;
+using Step = Proof::Step;
+
+// Calls change(kind, its first integer) for every step.
+template <class Change>
+void change_steps(Proof& proof, Change change) {
+  std::size_t integer = 0;
+  for (const std::uint8_t s : proof.steps) {
+    const Step kind = static_cast<Step>(s);
+    std::int32_t* const at = proof.integers.data() + integer;
+    switch (kind) {
+      case Step::row:
+      case Step::newton:
+      case Step::split:
+      case Step::box:
+      case Step::root: integer += 1; break;
+      case Step::keep: integer += 1 + static_cast<std::size_t>(*at); break;
+      case Step::cut: integer += 2; break;
+      case Step::empty:
+      case Step::elsewhere: break;
+    }
+    change(kind, at);
+  }
+}
+
+struct Leaf {
+  Step step;
+  int index;
+};
+// Every leaf `box i` becomes leaf_of(i).
+template <class LeafOf>
+void change_leaves(Proof& proof, LeafOf leaf_of) {
+  std::size_t step = 0;
+  change_steps(proof, [&](Step kind, std::int32_t* integers) {
+    if (kind == Step::box) {
+      const Leaf leaf = leaf_of(*integers);
+      *integers = leaf.index;
+      proof.steps[step] = static_cast<std::uint8_t>(leaf.step);
+    }
+    ++step;
+  });
+}
+
+}  // namespace
+
+void CoverEdit::mark(int i, int fate) {
+  fate_.resize(cover_.boxes.size(), kStays);
+  fate_[static_cast<std::size_t>(i)] = fate;
+}
+
+void CoverEdit::replace(int i, int by) { mark(i, by); }
+
+void CoverEdit::replace(const std::vector<std::size_t>& boxes, const Partition& partition, certify::Cover around,
+                        CoverBox core) {
+  const int first = static_cast<int>(cover_.boxes.size()), region = static_cast<int>(cover_.regions.size());
+  std::move(around.regions.begin(), around.regions.end(), std::back_inserter(cover_.regions));
+  for (CoverBox& box : around.boxes) {
+    if (box.region >= 0) box.region += region;
+    cover_.boxes.push_back(std::move(box));
+  }
+  cover_.boxes.push_back(std::move(core));
+  const int root = cover_.proof && around.proof ? append(partition, *around.proof, first) : 0;
+  for (const std::size_t i : boxes) mark(static_cast<int>(i), kInRoot - root);
+}
+
+int CoverEdit::append(const Partition& partition, Proof around, int first_box) {
+  Proof proof = *cover_.proof;
+  const int root = static_cast<int>(proof.roots.size());
+  const auto add_leaf = [&](Step kind, int index) {
+    proof.steps.push_back(static_cast<std::uint8_t>(kind));
+    proof.integers.push_back(index);
+  };
+  proof.roots.emplace_back();
+  for (std::size_t k = 0; k < reduction_.kept.size(); ++k) {
+    Interval side = partition.whole[static_cast<std::size_t>(reduction_.kept[k])];
+    side.intersect(reduction_.system.variables[k].domain);
+    proof.roots.back().push_back(side);
+  }
+  // The parts came one after the other: each split leaves one part and what goes on. Those that lie below come at once, those above after
+  // all that follows.
+  std::vector<int> above;
+  for (std::size_t k = 0; k < partition.splits.size(); ++k) {
+    const Partition::Split& split = partition.splits[k];
+    proof.steps.push_back(static_cast<std::uint8_t>(Step::split));
+    proof.integers.push_back(split.variable);
+    proof.reals.push_back(split.where);
+    const int part = root + 1 + static_cast<int>(k);
+    if (split.part_is_lower) {
+      add_leaf(Step::root, part);
+    } else {
+      above.push_back(part);
+    }
+  }
+  add_leaf(Step::box, static_cast<int>(cover_.boxes.size()) - 1);
+  for (auto part = above.rbegin(); part != above.rend(); ++part) add_leaf(Step::root, *part);
+  // The searches of the parts follow.
+  const auto combination = static_cast<std::int32_t>(proof.combinations.size());
+  change_steps(around, [&](Step kind, std::int32_t* integers) {
+    if (kind == Step::newton) integers[0] += combination;
+    if (kind == Step::box) integers[0] += first_box;
+  });
+  std::move(around.roots.begin(), around.roots.end(), std::back_inserter(proof.roots));
+  std::move(around.combinations.begin(), around.combinations.end(), std::back_inserter(proof.combinations));
+  proof.steps.insert(proof.steps.end(), around.steps.begin(), around.steps.end());
+  proof.integers.insert(proof.integers.end(), around.integers.begin(), around.integers.end());
+  proof.reals.insert(proof.reals.end(), around.reals.begin(), around.reals.end());
+  cover_.proof = std::make_shared<const Proof>(std::move(proof));
+  return root;
+}
+
+void CoverEdit::finish() {
+  fate_.resize(cover_.boxes.size(), kStays);
+  std::vector<int> order;
+  for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
+    if (fate_[i] == kStays) order.push_back(static_cast<int>(i));
+  std::vector<int> variables = reduction_.kept;
+  for (const auto& definition : reduction_.definitions) variables.push_back(definition.variable);
+  const auto before = [&](int i, int k) {
+    const CoverBox &a = cover_.boxes[static_cast<std::size_t>(i)], &b = cover_.boxes[static_cast<std::size_t>(k)];
+    for (const int v : variables) {
+      const Interval &x = a.box[static_cast<std::size_t>(v)], &y = b.box[static_cast<std::size_t>(v)];
+      if (x.lo() != y.lo()) return x.lo() < y.lo();
+      if (x.hi() != y.hi()) return x.hi() < y.hi();
+    }
+    return std::tie(a.verdict, a.free) < std::tie(b.verdict, b.free);
+  };
+  std::sort(order.begin(), order.end(), before);
+  std::vector<int> place(cover_.boxes.size(), -1);
+  std::vector<CoverBox> boxes;
+  for (const int i : order) {
+    place[static_cast<std::size_t>(i)] = static_cast<int>(boxes.size());
+    boxes.push_back(std::move(cover_.boxes[static_cast<std::size_t>(i)]));
+  }
+  cover_.boxes = std::move(boxes);
+  if (!cover_.proof) return;
+  auto proof = std::make_shared<Proof>(*cover_.proof);
+  change_leaves(*proof, [&](int i) {
+    const int by = fate_[static_cast<std::size_t>(i)];
+    if (by <= kInRoot) return Leaf{Step::root, kInRoot - by};
+    return Leaf{Step::box, place[static_cast<std::size_t>(by == kStays ? i : by)]};
+  });
+  cover_.proof = std::move(proof);
+}
+
+}  // namespace corank::solve

@@ -1,0 +1,57 @@
+#include "corank/certify/algebraic_number.h"
+#include "corank/certify/reduction.h"
+#include "corank/certify/refinement.h"
+#include "corank/solve/exactness.h"
+
+namespace corank::solve {
+
+using certify::Box;
+using certify::Cover;
+using certify::CoverBox;
+using certify::ExactNumber;
+using certify::ExactPoint;
+using certify::Interval;
+using certify::System;
+using certify::Verdict;
+
+void prove_decimals(const System& system, int digits, Cover& cover) {
+  cover.decimals.clear();
+  const certify::Reduction reduction = certify::reduce(system);
+  for (const CoverBox& point : cover.points) {
+    std::vector<std::string>& decimals = cover.decimals.emplace_back();
+    if (point.point >= 0) {
+      const ExactPoint& exact = cover.exact_points[static_cast<std::size_t>(point.point)];
+      const certify::AlgebraicNumber t(exact.polynomial, exact.lower, exact.upper);
+      const ExactNumber width = pow(ExactNumber(10), -digits - 2);
+      for (const auto& x : exact.coordinates) {
+        const auto bounds = t.bounds(x, width);
+        decimals.push_back(certify::proven_decimal(bounds.lower, bounds.upper, digits));
+      }
+    } else if (point.verdict == Verdict::isolated) {
+      std::vector<ExactNumber> start;
+      for (const int j : reduction.kept) start.push_back(ExactNumber::dyadic(point.box[static_cast<std::size_t>(j)].mid()));
+      const auto zero = certify::prove_zero(reduction.system, start, digits + 2);
+      if (!zero || reduction.tolerant || reduction.subset) continue;
+      // The region of the proof holds exactly one solution: one that is proven in it is that.
+      const Box& region = point.region >= 0 ? cover.regions[static_cast<std::size_t>(point.region)] : point.box;
+      const auto inside = [&](std::size_t j) {
+        const Interval& side = region[static_cast<std::size_t>(reduction.kept[j])];
+        return (zero->sides[j].first - ExactNumber::dyadic(side.lo())).sign() != -1 &&
+               (zero->sides[j].second - ExactNumber::dyadic(side.hi())).sign() != 1;
+      };
+      bool same = true;
+      for (std::size_t j = 0; j < reduction.kept.size(); ++j) same = same && inside(j);
+      if (!same) continue;
+      decimals.resize(system.variables.size());
+      for (std::size_t j = 0; j < reduction.kept.size(); ++j)
+        decimals[static_cast<std::size_t>(reduction.kept[j])] =
+            certify::proven_decimal(zero->sides[j].first, zero->sides[j].second, digits);
+      for (const auto& definition : reduction.definitions) {
+        const auto value = certify::bounds(definition.value, zero->sides, zero->bits);
+        decimals[static_cast<std::size_t>(definition.variable)] = certify::proven_decimal(value.first, value.second, digits);
+      }
+    }
+  }
+}
+
+}  // namespace corank::solve
