@@ -184,7 +184,7 @@ const std::vector<Tampering>& tamperings() {
        }},
       {"boundary raised to regular", "violate", curve,
        [](Result& r) { r.cover.boxes[first(r, Verdict::boundary)].verdict = Verdict::regular; }},
-      {"undecided raised to regular", "in its region", crossing,
+      {"undecided raised to regular", "its region", crossing,
        [](Result& r) {
          CoverBox& box = r.cover.boxes[first(r, Verdict::undecided)];
          const CoverBox& other = r.cover.boxes[first(r, Verdict::regular)];
@@ -231,7 +231,7 @@ const std::vector<Tampering>& tamperings() {
          describe_system(system_of(r), r);
        }},
       {"another sigma", "two different values of sigma", curve, [](Result& r) { r.options.sigma = 0.01; }},
-      {"a region shrunk below its image", "in its region", curve,
+      {"a region shrunk below its image", "its region", curve,
        [](Result& r) {
          CoverBox& box = r.cover.boxes[first(r, Verdict::regular)];
          const std::size_t j = box.free[0] == 4 ? 5 : 4;
@@ -243,7 +243,7 @@ const std::vector<Tampering>& tamperings() {
          CoverBox& box = r.cover.boxes[first(r, Verdict::regular)];
          box.region = r.cover.boxes.back().region;
        }},
-      {"a free variable exchanged", "in its region", curve,
+      {"a free variable exchanged", "its region", curve,
        [](Result& r) {
          CoverBox& box = r.cover.boxes[first(r, Verdict::regular)];
          box.free[0] = box.free[0] == 4 ? 5 : 4;

@@ -253,19 +253,11 @@ TEST_F(ThreeSlider, HasNoPointOfAnUndefinedNumber) {
 
 TEST_F(ThreeSlider, HasNoPointOfUnknownCoordinates) {
   point().coordinates[3].clear();
+  point().sole_within = 0;
   EXPECT_THAT(text(report()), HasSubstr("says nothing of xi1"));
 }
 
-TEST_F(ThreeSlider, HasABoxNoLargerThanWhereThePointIsAlone) {
-  for (const double radius : {0.0, 1e-12}) {
-    point().sole_within = radius;
-    EXPECT_THAT(text(report()), HasSubstr("farther from its exact point")) << radius;
-  }
-}
-
-TEST_F(ThreeSlider, HasNoOtherSolutionNearThePoint) {
-  EXPECT_EQ(report().exact_points, (Tally{1, 0, 0})) << text(report());
-}
+TEST_F(ThreeSlider, HasNoOtherSolutionNearThePoint) { EXPECT_EQ(report().exact_points, (Tally{1, 0, 0})) << text(report()); }
 
 TEST_F(ThreeSlider, HasOtherSolutionsFarFromThePoint) {
   point().sole_within = 1.5;  // (±1, ±1, 0) are as near as that
@@ -311,6 +303,13 @@ TEST_F(RootOfTwo, IsTheOnlySolutionNearby) {
   EXPECT_TRUE(check(system_, cover_).verified()) << text(check(system_, cover_));
   cover_.exact_points[0].sole_within = 3;  // −√(1/2) twice
   EXPECT_THAT(text(check(system_, cover_)), HasSubstr("that no other solution is near it is not shown"));
+}
+
+TEST_F(RootOfTwo, HasABoxNoLargerThanWhereItIsAlone) {
+  for (const double radius : {0.0, 1e-8}) {
+    cover_.exact_points[0].sole_within = radius;
+    EXPECT_THAT(text(check(system_, cover_)), HasSubstr("farther from its exact point")) << radius;
+  }
 }
 
 TEST_F(RootOfTwo, IsCountedOnce) {
