@@ -180,7 +180,8 @@ class Checker {
         return "its exact point says nothing of " + v.name;
     }
     if (explained && cover_.exact_points[p].corank < 2) return "its exact point has no kernel of dimension 2 or more";
-    return exact_[p]->inside(box.box);
+    if (std::string reason = exact_[p]->inside(box.box); !reason.empty()) return reason;
+    return box.verdict == Verdict::exact ? exact_[p]->within(cover_.exact_points[p].sole_within, box.box) : "";
   }
 
   void check_boxes() {

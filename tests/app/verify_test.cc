@@ -76,7 +76,7 @@ TEST_F(Verify, SaysWhereAModelHasNoSuchSet) {
   change([](report::Result& r) { r.set = "system"; });
   const Outcome outcome = run_corank({"verify", path()});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("its model has no set 'system'"));
+  EXPECT_THAT(outcome.err, HasSubstr("the result's model has no set 'system'"));
 }
 
 TEST_F(Verify, RefusesAFileThatIsNoResult) {
