@@ -93,7 +93,8 @@ class SheetCheck {
     // As the search may have done it: about the middle of the whole region.
     Sides region;
     for (const int j : problem_.kept()) region.emplace_back(region_[static_cast<std::size_t>(j)]);
-    return newton_.set(dependent_, region, false) && prove_about_center(x);
+    if (newton_.set(dependent_, region, false) && prove_about_center(x)) return true;
+    return reason_.empty() && prove_near_box(x);
   }
 
   bool prove_about_center(Sides& x) {
@@ -112,6 +113,38 @@ class SheetCheck {
       if (now > 0.9 * former) break;
     }
     pending_reason_ = exists ? "uniqueness in its region is not shown" : "existence in its region is not shown";
+    return false;
+  }
+
+  // The box may fill its region so nearly that K about another centre than the solver's leaves it. Then: existence in a Z that ε-inflation of the
+  // box's sides finds, wherever it leads; at most one solution in the hull of Z and x. That one is all that the region may hold, and x
+  // becomes what holds it: whether it lies in the box is still to be shown.
+  bool prove_near_box(Sides& x) {
+    constexpr int kInflations = 10;
+    Sides z = x;
+    for (std::size_t a = 0; a < dependent_.size(); ++a)
+      z[place(a)] = Enclosure(box_.box[static_cast<std::size_t>(problem_.kept()[place(a)])]);
+    if (!newton_.set(dependent_, z, true)) return false;
+    for (int step = 0; step < kInflations; ++step) {
+      const Sides image = newton_.image(z);
+      bool inside = true;
+      for (std::size_t a = 0; a < image.size(); ++a) {
+        inside = inside && image[a].strictly_inside(z[place(a)]);
+        if (!image[a].is_bounded()) return false;
+      }
+      if (inside) {
+        Sides both = z;
+        for (std::size_t a = 0; a < image.size(); ++a) both[place(a)] = Enclosure::hull(z[place(a)], x[place(a)]);
+        if (!newton_.is_injective(both)) return false;
+        for (std::size_t a = 0; a < image.size(); ++a) x[place(a)] = image[a];
+        newton_.image(x);  // Y·S again, in place of Y·J
+        return true;
+      }
+      for (std::size_t a = 0; a < image.size(); ++a) {
+        const double margin = 0.1 * image[a].width() + 1e-15 * image[a].mag() + 1e-300;
+        z[place(a)] = Enclosure(image[a].lo() - margin, image[a].hi() + margin);
+      }
+    }
     return false;
   }
 

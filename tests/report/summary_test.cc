@@ -92,7 +92,10 @@ TEST(OutwardText, RoundsEachBoundOutward) {
 }
 
 TEST(Table, CountsVerdictsAndListsPointsWithAngles) {
-  const std::string table = to_table(sample_result());
+  Result result = sample_result();
+  EXPECT_THAT(to_table(result), HasSubstr("  2  1  ")) << "an exact coordinate";
+  result.cover.points[1].point = -1;
+  const std::string table = to_table(result);
   EXPECT_THAT(table, HasSubstr("sample, forward: 4 variables, 4 equations, 1 inequality; dimension 0"));
   EXPECT_THAT(table, HasSubstr("INCOMPLETE"));
   EXPECT_THAT(table, HasSubstr("2 wider than sigma"));

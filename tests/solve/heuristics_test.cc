@@ -40,10 +40,14 @@ TEST(Preconditioner, InvertsTheDependentColumns) {
   const double jacobian[2][2] = {{2 * 0.7, 2 * 0.7}, {1, -1}};  // at (0.7, 0.7)
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b) {
-      double entry = 0;
-      for (int k = 0; k < 2; ++k)
-        entry += p.y[static_cast<std::size_t>(a * 2 + k)] * jacobian[p.equations[k]][p.dependent[b]];
-      EXPECT_NEAR(entry, a == b ? 1 : 0, 1e-12);
+      double entry = 0, rounding_error = 1e-12;
+      for (int k = 0; k < 2; ++k) {
+        const double y = p.y[static_cast<std::size_t>(a * 2 + k)], j = jacobian[p.equations[k]][p.dependent[b]];
+        EXPECT_EQ(y, static_cast<double>(static_cast<float>(y))) << "a proof keeps it in four bytes";
+        entry += y * j;
+        rounding_error += std::fabs(y * j) * 0x1p-23;
+      }
+      EXPECT_NEAR(entry, a == b ? 1 : 0, rounding_error);
     }
 }
 
