@@ -1,6 +1,7 @@
 // A family's page: the output portraits of all members, small and side by side, and one of them large, with a slider.
 import {readSet} from "./data.js";
 import {Picture, pageColours} from "./picture.js";
+import {smallGroups} from "./spots.js";
 import {followTheme, takeTheme} from "./theme.js";
 import {htmlLabel, numberText, unitOf, withMinus} from "./values.js";
 
@@ -24,6 +25,7 @@ class Family {
       return picture;
     });
     this.shareLimits();
+    this.spots = this.pictures.map((picture) => this.spotsOf(picture));
     this.frame = document.querySelector("#large .frame");
     this.canvas = this.frame.querySelector("canvas");
     this.place = document.querySelector("#large .place");
@@ -46,6 +48,19 @@ class Family {
       Math.max(...filled.map(({limits}) => limits[axis][1])),
     ]);
     for (const picture of this.pictures) picture.limits = this.limits;
+  }
+
+  // Of each locus of curves the places of its pieces that are no wider than a few boxes: {name, x, y}.
+  spotsOf({projections}) {
+    return projections
+      .filter(({set}) => set.singular() && set.dimension === 1)
+      .flatMap((projection) =>
+        smallGroups(projection, 3 * projection.set.sigma).map(([x0, x1, y0, y1]) => ({
+          name: projection.set.name,
+          x: (x0 + x1) / 2,
+          y: (y0 + y1) / 2,
+        })),
+      );
   }
 
   listen() {
@@ -105,25 +120,41 @@ class Family {
   draw() {
     this.buttons.forEach((button, k) => {
       const canvas = button.querySelector("canvas");
-      this.paint(this.pictures[k], canvas, canvas.clientWidth, smallPad);
+      this.paint(k, canvas, canvas.clientWidth, smallPad);
     });
     this.drawLarge();
   }
 
   drawLarge() {
-    const height = this.paint(this.pictures[this.current], this.canvas, this.frame.clientWidth);
+    const height = this.paint(this.current, this.canvas, this.frame.clientWidth);
     if (height) this.frame.style.height = `${height}px`;
   }
 
-  paint(picture, canvas, width, pad) {
+  paint(k, canvas, width, pad) {
     if (!width) return 0;
-    const ratio = devicePixelRatio || 1,
+    const picture = this.pictures[k],
+      ratio = devicePixelRatio || 1,
       height = picture.layOut(width, pad);
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
     if (pad) canvas.style.height = `${height}px`;
     picture.paint(canvas, ratio, pageColours(canvas));
+    this.paintSpots(k, canvas.getContext("2d"), pad ? 2.6 : 5);
     return height;
+  }
+
+  paintSpots(k, context, radius) {
+    const {plane, colours} = this.pictures[k];
+    for (const {name, x, y} of this.spots[k]) {
+      if (this.hidden.has(name)) continue;
+      context.beginPath();
+      context.arc(plane.toX(x), plane.toY(y), radius, 0, 7);
+      context.fillStyle = colours[name];
+      context.strokeStyle = colours.paper;
+      context.lineWidth = 0.6 * radius;
+      context.stroke();
+      context.fill();
+    }
   }
 }
 

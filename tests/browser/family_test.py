@@ -126,6 +126,15 @@ class Family(unittest.TestCase):
         self.assertGreater(self.inked(BASE, 0), 0)
         self.assertEqual(self.inked(BASE - HOLES[0], 0.03), 0)
 
+    def test_a_folded_arm_over_one_point_is_marked(self):
+        spots = self.run_js("corank.family.spots")
+        for member, own in enumerate(spots):
+            places = {(round(spot["x"], 2), round(spot["y"], 2)) for spot in own}
+            expected = {(0.0, 0.0)}  # J3 on J5, where l4 = l5
+            if HOLES[member] == 0:
+                expected.add((BASE, 0.0))
+            self.assertEqual({(x + 0.0, y + 0.0) for x, y in places}, expected)
+
     def test_sets_can_be_hidden(self):
         self.assertGreater(self.inked(BASE - HOLES[0], 0), 0)
         self.browser.click(*self.middle("input.toggle[value=inverse]"))
