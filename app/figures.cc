@@ -1,10 +1,21 @@
 #include "corank/app/figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <system_error>
 
 #include "corank/report/portrait.h"
+#include "corank/report/result_file.h"
 
 namespace corank::app {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw report::ResultFileError(fmt::format("{}: no folder can be made there: {}", folder.string(), error.message()));
+}
 
 std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first) {
   std::vector<std::string> axes;
@@ -38,6 +49,22 @@ std::vector<std::string> write_figures(const std::filesystem::path& folder, cons
     }
   }
   return files;
+}
+
+std::vector<std::string> write_family_figures(const std::filesystem::path& folder,
+                                              const std::vector<report::FamilyMember>& members,
+                                              const report::FamilyOptions& options) {
+  std::vector<report::Picture> pictures;
+  std::vector<std::string> titles;
+  report::PictureOptions plane;
+  plane.axes = {options.axes[0], options.axes[1]};
+  for (const report::FamilyMember& member : members) {
+    std::vector<report::PictureSource> sources;
+    for (const report::Result& result : member.results) sources.push_back(report::picture_source(result, result.set));
+    pictures.push_back(report::make_picture(sources, plane));
+    titles.push_back(options.constant + " = " + member.value);
+  }
+  return report::write_small_multiples(folder, pictures, titles);
 }
 
 }  // namespace corank::app

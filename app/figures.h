@@ -1,14 +1,18 @@
-// The figures of a report: its portraits as files for a paper.
+// The folder of a report or a sweep, and its figures: portraits as files for a paper.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "corank/report/family_page.h"
 #include "corank/report/result.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::app {
+
+/// Makes the folder and those above it. Throws ResultFileError.
+void make_folder(const std::filesystem::path& folder);
 
 /// The two coordinates of a portrait: the first inputs or outputs, those of one value aside; then other coordinates. Fewer where the
 /// mechanism has no two.
@@ -18,5 +22,11 @@ std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, con
 /// Returns the names of the files.
 std::vector<std::string> write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
                                        const std::vector<report::Result>& results);
+
+/// Writes the output portraits of a family, all with the same axes, as member-1.svg …, and side by side as family.svg. Returns the names
+/// of the files; none where there is no box.
+std::vector<std::string> write_family_figures(const std::filesystem::path& folder,
+                                              const std::vector<report::FamilyMember>& members,
+                                              const report::FamilyOptions& options);
 
 }  // namespace corank::app

@@ -116,13 +116,6 @@ std::string command_line(const ReportCommand& command, const std::string& file) 
   return text;
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw report::ResultFileError(fmt::format("{}: no folder can be made there: {}", folder.string(), error.message()));
-}
-
 ExitStatus write_report(ReportCommand command) {
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results take the place of FILE: their model is in them");

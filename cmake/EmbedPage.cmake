@@ -1,24 +1,35 @@
 # Makes a C++ source of the files of report/page/, so that the program needs none of them:
-#   cmake -DPAGE=<report/page> -DTHREE=<three.js> -DMODULES=a.js,b.js -DOUTPUT=<page_assets.cc> -P EmbedPage.cmake
-# The modules become one: their imports of one another and the word `export` go, so names are distinct over all of them.
+#   cmake -DPAGE=<report/page> -DTHREE=<three.js> -DMODULES=a.js,b.js -DFAMILY_MODULES=a.js,c.js -DOUTPUT=<page_assets.cc>
+#         -P EmbedPage.cmake
+# The modules of a page become one: their imports of one another and the word `export` go, so names are distinct over all of them.
 function(literal name text)
   set(result "const std::string_view ${name} = R\"corank_page(${text})corank_page\";\n\n" PARENT_SCOPE)
 endfunction()
 
+function(join name modules)
+  string(REPLACE "," ";" modules "${modules}")
+  set(script "")
+  foreach(module IN LISTS modules)
+    file(READ "${PAGE}/${module}" text)
+    string(REGEX REPLACE "(^|\n)import [^;]*;" "\\1" text "${text}")
+    string(REGEX REPLACE "\nexport " "\n" text "${text}")
+    string(APPEND script "${text}\n")
+  endforeach()
+  set(${name} "${script}" PARENT_SCOPE)
+endfunction()
+
 file(READ "${PAGE}/page.html" template)
 file(READ "${PAGE}/page.css" style)
+file(READ "${PAGE}/card.html" card)
+file(READ "${PAGE}/family.html" family)
+file(READ "${PAGE}/family.css" family_style)
 file(READ "${THREE}" three)
-string(REPLACE "," ";" MODULES "${MODULES}")
-set(script "")
-foreach(module IN LISTS MODULES)
-  file(READ "${PAGE}/${module}" text)
-  string(REGEX REPLACE "(^|\n)import [^;]*;" "\\1" text "${text}")
-  string(REGEX REPLACE "\nexport " "\n" text "${text}")
-  string(APPEND script "${text}\n")
-endforeach()
+join(script "${MODULES}")
+join(family_script "${FAMILY_MODULES}")
 
 set(source "// Made by cmake/EmbedPage.cmake.\n#include \"corank/report/page_assets.h\"\n\nnamespace corank::report {\n\n")
-foreach(item template:kPageTemplate style:kPageStyle script:kPageScript three:kThree)
+foreach(item template:kPageTemplate style:kPageStyle script:kPageScript card:kCardTemplate family:kFamilyTemplate
+             family_style:kFamilyStyle family_script:kFamilyScript three:kThree)
   string(REPLACE ":" ";" item "${item}")
   list(GET item 0 variable)
   list(GET item 1 name)

@@ -21,12 +21,13 @@ struct View {
   double extent() const { return hi - lo; }
 };
 
-View view(const Picture& picture, std::size_t j) {
+View view(const std::vector<Picture>& pictures, std::size_t j) {
   View data{HUGE_VAL, -HUGE_VAL};
-  for (const PictureLayer& layer : picture.layers)
-    for (const PictureBox& box : layer.boxes)
-      data = {std::min(data.lo, box.sides[j].lo()), std::max(data.hi, box.sides[j].hi())};
-  const auto& range = picture.axes[j].range;
+  for (const Picture& picture : pictures)
+    for (const PictureLayer& layer : picture.layers)
+      for (const PictureBox& box : layer.boxes)
+        data = {std::min(data.lo, box.sides[j].lo()), std::max(data.hi, box.sides[j].hi())};
+  const auto& range = pictures.front().axes[j].range;
   if (range && range->width() < 2 * data.extent()) return {range->lo(), range->hi()};
   const double least = 1e-9 * std::max({1e-3, std::fabs(data.lo), std::fabs(data.hi)});  // a point has an extent, too
   const double margin = std::max(0.04 * data.extent(), least);
@@ -127,9 +128,16 @@ std::pair<double, double> centre(const GridPolygon& p) {
   return {0.5 * (left->x + right->x), 0.5 * (top->y + bottom->y)};
 }
 
+std::array<Interval, 2> common_ranges(const std::vector<Picture>& pictures) {
+  CORANK_CHECK(!pictures.empty());
+  const View x = view(pictures, 0), y = view(pictures, 1);
+  return {Interval{x.lo, x.hi}, Interval{y.lo, y.hi}};
+}
+
 Drawing lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width) {
-  CORANK_CHECK(picture.axes.size() == 2 && !is_empty(picture));
-  const View x = view(picture, 0), y = view(picture, 1);
+  CORANK_CHECK(picture.axes.size() == 2 && (options.ranges || !is_empty(picture)));
+  const auto [x_range, y_range] = options.ranges ? *options.ranges : common_ranges({picture});
+  const View x{x_range.lo(), x_range.hi()}, y{y_range.lo(), y_range.hi()};
   const double ratio = proportion(picture, x, y);
   Drawing out;
   out.width = options.width_mm * kPointsPerMm;
@@ -157,6 +165,13 @@ Drawing lay_out(const Picture& picture, const PortraitOptions& options, const Te
   out.height = out.frame_y + out.frame_height + kTickLength + kTickSize + kGap + kNameSize + 4;
   const Scale across{x.lo, columns / x.extent(), columns}, up{y.lo, rows / y.extent(), rows};
   for (const PictureLayer& layer : picture.layers) out.shapes.push_back(shape(layer, across, up, out.mark / out.cell));
+  return out;
+}
+
+Drawing lay_out_legend(const Picture& picture, double width, const TextWidth& text_width) {
+  Drawing out;
+  out.width = width;
+  out.height = add_legend(picture, text_width, kEdge, width - kEdge, 0, out);
   return out;
 }
 

@@ -2,6 +2,7 @@
 // from the upper left corner.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -65,8 +66,14 @@ struct Drawing {
   std::vector<Text> texts;
 };
 
-/// Requires two axes and a box.
+/// The ranges that the axes have to show for the boxes of these pictures, which have the same two axes and a box among them.
+std::array<certify::Interval, 2> common_ranges(const std::vector<Picture>& pictures);
+
+/// Requires two axes, and a box where the options give no ranges.
 Drawing lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width);
+
+/// The legend of a picture alone.
+Drawing lay_out_legend(const Picture& picture, double width, const TextWidth& text_width);
 
 /// The centre of the bounds.
 std::pair<double, double> centre(const GridPolygon& polygon);

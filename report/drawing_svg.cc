@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <pugixml.hpp>
 #include <sstream>
@@ -82,20 +83,7 @@ void add_text(pugi::xml_node parent, const Drawing::Text& text) {
   }
 }
 
-}  // namespace
-
-std::string to_svg(const Drawing& drawing, const std::string& title) {
-  pugi::xml_document document;
-  const std::string width = number(drawing.width), height = number(drawing.height);
-  pugi::xml_node svg = append(document, "svg",
-                              {{"xmlns", "http://www.w3.org/2000/svg"},
-                               {"width", width + "pt"},
-                               {"height", height + "pt"},
-                               {"viewBox", "0 0 " + width + " " + height},
-                               {"font-family", kFont},
-                               {"xml:space", "preserve"}});
-  if (!title.empty()) svg.append_child("title").text().set(title.c_str());
-  append(svg, "rect", {{"width", width}, {"height", height}, {"fill", "white"}});
+void add_plot(pugi::xml_node svg, const Drawing& drawing) {
   // A script that knows the ranges can tell coordinates.
   pugi::xml_node plot = append(svg, "g",
                                {{"class", "plot"},
@@ -107,6 +95,10 @@ std::string to_svg(const Drawing& drawing, const std::string& title) {
                                 {"data-y", fmt::format("{} {}", drawing.y_range.lo(), drawing.y_range.hi())}});
   for (const Drawing::Shape& shape : drawing.shapes)
     if (!shape.polygons.empty()) add_shape(plot, drawing, shape);
+}
+
+void add_drawing(pugi::xml_node svg, const Drawing& drawing) {
+  if (drawing.cell > 0) add_plot(svg, drawing);  // else a legend alone
   for (const Drawing::Swatch& s : drawing.swatches)
     append(svg, "rect",
            {{"class", "swatch"},
@@ -119,16 +111,58 @@ std::string to_svg(const Drawing& drawing, const std::string& title) {
   std::string lines;
   for (const Drawing::Line& l : drawing.lines)
     lines += fmt::format("M{} {}L{} {}", number(l.x0), number(l.y0), number(l.x1), number(l.y1));
-  append(svg, "path",
-         {{"d", lines},
-          {"stroke", "black"},
-          {"fill", "none"},
-          {"stroke-linecap", "square"},
-          {"stroke-width", drawing.lines.empty() ? "0" : number(drawing.lines[0].width)}});
+  if (!lines.empty()) {
+    append(svg, "path",
+           {{"d", lines},
+            {"stroke", "black"},
+            {"fill", "none"},
+            {"stroke-linecap", "square"},
+            {"stroke-width", number(drawing.lines[0].width)}});
+  }
   for (const Drawing::Text& text : drawing.texts) add_text(svg, text);
+}
+
+pugi::xml_node add_page(pugi::xml_document& document, double page_width, double page_height, const std::string& title) {
+  const std::string width = number(page_width), height = number(page_height);
+  pugi::xml_node svg = append(document, "svg",
+                              {{"xmlns", "http://www.w3.org/2000/svg"},
+                               {"width", width + "pt"},
+                               {"height", height + "pt"},
+                               {"viewBox", "0 0 " + width + " " + height},
+                               {"font-family", kFont},
+                               {"xml:space", "preserve"}});
+  if (!title.empty()) svg.append_child("title").text().set(title.c_str());
+  append(svg, "rect", {{"width", width}, {"height", height}, {"fill", "white"}});
+  return svg;
+}
+
+std::string text_of(const pugi::xml_document& document) {
   std::ostringstream out;
   document.save(out, "", pugi::format_raw | pugi::format_no_declaration);
   return out.str() + "\n";
+}
+
+}  // namespace
+
+std::string to_svg(const Drawing& drawing, const std::string& title) {
+  pugi::xml_document document;
+  add_drawing(add_page(document, drawing.width, drawing.height, title), drawing);
+  return text_of(document);
+}
+
+std::string to_svg(const std::vector<PlacedDrawing>& drawings, const std::string& title) {
+  double width = 0, height = 0;
+  for (const PlacedDrawing& d : drawings) {
+    width = std::max(width, d.x + d.drawing.width);
+    height = std::max(height, d.y + d.drawing.height);
+  }
+  pugi::xml_document document;
+  pugi::xml_node svg = add_page(document, width, height, title);
+  for (const PlacedDrawing& d : drawings) {
+    const std::string place = fmt::format("translate({} {})", number(d.x), number(d.y));
+    add_drawing(append(svg, "g", {{"class", "member"}, {"transform", place}}), d.drawing);
+  }
+  return text_of(document);
 }
 
 }  // namespace corank::report

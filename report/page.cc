@@ -6,11 +6,11 @@
 #include <stdexcept>
 
 #include "corank/report/page_assets.h"
+#include "corank/report/page_card.h"
 #include "corank/report/page_data.h"
 #include "corank/report/page_derivation.h"
 #include "corank/report/page_points.h"
 #include "corank/report/page_words.h"
-#include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 #include "corank/symbolic/singularity_system.h"
 
@@ -19,43 +19,16 @@ namespace {
 
 namespace mustache = kainjow::mustache;
 
-std::string names_html(const std::vector<std::string>& names) {
-  std::string html;
-  for (const std::string& name : names) html += (html.empty() ? "" : ", ") + symbolic::html_name(name);
-  return html;
-}
-
 mustache::data truth(bool value) {
   return mustache::data{value ? mustache::data::type::bool_true : mustache::data::type::bool_false};
 }
 
-mustache::data sentences(const std::vector<std::string>& list) {
-  mustache::data items{mustache::data::type::list};
-  for (const std::string& sentence : list) items << mustache::data{"sentence", sentence};
-  return items;
-}
-
-mustache::data set_card(const Result& result) {
-  const SetWords words = set_words(result, components(result));
-  mustache::data card;
-  card["name"] = result.set;
-  card["title"] = words.title;
-  card["meaning"] = words.meaning;
-  card["finding"] = words.finding;
-  card.set("proven", sentences(words.proven));
-  card.set("unproven", sentences(words.unproven));
-  card.set("hasUnproven", truth(!words.unproven.empty()));
-  mustache::data bar{mustache::data::type::list};
-  for (const VerdictShare& share : words.shares) {
-    mustache::data part;
-    part["verdict"] = std::string(to_string(share.verdict));
-    part["count"] = grouped(share.count);
-    part["percent"] = percentage(share.count, result.cover.boxes.size());
-    part["grow"] = fmt::format("{:.6f}", share.share);
-    bar << part;
-  }
-  card.set("bar", bar);
-  return card;
+mustache::data set_entry(const Result& result) {
+  mustache::data entry;
+  entry["name"] = result.set;
+  entry["title"] = set_title(result.set);
+  entry["card"] = card_html(result);
+  return entry;
 }
 
 mustache::data run_row(const Result& result, const std::string& file) {
@@ -81,16 +54,6 @@ mustache::data payload(const Result& result) {
   data["boxes"] = box_payload(result);
   data["verdicts"] = verdict_payload(result);
   return data;
-}
-
-std::string constants_html(const symbolic::Mechanism& mechanism) {
-  std::string html;
-  for (const symbolic::Constant& c : mechanism.constants()) {
-    html += html.empty() ? "" : ", ";
-    html += "<span class=\"constant\">" +
-            symbolic::math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + symbolic::mathml(c.value)) + "</span>";
-  }
-  return html.empty() ? "none" : html;
 }
 
 /// Coordinates with a range of one value: "φ = π/10".
@@ -124,7 +87,7 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   mustache::data cards{mustache::data::type::list}, runs{mustache::data::type::list}, payloads{mustache::data::type::list};
   bool complete = true;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    cards << set_card(results[i]);
+    cards << set_entry(results[i]);
     runs << run_row(results[i], i < options.files.size() ? options.files[i] : "");
     payloads << payload(results[i]);
     complete = complete && results[i].cover.complete();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "corank/report/components.h"
 #include "corank/report/drawing_tree.h"
@@ -161,15 +162,27 @@ float float_below(double x) {
 float float_above(double x) { return -float_below(-x); }
 
 std::string box_payload(const Result& result) {
+  std::vector<int> all(result.variables.size());
+  std::iota(all.begin(), all.end(), 0);
+  return box_payload(result, all);
+}
+
+std::string box_payload(const Result& result, std::span<const int> variables) {
   std::vector<float> numbers;
-  numbers.reserve(result.cover.boxes.size() * result.variables.size() * 2);
+  numbers.reserve(result.cover.boxes.size() * variables.size() * 2);
   for (const certify::CoverBox& b : result.cover.boxes) {
-    for (const certify::Interval& side : b.box) {
+    for (const int v : variables) {
+      const certify::Interval& side = b.box[static_cast<std::size_t>(v)];
       numbers.push_back(float_below(side.lo()));
       numbers.push_back(float_above(side.hi()));
     }
   }
   return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)});
+}
+
+std::string script_safe(std::string text) {
+  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 2)) text.insert(at + 1, "\\");
+  return text;
 }
 
 std::string verdict_payload(const Result& result) {
@@ -190,10 +203,7 @@ std::string page_model(const symbolic::Mechanism& mechanism, const std::vector<R
                       {"drawing", drawing(mechanism)},
                       {"constraints", polynomials(cspace.equations)},
                       {"sets", sets}};
-  std::string text = model.dump();
-  // Inside <script> a "</" could end the element.
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 2)) text.insert(at + 1, "\\");
-  return text;
+  return script_safe(model.dump());
 }
 
 }  // namespace corank::report

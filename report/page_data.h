@@ -16,12 +16,17 @@ namespace corank::report {
 /// RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
 
+/// JSON that may stand inside <script>, which a "</" could end.
+std::string script_safe(std::string json);
+
 /// The float below or equal, above or equal.
 float float_below(double x);
 float float_above(double x);
 
 /// Little-endian floats, box after box: lower and upper bound of each variable in turn.
 std::string box_payload(const Result& result);
+/// The same of these variables only.
+std::string box_payload(const Result& result, std::span<const int> variables);
 /// A byte for each box: the index of its verdict in certify::Verdict.
 std::string verdict_payload(const Result& result);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "corank/report/summary.h"
+#include "corank/symbolic/display_name.h"
+#include "corank/symbolic/mathml.h"
 
 namespace corank::report {
 namespace {
@@ -153,6 +155,23 @@ std::string grouped(std::uint64_t n) {
 std::string with_minus(std::string text) {
   for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-', at + 3)) text.replace(at, 1, "−");
   return text;
+}
+
+std::string names_html(const std::vector<std::string>& names) {
+  std::string html;
+  for (const std::string& name : names) html += (html.empty() ? "" : ", ") + symbolic::html_name(name);
+  return html;
+}
+
+std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except) {
+  std::string html;
+  for (const symbolic::Constant& c : mechanism.constants()) {
+    if (c.name == except) continue;
+    html += html.empty() ? "" : ", ";
+    html += "<span class=\"constant\">" +
+            symbolic::math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + symbolic::mathml(c.value)) + "</span>";
+  }
+  return html.empty() ? "none" : html;
 }
 
 std::string digits_text(const certify::Interval& x) { return with_minus(outward_text(x, 9)); }

@@ -6,6 +6,7 @@
 
 #include "corank/report/components.h"
 #include "corank/report/result.h"
+#include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
 
@@ -31,6 +32,10 @@ std::string percentage(std::size_t part, std::size_t whole);
 std::string grouped(std::uint64_t n);
 /// Hyphens become minus signs.
 std::string with_minus(std::string text);
+/// Names with commas between them: "<i>θ</i><sub>2</sub>, …".
+std::string names_html(const std::vector<std::string>& names);
+/// "l = 9/10, d = 1.18" in MathML, without the constant `except`; "none" where there is no other.
+std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except = "");
 /// One cell of a table for each coordinate: bounds with the digits that are proven, the rest in brackets.
 std::string digits_text(const certify::Interval& x);
 

@@ -108,15 +108,20 @@ void draw(cairo_t* c, const Drawing& drawing) {
   for (const Drawing::Text& text : drawing.texts) draw(c, text);
 }
 
-// The font's own widths, whatever the resolution.
-Drawing laid_out(const Picture& picture, const PortraitOptions& options) {
+// Calls `use` with the font's own widths, whatever the resolution.
+template <typename Use>
+Drawing measured(const Use& use) {
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), cairo_surface_destroy);
   const Context c(cairo_create(surface.get()), cairo_destroy);
   cairo_font_options_t* const exact = cairo_font_options_create();
   cairo_font_options_set_hint_metrics(exact, CAIRO_HINT_METRICS_OFF);
   cairo_set_font_options(c.get(), exact);
   cairo_font_options_destroy(exact);
-  return lay_out(picture, options, [&](const Label& label, double size) { return text_width(c.get(), label, size); });
+  return use([&](const Label& label, double size) { return text_width(c.get(), label, size); });
+}
+
+Drawing laid_out(const Picture& picture, const PortraitOptions& options) {
+  return measured([&](const TextWidth& text_width) { return lay_out(picture, options, text_width); });
 }
 
 std::string to_pdf(const Drawing& drawing, const std::string& title, const std::string& path) {
@@ -165,12 +170,42 @@ void write_portrait(const std::filesystem::path& path, const Picture& picture, c
   if (!(options.width_mm >= 20 && options.width_mm <= 1000) ||
       !(options.dots_per_inch >= 10 && options.dots_per_inch <= 2400))
     throw std::invalid_argument(path.string() + ": expected a width from 20 to 1000 mm and 10 to 2400 dots per inch");
-  if (is_empty(picture)) throw std::invalid_argument(path.string() + ": there are no boxes to draw");
+  if (!options.ranges && is_empty(picture)) throw std::invalid_argument(path.string() + ": there are no boxes to draw");
   const Drawing drawing = laid_out(picture, options);
   const std::string extension = path.extension().string();
   write_text(path, extension == ".svg"   ? to_svg(drawing, options.title)
                    : extension == ".pdf" ? to_pdf(drawing, options.title, path.string())
                                          : to_png(drawing, options.dots_per_inch, path.string()));
+}
+
+std::vector<std::string> write_small_multiples(const std::filesystem::path& folder, const std::vector<Picture>& pictures,
+                                               const std::vector<std::string>& titles) {
+  constexpr std::size_t kColumns = 4;
+  if (std::all_of(pictures.begin(), pictures.end(), is_empty)) return {};
+  PortraitOptions options;
+  options.ranges = common_ranges(pictures);
+  std::vector<std::string> files;
+  std::vector<PlacedDrawing> all;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    options.title = titles.at(k);
+    options.legend = true;
+    options.width_mm = 85;
+    files.push_back("member-" + std::to_string(k + 1) + ".svg");
+    write_portrait(folder / files.back(), pictures[k], options);
+    options.legend = false;
+    options.width_mm = 45;
+    Drawing drawing = laid_out(pictures[k], options);
+    all.push_back({drawing.width * static_cast<double>(k % kColumns), drawing.height * static_cast<double>(k / kColumns),
+                   std::move(drawing)});
+  }
+  const Drawing& last = all.back().drawing;
+  const double width = last.width * static_cast<double>(std::min(kColumns, all.size())), below = all.back().y + last.height;
+  all.push_back({0, below, measured([&](const TextWidth& text_width) {
+                   return lay_out_legend(pictures.front(), width, text_width);
+                 })});
+  files.push_back("family.svg");
+  write_text(folder / files.back(), to_svg(all, "small multiples"));
+  return files;
 }
 
 }  // namespace corank::report

@@ -1,10 +1,11 @@
 #!/bin/bash
-# Makes doc/images/ anew: photographs of Dextar's report in a headless Chromium.
+# Makes doc/images/ anew: photographs of Dextar's report and of its family's page in a headless Chromium.
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
 build_release corank
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$build/app/corank" report "$root/models/dextar.cuik" -o "$work"
+"$build/app/corank" sweep "$root/models/dextar.cuik" -D l2=1.6:0.9:8 -o "$work/family"
 PYTHONPATH="$root/tests/browser" python3 -B - "$work/index.html" "$root/doc/images" <<'PYTHON'
 import pathlib
 import sys
@@ -18,4 +19,8 @@ with Browser(1240, 1000) as browser:
     browser.drawn()
     browser.photograph(".stage", folder / "dextar_report.png")
     browser.photograph("#space .frame", folder / "dextar_space.png")
+    browser.open(pathlib.Path(page).parent / "family/index.html")
+    browser.run("corank.family.choose(2)")
+    browser.drawn()
+    browser.photograph(".family-stage", folder / "dextar_family.png")
 PYTHON

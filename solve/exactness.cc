@@ -37,7 +37,7 @@ constexpr int kDegree = 4;                     // of algebraic numbers
 constexpr std::uint64_t kFaceBoxes = 200'000;  // to search in one face of a blow-up
 constexpr double kSmallSingularValue = 0.2;    // relative to the largest: worth a try
 constexpr std::size_t kMostOpenBoxes = 3000;   // beyond, clusters are no longer sought
-constexpr int kMostFutile = 16;                // clusters without such a point, before the search for them ends
+constexpr int kMostFutile = 16;                // attempts, before a kind of point is no longer sought
 constexpr int kCoreAttempts = 6;
 constexpr int kKernelDepth = 6;  // halvings of a box in which the kernel's dimension is bounded
 
@@ -78,9 +78,11 @@ class Prover {
   }
 
   void points() {
+    int futile = 0;  // in a row: then the other points are hardly of small degree either
     for (CoverBox& point : cover_.points) {
-      if (point.verdict != Verdict::isolated || stopped()) continue;
+      if (point.verdict != Verdict::isolated || stopped() || futile >= kMostFutile) continue;
       const std::optional<int> exact = exact_point(point.box);
+      futile = exact ? 0 : futile + 1;
       if (!exact) continue;
       point.point = *exact;
       for (CoverBox& box : cover_.boxes)

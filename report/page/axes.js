@@ -1,12 +1,12 @@
 // The plane of two coordinates in pixels, and its axes.
 import {isAngle, unitOf, withMinus} from "./values.js";
 
-const pad = {left: 56, right: 12, top: 12, bottom: 40};
+const roomForNumbers = {left: 56, right: 12, top: 12, bottom: 40};
 
 // From the units of two axes to pixels of a picture with a given width. Two lengths have one scale, and so have two angles; the plane is
-// centred in the picture and goes on where there is room.
+// centred in the picture and goes on where there is room. `pad`: about the plane; too little of it for numbers means none.
 export class Plane {
-  constructor(axes, [[x0, x1], [y0, y1]], width) {
+  constructor(axes, [[x0, x1], [y0, y1]], width, pad = roomForNumbers) {
     const inner = width - pad.left - pad.right;
     const alike = isAngle(axes[0]) === isAngle(axes[1]);
     const wanted = alike ? (inner * (y1 - y0)) / (x1 - x0) : inner;
@@ -66,6 +66,7 @@ function ticks(low, high, angle, most) {
 // Paints the paper, grid lines, numbers and the names of the axes.
 export function drawAxes(context, model, axes, plane, colours) {
   const {pad, inner, height, x0, x1, y0, y1} = plane;
+  const numbered = pad.left >= roomForNumbers.left;
   context.fillStyle = colours.paper;
   context.fillRect(pad.left, pad.top, inner, height);
   context.strokeStyle = colours.faint;
@@ -82,14 +83,15 @@ export function drawAxes(context, model, axes, plane, colours) {
   context.textBaseline = "top";
   for (const {at, text} of ticks(x0, x1, isAngle(axes[0]), Math.max(3, inner / 80))) {
     line(plane.toX(at), pad.top, plane.toX(at), pad.top + height);
-    context.fillText(text, plane.toX(at), pad.top + height + 6);
+    if (numbered) context.fillText(text, plane.toX(at), pad.top + height + 6);
   }
   context.textAlign = "right";
   context.textBaseline = "middle";
   for (const {at, text} of ticks(y0, y1, isAngle(axes[1]), Math.max(3, height / 60))) {
     line(pad.left, plane.toY(at), pad.left + inner, plane.toY(at));
-    context.fillText(text, pad.left - 6, plane.toY(at));
+    if (numbered) context.fillText(text, pad.left - 6, plane.toY(at));
   }
+  if (!numbered) return;
   drawAxisName(context, model, colours, axes[0], pad.left + inner / 2, pad.top + height + 30, 0);
   drawAxisName(context, model, colours, axes[1], 10, pad.top + height / 2, -Math.PI / 2);
 }

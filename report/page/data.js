@@ -38,17 +38,16 @@ export class BoxSet {
   }
 }
 
+// `id`: of the elements boxes-ID and verdicts-ID.
+export function readSet(description, id) {
+  const bytesOf = (what) => bytesOfBase64(document.getElementById(`${what}-${id}`).textContent.trim());
+  const bytes = bytesOf("boxes");
+  const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
+  return new BoxSet(description, new Float32Array(aligned.buffer, aligned.byteOffset, bytes.length / 4), bytesOf("verdicts"));
+}
+
 export function readModel() {
   const model = JSON.parse(document.getElementById("model").textContent);
-  model.sets = model.sets.map((description) => {
-    const text = (what) => document.getElementById(`${what}-${description.name}`).textContent.trim();
-    const bytes = bytesOfBase64(text("boxes"));
-    const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
-    return new BoxSet(
-      description,
-      new Float32Array(aligned.buffer, aligned.byteOffset, bytes.length / 4),
-      bytesOfBase64(text("verdicts")),
-    );
-  });
+  model.sets = model.sets.map((description) => readSet(description, description.name));
   return model;
 }

@@ -5,6 +5,7 @@ import {pointOfBox} from "./newton.js";
 import {Panel} from "./panel.js";
 import {Portrait} from "./portrait.js";
 import {Space} from "./space.js";
+import {followTheme, takeTheme} from "./theme.js";
 import {coordinateValues} from "./values.js";
 
 // Configurations here and there in a set: {set, box, values}.
@@ -50,21 +51,8 @@ function firstOf(order, model, role) {
   return [...own, ...order.filter((i) => !own.includes(i))].slice(0, 2);
 }
 
-function followTheme(redraw) {
-  const button = document.getElementById("theme"),
-    media = matchMedia("(prefers-color-scheme: dark)");
-  const apply = (theme) => {
-    document.documentElement.dataset.theme = theme;
-    button.setAttribute("aria-pressed", String(theme === "dark"));
-    redraw();
-  };
-  button.addEventListener("click", () => apply(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
-  media.addEventListener("change", () => apply(media.matches ? "dark" : "light"));
-  button.setAttribute("aria-pressed", String(media.matches));
-}
-
 function main() {
-  document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  takeTheme();
   const model = readModel(),
     filled = (name) => model.sets.find((set) => set.count > 0 && (!name || set.name === name));
   const samples = sampleConfigurations(model, filled("cspace") || filled(), 300);

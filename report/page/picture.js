@@ -51,9 +51,9 @@ export class Picture {
     return [low - margin, high + margin];
   }
 
-  // The height, in pixels of the page, of a picture that wide.
-  layOut(width) {
-    this.plane = new Plane(this.axes, this.limits, width);
+  // The height, in pixels of the page, of a picture that wide; `pad` as in Plane.
+  layOut(width, pad) {
+    this.plane = new Plane(this.axes, this.limits, width, pad);
     const {x0, y0, x1, y1} = this.plane;
     for (const projection of this.projections) projection.index([x0, y0, x1, y1]);
     return this.plane.fullHeight;

@@ -21,8 +21,11 @@ void expect_one_line(const Outcome& outcome) {
 }
 
 TEST(Help, OfTheProgramAndOfEverySubcommandHasAnExample) {
-  for (const std::vector<std::string>& args :
-       {std::vector<std::string>{"--help"}, {"derive", "--help"}, {"solve", "--help"}, {"report", "--help"}}) {
+  for (const std::vector<std::string>& args : {std::vector<std::string>{"--help"},
+                                               {"derive", "--help"},
+                                               {"solve", "--help"},
+                                               {"report", "--help"},
+                                               {"sweep", "--help"}}) {
     const Outcome outcome = run_corank(args);
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(outcome.out, HasSubstr("Example"));

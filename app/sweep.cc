@@ -1,0 +1,195 @@
+// corank sweep: solves the sets of a family of mechanisms that differ in one constant and writes one HTML page about them, with the
+// result files and small multiples for a paper beside it.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "corank/app/family.h"
+#include "corank/app/figures.h"
+#include "corank/app/interrupt.h"
+#include "corank/app/progress.h"
+#include "corank/app/solve_set.h"
+#include "corank/app/subcommands.h"
+#include "corank/report/family_page.h"
+#include "corank/report/page_words.h"
+#include "corank/report/result_file.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/model_error.h"
+
+namespace corank::app {
+namespace {
+
+using symbolic::SingularitySet;
+
+struct SweepCommand {
+  Question question;
+  std::vector<std::string> sets = {"cspace", "forward", "inverse"};
+  std::optional<double> sigma, cspace_sigma;
+  int threads = 0;
+  std::uint64_t max_boxes = 0;
+  double time_limit = 0;
+  std::string folder;
+};
+
+/// A member before it is solved.
+struct Plan {
+  Question question;
+  std::string value;
+  symbolic::Mechanism mechanism;
+  std::vector<certify::System> systems;  ///< of the sets
+};
+
+/// Coarser than a report's: there are many pictures on the page, and they are small.
+std::optional<double> default_sigma(const certify::System& system, SingularitySet set) {
+  if (system.equations.size() > system.variables.size()) return 0.02;
+  switch (system.dimension()) {
+    case 0: return std::nullopt;
+    case 1: return 0.02;
+    case 2: return set == SingularitySet::cspace ? 0.1 : 0.2;
+    default: return 0.5;
+  }
+}
+
+Plan plan(const SweepCommand& command, const Family& family, std::size_t k) {
+  Plan p{command.question, family.values[k], symbolic::Mechanism(), {}};
+  p.question.definitions = definitions_of(family, k, command.question.definitions);
+  p.mechanism = load(p.question);
+  for (const std::string& name : command.sets)
+    p.systems.push_back(algebrize(singularity_system(p.mechanism, *symbolic::singularity_set_from_string(name))));
+  return p;
+}
+
+/// All of them before the first search, so that a value that makes no mechanism is known at once.
+std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
+  std::vector<Plan> plans;
+  for (std::size_t k = 0; k < family.values.size(); ++k) plans.push_back(plan(command, family, k));
+  return plans;
+}
+
+report::Result solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task) {
+  const SingularitySet set = *symbolic::singularity_set_from_string(command.sets[set_index]);
+  const certify::System& system = plan.systems[set_index];
+  solve::Options options;
+  const std::optional<double>& asked = set == SingularitySet::cspace ? command.cspace_sigma : command.sigma;
+  options.sigma = asked ? asked : default_sigma(system, set);
+  if (const double least = solve::smallest_sigma(system); options.sigma && *options.sigma < least)
+    throw UsageError(fmt::format("{} is below {}, what boxes of doubles resolve here", *options.sigma, least));
+  options.threads = command.threads;
+  options.max_boxes = command.max_boxes;
+  options.time_limit = command.time_limit;
+  options.stop = &Interrupt::stop();
+  ProgressLine line(task);
+  line.show(task);  // searches may be too short to tell more
+  if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
+  return solve_set(plan.question, plan.mechanism, set, system, options);
+}
+
+/// "member-03-forward.h5": members from 1, with as many digits as the last one needs.
+std::string file_name(std::size_t member, std::size_t members, const std::string& rest) {
+  return fmt::format("member-{:0{}}{}", member + 1, std::to_string(members).size(), rest);
+}
+
+/// Solves member after member and writes each result at once. An interrupt ends the search that is on, with what it left pending; the
+/// member's sets behind it are all pending, and the members behind it are left out.
+std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const std::vector<Plan>& plans,
+                                            const std::string& constant) {
+  const Interrupt interrupt;
+  std::vector<report::FamilyMember> members;
+  for (std::size_t k = 0; k < plans.size() && !Interrupt::stop(); ++k) {
+    report::FamilyMember member{plans[k].value, plans[k].mechanism, {}, {}};
+    for (std::size_t s = 0; s < command.sets.size(); ++s) {
+      member.results.push_back(
+          solve_one(command, plans[k], s,
+                    fmt::format("{} = {} ({} of {}), {}", constant, plans[k].value, k + 1, plans.size(), command.sets[s])));
+      member.files.push_back(file_name(k, plans.size(), "-" + command.sets[s] + ".h5"));
+      report::write_result(std::filesystem::path(command.folder) / member.files.back(), member.results.back());
+    }
+    members.push_back(std::move(member));
+  }
+  return members;
+}
+
+std::string command_line(const SweepCommand& command, const std::string& name, const std::vector<std::string>& definitions) {
+  std::string text = "corank " + name + " " + std::filesystem::path(command.question.file).filename().string();
+  if (command.sigma) text += fmt::format(" --sigma {:g}", *command.sigma);
+  if (command.cspace_sigma) text += fmt::format(" --cspace-sigma {:g}", *command.cspace_sigma);
+  for (const std::string& definition : definitions) text += " -D '" + definition + "'";
+  return text;
+}
+
+ExitStatus write_sweep(SweepCommand command) {
+  const Family family = family_of(command.question.definitions);
+  const std::vector<Plan> plans = plan_all(command, family);
+  const symbolic::Mechanism& first = plans.front().mechanism;
+  const std::vector<std::string> axes = portrait_axes(first, first.outputs());
+  if (axes.size() < 2) throw UsageError(fmt::format("{} has no two coordinates to draw a portrait over", first.name()));
+  if (command.folder.empty()) command.folder = first.name() + "-sweep";
+  const std::filesystem::path folder = command.folder;
+  make_folder(folder / "figures");
+  report::check_writable(folder / "index.html");
+
+  const std::vector<report::FamilyMember> members = solve_all(command, plans, family.constant);
+  report::FamilyOptions options;
+  options.constant = family.constant;
+  options.axes = {axes[0], axes[1]};
+  options.asked = plans.size();
+  options.command = command_line(command, "sweep", command.question.definitions);
+  options.report_command = command_line(command, "report", plans.front().question.definitions);
+  for (const std::string& name : write_family_figures(folder / "figures", members, options))
+    options.figures.push_back("figures/" + name);
+  report::write_text(folder / "index.html", family_page(members, options));
+
+  bool complete = members.size() == plans.size();
+  for (const report::FamilyMember& member : members) {
+    for (const report::Result& result : member.results) {
+      complete = complete && result.cover.complete();
+      fmt::print("{} = {}, {}: {}\n", family.constant, member.value, report::set_title(result.set),
+                 report::set_words(result, report::components(result)).finding);
+    }
+  }
+  fmt::print("{}\n", (folder / "index.html").string());
+  if (complete) return kDone;
+  fmt::print(stderr, "corank: {}; {} of {} mechanisms are on the page, and it says what is incomplete\n",
+             Interrupt::stop() ? "interrupted" : "a limit was reached", members.size(), plans.size());
+  return kIncomplete;
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& program, Action& action) {
+  CLI::App* sub = program.add_subcommand("sweep", "Solve a family of mechanisms that differ in one constant, on one page");
+  const auto command = std::make_shared<SweepCommand>();
+  sub->add_option("FILE", command->question.file, "The model file (.cuik) of a mechanism");
+  sub->add_option("-D", command->question.definitions,
+                  "NAME=FROM:TO:COUNT: the constant that runs through COUNT equally spaced values, ends included;\n"
+                  "NAME=EXPR: another value for a constant, for all of them. May be repeated")
+      ->type_name("NAME=FROM:TO:COUNT|NAME=EXPR")
+      ->allow_extra_args(false);
+  sub->add_option("--sets", command->sets, "The sets, with commas")
+      ->type_name("SET[,SET...]")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"cspace", "forward", "inverse", "cspace-singular"}))
+      ->capture_default_str();
+  sub->add_option("--sigma", command->sigma,
+                  "Largest edge of a box in the sets of singularities; default: 0.02 for curves, 0.2 for surfaces")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--cspace-sigma", command->cspace_sigma, "The same in C-space; default: 0.02 for curves, 0.1 for surfaces")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  sub->add_option("--max-boxes", command->max_boxes, "End each search after so many processed boxes; 0: no limit")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--time-limit", command->time_limit, "End each search after so many seconds; 0: no limit")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-sweep")
+      ->type_name("FOLDER");
+  sub->footer(
+      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
+      "Example, a link of Dextar that shrinks from 1.6 to 0.9:\n"
+      "  corank sweep models/dextar.cuik -D l2=1.6:0.9:8 -o family");
+  sub->callback([command, &action] { action = [command] { return write_sweep(*command); }; });
+}
+
+}  // namespace corank::app

@@ -1,0 +1,35 @@
+// The page of a family of mechanisms that differ in one constant: the output portraits of all, side by side and in one frame with a
+// slider, with what is found and proven of each. One HTML file that needs no other. doc/sweep.md describes it for users.
+//
+// Of the boxes the page holds the sides in the plane of the portrait, all of them, in the order of the results, as page_data.h says.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "corank/report/result.h"
+#include "corank/symbolic/mechanism.h"
+
+namespace corank::report {
+
+struct FamilyMember {
+  std::string value;               ///< of the constant, in the model language
+  symbolic::Mechanism mechanism;   ///< with that value
+  std::vector<Result> results;     ///< of the same sets in the same order for every member
+  std::vector<std::string> files;  ///< of the results; shown and linked
+};
+
+struct FamilyOptions {
+  std::string constant;              ///< the one that differs
+  std::array<std::string, 2> axes;   ///< coordinates
+  std::size_t asked = 0;             ///< members that were to be; more than there are where the sweep ended early
+  std::string command;               ///< the command line that made it; shown
+  std::string report_command;        ///< one that makes a report of the first member; shown
+  std::vector<std::string> figures;  ///< files, linked
+};
+
+/// Requires a member. Throws std::invalid_argument where an axis is no coordinate, or the members' sets differ.
+std::string family_page(const std::vector<FamilyMember>& members, const FamilyOptions& options);
+
+}  // namespace corank::report

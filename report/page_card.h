@@ -1,0 +1,13 @@
+// The card of a set on a page: what was found, what of it is proven, the shares of the verdicts.
+#pragma once
+
+#include <string>
+
+#include "corank/report/result.h"
+
+namespace corank::report {
+
+/// An HTML fragment.
+std::string card_html(const Result& result);
+
+}  // namespace corank::report
