@@ -189,8 +189,8 @@ TEST(ProveExactly, LeavesAContinuumUndecided) {
 TEST(ProveExactly, SurvivesEquationsWhoseSquaresAreNoDoubles) {
   test::SystemBuilder b;
   const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
-  b.equation({{"10^200", {{x, 1}}}, {"10^200", {{y, 1}}}, {"-2*10^200", {}}});
-  b.equation({{"10^200", {{x, 1}}}, {"-10^200", {{y, 1}}}});
+  b.equation({{"1e200", {{x, 1}}}, {"1e200", {{y, 1}}}, {"-2e200", {}}});
+  b.equation({{"1e200", {{x, 1}}}, {"-1e200", {{y, 1}}}});
   b.equation({{"1", {{z, 2}}}, {"-2", {{z, 1}}}, {"1", {}}});
   const Cover cover = proven(b.system());
   EXPECT_TRUE(cover.complete());
