@@ -7,12 +7,8 @@
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/subcommands.h"
-#include "corank/certify/checker/checker.h"
 #include "corank/report/result_file.h"
 #include "corank/report/verification.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
 
 namespace corank::app {
 namespace {
@@ -25,27 +21,7 @@ struct VerifyCommand {
   int threads = 1;
 };
 
-// The system that the model and the options in the file give.
-certify::System system_of(const report::Result& result, const std::string& path) {
-  symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
-  for (const auto& [name, expression] : result.options.constants)
-    mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
-  const auto set = symbolic::singularity_set_from_string(result.set);
-  if (mechanism.is_plain_system() ? result.set != "system" : !set)
-    throw report::ResultFileError(path + ": its model has no set '" + result.set + "'");
-  certify::System system = symbolic::algebrize(
-      set ? symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel))
-          : symbolic::plain_system(mechanism));
-  system.coefficient_tolerance = result.options.tolerance;
-  try {
-    system.validate();
-  } catch (const std::invalid_argument& error) {
-    throw report::ResultFileError(path + ": " + error.what());
-  }
-  return system;
-}
-
-certify::checker::Report check(const certify::System& system, const certify::Cover& cover, int threads) {
+report::Verification check(const report::Result& result, int threads) {
   using Clock = std::chrono::steady_clock;
   const Interrupt interrupt;
   ProgressLine line;
@@ -60,15 +36,12 @@ certify::checker::Report check(const certify::System& system, const certify::Cov
                              : fmt::format("step {} of {}", p.steps, p.all_steps));
     };
   }
-  return certify::checker::check(system, cover, options);
+  return report::verify(result, options);
 }
 
 ExitStatus verify(const VerifyCommand& command) {
   const report::Result result = report::read_result(command.input);
-  const certify::System system = system_of(result, command.input);
-  report::Verification verification;
-  verification.contradictions = report::contradictions(result, system, symbolic::to_cuik(system));
-  verification.report = check(system, result.cover, command.threads);
+  const report::Verification verification = check(result, command.threads);
   fmt::print("{}", command.json ? report::to_json(verification) + "\n" : report::to_table(verification, result));
   if (verification.verified()) return kDone;
   return verification.report.interrupted ? kIncomplete : kBadInput;

@@ -122,8 +122,9 @@ std::string kernel_text(const Result& result) {
   std::map<int, std::size_t> bounds;
   std::size_t explained = 0;
   for (const CoverBox& box : cover.boxes) {
-    if (box.corank >= 0) ++bounds[box.corank];
     const certify::ExactPoint* point = exact_point(result, box);
+    if (box.verdict == Verdict::undecided && !point) continue;  // it may hold no solution
+    if (box.corank >= 0) ++bounds[box.corank];
     if (box.corank > 1 && point && point->corank > 1) ++explained;
   }
   if (bounds.empty()) return "";
@@ -136,7 +137,7 @@ std::string kernel_text(const Result& result) {
     if (bound > 1) larger += n;
   }
   text += "\n";
-  if (larger > 0) text += fmt::format("  {} of these {} hold a point where it is proven:\n", explained, larger);
+  if (explained > 0) text += fmt::format("  {} of these {} hold a point where it is proven:\n", explained, larger);
   int number = 0;
   for (const certify::ExactPoint& point : cover.exact_points) {
     if (point.corank < 2) continue;
@@ -150,6 +151,9 @@ std::string kernel_text(const Result& result) {
     }
     text += "\n";
   }
+  if (larger > explained)
+    text +=
+        fmt::format("  whether it is larger than 1 anywhere in {} is not known\n", plural(larger - explained, "other box"));
   return text;
 }
 

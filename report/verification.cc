@@ -5,7 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "corank/report/hdf5_file.h"
 #include "corank/report/summary.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/printer.h"
 
 namespace corank::report {
 namespace {
@@ -59,6 +63,33 @@ Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.fa
 
 }  // namespace
 
+certify::System system_of(const Result& result) {
+  symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
+  for (const auto& [name, expression] : result.options.constants)
+    mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (mechanism.is_plain_system() ? result.set != "system" : !set)
+    throw ResultFileError("the result's model has no set '" + result.set + "'");
+  certify::System system = symbolic::algebrize(
+      set ? symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel))
+          : symbolic::plain_system(mechanism));
+  system.coefficient_tolerance = result.options.tolerance;
+  try {
+    system.validate();
+  } catch (const std::invalid_argument& error) {
+    throw ResultFileError(std::string("the result's system: ") + error.what());
+  }
+  return system;
+}
+
+Verification verify(const Result& result, const certify::checker::Options& options) {
+  const certify::System system = system_of(result);
+  Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
+  // Boxes of another system are not worth a check.
+  if (verification.contradictions.empty()) verification.report = certify::checker::check(system, result.cover, options);
+  return verification;
+}
+
 std::vector<std::string> contradictions(const Result& result, const certify::System& system,
                                         const std::string& system_text) {
   std::vector<std::string> list;
@@ -96,12 +127,13 @@ std::string to_table(const Verification& verification, const Result& result) {
   const Report& report = verification.report;
   std::string text = fmt::format("{}, {}: checked against its model with intervals of 160 bits and exact numbers\n\n",
                                  result.model, result.set);
+  for (const std::string& c : verification.contradictions) text += "file: " + c + "\n";
+  if (!verification.contradictions.empty()) return text + "NOT VERIFIED: nothing else was checked\n";
   text += fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", "verdict", "verified", "failed", "not checkable");
   for (int v = 0; v < certify::kVerdicts; ++v)
     text += row(to_string(static_cast<Verdict>(v)), report.boxes[static_cast<std::size_t>(v)]);
   text += row("points", report.points) + row("exact points", report.exact_points);
   text += "\n" + completeness(report, result.cover.complete());
-  for (const std::string& c : verification.contradictions) text += "file: " + c + "\n";
   for (std::size_t i = 0; i < std::min(report.failures.size(), kShownFailures); ++i) {
     const Failure& f = report.failures[i];
     text += f.place == Failure::Place::cover ? fmt::format("cover: {}\n", f.reason)

@@ -18,6 +18,12 @@ struct Verification {
   bool verified() const { return contradictions.empty() && report.verified(); }
 };
 
+/// The system that a result's model and options give. Throws ModelError where the model is none, ResultFileError where it has no such set.
+certify::System system_of(const Result& result);
+
+/// Checks a result against its model: system_of, contradictions, certify::checker::check.
+Verification verify(const Result& result, const certify::checker::Options& options = {});
+
 /// Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the polynomials'
 /// text (comments aside) and the options.
 std::vector<std::string> contradictions(const Result& result, const certify::System& system, const std::string& system_text);

@@ -21,14 +21,15 @@
 #include <unordered_map>
 
 #include "corank/certify/check.h"
-#include "corank/certify/distinct.h"
 #include "corank/certify/domain.h"
 #include "corank/certify/rounding.h"
 #include "corank/solve/box_processor.h"
+#include "corank/solve/distinct_solutions.h"
 #include "corank/solve/merging.h"
 #include "corank/solve/points.h"
 #include "corank/solve/recorder.h"
 #include "corank/solve/solve.h"
+#include "corank/solve/work_list.h"
 
 namespace corank::solve {
 namespace {
@@ -37,75 +38,6 @@ using certify::Cover;
 using certify::Interval;
 using certify::Verdict;
 using Clock = std::chrono::steady_clock;
-
-// Boxes waiting, each with its share of the search domain: 1 for all of it, a part's share by the lengths of the parts.
-class WorkList {
- public:
-  explicit WorkList(std::size_t n) : n_(n) {}
-  bool empty() const { return shares_.empty(); }
-  std::size_t size() const { return shares_.size(); }
-  void push(const Interval* x, double share, NodeId node) {
-    sides_.insert(sides_.end(), x, x + n_);
-    shares_.push_back(share);
-    nodes_.push_back(node);
-  }
-  NodeId node() const { return nodes_.back(); }  // of the newest
-  // Copies the newest box to x and removes it; returns its share.
-  double pop(Interval* x) {
-    nodes_.pop_back();
-    std::copy(sides_.end() - static_cast<std::ptrdiff_t>(n_), sides_.end(), x);
-    sides_.resize(sides_.size() - n_);
-    const double share = shares_.back();
-    shares_.pop_back();
-    return share;
-  }
-  // Gives away the older half: the larger boxes.
-  WorkList split_off() {
-    WorkList older(n_);
-    const std::size_t half = size() / 2;
-    older.sides_.assign(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(half * n_));
-    older.shares_.assign(shares_.begin(), shares_.begin() + static_cast<std::ptrdiff_t>(half));
-    older.nodes_.assign(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(half));
-    nodes_.erase(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(half));
-    sides_.erase(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(half * n_));
-    shares_.erase(shares_.begin(), shares_.begin() + static_cast<std::ptrdiff_t>(half));
-    return older;
-  }
-
- private:
-  std::size_t n_;
-  std::vector<Interval> sides_;
-  std::vector<double> shares_;
-  std::vector<NodeId> nodes_;
-};
-
-// Which isolated solutions have been found, as certify::compare_isolated sees it: what merge_isolated will remove or doubt at
-// the end does not count.
-class DistinctSolutions {
- public:
-  void add(const certify::Sheet& sheet) {
-    bool unclear = false;
-    for (Known& known : known_) {
-      switch (certify::compare_isolated(known.sheet, sheet)) {
-        case certify::Identity::same: return;
-        case certify::Identity::different: break;
-        case certify::Identity::unknown: unclear = known.unclear = true; break;
-      }
-    }
-    known_.push_back({sheet, unclear});
-  }
-  std::uint64_t count() const {
-    return static_cast<std::uint64_t>(
-        std::count_if(known_.begin(), known_.end(), [](const Known& k) { return !k.unclear; }));
-  }
-
- private:
-  struct Known {
-    certify::Sheet sheet;
-    bool unclear;
-  };
-  std::vector<Known> known_;
-};
 
 class Search {
  public:

@@ -1,6 +1,7 @@
 #include "corank/solve/exactness.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -35,6 +36,7 @@ constexpr int kDegree = 4;                     // of algebraic numbers
 constexpr std::uint64_t kFaceBoxes = 200'000;  // to search in one face of a blow-up
 constexpr double kSmallSingularValue = 0.2;    // relative to the largest: worth a try
 constexpr std::size_t kMostOpenBoxes = 3000;   // beyond, clusters are no longer sought
+constexpr int kMostFutile = 16;                // attempts, before a kind of point is no longer sought
 constexpr int kCoreAttempts = 6;
 constexpr int kKernelDepth = 6;  // halvings of a box in which the kernel's dimension is bounded
 
@@ -72,9 +74,11 @@ class Prover {
   }
 
   void points() {
+    int futile = 0;  // in a row: then the other points are hardly of small degree either
     for (CoverBox& point : cover_.points) {
-      if (point.verdict != Verdict::isolated || stopped()) continue;
+      if (point.verdict != Verdict::isolated || stopped() || futile >= kMostFutile) continue;
       const std::optional<int> exact = exact_point(point.box);
+      futile = exact ? 0 : futile + 1;
       if (!exact) continue;
       point.point = *exact;
       for (CoverBox& box : cover_.boxes)
@@ -96,13 +100,17 @@ class Prover {
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
       if (cover_.boxes[i].verdict == Verdict::undecided) open.push_back(i);
     if (open.empty() || open.size() > kMostOpenBoxes) return;
+    int futile = 0;
     for (const std::vector<std::size_t>& cluster : clusters(open)) {
-      if (stopped()) break;
+      if (stopped() || futile >= kMostFutile) break;
       Box hull = cover_.boxes[cluster[0]].box;
       for (const std::size_t i : cluster)
         for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cover_.boxes[i].box[j]);
       const std::optional<int> point = corank_point(matrix, hull);
-      if (!point) continue;
+      if (!point) {
+        ++futile;
+        continue;
+      }
       search_around(*point, hull, cluster);
     }
     edit_.finish();
@@ -332,13 +340,17 @@ class Prover {
 
 void prove_exactly(const System& system, const Options& options, Cover& cover) {
   if (system.coefficient_tolerance > 0) return;
+  const auto start = std::chrono::steady_clock::now();
   Prover prover(system, options, cover);
   if (cover.dimension == 0) {
     prover.points();
-  } else {
+  } else if (cover.complete()) {
     prover.coranks();
   }
   prover.kernel_dimensions();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  cover.statistics.seconds_total += seconds;
+  cover.statistics.seconds_certify += seconds;
 }
 
 }  // namespace corank::solve

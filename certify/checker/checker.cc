@@ -50,6 +50,7 @@ class Checker {
         arena_(threads_) {}
 
   Report run() {
+    const NearestRounding nearest;
     try {
       problem_.emplace(system_, cover_.eliminations);
     } catch (const std::invalid_argument& error) {
@@ -151,6 +152,11 @@ class Checker {
       case Verdict::regular:
       case Verdict::isolated:
       case Verdict::boundary: {
+        // Of an over-determined system with a tolerance the checker knows the written coefficients only.
+        if (cover_.tolerance > 0 && system_.equations.size() > system_.variables.size()) {
+          checkable = false;
+          return {};
+        }
         if (box.region < 0) return "the file has no region for it";
         // A solution, or a configuration in the box whose kernel is larger.
         if (std::string reason = box.point < 0 ? "" : check_point_in(box, box.verdict != Verdict::isolated); !reason.empty())
@@ -180,7 +186,8 @@ class Checker {
         return "its exact point says nothing of " + v.name;
     }
     if (explained && cover_.exact_points[p].corank < 2) return "its exact point has no kernel of dimension 2 or more";
-    return exact_[p]->inside(box.box);
+    if (std::string reason = exact_[p]->inside(box.box); !reason.empty()) return reason;
+    return box.verdict == Verdict::exact ? exact_[p]->within(cover_.exact_points[p].sole_within, box.box) : "";
   }
 
   void check_boxes() {
@@ -195,6 +202,7 @@ class Checker {
           stopped = true;
           return;
         }
+        const NearestRounding nearest;
         bool can = false;
         reasons[i] = check_box(cover_.boxes[i], can);
         checkable[i] = can;

@@ -25,6 +25,8 @@ class ExactCheck {
   std::string kernel() const;
   /// The known coordinates lie in the box.
   std::string inside(const Box& box) const;
+  /// No point of the box is farther from the point, in any known variable, than the radius.
+  std::string within(double radius, const Box& box) const;
   bool knows(int variable) const { return !point_.coordinates[static_cast<std::size_t>(variable)].empty(); }
   /// Encloses a known coordinate.
   const Enclosure& coordinate(int variable) const { return coordinates_[static_cast<std::size_t>(variable)]; }

@@ -241,6 +241,7 @@ class Replay {
   }
 
   void play(const Script& script, Cursor at, State state) {
+    const NearestRounding nearest;
     Search& search = searches_.local();
     for (;; at = script.after(at)) {
       if (stopped(at.step)) return;

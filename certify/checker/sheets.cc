@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace corank::certify::checker {
 namespace {
@@ -88,13 +89,19 @@ class SheetCheck {
   // Existence and uniqueness over x; shrinks its dependent sides to what holds the solutions. False: not shown.
   bool prove(Sides& x) {
     pending_reason_ = "the Jacobian is singular";
-    if (newton_.set(dependent_, x, true) && prove_about_center(x)) return true;
-    if (!reason_.empty()) return false;
-    // As the search may have done it: about the middle of the whole region.
+    // About the middle of x; about a solution; about the middle of the region, as the search may have done it. Each time from x as it is:
+    // a side that was shrunk to an image has no interior left for the next.
     Sides region;
     for (const int j : problem_.kept()) region.emplace_back(region_[static_cast<std::size_t>(j)]);
-    if (newton_.set(dependent_, region, false) && prove_about_center(x)) return true;
-    return reason_.empty() && prove_near_box(x);
+    for (const auto& [around, polished] : {std::pair(&x, false), {&x, true}, {&region, false}}) {
+      Sides part = x;
+      if (newton_.set(dependent_, *around, polished) && prove_about_center(part)) {
+        x = std::move(part);
+        return true;
+      }
+      if (!reason_.empty()) return false;
+    }
+    return prove_near_box(x);
   }
 
   bool prove_about_center(Sides& x) {
@@ -137,7 +144,6 @@ class SheetCheck {
         for (std::size_t a = 0; a < image.size(); ++a) both[place(a)] = Enclosure::hull(z[place(a)], x[place(a)]);
         if (!newton_.is_injective(both)) return false;
         for (std::size_t a = 0; a < image.size(); ++a) x[place(a)] = image[a];
-        newton_.image(x);  // Y·S again, in place of Y·J
         return true;
       }
       for (std::size_t a = 0; a < image.size(); ++a) {

@@ -40,7 +40,7 @@ export function pointCloud(set, middles, extents, colourText) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(middles, 3));
   geometry.setAttribute("extent", new THREE.BufferAttribute(extents, 3));
-  geometry.setIndex(new THREE.BufferAttribute(spreadOrder(set.count), 1));
+  geometry.setIndex(new THREE.BufferAttribute(spreadOrder(extents.length / 3), 1));
   const faint = isFaint(set);
   const colour = new THREE.Color(colourText);
   colour.convertLinearToSRGB();
@@ -69,10 +69,10 @@ export function boxCloud(set, middles, extents, colourText) {
     opacity: faint ? 0.07 : 1,
     depthWrite: !faint,
   });
-  const mesh = new THREE.InstancedMesh(new THREE.BoxGeometry(1, 1, 1), material, set.count);
+  const mesh = new THREE.InstancedMesh(new THREE.BoxGeometry(1, 1, 1), material, extents.length / 3);
   const matrix = new THREE.Matrix4(),
     least = set.singular() ? 0.004 : 0.001;
-  spreadOrder(set.count).forEach((i, place) => {
+  spreadOrder(extents.length / 3).forEach((i, place) => {
     matrix.makeScale(...[0, 1, 2].map((k) => Math.max(extents[3 * i + k], least)));
     matrix.setPosition(middles[3 * i], middles[3 * i + 1], middles[3 * i + 2]);
     mesh.setMatrixAt(place, matrix);
@@ -135,9 +135,9 @@ export function ringSprite(ink, paper) {
 }
 
 // Fewer boxes, each a little stronger, while the view turns; all of them at rest.
-export function setDetail(set, object, turning) {
-  const shown = turning && isFaint(set) ? Math.min(set.count, mostWhileTurning) : set.count;
-  const strength = Math.sqrt(set.count / shown);
+export function setDetail(set, object, count, turning) {
+  const shown = turning && isFaint(set) ? Math.min(count, mostWhileTurning) : count;
+  const strength = Math.sqrt(count / Math.max(1, shown));
   if (object.isInstancedMesh) {
     object.count = shown;
     if (isFaint(set)) object.material.opacity = 0.07 * strength;

@@ -48,16 +48,17 @@ export function coverage(projection, width, height, toX, toY, skip) {
   return counts;
 }
 
-// Paints counts in one colour: translucent where one box lies, darker where more do.
-export function paintCoverage(context, counts, width, height, [red, green, blue]) {
+// How strong the colour of C-space is where `count` boxes lie: translucent under one, stronger under more.
+export const sheetTone = (count) => Math.min(0.62, 0.17 * Math.min(1, count) + 0.06 * Math.log2(Math.max(1, count)));
+
+// Paints counts in one colour, `tone(count)` strong.
+export function paintCoverage(context, counts, width, height, colour, tone) {
   const image = context.createImageData(width, height);
   for (let i = 0; i < counts.length; ++i) {
-    const count = counts[i];
-    if (count < 1e-3) continue;
-    image.data[4 * i] = red;
-    image.data[4 * i + 1] = green;
-    image.data[4 * i + 2] = blue;
-    image.data[4 * i + 3] = 255 * Math.min(0.62, 0.17 * Math.min(1, count) + 0.06 * Math.log2(Math.max(1, count)));
+    if (counts[i] >= 1e-3) image.data[4 * i + 3] = 255 * tone(counts[i]);
   }
   context.putImageData(image, 0, 0);
+  context.globalCompositeOperation = "source-in";
+  context.fillStyle = colour;
+  context.fillRect(0, 0, width, height);
 }

@@ -56,9 +56,10 @@ function main() {
   const model = readModel(),
     filled = (name) => model.sets.find((set) => set.count > 0 && (!name || set.name === name));
   const samples = sampleConfigurations(model, filled("cspace") || filled(), 300);
+  const everywhere = model.sets.flatMap((set) => sampleConfigurations(model, set, 150));
   const view = drawingWindow(
     model,
-    samples.map(({values}) => values),
+    everywhere.map(({values}) => values),
   );
   const hero = document.querySelector("#mechanism svg"),
     typical = clearest(model, samples);

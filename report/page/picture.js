@@ -1,6 +1,6 @@
 // A picture of C-space and the loci over two coordinates, painted on a canvas; and what lies where in it.
 import {Plane, drawAxes} from "./axes.js";
-import {coverage, paintCoverage} from "./density.js";
+import {coverage, paintCoverage, sheetTone} from "./density.js";
 import {Projection, groupTouching} from "./projection.js";
 import {fullTurn, isAngle} from "./values.js";
 
@@ -72,9 +72,13 @@ export class Picture {
     context.rect(this.plane.pad.left, this.plane.pad.top, this.plane.inner, this.plane.height);
     context.clip();
     const shown = this.projections.filter(({set}) => !this.hidden.has(set.name));
+    for (const projection of shown.filter(({set}) => !set.complete)) {
+      this.drawDensity(context, projection, true, colours.undecided, (count) => 0.14 * Math.min(1, count));
+    }
     for (const name of ["cspace", "inverse", "forward", "cspace-singular"]) {
       for (const projection of shown.filter(({set}) => set.name === name)) {
-        if (name === "cspace" && projection.set.dimension > 1) this.drawDensity(context, projection);
+        if (name === "cspace" && projection.set.dimension > 1)
+          this.drawDensity(context, projection, false, `rgb(${colours.cspace})`, sheetTone);
         else this.drawBoxes(context, projection, name);
       }
     }
@@ -82,18 +86,19 @@ export class Picture {
     context.restore();
   }
 
-  drawDensity(context, projection) {
+  // The boxes of a projection that are pending, or those that are not, in one colour.
+  drawDensity(context, projection, pending, colour, tone) {
     const {pad, inner, height} = this.plane;
     const width = Math.round(inner * this.ratio);
     const rows = Math.round(height * this.ratio);
     const toX = (x) => (this.plane.toX(x) - pad.left) * this.ratio;
     const toY = (y) => (this.plane.toY(y) - pad.top) * this.ratio;
-    const isPending = (box) => this.verdictOf(projection.set, box) === "pending";
-    const counts = coverage(projection, width, rows, toX, toY, isPending);
+    const skip = (box) => this.isPending(projection.set, box) !== pending;
+    const counts = coverage(projection, width, rows, toX, toY, skip);
     const layer = document.createElement("canvas");
     layer.width = width;
     layer.height = rows;
-    paintCoverage(layer.getContext("2d"), counts, width, rows, this.colours.cspace);
+    paintCoverage(layer.getContext("2d"), counts, width, rows, colour, tone);
     context.drawImage(layer, pad.left, pad.top, inner, height);
   }
 
@@ -102,7 +107,7 @@ export class Picture {
     context.fillStyle = name === "cspace" ? `rgba(${this.colours.cspace}, 0.55)` : this.colours[name];
     const dots = projection.set.dimension === 0;
     for (let i = 0; i < projection.length; ++i) {
-      if (this.verdictOf(projection.set, projection.owners[i]) === "pending") continue;
+      if (this.isPending(projection.set, projection.owners[i])) continue;
       const {left, right, top, bottom} = this.rectangle(projection, i);
       if (dots && right - left < 7 && bottom - top < 7) {
         context.beginPath();
@@ -116,23 +121,17 @@ export class Picture {
     }
   }
 
-  // Rings or dots where nothing is proven; what was not searched is tinted all over.
+  // Rings, or dots where they are many.
   drawUndecided(context, projection) {
-    const verdictIs = (name) => (box) => this.verdictOf(projection.set, box) === name;
-    const isUndecided = verdictIs("undecided");
-    const isPending = verdictIs("pending");
+    const isUndecided = (box) => this.model.verdicts[projection.set.verdicts[box]] === "undecided";
     const few = projection.owners.filter(isUndecided).length <= 60;
     context.strokeStyle = context.fillStyle = this.colours.undecided;
     context.lineWidth = 2;
     for (let i = 0; i < projection.length; ++i) {
-      if (!isUndecided(projection.owners[i]) && !isPending(projection.owners[i])) continue;
+      if (!isUndecided(projection.owners[i])) continue;
       const {left, right, top, bottom} = this.rectangle(projection, i);
       const [x, y] = [(left + right) / 2, (top + bottom) / 2];
-      if (isPending(projection.owners[i])) {
-        context.globalAlpha = 0.25;
-        context.fillRect(left, top, Math.max(right - left, 2), Math.max(bottom - top, 2));
-        context.globalAlpha = 1;
-      } else if (few) {
+      if (few) {
         context.beginPath();
         context.arc(x, y, 6.5, 0, 7);
         context.stroke();
@@ -142,8 +141,9 @@ export class Picture {
     }
   }
 
-  verdictOf(set, box) {
-    return this.model.verdicts[set.verdicts[box]];
+  // Not searched: a limit or an interrupt came before.
+  isPending(set, box) {
+    return this.model.verdicts[set.verdicts[box]] === "pending";
   }
 
   // Rectangle i of a projection in pixels.

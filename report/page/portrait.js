@@ -68,6 +68,7 @@ export class Portrait {
     if (this.cursor && document.activeElement === this.frame) {
       const [x, y] = [this.picture.plane.toX(this.cursor[0]), this.picture.plane.toY(this.cursor[1])];
       context.strokeStyle = this.picture.colours.quiet;
+      context.lineWidth = 1;
       context.setLineDash([3, 4]);
       context.beginPath();
       context.moveTo(x, pad.top);

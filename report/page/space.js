@@ -106,23 +106,25 @@ export class Space {
     });
   }
 
-  // Middles and extents of a set's boxes in the cube.
+  // Middles and extents of a set's boxes in the cube; what was not searched is left out.
   cloud(set) {
-    const middles = new Float32Array(3 * set.count),
-      extents = new Float32Array(3 * set.count),
-      side = [0, 0];
-    for (let box = 0; box < set.count; ++box) {
+    const pending = this.model.verdicts.indexOf("pending");
+    const owners = Uint32Array.from(set.verdicts.keys()).filter((box) => set.verdicts[box] !== pending);
+    const middles = new Float32Array(3 * owners.length);
+    const extents = new Float32Array(3 * owners.length);
+    const side = [0, 0];
+    owners.forEach((box, i) => {
       for (let k = 0; k < 3; ++k) {
-        const [low, high] = coordinateInterval(set, box, this.axes[k], side),
-          middle = (low + high) / 2;
-        middles[3 * box + k] = this.toCube(isAngle(this.axes[k]) ? wrapped(middle) : middle, k);
-        extents[3 * box + k] = Math.min(high - low, isAngle(this.axes[k]) ? fullTurn : Infinity) * this.scales[k];
+        const [low, high] = coordinateInterval(set, box, this.axes[k], side);
+        const middle = (low + high) / 2;
+        middles[3 * i + k] = this.toCube(isAngle(this.axes[k]) ? wrapped(middle) : middle, k);
+        extents[3 * i + k] = Math.min(high - low, isAngle(this.axes[k]) ? fullTurn : Infinity) * this.scales[k];
       }
-    }
+    });
     const make = this.form.value === "boxes" ? boxCloud : pointCloud;
     const object = make(set, middles, extents, this.colours[set.name]);
     object.renderOrder = set.singular() ? 2 : 1;
-    return {set, middles, object};
+    return {set, owners, middles, object};
   }
 
   addFrame() {
@@ -181,7 +183,7 @@ export class Space {
   }
 
   turn(turning) {
-    for (const {set, object} of this.clouds) setDetail(set, object, turning);
+    for (const {set, owners, object} of this.clouds) setDetail(set, object, owners.length, turning);
     this.render();
   }
 
@@ -209,14 +211,14 @@ export class Space {
     const {clientWidth: width, clientHeight: height} = this.renderer.domElement,
       at = new THREE.Vector3();
     let best = null;
-    for (const {set, middles} of this.clouds) {
-      for (let box = 0; box < set.count; ++box) {
-        at.set(middles[3 * box], middles[3 * box + 1], middles[3 * box + 2]).project(this.camera);
+    for (const {set, owners, middles} of this.clouds) {
+      for (let i = 0; i < owners.length; ++i) {
+        at.set(middles[3 * i], middles[3 * i + 1], middles[3 * i + 2]).project(this.camera);
         const distance = Math.hypot(((at.x + 1) / 2) * width - px, ((1 - at.y) / 2) * height - py);
         if (distance > 10) continue;
         // Nearer to the eye wins among boxes at about the same place.
         const cost = distance + 60 * at.z - (set.singular() ? 6 : 0);
-        if (!best || cost < best.cost) best = {set, box, cost};
+        if (!best || cost < best.cost) best = {set, box: owners[i], cost};
       }
     }
     return best;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "corank/report/page_data.h"
@@ -70,6 +71,18 @@ TEST(Report, OfALimitedSearchSaysSoAndHasStatus3) {
   const Outcome outcome = run_corank({"report", model("dextar"), "--max-boxes", "20", "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.err, HasSubstr("the report is incomplete"));
+  EXPECT_NE(read_text(folder.file("r/index.html")).find("A search ended before its end"), std::string::npos);
+}
+
+TEST(Report, HasOneProgressLineOverAllSetsAndEndsWithWhatItHasAfterAnInterrupt) {
+  const TemporaryFolder folder;
+  CorankOnTerminal program({"report", model("dextar"), "--cspace-sigma", "0.005", "-o", folder.file("r")});
+  ASSERT_TRUE(program.wait_for("cspace (1 of 4): "));
+  program.signal(SIGINT);
+  const Outcome outcome = program.finish();
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("corank: interrupted; the report is incomplete"));
+  EXPECT_FALSE(report::read_result(folder.file("r/inverse.h5")).cover.complete());
   EXPECT_NE(read_text(folder.file("r/index.html")).find("A search ended before its end"), std::string::npos);
 }
 

@@ -57,7 +57,7 @@ TEST_F(Verify, NamesTheBoxThatFails) {
   change([](report::Result& r) { r.cover.boxes[2].box[3] = {0.25, 0.5}; });
   const Outcome outcome = run_corank({"verify", path()});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.out, HasSubstr("box 3: it is not inside the region of its proof\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("box 3: xi1 of its exact point lies outside it\n"));
   EXPECT_THAT(outcome.out, HasSubstr("\nNOT VERIFIED\n"));
 }
 
@@ -76,7 +76,7 @@ TEST_F(Verify, SaysWhereAModelHasNoSuchSet) {
   change([](report::Result& r) { r.set = "system"; });
   const Outcome outcome = run_corank({"verify", path()});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("its model has no set 'system'"));
+  EXPECT_THAT(outcome.err, HasSubstr("the result's model has no set 'system'"));
 }
 
 TEST_F(Verify, RefusesAFileThatIsNoResult) {

@@ -102,7 +102,7 @@ TEST(Table, CountsVerdictsAndListsPointsWithAngles) {
   EXPECT_THAT(table, HasSubstr("2 points: 1 isolated, 1 undecided"));
   EXPECT_THAT(table, HasSubstr("[3.03093"));
   EXPECT_THAT(table, HasSubstr("[0.333333333, 0.333333334]"));
-  EXPECT_THAT(table, Not(HasSubstr("c_t")));
+  EXPECT_THAT(table.substr(0, table.find("kernel:")), Not(HasSubstr("c_t")));
 }
 
 TEST(Table, SaysWhatATolerancedSystemMeans) {

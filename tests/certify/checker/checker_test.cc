@@ -201,7 +201,7 @@ class ThreeSlider : public testing::Test {
     // The half-space of the kernel's sign: xi1 = ±1.
     const double xi1 = cover_.boxes[undecided].box[3].mid();
     const RationalPolynomial x_c{below ? -1 : 1}, xi{xi1 < 0 ? -1 : 1};
-    cover_.exact_points = {{{0, 1}, -1, 1, {{0}, {0}, x_c, xi, {0}}, 1, 0}};
+    cover_.exact_points = {{{0, 1}, -1, 1, {{0}, {0}, x_c, xi, {0}}, 1, 1e-3}};
     // Of the undecided boxes around the point only those that hold it are claimed.
     for (CoverBox& b : cover_.boxes)
       if (b.verdict == Verdict::undecided && holds(b.box, x_c)) b.verdict = Verdict::exact, b.point = 0;
@@ -253,13 +253,11 @@ TEST_F(ThreeSlider, HasNoPointOfAnUndefinedNumber) {
 
 TEST_F(ThreeSlider, HasNoPointOfUnknownCoordinates) {
   point().coordinates[3].clear();
+  point().sole_within = 0;
   EXPECT_THAT(text(report()), HasSubstr("says nothing of xi1"));
 }
 
-TEST_F(ThreeSlider, HasNoOtherSolutionNearThePoint) {
-  point().sole_within = 1e-3;
-  EXPECT_EQ(report().exact_points, (Tally{1, 0, 0})) << text(report());
-}
+TEST_F(ThreeSlider, HasNoOtherSolutionNearThePoint) { EXPECT_EQ(report().exact_points, (Tally{1, 0, 0})) << text(report()); }
 
 TEST_F(ThreeSlider, HasOtherSolutionsFarFromThePoint) {
   point().sole_within = 1.5;  // (±1, ±1, 0) are as near as that
@@ -273,11 +271,11 @@ class RootOfTwo : public testing::Test {
     system_ = plain(
         "[SYSTEM VARS]\nx : [0, 2]\ny : [-2, 2]\nz : [-9, 9]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\nx*y = 1/2;\nz = x + x^2;\n");
     const double t = std::sqrt(0.5);
-    const Interval side(t - 1e-7, t + 1e-7);
+    const Interval side(t - 1e-7, t + 1e-7);  // the point is alone within 1/4
     cover_.boxes.push_back({{side, side, {1.2, 1.21}}, Verdict::exact, {}, -1, 0});
     cover_.points = cover_.boxes;
     cover_.sigma = 0.1;
-    cover_.exact_points = {{{number("-1/2"), 0, 1}, 0, 1, {{0, 1}, {0, 1}, {number("1/2"), 1}}, -1, 0}};
+    cover_.exact_points = {{{number("-1/2"), 0, 1}, 0, 1, {{0, 1}, {0, 1}, {number("1/2"), 1}}, -1, 0.25}};
     cover_.eliminations = {{2, 2}};
   }
   System system_;
@@ -302,10 +300,16 @@ TEST_F(RootOfTwo, IsNoRootOfAnotherPolynomial) {
 }
 
 TEST_F(RootOfTwo, IsTheOnlySolutionNearby) {
-  cover_.exact_points[0].sole_within = 0.25;
   EXPECT_TRUE(check(system_, cover_).verified()) << text(check(system_, cover_));
   cover_.exact_points[0].sole_within = 3;  // −√(1/2) twice
   EXPECT_THAT(text(check(system_, cover_)), HasSubstr("that no other solution is near it is not shown"));
+}
+
+TEST_F(RootOfTwo, HasABoxNoLargerThanWhereItIsAlone) {
+  for (const double radius : {0.0, 1e-8}) {
+    cover_.exact_points[0].sole_within = radius;
+    EXPECT_THAT(text(check(system_, cover_)), HasSubstr("farther from its exact point")) << radius;
+  }
 }
 
 TEST_F(RootOfTwo, IsCountedOnce) {

@@ -1,0 +1,53 @@
+// The boxes that wait in a search, newest last: depth first, so that memory grows with the depth.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "corank/certify/interval.h"
+#include "corank/solve/recorder.h"
+
+namespace corank::solve {
+
+// Boxes waiting, each with its share of the search domain: 1 for all of it, a part's share by the lengths of the parts.
+class WorkList {
+ public:
+  explicit WorkList(std::size_t n) : n_(n) {}
+  bool empty() const { return shares_.empty(); }
+  std::size_t size() const { return shares_.size(); }
+  void push(const certify::Interval* x, double share, NodeId node) {
+    sides_.insert(sides_.end(), x, x + n_);
+    shares_.push_back(share);
+    nodes_.push_back(node);
+  }
+  NodeId node() const { return nodes_.back(); }  // of the newest
+  // Copies the newest box to x and removes it; returns its share.
+  double pop(certify::Interval* x) {
+    nodes_.pop_back();
+    std::copy(sides_.end() - static_cast<std::ptrdiff_t>(n_), sides_.end(), x);
+    sides_.resize(sides_.size() - n_);
+    const double share = shares_.back();
+    shares_.pop_back();
+    return share;
+  }
+  // Gives away the older half: the larger boxes.
+  WorkList split_off() {
+    WorkList older(n_);
+    const std::size_t half = size() / 2;
+    older.sides_.assign(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(half * n_));
+    older.shares_.assign(shares_.begin(), shares_.begin() + static_cast<std::ptrdiff_t>(half));
+    older.nodes_.assign(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(half));
+    nodes_.erase(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(half));
+    sides_.erase(sides_.begin(), sides_.begin() + static_cast<std::ptrdiff_t>(half * n_));
+    shares_.erase(shares_.begin(), shares_.begin() + static_cast<std::ptrdiff_t>(half));
+    return older;
+  }
+
+ private:
+  std::size_t n_;
+  std::vector<certify::Interval> sides_;
+  std::vector<double> shares_;
+  std::vector<NodeId> nodes_;
+};
+
+}  // namespace corank::solve
