@@ -167,10 +167,10 @@ class Checker {
           return {};
         }
         if (box.region < 0) return "the file has no region for it";
+        std::string reason = check_sheet(*problem_, box, cover_.regions[static_cast<std::size_t>(box.region)]);
         // A solution, or a configuration in the box whose kernel is larger.
-        if (std::string reason = box.point < 0 ? "" : check_point_in(box, box.verdict != Verdict::isolated); !reason.empty())
-          return reason;
-        return check_sheet(*problem_, box, cover_.regions[static_cast<std::size_t>(box.region)]);
+        if (reason.empty() && box.point >= 0) reason = check_point_in(box, box.verdict != Verdict::isolated);
+        return reason;
       }
       case Verdict::exact: return check_point_in(box, false);
       case Verdict::undecided:
