@@ -215,6 +215,7 @@ class Reader {
     Proof proof;
     if (n_ < cover_.eliminations.size()) refuse("more variables were eliminated than there are");
     proof.roots = boxes(kProof + "root", n_ - cover_.eliminations.size());
+    if (n_ == cover_.eliminations.size()) proof.roots.resize(1);  // the only point that there is, without a number
     const auto sizes = vector<std::int32_t>(kProof + "combination_size"),
                equations = vector<std::int32_t>(kProof + "combination_equations"),
                dependent = vector<std::int32_t>(kProof + "combination_dependent");

@@ -134,6 +134,7 @@ std::string to_table(const Verification& verification, const Result& result) {
     text += row(to_string(static_cast<Verdict>(v)), report.boxes[static_cast<std::size_t>(v)]);
   text += row("points", report.points) + row("exact points", report.exact_points);
   text += "\n" + completeness(report, result.cover.complete());
+  if (!result.cover.decimals.empty()) text += "decimals: not checked\n";
   for (std::size_t i = 0; i < std::min(report.failures.size(), kShownFailures); ++i) {
     const Failure& f = report.failures[i];
     text += f.place == Failure::Place::cover ? fmt::format("cover: {}\n", f.reason)

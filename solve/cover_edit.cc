@@ -120,6 +120,7 @@ int CoverEdit::append(const Partition& partition, Proof around, int first_box) {
 }
 
 void CoverEdit::finish() {
+  if (fate_.empty()) return;
   fate_.resize(cover_.boxes.size(), kStays);
   std::vector<int> order;
   for (std::size_t i = 0; i < cover_.boxes.size(); ++i)

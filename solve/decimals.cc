@@ -19,6 +19,7 @@ void prove_decimals(const System& system, int digits, Cover& cover) {
   const certify::Reduction reduction = certify::reduce(system);
   for (const CoverBox& point : cover.points) {
     std::vector<std::string>& decimals = cover.decimals.emplace_back();
+    if (point.verdict == Verdict::undecided) continue;
     if (point.point >= 0) {
       const ExactPoint& exact = cover.exact_points[static_cast<std::size_t>(point.point)];
       const certify::AlgebraicNumber t(exact.polynomial, exact.lower, exact.upper);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include "corank/certify/domain.h"
 #include "corank/certify/exact_verification.h"
@@ -69,7 +70,10 @@ class Prover {
   Prover(const System& system, const Options& options, Cover& cover) : system_(system), cover_(cover), options_(options) {
     options_.progress = nullptr;
     options_.max_boxes = options_.max_solutions = 0;
-    options_.time_limit = 0;
+    if (options.time_limit > 0) {
+      const double left = std::max(0.0, options.time_limit - cover.statistics.seconds_total);
+      deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(left));
+    }
     options_.sigma = cover.sigma;
   }
 
@@ -121,7 +125,7 @@ class Prover {
     if (!bound.applies()) return;
     const auto treat = [&](CoverBox& box) {
       const certify::UpwardRounding rounding;
-      if (box.verdict == Verdict::pending) return;
+      if (box.verdict == Verdict::pending || stopped()) return;
       box.corank = bound.at_most(box.box);
       if (box.corank <= 1) return;
       for (std::size_t i = 0; i < cover_.exact_points.size() && box.point < 0; ++i)
@@ -134,11 +138,13 @@ class Prover {
   }
 
  private:
-  // Proves an undecided cluster. True: it holds nothing but the solution of an isolated box.
+  // Proves an undecided cluster. True: it holds nothing but the solution of another box.
   bool settle(CoverBox& cluster) {
     const std::optional<int> exact = exact_point(cluster.box);
     if (!exact || !is_only_solution(*exact, cluster.box)) return false;
-    const auto same = [&](const CoverBox& b) { return b.verdict == Verdict::isolated && b.point == *exact; };
+    const auto same = [&](const CoverBox& b) {  // known as an isolated one, or from the cluster next to this
+      return (b.verdict == Verdict::isolated || b.verdict == Verdict::exact) && b.point == *exact;
+    };
     const auto known = std::find_if(cover_.boxes.begin(), cover_.boxes.end(), same);
     const bool is_known = known != cover_.boxes.end();
     const int by = static_cast<int>(known - cover_.boxes.begin());
@@ -171,10 +177,27 @@ class Prover {
     return most;
   }
 
-  bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
+  bool stopped() const {
+    return (options_.stop && options_.stop->load(std::memory_order_relaxed)) || (deadline_ && Clock::now() >= *deadline_);
+  }
+
+  // A search of its own ends where this one is to end.
+  Options within_limits(Options options) const {
+    constexpr double kLeast = 1e-3;  // 0 is no limit
+    if (deadline_) {
+      const std::chrono::duration<double> left = *deadline_ - Clock::now();
+      options.time_limit = std::max(kLeast, left.count());
+    }
+    return options;
+  }
 
   int add(ExactPoint point) {
-    const auto known = std::find(cover_.exact_points.begin(), cover_.exact_points.end(), point);
+    const auto same = [&](const ExactPoint& p) {  // whatever is known of what lies around it
+      point.sole_within = p.sole_within;
+      return p == point;
+    };
+    const auto known = std::find_if(cover_.exact_points.begin(), cover_.exact_points.end(), same);
+    point.sole_within = 0;
     if (known != cover_.exact_points.end()) return static_cast<int>(known - cover_.exact_points.begin());
     cover_.exact_points.push_back(std::move(point));
     return static_cast<int>(cover_.exact_points.size()) - 1;
@@ -199,15 +222,20 @@ class Prover {
     double radius = std::ldexp(1.0, -60);
     const ExactNumber needed = certify::reach(point, box);
     while ((ExactNumber::dyadic(radius) - needed).sign() != 1) radius *= 2;
+    if (radius <= point.sole_within) return true;
     const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius));
     if (!faces) return false;
     Options options;
     options.threads = options_.threads;
     options.stop = options_.stop;
     options.max_boxes = kFaceBoxes;
-    for (const System& face : *faces) {
-      const Cover solutions = solve(face, options);
-      if (!solutions.complete() || !solutions.boxes.empty()) return false;
+    try {
+      for (const System& face : *faces) {
+        const Cover solutions = solve(face, within_limits(options));
+        if (!solutions.complete() || !solutions.boxes.empty()) return false;
+      }
+    } catch (const std::invalid_argument&) {  // elimination has made coefficients that no double holds
+      return false;
     }
     point.sole_within = radius;
     return true;
@@ -274,7 +302,7 @@ class Prover {
         core[j] = Interval(bounds.lower.enclose().lo() - half, bounds.upper.enclose().hi() + half);
         all[j] = Interval::hull(hull[j], core[j]);
       }
-      Options options = options_;
+      Options options = within_limits(options_);
       const Partition partition = difference(all, core);
       if (partition.parts.empty()) return;
       options.roots = partition.parts;
@@ -329,9 +357,12 @@ class Prover {
     return partition;
   }
 
+  using Clock = std::chrono::steady_clock;
+
   const System& system_;
   Cover& cover_;
   Options options_;
+  std::optional<Clock::time_point> deadline_;
   const certify::Reduction reduction_ = certify::reduce(system_);  // what solve() searches
   CoverEdit edit_{cover_, reduction_};
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cfenv>
+#include <cmath>
 
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/rounding.h"
@@ -44,7 +45,7 @@ class LeastSquares : public Ipopt::TNLP {
   bool eval_f(Index, const Number* x, bool, Number& value) override {
     value = 0;
     for (const double f : residual(x)) value += 0.5 * f * f;
-    return true;
+    return std::isfinite(value);
   }
   bool eval_grad_f(Index n, const Number* x, bool, Number* gradient) override {
     const std::vector<double> f = residual(x), j = jacobian(x);
@@ -52,7 +53,7 @@ class LeastSquares : public Ipopt::TNLP {
     for_each_entry([&](int row, int k) {
       gradient[system_.column(k)] += f[static_cast<std::size_t>(row)] * j[static_cast<std::size_t>(k)];
     });
-    return true;
+    return all_finite(gradient, n);
   }
   bool eval_g(Index, const Number*, bool, Index, Number*) override { return true; }
   bool eval_jac_g(Index, const Number*, bool, Index, Index, Index*, Index*, Number*) override { return true; }
@@ -73,7 +74,7 @@ class LeastSquares : public Ipopt::TNLP {
           if (b <= a)
             values[a * (a + 1) / 2 + b] += factor * j[static_cast<std::size_t>(p)] * j[static_cast<std::size_t>(q)];
         }
-    return true;
+    return all_finite(values, n * (n + 1) / 2);
   }
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*, const Number*, Index, const Number*,
                          const Number*, Number, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
@@ -81,6 +82,10 @@ class LeastSquares : public Ipopt::TNLP {
   }
 
  private:
+  // Ipopt's linear solver writes past its memory where it meets infinities.
+  static bool all_finite(const Number* x, Index n) {
+    return std::all_of(x, x + n, [](Number a) { return std::isfinite(a); });
+  }
   template <class Visit>
   void for_each_entry(Visit visit) const {
     for (int row = 0; row < system_.equations(); ++row)

@@ -125,12 +125,21 @@ class Checker {
   void check_exact_points() {
     for (std::size_t i = 0; i < cover_.exact_points.size(); ++i) {
       const ExactPoint& point = cover_.exact_points[i];
-      exact_.emplace_back(std::make_unique<ExactCheck>(system_, point));
-      std::string reason = exact_.back()->fault();
-      if (reason.empty()) reason = exact_.back()->holds();
-      if (reason.empty()) reason = exact_.back()->kernel();
-      if (reason.empty() && !(point.sole_within >= 0 && std::isfinite(point.sole_within))) reason = "a radius is no number";
-      if (reason.empty() && point.sole_within > 0) reason = check_sole(system_, *exact_.back(), point.sole_within);
+      std::string reason;
+      try {
+        exact_.emplace_back(std::make_unique<ExactCheck>(system_, point));
+        reason = exact_.back()->fault();
+        if (reason.empty()) reason = exact_.back()->holds();
+        if (reason.empty()) reason = exact_.back()->kernel();
+        if (reason.empty() && !(point.sole_within >= 0 && std::isfinite(point.sole_within)))
+          reason = "a radius is no number";
+        if (reason.empty() && point.sole_within > 0) reason = check_sole(system_, *exact_.back(), point.sole_within);
+      } catch (const std::domain_error& error) {  // numbers of too many bits
+        reason = error.what();
+      } catch (const std::invalid_argument& error) {  // a face whose coefficients or powers are too large
+        reason = error.what();
+      }
+      exact_.resize(i + 1);
       exact_reasons_.push_back(reason);
       if (!reason.empty()) fail(Place::exact_point, i, reason);
       ++(reason.empty() ? report_.exact_points.verified : report_.exact_points.failed);
@@ -252,11 +261,10 @@ class Checker {
       const CoverBox& point = cover_.points[k];
       std::string reason;
       if (!claimed[k]) reason = "no box stands for it";
-      if (reason.empty() && point.point >= 0) {
-        const auto p = static_cast<std::size_t>(point.point);
-        reason = exact_reasons_[p].empty() ? exact_[p]->inside(point.box) : "its exact point is not one";
-      }
-      if (reason.empty() && point.verdict == Verdict::exact && point.point < 0) reason = "it names no exact point";
+      if (reason.empty() && point.verdict == Verdict::pending) reason = "a point cannot be pending";
+      // An exact or undecided entry is not always one of the boxes, which have been checked.
+      if (bool can = false; reason.empty() && (point.verdict == Verdict::exact || point.verdict == Verdict::undecided))
+        reason = check_box(point, can);
       if (!reason.empty()) fail(Place::point, k, reason);
       const bool open = point.verdict == Verdict::undecided && point.point < 0;
       ++(!reason.empty()                             ? report_.points.failed
@@ -267,7 +275,7 @@ class Checker {
 
   // Each of the isolated and exact points is counted once.
   void check_distinct() {
-    constexpr std::size_t kLimit = 100;
+    constexpr std::size_t kMostFailures = 100;
     std::vector<const Box*> boxes;
     std::vector<std::size_t> indices;
     for (std::size_t k = 0; k < cover_.points.size(); ++k) {
@@ -276,8 +284,10 @@ class Checker {
       boxes.push_back(&cover_.points[k].box);
       indices.push_back(k);
     }
-    for (const auto& [a, b] : meeting_pairs(boxes, kLimit)) {
-      if (told_apart(cover_.points[indices[a]], cover_.points[indices[b]])) continue;
+    const auto apart = [&](std::size_t a, std::size_t b) {
+      return told_apart(cover_.points[indices[a]], cover_.points[indices[b]]);
+    };
+    for (const auto& [a, b] : meeting_pairs(boxes, apart, kMostFailures)) {
       fail(Place::point, indices[b], "it may be the same solution as point " + std::to_string(indices[a] + 1));
     }
   }

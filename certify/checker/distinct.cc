@@ -6,7 +6,9 @@
 
 namespace corank::certify::checker {
 
-std::vector<std::pair<std::size_t, std::size_t>> meeting_pairs(const std::vector<const Box*>& boxes, std::size_t limit) {
+std::vector<std::pair<std::size_t, std::size_t>> meeting_pairs(const std::vector<const Box*>& boxes,
+                                                               const std::function<bool(std::size_t, std::size_t)>& apart,
+                                                               std::size_t limit) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   if (boxes.size() < 2) return pairs;
   const std::size_t n = boxes[0]->size();
@@ -31,7 +33,7 @@ std::vector<std::pair<std::size_t, std::size_t>> meeting_pairs(const std::vector
   for (const std::size_t i : order) {
     std::erase_if(active, [&](std::size_t k) { return n > 0 && (*boxes[k])[along].hi() < (*boxes[i])[along].lo(); });
     for (const std::size_t k : active) {
-      if (!meet(*boxes[i], *boxes[k])) continue;
+      if (!meet(*boxes[i], *boxes[k]) || apart(std::min(i, k), std::max(i, k))) continue;
       if (pairs.size() == limit) return pairs;
       pairs.emplace_back(std::min(i, k), std::max(i, k));
     }

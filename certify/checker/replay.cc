@@ -266,7 +266,9 @@ class Replay {
           std::vector<Interval> target;
           const Box& box = cover_.boxes[static_cast<std::size_t>(script.integer(at, 0))].box;
           for (const int j : problem_.kept()) target.push_back(box[static_cast<std::size_t>(j)]);
-          if (!state.empty && !search.confine(state.x, target, state.empty))
+          if (state.empty) return;
+          if (!search.confine(state.x, target, state.empty) ||
+              (!state.empty && !holds_values(state.x, script.integer(at, 0))))
             fail(at.step, "its solutions are not shown to lie in box " + std::to_string(script.integer(at, 0) + 1));
           return;
         }
@@ -278,6 +280,18 @@ class Replay {
           return;
       }
     }
+  }
+
+  // Do the box's sides of eliminated variables hold their values over x? Of a sheet's box that is checked with its sheet.
+  bool holds_values(const Sides& x, int i) const {
+    const CoverBox& box = cover_.boxes[static_cast<std::size_t>(i)];
+    if (box.verdict == Verdict::regular || box.verdict == Verdict::isolated || box.verdict == Verdict::boundary) return true;
+    return std::all_of(problem_.values().begin(), problem_.values().end(), [&](const Problem::Value& v) {
+      const Variable& variable = problem_.system().variables[static_cast<std::size_t>(v.variable)];
+      Enclosure value = v.row.value(x);
+      return !value.intersect(Enclosure::hull(Enclosure(variable.lower), Enclosure(variable.upper))) ||
+             value.inside(box.box[static_cast<std::size_t>(v.variable)]);
+    });
   }
 
   int rows() const { return static_cast<int>(problem_.equations().size()); }

@@ -84,6 +84,17 @@ TEST_F(Verify, RefusesAFileThatIsNoResult) {
   EXPECT_EQ(run_corank({"verify"}).status, 2);
 }
 
+TEST_F(Verify, ReplaysAProofWhereEveryVariableWasEliminated) {
+  const TemporaryFolder folder;
+  const std::string system = folder.write("s.cuik", "[SYSTEM VARS]\nx : [-1, 1]\n[SYSTEM EQS]\n3*x = 1;\n"),
+                    file = folder.file("s.h5");
+  ASSERT_EQ(run_corank({"solve", system, "--proof", "--digits", "9", "-o", file}).status, 0);
+  const Outcome outcome = run_corank({"verify", file});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("completeness: replayed"));
+  EXPECT_THAT(outcome.out, HasSubstr("decimals: not checked\n"));
+}
+
 TEST_F(Verify, ReturnsOneWhereAClaimCannotBeChecked) {
   const TemporaryFolder folder;
   const std::string file = folder.file("s.h5");

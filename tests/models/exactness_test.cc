@@ -186,6 +186,48 @@ TEST(ProveExactly, LeavesAContinuumUndecided) {
   EXPECT_GT(cover.count(Verdict::undecided), 0u);
 }
 
+TEST(ProveExactly, SurvivesEquationsWhoseSquaresAreNoDoubles) {
+  test::SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"1e200", {{x, 1}}}, {"1e200", {{y, 1}}}, {"-2e200", {}}});
+  b.equation({{"1e200", {{x, 1}}}, {"-1e200", {{y, 1}}}});
+  b.equation({{"1", {{z, 2}}}, {"-2", {{z, 1}}}, {"1", {}}});
+  const Cover cover = proven(b.system());
+  EXPECT_TRUE(cover.complete());
+  EXPECT_EQ(cover.count(Verdict::undecided) + cover.count(Verdict::exact), 1u);
+}
+
+// x² = 0 and two boxes that hold its solution, each an undecided point.
+struct TwiceZero {
+  TwiceZero() {
+    const int x = builder.variable("x", "-1", "1");
+    builder.equation({{"1", {{x, 2}}}});
+    for (const certify::Interval& side : {certify::Interval(-1e-7, 1e-7), certify::Interval(0, 2e-7)})
+      cover.boxes.push_back({{side}, Verdict::undecided, {}});
+    cover.points = cover.boxes;
+    cover.sigma = 1e-6;
+  }
+  test::SystemBuilder builder;
+  Cover cover;
+};
+
+TEST(ProveExactly, CountsASolutionOnceThatTwoClustersHold) {
+  TwiceZero zero;
+  solve::prove_exactly(zero.builder.system(), {}, zero.cover);
+  EXPECT_EQ(zero.cover.points.size(), 1u);
+  EXPECT_EQ(zero.cover.boxes.size(), 1u);
+  EXPECT_EQ(zero.cover.count(Verdict::exact), 1u);
+}
+
+TEST(ProveExactly, TakesNoTimeBeyondTheLimit) {
+  TwiceZero zero;
+  solve::Options options;
+  options.time_limit = zero.cover.statistics.seconds_total = 5;
+  solve::prove_exactly(zero.builder.system(), options, zero.cover);
+  EXPECT_EQ(zero.cover.count(Verdict::undecided), 2u);
+  EXPECT_TRUE(zero.cover.exact_points.empty());
+}
+
 TEST(ProveDecimals, AreRightToTheLastDigit) {
   test::SystemBuilder b;  // x⁵ − x − 1 = 0, no radicals
   const int x = b.variable("x", "1", "2");

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "corank/certify/checker/distinct.h"
 #include "corank/tests/certify/checker/covers.h"
 
 namespace corank::certify::checker {
@@ -312,6 +313,23 @@ TEST_F(RootOfTwo, HasABoxNoLargerThanWhereItIsAlone) {
   }
 }
 
+TEST_F(RootOfTwo, HasAnEntryOfThePointsNoLargerThanWhereItIsAlone) {
+  cover_.points[0].box[0] = {-1, 1};  // −√(1/2), too
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("farther from its exact point"));
+}
+
+TEST_F(RootOfTwo, HasNoCoordinatesBeyondReason) {
+  for (auto& x : cover_.exact_points[0].coordinates) x = {pow(ExactNumber(2), 60'000)};
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("100000 bits"));
+}
+
+TEST(MeetingPairs, GoBeyondThoseThatAreToldApart) {
+  const Box a{{0, 2}}, b{{1, 3}}, c{{2, 4}};
+  const auto first_two = [](std::size_t i, std::size_t k) { return i + k == 1; };
+  const std::vector<std::pair<std::size_t, std::size_t>> expected{{0, 2}};
+  EXPECT_EQ(meeting_pairs({&a, &b, &c}, first_two, 1), expected);
+}
+
 TEST_F(RootOfTwo, IsCountedOnce) {
   cover_.boxes.push_back(cover_.boxes[0]);
   cover_.points.push_back(cover_.points[0]);
@@ -350,6 +368,17 @@ TEST_F(Plane, HasNotAnotherDimension) {
   }
   cover_.exact_points[0].corank = -1;
   EXPECT_THAT(text(check(system_, cover_)), HasSubstr("no kernel of dimension 2"));
+}
+
+TEST_F(Plane, IsNotExplainedInTheListOfPointsAlone) {
+  cover_.boxes[0].point = -1;
+  cover_.exact_points[0].corank = -1;
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("no kernel of dimension 2"));
+}
+
+TEST_F(Plane, HasNoSmallerKernelInTheListOfPoints) {
+  cover_.points[0].corank = 1;
+  EXPECT_THAT(text(check(system_, cover_)), HasSubstr("a dimension above 1 is not excluded"));
 }
 
 TEST_F(Plane, IsNotElsewhere) {

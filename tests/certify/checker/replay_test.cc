@@ -204,6 +204,19 @@ TEST_F(TwoPoints, AreNotShownByAMalformedScript) {
   EXPECT_NE(failures(deep), "");
 }
 
+TEST(Replay, ShowsNothingWhereAnEliminatedVariablesSideIsAnother) {
+  const System system = plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-9, 9]\n[SYSTEM EQS]\n(x^2 - 2)^2 = 0;\ny = x^2 + x;\n");
+  solve::Options options;
+  options.proof = true;
+  Cover cover = solve::solve(system, options);
+  ASSERT_EQ(cover.eliminations.size(), 1u);
+  ASSERT_EQ(cover.eliminations[0].variable, 1);
+  EXPECT_TRUE(check(system, cover).proof.verified) << text(check(system, cover));
+  ASSERT_EQ(cover.boxes.size(), cover.count(Verdict::undecided));
+  for (CoverBox& box : cover.boxes) box.box[1] = Interval(box.box[1].lo() + 1, box.box[1].hi() + 1);
+  EXPECT_FALSE(check(system, cover).proof.verified);
+}
+
 TEST(Replay, ShowsThatASystemHasNoSolution) {
   const System system = plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx*y = 1;\nx^2 + y^2 = 1;\n");
   Cover cover;
