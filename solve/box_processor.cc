@@ -106,8 +106,10 @@ certify::Sheet BoxProcessor::prove(const Interval* x) {
     dependent_ = preconditioners_.last().dependent;
     return {};
   }
+  std::vector<int> pivots = preconditioners_.last().dependent;
+  std::sort(pivots.begin(), pivots.end());
   dependent_ = chart_of_last();
-  const auto& p = preconditioners_.at_midpoint(x, &dependent_);
+  const auto& p = pivots == dependent_ ? preconditioners_.last() : preconditioners_.at_midpoint(x, &dependent_);
   if (p.rank() < problem_.compiled.equations()) return {};
   return certify::newton_prove(problem_.compiled, p, x, workspace_);
 }

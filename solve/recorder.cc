@@ -17,7 +17,13 @@ bool fits_float(double y) { return y == 0 || (std::fabs(y) > 1e-30 && std::fabs(
 }  // namespace
 
 void round_to_floats(certify::Preconditioner& p) {
-  if (!std::all_of(p.y.begin(), p.y.end(), fits_float)) return;
+  double least = HUGE_VAL, greatest = 0;  // magnitudes; 0 fits
+  for (const double y : p.y) {
+    const double size = std::fabs(y);
+    least = std::min(least, size == 0 ? 1 : size);
+    greatest = std::max(greatest, size);
+  }
+  if (!(fits_float(least) && fits_float(greatest))) return;
   for (double& y : p.y) y = static_cast<double>(static_cast<float>(y));
 }
 
