@@ -28,7 +28,7 @@ class AlgebraicNumber {
 
   /// Sign of f(t): 0 is proven by f ≡ 0 mod p, ±1 by an enclosure. Nothing where neither succeeds.
   std::optional<int> sign(const RationalPolynomial& f) const;
-  /// A double interval, narrow, that contains f(t). Requires UpwardRounding::active().
+  /// A double interval, narrow, that contains f(t). Correct in any rounding mode.
   Interval enclose(const RationalPolynomial& f) const;
   /// Rational bounds of f(t) no farther apart than `width`.
   struct Bounds {

@@ -5,12 +5,12 @@
 #include <mpfr.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 
 #include "corank/certify/exact_number_node.h"
+#include "corank/certify/rounding.h"
 
 namespace corank::certify {
 namespace {
@@ -21,18 +21,6 @@ using NodePtr = std::shared_ptr<const Node>;
 
 constexpr mpfr_exp_t kMaxTrigExponent = 65'536;  // sin(x) needs about log2|x| bits of pi
 constexpr int kFirstBits = 128, kLastBits = 8192;
-
-// MPFR's own small double computations expect rounding to nearest, whatever the caller computes with.
-class NearestRounding {
- public:
-  NearestRounding() : former_(std::fegetround()) { std::fesetround(FE_TONEAREST); }
-  ~NearestRounding() { std::fesetround(former_); }
-  NearestRounding(const NearestRounding&) = delete;
-  NearestRounding& operator=(const NearestRounding&) = delete;
-
- private:
-  int former_;
-};
 
 class Mpfi {
  public:

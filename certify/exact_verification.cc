@@ -139,17 +139,26 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point) 
   }
 }
 
-bool lies_in(const ExactPoint& point, const std::vector<Interval>& box) {
-  if (point.coordinates.size() != box.size()) return false;
-  const AlgebraicNumber t(point.polynomial, point.lower, point.upper);
+PointLocation::PointLocation(const ExactPoint& point)
+    : t_(point.polynomial, point.lower, point.upper), coordinates_(point.coordinates) {
+  for (const RationalPolynomial& x : coordinates_) enclosures_.push_back(t_.enclose(x));
+}
+
+bool PointLocation::in(const std::vector<Interval>& box) const {
+  if (coordinates_.size() != box.size()) return false;
+  const auto apart = [&](std::size_t j) { return !coordinates_[j].empty() && !enclosures_[j].overlaps(box[j]); };
+  for (std::size_t j = 0; j < box.size(); ++j)
+    if (apart(j)) return false;
   for (std::size_t j = 0; j < box.size(); ++j) {
-    const RationalPolynomial& x = point.coordinates[j];
-    if (x.empty()) continue;
-    if (t.sign(sum(x, {-ExactNumber::dyadic(box[j].lo())})).value_or(-1) < 0) return false;
-    if (t.sign(sum(x, {-ExactNumber::dyadic(box[j].hi())})).value_or(1) > 0) return false;
+    const RationalPolynomial& x = coordinates_[j];
+    if (x.empty() || box[j].contains(enclosures_[j])) continue;
+    if (t_.sign(sum(x, {-ExactNumber::dyadic(box[j].lo())})).value_or(-1) < 0) return false;
+    if (t_.sign(sum(x, {-ExactNumber::dyadic(box[j].hi())})).value_or(1) > 0) return false;
   }
   return true;
 }
+
+bool lies_in(const ExactPoint& point, const std::vector<Interval>& box) { return PointLocation(point).in(box); }
 
 ExactNumber reach(const ExactPoint& point, const std::vector<Interval>& box) {
   if (point.coordinates.size() != box.size()) throw std::invalid_argument("the point has another number of coordinates");

@@ -33,7 +33,20 @@ struct ExactVerification {
 /// independent ξ the kernel equations hold, too. Needs rational coefficients and no sines or cosines.
 ExactVerification verify_exactly(const System& system, const ExactPoint& point);
 
-/// Are the coordinates that are known all in the box's sides? True is proven.
+/// Where a point is: asks many boxes about one point.
+class PointLocation {
+ public:
+  explicit PointLocation(const ExactPoint& point);
+  /// Are the coordinates that are known all in the box's sides? True is proven. By enclosures where they decide, else by exact signs.
+  bool in(const std::vector<Interval>& box) const;
+
+ private:
+  AlgebraicNumber t_;
+  std::vector<RationalPolynomial> coordinates_;
+  std::vector<Interval> enclosures_;
+};
+
+/// The same for one box.
 bool lies_in(const ExactPoint& point, const std::vector<Interval>& box);
 
 /// A rational number r that no known coordinate's distance from any point of its side exceeds: the box lies in the cube of radius r about

@@ -1,6 +1,7 @@
 #include "corank/certify/kernel_bound.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "corank/certify/check.h"
@@ -40,8 +41,30 @@ bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<i
   return true;
 }
 
-int KernelBound::at_most(const Box& box) const {
+int KernelBound::at_most(const Box& box, int halvings) const {
   CORANK_CHECK(applies() && UpwardRounding::active());
+  const int whole = at_most_in_one(box);
+  if (whole <= 1 || halvings == 0) return whole;
+  const auto is_unknown = [&](std::size_t j) {
+    return std::find(matrix_.unknowns.begin(), matrix_.unknowns.end(), static_cast<int>(j)) != matrix_.unknowns.end();
+  };
+  std::size_t widest = 0;
+  for (std::size_t j = 1; j < box.size(); ++j)
+    if (!is_unknown(j) && box[j].width() > box[widest].width()) widest = j;
+  const Interval side = box[widest];
+  const double middle = side.mid();
+  if (!(side.lo() < middle && middle < side.hi())) return whole;
+  int most = 0;
+  for (const Interval& half : {Interval(side.lo(), middle), Interval(middle, side.hi())}) {
+    Box part = box;
+    part[widest] = half;
+    most = std::max(most, at_most(part, halvings - 1));
+    if (most >= whole) return whole;
+  }
+  return most;
+}
+
+int KernelBound::at_most_in_one(const Box& box) const {
   const int rows = static_cast<int>(matrix_.rows.size()), k = static_cast<int>(matrix_.unknowns.size());
   std::vector<Interval> m;
   Eigen::MatrixXd middle(rows, k);

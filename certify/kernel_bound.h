@@ -20,10 +20,12 @@ class KernelBound {
   /// False: the system has no kernel equations.
   bool applies() const { return !matrix_.rows.empty(); }
   /// No q in the box has a kernel of larger dimension. The largest s for which the theorem applies to the submatrix that elimination at the midpoint
-  /// picks; k where none does. Requires applies() and UpwardRounding::active().
-  int at_most(const Box& box) const;
+  /// picks; k where none does. Where that is above 1, the largest bound of the box's parts: its sides are halved, the widest first, `halvings`
+  /// times at most. Requires applies() and UpwardRounding::active().
+  int at_most(const Box& box, int halvings = 0) const;
 
  private:
+  int at_most_in_one(const Box& box) const;
   bool is_regular(const std::vector<Interval>& m, const std::vector<int>& rows, const std::vector<int>& columns) const;
 
   KernelMatrix matrix_;

@@ -4,13 +4,13 @@
 #include <boost/multiprecision/eigen.hpp>
 #include <boost/multiprecision/mpfi.hpp>
 #include <boost/multiprecision/mpfr.hpp>
-#include <cfenv>
 #include <cmath>
 
 #include <Eigen/QR>
 
 #include "corank/certify/check.h"
 #include "corank/certify/exact_number_node.h"
+#include "corank/certify/rounding.h"
 
 namespace corank::certify {
 namespace {
@@ -20,28 +20,25 @@ using Range = boost::multiprecision::number<boost::multiprecision::mpfi_float_ba
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
-// Default precision of new numbers, in bits, and the rounding that MPFR's own double computations expect.
+// Default precision of new numbers, in bits.
 class Precision {
  public:
-  explicit Precision(int bits)
-      : real_(Real::default_precision()), range_(Range::default_precision()), mode_(std::fegetround()) {
+  explicit Precision(int bits) : real_(Real::default_precision()), range_(Range::default_precision()) {
     // Decimal digits, of which the backends make at least as many bits.
     const unsigned digits = static_cast<unsigned>(std::ceil(bits * 0.30103)) + 1;
     Real::default_precision(digits);
     Range::default_precision(digits);
-    std::fesetround(FE_TONEAREST);
   }
   ~Precision() {
     Real::default_precision(real_);
     Range::default_precision(range_);
-    std::fesetround(mode_);
   }
   Precision(const Precision&) = delete;
   Precision& operator=(const Precision&) = delete;
 
  private:
   unsigned real_, range_;
-  int mode_;
+  NearestRounding nearest_;
 };
 
 const mpq_class& rational(const ExactNumber& x) {

@@ -8,7 +8,6 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -121,10 +120,8 @@ class Search {
     p.excluded = done_share_.load();
     for (int v = 0; v < certify::kVerdicts; ++v) p.verdicts[v] = verdicts_[v];
     p.seconds = now;
-    const int mode = std::fegetround();  // the callback is not ours: it gets the default rounding
-    std::fesetround(FE_TONEAREST);
+    const certify::NearestRounding nearest;  // the callback is not ours
     options_.progress(p);
-    std::fesetround(mode);
   }
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 

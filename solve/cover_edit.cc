@@ -74,8 +74,13 @@ void CoverEdit::replace(const std::vector<std::size_t>& boxes, const Partition& 
   for (const std::size_t i : boxes) mark(static_cast<int>(i), kInRoot - root);
 }
 
+Proof& CoverEdit::proof() {
+  if (!proof_) proof_ = std::make_shared<Proof>(*cover_.proof);
+  return *proof_;
+}
+
 int CoverEdit::append(const Partition& partition, Proof around, int first_box) {
-  Proof proof = *cover_.proof;
+  Proof& proof = this->proof();
   const int root = static_cast<int>(proof.roots.size());
   const auto add_leaf = [&](Step kind, int index) {
     proof.steps.push_back(static_cast<std::uint8_t>(kind));
@@ -115,7 +120,6 @@ int CoverEdit::append(const Partition& partition, Proof around, int first_box) {
   proof.steps.insert(proof.steps.end(), around.steps.begin(), around.steps.end());
   proof.integers.insert(proof.integers.end(), around.integers.begin(), around.integers.end());
   proof.reals.insert(proof.reals.end(), around.reals.begin(), around.reals.end());
-  cover_.proof = std::make_shared<const Proof>(std::move(proof));
   return root;
 }
 
@@ -145,13 +149,12 @@ void CoverEdit::finish() {
   }
   cover_.boxes = std::move(boxes);
   if (!cover_.proof) return;
-  auto proof = std::make_shared<Proof>(*cover_.proof);
-  change_leaves(*proof, [&](int i) {
+  change_leaves(proof(), [&](int i) {
     const int by = fate_[static_cast<std::size_t>(i)];
     if (by <= kInRoot) return Leaf{Step::root, kInRoot - by};
     return Leaf{Step::box, place[static_cast<std::size_t>(by == kStays ? i : by)]};
   });
-  cover_.proof = std::move(proof);
+  cover_.proof = std::move(proof_);
 }
 
 }  // namespace corank::solve

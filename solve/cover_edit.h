@@ -39,12 +39,14 @@ class CoverEdit {
   // Of each box: it stays; the box that takes its place; or kInRoot − the root of the proof that does.
   static constexpr int kStays = -1, kInRoot = -2;
   void mark(int i, int fate);
+  certify::Proof& proof();  // the edit's own copy
   // Adds a root for the whole; returns its number.
   int append(const Partition& partition, certify::Proof around, int first_box);
 
   certify::Cover& cover_;
   const certify::Reduction& reduction_;
   std::vector<int> fate_;
+  std::shared_ptr<certify::Proof> proof_;  // takes the cover's place at the end
 };
 
 }  // namespace corank::solve

@@ -17,6 +17,7 @@
 #include "corank/solve/corank_system.h"
 #include "corank/solve/cover_edit.h"
 #include "corank/solve/exact_guess.h"
+#include "corank/solve/points.h"
 #include "corank/solve/polish.h"
 
 namespace corank::solve {
@@ -44,12 +45,6 @@ constexpr int kKernelDepth = 6;  // halvings of a box in which the kernel's dime
 bool contains(const Box& outer, const Box& inner) {
   for (std::size_t j = 0; j < outer.size(); ++j)
     if (!outer[j].contains(inner[j])) return false;
-  return true;
-}
-
-bool overlap(const Box& a, const Box& b) {
-  for (std::size_t j = 0; j < a.size(); ++j)
-    if (!a[j].overlaps(b[j])) return false;
   return true;
 }
 
@@ -104,9 +99,13 @@ class Prover {
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
       if (cover_.boxes[i].verdict == Verdict::undecided) open.push_back(i);
     if (open.empty() || open.size() > kMostOpenBoxes) return;
+    std::vector<const Box*> open_sides;
+    for (const std::size_t i : open) open_sides.push_back(&cover_.boxes[i].box);
+    std::vector<std::vector<std::size_t>> groups = clusters(open_sides, 0.0);
     int futile = 0;
-    for (const std::vector<std::size_t>& cluster : clusters(open)) {
+    for (std::vector<std::size_t>& cluster : groups) {
       if (stopped() || futile >= kMostFutile) break;
+      for (std::size_t& i : cluster) i = open[i];
       Box hull = cover_.boxes[cluster[0]].box;
       for (const std::size_t i : cluster)
         for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cover_.boxes[i].box[j]);
@@ -123,15 +122,15 @@ class Prover {
   void kernel_dimensions() {
     const certify::KernelBound bound(system_);
     if (!bound.applies()) return;
+    const std::vector<certify::PointLocation> places(cover_.exact_points.begin(), cover_.exact_points.end());
     const auto treat = [&](CoverBox& box) {
       const certify::UpwardRounding rounding;
       if (box.verdict == Verdict::pending || stopped()) return;
       box.corank = bound.at_most(box.box);
       if (box.corank <= 1) return;
       for (std::size_t i = 0; i < cover_.exact_points.size() && box.point < 0; ++i)
-        if (cover_.exact_points[i].corank >= box.corank && certify::lies_in(cover_.exact_points[i], box.box))
-          box.point = static_cast<int>(i);
-      if (box.point < 0) box.corank = at_most_on_parts(bound, box.box, kKernelDepth);
+        if (cover_.exact_points[i].corank >= box.corank && places[i].in(box.box)) box.point = static_cast<int>(i);
+      if (box.point < 0) box.corank = bound.at_most(box.box, kKernelDepth);
     };
     for (CoverBox& box : cover_.boxes) treat(box);
     for (CoverBox& point : cover_.points) treat(point);
@@ -156,25 +155,6 @@ class Prover {
     cluster.point = *exact;
     cover_.boxes.push_back(cluster);
     return false;
-  }
-
-  int at_most_on_parts(const certify::KernelBound& bound, const Box& box, int depth) const {
-    const int whole = bound.at_most(box);
-    if (whole <= 1 || depth == 0) return whole;
-    std::size_t widest = 0;
-    for (std::size_t j = 1; j < box.size(); ++j)
-      if (system_.variables[j].kind != certify::VariableKind::kernel && box[j].width() > box[widest].width()) widest = j;
-    const Interval side = box[widest];
-    const double middle = side.mid();
-    if (!(side.lo() < middle && middle < side.hi())) return whole;
-    int most = 0;
-    for (const Interval& half : {Interval(side.lo(), middle), Interval(middle, side.hi())}) {
-      Box part = box;
-      part[widest] = half;
-      most = std::max(most, at_most_on_parts(bound, part, depth - 1));
-      if (most >= whole) return whole;
-    }
-    return most;
   }
 
   bool stopped() const {
@@ -239,25 +219,6 @@ class Prover {
     }
     point.sole_within = radius;
     return true;
-  }
-
-  std::vector<std::vector<std::size_t>> clusters(const std::vector<std::size_t>& open) const {
-    std::vector<std::vector<std::size_t>> result;
-    std::vector<bool> taken(open.size(), false);
-    for (std::size_t a = 0; a < open.size(); ++a) {
-      if (taken[a]) continue;
-      std::vector<std::size_t> cluster{a};
-      taken[a] = true;
-      for (std::size_t at = 0; at < cluster.size(); ++at)
-        for (std::size_t b = 0; b < open.size(); ++b)
-          if (!taken[b] && overlap(cover_.boxes[open[cluster[at]]].box, cover_.boxes[open[b]].box)) {
-            taken[b] = true;
-            cluster.push_back(b);
-          }
-      for (std::size_t& i : cluster) i = open[i];
-      result.push_back(std::move(cluster));
-    }
-    return result;
   }
 
   // A verified configuration in or next to the box where the kernel has dimension 2 or more.

@@ -14,10 +14,10 @@ using certify::Verdict;
 
 bool is_proven(const Found& f) { return f.sheet.proven; }
 
-// Disjoint sets of box indices.
-class Clusters {
+// Of box indices.
+class DisjointSets {
  public:
-  explicit Clusters(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
   std::size_t root(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -117,22 +117,43 @@ void merge_isolated(std::vector<Found>& found) {
   found.resize(kept);
 }
 
-std::vector<certify::CoverBox> collect_points(const std::vector<Found>& found, double gap) {
-  Clusters clusters(found.size());
-  const auto open = indices(found, [](const Found& f) { return !is_proven(f) && f.box.verdict != Verdict::pending; });
-  for_each_close_pair(sides(found), open, open, gap, [&](std::size_t i, std::size_t j) { clusters.join(i, j); });
-  std::vector<certify::CoverBox> points;
-  std::vector<std::size_t> point_of(found.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].box.verdict == Verdict::pending) continue;
-    const std::size_t root = clusters.root(i);
+std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::Box*>& boxes, double gap) {
+  DisjointSets sets(boxes.size());
+  std::vector<std::size_t> all(boxes.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  for_each_close_pair(boxes, all, all, gap, [&](std::size_t i, std::size_t j) { sets.join(i, j); });
+  std::vector<std::vector<std::size_t>> result;
+  std::vector<std::size_t> place(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::size_t root = sets.root(i);  // the first of its set
     if (root == i) {
-      point_of[i] = points.size();
-      points.push_back(found[i].box);
-      continue;
+      place[i] = result.size();
+      result.emplace_back();
     }
-    auto& hull = points[point_of[root]].box;
-    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], found[i].box.box[j]);
+    result[place[root]].push_back(i);
+  }
+  return result;
+}
+
+std::vector<certify::CoverBox> collect_points(const std::vector<Found>& found, double gap) {
+  const auto open = indices(found, [](const Found& f) { return !is_proven(f) && f.box.verdict != Verdict::pending; });
+  std::vector<const certify::Box*> open_sides;
+  for (const std::size_t i : open) open_sides.push_back(&found[i].box.box);
+  std::vector<bool> joined(found.size(), false);
+  std::vector<certify::Box> hulls(found.size());  // of clusters, where their first box stands
+  for (const std::vector<std::size_t>& cluster : clusters(open_sides, gap)) {
+    certify::Box& hull = hulls[open[cluster[0]]];
+    hull = *open_sides[cluster[0]];
+    for (std::size_t k = 1; k < cluster.size(); ++k) {
+      joined[open[cluster[k]]] = true;
+      for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], (*open_sides[cluster[k]])[j]);
+    }
+  }
+  std::vector<certify::CoverBox> points;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].box.verdict == Verdict::pending || joined[i]) continue;
+    points.push_back(found[i].box);
+    if (!hulls[i].empty()) points.back().box = std::move(hulls[i]);
   }
   return points;
 }

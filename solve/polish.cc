@@ -4,7 +4,6 @@
 #include <coin/IpTNLP.hpp>
 
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 
 #include "corank/certify/compiled_system.h"
@@ -112,8 +111,7 @@ class LeastSquares : public Ipopt::TNLP {
 
 std::optional<std::vector<double>> polish(const certify::System& system, const certify::Box& box) {
   const certify::CompiledSystem compiled(system);
-  const int mode = std::fegetround();
-  std::fesetround(FE_TONEAREST);
+  const certify::NearestRounding nearest;
   const Ipopt::SmartPtr<LeastSquares> problem = new LeastSquares(compiled, box);
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = IpoptApplicationFactory();
   ipopt->Options()->SetIntegerValue("print_level", 0);
@@ -123,7 +121,6 @@ std::optional<std::vector<double>> polish(const certify::System& system, const c
   ipopt->Options()->SetIntegerValue("max_iter", 200);
   const bool ready = ipopt->Initialize("") == Ipopt::Solve_Succeeded;  // reads no options file
   if (ready) ipopt->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(Ipopt::GetRawPtr(problem)));
-  std::fesetround(mode);
   if (problem->solution().empty()) return std::nullopt;
   return problem->solution();
 }
