@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "corank/certify/elimination.h"
 #include "corank/certify/exact_point.h"
 #include "corank/certify/interval.h"
 #include "corank/certify/proof.h"
+#include "corank/certify/reduction_step.h"
 #include "corank/certify/system.h"
 
 namespace corank::certify {
@@ -73,8 +73,8 @@ struct Cover {
   /// Of each point and variable a decimal that is wrong by less than a unit of its last digit; no decimals where nothing is proven.
   /// Empty where nobody asked.
   std::vector<std::vector<std::string>> decimals;
-  /// The variables that were eliminated before the search, in that order; the sides of a box are of all variables.
-  std::vector<Elimination> eliminations;
+  /// How the system was reduced before the search; the sides of a box are of all variables.
+  std::vector<ReductionStep> reduction;
   std::shared_ptr<const Proof> proof;  ///< of completeness, where it was asked for
   int dimension = 0;                   ///< of the set; for an over-determined system, the largest that a partial box shows
   double sigma = 0;

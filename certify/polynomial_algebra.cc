@@ -132,6 +132,15 @@ std::optional<Polynomial> solved_for(const Polynomial& f, int variable) {
   return value;
 }
 
+Polynomial sum(const Polynomial& f, const ExactNumber& q, const Polynomial& g) {
+  CORANK_CHECK(UpwardRounding::active());
+  Sum sum;
+  for (const Monomial& m : f.monomials) sum.add(m);
+  for (const Monomial& m : g.monomials)
+    sum.add(m.factors, q * m.coefficient, q.enclose() * m.enclosure, carries_tolerance(m));
+  return {sum.monomials(), f.source};
+}
+
 std::optional<ExactNumber> proportional(const Polynomial& f, const Polynomial& g) {
   if (f.monomials.size() != g.monomials.size() || f.monomials.empty()) return std::nullopt;
   Sum a, b;  // in the same order

@@ -26,6 +26,9 @@ std::optional<Polynomial> solved_for(const Polynomial& f, int variable);
 /// The rational number q ≠ 0 with f = q·g in exact coefficients. Those that are not rational compare by structure: nothing proves nothing.
 std::optional<ExactNumber> proportional(const Polynomial& f, const Polynomial& g);
 
+/// f + q·g. Requires UpwardRounding::active().
+Polynomial sum(const Polynomial& f, const ExactNumber& q, const Polynomial& g);
+
 /// Does the variable occur in f?
 bool mentions(const Polynomial& f, int variable);
 

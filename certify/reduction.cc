@@ -29,6 +29,21 @@ bool is_affine(const Polynomial& f) {
   });
 }
 
+// The rational numbers q for which terms of f cancel in f + q·g, where that can leave fewer terms than f has.
+std::vector<ExactNumber> cancelling_factors(const Polynomial& f, const Polynomial& g) {
+  std::vector<ExactNumber> factors;
+  std::size_t common = 0;
+  for (const Monomial& b : g.monomials)
+    for (const Monomial& a : f.monomials) {
+      if (a.factors != b.factors) continue;
+      ++common;
+      if (!a.coefficient.is_rational() || !b.coefficient.is_rational() || b.coefficient.is_zero()) continue;
+      const ExactNumber q = -(a.coefficient / b.coefficient);
+      if (std::find(factors.begin(), factors.end(), q) == factors.end()) factors.push_back(q);
+    }
+  return 2 * common > g.monomials.size() ? factors : std::vector<ExactNumber>{};
+}
+
 bool is_integer(const Monomial& m) {
   return m.coefficient.is_rational() && m.enclosure.is_point() && std::nearbyint(m.enclosure.lo()) == m.enclosure.lo();
 }
@@ -51,6 +66,8 @@ class Reducer {
   // One step of (a), of (b). False: nothing to do.
   bool eliminate_tied();
   bool eliminate_image();
+  // One step of (c). False: nothing to do.
+  bool shorten();
   bool may_define(const Polynomial& f) const;
   // Does the value put in for the variable leave polynomials of moderate length, degree and coefficients?
   bool affordable(int variable, const Polynomial& value) const;
@@ -67,7 +84,7 @@ class Reducer {
   std::vector<bool> gone_;
   std::vector<bool> is_argument_;                        // of a sine or cosine: stays
   std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
-  std::vector<Elimination> eliminations_;
+  std::vector<ReductionStep> steps_;
   std::vector<int> origins_;    // of each equation: its index in the system as given
   std::vector<double> scales_;  // of each equation: the sum of its |coefficients| as given, rounded downward
   bool subset_ = false;
@@ -258,7 +275,7 @@ void Reducer::carry_domain(int x, const Polynomial& value) {
 }
 
 void Reducer::eliminate(std::size_t row, int variable, const Polynomial& value) {
-  eliminations_.push_back({variable, origins_[row]});
+  steps_.push_back(ReductionStep::elimination(variable, origins_[row]));
   erase_row(row);
   carry_domain(variable, value);
   replace_everywhere(variable, value);
@@ -272,7 +289,7 @@ void Reducer::eliminate_fixed() {
     Polynomial value{{}, "domain of " + v.name};
     if (!v.lower.is_zero()) value.monomials.emplace_back(v.lower, std::vector<Factor>{});
     if (!affordable(static_cast<int>(j), value)) continue;
-    eliminations_.push_back({static_cast<int>(j), -1});
+    steps_.push_back(ReductionStep::elimination(static_cast<int>(j), -1));
     replace_everywhere(static_cast<int>(j), std::move(value));
   }
 }
@@ -333,14 +350,44 @@ bool Reducer::eliminate_image() {
   return false;
 }
 
+bool Reducer::shorten() {
+  // A tolerance is about the equations as given: what `partial` says of one does not hold of a sum.
+  if (eliminate_ == Eliminate::none || system_.coefficient_tolerance > 0) return false;
+  auto& rows = system_.equations;
+  struct Choice {
+    std::size_t row, other;
+    ExactNumber factor;
+    Polynomial sum;
+  };
+  std::optional<Choice> best;
+  std::size_t most_saved = 0;
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    for (std::size_t other = 0; other < rows.size(); ++other) {
+      if (other == row) continue;
+      for (const ExactNumber& factor : cancelling_factors(rows[row], rows[other])) {
+        Polynomial shorter = sum(rows[row], factor, rows[other]);
+        if (shorter.monomials.size() + most_saved >= rows[row].monomials.size()) continue;
+        most_saved = rows[row].monomials.size() - shorter.monomials.size();
+        best = Choice{row, other, factor, std::move(shorter)};
+      }
+    }
+  if (!best) return false;
+  steps_.push_back(ReductionStep::sum(origins_[best->row], origins_[best->other], best->factor));
+  rows[best->row] = std::move(best->sum);
+  return true;
+}
+
 Reduction Reducer::run() {
   const UpwardRounding rounding;
   eliminate_fixed();
-  while (tidy() && consistent_ && eliminate_tied()) {
-  }
-  drop_repeated();
-  while (consistent_ && eliminate_image()) {
-  }
+  // Images first: a shorter equation may have its variable in two.
+  do {
+    while (tidy() && consistent_ && eliminate_tied()) {
+    }
+    drop_repeated();
+    while (consistent_ && eliminate_image()) {
+    }
+  } while (consistent_ && shorten());
   Reduction result;
   result.consistent = consistent_;
   result.subset = subset_;
@@ -363,7 +410,7 @@ Reduction Reducer::run() {
   for (const Polynomial& f : system_.equations) result.system.equations.push_back(renamed(f));
   for (const Polynomial& g : system_.inequalities) result.system.inequalities.push_back(renamed(g));
   for (const auto& [x, p] : definitions_) result.definitions.push_back({x, renamed(p)});
-  result.eliminations = eliminations_;
+  result.steps = steps_;
   return result;
 }
 

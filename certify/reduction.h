@@ -3,18 +3,20 @@
 // Variables that an equation defines are eliminated, equations that then hold identically or repeat another are dropped:
 //   (a) a·x + b = 0 and a·x + b·y + c = 0 with rational a, b ≠ 0: x is replaced everywhere by its value;
 //       Likewise a variable whose domain is one number;
-//   (b) a·x + g = 0 with a rational a ≠ 0 and x in no other equation or inequality: x is g's image, whatever g is.
+//   (b) a·x + g = 0 with a rational a ≠ 0 and x in no other equation or inequality: x is g's image, whatever g is;
+//   (c) f = 0 becomes f + q·g = 0 with a rational q and another equation g = 0, where that has fewer terms: shorter equations are tighter
+//       over boxes. The rows of a kernel condition that speak of the same velocity are such.
 // Theorem: let x_e = p_e(x') be the eliminated variables' values as polynomials in the variables x' that are kept. Then
 // x' ↦ (x', p(x')) is a bijection from the reduced system's solutions to the system's, and keeps boxes of values of kept variables. Proof:
-// each step replaces the pair {x = p, f = 0} by {x = p, f(p) = 0}, has p's range in x's domain as a condition (on the domain of y, or
-// as an inequality), and multiplies by no polynomial. A dropped equation is 0 = 0 or a rational multiple of one that is kept,
-// for every choice of coefficients within their tolerance (but see Reduction::subset).
+// (a) and (b) replace the pair {x = p, f = 0} by {x = p, f(p) = 0}, have p's range in x's domain as a condition (on the domain of y, or
+// as an inequality), and multiply by no polynomial; (c) keeps g, so {f + q·g = 0, g = 0} ⇔ {f = 0, g = 0}. A dropped equation is 0 = 0 or a
+// rational multiple of one that is kept, for every choice of coefficients within their tolerance (but see Reduction::subset).
 // So exactly one solution of the reduced system for every value of some kept variables means exactly one of the system's.
 #pragma once
 
 #include <vector>
 
-#include "corank/certify/elimination.h"
+#include "corank/certify/reduction_step.h"
 #include "corank/certify/system.h"
 
 namespace corank::certify {
@@ -28,9 +30,8 @@ struct Reduction {
   System system;                        ///< in the kept variables
   std::vector<int> kept;                ///< kept[j]: index in the original system of variable j of `system`
   std::vector<Definition> definitions;  ///< the others
-  std::vector<Elimination>
-      eliminations;       ///< in the order of `definitions`, equations by their indices in the original system
-  bool tolerant = false;  ///< enclosures carry the coefficient tolerance
+  std::vector<ReductionStep> steps;     ///< in their order; those that eliminate are in the order of `definitions`
+  bool tolerant = false;                ///< enclosures carry the coefficient tolerance
   /// An equation was dropped that holds for some choices of coefficients only, and for the others to kPartialTolerance · τ, relative to
   /// the sum of its |coefficients|: proofs about `system` are about a subset of the equations.
   bool subset = false;

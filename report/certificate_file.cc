@@ -19,7 +19,7 @@ using certify::RationalPolynomial;
 const std::string kGroup = "/certificates/";
 const std::string kPoints = kGroup + "exact_points/";
 const std::string kProof = kGroup + "proof/";
-const std::string kEliminations = kGroup + "eliminations/";
+const std::string kReduction = kGroup + "reduction/";
 
 void append(const std::vector<Interval>& box, std::vector<double>& lower, std::vector<double>& upper) {
   for (const Interval& side : box) {
@@ -95,7 +95,7 @@ class Reader {
   Reader(const Hdf5Reader& file, Cover& cover, std::size_t variables) : file_(file), cover_(cover), n_(variables) {}
 
   void read() {
-    read_eliminations();
+    read_reduction();
     cover_.regions = boxes(kGroup + "region", n_);
     read_points();
     read_indices("box", cover_.boxes);
@@ -127,15 +127,19 @@ class Reader {
     return result;
   }
 
-  void read_eliminations() {
-    const auto variables = file_.integers(kEliminations + "variable"),
-               equations = file_.integers(kEliminations + "equation");
-    if (variables.size() != equations.size()) refuse(kEliminations + "variable and equation differ in length");
+  void read_reduction() {
+    const auto variables = file_.integers(kReduction + "variable"), equations = file_.integers(kReduction + "equation"),
+               others = file_.integers(kReduction + "other");
+    const auto factors = file_.texts(kReduction + "factor");
+    if (variables.size() != equations.size() || variables.size() != others.size() || variables.size() != factors.size())
+      refuse(kReduction + "variable, equation, other and factor differ in length");
     for (std::size_t k = 0; k < variables.size(); ++k) {
-      if (variables[k] < 0 || variables[k] >= static_cast<std::int64_t>(n_) || equations[k] < -1 ||
-          equations[k] > std::numeric_limits<int>::max())
-        refuse(kEliminations + " names no variable or no equation");
-      cover_.eliminations.push_back({static_cast<int>(variables[k]), static_cast<int>(equations[k])});
+      const auto is_index = [](std::int64_t i) { return i >= -1 && i <= std::numeric_limits<int>::max(); };
+      if (!is_index(variables[k]) || variables[k] >= static_cast<std::int64_t>(n_) || !is_index(equations[k]) ||
+          !is_index(others[k]))
+        refuse(kReduction + " names no variable or no equation");
+      cover_.reduction.push_back({static_cast<int>(variables[k]), static_cast<int>(equations[k]),
+                                  static_cast<int>(others[k]), number(factors[k], kReduction + "factor")});
     }
   }
 
@@ -213,9 +217,12 @@ class Reader {
 
   Proof proof() const {
     Proof proof;
-    if (n_ < cover_.eliminations.size()) refuse("more variables were eliminated than there are");
-    proof.roots = boxes(kProof + "root", n_ - cover_.eliminations.size());
-    if (n_ == cover_.eliminations.size()) proof.roots.resize(1);  // the only point that there is, without a number
+    const auto eliminated =
+        static_cast<std::size_t>(std::count_if(cover_.reduction.begin(), cover_.reduction.end(),
+                                               [](const certify::ReductionStep& step) { return !step.is_sum(); }));
+    if (n_ < eliminated) refuse("more variables were eliminated than there are");
+    proof.roots = boxes(kProof + "root", n_ - eliminated);
+    if (n_ == eliminated) proof.roots.resize(1);  // the only point that there is, without a number
     const auto sizes = vector<std::int32_t>(kProof + "combination_size"),
                equations = vector<std::int32_t>(kProof + "combination_equations"),
                dependent = vector<std::int32_t>(kProof + "combination_dependent");
@@ -250,13 +257,18 @@ class Reader {
 }  // namespace
 
 void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variables) {
-  std::vector<std::int64_t> eliminated, equations;
-  for (const certify::Elimination& e : cover.eliminations) {
-    eliminated.push_back(e.variable);
-    equations.push_back(e.equation);
+  std::vector<std::int64_t> eliminated, equations, others;
+  std::vector<std::string> factors;
+  for (const certify::ReductionStep& step : cover.reduction) {
+    eliminated.push_back(step.variable);
+    equations.push_back(step.equation);
+    others.push_back(step.other);
+    factors.push_back(step.factor.text());
   }
-  file.integers(kEliminations + "variable", eliminated);
-  file.integers(kEliminations + "equation", equations);
+  file.integers(kReduction + "variable", eliminated);
+  file.integers(kReduction + "equation", equations);
+  file.integers(kReduction + "other", others);
+  file.texts(kReduction + "factor", factors);
   std::vector<double> lower, upper;
   for (const certify::Box& region : cover.regions) {
     CORANK_CHECK(region.size() == variables);

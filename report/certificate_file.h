@@ -1,6 +1,7 @@
 // The certificates of a cover in a result file, the group /certificates:
 //
-//   eliminations/variable, equation     region_lower, region_upper (R×n)     box_region, box_point, box_corank (N; −1: none)
+//   reduction/variable, equation, other, factor (−1: none; texts)     region_lower, region_upper (R×n)
+//   box_region, box_point, box_corank (N; −1: none)
 //   point_region, point_point, point_corank                             of the entries of /points
 //   decimals                            of each of these points and variable; empty texts where nothing is proven
 //   exact_points/polynomial, lower, upper, coordinates (texts; coefficients of 1, t, t² … with commas between), corank, sole_within

@@ -342,7 +342,7 @@ Cover solve(const certify::System& system, const Options& options) {
   Cover cover;
   cover.dimension = reduction.system.dimension();
   cover.sigma = sigma;
-  cover.eliminations = reduction.eliminations;
+  cover.reduction = reduction.steps;
   cover.statistics = search.statistics();
   std::vector<Found> found = search.take_found();
   const bool some_partial =

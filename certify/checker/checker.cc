@@ -52,7 +52,7 @@ class Checker {
   Report run() {
     const NearestRounding nearest;
     try {
-      problem_.emplace(system_, cover_.eliminations);
+      problem_.emplace(system_, cover_.reduction);
     } catch (const std::invalid_argument& error) {
       system_.validate();  // that is for the caller
       fail(Place::cover, 0, error.what());

@@ -14,8 +14,8 @@ ExactNumber magnitude(const ExactNumber& x) { return x.sign() == -1 ? -x : x; }
 
 }  // namespace
 
-Problem::Problem(const System& system, const std::vector<Elimination>& eliminations) : system_(system) {
-  const Eliminated reduced = eliminate(system, eliminations);
+Problem::Problem(const System& system, const std::vector<ReductionStep>& reduction) : system_(system) {
+  const Reduced reduced = reduce(system, reduction);
   contradiction_ = reduced.contradiction;
   kept_ = reduced.kept;
   place_.assign(system.variables.size(), -1);

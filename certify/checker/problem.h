@@ -1,4 +1,4 @@
-// What the checker knows of a system after the eliminations: rows over the kept variables, and what its equations imply about its domain.
+// What the checker knows of a system after the reduction: rows over the kept variables, and what its equations imply about its domain.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@ struct Condition {
 
 class Problem {
  public:
-  /// Throws std::invalid_argument where an elimination is not legal.
-  Problem(const System& system, const std::vector<Elimination>& eliminations);
+  /// Throws std::invalid_argument where a step of the reduction is not legal.
+  Problem(const System& system, const std::vector<ReductionStep>& reduction);
 
   const System& system() const { return system_; }
   int size() const { return static_cast<int>(kept_.size()); }
@@ -47,7 +47,7 @@ class Problem {
   void add_domain(int variable, const std::optional<Terms>& value, int sign);
 
   System system_;
-  std::vector<Terms> sources_;  // the equations before and after the eliminations
+  std::vector<Terms> sources_;  // the equations before and after the reduction
   std::vector<int> kept_, place_;
   std::vector<Row> equations_;
   std::vector<Value> values_;

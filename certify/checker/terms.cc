@@ -166,6 +166,14 @@ bool Terms::is_multiple_of(const Terms& g) const {
   return true;
 }
 
+Terms Terms::plus(const ExactNumber& q, const Terms& g) const {
+  Terms result = *this;
+  const Coefficient factor{q, Enclosure(q), false};
+  for (const auto& [factors, c] : g.list_) result.add(factors, product(factor, c));
+  result.drop_zeros();
+  return result;
+}
+
 Terms operator-(const Terms& f, const ExactNumber& c) {
   Terms result = f;
   result.add({}, {-c, Enclosure(-c), false});
@@ -179,58 +187,97 @@ Terms operator-(const Terms& f) {
   return result;
 }
 
-Eliminated eliminate(const System& system, const std::vector<Elimination>& eliminations) {
-  system.validate();
-  // Where equations outnumber variables the tolerance is for `partial` only.
-  const double tolerance = system.equations.size() <= system.variables.size() ? system.coefficient_tolerance : 0;
-  Eliminated result;
-  std::vector<std::optional<Terms>> equations;
-  for (const Polynomial& f : system.equations) equations.emplace_back(Terms(f, tolerance));
-  for (const Polynomial& g : system.inequalities) result.inequalities.emplace_back(g, tolerance);
-  result.values.resize(system.variables.size());
+namespace {
 
-  for (const auto& [x, row] : eliminations) {
-    const auto refuse = [&, variable = x](const std::string& reason) {
-      throw std::invalid_argument("elimination of " + name_of(system, variable) + ": " + reason);
-    };
-    if (x < 0 || x >= system.size() || row < -1 || row >= static_cast<int>(equations.size()))
+class Reducer {
+ public:
+  explicit Reducer(const System& system) : system_(system) {
+    // Where equations outnumber variables the tolerance is for `partial` only.
+    const double tolerance = system.equations.size() <= system.variables.size() ? system.coefficient_tolerance : 0;
+    for (const Polynomial& f : system.equations) equations_.emplace_back(Terms(f, tolerance));
+    for (const Polynomial& g : system.inequalities) result_.inequalities.emplace_back(g, tolerance);
+    result_.values.resize(system.variables.size());
+  }
+
+  // Replaces a variable everywhere by what the equation, or −1: its domain, says of it.
+  void eliminate(int x, int row) {
+    if (x >= system_.size() || row < -1 || row >= static_cast<int>(equations_.size()))
       throw std::invalid_argument("an elimination names no variable or no equation");
-    auto& value = result.values[static_cast<std::size_t>(x)];
+    const auto refuse = [&](const std::string& reason) {
+      throw std::invalid_argument("elimination of " + name_of(system_, x) + ": " + reason);
+    };
+    auto& value = result_.values[static_cast<std::size_t>(x)];
     if (value) refuse("it is gone already");
     if (row < 0) {
-      const Variable& v = system.variables[static_cast<std::size_t>(x)];
+      const Variable& v = system_.variables[static_cast<std::size_t>(x)];
       if (!(v.lower == v.upper)) refuse("its domain is more than one number");
       value = Terms(v.lower);
     } else {
-      auto& equation = equations[static_cast<std::size_t>(row)];
+      auto& equation = equations_[static_cast<std::size_t>(row)];
       if (!equation) refuse("its equation has been used");
       value = equation->solved_for(x);
       if (!value) refuse("its equation does not define it");
       equation.reset();
     }
     const Terms put = *value;
-    const auto replace = [&, variable = x](Terms& f) {
-      if (!f.mentions(variable)) return;
-      auto replaced = f.substituted(variable, put);
+    const auto replace = [&](Terms& f) {
+      if (!f.mentions(x)) return;
+      auto replaced = f.substituted(x, put);
       if (!replaced) refuse("its value cannot be put in");
       f = std::move(*replaced);
     };
-    for (auto& f : equations)
+    for (auto& f : equations_)
       if (f) replace(*f);
-    for (Terms& g : result.inequalities) replace(g);
-    for (auto& other : result.values)
+    for (Terms& g : result_.inequalities) replace(g);
+    for (auto& other : result_.values)
       if (other) replace(*other);
   }
-  for (int j = 0; j < system.size(); ++j)
-    if (!result.values[static_cast<std::size_t>(j)]) result.kept.push_back(j);
-  for (auto& f : equations) {
-    if (!f) continue;
-    if (f->is_constant() && !f->list().empty() && !f->list().begin()->second.range.has_zero()) result.contradiction = true;
-    const auto repeated = [&](const Terms& g) { return f->is_multiple_of(g); };
-    if (!f->list().empty() && std::none_of(result.equations.begin(), result.equations.end(), repeated))
-      result.equations.push_back(std::move(*f));
+
+  // {f + q·g = 0, g = 0} ⇔ {f = 0, g = 0}: g must be another equation that stays.
+  void add(int row, int other, const ExactNumber& factor) {
+    const auto is_there = [&](int i) {
+      return i >= 0 && i < static_cast<int>(equations_.size()) && equations_[static_cast<std::size_t>(i)];
+    };
+    if (!is_there(row) || !is_there(other) || row == other)
+      throw std::invalid_argument("a sum of equations: not two different ones that are there");
+    if (!factor.is_rational()) throw std::invalid_argument("a sum of equations: the factor is not rational");
+    Terms& f = *equations_[static_cast<std::size_t>(row)];
+    f = f.plus(factor, *equations_[static_cast<std::size_t>(other)]);
   }
-  return result;
+
+  Reduced take_result() {
+    for (int j = 0; j < system_.size(); ++j)
+      if (!result_.values[static_cast<std::size_t>(j)]) result_.kept.push_back(j);
+    for (auto& f : equations_) {
+      if (!f) continue;
+      if (f->is_constant() && !f->list().empty() && !f->list().begin()->second.range.has_zero())
+        result_.contradiction = true;
+      const auto repeated = [&](const Terms& g) { return f->is_multiple_of(g); };
+      if (!f->list().empty() && std::none_of(result_.equations.begin(), result_.equations.end(), repeated))
+        result_.equations.push_back(std::move(*f));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  const System& system_;
+  std::vector<std::optional<Terms>> equations_;
+  Reduced result_;
+};
+
+}  // namespace
+
+Reduced reduce(const System& system, const std::vector<ReductionStep>& steps) {
+  system.validate();
+  Reducer reducer(system);
+  for (const ReductionStep& s : steps) {
+    if (s.is_sum()) {
+      reducer.add(s.equation, s.other, s.factor);
+    } else {
+      reducer.eliminate(s.variable, s.equation);
+    }
+  }
+  return reducer.take_result();
 }
 
 }  // namespace corank::certify::checker

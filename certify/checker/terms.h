@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "corank/certify/checker/enclosure.h"
-#include "corank/certify/elimination.h"
+#include "corank/certify/reduction_step.h"
 #include "corank/certify/system.h"
 
 namespace corank::certify::checker {
@@ -50,6 +50,8 @@ class Terms {
   /// Is this q·g with a rational q, in exact coefficients?
   bool is_multiple_of(const Terms& g) const;
 
+  /// this + q·g.
+  Terms plus(const ExactNumber& q, const Terms& g) const;
   friend Terms operator-(const Terms& f, const ExactNumber& c);
   friend Terms operator-(const Terms& f);
 
@@ -60,8 +62,8 @@ class Terms {
   std::map<std::vector<Factor>, Coefficient, FactorOrder> list_;
 };
 
-/// A system with variables eliminated. Variables keep their indices in the original system.
-struct Eliminated {
+/// A reduced system. Variables keep their indices in the original one.
+struct Reduced {
   std::vector<int> kept;
   std::vector<Terms> equations;              ///< none vanishes or is a multiple of one before
   std::vector<Terms> inequalities;           ///< the system's
@@ -69,8 +71,9 @@ struct Eliminated {
   bool contradiction = false;                ///< an equation became a nonzero number = 0
 };
 
-/// Repeats the eliminations. Theorem: certify/reduction.h. Each is legal: the equation is a·x + g = 0 with a rational a ≠ 0 and x not in g, or
-/// the domain of x is one number. Throws std::invalid_argument, with the reason, where one is not.
-Eliminated eliminate(const System& system, const std::vector<Elimination>& eliminations);
+/// Repeats the reduction. Theorem: certify/reduction.h. Each step is legal: an elimination's equation is a·x + g = 0 with a rational a ≠ 0 and x
+/// not in g, or the domain of x is one number; a sum is of two different equations that are there. Throws std::invalid_argument,
+/// with the reason, where one is not.
+Reduced reduce(const System& system, const std::vector<ReductionStep>& steps);
 
 }  // namespace corank::certify::checker

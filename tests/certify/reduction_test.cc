@@ -102,6 +102,49 @@ TEST(Reduction, DropsEquationsThatFollow) {
   EXPECT_EQ(r.system.dimension(), 1);
 }
 
+// The rows of a kernel condition of two dyads, the second one as in a loop equation: u x + v y = 0 and u x + v y + w z = t² stand for w z = t².
+SystemBuilder kernel_rows() {
+  SystemBuilder b;
+  for (const char* name : {"t", "u", "v", "w", "x", "y", "z"}) b.variable(name, "-2", "2");
+  b.equation({{"3/2", {{1, 1}, {4, 1}}}, {"-1", {{2, 1}, {5, 1}}}});
+  b.equation({{"3", {{1, 1}, {4, 1}}}, {"-2", {{2, 1}, {5, 1}}}, {"1", {{3, 1}, {6, 1}}}, {"-1", {{0, 2}}}});
+  b.equation({{"1", {{4, 2}}}, {"1", {{5, 2}}}, {"1", {{6, 2}}}, {"-1", {}}});
+  return b;
+}
+
+TEST(Reduction, AddsMultiplesOfEquationsThatShortenOthers) {
+  const Reduction r = reduce(kernel_rows().system(), Eliminate::exact);
+  ASSERT_EQ(r.system.equations.size(), 3u);
+  EXPECT_EQ(text(r.system.equations[1]), "-1*x0^2 + 1*x3^1*x6^1");
+  EXPECT_EQ(r.steps, std::vector<ReductionStep>{ReductionStep::sum(1, 0, -2)});
+}
+
+TEST(Reduction, AddsNoEquationsWhereAToleranceIsAboutThemAsGiven) {
+  System system = kernel_rows().system();
+  system.coefficient_tolerance = 1e-6;
+  EXPECT_TRUE(reduce(system).steps.empty());
+  EXPECT_TRUE(reduce(system, Eliminate::exact).steps.empty());
+}
+
+TEST(Reduction, AddsNoEquationThatMakesAnotherAsLong) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}}).equation({{"1", {{x, 2}}}, {"2", {{y, 2}}}, {"1", {{z, 2}}}});
+  EXPECT_TRUE(reduce(b.system(), Eliminate::exact).steps.empty());
+}
+
+// 0 = x + y − 1 is in both: sums may make an equation tie two variables, which are then eliminated.
+TEST(Reduction, EliminatesWhatASumTies) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-1", {}}});
+  b.equation({{"2", {{x, 2}}}, {"2", {{y, 2}}}, {"2", {{z, 2}}}, {"1", {{x, 1}}}, {"-1", {{y, 1}}}, {"-2", {}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{ReductionStep::sum(1, 0, -2), ReductionStep::elimination(y, 1)}));
+  ASSERT_EQ(r.system.equations.size(), 1u);
+  EXPECT_EQ(text(r.system.equations[0]), "-1 + 2*x0^2 + 1*x1^2");
+}
+
 TEST(Reduction, TakesOnlyIntegersForDefinitionsWhereDecimalsAreRounded) {
   SystemBuilder b;
   const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");

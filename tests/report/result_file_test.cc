@@ -109,7 +109,7 @@ void expect_same(const Result& a, const Result& b) {
       EXPECT_TRUE(same_bits(a.cover.regions[i][v], b.cover.regions[i][v]));
   }
   EXPECT_EQ(a.cover.exact_points, b.cover.exact_points);
-  EXPECT_EQ(a.cover.eliminations, b.cover.eliminations);
+  EXPECT_EQ(a.cover.reduction, b.cover.reduction);
   expect_same_proofs(a.cover.proof.get(), b.cover.proof.get());
   const certify::Statistics &s = a.cover.statistics, &t = b.cover.statistics;
   EXPECT_EQ(s.processed, t.processed);
@@ -302,7 +302,7 @@ TEST_F(InconsistentFile, IsRefusedForIndicesOutOfRange) {
   EXPECT_THAT(refused([](certify::Cover& c) { c.boxes[0].region = 0; }), HasSubstr("out of range"));
   EXPECT_THAT(refused([](certify::Cover& c) { c.points[0].point = -2; }), HasSubstr("out of range"));
   EXPECT_THAT(refused([](certify::Cover& c) { c.boxes.clear(); }), HasSubstr("another length"));
-  EXPECT_THAT(refused([](certify::Cover& c) { c.eliminations = {{1, 0}}; }), HasSubstr("names no variable"));
+  EXPECT_THAT(refused([](certify::Cover& c) { c.reduction = {{1, 0}}; }), HasSubstr("names no variable"));
   EXPECT_THAT(refused([](certify::Cover& c) { c.regions = {{{1.0, 0.0}}}; }), HasSubstr("empty interval"));
 }
 

@@ -293,8 +293,8 @@ const std::vector<Tampering>& tamperings() {
          for (certify::ExactPoint& p : r.cover.exact_points) p.sole_within = 2;
        }},
       {"another elimination", "does not define it", curve,
-       [](Result& r) { std::swap(r.cover.eliminations[0].equation, r.cover.eliminations[1].equation); }},
-      {"an elimination missing", "no whole boxes", curve, [](Result& r) { r.cover.eliminations.pop_back(); }},
+       [](Result& r) { std::swap(r.cover.reduction[0].equation, r.cover.reduction[1].equation); }},
+      {"an elimination missing", "no whole boxes", curve, [](Result& r) { r.cover.reduction.pop_back(); }},
       {"another dimension", "the set has dimension 1, not 2", curve, [](Result& r) { r.cover.dimension = 2; }},
       {"a leaf of the proof dropped", "the script ends early", curve,
        [](Result& r) { change_proof(r, [](Proof& p) { p.steps.pop_back(); }); }},

@@ -35,7 +35,7 @@ TEST(Checker, AcceptsPointsWithAnEliminatedVariable) {
   const System system = plain(kCirclesAndLine);
   const Cover cover = solved(system, 1e-6);
   ASSERT_EQ(cover.boxes.size(), 2u);
-  ASSERT_FALSE(cover.eliminations.empty());
+  ASSERT_FALSE(cover.reduction.empty());
   expect_verified(system, cover);
 }
 
@@ -150,9 +150,9 @@ TEST(Checker, RejectsAViolatedInequality) {
 TEST(Checker, RejectsIllegalEliminations) {
   const System system = plain(kCirclesAndLine);
   const Cover good = solved(system, 1e-6);
-  const auto with = [&](std::vector<Elimination> eliminations) {
+  const auto with = [&](std::vector<ReductionStep> steps) {
     Cover cover = good;
-    cover.eliminations = std::move(eliminations);
+    cover.reduction = std::move(steps);
     return reasons(system, cover);
   };
   EXPECT_THAT(with({{0, 0}}), HasSubstr("does not define it"));
@@ -160,6 +160,10 @@ TEST(Checker, RejectsIllegalEliminations) {
   EXPECT_THAT(with({{0, 1}, {0, 2}}), HasSubstr("gone already"));
   EXPECT_THAT(with({{0, 1}, {1, 1}}), HasSubstr("has been used"));
   EXPECT_THAT(with({{7, 1}}), HasSubstr("no variable"));
+  EXPECT_THAT(with({ReductionStep::sum(0, 0, 1)}), HasSubstr("not two different ones"));
+  EXPECT_THAT(with({ReductionStep::sum(0, 9, 1)}), HasSubstr("not two different ones"));
+  EXPECT_THAT(with({{0, 1}, ReductionStep::sum(0, 1, 1)}), HasSubstr("not two different ones"));
+  EXPECT_THAT(with({ReductionStep::sum(0, 1, ExactNumber::pi())}), HasSubstr("not rational"));
 }
 
 TEST(Checker, RejectsSwappedBoxesAndPointsThatAreNone) {
@@ -277,7 +281,7 @@ class RootOfTwo : public testing::Test {
     cover_.points = cover_.boxes;
     cover_.sigma = 0.1;
     cover_.exact_points = {{{number("-1/2"), 0, 1}, 0, 1, {{0, 1}, {0, 1}, {number("1/2"), 1}}, -1, 0.25}};
-    cover_.eliminations = {{2, 2}};
+    cover_.reduction = {{2, 2}};
   }
   System system_;
   Cover cover_;

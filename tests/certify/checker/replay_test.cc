@@ -209,8 +209,8 @@ TEST(Replay, ShowsNothingWhereAnEliminatedVariablesSideIsAnother) {
   solve::Options options;
   options.proof = true;
   Cover cover = solve::solve(system, options);
-  ASSERT_EQ(cover.eliminations.size(), 1u);
-  ASSERT_EQ(cover.eliminations[0].variable, 1);
+  ASSERT_EQ(cover.reduction.size(), 1u);
+  ASSERT_EQ(cover.reduction[0].variable, 1);
   EXPECT_TRUE(check(system, cover).proof.verified) << text(check(system, cover));
   ASSERT_EQ(cover.boxes.size(), cover.count(Verdict::undecided));
   for (CoverBox& box : cover.boxes) box.box[1] = Interval(box.box[1].lo() + 1, box.box[1].hi() + 1);
