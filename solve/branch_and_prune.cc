@@ -323,7 +323,7 @@ double smallest_sigma(const certify::System& system) {
 }
 
 Cover solve(const certify::System& system, const Options& options) {
-  const double sigma = options.sigma.value_or(default_sigma(system));
+  const double sigma = options.sigma ? *options.sigma : default_sigma(system);
   if (!(sigma > 0) || !std::isfinite(sigma)) throw std::invalid_argument("sigma must be a positive number");
   if (const double least = smallest_sigma(system); sigma < least)
     throw std::invalid_argument("sigma is below " + format(least) + ", what boxes of doubles resolve in this domain");
