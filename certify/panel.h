@@ -14,19 +14,37 @@ namespace corank::certify {
 
 class Panel {
  public:
-  /// Y, r×r row-major, finite.
-  void set_matrix(const std::vector<double>& y, int r);
+  /// Y, r×r row-major. False where an entry is not finite: then nothing else may be called. A matrix that is set already stays as it is.
+  bool set_matrix(const std::vector<double>& y, int r);
 
   /// The panel becomes Y·S, r×n, S the rows `equations` of a matrix in the system's sparsity pattern. False where an entry is not
   /// finite: then it may not be used.
   bool assign_product(const CompiledSystem& system, const std::vector<int>& equations, const std::vector<Interval>& sparse);
 
   /// result[a] := Σ_b Y_ab values[b], for finite values.
-  void multiply(const std::vector<Interval>& values, std::vector<Interval>& result) const;
+  void multiply(const std::vector<Interval>& values, std::vector<Interval>& result);
 
   /// sums[a] += Σ_j P_aj offset[j], P the panel with `diagonal` in place of the entries (a, dependent[a]).
   enum class Diagonal { zero, minus_one };  ///< 0; the entry − 1
   void accumulate(const Interval* offset, const std::vector<int>& dependent, Diagonal diagonal, std::vector<Interval>& sums);
+
+  /// The largest row sum of |I − P_D|, D the columns dependent[0], dependent[1], …, rounded upward.
+  double distance_from_identity(const std::vector<int>& dependent);
+
+  /// Real factors of the rows, split by sign as Y is.
+  struct Factors {
+    std::vector<double> positive, negative;  ///< max(λ_a, 0), max(−λ_a, 0)
+  };
+  /// entry − Σ_{from ≤ a < to} λ_a P_aj, for finite λ.
+  Interval reduced(Interval entry, int j, const Factors& factors, int from, int to) const {
+    const std::size_t column = index(0, j);
+    for (std::size_t a = static_cast<std::size_t>(from); a < static_cast<std::size_t>(to); ++a) {
+      const __m128d p = _mm_set_pd(upper_[column + a], negated_lower_[column + a]);
+      const __m128d minus = _mm_mul_pd(_mm_set1_pd(factors.positive[a]), internal::swapped(p));
+      entry += Interval::from_register(_mm_add_pd(minus, _mm_mul_pd(_mm_set1_pd(factors.negative[a]), p)));
+    }
+    return entry;
+  }
 
   Interval at(int a, int j) const { return {-negated_lower_[index(a, j)], upper_[index(a, j)]}; }
   int rows() const { return r_; }
@@ -37,9 +55,12 @@ class Panel {
 
   int r_ = 0, n_ = 0;
   std::size_t stride_ = 0;                     // r rounded up to a multiple of 4
+  std::vector<double> y_;                      // as it was set
+  bool finite_ = false;                        // all of y_
   std::vector<double> positive_, negative_;    // column b: max(Y_ab, 0), max(−Y_ab, 0)
   std::vector<double> negated_lower_, upper_;  // column j of the panel
   std::vector<double> sum_negated_lower_, sum_upper_;
+  std::vector<Interval> diagonal_;
 };
 
 }  // namespace corank::certify
