@@ -157,9 +157,13 @@ void CompiledSystem::slopes(int from, int to, const Interval* x, const double* c
   }
 }
 
-void CompiledSystem::jacobian(const Interval* x, Interval* j) const {
-  std::fill(j, j + row_begin_[equations_], Interval());
-  for (int k = 0; k < term_begin_[equations_]; ++k) {
+void CompiledSystem::jacobian(const Interval* x, Interval* j) const { jacobian(0, equations_, x, j); }
+
+void CompiledSystem::jacobian(int row, const Interval* x, Interval* j) const { jacobian(row, row + 1, x, j); }
+
+void CompiledSystem::jacobian(int from, int to, const Interval* x, Interval* j) const {
+  std::fill(j + row_begin_[from], j + row_begin_[to], Interval());
+  for (int k = term_begin_[from]; k < term_begin_[to]; ++k) {
     const Term& t = terms_[k];
     switch (t.shape) {
       case Shape::constant: break;

@@ -68,11 +68,14 @@ class CompiledSystem {
   void slopes(int row, const Interval* x, const double* c, Interval* s) const;
   /// Interval Jacobian of the equations: encloses ∂f_i/∂x_j(x) for every x ∈ X.
   void jacobian(const Interval* x, Interval* j) const;
+  /// The same of one row of any kind, into its own entries of j.
+  void jacobian(int row, const Interval* x, Interval* j) const;
   /// Jacobian at a point in plain floating point, for heuristics only: nothing is proven by it.
   void approximate_jacobian(const double* x, double* j) const;
 
  private:
   void slopes(int from, int to, const Interval* x, const double* c, Interval* s) const;
+  void jacobian(int from, int to, const Interval* x, Interval* j) const;
 
   int variables_ = 0, equations_ = 0, rows_ = 0;
   std::vector<Term> terms_;

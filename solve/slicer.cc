@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/certify/sheet_range.h"
+
 namespace corank::solve {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr int kTightenings = 2;
 constexpr double kNearSigma = 1.2;     // of σ: a wider piece is cut anyway, however well it is tightened
 constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
 constexpr double kStaleSpread = 0.1;   // |I − Y·S| beyond which a part gets its own Y
-constexpr double kCutMargin = 0.96;    // aim a little below σ: the linearization is not exact
+constexpr double kCutMargin = 0.98;    // aim a little below σ: the linearization is not exact
 constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
@@ -184,6 +186,16 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   const Location location = problem_.domain.locate_zeros(problem_.compiled, *p, sides.data(), workspace_);
   if (location == Location::outside) return elsewhere();
   width = widest(sides);
+  std::vector<int> parts;
+  if (width > problem_.sigma && !free.empty()) {
+    measure_steepness(*p, free, sides);
+    parts = parts_of(sides, free);
+    // Small enough but for overestimation: look closer.
+    if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
+      certify::shrink_to_faces(problem_.compiled, *p, problem_.sigma, sides, workspace_);
+      width = widest(sides);
+    }
+  }
   // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts in a row
   // gain nothing, the piece stays as it is, proven.
   const int futile_cuts = width > kFutileShare * piece.former_width ? piece.futile_cuts + 1 : 0;
@@ -192,8 +204,6 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     add(task, std::move(sides), location);
     return;
   }
-  measure_steepness(*p, free, sides);
-  const std::vector<int> parts = parts_of(sides, free);
   std::size_t along = 0;
   for (std::size_t f = 1; f < free.size(); ++f) {
     const auto wider =

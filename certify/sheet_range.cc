@@ -1,0 +1,160 @@
+#include "corank/certify/sheet_range.h"
+
+#include <algorithm>
+#include <map>
+
+#include "corank/certify/check.h"
+#include "corank/certify/rounding.h"
+
+namespace corank::certify {
+namespace {
+
+constexpr int kTightenings = 2;  // of a face
+constexpr double kRoom =
+    1.0 / 128;  // of a side's width, left at its ends: who verifies them without this theorem has to come close
+
+class FaceRange {
+ public:
+  FaceRange(const CompiledSystem& system, const Preconditioner& p, std::vector<Interval>& piece, NewtonWorkspace& w)
+      : system_(system),
+        p_(p),
+        piece_(piece),
+        w_(w),
+        n_(static_cast<std::size_t>(system.variables())),
+        r_(static_cast<std::size_t>(p.rank())) {
+    std::vector<bool> dependent(n_, false);
+    for (int d : p.dependent) dependent[static_cast<std::size_t>(d)] = true;
+    for (std::size_t j = 0; j < n_; ++j)
+      if (!dependent[j]) free_.push_back(static_cast<int>(j));
+  }
+
+  void shrink(double width) {
+    if (free_.empty() || !differentiate()) return;
+    std::vector<Interval> along(free_.size());
+    for (std::size_t a = 0; a < r_; ++a) {
+      const auto side = static_cast<std::size_t>(p_.dependent[a]);
+      if (piece_[side].width() <= width) continue;
+      for (std::size_t f = 0; f < free_.size(); ++f) along[f] = derivatives_[a * free_.size() + f];
+      shrink(side, along);
+    }
+    for (int k = 0; k < system_.values(); ++k) {
+      if (piece_[n_ + static_cast<std::size_t>(k)].width() <= width) continue;
+      differentiate(system_.value_row(k), along);
+      shrink(n_ + static_cast<std::size_t>(k), along);
+    }
+  }
+
+ private:
+  // −1, 1: the free variable is at the lower, upper end; 0: anywhere.
+  using Face = std::vector<int>;
+
+  // derivatives_[a·k + f] ∋ ∂(dependent a)/∂(free f) on the sheet over the piece. False: no bound.
+  bool differentiate() {
+    w_.slope.resize(static_cast<std::size_t>(system_.entries()));
+    system_.jacobian(piece_.data(), w_.slope.data());
+    w_.panel.set_matrix(p_.y, p_.rank());
+    if (!w_.panel.assign_product(system_, p_.equations, w_.slope)) return false;
+    magnitude_.resize(r_ * r_);
+    for (std::size_t a = 0; a < r_; ++a)
+      for (std::size_t b = 0; b < r_; ++b)
+        magnitude_[a * r_ + b] = (Interval(a == b ? 1.0 : 0.0) - w_.panel.at(static_cast<int>(a), p_.dependent[b])).mag();
+    derivatives_.assign(r_ * free_.size(), Interval());
+    for (std::size_t f = 0; f < free_.size(); ++f)
+      if (!differentiate(f)) return false;
+    return true;
+  }
+
+  bool differentiate(std::size_t f) {
+    constexpr int kSteps = 12;
+    const auto slope = [&](std::size_t a) { return w_.panel.at(static_cast<int>(a), free_[f]); };
+    double largest = 1e-300;
+    for (std::size_t a = 0; a < r_; ++a) largest = std::max(largest, slope(a).mag());
+    std::vector<double> v(r_, largest), bound(r_);  // bound: upper bounds, by upward rounding, of E·v
+    for (int step = 0; step < kSteps; ++step) {
+      bool holds = true;
+      for (std::size_t a = 0; a < r_; ++a) {
+        bound[a] = 0;
+        for (std::size_t b = 0; b < r_; ++b) bound[a] += magnitude_[a * r_ + b] * v[b];
+        holds = holds && bound[a] + slope(a).mag() < v[a];
+      }
+      if (holds) {
+        for (std::size_t a = 0; a < r_; ++a) derivatives_[a * free_.size() + f] = -slope(a) + Interval(-bound[a], bound[a]);
+        return true;
+      }
+      for (std::size_t a = 0; a < r_; ++a) {
+        v[a] = 1.05 * (bound[a] + slope(a).mag()) + 1e-3 * largest;
+        if (!std::isfinite(v[a])) return false;
+      }
+    }
+    return false;
+  }
+
+  // along[f] ∋ the derivative of a value row.
+  void differentiate(int row, std::vector<Interval>& along) {
+    system_.jacobian(row, piece_.data(), w_.slope.data());
+    gradient_.assign(n_, Interval());
+    for (int e = system_.row_begin(row); e < system_.row_begin(row + 1); ++e)
+      gradient_[static_cast<std::size_t>(system_.column(e))] = w_.slope[static_cast<std::size_t>(e)];
+    for (std::size_t f = 0; f < free_.size(); ++f) {
+      along[f] = gradient_[static_cast<std::size_t>(free_[f])];
+      for (std::size_t a = 0; a < r_; ++a)
+        along[f] += gradient_[static_cast<std::size_t>(p_.dependent[a])] * derivatives_[a * free_.size() + f];
+    }
+  }
+
+  void shrink(std::size_t side, const std::vector<Interval>& along) {
+    Face up(free_.size(), 0), down(free_.size(), 0);
+    for (std::size_t f = 0; f < free_.size(); ++f) {
+      if (along[f].lo() >= 0) {
+        up[f] = 1, down[f] = -1;
+      } else if (along[f].hi() <= 0) {
+        up[f] = -1, down[f] = 1;
+      }
+    }
+    if (up == down) return;  // monotone in no variable
+    const double lower = over(down)[side].lo(), upper = over(up)[side].hi();
+    CORANK_CHECK(lower <= upper);  // the sheet has solutions
+    const double room = kRoom * (upper - lower);
+    CORANK_CHECK(piece_[side].intersect(Interval(lower, upper) + Interval(-room, room)));
+  }
+
+  // What the sides are over a face.
+  const std::vector<Interval>& over(const Face& face) {
+    const auto [at, is_new] = faces_.try_emplace(face);
+    if (!is_new) return at->second;
+    std::vector<Interval> x(piece_.begin(), piece_.begin() + static_cast<std::ptrdiff_t>(n_));
+    for (std::size_t f = 0; f < free_.size(); ++f) {
+      Interval& side = x[static_cast<std::size_t>(free_[f])];
+      if (face[f] != 0) side = Interval(face[f] > 0 ? side.hi() : side.lo());
+    }
+    for (int k = 0; k < kTightenings; ++k) tighten_sheet(system_, p_, x.data(), w_);
+    for (int k = 0; k < system_.values(); ++k) {
+      const int row = system_.value_row(k);
+      Interval value = system_.evaluate(row, x.data());
+      CORANK_CHECK(value.intersect(value_at_zeros(system_, p_, row, x.data(), w_)));
+      x.push_back(value);
+    }
+    return at->second = std::move(x);
+  }
+
+  const CompiledSystem& system_;
+  const Preconditioner& p_;
+  std::vector<Interval>& piece_;
+  NewtonWorkspace& w_;
+  const std::size_t n_, r_;
+  std::vector<int> free_;
+  std::vector<double> magnitude_;
+  std::vector<Interval> derivatives_, gradient_;
+  std::map<Face, std::vector<Interval>> faces_;
+};
+
+}  // namespace
+
+void shrink_to_faces(const CompiledSystem& system, const Preconditioner& p, double width, std::vector<Interval>& piece,
+                     NewtonWorkspace& w) {
+  CORANK_CHECK(UpwardRounding::active());
+  CORANK_CHECK(piece.size() == static_cast<std::size_t>(system.variables() + system.values()));
+  FaceRange(system, p, piece, w).shrink(width);
+}
+
+}  // namespace corank::certify

@@ -1,0 +1,136 @@
+// Ranges over pieces of proven sheets: what the faces tell, and never less than what there is.
+#include "corank/certify/sheet_range.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "corank/certify/rounding.h"
+#include "corank/tests/system_builder.h"
+
+namespace corank::certify {
+namespace {
+
+using test::SystemBuilder;
+
+// u² + x² = 1, v = u·y with x and y free, and the value q = v + x − y.
+class SheetRange : public testing::Test {
+ protected:
+  SheetRange() {
+    SystemBuilder b;
+    const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), u = b.variable("u", "-2", "2"),
+              v = b.variable("v", "-2", "2");
+    b.equation({{"1", {{u, 2}}}, {"1", {{x, 2}}}, {"-1", {}}}).equation({{"1", {{v, 1}}}, {"-1", {{u, 1}, {y, 1}}}});
+    const std::vector<Polynomial> values{SystemBuilder::polynomial({{"1", {{v, 1}}}, {"1", {{x, 1}}}, {"-1", {{y, 1}}}})};
+    system_ = std::make_unique<CompiledSystem>(b.system(), values);
+  }
+
+  // The piece over x and y with u > 0, its sides and the value's; empty where no sheet is proven.
+  std::vector<Interval> piece(Interval x, Interval y) {
+    const double u = std::sqrt(1 - x.mid() * x.mid());
+    p_ = {{0, 1}, {2, 3}, {1 / (2 * u), 0, y.mid() / (2 * u), 1}};
+    const std::vector<Interval> box{x, y, Interval(u - 0.01, u + 0.01), Interval(u * y.mid() - 0.01, u * y.mid() + 0.01)};
+    Sheet sheet = newton_prove(*system_, p_, box.data(), workspace_);
+    if (!sheet.proven) return {};
+    tighten_sheet(*system_, p_, sheet.image.data(), workspace_);
+    sheet.image.push_back(system_->evaluate(system_->value_row(0), sheet.image.data()));
+    return sheet.image;
+  }
+  std::vector<Interval> shrunk(std::vector<Interval> sides, double width = 0) {
+    shrink_to_faces(*system_, p_, width, sides, workspace_);
+    return sides;
+  }
+
+  UpwardRounding rounding_;
+  NewtonWorkspace workspace_;
+  std::unique_ptr<CompiledSystem> system_;
+  Preconditioner p_;
+};
+
+double u_at(double x) { return std::sqrt(1 - x * x); }
+
+TEST_F(SheetRange, IsThatOfTheFacesWhereTheSheetIsMonotone) {
+  const auto before = piece(Interval(0.3, 0.5), Interval(0.4, 0.7));
+  ASSERT_FALSE(before.empty());
+  const auto after = shrunk(before);
+  const auto expect = [&](std::size_t side, double lower, double upper) {
+    const double room = (upper - lower) / 100;
+    EXPECT_NEAR(after[side].lo(), lower - room / 2, room);
+    EXPECT_NEAR(after[side].hi(), upper + room / 2, room);
+    EXPECT_LT(after[side].width(), 0.95 * before[side].width()) << "Newton alone is wider";
+  };
+  expect(2, u_at(0.5), u_at(0.3));
+  expect(3, u_at(0.5) * 0.4, u_at(0.3) * 0.7);
+  // q = u·y + x − y falls with y, and rises with x: 1 − x·y/u > 0.
+  expect(4, 0.7 * u_at(0.3) + 0.3 - 0.7, 0.4 * u_at(0.5) + 0.5 - 0.4);
+}
+
+TEST_F(SheetRange, KeepsAnExtremeInside) {
+  const auto before = piece(Interval(-0.2, 0.3), Interval(0.5, 0.6));
+  ASSERT_FALSE(before.empty());
+  const auto after = shrunk(before);
+  EXPECT_EQ(after[2], before[2]) << "u is monotone in neither: it does not depend on y";
+  EXPECT_GE(after[3].hi(), 0.6) << "u·y at x = 0";
+  EXPECT_LE(after[3].lo(), u_at(0.3) * 0.5);
+}
+
+TEST_F(SheetRange, LeavesSidesThatAreNarrowEnough) {
+  const auto before = piece(Interval(0.3, 0.5), Interval(0.4, 0.7));
+  ASSERT_FALSE(before.empty());
+  const double between = 0.5 * (before[2].width() + before[3].width());
+  ASSERT_LT(before[2].width(), between);
+  const auto after = shrunk(before, between);
+  EXPECT_EQ(after[2], before[2]);
+  EXPECT_LT(after[3].width(), before[3].width());
+}
+
+TEST_F(SheetRange, LosesNoPointOfTheSheet) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> at(-0.8, 0.6), width(0, 0.4), share(0, 1);
+  int proven = 0, narrower = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const double x = at(random), y = at(random);
+    const Interval xs(x, x + width(random)), ys(y, y + width(random));
+    const auto before = piece(xs, ys);
+    if (before.empty()) continue;
+    ++proven;
+    const auto after = shrunk(before);
+    for (std::size_t j = 0; j < after.size(); ++j) {
+      EXPECT_TRUE(before[j].contains(after[j]));
+      narrower += after[j].width() < 0.98 * before[j].width();
+    }
+    for (int sample = 0; sample < 60; ++sample) {
+      // Corners and edges, too.
+      const auto pick = [&](const Interval& side) {
+        const double s = share(random);
+        return s < 0.25 ? side.lo() : s > 0.75 ? side.hi() : side.lo() + share(random) * (side.hi() - side.lo());
+      };
+      const double px = pick(xs), py = pick(ys), u = u_at(px);
+      const double point[] = {px, py, u, u * py, u * py + px - py};
+      for (std::size_t j = 0; j < after.size(); ++j)
+        EXPECT_TRUE((after[j] + Interval(-1e-14, 1e-14)).contains(point[j])) << "side " << j << " in trial " << trial;
+    }
+  }
+  EXPECT_GT(proven, 200);
+  EXPECT_GT(narrower, proven);
+}
+
+TEST_F(SheetRange, SaysNothingOfAPointOrWhereTheJacobianMayBeSingular) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"-2", {}}});
+  const CompiledSystem root(b.system());
+  const Preconditioner p{{0}, {0}, {1 / 2.8}};
+  std::vector<Interval> sides{Interval(1.41, 1.42)};
+  shrink_to_faces(root, p, 0, sides, workspace_);
+  EXPECT_EQ(sides[0], Interval(1.41, 1.42));
+
+  p_ = {{0, 1}, {2, 3}, {0.5, 0, 0, 1}};
+  const std::vector<Interval> wide{Interval(-0.9, 0.9), Interval(0, 1), Interval(0, 1), Interval(0, 1), Interval(-2, 2)};
+  EXPECT_EQ(shrunk(wide), wide) << "u = 0 is in the piece";
+}
+
+}  // namespace
+}  // namespace corank::certify
