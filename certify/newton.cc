@@ -197,22 +197,14 @@ Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, i
   w.gradient.assign(n, Interval());
   for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) w.gradient[system.column(k)] = w.slope[k];
   Interval value = system.evaluate_at(row, w.center.data());
-  // By columns, as the panel is stored: a dependent column as far as its own λ needs, then all columns.
-  w.rows_done.assign(n, 0);
-  w.factors.positive.resize(static_cast<std::size_t>(r));
-  w.factors.negative.resize(static_cast<std::size_t>(r));
   for (int a = 0; a < r; ++a) {
-    const int d = p.dependent[a];
-    w.gradient[d] = w.panel.reduced(w.gradient[d], d, w.factors, 0, a);
-    const double lambda = w.gradient[d].mid();
+    const double lambda = w.gradient[p.dependent[a]].mid();
     if (!std::isfinite(lambda)) return Interval::whole();
-    w.factors.positive[a] = std::max(lambda, 0.0);
-    w.factors.negative[a] = std::max(-lambda, 0.0);
-    if (lambda != 0) value -= scale(lambda, w.residual[a]);
-    w.rows_done[d] = a;
+    if (lambda == 0) continue;
+    value -= scale(lambda, w.residual[a]);
+    w.panel.subtract_row(lambda, a, w.gradient.data());
   }
-  for (int j = 0; j < n; ++j)
-    value += w.panel.reduced(w.gradient[j], j, w.factors, w.rows_done[j], r) * (x[j] - Interval(w.center[j]));
+  for (int j = 0; j < n; ++j) value += w.gradient[j] * (x[j] - Interval(w.center[j]));
   return value;
 }
 

@@ -23,9 +23,8 @@ struct NewtonWorkspace {
   Panel panel;
   std::vector<Interval> slope, values, residual, offset, image, region, gradient;
   std::vector<double> center, magnitude, radius, next_radius;
-  Panel::Factors factors;
   std::vector<unsigned char> is_dependent;
-  std::vector<int> free, rows_done;
+  std::vector<int> free;
   bool contracted = false;  ///< the last newton_contract had a bounded Y·S and Y·F(c)
 };
 

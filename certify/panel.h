@@ -31,19 +31,14 @@ class Panel {
   /// The largest row sum of |I − P_D|, D the columns dependent[0], dependent[1], …, rounded upward.
   double distance_from_identity(const std::vector<int>& dependent);
 
-  /// Real factors of the rows, split by sign as Y is.
-  struct Factors {
-    std::vector<double> positive, negative;  ///< max(λ_a, 0), max(−λ_a, 0)
-  };
-  /// entry − Σ_{from ≤ a < to} λ_a P_aj, for finite λ.
-  Interval reduced(Interval entry, int j, const Factors& factors, int from, int to) const {
-    const std::size_t column = index(0, j);
-    for (std::size_t a = static_cast<std::size_t>(from); a < static_cast<std::size_t>(to); ++a) {
-      const __m128d p = _mm_set_pd(upper_[column + a], negated_lower_[column + a]);
-      const __m128d minus = _mm_mul_pd(_mm_set1_pd(factors.positive[a]), internal::swapped(p));
-      entry += Interval::from_register(_mm_add_pd(minus, _mm_mul_pd(_mm_set1_pd(factors.negative[a]), p)));
-    }
-    return entry;
+  /// row[j] −= factor·P_aj for every column j, for a finite factor.
+  void subtract_row(double factor, int a, Interval* row) const {
+    const bool negative = factor < 0;
+    const double* lower = (negative ? negated_lower_ : upper_).data() + a;
+    const double* upper = (negative ? upper_ : negated_lower_).data() + a;
+    const __m128d size = _mm_set1_pd(std::fabs(factor));
+    for (int j = 0; j < n_; ++j, lower += stride_, upper += stride_)
+      row[j] += Interval::from_register(_mm_mul_pd(size, _mm_set_pd(*upper, *lower)));
   }
 
   Interval at(int a, int j) const { return {-negated_lower_[index(a, j)], upper_[index(a, j)]}; }
