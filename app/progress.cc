@@ -18,6 +18,10 @@ std::size_t terminal_width() {
 
 ProgressLine::ProgressLine(std::string task) : task_(std::move(task)), visible_(isatty(STDERR_FILENO) != 0) {}
 
+void ProgressLine::follow(solve::Options& options) {
+  if (visible_) options.progress = [this](const solve::Progress& progress) { show(progress); };
+}
+
 void ProgressLine::show(const solve::Progress& progress) {
   if (!visible_) return;
   std::string line = task_.empty() ? "" : task_ + ": ";

@@ -17,6 +17,8 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   bool visible() const { return visible_; }
+  /// Shows how far the search with these options is; the line has to outlive it.
+  void follow(solve::Options& options);
   void show(const solve::Progress& progress);
   void show(const std::string& text);
   void clear();

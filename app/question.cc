@@ -10,7 +10,7 @@ namespace corank::app {
 void Question::add_options(CLI::App& command) {
   command.add_option("FILE", file, "The model file (.cuik)");
   command.add_option("--set", set, "The set of a mechanism: cspace, forward, inverse or cspace-singular")
-      ->check(CLI::IsMember({"cspace", "forward", "inverse", "cspace-singular"}));
+      ->check(CLI::IsMember(kSets));
   command
       .add_option("--kernel", kernel,
                   "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"

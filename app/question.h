@@ -11,6 +11,9 @@
 
 namespace corank::app {
 
+/// The sets of a mechanism, in the order in which a report has them.
+inline const std::vector<std::string> kSets = {"cspace", "forward", "inverse", "cspace-singular"};
+
 /// What the options say, not yet checked.
 struct Question {
   std::string file, set, kernel;

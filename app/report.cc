@@ -11,6 +11,7 @@
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/set_search.h"
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/page.h"
@@ -22,49 +23,25 @@
 namespace corank::app {
 namespace {
 
-using symbolic::SingularitySet;
-
-const std::vector<std::string> kSets = {"cspace", "forward", "inverse", "cspace-singular"};
-
 constexpr int kDigits = 12;  ///< of isolated points
+
+/// Finer than corank solve's, where that is cheap: pictures want it.
+constexpr DefaultSigma kDefaultSigma{.curve = 0.01, .surface = 0.1, .cspace_surface = 0.05, .larger = 0.4};
 
 struct ReportCommand {
   Question question;
-  std::vector<std::string> sets = kSets, results;
-  std::optional<double> sigma, cspace_sigma;
-  int threads = 0;
-  std::uint64_t max_boxes = 0;
-  double time_limit = 0;
-  bool proof = false;
+  SetSearch search{kDefaultSigma, kSets};
+  std::vector<std::string> results;
   std::string folder;
 };
 
-/// Finer than corank solve's, where that is cheap: pictures want it. Isolated points keep the solver's own.
-std::optional<double> default_sigma(const certify::System& system, SingularitySet set) {
-  const bool over_determined = system.equations.size() > system.variables.size();
-  const int dimension = system.dimension();
-  if (over_determined) return 0.01;
-  if (dimension == 0) return std::nullopt;
-  if (dimension == 1) return 0.01;
-  if (dimension == 2) return set == SingularitySet::cspace ? 0.05 : 0.1;
-  return 0.4;
-}
-
 report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism& mechanism, std::size_t index) {
-  const SingularitySet set = *symbolic::singularity_set_from_string(command.sets[index]);
+  const std::vector<std::string>& sets = command.search.sets;
+  const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(sets[index]);
   const certify::System system = algebrize(singularity_system(mechanism, set));
-  solve::Options options;
-  const std::optional<double>& asked = set == SingularitySet::cspace ? command.cspace_sigma : command.sigma;
-  options.sigma = asked ? asked : default_sigma(system, set);
-  if (const double least = solve::smallest_sigma(system); options.sigma && *options.sigma < least)
-    throw UsageError(fmt::format("{} is below {}, what boxes of doubles resolve here", *options.sigma, least));
-  options.threads = command.threads;
-  options.max_boxes = command.max_boxes;
-  options.time_limit = command.time_limit;
-  options.proof = command.proof;
-  options.stop = &Interrupt::stop();
-  ProgressLine line(fmt::format("{} ({} of {})", command.sets[index], index + 1, command.sets.size()));
-  if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
+  solve::Options options = command.search.options(system, set);
+  ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
+  line.follow(options);
   return solve_set(command.question, mechanism, set, system, options, kDigits);
 }
 
@@ -72,7 +49,7 @@ std::vector<report::Result> solve_all(const ReportCommand& command, const symbol
   const Interrupt interrupt;
   std::vector<report::Result> results;
   // After an interrupt the searches left end at once, with all of their domain pending.
-  for (std::size_t i = 0; i < command.sets.size(); ++i) results.push_back(solve_one(command, mechanism, i));
+  for (std::size_t i = 0; i < command.search.sets.size(); ++i) results.push_back(solve_one(command, mechanism, i));
   return results;
 }
 
@@ -108,14 +85,6 @@ symbolic::Mechanism mechanism_of(const report::Result& result) {
   return mechanism;
 }
 
-std::string command_line(const ReportCommand& command, const std::string& file) {
-  std::string text = "corank report " + file;
-  if (command.sigma) text += fmt::format(" --sigma {:g}", *command.sigma);
-  if (command.cspace_sigma) text += fmt::format(" --cspace-sigma {:g}", *command.cspace_sigma);
-  for (const std::string& definition : command.question.definitions) text += " -D '" + definition + "'";
-  return text;
-}
-
 ExitStatus write_report(ReportCommand command) {
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results take the place of FILE: their model is in them");
@@ -130,7 +99,7 @@ ExitStatus write_report(ReportCommand command) {
   report::PageOptions options;
   if (results.empty()) {
     results = solve_all(command, mechanism);
-    options.command = command_line(command, std::filesystem::path(command.question.file).filename().string());
+    options.command = command.search.command_line("report", command.question);
     for (const report::Result& result : results) {
       options.files.push_back(result.set + ".h5");
       report::write_result(folder / options.files.back(), result);
@@ -161,26 +130,10 @@ void add_report(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand("report", "Solve all sets of a mechanism and write a page about them");
   const auto command = std::make_shared<ReportCommand>();
   sub->add_option("FILE", command->question.file, "The model file (.cuik) of a mechanism");
-  sub->add_option("--sets", command->sets, "The sets, with commas")
-      ->type_name("SET[,SET...]")
-      ->delimiter(',')
-      ->check(CLI::IsMember(kSets))
-      ->capture_default_str();
-  sub->add_option("--sigma", command->sigma,
-                  "Largest edge of a box in the sets of singularities; default: 0.01 for curves, 0.1 for surfaces")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--cspace-sigma", command->cspace_sigma,
-                  "The same in C-space; default: 0.01 for curves, 0.05 for surfaces")
-      ->check(CLI::PositiveNumber);
+  command->search.add_sets(*sub);
   command->question.add_definitions(*sub);
-  sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  sub->add_option("--max-boxes", command->max_boxes, "End each search after so many processed boxes; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_option("--time-limit", command->time_limit, "End each search after so many seconds; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_flag("--proof", command->proof,
+  command->search.add_limits(*sub);
+  sub->add_flag("--proof", command->search.proof,
                 "Keep in the result files why no solution is missing, so that corank verify can check that, too");
   sub->add_option("--results", command->results, "Take these results, of one model, instead of solving")
       ->type_name("RESULT.h5...");

@@ -89,7 +89,7 @@ ExitStatus solve_model(SolveCommand command) {
   {
     const Interrupt interrupt;
     ProgressLine line;
-    if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
+    line.follow(options);
     result = solve_set(command.question, mechanism, set, system, options, command.digits);
   }
 

@@ -9,6 +9,7 @@
 #include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
+#include "corank/app/set_search.h"
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/family_page.h"
@@ -20,15 +21,12 @@
 namespace corank::app {
 namespace {
 
-using symbolic::SingularitySet;
+/// Coarser than a report's: there are many pictures on the page, and they are small.
+constexpr DefaultSigma kDefaultSigma{.curve = 0.02, .surface = 0.2, .cspace_surface = 0.1, .larger = 0.5};
 
 struct SweepCommand {
   Question question;
-  std::vector<std::string> sets = {"cspace", "forward", "inverse"};
-  std::optional<double> sigma, cspace_sigma;
-  int threads = 0;
-  std::uint64_t max_boxes = 0;
-  double time_limit = 0;
+  SetSearch search{kDefaultSigma, {"cspace", "forward", "inverse"}};
   std::string folder;
 };
 
@@ -40,22 +38,11 @@ struct Plan {
   std::vector<certify::System> systems;  ///< of the sets
 };
 
-/// Coarser than a report's: there are many pictures on the page, and they are small.
-std::optional<double> default_sigma(const certify::System& system, SingularitySet set) {
-  if (system.equations.size() > system.variables.size()) return 0.02;
-  switch (system.dimension()) {
-    case 0: return std::nullopt;
-    case 1: return 0.02;
-    case 2: return set == SingularitySet::cspace ? 0.1 : 0.2;
-    default: return 0.5;
-  }
-}
-
 Plan plan(const SweepCommand& command, const Family& family, std::size_t k) {
   Plan p{command.question, family.values[k], symbolic::Mechanism(), {}};
   p.question.definitions = definitions_of(family, k, command.question.definitions);
   p.mechanism = load(p.question);
-  for (const std::string& name : command.sets)
+  for (const std::string& name : command.search.sets)
     p.systems.push_back(algebrize(singularity_system(p.mechanism, *symbolic::singularity_set_from_string(name))));
   return p;
 }
@@ -68,20 +55,12 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
 }
 
 report::Result solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task) {
-  const SingularitySet set = *symbolic::singularity_set_from_string(command.sets[set_index]);
+  const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(command.search.sets[set_index]);
   const certify::System& system = plan.systems[set_index];
-  solve::Options options;
-  const std::optional<double>& asked = set == SingularitySet::cspace ? command.cspace_sigma : command.sigma;
-  options.sigma = asked ? asked : default_sigma(system, set);
-  if (const double least = solve::smallest_sigma(system); options.sigma && *options.sigma < least)
-    throw UsageError(fmt::format("{} is below {}, what boxes of doubles resolve here", *options.sigma, least));
-  options.threads = command.threads;
-  options.max_boxes = command.max_boxes;
-  options.time_limit = command.time_limit;
-  options.stop = &Interrupt::stop();
+  solve::Options options = command.search.options(system, set);
   ProgressLine line(task);
   line.show(task);  // searches may be too short to tell more
-  if (line.visible()) options.progress = [&line](const solve::Progress& progress) { line.show(progress); };
+  line.follow(options);
   return solve_set(plan.question, plan.mechanism, set, system, options);
 }
 
@@ -98,24 +77,16 @@ std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const s
   std::vector<report::FamilyMember> members;
   for (std::size_t k = 0; k < plans.size() && !Interrupt::stop(); ++k) {
     report::FamilyMember member{plans[k].value, plans[k].mechanism, {}, {}};
-    for (std::size_t s = 0; s < command.sets.size(); ++s) {
-      member.results.push_back(
-          solve_one(command, plans[k], s,
-                    fmt::format("{} = {} ({} of {}), {}", constant, plans[k].value, k + 1, plans.size(), command.sets[s])));
-      member.files.push_back(file_name(k, plans.size(), "-" + command.sets[s] + ".h5"));
+    for (std::size_t s = 0; s < command.search.sets.size(); ++s) {
+      member.results.push_back(solve_one(
+          command, plans[k], s,
+          fmt::format("{} = {} ({} of {}), {}", constant, plans[k].value, k + 1, plans.size(), command.search.sets[s])));
+      member.files.push_back(file_name(k, plans.size(), "-" + command.search.sets[s] + ".h5"));
       report::write_result(std::filesystem::path(command.folder) / member.files.back(), member.results.back());
     }
     members.push_back(std::move(member));
   }
   return members;
-}
-
-std::string command_line(const SweepCommand& command, const std::string& name, const std::vector<std::string>& definitions) {
-  std::string text = "corank " + name + " " + std::filesystem::path(command.question.file).filename().string();
-  if (command.sigma) text += fmt::format(" --sigma {:g}", *command.sigma);
-  if (command.cspace_sigma) text += fmt::format(" --cspace-sigma {:g}", *command.cspace_sigma);
-  for (const std::string& definition : definitions) text += " -D '" + definition + "'";
-  return text;
 }
 
 ExitStatus write_sweep(SweepCommand command) {
@@ -134,8 +105,8 @@ ExitStatus write_sweep(SweepCommand command) {
   options.constant = family.constant;
   options.axes = {axes[0], axes[1]};
   options.asked = plans.size();
-  options.command = command_line(command, "sweep", command.question.definitions);
-  options.report_command = command_line(command, "report", plans.front().question.definitions);
+  options.command = command.search.command_line("sweep", command.question);
+  options.report_command = command.search.command_line("report", plans.front().question);
   for (const std::string& name : write_family_figures(folder / "figures", members, options))
     options.figures.push_back("figures/" + name);
   report::write_text(folder / "index.html", family_page(members, options));
@@ -166,23 +137,8 @@ void add_sweep(CLI::App& program, Action& action) {
                   "NAME=EXPR: another value for a constant, for all of them. May be repeated")
       ->type_name("NAME=FROM:TO:COUNT|NAME=EXPR")
       ->allow_extra_args(false);
-  sub->add_option("--sets", command->sets, "The sets, with commas")
-      ->type_name("SET[,SET...]")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"cspace", "forward", "inverse", "cspace-singular"}))
-      ->capture_default_str();
-  sub->add_option("--sigma", command->sigma,
-                  "Largest edge of a box in the sets of singularities; default: 0.02 for curves, 0.2 for surfaces")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--cspace-sigma", command->cspace_sigma, "The same in C-space; default: 0.02 for curves, 0.1 for surfaces")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  sub->add_option("--max-boxes", command->max_boxes, "End each search after so many processed boxes; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_option("--time-limit", command->time_limit, "End each search after so many seconds; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
+  command->search.add_sets(*sub);
+  command->search.add_limits(*sub);
   sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-sweep")
       ->type_name("FOLDER");
   sub->footer(

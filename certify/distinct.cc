@@ -26,4 +26,16 @@ bool holds_nothing_else(const Sheet& sheet, const Interval* box) {
   return contains(sheet.region, box);
 }
 
+bool is_solution_of_region(const ProvenZero& zero, const Reduction& reduction, const std::vector<Interval>& region) {
+  CORANK_CHECK(zero.sides.size() == reduction.kept.size());
+  if (reduction.tolerant || reduction.subset) return false;
+  for (std::size_t j = 0; j < zero.sides.size(); ++j) {
+    const Interval& side = region.at(static_cast<std::size_t>(reduction.kept[j]));
+    const auto& [lower, upper] = zero.sides[j];
+    if ((lower - ExactNumber::dyadic(side.lo())).sign() == -1 || (upper - ExactNumber::dyadic(side.hi())).sign() == 1)
+      return false;
+  }
+  return true;
+}
+
 }  // namespace corank::certify

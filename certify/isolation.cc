@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "corank/certify/algebraic_number.h"
+#include "corank/certify/exact_verification.h"
 
 namespace corank::certify {
 namespace {
@@ -166,6 +167,10 @@ std::optional<std::vector<System>> blow_up(const System& system, const ExactPoin
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
+}
+
+bool holds_nothing_else(const ExactPoint& point, const std::vector<Interval>& box) {
+  return point.sole_within > 0 && (reach(point, box) - ExactNumber::dyadic(point.sole_within)).sign() == -1;
 }
 
 }  // namespace corank::certify

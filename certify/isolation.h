@@ -21,4 +21,7 @@ namespace corank::certify {
 /// arithmetic, a coordinate is missing, or the sign of a pivot cannot be decided.
 std::optional<std::vector<System>> blow_up(const System& system, const ExactPoint& point, const ExactNumber& radius);
 
+/// True where no solution in the box is another than the point, by its sole_within: the box lies in the cube of that radius about it.
+bool holds_nothing_else(const ExactPoint& point, const std::vector<Interval>& box);
+
 }  // namespace corank::certify

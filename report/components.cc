@@ -1,6 +1,7 @@
 #include "corank/report/components.h"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
@@ -10,19 +11,6 @@ namespace {
 
 using certify::Box;
 using certify::Interval;
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) { parent_[find(i)] = find(j); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 bool touch(const Box& a, const Box& b, std::size_t n) {
   for (std::size_t j = 0; j < n; ++j)
@@ -62,7 +50,7 @@ Components components(const Result& result) {
 
   // Boxes by the grid cells that they meet. A cell is as wide as the widest box, so a box meets two cells along each axis at most.
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells;
-  UnionFind joined(boxes.size());
+  boost::disjoint_sets_with_storage<> joined(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     std::vector<std::uint64_t> keys = {0};
     for (const std::size_t j : axes) {
@@ -78,7 +66,8 @@ Components components(const Result& result) {
     for (const std::uint64_t key : keys) {
       std::vector<std::size_t>& others = cells[key];
       for (const std::size_t other : others)
-        if (joined.find(i) != joined.find(other) && touch(boxes[i].box, boxes[other].box, n)) joined.join(i, other);
+        if (joined.find_set(i) != joined.find_set(other) && touch(boxes[i].box, boxes[other].box, n))
+          joined.union_set(i, other);
       others.push_back(i);
     }
   }
@@ -87,7 +76,7 @@ Components components(const Result& result) {
   std::unordered_map<std::size_t, int> numbers;
   std::vector<bool> proven;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const int component = numbers.emplace(joined.find(i), static_cast<int>(numbers.size())).first->second;
+    const int component = numbers.emplace(joined.find_set(i), static_cast<int>(numbers.size())).first->second;
     found.of_box.push_back(component);
     proven.resize(numbers.size());
     const certify::Verdict verdict = boxes[i].verdict;

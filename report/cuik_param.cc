@@ -4,13 +4,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
-#include <sstream>
 
 namespace corank::report {
 namespace {
@@ -342,15 +340,7 @@ std::optional<double> sigma_for(const CuikParameters& parameters, const certify:
 CuikParameters parse_param(std::string_view text, const std::string& file) { return ParamParser(text, file).parse(); }
 
 CuikParameters read_param(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
-    throw ResultFileError(path.string() + ": there is no such file; expected a .param file");
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (!in || std::filesystem::is_directory(path, ignored) || (in.peek() != EOF && !(text << in.rdbuf()))) {
-    throw ResultFileError(path.string() + ": cannot be read; expected a .param file");
-  }
-  return parse_param(std::move(text).str(), path.string());
+  return parse_param(read_cuik_text(path, ".param"), path.string());
 }
 
 }  // namespace corank::report

@@ -28,6 +28,9 @@ class CuikFileError : public ResultFileError {
   int line_;
 };
 
+/// The text of a file with this extension. Throws ResultFileError where it cannot be read.
+std::string read_cuik_text(const std::filesystem::path& path, const std::string& extension);
+
 struct SolBox {
   certify::Box box;
   std::optional<certify::Verdict> verdict;  ///< nothing where the file says nothing, as the CUIK suite's own

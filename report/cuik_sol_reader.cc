@@ -185,6 +185,19 @@ class SolParser {
 CuikFileError::CuikFileError(const std::string& file, int line, const std::string& problem, const std::string& expectation)
     : ResultFileError(file + ":" + std::to_string(line) + ": " + problem + "; expected " + expectation), line_(line) {}
 
+std::string read_cuik_text(const std::filesystem::path& path, const std::string& extension) {
+  const auto fail = [&](const std::string& problem) {
+    throw ResultFileError(path.string() + ": " + problem + "; expected a " + extension + " file");
+  };
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) fail("there is no such file");
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (!in || std::filesystem::is_directory(path, ignored) || (in.peek() != EOF && !(text << in.rdbuf())))
+    fail("cannot be read");
+  return std::move(text).str();
+}
+
 int SolFile::find(const std::string& name_or_number) const {
   const auto named = std::find(variables.begin(), variables.end(), name_or_number);
   if (named != variables.end()) return static_cast<int>(named - variables.begin());
@@ -196,16 +209,6 @@ int SolFile::find(const std::string& name_or_number) const {
 
 SolFile parse_sol(std::string_view text, const std::string& file) { return SolParser(text, file).parse(); }
 
-SolFile read_sol(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
-    throw ResultFileError(path.string() + ": there is no such file; expected a .sol file");
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (!in || std::filesystem::is_directory(path, ignored) || (in.peek() != EOF && !(text << in.rdbuf()))) {
-    throw ResultFileError(path.string() + ": cannot be read; expected a .sol file");
-  }
-  return parse_sol(std::move(text).str(), path.string());
-}
+SolFile read_sol(const std::filesystem::path& path) { return parse_sol(read_cuik_text(path, ".sol"), path.string()); }
 
 }  // namespace corank::report

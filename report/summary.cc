@@ -116,30 +116,41 @@ std::string decimals_text(const Result& result) {
   return text;
 }
 
+// Boxes by the bound of the kernel's dimension; without the undecided boxes that may hold no solution.
+struct KernelTally {
+  std::map<int, std::size_t> at_most;
+  std::size_t larger = 0;     // with a bound above 1
+  std::size_t explained = 0;  // of these, with a point where the dimension is known to be above 1
+};
+
+KernelTally kernel_tally(const Result& result) {
+  KernelTally tally;
+  for (const CoverBox& box : result.cover.boxes) {
+    const certify::ExactPoint* point = exact_point(result, box);
+    if (box.corank < 0 || (box.verdict == Verdict::undecided && !point)) continue;
+    ++tally.at_most[box.corank];
+    if (box.corank <= 1) continue;
+    ++tally.larger;
+    if (point && point->corank > 1) ++tally.explained;
+  }
+  return tally;
+}
+
 // What is known of the kernel's dimension, and the points where it is 2 or more.
 std::string kernel_text(const Result& result) {
-  const certify::Cover& cover = result.cover;
-  std::map<int, std::size_t> bounds;
-  std::size_t explained = 0;
-  for (const CoverBox& box : cover.boxes) {
-    const certify::ExactPoint* point = exact_point(result, box);
-    if (box.verdict == Verdict::undecided && !point) continue;  // it may hold no solution
-    if (box.corank >= 0) ++bounds[box.corank];
-    if (box.corank > 1 && point && point->corank > 1) ++explained;
-  }
-  if (bounds.empty()) return "";
+  const auto [at_most, larger, explained] = kernel_tally(result);
+  if (at_most.empty()) return "";
   std::string text = "\nkernel:";
-  std::size_t larger = 0;
-  for (const auto& [bound, n] : bounds) {
-    text += bound <= 1
-                ? fmt::format(" dimension 1 in {}", plural(n, "box"))
-                : fmt::format("{} at most {} in {}", larger > 0 || bounds.begin()->first < bound ? "," : "", bound, n);
-    if (bound > 1) larger += n;
+  const char* between = "";
+  for (const auto& [bound, n] : at_most) {
+    text += bound <= 1 ? fmt::format(" dimension 1 in {}", plural(n, "box"))
+                       : fmt::format("{} at most {} in {}", between, bound, n);
+    between = ",";
   }
   text += "\n";
   if (explained > 0) text += fmt::format("  {} of these {} hold a point where it is proven:\n", explained, larger);
   int number = 0;
-  for (const certify::ExactPoint& point : cover.exact_points) {
+  for (const certify::ExactPoint& point : result.cover.exact_points) {
     if (point.corank < 2) continue;
     text += fmt::format("  {}: dimension {} at", ++number, point.corank);
     const char* comma = " ";
@@ -228,16 +239,15 @@ Json exact_json(const Result& result, const certify::ExactPoint& point) {
   return json;
 }
 
-// Boxes by the bound of the kernel's dimension, and the points where it is 2 or more.
+// The same as kernel_text.
 Json kernel_json(const Result& result) {
+  const KernelTally tally = kernel_tally(result);
+  if (tally.at_most.empty()) return Json();
   Json json = {{"at_most", Json::object()}, {"points", Json::array()}};
-  std::map<int, std::size_t> bounds;
-  for (const CoverBox& box : result.cover.boxes)
-    if (box.corank >= 0) ++bounds[box.corank];
-  for (const auto& [bound, n] : bounds) json["at_most"][std::to_string(bound)] = n;
+  for (const auto& [bound, n] : tally.at_most) json["at_most"][std::to_string(bound)] = n;
   for (const certify::ExactPoint& point : result.cover.exact_points)
     if (point.corank > 1) json["points"].push_back({{"dimension", point.corank}, {"exact", exact_json(result, point)}});
-  return bounds.empty() ? Json() : json;
+  return json;
 }
 
 }  // namespace

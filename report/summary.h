@@ -16,9 +16,11 @@ std::string outward_text(const certify::Interval& x, int digits);
 std::string to_table(const Result& result);
 
 /// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, boxes{processed,
-/// regular, isolated, exact, boundary, undecided, pending}, points, seconds{total, search, certify}, version. `points` is null
-/// where the dimension is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns as they are,
-/// angles in radians in place of their sines and cosines. Every double reads back as the same double.
+/// regular, isolated, exact, boundary, partial, undecided, pending}, points, kernel, seconds{total, search, certify}, version.
+/// `points` is null where the dimension is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns
+/// as they are, angles in radians in place of their sines and cosines. `kernel` is null where its dimension is not known, else
+/// at_most{bound: boxes}, without undecided boxes that hold no known point, and points, where the dimension is known to be 2 or
+/// more: a list of {dimension, exact{name: text}}. Every double reads back as the same double.
 std::string to_json(const Result& result);
 
 }  // namespace corank::report

@@ -192,13 +192,16 @@ BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
   if (split_variable_ < 0) split_variable_ = choose_for_values(x);
   // A small box in which Newton is regular may be proven when it is smaller still.
   if (split_variable_ < 0 && regular_)
-    split_variable_ = problem_.branching.choose(problem_.compiled, x, kRegularCutShare * problem_.sigma);
+    split_variable_ = problem_.branching.choose(problem_.compiled, x, problem_.sigma, kRegularCutShare);
   // Where a proof is near, the solutions in x are a sheet over the free variables: cutting along those alone gives parts whose sheets do
   // not overlap. Such boxes are cut on below σ, too, a bounded number of times.
   if (worth_proving_) {
     const int free = widest_free(x);
-    const double least = split_variable_ >= 0 ? kFreeCutShare * x[split_variable_].width() : kLastCutShare * problem_.sigma;
-    if (free >= 0 && x[free].width() > least && split_point(x[free])) split_variable_ = free;
+    if (free >= 0 && split_point(x[free])) {
+      const double least = split_variable_ >= 0 ? kFreeCutShare * x[split_variable_].width()
+                                                : kLastCutShare * problem_.branching.limit(free, problem_.sigma);
+      if (x[free].width() > least) split_variable_ = free;
+    }
   }
   if (split_variable_ >= 0) {
     if (recorder_) recorder_->keep(x);

@@ -14,14 +14,15 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <ranges>
 #include <sstream>
 #include <stdexcept>
-#include <tuple>
 #include <unordered_map>
 
 #include "corank/certify/check.h"
 #include "corank/certify/domain.h"
 #include "corank/certify/rounding.h"
+#include "corank/solve/box_order.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/distinct_solutions.h"
 #include "corank/solve/merging.h"
@@ -266,15 +267,6 @@ std::string format(double x) {
   return text.str();
 }
 
-bool before(const Found& a, const Found& b) {
-  const certify::Box &x = a.box.box, &y = b.box.box;
-  for (std::size_t j = 0; j < x.size(); ++j) {
-    if (x[j].lo() != y[j].lo()) return x[j].lo() < y[j].lo();
-    if (x[j].hi() != y[j].hi()) return x[j].hi() < y[j].hi();
-  }
-  return std::tie(a.box.verdict, a.box.free) < std::tie(b.box.verdict, b.box.free);
-}
-
 // Sorted by their sides: the same for any number of threads. In the calling thread's arena.
 void sort(std::vector<Found>& found) {
   struct Key {
@@ -283,8 +275,9 @@ void sort(std::vector<Found>& found) {
   };
   std::vector<Key> order(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) order[i] = {found[i].box.box.empty() ? 0 : found[i].box.box[0].lo(), i};
+  const auto sides = std::views::iota(std::size_t{0}, found.empty() ? 0 : found[0].box.box.size());
   tbb::parallel_sort(order.begin(), order.end(), [&](const Key& a, const Key& b) {
-    return a.lower != b.lower ? a.lower < b.lower : before(found[a.index], found[b.index]);
+    return a.lower != b.lower ? a.lower < b.lower : before(found[a.index].box, found[b.index].box, sides);
   });
   std::vector<Found> sorted(found.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) { sorted[i] = std::move(found[order[i].index]); });

@@ -85,22 +85,30 @@ std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, 
     if (!(sum > 0 && std::isfinite(sum))) continue;
     for (int k = begin; k < end; ++k) {
       const auto j = static_cast<std::size_t>(system.column(k));
-      result[j] += part[j] / sum;
+      result[j] += std::sqrt(part[j] / sum);
     }
   }
   return result;
 }
 
-int BranchingRule::choose(const certify::CompiledSystem& system, const certify::Interval* x, double sigma) const {
+double BranchingRule::limit(int variable, double sigma) const {
+  const auto j = static_cast<std::size_t>(variable);
+  if (weight_[j] == 0) return sigma;
+  return std::min(sigma, kProofShare / inverse_width_[j]);
+}
+
+int BranchingRule::choose(const certify::CompiledSystem& system, const certify::Interval* x, double sigma,
+                          double scale) const {
   const std::vector<double> smears = smear(system, x);
   int best = -1, widest = -1;
-  double best_score = 0, widest_width = sigma;
+  double best_score = 0, widest_width = scale * sigma;
   for (std::size_t j = 0; j < weight_.size(); ++j) {
     const double width = std::min(x[j].width(), std::numeric_limits<double>::max());
     const double share = width * inverse_width_[j];
-    if (width <= sigma && (share <= kProofShare || weight_[j] == 0)) continue;
+    if (width <= scale * limit(static_cast<int>(j), sigma)) continue;
     if (!split_point(x[j])) continue;
-    const double score = weight_[j] * share * std::max(smears[j] * smears[j] * smears[j], kLeastSmear);
+    const double square = smears[j] * smears[j];
+    const double score = weight_[j] * share * std::max(square * square, kLeastSmear);
     if (score > best_score) best_score = score, best = static_cast<int>(j);
     if (width > widest_width) widest_width = width, widest = static_cast<int>(j);
   }

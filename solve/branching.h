@@ -22,12 +22,15 @@ class BranchingRule {
  public:
   explicit BranchingRule(const certify::System& system);
 
-  /// The variable to bisect for an unproven box: the one of largest s³ · width / domain width among those wider than σ or than
-  /// kProofShare of their domain (a wider box can hardly be proven, however large σ is); −1 where there is none that can be
-  /// divided. s is the relative smear Σ_i |J_ij| w_j / Σ_k |J_ik| w_k over the equations i, the variable's share in what makes them
-  /// uncertain (key Trombettoni2011); its power is measured, see bench/HISTORY.md. A variable that a linear equation or a
-  /// sine or cosine defines waits until all others are narrow.
-  int choose(const certify::CompiledSystem& system, const certify::Interval* x, double sigma) const;
+  /// An unproven box is bisected until no side is wider than this: σ, or kProofShare of the variable's domain (a wider box can hardly be
+  /// proven, however large σ is).
+  double limit(int variable, double sigma) const;
+
+  /// The variable to bisect for an unproven box: the one of largest s⁴ · width / domain width among those wider than `scale` times
+  /// their limit; −1 where there is none that can be divided. s is the sum over the equations i of √(|J_ij| w_j / Σ_k |J_ik| w_k), the variable's share in what makes each uncertain:
+  /// relative smear (key Trombettoni2011), where the root favours a variable of many equations; root and power are measured, see
+  /// bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until all others are narrow.
+  int choose(const certify::CompiledSystem& system, const certify::Interval* x, double sigma, double scale = 1) const;
 
   const std::vector<double>& weights() const { return weight_; }
 

@@ -1,7 +1,8 @@
 #include "corank/solve/cover_edit.h"
 
 #include <algorithm>
-#include <tuple>
+
+#include "corank/solve/box_order.h"
 
 namespace corank::solve {
 namespace {
@@ -131,16 +132,9 @@ void CoverEdit::finish() {
     if (fate_[i] == kStays) order.push_back(static_cast<int>(i));
   std::vector<int> variables = reduction_.kept;
   for (const auto& definition : reduction_.definitions) variables.push_back(definition.variable);
-  const auto before = [&](int i, int k) {
-    const CoverBox &a = cover_.boxes[static_cast<std::size_t>(i)], &b = cover_.boxes[static_cast<std::size_t>(k)];
-    for (const int v : variables) {
-      const Interval &x = a.box[static_cast<std::size_t>(v)], &y = b.box[static_cast<std::size_t>(v)];
-      if (x.lo() != y.lo()) return x.lo() < y.lo();
-      if (x.hi() != y.hi()) return x.hi() < y.hi();
-    }
-    return std::tie(a.verdict, a.free) < std::tie(b.verdict, b.free);
-  };
-  std::sort(order.begin(), order.end(), before);
+  std::sort(order.begin(), order.end(), [&](int i, int k) {
+    return before(cover_.boxes[static_cast<std::size_t>(i)], cover_.boxes[static_cast<std::size_t>(k)], variables);
+  });
   std::vector<int> place(cover_.boxes.size(), -1);
   std::vector<CoverBox> boxes;
   for (const int i : order) {

@@ -1,4 +1,5 @@
 #include "corank/certify/algebraic_number.h"
+#include "corank/certify/distinct.h"
 #include "corank/certify/reduction.h"
 #include "corank/certify/refinement.h"
 #include "corank/solve/exactness.h"
@@ -10,7 +11,6 @@ using certify::Cover;
 using certify::CoverBox;
 using certify::ExactNumber;
 using certify::ExactPoint;
-using certify::Interval;
 using certify::System;
 using certify::Verdict;
 
@@ -32,17 +32,8 @@ void prove_decimals(const System& system, int digits, Cover& cover) {
       std::vector<ExactNumber> start;
       for (const int j : reduction.kept) start.push_back(ExactNumber::dyadic(point.box[static_cast<std::size_t>(j)].mid()));
       const auto zero = certify::prove_zero(reduction.system, start, digits + 2);
-      if (!zero || reduction.tolerant || reduction.subset) continue;
-      // The region of the proof holds exactly one solution: one that is proven in it is that.
       const Box& region = point.region >= 0 ? cover.regions[static_cast<std::size_t>(point.region)] : point.box;
-      const auto inside = [&](std::size_t j) {
-        const Interval& side = region[static_cast<std::size_t>(reduction.kept[j])];
-        return (zero->sides[j].first - ExactNumber::dyadic(side.lo())).sign() != -1 &&
-               (zero->sides[j].second - ExactNumber::dyadic(side.hi())).sign() != 1;
-      };
-      bool same = true;
-      for (std::size_t j = 0; j < reduction.kept.size(); ++j) same = same && inside(j);
-      if (!same) continue;
+      if (!zero || !certify::is_solution_of_region(*zero, reduction, region)) continue;
       decimals.resize(system.variables.size());
       for (std::size_t j = 0; j < reduction.kept.size(); ++j)
         decimals[static_cast<std::size_t>(reduction.kept[j])] =

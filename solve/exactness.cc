@@ -198,11 +198,11 @@ class Prover {
 
   bool is_only_solution(int index, const Box& box) {
     ExactPoint& point = cover_.exact_points[static_cast<std::size_t>(index)];
+    if (certify::holds_nothing_else(point, box)) return true;
     // A power of two that is large enough: a double as well as a rational number.
     double radius = std::ldexp(1.0, -60);
     const ExactNumber needed = certify::reach(point, box);
     while ((ExactNumber::dyadic(radius) - needed).sign() != 1) radius *= 2;
-    if (radius <= point.sole_within) return true;
     const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius));
     if (!faces) return false;
     Options options;
@@ -218,7 +218,7 @@ class Prover {
       return false;
     }
     point.sole_within = radius;
-    return true;
+    return certify::holds_nothing_else(point, box);
   }
 
   // A verified configuration in or next to the box where the kernel has dimension 2 or more.

@@ -1,6 +1,7 @@
 #include "corank/solve/points.h"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -13,20 +14,6 @@ using certify::Interval;
 using certify::Verdict;
 
 bool is_proven(const Found& f) { return f.sheet != nullptr; }
-
-// Of box indices.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) { parent_[std::max(root(i), root(j))] = std::min(root(i), root(j)); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 // Calls visit(i, j) for every pair i in first, j in second (i ≠ j) whose sides overlap when widened by gap. Sweeps along the variable
 // that spreads the boxes most.
@@ -118,19 +105,19 @@ void merge_isolated(std::vector<Found>& found) {
 }
 
 std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::Box*>& boxes, double gap) {
-  DisjointSets sets(boxes.size());
+  boost::disjoint_sets_with_storage<> sets(boxes.size());
   std::vector<std::size_t> all(boxes.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  for_each_close_pair(boxes, all, all, gap, [&](std::size_t i, std::size_t j) { sets.join(i, j); });
+  for_each_close_pair(boxes, all, all, gap, [&](std::size_t i, std::size_t j) { sets.union_set(i, j); });
   std::vector<std::vector<std::size_t>> result;
-  std::vector<std::size_t> place(boxes.size());
+  std::vector<std::size_t> place(boxes.size(), boxes.size());  // of each set in the result
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const std::size_t root = sets.root(i);  // the first of its set
-    if (root == i) {
-      place[i] = result.size();
+    std::size_t& at = place[sets.find_set(i)];
+    if (at == boxes.size()) {
+      at = result.size();
       result.emplace_back();
     }
-    result[place[root]].push_back(i);
+    result[at].push_back(i);
   }
   return result;
 }

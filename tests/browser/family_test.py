@@ -3,33 +3,16 @@
 l2 = 1.6, 1.3667, 1.1333, 0.9; l3 = l4 = l5 = 0.9, J1 = (1.18, 0): J3 comes no nearer to J1 than l2 - 0.9.
 """
 import math
-import sys
-import unittest
 
-import chromium
+import page_case
 
-PAGE = sys.argv[1] if len(sys.argv) > 1 else ""
 BASE, MEMBERS = 1.18, 4
 HOLES = [0.7 * (1 - k / 3) for k in range(MEMBERS)]
 
 
-class Family(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = chromium.Browser(1360, 1000)
-        cls.browser.open(PAGE)
-        cls.browser.drawn()
-        cls.browser.run("document.documentElement.style.scrollBehavior = 'auto'")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
-
+class Family(page_case.PageCase):
     def setUp(self):
         self.run_js("corank.family.choose(0)")
-
-    def run_js(self, script):
-        return self.browser.run(script)
 
     def middle(self, selector):
         return self.run_js(f"""(() => {{
@@ -61,12 +44,6 @@ class Family(unittest.TestCase):
           for (let i = 0; i < data.length; i += 4) count += Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 40;
           return count;
         }})()""")
-
-    def test_asks_nothing_of_the_network_and_throws_nothing(self):
-        own = [url for url in self.browser.requests if url.startswith("file:") or url.startswith("data:")]
-        self.assertEqual(own, self.browser.requests)
-        self.assertEqual(len([url for url in own if url.startswith("file:")]), 1)
-        self.assertEqual(self.browser.messages, [])
 
     def test_arrow_keys_move_the_slider_and_all_that_belongs_to_it(self):
         self.run_js("document.getElementById('slider').focus()")
@@ -153,17 +130,6 @@ class Family(unittest.TestCase):
         self.assertLess(sum(self.run_js(pixel)[:3]), sum(light[:3]))
         self.browser.click(*self.middle("#theme"))
 
-    def test_a_phone_shows_the_page_without_scrolling_sideways(self):
-        with chromium.Browser(390, 844, dark=True, touch=True) as phone:
-            phone.open(PAGE)
-            phone.drawn()
-            self.assertLessEqual(phone.run("document.documentElement.scrollWidth"), 390)
-            self.assertEqual(phone.run("document.documentElement.dataset.theme"), "dark")
-            self.assertEqual(phone.messages, [])
-
 
 if __name__ == "__main__":
-    if not chromium.find():
-        print("skipped: there is no Chromium on this machine", file=sys.stderr)
-        sys.exit(77)
-    unittest.main(argv=sys.argv[:1], verbosity=1)
+    page_case.main()

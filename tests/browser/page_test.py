@@ -4,31 +4,17 @@ Dextar: l2 = l3 = l4 = l5 = 0.9, J5 = (0, 0), J1 = (1.18, 0). J3 reaches the poi
 """
 import math
 import sys
-import unittest
 
-import chromium
+import page_case
 
-PAGE = sys.argv[1] if len(sys.argv) > 1 else ""
 REACH, BASE = 1.8, 1.18
 
 
-class Dextar(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = chromium.Browser(1360, 1000)
-        cls.browser.open(PAGE)
-        cls.browser.drawn()
-        cls.browser.run("document.documentElement.style.scrollBehavior = 'auto'")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
+class Dextar(page_case.PageCase):
+    own = page_case.PageCase.own + ("blob:",)
 
     def setUp(self):
         self.run_js("corank.panel.unpin()")
-
-    def run_js(self, script):
-        return self.browser.run(script)
 
     def place(self, portrait, x, y):
         """The place on the screen of (x, y) in a portrait, which is scrolled into sight."""
@@ -47,10 +33,7 @@ class Dextar(unittest.TestCase):
         return self.run_js("document.querySelectorAll('#panel svg .velocity').length")
 
     def test_asks_nothing_of_the_network_and_throws_nothing(self):
-        own = [url for url in self.browser.requests if url.startswith("file:") or url.startswith("data:") or url.startswith("blob:")]
-        self.assertEqual(own, self.browser.requests)
-        self.assertEqual(len([url for url in own if url.startswith("file:")]), 1)
-        self.assertEqual(self.browser.messages, [])
+        super().test_asks_nothing_of_the_network_and_throws_nothing()
         print(f"\nready {self.run_js('document.documentElement.dataset.ready')} ms after the page was asked for", file=sys.stderr)
 
     def test_output_portrait_has_boxes_over_the_reach_of_both_arms_and_over_nothing_else(self):
@@ -196,17 +179,6 @@ class Dextar(unittest.TestCase):
         self.browser.drawn()
         self.assertGreater(self.run_js(painted), 0.02)
 
-    def test_a_phone_shows_the_page_without_scrolling_sideways(self):
-        with chromium.Browser(390, 844, dark=True, touch=True) as phone:
-            phone.open(PAGE)
-            phone.drawn()
-            self.assertLessEqual(phone.run("document.documentElement.scrollWidth"), 390)
-            self.assertEqual(phone.run("document.documentElement.dataset.theme"), "dark")
-            self.assertEqual(phone.messages, [])
-
 
 if __name__ == "__main__":
-    if not chromium.find():
-        print("skipped: there is no Chromium on this machine", file=sys.stderr)
-        sys.exit(77)
-    unittest.main(argv=sys.argv[:1], verbosity=1)
+    page_case.main()

@@ -13,6 +13,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "corank/certify/rounding.h"
@@ -80,6 +82,14 @@ class Ball {
 
 inline Ball sin(const Ball& x) { return Ball::unary(arb_sin, x); }
 inline Ball cos(const Ball& x) { return Ball::unary(arb_cos, x); }
+
+/// Bit for bit: "[0x1.8p+1, 0x1p+2]".
+inline std::string shown(const Interval& x) {
+  std::ostringstream text;
+  text << std::hexfloat << '[' << x.lo() << ", " << x.hi() << ']';
+  return text.str();
+}
+inline std::string shown(const std::optional<Interval>& x) { return x ? shown(*x) : "nothing"; }
 
 /// Evaluates f() under upward rounding; Arb and RapidCheck run under the caller's mode.
 template <class F>

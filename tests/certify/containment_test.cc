@@ -1,7 +1,5 @@
 // Interval operations and panels on hard inputs, against Arb: whatever numbers the operands hold, the result holds the number that comes
 // of them. RC_PARAMS=max_success=100000 ./certify_test --gtest_filter='*Contain*' looks further.
-#include <sstream>
-
 #include "corank/certify/interval.h"
 #include "corank/certify/panel.h"
 #include "corank/tests/certify/adversary.h"
@@ -10,19 +8,7 @@
 namespace corank::certify {
 namespace {
 
-using adversary::any_interval;
-using adversary::Ball;
-using adversary::bounded_interval;
-using adversary::finite_double;
-using adversary::member;
-using adversary::upward;
-
-std::string shown(const Interval& x) {
-  std::ostringstream text;
-  text << std::hexfloat << '[' << x.lo() << ", " << x.hi() << ']';
-  return text.str();
-}
-std::string shown(const std::optional<Interval>& x) { return x ? shown(*x) : "nothing"; }
+using namespace adversary;
 
 RC_GTEST_PROP(IntervalContainment, OfSumsDifferencesAndProducts, ()) {
   const Interval x = any_interval(), y = any_interval();
@@ -55,7 +41,7 @@ RC_GTEST_PROP(IntervalContainment, OfSquareRootsAndRoots, ()) {
   const double a = member(x);
   const int p = *rc::gen::inRange(1, 9);
   Ball root;
-  arb_root_ui(root.get(), Ball(std::fabs(a)).get(), static_cast<ulong>(p), adversary::kBits);
+  arb_root_ui(root.get(), Ball(std::fabs(a)).get(), static_cast<ulong>(p), kBits);
   if (a >= 0) {
     const auto kept = upward([&] { return square_root(x); });
     RC_LOG() << "sqrt " << shown(x) << " = " << shown(kept) << " at " << a << '\n';

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "corank/certify/algebraic_number.h"
+#include "corank/certify/distinct.h"
 #include "corank/certify/exact_verification.h"
 #include "corank/certify/isolation.h"
 #include "corank/certify/refinement.h"
@@ -126,6 +127,16 @@ TEST(BlowUp, RefusesWhatIsNoSolution) {
   EXPECT_FALSE(blow_up(b.system(), rational_point({"1/1000"}), q("1/2")));
 }
 
+TEST(HoldsNothingElse, GoesAsFarAsIsProvenAndNoFarther) {
+  ExactPoint point = rational_point({"0", "1/3"});
+  const std::vector<Interval> box{{-0.25, 0.5}, {0.25, 0.5}};
+  EXPECT_FALSE(holds_nothing_else(point, box)) << "nothing is known about it";
+  point.sole_within = 0.5;
+  EXPECT_FALSE(holds_nothing_else(point, box)) << "a corner is as far as that";
+  point.sole_within = 0x1.0000000000001p-1;
+  EXPECT_TRUE(holds_nothing_else(point, box));
+}
+
 TEST(ApproximateZero, ConvergesAtADoubleRoot) {
   // (x − 1/3)² = 0, y = x: each step halves the error.
   test::SystemBuilder b;
@@ -144,6 +155,24 @@ TEST(ProveZero, GivesFiftyProvenDigits) {
   EXPECT_EQ(zero->bits, 212);
   EXPECT_EQ(proven_decimal(zero->sides[0].first, zero->sides[0].second, 50),
             "0.70710678118654752440084436210484903928483593768847");
+}
+
+TEST(ProveZero, IsTheSolutionOfARegionThatItLiesIn) {
+  // z = 2x is eliminated, and the region says nothing of it.
+  test::SystemBuilder b = diagonal();
+  const int z = b.variable("z", "-4", "4");
+  b.equation({{"1", {{z, 1}}}, {"-2", {{0, 1}}}});
+  Reduction reduction = reduce(b.system(), Eliminate::exact);
+  const std::vector<ExactNumber> start(reduction.kept.size(), ExactNumber::dyadic(0.707));
+  const auto zero = prove_zero(reduction.system, start, 30);
+  ASSERT_TRUE(zero);
+  const auto region = [](const Interval& side) { return std::vector<Interval>{side, side, Interval::whole()}; };
+  EXPECT_TRUE(is_solution_of_region(*zero, reduction, region({0.7, 0.8})));
+  EXPECT_FALSE(is_solution_of_region(*zero, reduction, region({0.7, 0.7071})));
+  EXPECT_FALSE(is_solution_of_region(*zero, reduction, region({0.7072, 0.8})));
+  EXPECT_FALSE(is_solution_of_region(*zero, reduction, region({-0.8, -0.7}))) << "the other solution's";
+  reduction.subset = true;
+  EXPECT_FALSE(is_solution_of_region(*zero, reduction, region({0.7, 0.8})));
 }
 
 TEST(ProveZero, LeavesADoubleRootUnproven) {

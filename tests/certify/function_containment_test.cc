@@ -1,6 +1,4 @@
 // Sines, cosines, angles, exact numbers and whole systems on hard inputs, against Arb.
-#include <sstream>
-
 #include "corank/certify/angle.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/trigonometric.h"
@@ -9,18 +7,7 @@
 namespace corank::certify {
 namespace {
 
-using adversary::any_interval;
-using adversary::Ball;
-using adversary::bounded_interval;
-using adversary::finite_double;
-using adversary::member;
-using adversary::upward;
-
-std::string shown(const Interval& x) {
-  std::ostringstream text;
-  text << std::hexfloat << '[' << x.lo() << ", " << x.hi() << ']';
-  return text.str();
-}
+using namespace adversary;
 
 RC_GTEST_PROP(WaveContainment, OfValuesAndSlopes, ()) {
   const Interval x = any_interval();
@@ -63,12 +50,12 @@ RC_GTEST_PROP(AngleContainment, OfEveryPointOfABox, ()) {
   const bool touches = c.hi() < 0 && s.lo() < 0 && s.hi() == 0;
   RC_LOG() << shown(c) << ' ' << shown(s) << " -> " << shown(angles) << '\n';
   Ball turn;
-  arb_const_pi(turn.get(), adversary::kBits);
+  arb_const_pi(turn.get(), kBits);
   turn = turn * 2.0;
   for (int trial = 0; trial < 4; ++trial) {
     const double a = member(c), b = member(s);
     if (a == 0 && b == 0) continue;
-    Ball angle = Ball::binary(arb_atan2, b, a, adversary::kBits);
+    Ball angle = Ball::binary(arb_atan2, b, a, kBits);
     if (across && b < 0) angle = angle + turn;  // the angle is continuous over the box
     if (touches && b == 0) angle = angle - turn;
     for (int k = -4; k <= 4; ++k) common[k + 4] = common[k + 4] && (angle + turn * (k0 + k)).in(angles);
@@ -109,7 +96,7 @@ std::optional<Constant> function_of_a_constant(const Constant& x) {
   if (f == F::abs)
     arb_abs(value.get(), x.value.get());
   else
-    arb(value.get(), x.value.get(), adversary::kBits);
+    arb(value.get(), x.value.get(), kBits);
   if (!arb_is_finite(value.get())) return std::nullopt;
   return Constant{ExactNumber::apply(f, x.number), value};
 }

@@ -80,6 +80,17 @@ TEST(JsonSummary, TellsAPlainSystemFromOneWithAKernel) {
   EXPECT_TRUE(ordered_json::parse(to_json(result))["options"]["kernel"].is_null());
 }
 
+TEST(Summary, LeavesUndecidedBoxesOutOfTheKernelUnlessTheyHoldAKnownPoint) {
+  Result result = sample_result();
+  const auto at_most = [&] { return ordered_json::parse(to_json(result))["kernel"]["at_most"]; };
+  result.cover.boxes[4].corank = 2;
+  EXPECT_EQ(at_most(), (ordered_json{{"1", 1}, {"2", 1}}));
+  EXPECT_THAT(to_table(result), HasSubstr("kernel: dimension 1 in 1 box, at most 2 in 1\n"));
+  result.cover.boxes[4].point = -1;
+  EXPECT_EQ(at_most(), (ordered_json{{"1", 1}}));
+  EXPECT_THAT(to_table(result), HasSubstr("kernel: dimension 1 in 1 box\n"));
+}
+
 TEST(OutwardText, RoundsEachBoundOutward) {
   EXPECT_EQ(outward_text({1.0 / 3, 2.0 / 3}, 3), "[0.333, 0.667]");
   EXPECT_EQ(outward_text({-2.0 / 3, -1.0 / 3}, 3), "[-0.667, -0.333]");

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -13,6 +12,7 @@
 
 #include "corank/symbolic/model_builder.h"
 #include "corank/symbolic/model_grammar.h"
+#include "corank/tests/cuik/suite_files.h"
 
 namespace corank::symbolic {
 namespace {
@@ -179,14 +179,10 @@ TEST(ModelFile, ReadsTheExampleOfTheDocumentation) {
 }
 
 TEST(ModelFile, ReadsEveryFileOfTheCuikSuite) {
-  const char* const variable = std::getenv("CORANK_CUIK_DIR");
-  const std::filesystem::path folder = variable ? variable : CORANK_SOURCE_DIR "/../shared/cuik";
-  if (!std::filesystem::is_directory(folder / "problems")) {
-    GTEST_SKIP() << "no files of the CUIK suite in " << folder << "; set CORANK_CUIK_DIR";
-  }
+  SKIP_WITHOUT_SUITE_FILES();
   int count = 0;
   for (const char* part : {"problems", "solutions"}) {
-    for (const auto& path : model_files_in(folder / part)) {
+    for (const auto& path : model_files_in(cuik::suite_folder() / part)) {
       EXPECT_NO_THROW({
         const Mechanism m = read_model(path);
         EXPECT_TRUE(m.is_plain_system()) << path;

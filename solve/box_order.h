@@ -1,0 +1,21 @@
+// The order of a cover's boxes: by their sides, then by what is claimed of them, so that it does not matter which thread found which box.
+#pragma once
+
+#include <tuple>
+
+#include "corank/certify/cover.h"
+
+namespace corank::solve {
+
+/// The sides of these variables, one after the other, are compared by their lower ends, then by their upper ends.
+template <class Variables>
+bool before(const certify::CoverBox& a, const certify::CoverBox& b, const Variables& variables) {
+  for (const auto v : variables) {
+    const certify::Interval &x = a.box[static_cast<std::size_t>(v)], &y = b.box[static_cast<std::size_t>(v)];
+    if (x.lo() != y.lo()) return x.lo() < y.lo();
+    if (x.hi() != y.hi()) return x.hi() < y.hi();
+  }
+  return std::tie(a.verdict, a.free) < std::tie(b.verdict, b.free);
+}
+
+}  // namespace corank::solve
