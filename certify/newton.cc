@@ -25,21 +25,16 @@ bool bounded(const std::vector<Interval>& x) {
   return std::all_of(x.begin(), x.end(), [](const Interval& side) { return side.is_bounded(); });
 }
 
-bool finite(const Preconditioner& p) {
-  return std::all_of(p.y.begin(), p.y.end(), [](double y) { return std::isfinite(y); });
-}
-
 }  // namespace
 
 NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
   NewtonOutcome outcome;
   const int r = p.rank(), n = system.variables();
   w.contracted = false;
-  if (!finite(p)) return outcome;
+  if (!w.panel.set_matrix(p.y, r)) return outcome;
   set_center(x, n, w);
   w.slope.resize(system.entries());
   system.slopes(x, w.center.data(), w.slope.data());
-  w.panel.set_matrix(p.y, r);
   if (!w.panel.assign_product(system, p.equations, w.slope)) return outcome;
   multiply_residual(system, p, w);
   w.contracted = true;
@@ -68,11 +63,7 @@ NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner
       return outcome;
     }
   }
-  for (int a = 0; a < r && outcome.regular; ++a) {
-    double sum = 0;
-    for (int b = 0; b < r; ++b) sum += (Interval(a == b ? 1.0 : 0.0) - w.panel.at(a, p.dependent[b])).mag();
-    outcome.spread = std::max(outcome.spread, sum);
-  }
+  if (outcome.regular) outcome.spread = w.panel.distance_from_identity(p.dependent);
   return outcome;
 }
 
@@ -165,9 +156,8 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
   Sheet sheet;
   const int r = p.rank(), n = system.variables();
   // No dependent variable and no equation: every point of x is a solution.
-  if ((r == 0 && system.equations() > 0) || r > n || !finite(p)) return sheet;
+  if ((r == 0 && system.equations() > 0) || r > n || !w.panel.set_matrix(p.y, r)) return sheet;
   set_center(x, n, w);
-  w.panel.set_matrix(p.y, r);
   multiply_residual(system, p, w);
   if (!bounded(w.residual)) return sheet;
   std::vector<Interval>& b = w.region;  // X_F × Z
@@ -212,7 +202,7 @@ Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, i
     if (!std::isfinite(lambda)) return Interval::whole();
     if (lambda == 0) continue;
     value -= scale(lambda, w.residual[a]);
-    for (int j = 0; j < n; ++j) w.gradient[j] -= scale(lambda, w.panel.at(a, j));
+    w.panel.subtract_row(lambda, a, w.gradient.data());
   }
   for (int j = 0; j < n; ++j) value += w.gradient[j] * (x[j] - Interval(w.center[j]));
   return value;

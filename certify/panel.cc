@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 // The same loops for wider registers, chosen when the program starts. No fused operations: -ffp-contract=off.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
@@ -13,42 +14,81 @@
 namespace corank::certify {
 namespace {
 
-// One column of Y, split by sign, and the entries of S that it multiplies.
-struct ColumnOfY {
+constexpr std::size_t kLanes = 4;
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+const Lanes& lanes(const double* x) { return *reinterpret_cast<const Lanes*>(x); }
+Lanes& lanes(double* x) { return *reinterpret_cast<Lanes*>(x); }
+
+// A real matrix, split by sign. `rows` is a multiple of kLanes.
+struct SplitMatrix {
   const double* positive;
   const double* negative;
   std::size_t rows;
 };
 
-// For each of `count` entries s in column columns[k]: (−lo, hi) of that column += y·(−lo_s, hi_s) by rows; y⁺ takes the ends as they are,
-// y⁻ exchanges them.
-CORANK_WIDE void add_scaled(const ColumnOfY& y, const Interval* entries, const int* columns, int count,
-                            double* negated_lower, double* upper) {
-  const double* __restrict const positive = y.positive;
-  const double* __restrict const negative = y.negative;
-  for (int k = 0; k < count; ++k) {
-    const double l = -entries[k].lo(), h = entries[k].hi();
-    double* __restrict const sum_l = negated_lower + static_cast<std::size_t>(columns[k]) * y.rows;
-    double* __restrict const sum_h = upper + static_cast<std::size_t>(columns[k]) * y.rows;
-    for (std::size_t a = 0; a < y.rows; ++a) {
-      sum_l[a] += positive[a] * l + negative[a] * h;
-      sum_h[a] += positive[a] * h + negative[a] * l;
+// (−lo, hi) of the panel's columns += Y·S by rows, S's rows `equations` sparse: y⁺ takes the ends of an entry as they are, y⁻ exchanges them.
+CORANK_WIDE void add_sparse_product(const SplitMatrix& y, const CompiledSystem& system, const std::vector<int>& equations,
+                                    const Interval* sparse, double* negated_lower, double* upper) {
+  const std::size_t rows = y.rows;
+  const double* positive = y.positive;
+  const double* negative = y.negative;
+  for (const int i : equations) {
+    const int end = system.row_begin(i + 1);
+    for (int k = system.row_begin(i); k < end; ++k) {
+      const double l = sparse[k].neg_lo(), h = sparse[k].hi();
+      const std::size_t column = static_cast<std::size_t>(system.column(k)) * rows;
+      for (std::size_t a = 0; a < rows; a += kLanes) {
+        lanes(negated_lower + column + a) += lanes(positive + a) * l + lanes(negative + a) * h;
+        lanes(upper + column + a) += lanes(positive + a) * h + lanes(negative + a) * l;
+      }
     }
+    positive += rows;
+    negative += rows;
   }
 }
 
-// sums += P·[−o1, o2] with o1, o2 ≥ 0: hi = max(hi_P·o2, −lo_P·o1), −lo = max(hi_P·o1, −lo_P·o2).
-CORANK_WIDE void add_product(const double* __restrict negated_lower, const double* __restrict upper, double o1, double o2,
-                             double* __restrict sum_negated_lower, double* __restrict sum_upper, std::size_t rows) {
-  for (std::size_t a = 0; a < rows; ++a) {
-    const double h1 = upper[a] * o2, h2 = negated_lower[a] * o1, l1 = upper[a] * o1, l2 = negated_lower[a] * o2;
-    sum_upper[a] += h1 > h2 ? h1 : h2;
-    sum_negated_lower[a] += l1 > l2 ? l1 : l2;
+// (−lo, hi) of the result := Y·x.
+CORANK_WIDE void multiply_vector(const SplitMatrix& y, const Interval* x, int count, double* negated_lower, double* upper) {
+  for (std::size_t a = 0; a < y.rows; a += kLanes) {
+    Lanes sum_l = {}, sum_h = {};
+    for (int b = 0; b < count; ++b) {
+      const double l = x[b].neg_lo(), h = x[b].hi();
+      const std::size_t k = static_cast<std::size_t>(b) * y.rows + a;
+      sum_l += lanes(y.positive + k) * l + lanes(y.negative + k) * h;
+      sum_h += lanes(y.positive + k) * h + lanes(y.negative + k) * l;
+    }
+    lanes(negated_lower + a) = sum_l;
+    lanes(upper + a) = sum_h;
+  }
+}
+
+// sums += P·o for offsets [−o1, o2] with o1, o2 ≥ 0: hi = max(hi_P·o2, −lo_P·o1), −lo = max(hi_P·o1, −lo_P·o2).
+CORANK_WIDE void add_product(const double* negated_lower, const double* upper, std::size_t rows, const Interval* offset,
+                             int columns, double* sum_negated_lower, double* sum_upper) {
+  for (std::size_t a = 0; a < rows; a += kLanes) {
+    Lanes sum_l = lanes(sum_negated_lower + a), sum_h = lanes(sum_upper + a);
+    for (int j = 0; j < columns; ++j) {
+      const double o1 = offset[j].neg_lo(), o2 = offset[j].hi();
+      const std::size_t k = static_cast<std::size_t>(j) * rows + a;
+      const Lanes h1 = lanes(upper + k) * o2, h2 = lanes(negated_lower + k) * o1;
+      const Lanes l1 = lanes(upper + k) * o1, l2 = lanes(negated_lower + k) * o2;
+      sum_h += h1 > h2 ? h1 : h2;
+      sum_l += l1 > l2 ? l1 : l2;
+    }
+    lanes(sum_negated_lower + a) = sum_l;
+    lanes(sum_upper + a) = sum_h;
+  }
+}
+
+// sums += |P_j|, by rows.
+CORANK_WIDE void add_magnitudes(const double* negated_lower, const double* upper, std::size_t rows, double* sums) {
+  for (std::size_t a = 0; a < rows; a += kLanes) {
+    const Lanes l = lanes(negated_lower + a), h = lanes(upper + a);
+    lanes(sums + a) += l > h ? l : h;
   }
 }
 
 // `count` is a multiple of kLanes. ∞ and NaN times 0 are NaN; sums apart from each other need not wait for one another.
-constexpr std::size_t kLanes = 4;
 CORANK_WIDE bool all_finite(const double* __restrict a, const double* __restrict b, std::size_t count) {
   double witness[kLanes] = {};
   for (std::size_t k = 0; k < count; k += kLanes)
@@ -58,7 +98,11 @@ CORANK_WIDE bool all_finite(const double* __restrict a, const double* __restrict
 
 }  // namespace
 
-void Panel::set_matrix(const std::vector<double>& y, int r) {
+bool Panel::set_matrix(const std::vector<double>& y, int r) {
+  if (r > 0 && r == r_ && y.size() == y_.size() && std::memcmp(y.data(), y_.data(), y.size() * sizeof(double)) == 0)
+    return finite_;
+  y_ = y;
+  finite_ = std::all_of(y.begin(), y.end(), [](double entry) { return std::isfinite(entry); });
   r_ = r;
   stride_ = (static_cast<std::size_t>(r) + kLanes - 1) / kLanes * kLanes;
   positive_.resize(static_cast<std::size_t>(r) * stride_);
@@ -71,6 +115,7 @@ void Panel::set_matrix(const std::vector<double>& y, int r) {
     std::fill(positive + r, positive + stride_, 0.0);
     std::fill(negative + r, negative + stride_, 0.0);
   }
+  return finite_;
 }
 
 bool Panel::assign_product(const CompiledSystem& system, const std::vector<int>& equations,
@@ -78,23 +123,18 @@ bool Panel::assign_product(const CompiledSystem& system, const std::vector<int>&
   n_ = system.variables();
   negated_lower_.assign(static_cast<std::size_t>(n_) * stride_, 0.0);
   upper_.assign(static_cast<std::size_t>(n_) * stride_, 0.0);
-  for (int b = 0; b < r_; ++b) {
-    const int i = equations[static_cast<std::size_t>(b)];
-    const int begin = system.row_begin(i);
-    add_scaled({&positive_[index(0, b)], &negative_[index(0, b)], stride_}, sparse.data() + begin, system.columns() + begin,
-               system.row_begin(i + 1) - begin, negated_lower_.data(), upper_.data());
-  }
+  add_sparse_product({positive_.data(), negative_.data(), stride_}, system, equations, sparse.data(), negated_lower_.data(),
+                     upper_.data());
   return all_finite(negated_lower_.data(), upper_.data(), upper_.size());
 }
 
-void Panel::multiply(const std::vector<Interval>& values, std::vector<Interval>& result) const {
-  std::vector<double> negated_lower(stride_, 0.0), upper(stride_, 0.0);
-  const int one_column = 0;
-  for (int b = 0; b < r_; ++b)
-    add_scaled({&positive_[index(0, b)], &negative_[index(0, b)], stride_}, &values[static_cast<std::size_t>(b)],
-               &one_column, 1, negated_lower.data(), upper.data());
+void Panel::multiply(const std::vector<Interval>& values, std::vector<Interval>& result) {
+  sum_negated_lower_.resize(stride_);
+  sum_upper_.resize(stride_);
+  multiply_vector({positive_.data(), negative_.data(), stride_}, values.data(), r_, sum_negated_lower_.data(),
+                  sum_upper_.data());
   result.resize(static_cast<std::size_t>(r_));
-  for (std::size_t a = 0; a < result.size(); ++a) result[a] = Interval(-negated_lower[a], upper[a]);
+  for (std::size_t a = 0; a < result.size(); ++a) result[a] = Interval(-sum_negated_lower_[a], sum_upper_[a]);
 }
 
 void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent, Diagonal diagonal,
@@ -102,39 +142,53 @@ void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent
   sum_negated_lower_.assign(stride_, 0.0);
   sum_upper_.assign(stride_, 0.0);
   for (std::size_t a = 0; a < static_cast<std::size_t>(r_); ++a) {
-    sum_negated_lower_[a] = -sums[a].lo();
+    sum_negated_lower_[a] = sums[a].neg_lo();
     sum_upper_[a] = sums[a].hi();
   }
   // The diagonal's own entries come back at the end.
-  std::vector<Interval> own(dependent.size());
-  bool finite = true;  // largest + 1 rounds to infinity
+  diagonal_.resize(dependent.size());
+  bool plain = true;  // no 0·∞; largest + 1 rounds to infinity
   for (int a = 0; a < r_; ++a) {
     const std::size_t k = index(a, dependent[static_cast<std::size_t>(a)]);
-    own[static_cast<std::size_t>(a)] = Interval(-negated_lower_[k], upper_[k]);
+    diagonal_[static_cast<std::size_t>(a)] = Interval(-negated_lower_[k], upper_[k]);
     negated_lower_[k] = diagonal == Diagonal::zero ? 0 : negated_lower_[k] + 1;
     upper_[k] = diagonal == Diagonal::zero ? 0 : upper_[k] - 1;
-    finite = finite && std::isfinite(negated_lower_[k]) && std::isfinite(upper_[k]);
+    plain = plain && std::isfinite(negated_lower_[k]) && std::isfinite(upper_[k]);
   }
-  for (int j = 0; j < n_; ++j) {
-    double o1 = -offset[j].lo(), o2 = offset[j].hi();
-    const std::size_t column = index(0, j);
-    if (finite && o1 >= 0 && o2 >= 0 && std::isfinite(o1 + o2)) {  // no 0·∞
-      add_product(&negated_lower_[column], &upper_[column], o1, o2, sum_negated_lower_.data(), sum_upper_.data(), stride_);
-      continue;
-    }
-    for (int a = 0; a < r_; ++a) {
-      const Interval term = at(a, j) * offset[j];
-      sum_negated_lower_[static_cast<std::size_t>(a)] += -term.lo();
-      sum_upper_[static_cast<std::size_t>(a)] += term.hi();
-    }
+  for (int j = 0; j < n_ && plain; ++j) {
+    const double o1 = offset[j].neg_lo(), o2 = offset[j].hi();
+    plain = o1 >= 0 && o2 >= 0 && std::isfinite(o1 + o2);
+  }
+  if (plain) {
+    add_product(negated_lower_.data(), upper_.data(), stride_, offset, n_, sum_negated_lower_.data(), sum_upper_.data());
+  } else {
+    for (int j = 0; j < n_; ++j)
+      for (int a = 0; a < r_; ++a) {
+        const Interval term = at(a, j) * offset[j];
+        sum_negated_lower_[static_cast<std::size_t>(a)] += term.neg_lo();
+        sum_upper_[static_cast<std::size_t>(a)] += term.hi();
+      }
   }
   for (int a = 0; a < r_; ++a) {
     const std::size_t k = index(a, dependent[static_cast<std::size_t>(a)]);
-    negated_lower_[k] = -own[static_cast<std::size_t>(a)].lo();
-    upper_[k] = own[static_cast<std::size_t>(a)].hi();
+    negated_lower_[k] = diagonal_[static_cast<std::size_t>(a)].neg_lo();
+    upper_[k] = diagonal_[static_cast<std::size_t>(a)].hi();
     sums[static_cast<std::size_t>(a)] =
         Interval(-sum_negated_lower_[static_cast<std::size_t>(a)], sum_upper_[static_cast<std::size_t>(a)]);
   }
+}
+
+double Panel::distance_from_identity(const std::vector<int>& dependent) {
+  sum_upper_.assign(stride_, 0.0);
+  for (std::size_t a = 0; a < dependent.size(); ++a) {
+    const std::size_t column = index(0, dependent[a]);
+    const double others = sum_upper_[a];
+    add_magnitudes(&negated_lower_[column], &upper_[column], stride_, sum_upper_.data());
+    sum_upper_[a] = others + (Interval(1.0) - at(static_cast<int>(a), dependent[a])).mag();
+  }
+  double largest = 0;
+  for (const double sum : sum_upper_) largest = std::max(largest, sum);
+  return largest;
 }
 
 }  // namespace corank::certify

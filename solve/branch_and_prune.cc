@@ -78,9 +78,13 @@ class Search {
   std::vector<Found> take_found() {
     std::vector<Found> all;
     for (Worker& w : workers_) {
-      std::vector<Found>& found = w.processor.found();
+      std::vector<Found> found = std::move(w.processor.found());
       for (std::size_t i = 0; i < found.size() && w.recorder; ++i) found[i].leaves.push_back(w.recorder->leaf(i));
-      std::move(found.begin(), found.end(), std::back_inserter(all));
+      if (all.empty()) {
+        all = std::move(found);
+      } else {
+        all.insert(all.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+      }
     }
     return all;
   }
@@ -178,8 +182,8 @@ class Search {
       ++verdicts_[static_cast<int>(f.box.verdict)];
       if (options_.max_solutions == 0 || f.box.verdict == Verdict::undecided || f.box.verdict == Verdict::pending) continue;
       const std::lock_guard lock(solutions_mutex_);
-      if (f.sheet.proven) {
-        isolated_.add(f.sheet);
+      if (f.sheet) {
+        isolated_.add(*f.sheet);
       } else {
         ++pieces_;
       }

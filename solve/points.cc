@@ -13,7 +13,7 @@ namespace {
 using certify::Interval;
 using certify::Verdict;
 
-bool is_proven(const Found& f) { return f.sheet.proven; }
+bool is_proven(const Found& f) { return f.sheet != nullptr; }
 
 // Calls visit(i, j) for every pair i in first, j in second (i ≠ j) whose sides overlap when widened by gap. Sweeps along the variable
 // that spreads the boxes most.
@@ -81,9 +81,9 @@ void merge_isolated(std::vector<Found>& found) {
   for_each_close_pair(sides(found), proven, all, 0.0, [&](std::size_t i, std::size_t j) {
     if (remove[i] || remove[j]) return;
     if (!is_proven(found[j])) {
-      if (certify::holds_nothing_else(found[i].sheet, found[j].box.box.data())) absorb(i, j);
+      if (certify::holds_nothing_else(*found[i].sheet, found[j].box.box.data())) absorb(i, j);
     } else if (i < j) {
-      switch (certify::compare_isolated(found[i].sheet, found[j].sheet)) {
+      switch (certify::compare_isolated(*found[i].sheet, *found[j].sheet)) {
         case certify::Identity::same: absorb(i, j); break;
         case certify::Identity::different: break;
         case certify::Identity::unknown: unclear[i] = unclear[j] = true; break;
@@ -95,7 +95,7 @@ void merge_isolated(std::vector<Found>& found) {
     if (remove[i]) continue;
     if (unclear[i]) {
       found[i].box.verdict = Verdict::undecided;
-      found[i].sheet = {};
+      found[i].sheet = nullptr;
       found[i].region = nullptr;
     }
     if (kept != i) found[kept] = std::move(found[i]);

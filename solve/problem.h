@@ -43,7 +43,7 @@ struct Problem {
 /// certify::Reduction::lift takes them; the sheet and `free` know only the others.
 struct Found {
   certify::CoverBox box;
-  certify::Sheet sheet;
+  std::unique_ptr<const certify::Sheet> sheet;  ///< of an isolated solution
   std::shared_ptr<const certify::Box>
       region;                         ///< that of the proof, as `box` has its sides; one for all boxes cut from a sheet
   std::vector<std::uint64_t> leaves;  ///< of a recorded search: those whose solutions are in the box (solve/recorder.h)

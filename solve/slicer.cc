@@ -134,8 +134,9 @@ void Slicer::add(Task& task, Box piece, Location location) {
   }
   Found found{{std::move(piece), verdict, task.free}, {}, verdict == Verdict::undecided ? nullptr : task.region, {}};
   if (task.free.empty() && verdict != Verdict::undecided) {
-    found.sheet = sheet;
-    found.sheet.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
+    Sheet narrow = sheet;
+    narrow.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
+    found.sheet = std::make_unique<const Sheet>(std::move(narrow));
   }
   if (recorder_) recorder_->leaf_box(task.found.size());
   task.found.push_back(std::move(found));

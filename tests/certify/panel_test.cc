@@ -116,6 +116,45 @@ TEST_F(PanelTest, RoundsOutward) {
   }
 }
 
+// Against interval operations, which are tested against MPFR: the same roundings in the same order.
+TEST_F(PanelTest, SubtractsItsRowsAndMeasuresItsDistanceFromTheIdentity) {
+  std::uniform_real_distribution<double> real(-1, 1);
+  Panel panel;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Case c = random_case(random_, [&] { return std::ldexp(real(random_), static_cast<int>(random_() % 20)); });
+    panel.set_matrix(c.y, c.r);
+    ASSERT_TRUE(panel.assign_product(full_system(c.r, c.n), c.equations, c.sparse));
+    double largest = 0;
+    for (int a = 0; a < c.r; ++a) {
+      double sum = 0;
+      for (int b = 0; b < c.r; ++b) sum += (Interval(a == b ? 1.0 : 0.0) - panel.at(a, c.dependent[b])).mag();
+      largest = std::max(largest, sum);
+      for (const double factor : {real(random_), -0.75, 0.75}) {
+        std::vector<Interval> row = c.offset;
+        panel.subtract_row(factor, a, row.data());
+        for (int j = 0; j < c.n; ++j) ASSERT_EQ(row[j], c.offset[j] - scale(factor, panel.at(a, j))) << trial;
+      }
+    }
+    ASSERT_EQ(panel.distance_from_identity(c.dependent), largest) << trial;
+  }
+}
+
+TEST_F(PanelTest, TakesEachMatrixThatDiffersFromTheLast) {
+  Panel panel;
+  std::vector<Interval> product;
+  const std::vector<Interval> values = {1.0, 10.0};
+  EXPECT_TRUE(panel.set_matrix({1, 2, 3, 4}, 2));
+  EXPECT_TRUE(panel.set_matrix({1, 2, 3, 4}, 2));
+  panel.multiply(values, product);
+  EXPECT_EQ(product, (std::vector<Interval>{21.0, 43.0}));
+  EXPECT_TRUE(panel.set_matrix({1, 2, 3, 5}, 2));
+  panel.multiply(values, product);
+  EXPECT_EQ(product, (std::vector<Interval>{21.0, 53.0}));
+  EXPECT_TRUE(panel.set_matrix({1}, 1));
+  panel.multiply(values, product);
+  EXPECT_EQ(product, (std::vector<Interval>{1.0}));
+}
+
 TEST_F(PanelTest, RefusesWhatIsNotFinite) {
   const CompiledSystem system = full_system(1, 1);
   Panel panel;
@@ -124,6 +163,8 @@ TEST_F(PanelTest, RefusesWhatIsNotFinite) {
   EXPECT_FALSE(panel.assign_product(system, {0}, {Interval::whole()}));
   panel.set_matrix({1e300}, 1);
   EXPECT_FALSE(panel.assign_product(system, {0}, {Interval(-1, 1e300)}));
+  for (const double y : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    for (int again = 0; again < 2; ++again) EXPECT_FALSE(panel.set_matrix({y}, 1));
 }
 
 }  // namespace
