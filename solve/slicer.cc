@@ -22,6 +22,7 @@ constexpr int kPointTightenings = 20;  // an isolated solution is tightened unti
 constexpr double kStaleSpread = 0.1;   // |I − Y·S| beyond which a part gets its own Y
 constexpr double kCutMargin = 0.98;    // aim a little below σ: the linearization is not exact
 constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
+constexpr double kTrimShare = 0.9;
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
 constexpr int kBoundaryDepth = 2;             // halvings of a piece that may leave the domain
@@ -30,10 +31,33 @@ constexpr unsigned kPiecesBetweenChecks = 16;
 
 }  // namespace
 
-double Slicer::tighten(const Preconditioner& p, Box& piece) {
-  const double spread = certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
-  problem_.append_values_at_zeros(p, piece, workspace_);
-  return spread;
+const Preconditioner& Slicer::tighten(const Task& task, Box& sides, const Preconditioner& inherited, Preconditioner& own) {
+  const Preconditioner* p = &inherited;
+  const auto renew = [&] {
+    own = preconditioners_.at_midpoint(sides.data(), &task.sheet.dependent, &task.sheet.equations);
+    p = &own;
+  };
+  const auto step = [&] { return certify::tighten_sheet(problem_.compiled, *p, sides.data(), workspace_); };
+  sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
+  const bool is_point = task.free.empty();
+  double width = HUGE_VAL;
+  for (int k = 0; k < (is_point ? kPointTightenings : kTightenings); ++k) {
+    if (is_point && k > 0) renew();
+    if (step() > kStaleSpread && p == &inherited && !is_point) {
+      renew();
+      step();
+    }
+    const double tightened = widest(sides);
+    if (is_point ? tightened == width : tightened <= problem_.sigma || tightened > 0.9 * width) break;
+    if (!is_point && tightened > kNearSigma * problem_.sigma) break;  // to be cut anyway
+    width = tightened;
+  }
+  if (is_point || widest(sides) <= kNearSigma * problem_.sigma) {
+    problem_.append_values_at_zeros(*p, sides, workspace_);
+  } else {
+    problem_.append_values(sides);
+  }
+  return *p;
 }
 
 bool Slicer::trim(const Task& task, const Preconditioner& p, Box& piece) {
@@ -47,7 +71,16 @@ bool Slicer::trim(const Task& task, const Preconditioner& p, Box& piece) {
   met_.assign(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t j = 0; j < n; ++j) met_[j].intersect(task.x[j]);
   if (!certify::contract_free(p, met_.data(), workspace_)) return false;
-  for (int f : task.free) piece[static_cast<std::size_t>(f)] = met_[static_cast<std::size_t>(f)];
+  bool narrower = false;
+  for (int f : task.free) {
+    const auto j = static_cast<std::size_t>(f);
+    narrower = narrower || met_[j].width() < kTrimShare * piece[j].width();
+    piece[j] = met_[j];
+  }
+  if (narrower) {  // so are the other sides
+    certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
+    problem_.append_values_at_zeros(p, piece, workspace_);
+  }
   return true;
 }
 
@@ -161,39 +194,23 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
     return;
   }
-  const Preconditioner* p = &inherited;
   Preconditioner own;
-  const auto renew = [&] {
-    own = preconditioners_.at_midpoint(sides.data(), &task.sheet.dependent, &task.sheet.equations);
-    p = &own;
-  };
-  double width = HUGE_VAL;
-  for (int k = 0; k < (free.empty() ? kPointTightenings : kTightenings); ++k) {
-    if (free.empty() && k > 0) renew();
-    if (tighten(*p, sides) > kStaleSpread && p == &inherited && !free.empty()) {
-      renew();
-      tighten(*p, sides);
-    }
-    const double tightened = widest(sides);
-    if (free.empty() ? tightened == width : tightened <= problem_.sigma || tightened > 0.9 * width) break;
-    if (!free.empty() && tightened > kNearSigma * problem_.sigma) break;  // to be cut anyway
-    width = tightened;
-  }
+  const Preconditioner& p = tighten(task, sides, inherited, own);
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
   const auto elsewhere = [&] {
     if (recorder_) recorder_->leaf_elsewhere();
   };
-  if (!trim(task, *p, sides)) return elsewhere();
-  const Location location = problem_.domain.locate_zeros(problem_.compiled, *p, sides.data(), workspace_);
+  if (!trim(task, p, sides)) return elsewhere();
+  const Location location = problem_.domain.locate_zeros(problem_.compiled, p, sides.data(), workspace_);
   if (location == Location::outside) return elsewhere();
-  width = widest(sides);
+  double width = widest(sides);
   std::vector<int> parts;
   if (width > problem_.sigma && !free.empty()) {
-    measure_steepness(*p, free, sides);
+    measure_steepness(p, free, sides);
     parts = parts_of(sides, free);
     // Small enough but for overestimation: look closer.
     if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
-      certify::shrink_to_faces(problem_.compiled, *p, problem_.sigma, sides, workspace_);
+      certify::shrink_to_faces(problem_.compiled, p, problem_.sigma, sides, workspace_);
       width = widest(sides);
     }
   }
@@ -211,22 +228,35 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
         sides[static_cast<std::size_t>(free[f])].width() > sides[static_cast<std::size_t>(free[along])].width();
     if (parts[f] > parts[along] || (parts[f] == parts[along] && wider)) along = f;
   }
-  // Slabs of equal thickness; where there are many, two groups of such slabs first, since the sheet's steepness changes.
-  const int slabs = std::max(parts[along], 2);
-  const Interval side = sides[static_cast<std::size_t>(free[along])];
-  std::vector<double> cuts;
-  if (slabs <= kMostSlabs) {
-    for (int k = 1; k < slabs; ++k) cuts.push_back(side.lo() + side.width() * k / slabs);
-  } else {
-    cuts.push_back(side.lo() + side.width() * (slabs / 2) / slabs);
+  piece.former_width = width;
+  piece.futile_cuts = futile_cuts;
+  parts[along] = std::max(parts[along], 2);
+  std::vector<double> shares(free.size(), 0.0);
+  if (parts[along] > kMostSlabs) {
+    // Many: two groups of slabs first, since the sheet's steepness changes.
+    shares[along] = static_cast<double>(parts[along] / 2) / parts[along];
+    parts.assign(free.size(), 1);
+    parts[along] = 2;
   }
-  if (recorder_) recorder_->cut(free[along], cuts);
+  cut(task, piece, p, parts, shares, 0);
+}
+
+void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, const std::vector<int>& parts,
+                 const std::vector<double>& shares, std::size_t f) {
+  if (f == parts.size()) return descend(task, piece, p);
+  if (parts[f] == 1) return cut(task, piece, p, parts, shares, f + 1);
+  const auto j = static_cast<std::size_t>(task.free[f]);
+  const Interval side = piece.sides[j];
+  std::vector<double> places;
+  for (int k = 1; k < parts[f]; ++k)
+    places.push_back(side.lo() + side.width() * (shares[f] > 0 ? shares[f] : static_cast<double>(k) / parts[f]));
+  if (recorder_) recorder_->cut(task.free[f], places);
+  Piece part = piece;
   double from = side.lo();
-  for (std::size_t k = 0; k <= cuts.size(); ++k) {
-    const double to = k == cuts.size() ? side.hi() : std::clamp(cuts[k], from, side.hi());
-    Piece part{sides, width, futile_cuts};
-    part.sides[static_cast<std::size_t>(free[along])] = Interval(from, to);
-    descend(task, std::move(part), *p);
+  for (std::size_t k = 0; k <= places.size(); ++k) {
+    const double to = k == places.size() ? side.hi() : std::clamp(places[k], from, side.hi());
+    part.sides[j] = Interval(from, to);
+    cut(task, part, p, parts, shares, f + 1);
     from = to;
   }
 }

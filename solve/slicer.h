@@ -47,18 +47,24 @@ class Slicer {
     bool ended = false;
   };
 
-  // Tightens the piece, adds it where it is small enough, else cuts it and goes on with the parts. `p` is the preconditioner of the
-  // piece that this one was cut from; it is renewed where the sheet has turned too much.
-  void descend(Task& task, Piece piece, const certify::Preconditioner& p);
-  // Shrinks a piece and renews the eliminated variables' sides behind its own. Returns |I − Y·S| (certify::NewtonOutcome::spread).
-  double tighten(const certify::Preconditioner& p, certify::Box& piece);
-  // After tighten: shrinks the piece's free sides to where its solutions may lie in x. False: none does.
+  // Tightens the piece, adds it where it is small enough, else cuts it and goes on with the parts. `inherited` is the preconditioner of
+  // the piece that this one was cut from.
+  void descend(Task& task, Piece piece, const certify::Preconditioner& inherited);
+  // Shrinks a piece and renews the eliminated variables' sides behind its own. Returns the preconditioner of its last step: the inherited one, or
+  // `own`, made for the piece where the sheet has turned too much.
+  const certify::Preconditioner& tighten(const Task& task, certify::Box& sides, const certify::Preconditioner& inherited,
+                                         certify::Preconditioner& own);
+  // After tighten: shrinks the piece's free sides to where its solutions may lie in x, and the others with them. False: none does.
   bool trim(const Task& task, const certify::Preconditioner& p, certify::Box& piece);
   // After tighten: steepness_[a·k + f] = |∂a/∂f| on the piece, linearized, of each dependent, then each eliminated variable a, with respect
   // to the f-th of k free variables.
   void measure_steepness(const certify::Preconditioner& p, const std::vector<int>& free, const certify::Box& piece);
   // The number of equal parts along each free side that makes all sides narrower than σ in the linearization, few in all.
   std::vector<int> parts_of(const certify::Box& piece, const std::vector<int>& free) const;
+  // Cuts the piece along its free sides from the f-th on, each into so many equal parts (two parts: at shares[f] of the width, where that is
+  // not 0), and goes on with each.
+  void cut(Task& task, const Piece& piece, const certify::Preconditioner& p, const std::vector<int>& parts,
+           const std::vector<double>& shares, std::size_t f);
   void add(Task& task, certify::Box piece, certify::Location location);
 
   const Problem& problem_;

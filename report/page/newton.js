@@ -84,15 +84,30 @@ export function ontoSolutions(equations, start) {
   return {x, residual};
 }
 
-// A point of the set in a box, from its middle. With `conditions`, more equations, one where they hold, if there is one.
-export function pointOfBox(set, box, conditions = []) {
-  const middle = new Float64Array(set.size);
-  for (let j = 0; j < set.size; ++j) middle[j] = set.middle(box, j);
-  for (const equations of conditions.length > 0 ? [[...set.equations, ...conditions], set.equations] : [set.equations]) {
-    const {x, residual} = ontoSolutions(equations, middle);
-    if (residual < 1e-9 && isNear(set, box, x)) return {x, residual, moved: true};
+// A point of the set in a box, from its middle.
+export function pointOfBox(set, box) {
+  return solvedFrom(set, box, set.equations) ?? {x: middleOf(set, box), residual: NaN, moved: false};
+}
+
+// The same in the first of the boxes that has one where the conditions, more equations, hold; if none has, anywhere in the first box.
+export function pointOfBoxes(set, boxes, conditions) {
+  if (conditions.length > 0) {
+    const equations = [...set.equations, ...conditions];
+    for (const box of boxes) {
+      const point = solvedFrom(set, box, equations);
+      if (point) return {box, ...point};
+    }
   }
-  return {x: middle, residual: NaN, moved: false};
+  return {box: boxes[0], ...pointOfBox(set, boxes[0])};
+}
+
+function middleOf(set, box) {
+  return Float64Array.from({length: set.size}, (_, j) => set.middle(box, j));
+}
+
+function solvedFrom(set, box, equations) {
+  const {x, residual} = ontoSolutions(equations, middleOf(set, box));
+  return residual < 1e-9 && isNear(set, box, x) ? {x, residual, moved: true} : null;
 }
 
 // Is a configuration in the box, or next to it by at most the box's width?

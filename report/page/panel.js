@@ -1,7 +1,7 @@
 // The panel beside the portraits: the mechanism at the configuration that is pointed at or pinned, the assembly modes over that
 // place, and what is known of it.
 import {drawMechanism} from "./mechanism.js";
-import {pointOfBox} from "./newton.js";
+import {pointOfBoxes} from "./newton.js";
 import {coordinateValues, groupedText, htmlLabel, isAngle, numberText, setTitles, unitOf} from "./values.js";
 
 export class Panel {
@@ -71,9 +71,8 @@ export class Panel {
     this.chosen = k;
     [...this.modes.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === k)));
     const candidate = this.candidates[k],
-      {set, box} = candidate;
-    const point = pointOfBox(set, box, this.conditions(candidate));
-    this.show({set, box, ...point});
+      {set, box, boxes = [box]} = candidate;
+    this.show({set, ...pointOfBoxes(set, boxes, this.conditions(candidate))});
   }
 
   // Over a surface the configuration is the one at the pointer: two equations more, x = value, or c sin θ − s cos θ = 0.

@@ -106,7 +106,7 @@ export class Projection {
   }
 }
 
-// Boxes that hang together are one assembly mode: groups of touching boxes, each led by its nearest one.
+// Boxes that hang together are one assembly mode: groups of touching boxes, each led by its nearest one, `box`, with all of them in `boxes`.
 export function groupTouching(set, boxes, most = 4000) {
   const list = boxes.slice(0, most),
     group = list.map((_, i) => i);
@@ -126,7 +126,12 @@ export function groupTouching(set, boxes, most = 4000) {
       if (p !== q && set.touch(list[i].box, list[order[b]].box)) group[Math.max(p, q)] = Math.min(p, q);
     }
   }
-  return list.filter((_, i) => root(i) === i).map(({box}) => ({set, box}));
+  const groups = new Map();
+  list.forEach(({box}, i) => {
+    if (!groups.has(root(i))) groups.set(root(i), {set, box, boxes: []});
+    groups.get(root(i)).boxes.push(box);
+  });
+  return [...groups.values()];
 }
 
 function widestVariable(set, list) {
