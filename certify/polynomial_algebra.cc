@@ -38,6 +38,7 @@ class Sum {
     at->second.tolerant = at->second.tolerant || tolerant;
   }
   void add(const Monomial& m) { add(m.factors, m.coefficient, m.enclosure, carries_tolerance(m)); }
+  void remove(const Factors& factors) { terms_.erase(factors); }
   std::vector<Monomial> monomials() const {
     std::vector<Monomial> result;
     for (const auto& [factors, c] : terms_) {
@@ -132,12 +133,24 @@ std::optional<Polynomial> solved_for(const Polynomial& f, int variable) {
   return value;
 }
 
+bool cancels(const ExactNumber& a, const ExactNumber& q, const ExactNumber& b) {
+  return a == -q * b || (a == b && q == -1) || (a + q * b).is_zero();
+}
+
 Polynomial sum(const Polynomial& f, const ExactNumber& q, const Polynomial& g) {
   CORANK_CHECK(UpwardRounding::active());
   Sum sum;
   for (const Monomial& m : f.monomials) sum.add(m);
-  for (const Monomial& m : g.monomials)
-    sum.add(m.factors, q * m.coefficient, q.enclose() * m.enclosure, carries_tolerance(m));
+  for (const Monomial& m : g.monomials) {
+    const auto own =
+        std::find_if(f.monomials.begin(), f.monomials.end(), [&](const Monomial& a) { return a.factors == m.factors; });
+    if (own != f.monomials.end() && !carries_tolerance(m) && !carries_tolerance(*own) &&
+        cancels(own->coefficient, q, m.coefficient)) {
+      sum.remove(m.factors);
+    } else {
+      sum.add(m.factors, q * m.coefficient, q.enclose() * m.enclosure, carries_tolerance(m));
+    }
+  }
   return {sum.monomials(), f.source};
 }
 

@@ -26,7 +26,10 @@ std::optional<Polynomial> solved_for(const Polynomial& f, int variable);
 /// The rational number q ≠ 0 with f = q·g in exact coefficients. Those that are not rational compare by structure: nothing proves nothing.
 std::optional<ExactNumber> proportional(const Polynomial& f, const Polynomial& g);
 
-/// f + q·g. Requires UpwardRounding::active().
+/// Is a + q·b = 0? True is proven: by rational arithmetic, or because a and −q·b are the same expression.
+bool cancels(const ExactNumber& a, const ExactNumber& q, const ExactNumber& b);
+
+/// f + q·g, without the terms that cancel. Requires UpwardRounding::active().
 Polynomial sum(const Polynomial& f, const ExactNumber& q, const Polynomial& g);
 
 /// Does the variable occur in f?

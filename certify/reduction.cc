@@ -29,19 +29,46 @@ bool is_affine(const Polynomial& f) {
   });
 }
 
-// The rational numbers q for which terms of f cancel in f + q·g, where that can leave fewer terms than f has.
-std::vector<ExactNumber> cancelling_factors(const Polynomial& f, const Polynomial& g) {
-  std::vector<ExactNumber> factors;
-  std::size_t common = 0;
-  for (const Monomial& b : g.monomials)
-    for (const Monomial& a : f.monomials) {
-      if (a.factors != b.factors) continue;
-      ++common;
-      if (!a.coefficient.is_rational() || !b.coefficient.is_rational() || b.coefficient.is_zero()) continue;
-      const ExactNumber q = -(a.coefficient / b.coefficient);
-      if (std::find(factors.begin(), factors.end(), q) == factors.end()) factors.push_back(q);
+// The rational number q that leaves f + q·g with the fewest terms, and how many fewer than f has. Irrational coefficients count only where
+// they cancel as expressions: else a 0 that nothing recognizes would stay.
+struct Shortening {
+  ExactNumber factor;
+  std::ptrdiff_t saved = 0;
+};
+Shortening best_shortening(const Polynomial& f, const Polynomial& g) {
+  struct Candidate {
+    ExactNumber factor;
+    std::ptrdiff_t cancelled;
+  };
+  std::vector<Candidate> candidates;
+  std::vector<std::pair<const ExactNumber*, const ExactNumber*>> irrational;
+  std::ptrdiff_t common = 0;
+  for (const Monomial& b : g.monomials) {
+    const auto a =
+        std::find_if(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) { return m.factors == b.factors; });
+    if (a == f.monomials.end()) continue;
+    ++common;
+    if (!a->coefficient.is_rational() || !b.coefficient.is_rational() || b.coefficient.is_zero()) {
+      irrational.emplace_back(&a->coefficient, &b.coefficient);
+      continue;
     }
-  return 2 * common > g.monomials.size() ? factors : std::vector<ExactNumber>{};
+    const ExactNumber q = -(a->coefficient / b.coefficient);
+    const auto same = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.factor == q; });
+    if (same == candidates.end()) {
+      candidates.push_back({q, 1});
+    } else {
+      ++same->cancelled;
+    }
+  }
+  const auto added = static_cast<std::ptrdiff_t>(g.monomials.size()) - common;
+  Shortening best;
+  for (const Candidate& c : candidates) {
+    const std::ptrdiff_t saved = c.cancelled + static_cast<std::ptrdiff_t>(irrational.size()) - added;
+    if (saved > best.saved && std::all_of(irrational.begin(), irrational.end(),
+                                          [&](const auto& pair) { return cancels(*pair.first, c.factor, *pair.second); }))
+      best = {c.factor, saved};
+  }
+  return best;
 }
 
 bool is_integer(const Monomial& m) {
@@ -68,6 +95,9 @@ class Reducer {
   bool eliminate_image();
   // One step of (c). False: nothing to do.
   bool shorten();
+  void add(std::size_t row, std::size_t other, const ExactNumber& factor);
+  // A tolerance is about the equations as given: what `partial` says of one does not hold of a sum.
+  bool may_add() const { return eliminate_ != Eliminate::none && system_.coefficient_tolerance == 0; }
   bool may_define(const Polynomial& f) const;
   // Does the value put in for the variable leave polynomials of moderate length, degree and coefficients?
   bool affordable(int variable, const Polynomial& value) const;
@@ -201,7 +231,12 @@ void Reducer::drop_repeated() {
   const auto repeats = [&](std::size_t row, const Polynomial& g) {
     Polynomial f = rows[row];
     const auto ratio = proportional(f, g);
-    if (!ratio || (is_exact(f) && is_exact(g))) return ratio.has_value();
+    if (!ratio) return false;
+    if (is_exact(f) && is_exact(g)) {
+      // 0 = 0 for a checker, too, whatever becomes of g.
+      if (may_add()) steps_.push_back(ReductionStep::sum(origins_[row], origins_[&g - rows.data()], -*ratio));
+      return true;
+    }
     for (Monomial& m : f.monomials)  // f − q·g
       for (const Monomial& other : g.monomials)
         if (other.factors == m.factors) m.enclosure -= ratio->enclose() * other.enclosure;
@@ -351,30 +386,24 @@ bool Reducer::eliminate_image() {
 }
 
 bool Reducer::shorten() {
-  // A tolerance is about the equations as given: what `partial` says of one does not hold of a sum.
-  if (eliminate_ == Eliminate::none || system_.coefficient_tolerance > 0) return false;
+  if (!may_add()) return false;
   auto& rows = system_.equations;
-  struct Choice {
-    std::size_t row, other;
-    ExactNumber factor;
-    Polynomial sum;
-  };
-  std::optional<Choice> best;
-  std::size_t most_saved = 0;
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    for (std::size_t other = 0; other < rows.size(); ++other) {
-      if (other == row) continue;
-      for (const ExactNumber& factor : cancelling_factors(rows[row], rows[other])) {
-        Polynomial shorter = sum(rows[row], factor, rows[other]);
-        if (shorter.monomials.size() + most_saved >= rows[row].monomials.size()) continue;
-        most_saved = rows[row].monomials.size() - shorter.monomials.size();
-        best = Choice{row, other, factor, std::move(shorter)};
-      }
+  std::size_t row = 0, other = 0;
+  Shortening best;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      if (i == j) continue;
+      Shortening here = best_shortening(rows[i], rows[j]);
+      if (here.saved > best.saved) best = std::move(here), row = i, other = j;
     }
-  if (!best) return false;
-  steps_.push_back(ReductionStep::sum(origins_[best->row], origins_[best->other], best->factor));
-  rows[best->row] = std::move(best->sum);
+  if (best.saved == 0) return false;
+  add(row, other, best.factor);
   return true;
+}
+
+void Reducer::add(std::size_t row, std::size_t other, const ExactNumber& factor) {
+  steps_.push_back(ReductionStep::sum(origins_[row], origins_[other], factor));
+  system_.equations[row] = sum(system_.equations[row], factor, system_.equations[other]);
 }
 
 Reduction Reducer::run() {

@@ -9,9 +9,8 @@
 namespace corank::certify {
 namespace {
 
-constexpr int kTightenings = 2;  // of a face
-constexpr double kRoom =
-    1.0 / 128;  // of a side's width, left at its ends: who verifies them without this theorem has to come close
+constexpr int kTightenings = 2;      // of a face
+constexpr double kRoom = 1.0 / 128;  // of a range, left at its ends at least
 
 class FaceRange {
  public:
@@ -30,6 +29,7 @@ class FaceRange {
 
   void shrink(double width) {
     if (free_.empty() || !differentiate()) return;
+    width_ = width;
     std::vector<Interval> along(free_.size());
     for (std::size_t a = 0; a < r_; ++a) {
       const auto side = static_cast<std::size_t>(p_.dependent[a]);
@@ -114,7 +114,7 @@ class FaceRange {
     if (up == down) return;  // monotone in no variable
     const double lower = over(down)[side].lo(), upper = over(up)[side].hi();
     CORANK_CHECK(lower <= upper);  // the sheet has solutions
-    const double room = kRoom * (upper - lower);
+    const double room = std::max(kRoom * (upper - lower), 0.49 * (width_ - (upper - lower)));
     CORANK_CHECK(piece_[side].intersect(Interval(lower, upper) + Interval(-room, room)));
   }
 
@@ -131,7 +131,7 @@ class FaceRange {
     for (int k = 0; k < system_.values(); ++k) {
       const int row = system_.value_row(k);
       Interval value = system_.evaluate(row, x.data());
-      CORANK_CHECK(value.intersect(value_at_zeros(system_, p_, row, x.data(), w_)));
+      if (piece_[x.size()].width() > width_) CORANK_CHECK(value.intersect(value_at_zeros(system_, p_, row, x.data(), w_)));
       x.push_back(value);
     }
     return at->second = std::move(x);
@@ -142,6 +142,7 @@ class FaceRange {
   std::vector<Interval>& piece_;
   NewtonWorkspace& w_;
   const std::size_t n_, r_;
+  double width_ = 0;
   std::vector<int> free_;
   std::vector<double> magnitude_;
   std::vector<Interval> derivatives_, gradient_;
@@ -150,10 +151,15 @@ class FaceRange {
 
 }  // namespace
 
-void shrink_to_faces(const CompiledSystem& system, const Preconditioner& p, double width, std::vector<Interval>& piece,
-                     NewtonWorkspace& w) {
+void shrink_to_faces(const CompiledSystem& system, const Sheet& sheet, const Preconditioner& p, double width,
+                     std::vector<Interval>& piece, NewtonWorkspace& w) {
   CORANK_CHECK(UpwardRounding::active());
   CORANK_CHECK(piece.size() == static_cast<std::size_t>(system.variables() + system.values()));
+  // The hypotheses about the sheet.
+  CORANK_CHECK(sheet.proven && sheet.region.size() == static_cast<std::size_t>(system.variables()));
+  CORANK_CHECK(std::is_permutation(p.dependent.begin(), p.dependent.end(), sheet.dependent.begin(), sheet.dependent.end()));
+  CORANK_CHECK(std::is_permutation(p.equations.begin(), p.equations.end(), sheet.equations.begin(), sheet.equations.end()));
+  for (std::size_t j = 0; j < sheet.region.size(); ++j) CORANK_CHECK(sheet.region[j].contains(piece[j]));
   FaceRange(system, p, piece, w).shrink(width);
 }
 

@@ -128,6 +128,7 @@ class Reader {
   }
 
   void read_reduction() {
+    if (!file_.has(kGroup + "reduction")) refuse("certificates of format version 2: solve again");
     const auto variables = file_.integers(kReduction + "variable"), equations = file_.integers(kReduction + "equation"),
                others = file_.integers(kReduction + "other");
     const auto factors = file_.texts(kReduction + "factor");

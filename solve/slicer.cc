@@ -210,7 +210,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     parts = parts_of(sides, free);
     // Small enough but for overestimation: look closer.
     if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
-      certify::shrink_to_faces(problem_.compiled, p, problem_.sigma, sides, workspace_);
+      certify::shrink_to_faces(problem_.compiled, task.sheet, p, problem_.sigma, sides, workspace_);
       width = widest(sides);
     }
   }

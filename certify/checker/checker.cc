@@ -56,6 +56,8 @@ class Checker {
     } catch (const std::invalid_argument& error) {
       system_.validate();  // that is for the caller
       fail(Place::cover, 0, error.what());
+    } catch (const std::domain_error& error) {  // coefficients that sums have made too long
+      fail(Place::cover, 0, std::string("the reduction: ") + error.what());
     }
     check_shapes();
     if (problem_ && report_.failures.empty()) {  // else nothing below has a meaning

@@ -7,7 +7,7 @@
 //   CoverBox::corank              the bound of the kernel's dimension, see certify/checker/kernel.h
 //   undecided                     claims nothing. With an exact point: that is a configuration with a kernel of dimension 2 or more, in the box
 //   partial, pending              not checkable
-// and that the eliminations are legal, isolated boxes are disjoint, points belong to boxes, boxes are sorted and in bounds.
+// and that the reduction is legal, isolated boxes are disjoint, points belong to boxes, boxes are sorted and in bounds.
 #pragma once
 
 #include <array>

@@ -169,7 +169,17 @@ bool Terms::is_multiple_of(const Terms& g) const {
 Terms Terms::plus(const ExactNumber& q, const Terms& g) const {
   Terms result = *this;
   const Coefficient factor{q, Enclosure(q), false};
-  for (const auto& [factors, c] : g.list_) result.add(factors, product(factor, c));
+  for (const auto& [factors, c] : g.list_) {
+    // Expressions that are equal cancel, although only a rational 0 is known as such.
+    const auto own = list_.find(factors);
+    const bool same = own != list_.end() && !own->second.tolerant && !c.tolerant &&
+                      (own->second.exact == -q * c.exact || (own->second.exact == c.exact && q == -1));
+    if (same) {
+      result.list_.erase(factors);
+    } else {
+      result.add(factors, product(factor, c));
+    }
+  }
   result.drop_zeros();
   return result;
 }

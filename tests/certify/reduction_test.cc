@@ -126,6 +126,38 @@ TEST(Reduction, AddsNoEquationsWhereAToleranceIsAboutThemAsGiven) {
   EXPECT_TRUE(reduce(system, Eliminate::exact).steps.empty());
 }
 
+// √2 cancels as an expression; √2 and √8 do not, although −2·√2 + √8 is 0: then nothing is added.
+TEST(Reduction, AddsEquationsWithIrrationalNumbersOnlyWhereTheseCancel) {
+  for (const bool same : {true, false}) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+    b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-1", {}}});
+    b.equation({{"2", {{x, 2}}}, {"1", {{y, 2}}}, {"2", {{z, 2}}}, {"-1", {{x, 1}, {y, 1}}}, {"-5/2", {}}});
+    System system = b.system();
+    const ExactNumber root = ExactNumber::apply(ConstantFunction::sqrt, 2);
+    const auto set = [](Monomial& m, const ExactNumber& c) { m = Monomial(c, m.factors); };
+    set(system.equations[0].monomials[1], root);
+    set(system.equations[1].monomials[1], same ? 2 * root : ExactNumber::apply(ConstantFunction::sqrt, 8));
+    const Reduction r = reduce(system, Eliminate::exact);
+    if (!same) {
+      EXPECT_TRUE(r.steps.empty());
+      continue;
+    }
+    EXPECT_EQ(r.steps, std::vector<ReductionStep>{ReductionStep::sum(1, 0, -2)});
+    EXPECT_EQ(text(r.system.equations[1]), "-1/2 + -1*x0^1*x1^1");
+  }
+}
+
+TEST(Reduction, NotesWhyARepeatedEquationIsDropped) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-1", {{x, 1}, {z, 1}}}, {"-2", {}}});
+  b.equation({{"3", {{x, 2}}}, {"3", {{y, 2}}}, {"3", {{z, 2}}}, {"-3", {{x, 1}, {z, 1}}}, {"-6", {}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{ReductionStep::sum(2, 1, -3), ReductionStep::sum(1, 0, -1)}));
+}
+
 TEST(Reduction, AddsNoEquationThatMakesAnotherAsLong) {
   SystemBuilder b;
   const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");

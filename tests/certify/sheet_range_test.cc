@@ -32,14 +32,15 @@ class SheetRange : public testing::Test {
     const double u = std::sqrt(1 - x.mid() * x.mid());
     p_ = {{0, 1}, {2, 3}, {1 / (2 * u), 0, y.mid() / (2 * u), 1}};
     const std::vector<Interval> box{x, y, Interval(u - 0.01, u + 0.01), Interval(u * y.mid() - 0.01, u * y.mid() + 0.01)};
-    Sheet sheet = newton_prove(*system_, p_, box.data(), workspace_);
-    if (!sheet.proven) return {};
-    tighten_sheet(*system_, p_, sheet.image.data(), workspace_);
-    sheet.image.push_back(system_->evaluate(system_->value_row(0), sheet.image.data()));
-    return sheet.image;
+    sheet_ = newton_prove(*system_, p_, box.data(), workspace_);
+    if (!sheet_.proven) return {};
+    std::vector<Interval> sides = sheet_.image;
+    tighten_sheet(*system_, p_, sides.data(), workspace_);
+    sides.push_back(system_->evaluate(system_->value_row(0), sides.data()));
+    return sides;
   }
   std::vector<Interval> shrunk(std::vector<Interval> sides, double width = 0) {
-    shrink_to_faces(*system_, p_, width, sides, workspace_);
+    shrink_to_faces(*system_, sheet_, p_, width, sides, workspace_);
     return sides;
   }
 
@@ -47,6 +48,7 @@ class SheetRange : public testing::Test {
   NewtonWorkspace workspace_;
   std::unique_ptr<CompiledSystem> system_;
   Preconditioner p_;
+  Sheet sheet_;
 };
 
 double u_at(double x) { return std::sqrt(1 - x * x); }
@@ -117,6 +119,15 @@ TEST_F(SheetRange, LosesNoPointOfTheSheet) {
   EXPECT_GT(narrower, proven);
 }
 
+TEST_F(SheetRange, LeavesARoomThatTheWidthAllows) {
+  const auto before = piece(Interval(0.3, 0.5), Interval(0.4, 0.7));
+  ASSERT_FALSE(before.empty());
+  const double width = 0.99 * before[3].width();
+  const auto after = shrunk(before, width);
+  EXPECT_LE(after[3].width(), width);
+  EXPECT_GT(after[3].width(), 0.9 * width);
+}
+
 TEST_F(SheetRange, SaysNothingOfAPointOrWhereTheJacobianMayBeSingular) {
   SystemBuilder b;
   const int x = b.variable("x", "-2", "2");
@@ -124,12 +135,26 @@ TEST_F(SheetRange, SaysNothingOfAPointOrWhereTheJacobianMayBeSingular) {
   const CompiledSystem root(b.system());
   const Preconditioner p{{0}, {0}, {1 / 2.8}};
   std::vector<Interval> sides{Interval(1.41, 1.42)};
-  shrink_to_faces(root, p, 0, sides, workspace_);
-  EXPECT_EQ(sides[0], Interval(1.41, 1.42));
+  const Sheet point = newton_prove(root, p, sides.data(), workspace_);
+  ASSERT_TRUE(point.proven);
+  sides = point.image;
+  shrink_to_faces(root, point, p, 0, sides, workspace_);
+  EXPECT_EQ(sides, point.image);
 
-  p_ = {{0, 1}, {2, 3}, {0.5, 0, 0, 1}};
-  const std::vector<Interval> wide{Interval(-0.9, 0.9), Interval(0, 1), Interval(0, 1), Interval(0, 1), Interval(-2, 2)};
-  EXPECT_EQ(shrunk(wide), wide) << "u = 0 is in the piece";
+  const auto near = piece(Interval(0.3, 0.5), Interval(0.4, 0.7));
+  ASSERT_FALSE(near.empty());
+  p_.y[0] = 100;  // |I − Y·J| is far above 1
+  EXPECT_EQ(shrunk(near), near);
+}
+
+TEST_F(SheetRange, RefusesAPieceThatIsNotTheSheets) {
+  const auto sides = piece(Interval(0.3, 0.5), Interval(0.4, 0.7));
+  ASSERT_FALSE(sides.empty());
+  auto wider = sides;
+  wider[0] = Interval(0.2, 0.5);
+  EXPECT_THROW(shrunk(wider), std::logic_error);
+  p_.dependent = {2, 1};
+  EXPECT_THROW(shrunk(sides), std::logic_error);
 }
 
 }  // namespace

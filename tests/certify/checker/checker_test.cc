@@ -147,6 +147,22 @@ TEST(Checker, RejectsAViolatedInequality) {
   EXPECT_THAT(reasons(system, solved(plain(kCircle), 0.1)), HasSubstr("an inequality"));
 }
 
+// Repeats that are dropped, sums with irrational coefficients, sums of what was summed: the checker's reduction is the solver's.
+TEST(Checker, RepeatsTheReductionsOfSystemsWithSums) {
+  const std::string variables = "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\nz : [-2, 2]\n[SYSTEM EQS]\n";
+  for (const char* equations : {
+           "x^2 + y^2 = 1;\nx^2 + y^2 + z^2 - z*x = 2;\n3*x^2 + 3*y^2 + 3*z^2 - 3*z*x = 6;\n",
+           "3*x^2 + 3*y^2 + 3*z^2 - 3*z*x = 6;\nx^2 + y^2 + z^2 - z*x = 2;\nx^2 + y^2 = 1;\n",
+           "x^2 + sqrt(2)*y^2 + z = 1;\n3*x^2 + 3*sqrt(2)*y^2 + 3*z - x*y = 5/2;\n",
+           "x^2 + (7/10 - sqrt(2))*y^2 + z^2 = 1;\n2*x^2 + 2*(7/10 - sqrt(2))*y^2 + 2*z^2 - x*y + z = 2;\n",
+           "x^2 + sqrt(2)*y^2 + z^2 = 1;\n2*x^2 + sqrt(8)*y^2 + 2*z^2 - x*y = 5/2;\n",
+       }) {
+    const System system = plain(variables + equations);
+    const Report report = check(system, solved(system, 0.2));
+    EXPECT_TRUE(report.verified()) << equations << text(report);
+  }
+}
+
 TEST(Checker, RejectsIllegalEliminations) {
   const System system = plain(kCirclesAndLine);
   const Cover good = solved(system, 1e-6);
