@@ -1,5 +1,8 @@
 #include "corank/solve/exactness.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -123,17 +126,24 @@ class Prover {
     const certify::KernelBound bound(system_);
     if (!bound.applies()) return;
     const std::vector<certify::PointLocation> places(cover_.exact_points.begin(), cover_.exact_points.end());
-    const auto treat = [&](CoverBox& box) {
+    const auto bound_in = [&](CoverBox& box) {
       const certify::UpwardRounding rounding;
-      if (box.verdict == Verdict::pending || stopped()) return;
-      box.corank = bound.at_most(box.box);
-      if (box.corank <= 1) return;
+      if (box.verdict != Verdict::pending && !stopped()) box.corank = bound.at_most(box.box);
+    };
+    tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::this_task_arena::max_concurrency());
+    arena.execute(
+        [&] { tbb::parallel_for(std::size_t{0}, cover_.boxes.size(), [&](std::size_t i) { bound_in(cover_.boxes[i]); }); });
+    for (CoverBox& point : cover_.points) bound_in(point);
+    // Few: one after the other, since a point's number is narrowed while it is compared.
+    const auto explain = [&](CoverBox& box) {
+      const certify::UpwardRounding rounding;
+      if (box.corank <= 1 || stopped()) return;
       for (std::size_t i = 0; i < cover_.exact_points.size() && box.point < 0; ++i)
         if (cover_.exact_points[i].corank >= box.corank && places[i].in(box.box)) box.point = static_cast<int>(i);
       if (box.point < 0) box.corank = bound.at_most(box.box, kKernelDepth);
     };
-    for (CoverBox& box : cover_.boxes) treat(box);
-    for (CoverBox& point : cover_.points) treat(point);
+    for (CoverBox& box : cover_.boxes) explain(box);
+    for (CoverBox& point : cover_.points) explain(point);
   }
 
  private:
