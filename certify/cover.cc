@@ -17,6 +17,12 @@ Verdict verdict_from_string(const std::string& text) {
   return static_cast<Verdict>(at - kNames.begin());
 }
 
+std::array<std::size_t, kVerdicts> Cover::counts() const {
+  std::array<std::size_t, kVerdicts> result{};
+  for (const CoverBox& b : boxes) ++result[static_cast<std::size_t>(b.verdict)];
+  return result;
+}
+
 std::size_t Cover::count(Verdict verdict) const {
   return static_cast<std::size_t>(
       std::count_if(boxes.begin(), boxes.end(), [verdict](const CoverBox& b) { return b.verdict == verdict; }));

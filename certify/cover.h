@@ -81,6 +81,8 @@ struct Cover {
   double tolerance = 0;  ///< relative tolerance of the coefficients and of what `partial` says; 0: every equation is exact
   Statistics statistics;
 
+  /// The number of boxes with each verdict: one pass over the boxes.
+  std::array<std::size_t, kVerdicts> counts() const;
   std::size_t count(Verdict verdict) const;
   /// Boxes with an edge longer than σ, pending ones aside: ill-conditioned pieces that double arithmetic can't narrow.
   std::size_t wider_than_sigma() const;

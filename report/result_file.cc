@@ -60,18 +60,17 @@ const std::vector<std::string>& kind_words() {
 }
 
 void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<certify::CoverBox>& boxes, std::size_t n) {
-  std::vector<double> lower, upper;
-  std::vector<std::uint8_t> verdict, free(boxes.size() * n, 0);
-  lower.reserve(boxes.size() * n);
-  upper.reserve(boxes.size() * n);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    CORANK_CHECK(boxes[i].box.size() == n);
-    for (const certify::Interval& x : boxes[i].box) {
-      lower.push_back(x.lo());
-      upper.push_back(x.hi());
+  std::vector<double> lower(boxes.size() * n), upper(lower.size());
+  std::vector<std::uint8_t> verdict(boxes.size()), free(lower.size(), 0);
+  for (std::size_t i = 0, first = 0; i < boxes.size(); ++i, first += n) {
+    const certify::CoverBox& b = boxes[i];
+    CORANK_CHECK(b.box.size() == n);
+    for (std::size_t j = 0; j < n; ++j) {
+      lower[first + j] = b.box[j].lo();
+      upper[first + j] = b.box[j].hi();
     }
-    verdict.push_back(static_cast<std::uint8_t>(boxes[i].verdict));
-    for (const int v : boxes[i].free) free.at(i * n + static_cast<std::size_t>(v)) = 1;
+    verdict[i] = static_cast<std::uint8_t>(b.verdict);
+    for (const int v : b.free) free.at(first + static_cast<std::size_t>(v)) = 1;
   }
   file.doubles(group + "/lower", lower, boxes.size(), n);
   file.doubles(group + "/upper", upper, boxes.size(), n);
@@ -80,10 +79,9 @@ void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<c
 }
 
 void write_counts(Hdf5Writer& file, const certify::Cover& cover) {
-  for (int v = 0; v < certify::kVerdicts; ++v) {
-    const auto verdict = static_cast<certify::Verdict>(v);
-    file.attribute("/boxes", to_string(verdict), std::uint64_t{cover.count(verdict)});
-  }
+  const auto counts = cover.counts();
+  for (std::size_t v = 0; v < counts.size(); ++v)
+    file.attribute("/boxes", to_string(static_cast<certify::Verdict>(v)), std::uint64_t{counts[v]});
   file.attribute("/boxes", "wider_than_sigma", std::uint64_t{cover.wider_than_sigma()});
 }
 
@@ -206,10 +204,8 @@ class ResultReader {
       if (file_.unsigned_attribute("/boxes", name) != boxes)
         refuse("the attribute " + name + " of /boxes contradicts the boxes");
     };
-    for (int v = 0; v < certify::kVerdicts; ++v) {
-      const auto verdict = static_cast<certify::Verdict>(v);
-      check(to_string(verdict), cover.count(verdict));
-    }
+    const auto counts = cover.counts();
+    for (std::size_t v = 0; v < counts.size(); ++v) check(to_string(static_cast<certify::Verdict>(v)), counts[v]);
     check("wider_than_sigma", cover.wider_than_sigma());
   }
 

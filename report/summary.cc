@@ -190,8 +190,10 @@ std::string to_table(const Result& result) {
   text += cover.complete() ? "complete: every solution in the search domain is in a box\n"
                            : "INCOMPLETE: the search ended early; solutions may also be in the pending boxes\n";
   text += fmt::format("\n  {:<10}  {:>10}\n", "verdict", "boxes");
+  const auto boxes_with = cover.counts();
   for (const Verdict verdict : kVerdictsInOrder) {
-    if (const std::size_t n = cover.count(verdict); n > 0) text += fmt::format("  {:<10}  {:>10}\n", to_string(verdict), n);
+    if (const std::size_t n = boxes_with[static_cast<std::size_t>(verdict)]; n > 0)
+      text += fmt::format("  {:<10}  {:>10}\n", to_string(verdict), n);
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
   if (const std::size_t wide = cover.wider_than_sigma(); wide > 0) {
@@ -211,11 +213,11 @@ std::string to_table(const Result& result) {
                             : "what a verdict says holds for every choice of them\n";
   }
   if (cover.dimension == 0) {
-    std::array<std::size_t, certify::kVerdicts> counts{};
-    for (const CoverBox& point : cover.points) ++counts[static_cast<std::size_t>(point.verdict)];
+    std::array<std::size_t, certify::kVerdicts> points_with{};
+    for (const CoverBox& point : cover.points) ++points_with[static_cast<std::size_t>(point.verdict)];
     std::string kinds;
     for (const Verdict verdict : kVerdictsInOrder) {
-      const std::size_t n = counts[static_cast<std::size_t>(verdict)];
+      const std::size_t n = points_with[static_cast<std::size_t>(verdict)];
       if (n > 0) kinds += fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", n, to_string(verdict));
     }
     text += fmt::format("\n{}{}\n", plural(cover.points.size(), "point"), kinds);
@@ -273,7 +275,9 @@ std::string to_json(const Result& result) {
                      {"constants", constants}};
   json["complete"] = cover.complete();
   json["boxes"]["processed"] = cover.statistics.processed;
-  for (const Verdict verdict : kVerdictsInOrder) json["boxes"][to_string(verdict)] = cover.count(verdict);
+  const auto counts = cover.counts();
+  for (const Verdict verdict : kVerdictsInOrder)
+    json["boxes"][to_string(verdict)] = counts[static_cast<std::size_t>(verdict)];
   json["points"] = nullptr;
   if (cover.dimension == 0) {
     json["points"] = Json::array();

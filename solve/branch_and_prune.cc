@@ -2,8 +2,6 @@
 // box, so threads only share the work and the sorted result is the same for any number of them.
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -14,17 +12,14 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
-#include <ranges>
 #include <sstream>
 #include <stdexcept>
-#include <unordered_map>
 
 #include "corank/certify/check.h"
-#include "corank/certify/domain.h"
 #include "corank/certify/rounding.h"
-#include "corank/solve/box_order.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/distinct_solutions.h"
+#include "corank/solve/gathering.h"
 #include "corank/solve/merging.h"
 #include "corank/solve/points.h"
 #include "corank/solve/recorder.h"
@@ -75,24 +70,23 @@ class Search {
     });
   }
 
-  std::vector<Found> take_found() {
-    std::vector<Found> all;
+  // What all threads have found; it stays theirs.
+  std::vector<Found*> found() {
+    std::vector<Found*> all;
     for (Worker& w : workers_) {
-      std::vector<Found> found = std::move(w.processor.found());
-      for (std::size_t i = 0; i < found.size() && w.recorder; ++i) found[i].leaves.push_back(w.recorder->leaf(i));
-      if (all.empty()) {
-        all = std::move(found);
-      } else {
-        all.insert(all.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+      std::vector<Found>& found = w.processor.found();
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        if (w.recorder) found[i].leaves.push_back(w.recorder->leaf(i));
+        all.push_back(&found[i]);
       }
     }
     return all;
   }
   // The script; `found` are the boxes as the cover has them.
-  std::shared_ptr<const certify::Proof> proof(const std::vector<Found>& found) {
+  std::shared_ptr<const certify::Proof> proof(const std::vector<Found*>& found) {
     std::map<LeafId, int> place;
     for (std::size_t i = 0; i < found.size(); ++i)
-      for (const LeafId leaf : found[i].leaves) place[leaf] = static_cast<int>(i);
+      for (const LeafId leaf : found[i]->leaves) place[leaf] = static_cast<int>(i);
     std::vector<const Recorder*> recorders;
     for (Worker& w : workers_)
       if (w.recorder) recorders.push_back(w.recorder.get());
@@ -100,7 +94,7 @@ class Search {
     std::iota(nodes.begin(), nodes.end(), NodeId{0});
     return std::make_shared<const certify::Proof>(Recorder::assemble(recorders, roots_, nodes, place));
   }
-  void merge(std::vector<Found>& found) const { merge_regular(problem_, found); }
+  void merge(std::vector<Found*>& found) const { merge_regular(problem_, found); }
   certify::Statistics statistics() {
     certify::Statistics sum;
     for (Worker& w : workers_) {
@@ -267,44 +261,6 @@ std::string format(double x) {
   return text.str();
 }
 
-// Sorted by their sides: the same for any number of threads. In the calling thread's arena.
-void sort(std::vector<Found>& found) {
-  struct Key {
-    double lower;  // of the first side: most comparisons end here, without a look at the boxes
-    std::size_t index;
-  };
-  std::vector<Key> order(found.size());
-  for (std::size_t i = 0; i < found.size(); ++i) order[i] = {found[i].box.box.empty() ? 0 : found[i].box.box[0].lo(), i};
-  const auto sides = std::views::iota(std::size_t{0}, found.empty() ? 0 : found[0].box.box.size());
-  tbb::parallel_sort(order.begin(), order.end(), [&](const Key& a, const Key& b) {
-    return a.lower != b.lower ? a.lower < b.lower : before(found[a.index].box, found[b.index].box, sides);
-  });
-  std::vector<Found> sorted(found.size());
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) { sorted[i] = std::move(found[order[i].index]); });
-  found = std::move(sorted);
-}
-
-// Numbers the regions of the boxes' proofs by the first box that has each.
-std::vector<certify::Box> number_regions(const certify::Reduction& reduction, std::vector<Found>& found) {
-  std::unordered_map<const certify::Box*, int> numbers;
-  std::vector<certify::Box> regions;
-  for (Found& f : found) {
-    if (!f.region) continue;
-    const auto [at, is_new] = numbers.try_emplace(f.region.get(), static_cast<int>(regions.size()));
-    if (is_new) regions.push_back(reduction.lift(*f.region));
-    f.box.region = at->second;
-  }
-  return regions;
-}
-
-// The box in all variables of the system that was reduced.
-certify::CoverBox lifted(const certify::System& system, const certify::Reduction& reduction, certify::CoverBox box) {
-  box.box = reduction.lift(box.box);
-  if (box.verdict == Verdict::undecided || box.verdict == Verdict::pending) certify::clip_to_domain(system, box.box);
-  for (int& j : box.free) j = reduction.kept[static_cast<std::size_t>(j)];
-  return box;
-}
-
 }  // namespace
 
 double default_sigma(const certify::System& system) {
@@ -341,13 +297,15 @@ Cover solve(const certify::System& system, const Options& options) {
   cover.sigma = sigma;
   cover.reduction = reduction.steps;
   cover.statistics = search.statistics();
-  std::vector<Found> found = search.take_found();
-  const bool some_partial =
-      std::any_of(found.begin(), found.end(), [](const Found& f) { return f.box.verdict == Verdict::partial; });
+  std::vector<Found*> found = search.found();
+  bool some_partial = false;
+  for (const Found* f : found) {
+    if (f->box.verdict != Verdict::partial) continue;
+    some_partial = true;
+    cover.dimension = std::max(cover.dimension, static_cast<int>(f->box.free.size()));
+  }
   if (reduction.tolerant || some_partial)
     cover.tolerance = reduction.system.coefficient_tolerance * certify::kPartialTolerance;
-  for (const Found& f : found)
-    if (f.box.verdict == Verdict::partial) cover.dimension = std::max(cover.dimension, static_cast<int>(f.box.free.size()));
   search.execute([&] {
     const certify::UpwardRounding rounding;  // and subnormal numbers stay
     sort(found);
@@ -363,11 +321,7 @@ Cover solve(const certify::System& system, const Options& options) {
     }
     if (options.proof && reduction.consistent && !reduction.tolerant && !some_partial) cover.proof = search.proof(found);
     for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
-    cover.boxes.resize(found.size());
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
-      const certify::UpwardRounding here;
-      cover.boxes[i] = lifted(system, reduction, std::move(found[i].box));
-    });
+    cover.boxes = lifted(system, reduction, found);
   });
   cover.statistics.seconds_total = search.seconds();
   cover.statistics.seconds_search = cover.statistics.seconds_total - cover.statistics.seconds_certify;

@@ -16,13 +16,13 @@ constexpr int kTightenings = 2;
 
 class Merger {
  public:
-  Merger(const Problem& problem, std::vector<Found>& found)
+  Merger(const Problem& problem, std::vector<Found*>& found)
       : problem_(problem), found_(found), preconditioners_(problem.compiled), removed_(found.size(), false) {}
 
   void run() {
     for (std::size_t i = 0; i < found_.size(); ++i)
-      if (found_[i].box.verdict == Verdict::regular && found_[i].box.free.size() == 1 &&
-          widest(found_[i].box.box) <= kFragment * problem_.sigma)
+      if (found_[i]->box.verdict == Verdict::regular && found_[i]->box.free.size() == 1 &&
+          widest(found_[i]->box.box) <= kFragment * problem_.sigma)
         cells_.push_back({0, i});
     if (cells_.size() < 2) return;
     choose_axes();
@@ -36,11 +36,8 @@ class Merger {
       while (!removed_[i] && grow(i)) {
       }
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-      if (removed_[i]) continue;
-      if (kept != i) found_[kept] = std::move(found_[i]);
-      ++kept;
-    }
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      if (!removed_[i]) found_[kept++] = found_[i];
     found_.resize(kept);
   }
 
@@ -57,8 +54,8 @@ class Merger {
     for (std::size_t j = 0; j < n; ++j) {
       double least = HUGE_VAL, greatest = -HUGE_VAL;
       for (const Cell& cell : cells_) {
-        least = std::min(least, found_[cell.index].box.box[j].lo());
-        greatest = std::max(greatest, found_[cell.index].box.box[j].lo());
+        least = std::min(least, found_[cell.index]->box.box[j].lo());
+        greatest = std::max(greatest, found_[cell.index]->box.box[j].lo());
       }
       spread[j] = greatest - least;
     }
@@ -71,7 +68,7 @@ class Merger {
   long key_of(std::size_t i, long d0, long d1) const {
     constexpr long kStride = 1L << 30;
     const auto cell = [&](std::size_t axis) {
-      return std::lround(std::floor(std::clamp(found_[i].box.box[axis].lo() / problem_.sigma, -5e8, 5e8)));
+      return std::lround(std::floor(std::clamp(found_[i]->box.box[axis].lo() / problem_.sigma, -5e8, 5e8)));
     };
     return (cell(axes_[0]) + d0) * kStride + cell(axes_[1]) + d1;
   }
@@ -84,9 +81,9 @@ class Merger {
       auto at = std::lower_bound(cells_.begin(), cells_.end(), first, [](const Cell& c, long key) { return c.key < key; });
       for (; at != cells_.end() && at->key <= last; ++at) {
         const std::size_t j = at->index;
-        if (j == i || removed_[j] || found_[i].box.free != found_[j].box.free) continue;
-        if (!merge(found_[i], found_[j].box)) continue;
-        found_[i].leaves.insert(found_[i].leaves.end(), found_[j].leaves.begin(), found_[j].leaves.end());
+        if (j == i || removed_[j] || found_[i]->box.free != found_[j]->box.free) continue;
+        if (!merge(*found_[i], found_[j]->box)) continue;
+        found_[i]->leaves.insert(found_[i]->leaves.end(), found_[j]->leaves.begin(), found_[j]->leaves.end());
         removed_[j] = true;
         return true;
       }
@@ -123,7 +120,7 @@ class Merger {
   }
 
   const Problem& problem_;
-  std::vector<Found>& found_;
+  std::vector<Found*>& found_;
   PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
   std::vector<bool> removed_;
@@ -133,6 +130,6 @@ class Merger {
 
 }  // namespace
 
-void merge_regular(const Problem& problem, std::vector<Found>& found) { Merger(problem, found).run(); }
+void merge_regular(const Problem& problem, std::vector<Found*>& found) { Merger(problem, found).run(); }
 
 }  // namespace corank::solve

@@ -55,35 +55,35 @@ void for_each_close_pair(const std::vector<const std::vector<Interval>*>& boxes,
 }
 
 template <class Choose>
-std::vector<std::size_t> indices(const std::vector<Found>& found, Choose choose) {
+std::vector<std::size_t> indices(const std::vector<Found*>& found, Choose choose) {
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < found.size(); ++i)
-    if (choose(found[i])) result.push_back(i);
+    if (choose(*found[i])) result.push_back(i);
   return result;
 }
 
-std::vector<const std::vector<Interval>*> sides(const std::vector<Found>& found) {
+std::vector<const std::vector<Interval>*> sides(const std::vector<Found*>& found) {
   std::vector<const std::vector<Interval>*> result;
-  for (const Found& f : found) result.push_back(&f.box.box);
+  for (const Found* f : found) result.push_back(&f->box.box);
   return result;
 }
 
 }  // namespace
 
-void merge_isolated(std::vector<Found>& found) {
+void merge_isolated(std::vector<Found*>& found) {
   std::vector<bool> remove(found.size(), false), unclear(found.size(), false);
   const auto proven = indices(found, is_proven);
   const auto all = indices(found, [](const Found&) { return true; });
   const auto absorb = [&](std::size_t i, std::size_t j) {  // box j's solutions, if it has any, are in box i
     remove[j] = true;
-    found[i].leaves.insert(found[i].leaves.end(), found[j].leaves.begin(), found[j].leaves.end());
+    found[i]->leaves.insert(found[i]->leaves.end(), found[j]->leaves.begin(), found[j]->leaves.end());
   };
   for_each_close_pair(sides(found), proven, all, 0.0, [&](std::size_t i, std::size_t j) {
     if (remove[i] || remove[j]) return;
-    if (!is_proven(found[j])) {
-      if (certify::holds_nothing_else(*found[i].sheet, found[j].box.box.data())) absorb(i, j);
+    if (!is_proven(*found[j])) {
+      if (certify::holds_nothing_else(*found[i]->sheet, found[j]->box.box.data())) absorb(i, j);
     } else if (i < j) {
-      switch (certify::compare_isolated(*found[i].sheet, *found[j].sheet)) {
+      switch (certify::compare_isolated(*found[i]->sheet, *found[j]->sheet)) {
         case certify::Identity::same: absorb(i, j); break;
         case certify::Identity::different: break;
         case certify::Identity::unknown: unclear[i] = unclear[j] = true; break;
@@ -94,12 +94,11 @@ void merge_isolated(std::vector<Found>& found) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (remove[i]) continue;
     if (unclear[i]) {
-      found[i].box.verdict = Verdict::undecided;
-      found[i].sheet = nullptr;
-      found[i].region = nullptr;
+      found[i]->box.verdict = Verdict::undecided;
+      found[i]->sheet = nullptr;
+      found[i]->region = nullptr;
     }
-    if (kept != i) found[kept] = std::move(found[i]);
-    ++kept;
+    found[kept++] = found[i];
   }
   found.resize(kept);
 }
@@ -122,10 +121,10 @@ std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::
   return result;
 }
 
-std::vector<certify::CoverBox> collect_points(const std::vector<Found>& found, double gap) {
+std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, double gap) {
   const auto open = indices(found, [](const Found& f) { return !is_proven(f) && f.box.verdict != Verdict::pending; });
   std::vector<const certify::Box*> open_sides;
-  for (const std::size_t i : open) open_sides.push_back(&found[i].box.box);
+  for (const std::size_t i : open) open_sides.push_back(&found[i]->box.box);
   std::vector<bool> joined(found.size(), false);
   std::vector<certify::Box> hulls(found.size());  // of clusters, where their first box stands
   for (const std::vector<std::size_t>& cluster : clusters(open_sides, gap)) {
@@ -138,8 +137,8 @@ std::vector<certify::CoverBox> collect_points(const std::vector<Found>& found, d
   }
   std::vector<certify::CoverBox> points;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].box.verdict == Verdict::pending || joined[i]) continue;
-    points.push_back(found[i].box);
+    if (found[i]->box.verdict == Verdict::pending || joined[i]) continue;
+    points.push_back(found[i]->box);
     if (!hulls[i].empty()) points.back().box = std::move(hulls[i]);
   }
   return points;

@@ -94,14 +94,6 @@ Proof Recorder::assemble(const std::vector<const Recorder*>& recorders, std::vec
                          const std::vector<NodeId>& nodes, const std::map<LeafId, int>& place) {
   Proof proof;
   proof.roots = std::move(roots);
-  std::vector<int> first_combination;
-  std::map<std::uint64_t, std::size_t> by_prefix;
-  for (std::size_t k = 0; k < recorders.size(); ++k) {
-    first_combination.push_back(static_cast<int>(proof.combinations.size()));
-    by_prefix[recorders[k]->prefix_] = k;
-    const auto& own = recorders[k]->script_.combinations;
-    proof.combinations.insert(proof.combinations.end(), own.begin(), own.end());
-  }
   // A node may have been recorded by another thread than that which made it.
   std::map<NodeId, std::pair<std::size_t, const Node*>> all;
   for (std::size_t k = 0; k < recorders.size(); ++k)
@@ -122,7 +114,9 @@ Proof Recorder::assemble(const std::vector<const Recorder*>& recorders, std::vec
         case Step::row: take(1, 0); break;
         case Step::newton:
           take(1, 0);
-          proof.integers.back() += first_combination[thread];
+          // Numbered as they are used, whichever thread has recorded them.
+          proof.integers.back() = static_cast<std::int32_t>(proof.combinations.size());
+          proof.combinations.push_back(from.script_.combinations[static_cast<std::size_t>(first)]);
           break;
         case Step::keep: take(1 + static_cast<std::size_t>(first), static_cast<std::size_t>(first)); break;
         case Step::split: take(1, 1); break;

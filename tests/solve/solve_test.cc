@@ -175,6 +175,23 @@ TEST(Solve, GivesTheSameSortedResultForAnyNumberOfThreads) {
   }
 }
 
+TEST(Solve, RecordsTheSameProofForAnyNumberOfThreads) {
+  const auto recorded = [](int threads) {
+    Options options;
+    options.sigma = 0.05;
+    options.threads = threads;
+    options.proof = true;
+    return solve(torus().system(), options);
+  };
+  const Cover one = recorded(1), four = recorded(4);
+  ASSERT_TRUE(one.proof && four.proof);
+  EXPECT_EQ(one.regions, four.regions);
+  EXPECT_EQ(one.proof->combinations, four.proof->combinations);
+  EXPECT_EQ(one.proof->steps, four.proof->steps);
+  EXPECT_EQ(one.proof->integers, four.proof->integers);
+  EXPECT_EQ(one.proof->reals, four.proof->reals);
+}
+
 TEST(Solve, KeepsSubnormalNumbersWhateverTheCallersMode) {
   // y = 1e-160·x at x = 1e-200: y = 1e-360 lies in no box [0, 0].
   SystemBuilder b;

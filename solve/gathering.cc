@@ -1,0 +1,89 @@
+#include "corank/solve/gathering.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <array>
+#include <ranges>
+#include <unordered_map>
+
+#include "corank/certify/domain.h"
+#include "corank/certify/rounding.h"
+#include "corank/solve/box_order.h"
+
+namespace corank::solve {
+namespace {
+
+using certify::Verdict;
+
+// f(i) for every index below `count`, on all threads.
+template <class F>
+void for_each_index(std::size_t count, F f) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const tbb::blocked_range<std::size_t>& part) {
+    const certify::UpwardRounding rounding;
+    for (std::size_t i = part.begin(); i < part.end(); ++i) f(i);
+  });
+}
+
+// Most comparisons end at the first sides, kept here, without a look at the boxes: lower and upper end of each.
+constexpr std::size_t kKeySides = 2;
+struct Key {
+  std::array<double, 2 * kKeySides> ends{};
+  Found* found = nullptr;
+};
+
+}  // namespace
+
+void sort(std::vector<Found*>& found) {
+  std::vector<Key> keys(found.size());
+  const std::size_t n = found.empty() ? 0 : found[0]->box.box.size();
+  for_each_index(found.size(), [&](std::size_t i) {
+    const certify::Box& box = found[i]->box.box;
+    keys[i].found = found[i];
+    for (std::size_t j = 0; j < std::min(n, kKeySides); ++j) {
+      keys[i].ends[2 * j] = box[j].lo();
+      keys[i].ends[2 * j + 1] = box[j].hi();
+    }
+  });
+  const auto others = std::views::iota(std::min(n, kKeySides), n);
+  tbb::parallel_sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+    for (std::size_t k = 0; k < a.ends.size(); ++k)
+      if (a.ends[k] != b.ends[k]) return a.ends[k] < b.ends[k];
+    return before(a.found->box, b.found->box, others);
+  });
+  for (std::size_t i = 0; i < keys.size(); ++i) found[i] = keys[i].found;
+}
+
+std::vector<certify::Box> number_regions(const certify::Reduction& reduction, const std::vector<Found*>& found) {
+  std::vector<const certify::Box*> region(found.size());
+  for_each_index(found.size(), [&](std::size_t i) { region[i] = found[i]->region.get(); });
+  std::vector<int> number(found.size(), -1);
+  std::unordered_map<const certify::Box*, int> numbers;
+  std::vector<certify::Box> regions;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (region[i] == nullptr) continue;
+    const auto [at, is_new] = numbers.try_emplace(region[i], static_cast<int>(regions.size()));
+    if (is_new) regions.push_back(reduction.lift(*region[i]));
+    number[i] = at->second;
+  }
+  for_each_index(found.size(), [&](std::size_t i) { found[i]->box.region = number[i]; });
+  return regions;
+}
+
+certify::CoverBox lifted(const certify::System& system, const certify::Reduction& reduction, certify::CoverBox box) {
+  box.box = reduction.lift(box.box);
+  if (box.verdict == Verdict::undecided || box.verdict == Verdict::pending) certify::clip_to_domain(system, box.box);
+  for (int& j : box.free) j = reduction.kept[static_cast<std::size_t>(j)];
+  return box;
+}
+
+std::vector<certify::CoverBox> lifted(const certify::System& system, const certify::Reduction& reduction,
+                                      const std::vector<Found*>& found) {
+  std::vector<certify::CoverBox> boxes(found.size());
+  for_each_index(found.size(), [&](std::size_t i) { boxes[i] = lifted(system, reduction, std::move(found[i]->box)); });
+  return boxes;
+}
+
+}  // namespace corank::solve

@@ -1,0 +1,27 @@
+// From what each thread has found to the boxes of a cover, in an order that does not depend on the threads.
+//
+// The boxes stay where their thread has put them until they are copied into the cover: pointers are sorted. Every function is to be called
+// in the arena whose threads it may use.
+#pragma once
+
+#include <vector>
+
+#include "corank/certify/reduction.h"
+#include "corank/solve/problem.h"
+
+namespace corank::solve {
+
+/// By their sides in the variables that were kept, then by what is claimed of them (solve/box_order.h).
+void sort(std::vector<Found*>& found);
+
+/// Numbers the regions of the boxes' proofs by the first box that has each, and returns them in all variables.
+std::vector<certify::Box> number_regions(const certify::Reduction& reduction, const std::vector<Found*>& found);
+
+/// The box in all variables of the system that was reduced.
+certify::CoverBox lifted(const certify::System& system, const certify::Reduction& reduction, certify::CoverBox box);
+
+/// The same of all boxes, which are moved from.
+std::vector<certify::CoverBox> lifted(const certify::System& system, const certify::Reduction& reduction,
+                                      const std::vector<Found*>& found);
+
+}  // namespace corank::solve
