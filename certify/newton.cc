@@ -25,24 +25,14 @@ bool bounded(const std::vector<Interval>& x) {
   return std::all_of(x.begin(), x.end(), [](const Interval& side) { return side.is_bounded(); });
 }
 
-}  // namespace
-
-NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
-  NewtonOutcome outcome;
-  const int r = p.rank(), n = system.variables();
-  w.contracted = false;
-  if (!w.panel.set_matrix(p.y, r)) return outcome;
-  set_center(x, n, w);
-  w.slope.resize(system.entries());
-  system.slopes(x, w.center.data(), w.slope.data());
-  if (!w.panel.assign_product(system, p.equations, w.slope)) return outcome;
-  multiply_residual(system, p, w);
-  w.contracted = true;
-  w.offset.resize(n);
+// The rows Y·F(c) + Y·S·(x − c) ∋ 0 of the panel, each solved for its dependent variable.
+NewtonOutcome solve_rows(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
+  const int r = p.rank(), n = w.panel.columns();
+  w.offset.resize(static_cast<std::size_t>(n));
   for (int j = 0; j < n; ++j) w.offset[j] = x[j] - Interval(w.center[j]);
   w.image = w.residual;
   w.panel.accumulate(w.offset.data(), p.dependent, Panel::Diagonal::zero, w.image);
-
+  NewtonOutcome outcome;
   outcome.regular = true;
   for (int a = 0; a < r; ++a) {
     const int d = p.dependent[a];
@@ -63,7 +53,22 @@ NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner
       return outcome;
     }
   }
-  if (outcome.regular) outcome.spread = w.panel.distance_from_identity(p.dependent);
+  return outcome;
+}
+
+}  // namespace
+
+NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
+  w.contracted = false;
+  if (!w.panel.set_matrix(p.y, p.rank())) return {};
+  set_center(x, system.variables(), w);
+  w.slope.resize(system.entries());
+  system.slopes(x, w.center.data(), w.slope.data());
+  if (!w.panel.assign_product(system, p.equations, w.slope)) return {};
+  multiply_residual(system, p, w);
+  w.contracted = true;
+  NewtonOutcome outcome = solve_rows(p, x, w);
+  if (outcome.regular && !outcome.empty) outcome.spread = w.panel.distance_from_identity(p.dependent);
   return outcome;
 }
 
@@ -214,6 +219,13 @@ double tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Inte
   const NewtonOutcome outcome = newton_contract(system, p, x, w);
   CORANK_CHECK(!outcome.empty);
   return outcome.regular ? outcome.spread : HUGE_VAL;
+}
+
+void tighten_part(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
+  CORANK_CHECK(UpwardRounding::active());
+  if (!w.contracted) return;
+  CORANK_CHECK(w.panel.rows() == p.rank());
+  CORANK_CHECK(!solve_rows(p, x, w).empty);
 }
 
 }  // namespace corank::certify

@@ -80,4 +80,8 @@ Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, i
 /// only, so that the sheet's claim carries over. Returns the step's NewtonOutcome::spread, infinite where Y·S_D is not regular.
 double tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
 
+/// After tighten_sheet(system, p, y, w): tightens a part x ⊂ y in the same way, by the slopes over y, which hold on every part of it. A tenth of
+/// the work, and less sharp. Where the step had no bounded Y·S: nothing happens.
+void tighten_part(const Preconditioner& p, Interval* x, NewtonWorkspace& w);
+
 }  // namespace corank::certify

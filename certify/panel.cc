@@ -62,16 +62,33 @@ CORANK_WIDE void multiply_vector(const SplitMatrix& y, const Interval* x, int co
   }
 }
 
-// sums += P·o for offsets [−o1, o2] with o1, o2 ≥ 0: hi = max(hi_P·o2, −lo_P·o1), −lo = max(hi_P·o1, −lo_P·o2).
-CORANK_WIDE void add_product(const double* negated_lower, const double* upper, std::size_t rows, const Interval* offset,
-                             int columns, double* sum_negated_lower, double* sum_upper) {
+// sums := P·o for finite offsets o = [−o1, o2], P = [−l, h]. −lo and hi of an entry's product are the larger of two products, which depend on
+// where 0 lies. In row diagonal[j] of column j (−1: none) stands the entry less 1 if minus_one, else 0: exchanged in registers, since a store
+// would delay the loads after it.
+CORANK_WIDE void multiply_panel(const double* negated_lower, const double* upper, std::size_t rows, const Interval* offset,
+                                int columns, const double* diagonal, bool minus_one, double* sum_negated_lower,
+                                double* sum_upper) {
   for (std::size_t a = 0; a < rows; a += kLanes) {
-    Lanes sum_l = lanes(sum_negated_lower + a), sum_h = lanes(sum_upper + a);
+    const double first = static_cast<double>(a);
+    const Lanes row = {first, first + 1, first + 2, first + 3};
+    Lanes sum_l = {}, sum_h = {};
     for (int j = 0; j < columns; ++j) {
       const double o1 = offset[j].neg_lo(), o2 = offset[j].hi();
       const std::size_t k = static_cast<std::size_t>(j) * rows + a;
-      const Lanes h1 = lanes(upper + k) * o2, h2 = lanes(negated_lower + k) * o1;
-      const Lanes l1 = lanes(upper + k) * o1, l2 = lanes(negated_lower + k) * o2;
+      const Lanes l = lanes(negated_lower + k), h = lanes(upper + k), zero = {};
+      const auto exchange = row == diagonal[j];
+      const Lanes p_l = exchange ? (minus_one ? l + 1 : zero) : l, p_h = exchange ? (minus_one ? h - 1 : zero) : h;
+      Lanes h1, h2, l1, l2;
+      if (o1 >= 0 && o2 >= 0) {
+        h1 = p_h * o2, h2 = p_l * o1;
+        l1 = p_h * o1, l2 = p_l * o2;
+      } else if (o1 < 0) {
+        h1 = p_h * o2, h2 = p_h * -o1;
+        l1 = p_l * o2, l2 = p_l * -o1;
+      } else {
+        h1 = p_l * o1, h2 = p_l * -o2;
+        l1 = p_h * o1, l2 = p_h * -o2;
+      }
       sum_h += h1 > h2 ? h1 : h2;
       sum_l += l1 > l2 ? l1 : l2;
     }
@@ -139,42 +156,26 @@ void Panel::multiply(const std::vector<Interval>& values, std::vector<Interval>&
 
 void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent, Diagonal diagonal,
                        std::vector<Interval>& sums) {
-  sum_negated_lower_.assign(stride_, 0.0);
-  sum_upper_.assign(stride_, 0.0);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(r_); ++a) {
-    sum_negated_lower_[a] = sums[a].neg_lo();
-    sum_upper_[a] = sums[a].hi();
-  }
-  // The diagonal's own entries come back at the end.
-  diagonal_.resize(dependent.size());
-  bool plain = true;  // no 0·∞; largest + 1 rounds to infinity
-  for (int a = 0; a < r_; ++a) {
-    const std::size_t k = index(a, dependent[static_cast<std::size_t>(a)]);
-    diagonal_[static_cast<std::size_t>(a)] = Interval(-negated_lower_[k], upper_[k]);
-    negated_lower_[k] = diagonal == Diagonal::zero ? 0 : negated_lower_[k] + 1;
-    upper_[k] = diagonal == Diagonal::zero ? 0 : upper_[k] - 1;
-    plain = plain && std::isfinite(negated_lower_[k]) && std::isfinite(upper_[k]);
-  }
-  for (int j = 0; j < n_ && plain; ++j) {
-    const double o1 = offset[j].neg_lo(), o2 = offset[j].hi();
-    plain = o1 >= 0 && o2 >= 0 && std::isfinite(o1 + o2);
-  }
+  const bool minus_one = diagonal == Diagonal::minus_one;
+  bool plain = true;  // no 0·∞
+  for (int j = 0; j < n_; ++j) plain = plain && offset[j].is_bounded();
+  const auto entry = [&](int a, int d) { return minus_one ? at(a, d) - Interval(1.0) : Interval(); };
+  for (int a = 0; a < r_ && plain && minus_one; ++a)
+    plain = entry(a, dependent[static_cast<std::size_t>(a)]).is_bounded();  // largest + 1 rounds to infinity
   if (plain) {
-    add_product(negated_lower_.data(), upper_.data(), stride_, offset, n_, sum_negated_lower_.data(), sum_upper_.data());
-  } else {
-    for (int j = 0; j < n_; ++j)
-      for (int a = 0; a < r_; ++a) {
-        const Interval term = at(a, j) * offset[j];
-        sum_negated_lower_[static_cast<std::size_t>(a)] += term.neg_lo();
-        sum_upper_[static_cast<std::size_t>(a)] += term.hi();
-      }
+    diagonal_.assign(static_cast<std::size_t>(n_), -1.0);
+    for (int a = 0; a < r_; ++a) diagonal_[static_cast<std::size_t>(dependent[static_cast<std::size_t>(a)])] = a;
+    sum_negated_lower_.resize(stride_);
+    sum_upper_.resize(stride_);
+    multiply_panel(negated_lower_.data(), upper_.data(), stride_, offset, n_, diagonal_.data(), minus_one,
+                   sum_negated_lower_.data(), sum_upper_.data());
+    for (std::size_t a = 0; a < static_cast<std::size_t>(r_); ++a)
+      sums[a] += Interval(-sum_negated_lower_[a], sum_upper_[a]);
+    return;
   }
   for (int a = 0; a < r_; ++a) {
-    const std::size_t k = index(a, dependent[static_cast<std::size_t>(a)]);
-    negated_lower_[k] = diagonal_[static_cast<std::size_t>(a)].neg_lo();
-    upper_[k] = diagonal_[static_cast<std::size_t>(a)].hi();
-    sums[static_cast<std::size_t>(a)] =
-        Interval(-sum_negated_lower_[static_cast<std::size_t>(a)], sum_upper_[static_cast<std::size_t>(a)]);
+    const int d = dependent[static_cast<std::size_t>(a)];
+    for (int j = 0; j < n_; ++j) sums[static_cast<std::size_t>(a)] += (j == d ? entry(a, d) : at(a, j)) * offset[j];
   }
 }
 

@@ -55,7 +55,7 @@ class Panel {
   std::vector<double> positive_, negative_;    // column b: max(Y_ab, 0), max(−Y_ab, 0)
   std::vector<double> negated_lower_, upper_;  // column j of the panel
   std::vector<double> sum_negated_lower_, sum_upper_;
-  std::vector<Interval> diagonal_;
+  std::vector<double> diagonal_;  // of each column the row whose dependent it is, −1: none
 };
 
 }  // namespace corank::certify

@@ -22,6 +22,7 @@ constexpr int kPointTightenings = 20;  // an isolated solution is tightened unti
 constexpr double kStaleSpread = 0.1;   // |I − Y·S| beyond which a part gets its own Y
 constexpr double kCutMargin = 0.98;    // aim a little below σ: the linearization is not exact
 constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
+constexpr int kMostPartsAtOnce = 81;   // of a piece with many free sides: the other sides wait
 constexpr double kTrimShare = 0.9;
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
@@ -31,19 +32,22 @@ constexpr unsigned kPiecesBetweenChecks = 16;
 
 }  // namespace
 
-const Preconditioner& Slicer::tighten(const Task& task, Box& sides, const Preconditioner& inherited, Preconditioner& own) {
+const Preconditioner& Slicer::tighten(const Task& task, Piece& piece, const Preconditioner& inherited, Preconditioner& own) {
+  Box& sides = piece.sides;
   const Preconditioner* p = &inherited;
   const auto renew = [&] {
     own = preconditioners_.at_midpoint(sides.data(), &task.sheet.dependent, &task.sheet.equations);
     p = &own;
   };
-  const auto step = [&] { return certify::tighten_sheet(problem_.compiled, *p, sides.data(), workspace_); };
+  const auto step = [&] { piece.spread = certify::tighten_sheet(problem_.compiled, *p, sides.data(), workspace_); };
   sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
   const bool is_point = task.free.empty();
+  if (!is_point && piece.spread > kStaleSpread) renew();  // the parts of such a piece are hardly better
   double width = HUGE_VAL;
   for (int k = 0; k < (is_point ? kPointTightenings : kTightenings); ++k) {
     if (is_point && k > 0) renew();
-    if (step() > kStaleSpread && p == &inherited && !is_point) {
+    step();
+    if (piece.spread > kStaleSpread && p == &inherited && !is_point) {
       renew();
       step();
     }
@@ -60,28 +64,38 @@ const Preconditioner& Slicer::tighten(const Task& task, Box& sides, const Precon
   return *p;
 }
 
-bool Slicer::trim(const Task& task, const Preconditioner& p, Box& piece) {
+bool Slicer::trim(const Task& task, const Preconditioner& p, Step step, Box& sides) {
   const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
   bool inside = true;
   for (std::size_t j = 0; j < n; ++j) {
-    if (!piece[j].overlaps(task.x[j])) return false;
-    inside = inside && task.x[j].contains(piece[j]);
+    if (!sides[j].overlaps(task.x[j])) return false;
+    inside = inside && task.x[j].contains(sides[j]);
   }
   if (inside) return true;
-  met_.assign(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(n));
+  met_.assign(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t j = 0; j < n; ++j) met_[j].intersect(task.x[j]);
   if (!certify::contract_free(p, met_.data(), workspace_)) return false;
   bool narrower = false;
   for (int f : task.free) {
     const auto j = static_cast<std::size_t>(f);
-    narrower = narrower || met_[j].width() < kTrimShare * piece[j].width();
-    piece[j] = met_[j];
+    narrower = narrower || met_[j].width() < kTrimShare * sides[j].width();
+    sides[j] = met_[j];
   }
   if (narrower) {  // so are the other sides
-    certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
-    problem_.append_values_at_zeros(p, piece, workspace_);
+    if (step == Step::own) {
+      certify::tighten_sheet(problem_.compiled, p, sides.data(), workspace_);
+    } else {
+      certify::tighten_part(p, sides.data(), workspace_);
+    }
+    problem_.append_values_at_zeros(p, sides, workspace_);
   }
   return true;
+}
+
+std::optional<Location> Slicer::place(const Task& task, const Preconditioner& p, Step step, Box& sides) {
+  if (!trim(task, p, step, sides)) return std::nullopt;
+  const Location location = problem_.domain.locate_zeros(problem_.compiled, p, sides.data(), workspace_);
+  return location == Location::outside ? std::nullopt : std::optional(location);
 }
 
 void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& free, const Box& piece) {
@@ -181,7 +195,7 @@ void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& fo
   Task task{sheet, x, found, other_variables(sheet.dependent, problem_.compiled.variables()),
             std::make_shared<const Box>(std::move(region))};
   const Preconditioner p = preconditioners_.at_midpoint(sheet.image.data(), &sheet.dependent, &sheet.equations);
-  descend(task, {sheet.image, HUGE_VAL, 0}, p);
+  descend(task, {sheet.image}, p);
 }
 
 void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
@@ -195,15 +209,15 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     return;
   }
   Preconditioner own;
-  const Preconditioner& p = tighten(task, sides, inherited, own);
+  const Preconditioner& p = tighten(task, piece, inherited, own);
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
-  const auto elsewhere = [&] {
+  const std::optional<Location> location = place(task, p, Step::own, sides);
+  if (!location) {
     if (recorder_) recorder_->leaf_elsewhere();
-  };
-  if (!trim(task, p, sides)) return elsewhere();
-  const Location location = problem_.domain.locate_zeros(problem_.compiled, p, sides.data(), workspace_);
-  if (location == Location::outside) return elsewhere();
+    return;
+  }
   double width = widest(sides);
+  bool stepped = true;
   std::vector<int> parts;
   if (width > problem_.sigma && !free.empty()) {
     measure_steepness(p, free, sides);
@@ -211,6 +225,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     // Small enough but for overestimation: look closer.
     if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
       certify::shrink_to_faces(problem_.compiled, task.sheet, p, problem_.sigma, sides, workspace_);
+      stepped = false;
       width = widest(sides);
     }
   }
@@ -219,7 +234,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   const int futile_cuts = width > kFutileShare * piece.former_width ? piece.futile_cuts + 1 : 0;
   const auto divisible = [&](int j) { return split_point(sides[static_cast<std::size_t>(j)]).has_value(); };
   if (width <= problem_.sigma || futile_cuts > kFutileCuts || std::none_of(free.begin(), free.end(), divisible)) {
-    add(task, std::move(sides), location);
+    add(task, std::move(sides), *location);
     return;
   }
   std::size_t along = 0;
@@ -238,27 +253,77 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     parts.assign(free.size(), 1);
     parts[along] = 2;
   }
-  cut(task, piece, p, parts, shares, 0);
+  int at_once = parts[along];
+  for (std::size_t f = 0; f < free.size(); ++f) {
+    if (f == along) continue;
+    if (parts[f] > kMostPartsAtOnce / at_once) parts[f] = 1;
+    at_once *= parts[f];
+  }
+  cut(task, piece, p, stepped, places_of(sides, free, parts, shares));
 }
 
-void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, const std::vector<int>& parts,
-                 const std::vector<double>& shares, std::size_t f) {
-  if (f == parts.size()) return descend(task, piece, p);
-  if (parts[f] == 1) return cut(task, piece, p, parts, shares, f + 1);
-  const auto j = static_cast<std::size_t>(task.free[f]);
-  const Interval side = piece.sides[j];
-  std::vector<double> places;
-  for (int k = 1; k < parts[f]; ++k)
-    places.push_back(side.lo() + side.width() * (shares[f] > 0 ? shares[f] : static_cast<double>(k) / parts[f]));
-  if (recorder_) recorder_->cut(task.free[f], places);
-  Piece part = piece;
-  double from = side.lo();
-  for (std::size_t k = 0; k <= places.size(); ++k) {
-    const double to = k == places.size() ? side.hi() : std::clamp(places[k], from, side.hi());
-    part.sides[j] = Interval(from, to);
-    cut(task, part, p, parts, shares, f + 1);
-    from = to;
+std::vector<std::vector<double>> Slicer::places_of(const Box& piece, const std::vector<int>& free,
+                                                   const std::vector<int>& parts, const std::vector<double>& shares) const {
+  std::vector<std::vector<double>> places(free.size());
+  for (std::size_t f = 0; f < free.size(); ++f) {
+    const Interval& side = piece[static_cast<std::size_t>(free[f])];
+    for (int k = 1; k < parts[f]; ++k) {
+      const double share = shares[f] > 0 ? shares[f] : static_cast<double>(k) / parts[f];
+      places[f].push_back(std::min(side.lo() + side.width() * share, side.hi()));
+    }
   }
+  return places;
+}
+
+void Slicer::settle(const Task& task, const Preconditioner& p, Part& part) {
+  const auto small = [&] {
+    return std::all_of(part.sides.begin(), part.sides.begin() + problem_.compiled.variables(),
+                       [&](const Interval& side) { return side.width() <= problem_.sigma; });
+  };
+  certify::tighten_part(p, part.sides.data(), workspace_);
+  if (task.free.size() == 1) return;  // the narrower pieces of curves are, the more of them merge (solve/merging.h)
+  if (!small()) certify::tighten_part(p, part.sides.data(), workspace_);  // the dependents' own share is smaller now
+  if (!small()) return;
+  problem_.append_values_at_zeros(p, part.sides, workspace_);
+  if (widest(part.sides) > problem_.sigma) return;
+  const std::optional<Location> location = place(task, p, Step::shared, part.sides);
+  if (location == Location::across) return;  // a closer look may find it inside
+  part.fate = location ? Part::Fate::found : Part::Fate::elsewhere;
+}
+
+void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, bool stepped,
+                 const std::vector<std::vector<double>>& places) {
+  const std::vector<int>& free = task.free;
+  std::size_t count = 1;
+  for (const std::vector<double>& along : places) count *= along.size() + 1;
+  std::vector<Part> all(count, Part{.sides = piece.sides});
+  for (std::size_t index = 0; index < count; ++index) {
+    // The index as a number whose last digit counts the parts along the last free side.
+    std::size_t rest = index;
+    for (std::size_t f = free.size(); f-- > 0; rest /= places[f].size() + 1) {
+      const std::size_t k = rest % (places[f].size() + 1);
+      Interval& side = all[index].sides[static_cast<std::size_t>(free[f])];
+      side = Interval(k == 0 ? side.lo() : places[f][k - 1], k == places[f].size() ? side.hi() : places[f][k]);
+    }
+    if (stepped) settle(task, p, all[index]);
+  }
+  const auto finish = [&](Part& part) {
+    switch (part.fate) {
+      case Part::Fate::found: return add(task, std::move(part.sides), Location::inside);
+      case Part::Fate::elsewhere:
+        if (recorder_) recorder_->leaf_elsewhere();
+        return;
+      case Part::Fate::open:
+        return descend(task, {std::move(part.sides), piece.former_width, piece.futile_cuts, piece.spread}, p);
+    }
+  };
+  std::size_t next = 0;
+  const auto go_on = [&](const auto& self, std::size_t f) -> void {
+    if (f == free.size()) return finish(all[next++]);
+    if (recorder_ && !places[f].empty()) recorder_->cut(free[f], places[f]);
+    for (std::size_t k = 0; k <= places[f].size(); ++k) self(self, f + 1);
+  };
+  go_on(go_on, 0);
 }
 
 }  // namespace corank::solve

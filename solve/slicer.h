@@ -2,6 +2,8 @@
 // inherits the sheet's proof, which holds for every value of the free variables.
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "corank/solve/preconditioner.h"
@@ -30,11 +32,19 @@ class Slicer {
   bool holds_on_parts(const certify::Sheet& sheet, const std::vector<int>& free, certify::Box piece, int depth);
 
  private:
-  // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower.
+  // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower; how far Y·S was
+  // from I on the piece that it was cut from.
   struct Piece {
     certify::Box sides;
-    double former_width;
-    int futile_cuts;
+    double former_width = HUGE_VAL;
+    int futile_cuts = 0;
+    double spread = 0;
+  };
+  // A part of a piece, and what becomes of it: it goes on as a piece, is added as it is, or holds nothing that is wanted here.
+  struct Part {
+    enum class Fate { open, found, elsewhere };
+    certify::Box sides;
+    Fate fate = Fate::open;
   };
   // What is the same for all pieces of one sheet.
   struct Task {
@@ -50,21 +60,30 @@ class Slicer {
   // Tightens the piece, adds it where it is small enough, else cuts it and goes on with the parts. `inherited` is the preconditioner of
   // the piece that this one was cut from.
   void descend(Task& task, Piece piece, const certify::Preconditioner& inherited);
-  // Shrinks a piece and renews the eliminated variables' sides behind its own. Returns the preconditioner of its last step: the inherited one, or
-  // `own`, made for the piece where the sheet has turned too much.
-  const certify::Preconditioner& tighten(const Task& task, certify::Box& sides, const certify::Preconditioner& inherited,
+  // Shrinks a piece, renews the eliminated variables' sides behind its own, and its spread. Returns the preconditioner of its last step: the
+  // inherited one, or `own`, made for the piece where the sheet has turned too much.
+  const certify::Preconditioner& tighten(const Task& task, Piece& piece, const certify::Preconditioner& inherited,
                                          certify::Preconditioner& own);
-  // After tighten: shrinks the piece's free sides to where its solutions may lie in x, and the others with them. False: none does.
-  bool trim(const Task& task, const certify::Preconditioner& p, certify::Box& piece);
+  // The last step was with p on the piece itself, or on the piece that it was cut from: it serves the other parts, too.
+  enum class Step { own, shared };
+  // After that step: shrinks the free sides to where the solutions may lie in x, and the others with them. False: none does.
+  bool trim(const Task& task, const certify::Preconditioner& p, Step step, certify::Box& sides);
+  // The same, and where the solutions lie with respect to the domain. Nothing: none in x, or none in the domain.
+  std::optional<certify::Location> place(const Task& task, const certify::Preconditioner& p, Step step, certify::Box& sides);
   // After tighten: steepness_[a·k + f] = |∂a/∂f| on the piece, linearized, of each dependent, then each eliminated variable a, with respect
   // to the f-th of k free variables.
   void measure_steepness(const certify::Preconditioner& p, const std::vector<int>& free, const certify::Box& piece);
   // The number of equal parts along each free side that makes all sides narrower than σ in the linearization, few in all.
   std::vector<int> parts_of(const certify::Box& piece, const std::vector<int>& free) const;
-  // Cuts the piece along its free sides from the f-th on, each into so many equal parts (two parts: at shares[f] of the width, where that is
-  // not 0), and goes on with each.
-  void cut(Task& task, const Piece& piece, const certify::Preconditioner& p, const std::vector<int>& parts,
-           const std::vector<double>& shares, std::size_t f);
+  // Where each free side is cut into so many equal parts (two parts: at shares[f] of the width, where that is not 0).
+  std::vector<std::vector<double>> places_of(const certify::Box& piece, const std::vector<int>& free,
+                                             const std::vector<int>& parts, const std::vector<double>& shares) const;
+  // Cuts the piece there, along all free sides, and goes on with each part. Where the last step was with p on the piece (`stepped`), the
+  // parts are tightened by it first: many are small enough then, and need no step of their own.
+  void cut(Task& task, const Piece& piece, const certify::Preconditioner& p, bool stepped,
+           const std::vector<std::vector<double>>& places);
+  // Tightens a part by the step on the piece that it was cut from, and finds its fate.
+  void settle(const Task& task, const certify::Preconditioner& p, Part& part);
   void add(Task& task, certify::Box piece, certify::Location location);
 
   const Problem& problem_;

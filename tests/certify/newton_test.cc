@@ -210,6 +210,39 @@ TEST_F(Newton, ContractingFreeVariablesEmptiesABoxThatTheSheetMisses) {
   EXPECT_FALSE(contract_free(p, box.data(), workspace_));
 }
 
+TEST_F(Newton, TighteningAPartKeepsItsPointsOfTheSheetAndLittleElse) {
+  // u² + x² + y² = 2, x and y free: u = √(2 − x² − y²).
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), u = b.variable("u", "-2", "2");
+  b.equation({{"1", {{u, 2}}}, {"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-2", {}}});
+  const CompiledSystem f(b.system());
+  const auto u_at = [](double px, double py) { return std::sqrt(2 - px * px - py * py); };
+  const Preconditioner p{{0}, {u}, {0.5 / u_at(0.3, 0.5)}};
+  const std::vector<Interval> box{Interval(0.2, 0.4), Interval(0.4, 0.6), Interval(1.2, 1.4)};
+  const Sheet sheet = newton_prove(f, p, box.data(), workspace_);
+  ASSERT_TRUE(sheet.proven);
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> share(0, 1);
+  std::vector<Interval> whole = sheet.image;
+  ASSERT_LT(tighten_sheet(f, p, whole.data(), workspace_), 1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<Interval> part = whole;
+    for (const int j : {x, y}) {
+      const double from = whole[j].lo() + 0.18 * share(random);
+      part[j] = Interval(from, std::min(from + 0.1 * share(random), whole[j].hi()));
+    }
+    tighten_part(p, part.data(), workspace_);
+    ASSERT_TRUE(whole[u].contains(part[u]));
+    const double range = u_at(part[x].lo(), part[y].lo()) - u_at(part[x].hi(), part[y].hi());
+    ASSERT_LT(part[u].width(), range + 0.04) << "the slopes are those over the whole";
+    for (int sample = 0; sample < 20; ++sample) {
+      const double px = part[x].lo() + share(random) * (part[x].hi() - part[x].lo());
+      const double py = part[y].lo() + share(random) * (part[y].hi() - part[y].lo());
+      ASSERT_TRUE((part[u] + Interval(-1e-15, 1e-15)).contains(u_at(px, py))) << trial;
+    }
+  }
+}
+
 TEST_F(Newton, ASingularPreconditionerProvesNothing) {
   SystemBuilder b;
   const int x = b.variable("x", "-9", "9"), y = b.variable("y", "-9", "9");

@@ -146,6 +146,28 @@ TEST(Solve, CoversATorusWithRegularBoxesNoWiderThanSigma) {
     for (int k = 0; k < 60; ++k) ASSERT_TRUE(near(0.0628 * i, 0.105 * k)) << i << ' ' << k;
 }
 
+TEST(Solve, CutsASheetAlongManyFreeVariables) {
+  // 2y² = 2 + Σ x_j²/8 with six free x_j in [0, 1]: three parts along each.
+  SystemBuilder b;
+  std::vector<SystemBuilder::Term> terms{{"-2", {}}};
+  for (int j = 0; j < 6; ++j) terms.push_back({"-1/8", {{b.variable("x" + std::to_string(j), "0", "1"), 2}}});
+  const int y = b.variable("y", "1", "2");
+  terms.push_back({"2", {{y, 2}}});
+  const Cover cover = solve_with(b.equation(terms).system(), 0.4);
+  EXPECT_TRUE(cover.complete());
+  EXPECT_LE(widest(cover), 0.4);
+  EXPECT_EQ(cover.count(Verdict::undecided), 0u);
+  EXPECT_GE(cover.boxes.size(), 729u);
+  EXPECT_LE(cover.boxes.size(), 4096u);
+  double volume = 0;
+  for (const auto& box : cover.boxes) {
+    double v = 1;
+    for (int j = 0; j < 6; ++j) v *= box.box[j].width();
+    volume += v;
+  }
+  EXPECT_NEAR(volume, 1, 1e-9) << "neither gaps nor overlaps in the free variables";
+}
+
 TEST(Solve, MarksPiecesThatLeaveTheDomainOrAnInequality) {
   // y = x on [0, 1]², x ≥ 1/2: the piece at x = 1/2 crosses the inequality, no other does.
   SystemBuilder b;
