@@ -23,6 +23,8 @@ constexpr double kStaleSpread = 0.1;   // |I − Y·S| beyond which a part gets 
 constexpr double kCutMargin = 0.98;    // aim a little below σ: the linearization is not exact
 constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
 constexpr int kMostPartsAtOnce = 81;   // of a piece with many free sides: the other sides wait
+constexpr double kSurelyNoFragment =
+    0.92;  // of σ: narrower pieces of curves may merge (solve/merging.h), once they have had their own step
 constexpr double kTrimShare = 0.9;
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
@@ -281,13 +283,13 @@ void Slicer::settle(const Task& task, const Preconditioner& p, Part& part) {
                        [&](const Interval& side) { return side.width() <= problem_.sigma; });
   };
   certify::tighten_part(p, part.sides.data(), workspace_);
-  if (task.free.size() == 1) return;  // the narrower pieces of curves are, the more of them merge (solve/merging.h)
   if (!small()) certify::tighten_part(p, part.sides.data(), workspace_);  // the dependents' own share is smaller now
   if (!small()) return;
   problem_.append_values_at_zeros(p, part.sides, workspace_);
   if (widest(part.sides) > problem_.sigma) return;
   const std::optional<Location> location = place(task, p, Step::shared, part.sides);
   if (location == Location::across) return;  // a closer look may find it inside
+  if (location && task.free.size() == 1 && widest(part.sides) <= kSurelyNoFragment * problem_.sigma) return;
   part.fate = location ? Part::Fate::found : Part::Fate::elsewhere;
 }
 

@@ -112,9 +112,13 @@ TEST(Checker, RejectsABoxThatItsSolutionsLeave) {
   for (const double share : {0.01, 0.3}) {
     Cover cover = solved(system, 0.1);
     CoverBox& box = cover.boxes[first(cover, Verdict::regular)];
-    for (std::size_t j = 0; j < 2; ++j)
-      if (box.free != std::vector<int>{static_cast<int>(j)})
-        box.box[j] = {box.box[j].lo(), box.box[j].hi() - share * (box.box[j].hi() - box.box[j].lo())};
+    ASSERT_EQ(box.free.size(), 1u);
+    const Interval along = box.box[static_cast<std::size_t>(box.free[0])];
+    Interval& side = box.box[static_cast<std::size_t>(1 - box.free[0])];
+    // The ends of the arc over the free side, which a little is cut off of.
+    const double from = std::sqrt(1 - along.lo() * along.lo()), to = std::sqrt(1 - along.hi() * along.hi());
+    const double greatest = side.lo() > 0 ? std::max(from, to) : -std::min(from, to);
+    side = {side.lo(), greatest - share * std::fabs(from - to)};
     EXPECT_NE(reasons(system, cover), "") << share;
   }
 }
