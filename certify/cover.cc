@@ -19,7 +19,7 @@ Verdict verdict_from_string(const std::string& text) {
 
 std::array<std::size_t, kVerdicts> Cover::counts() const {
   std::array<std::size_t, kVerdicts> result{};
-  for (const CoverBox& b : boxes) ++result[static_cast<std::size_t>(b.verdict)];
+  for (const CoverBox& b : boxes) ++result.at(static_cast<std::size_t>(b.verdict));
   return result;
 }
 

@@ -28,6 +28,8 @@ enum class Location { inside, outside, across };
 class DomainTest {
  public:
   explicit DomainTest(const System& system);
+  /// Encloses the exact domain of variable j.
+  const Interval& side(std::size_t j) const { return domain_[j]; }
   /// With a tolerance > 0 (verdict `partial`) a piece counts as inside where it leaves the domain by no more than
   /// tolerance · max(1, |domain|), and an inequality by no more than the tolerance.
   Location locate(const CompiledSystem& compiled, const Interval* x, double tolerance = 0) const;

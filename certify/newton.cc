@@ -25,6 +25,15 @@ bool bounded(const std::vector<Interval>& x) {
   return std::all_of(x.begin(), x.end(), [](const Interval& side) { return side.is_bounded(); });
 }
 
+// What the panel and the residual say was computed by the last newton_contract for these rows and a box that contains x.
+void check_step(const Preconditioner& p, const Interval* x, const NewtonWorkspace& w) {
+  CORANK_CHECK(UpwardRounding::active());
+  CORANK_CHECK(p.equations == w.rows && p.dependent == w.row_sides);
+  bool part = true;
+  for (std::size_t j = 0; j < w.stepped.size(); ++j) part = part && w.stepped[j].contains(x[j]);
+  CORANK_CHECK(part);
+}
+
 // The rows Y·F(c) + Y·S·(x − c) ∋ 0 of the panel, each solved for its dependent variable.
 NewtonOutcome solve_rows(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
   const int r = p.rank(), n = w.panel.columns();
@@ -67,16 +76,18 @@ NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner
   if (!w.panel.assign_product(system, p.equations, w.slope)) return {};
   multiply_residual(system, p, w);
   w.contracted = true;
+  w.stepped.assign(x, x + system.variables());
+  w.rows = p.equations;
+  w.row_sides = p.dependent;
   NewtonOutcome outcome = solve_rows(p, x, w);
   if (outcome.regular && !outcome.empty) outcome.spread = w.panel.distance_from_identity(p.dependent);
   return outcome;
 }
 
 bool contract_free(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
-  CORANK_CHECK(UpwardRounding::active());
   if (!w.contracted) return true;
+  check_step(p, x, w);
   const int r = p.rank(), n = w.panel.columns();
-  CORANK_CHECK(w.panel.rows() == r && w.center.size() == static_cast<std::size_t>(n));
   w.is_dependent.assign(static_cast<std::size_t>(n), 0);
   for (int d : p.dependent) w.is_dependent[d] = 1;
   w.free.clear();
@@ -109,6 +120,7 @@ namespace {
 // image := Krawczyk image K over the box x about w.center; w.residual holds Y·F(c), the panel Y. False: no bounded image.
 bool krawczyk(const CompiledSystem& system, const Preconditioner& p, const Interval* x, NewtonWorkspace& w) {
   const int r = p.rank(), n = system.variables();
+  w.contracted = false;
   w.slope.resize(system.entries());
   system.slopes(x, w.center.data(), w.slope.data());
   if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
@@ -126,6 +138,7 @@ bool krawczyk(const CompiledSystem& system, const Preconditioner& p, const Inter
 bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, const Interval* b, NewtonWorkspace& w) {
   constexpr int kCandidates = 6;
   const int r = p.rank();
+  w.contracted = false;
   system.jacobian(b, w.slope.data());
   if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
   w.magnitude.resize(static_cast<std::size_t>(r) * r);
@@ -161,6 +174,7 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
   Sheet sheet;
   const int r = p.rank(), n = system.variables();
   // No dependent variable and no equation: every point of x is a solution.
+  w.contracted = false;
   if ((r == 0 && system.equations() > 0) || r > n || !w.panel.set_matrix(p.y, r)) return sheet;
   set_center(x, n, w);
   multiply_residual(system, p, w);
@@ -193,10 +207,9 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
 
 Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
                         NewtonWorkspace& w) {
-  CORANK_CHECK(UpwardRounding::active());
   if (!w.contracted) return Interval::whole();
+  check_step(p, x, w);
   const int r = p.rank(), n = system.variables();
-  CORANK_CHECK(w.panel.rows() == r && w.panel.columns() == n && w.center.size() == static_cast<std::size_t>(n));
   w.slope.resize(system.entries());
   system.slopes(row, x, w.center.data(), w.slope.data());
   w.gradient.assign(n, Interval());
@@ -222,9 +235,8 @@ double tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Inte
 }
 
 void tighten_part(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
-  CORANK_CHECK(UpwardRounding::active());
   if (!w.contracted) return;
-  CORANK_CHECK(w.panel.rows() == p.rank());
+  check_step(p, x, w);
   CORANK_CHECK(!solve_rows(p, x, w).empty);
 }
 

@@ -18,14 +18,18 @@ struct Preconditioner {
   int rank() const { return static_cast<int>(dependent.size()); }
 };
 
-/// Buffers for one thread; contents mean nothing between calls but to value_at_zeros.
+/// Buffers for one thread. Between calls only those of the last newton_contract mean something, to contract_free, tighten_part and value_at_zeros,
+/// which check that they are given its rows and a part of its box.
 struct NewtonWorkspace {
   Panel panel;
   std::vector<Interval> slope, values, residual, offset, image, region, gradient;
   std::vector<double> center, magnitude, radius, next_radius;
   std::vector<unsigned char> is_dependent;
   std::vector<int> free;
-  bool contracted = false;  ///< the last newton_contract had a bounded Y·S and Y·F(c)
+  // The last newton_contract:
+  bool contracted = false;           ///< it had a bounded Y·S and Y·F(c), and nothing has replaced them
+  std::vector<Interval> stepped;     ///< the box that it was given
+  std::vector<int> rows, row_sides;  ///< its p.equations and p.dependent
 };
 
 struct NewtonOutcome {

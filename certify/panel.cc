@@ -63,7 +63,7 @@ CORANK_WIDE void multiply_vector(const SplitMatrix& y, const Interval* x, int co
 }
 
 // sums := P·o for finite offsets o = [−o1, o2], P = [−l, h]. −lo and hi of an entry's product are the larger of two products, which depend on
-// where 0 lies. In row diagonal[j] of column j (−1: none) stands the entry less 1 if minus_one, else 0: exchanged in registers, since a store
+// where the offset has 0. In row diagonal[j] of column j (−1: none) stands the entry less 1 if minus_one, else 0: exchanged in registers, since a store
 // would delay the loads after it.
 CORANK_WIDE void multiply_panel(const double* negated_lower, const double* upper, std::size_t rows, const Interval* offset,
                                 int columns, const double* diagonal, bool minus_one, double* sum_negated_lower,

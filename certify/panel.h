@@ -55,7 +55,7 @@ class Panel {
   std::vector<double> positive_, negative_;    // column b: max(Y_ab, 0), max(−Y_ab, 0)
   std::vector<double> negated_lower_, upper_;  // column j of the panel
   std::vector<double> sum_negated_lower_, sum_upper_;
-  std::vector<double> diagonal_;  // of each column the row whose dependent it is, −1: none
+  std::vector<double> diagonal_;  // of each column the row whose dependent it is, −1: none; doubles, to be compared in lanes
 };
 
 }  // namespace corank::certify

@@ -50,6 +50,7 @@ class FaceRange {
 
   // derivatives_[a·k + f] ∋ ∂(dependent a)/∂(free f) on the sheet over the piece. False: no bound.
   bool differentiate() {
+    w_.contracted = false;
     w_.slope.resize(static_cast<std::size_t>(system_.entries()));
     system_.jacobian(piece_.data(), w_.slope.data());
     w_.panel.set_matrix(p_.y, p_.rank());

@@ -70,8 +70,8 @@ class Search {
     });
   }
 
-  // What all threads have found; it stays theirs.
-  std::vector<Found*> found() {
+  // What all threads have found; it stays theirs. To be called once: it notes each box's leaf.
+  std::vector<Found*> gather() {
     std::vector<Found*> all;
     for (Worker& w : workers_) {
       std::vector<Found>& found = w.processor.found();
@@ -297,7 +297,7 @@ Cover solve(const certify::System& system, const Options& options) {
   cover.sigma = sigma;
   cover.reduction = reduction.steps;
   cover.statistics = search.statistics();
-  std::vector<Found*> found = search.found();
+  std::vector<Found*> found = search.gather();
   bool some_partial = false;
   for (const Found* f : found) {
     if (f->box.verdict != Verdict::partial) continue;

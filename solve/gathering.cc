@@ -8,6 +8,7 @@
 #include <array>
 #include <ranges>
 #include <unordered_map>
+#include <utility>
 
 #include "corank/certify/domain.h"
 #include "corank/certify/rounding.h"
@@ -34,6 +35,14 @@ struct Key {
   Found* found = nullptr;
 };
 
+// Of boxes that claim the same, as overlapping roots have them.
+bool region_before(const Found& a, const Found& b) {
+  if (!a.region || !b.region) return !a.region && b.region;
+  return std::lexicographical_compare(
+      a.region->begin(), a.region->end(), b.region->begin(), b.region->end(),
+      [](const auto& x, const auto& y) { return std::pair(x.lo(), x.hi()) < std::pair(y.lo(), y.hi()); });
+}
+
 }  // namespace
 
 void sort(std::vector<Found*>& found) {
@@ -51,7 +60,8 @@ void sort(std::vector<Found*>& found) {
   tbb::parallel_sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
     for (std::size_t k = 0; k < a.ends.size(); ++k)
       if (a.ends[k] != b.ends[k]) return a.ends[k] < b.ends[k];
-    return before(a.found->box, b.found->box, others);
+    if (before(a.found->box, b.found->box, others)) return true;
+    return !before(b.found->box, a.found->box, others) && region_before(*a.found, *b.found);
   });
   for (std::size_t i = 0; i < keys.size(); ++i) found[i] = keys[i].found;
 }

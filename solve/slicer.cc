@@ -23,8 +23,10 @@ constexpr double kStaleSpread = 0.1;   // |I − Y·S| beyond which a part gets 
 constexpr double kCutMargin = 0.98;    // aim a little below σ: the linearization is not exact
 constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
 constexpr int kMostPartsAtOnce = 81;   // of a piece with many free sides: the other sides wait
-constexpr double kSurelyNoFragment =
-    0.92;  // of σ: narrower pieces of curves may merge (solve/merging.h), once they have had their own step
+constexpr double kRoom = 1.0 / 128;    // of a side, at each end
+constexpr double kLeastRoom = 4e-16;   // of its magnitude
+// Of σ: a narrower piece of a curve gets a step of its own, after which it may be a fragment that merges (at 0.85 in solve/merging.cc).
+constexpr double kPossibleFragment = 0.92;
 constexpr double kTrimShare = 0.9;
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
@@ -66,7 +68,7 @@ const Preconditioner& Slicer::tighten(const Task& task, Piece& piece, const Prec
   return *p;
 }
 
-bool Slicer::trim(const Task& task, const Preconditioner& p, Step step, Box& sides) {
+bool Slicer::trim(const Task& task, const Preconditioner& p, Slopes slopes, Box& sides) {
   const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
   bool inside = true;
   for (std::size_t j = 0; j < n; ++j) {
@@ -84,7 +86,7 @@ bool Slicer::trim(const Task& task, const Preconditioner& p, Step step, Box& sid
     sides[j] = met_[j];
   }
   if (narrower) {  // so are the other sides
-    if (step == Step::own) {
+    if (slopes == Slopes::own) {
       certify::tighten_sheet(problem_.compiled, p, sides.data(), workspace_);
     } else {
       certify::tighten_part(p, sides.data(), workspace_);
@@ -94,8 +96,8 @@ bool Slicer::trim(const Task& task, const Preconditioner& p, Step step, Box& sid
   return true;
 }
 
-std::optional<Location> Slicer::place(const Task& task, const Preconditioner& p, Step step, Box& sides) {
-  if (!trim(task, p, step, sides)) return std::nullopt;
+std::optional<Location> Slicer::place(const Task& task, const Preconditioner& p, Slopes slopes, Box& sides) {
+  if (!trim(task, p, slopes, sides)) return std::nullopt;
   const Location location = problem_.domain.locate_zeros(problem_.compiled, p, sides.data(), workspace_);
   return location == Location::outside ? std::nullopt : std::optional(location);
 }
@@ -173,6 +175,22 @@ bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Bo
   return true;
 }
 
+void Slicer::leave_room(const Task& task, Box& piece) const {
+  for (std::size_t j = 0; j < piece.size(); ++j) {
+    if (std::find(task.free.begin(), task.free.end(), static_cast<int>(j)) != task.free.end()) continue;
+    Interval& side = piece[j];
+    const double room = std::min(kRoom * side.width() + kLeastRoom * side.mag(), 0.49 * (problem_.sigma - side.width()));
+    if (!(room > 0)) continue;
+    // Inside the region, where the solution is the only one, and not across an end of the domain that the side keeps.
+    Interval wider = side + Interval(-room, room);
+    if (!wider.intersect((*task.region)[j])) continue;
+    if (j < static_cast<std::size_t>(problem_.compiled.variables()) &&
+        !wider.intersect(Interval::hull(side, problem_.domain.side(j))))
+      continue;
+    side = Interval::hull(side, wider);
+  }
+}
+
 void Slicer::add(Task& task, Box piece, Location location) {
   const Sheet& sheet = task.sheet;
   Verdict verdict = task.free.empty() ? Verdict::isolated : Verdict::regular;
@@ -187,6 +205,7 @@ void Slicer::add(Task& task, Box piece, Location location) {
     narrow.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
     found.sheet = std::make_unique<const Sheet>(std::move(narrow));
   }
+  leave_room(task, found.box.box);
   if (recorder_) recorder_->leaf_box(task.found.size());
   task.found.push_back(std::move(found));
 }
@@ -213,7 +232,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   Preconditioner own;
   const Preconditioner& p = tighten(task, piece, inherited, own);
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
-  const std::optional<Location> location = place(task, p, Step::own, sides);
+  const std::optional<Location> location = place(task, p, Slopes::own, sides);
   if (!location) {
     if (recorder_) recorder_->leaf_elsewhere();
     return;
@@ -287,9 +306,9 @@ void Slicer::settle(const Task& task, const Preconditioner& p, Part& part) {
   if (!small()) return;
   problem_.append_values_at_zeros(p, part.sides, workspace_);
   if (widest(part.sides) > problem_.sigma) return;
-  const std::optional<Location> location = place(task, p, Step::shared, part.sides);
+  const std::optional<Location> location = place(task, p, Slopes::shared, part.sides);
   if (location == Location::across) return;  // a closer look may find it inside
-  if (location && task.free.size() == 1 && widest(part.sides) <= kSurelyNoFragment * problem_.sigma) return;
+  if (location && task.free.size() == 1 && widest(part.sides) <= kPossibleFragment * problem_.sigma) return;
   part.fate = location ? Part::Fate::found : Part::Fate::elsewhere;
 }
 

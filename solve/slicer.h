@@ -33,7 +33,7 @@ class Slicer {
 
  private:
   // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower; how far Y·S was
-  // from I on the piece that it was cut from.
+  // from I in the last step, on this piece or on the one that it was cut from.
   struct Piece {
     certify::Box sides;
     double former_width = HUGE_VAL;
@@ -64,12 +64,13 @@ class Slicer {
   // inherited one, or `own`, made for the piece where the sheet has turned too much.
   const certify::Preconditioner& tighten(const Task& task, Piece& piece, const certify::Preconditioner& inherited,
                                          certify::Preconditioner& own);
-  // The last step was with p on the piece itself, or on the piece that it was cut from: it serves the other parts, too.
-  enum class Step { own, shared };
+  // The slopes of the last step are those over the piece itself, or over the piece that it was cut from: they serve the other parts, too.
+  enum class Slopes { own, shared };
   // After that step: shrinks the free sides to where the solutions may lie in x, and the others with them. False: none does.
-  bool trim(const Task& task, const certify::Preconditioner& p, Step step, certify::Box& sides);
+  bool trim(const Task& task, const certify::Preconditioner& p, Slopes slopes, certify::Box& sides);
   // The same, and where the solutions lie with respect to the domain. Nothing: none in x, or none in the domain.
-  std::optional<certify::Location> place(const Task& task, const certify::Preconditioner& p, Step step, certify::Box& sides);
+  std::optional<certify::Location> place(const Task& task, const certify::Preconditioner& p, Slopes slopes,
+                                         certify::Box& sides);
   // After tighten: steepness_[a·k + f] = |∂a/∂f| on the piece, linearized, of each dependent, then each eliminated variable a, with respect
   // to the f-th of k free variables.
   void measure_steepness(const certify::Preconditioner& p, const std::vector<int>& free, const certify::Box& piece);
@@ -84,6 +85,8 @@ class Slicer {
            const std::vector<std::vector<double>>& places);
   // Tightens a part by the step on the piece that it was cut from, and finds its fate.
   void settle(const Task& task, const certify::Preconditioner& p, Part& part);
+  // Widens the sides that are not free a little, where σ allows: who verifies the box has to come that close only.
+  void leave_room(const Task& task, certify::Box& piece) const;
   void add(Task& task, certify::Box piece, certify::Location location);
 
   const Problem& problem_;

@@ -147,8 +147,10 @@ bool Krawczyk::is_injective(const Sides& x) {
   return is_contraction(excess, r);
 }
 
-bool Krawczyk::center_is_zero() const {
-  return std::all_of(at_center_.begin(), at_center_.end(), [](const Enclosure& f) { return f.is_zero(); });
+bool Krawczyk::center_solves(const Sides& x) const {
+  Sides there = x;
+  for (const int d : dependent_) there[static_cast<std::size_t>(d)] = center_sides_[static_cast<std::size_t>(d)];
+  return std::all_of(equations_.begin(), equations_.end(), [&](const Row& f) { return f.value(there).is_zero(); });
 }
 
 Enclosure Krawczyk::value_at_zeros(const Row& row, const Sides& x) const {

@@ -32,8 +32,8 @@ class Krawczyk {
   Sides image(const Sides& x);
   /// Is |I − Y·J_D| r < r for some r > 0, J the Jacobian over x? Then F has at most one zero in x for each value of the free variables.
   bool is_injective(const Sides& x);
-  /// Is the centre a zero of all equations, exactly?
-  bool center_is_zero() const;
+  /// Is the centre's dependent part, with every value of the free variables in x, a zero of all equations, exactly?
+  bool center_solves(const Sides& x) const;
   /// After image(x0), for x ⊂ x0: encloses the row at the zeros of F in x.
   Enclosure value_at_zeros(const Row& row, const Sides& x) const;
   /// After image: about |∂(dependent a)/∂x_j|.

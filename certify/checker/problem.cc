@@ -1,5 +1,7 @@
 #include "corank/certify/checker/problem.h"
 
+#include <gmpxx.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -11,6 +13,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 Terms variable_as_terms(int j) { return Terms(Polynomial{{Monomial(1, {{j, 1}})}, ""}, 0); }
 
 ExactNumber magnitude(const ExactNumber& x) { return x.sign() == -1 ? -x : x; }
+
+// f times the least common denominator of its coefficients: at points of few bits its values are then exact, so that a bound is seen to be touched.
+// f itself where a coefficient is not rational or not exact, or where the denominators are long.
+Terms without_denominators(const Terms& f) {
+  constexpr std::size_t kMostBits = 64;
+  mpz_class common = 1;
+  for (const auto& [factors, c] : f.list()) {
+    if (!c.exact.is_rational() || c.tolerant) return f;
+    common = lcm(common, mpq_class(c.exact.text()).get_den());
+    if (mpz_sizeinbase(common.get_mpz_t(), 2) > kMostBits) return f;
+  }
+  return Terms().plus(ExactNumber::rational(common.get_str()), f);
+}
 
 }  // namespace
 
@@ -33,7 +48,7 @@ Problem::Problem(const System& system, const std::vector<ReductionStep>& reducti
     if (value) values_.push_back({j, Row(*value, place_)});
     for (const int sign : {-1, 1}) add_domain(j, value, sign);
   }
-  for (const Terms& g : reduced.inequalities) conditions_.push_back({Row(g, place_), false, -1});
+  for (const Terms& g : reduced.inequalities) conditions_.push_back({Row(without_denominators(g), place_), false, -1});
 }
 
 // sign 1: upper − x ≥ 0, sign −1: x − lower ≥ 0.
@@ -49,7 +64,7 @@ void Problem::add_domain(int variable, const std::optional<Terms>& value, int si
       holds = implied(affine->variable, (end - affine->c) / affine->a, sign * *direction);
   }
   if (!value) (sign > 0 ? implied_upper_ : implied_lower_)[static_cast<std::size_t>(place(variable))] = holds;
-  conditions_.push_back({Row(sign > 0 ? -difference : difference, place_), holds, variable});
+  conditions_.push_back({Row(without_denominators(sign > 0 ? -difference : difference), place_), holds, variable});
 }
 
 // Lemma: if Σ aᵢxᵢ² = b with every aᵢ > 0, then a_y y² ≤ b; so |y| ≤ h wherever h ≥ 0 and a_y h² ≥ b.

@@ -70,16 +70,19 @@ class SheetCheck {
       if ((step > 0 || proven) && !shrink(x, newton_.image(x))) return fail("a part of it has no solution");
       if (settled(x)) return true;
       if (!reason_.empty()) return false;
+      // The region's one solution, for each value of the free variables.
+      if ((box_.free.empty() || step == steps) && newton_.center_solves(x) && center_in_region()) {
+        for (const int k : dependent_)
+          x[static_cast<std::size_t>(k)] = Enclosure(newton_.center()[static_cast<std::size_t>(k)]);
+        if (settled(x)) return true;
+        break;
+      }
       if (step == steps) {
         // A bound that a solution touches: where one equation alone gives it exactly, no combination may.
         for (const Row& f : problem_.equations())
           if (!f.project(x, true)) return fail("a part of it has no solution");
         if (settled(x)) return true;
         break;
-      }
-      if (box_.free.empty() && newton_.center_is_zero() && center_in_region()) {
-        x.assign(newton_.center().begin(), newton_.center().end());  // the region's one solution
-        return settled(x) || fail(pending_reason_);
       }
       if ((box_.free.empty() || step == 0) && !newton_.set(dependent_, x, !box_.free.empty())) break;
     }
@@ -170,9 +173,12 @@ class SheetCheck {
 
   // After image(x0), x ⊂ x0 holding the solutions over x's free sides: do they lie in the box, and where asked in the domain?
   bool settled(const Sides& x) {
-    for (const int k : dependent_) {
-      const auto v = static_cast<std::size_t>(problem_.kept()[static_cast<std::size_t>(k)]);
-      if (!inside(x[static_cast<std::size_t>(k)], static_cast<int>(v))) return false;
+    wide_ = -1;
+    for (std::size_t a = 0; a < dependent_.size(); ++a) {
+      const int v = problem_.kept()[place(a)];
+      if (inside(x[place(a)], v)) continue;
+      wide_ = static_cast<int>(a);
+      return false;
     }
     Sides clipped = x;
     if (!problem_.clip_to_implied(clipped)) return fail("a part of it lies outside a domain that the equations imply");
@@ -208,18 +214,25 @@ class SheetCheck {
     return false;
   }
 
-  bool bisect(const Sides& x, bool proven) {
+  // The free variable, by its place among the kept, whose halves narrow most: the side that was too wide if it alone is `meant`, else any; −1: none.
+  int choose(const Sides& x, bool proven, int meant) const {
     int along = -1;
     double most = 0;
     for (const int j : box_.free) {
-      const auto k = static_cast<std::size_t>(problem_.place(j));
-      double share = 1;
-      for (std::size_t a = 0; proven && a < dependent_.size(); ++a)
-        share = std::max(share, newton_.steepness(a, static_cast<int>(k)));
-      const double width = x[k].width(), middle = x[k].mid();
-      if (share * width > most && x[k].lo() < middle && middle < x[k].hi())
-        most = share * width, along = static_cast<int>(k);
+      const int k = problem_.place(j);
+      double share = meant >= 0 ? newton_.steepness(static_cast<std::size_t>(meant), k) : 1;
+      for (std::size_t a = 0; proven && meant < 0 && a < dependent_.size(); ++a)
+        share = std::max(share, newton_.steepness(a, k));
+      const Enclosure& side = x[static_cast<std::size_t>(k)];
+      const double width = side.width(), middle = side.mid();
+      if (share * width > most && side.lo() < middle && middle < side.hi()) most = share * width, along = k;
     }
+    return along;
+  }
+
+  bool bisect(const Sides& x, bool proven) {
+    int along = proven && wide_ >= 0 ? choose(x, proven, wide_) : -1;
+    if (along < 0) along = choose(x, proven, -1);
     if (along < 0) return fail(pending_reason_);
     const auto k = static_cast<std::size_t>(along);
     const double middle = x[k].mid();
@@ -238,6 +251,8 @@ class SheetCheck {
   std::vector<unsigned char> is_free_;
   std::vector<int> dependent_;
   int parts_ = 0;
+  int wide_ =
+      -1;  // the first dependent whose solutions were not shown to lie in the box, when they were looked at last; −1: none
   std::string reason_, pending_reason_;
 };
 
