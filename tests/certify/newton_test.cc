@@ -243,6 +243,30 @@ TEST_F(Newton, TighteningAPartKeepsItsPointsOfTheSheetAndLittleElse) {
   }
 }
 
+TEST_F(Newton, APartIsTightenedOnlyByAStepOnABoxThatContainsIt) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+  const CompiledSystem f(b.system());
+  const Preconditioner p{{0}, {x}, {0.5}};
+  const std::vector<Interval> box{Interval(0.9, 1), Interval(0.1, 0.3)};
+  const auto step = [&] {
+    std::vector<Interval> whole = box;
+    ASSERT_FALSE(newton_contract(f, p, whole.data(), workspace_).empty);
+  };
+  std::vector<Interval> part{Interval(0.9, 1), Interval(0.2, 0.4)};
+  step();
+  EXPECT_THROW(tighten_part(p, part.data(), workspace_), std::logic_error) << "y reaches beyond the box of the step";
+  part[y] = Interval(0.2, 0.3);
+  EXPECT_THROW(tighten_part({{0}, {y}, {2.0}}, part.data(), workspace_), std::logic_error) << "another step's rows";
+  tighten_part(p, part.data(), workspace_);
+  EXPECT_LT(part[x].width(), 0.05);
+  ASSERT_TRUE(newton_prove(f, p, box.data(), workspace_).proven);
+  part[x] = box[x];
+  tighten_part(p, part.data(), workspace_);
+  EXPECT_EQ(part[x], box[x]) << "the proof has taken the step's place";
+}
+
 TEST_F(Newton, ASingularPreconditionerProvesNothing) {
   SystemBuilder b;
   const int x = b.variable("x", "-9", "9"), y = b.variable("y", "-9", "9");

@@ -19,16 +19,6 @@ constexpr const char* kCircle = "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTE
 constexpr const char* kCirclesAndLine =
     "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\nz : [-9, 9]\n[SYSTEM EQS]\nx^2 + y^2 = 2;\n3*x - 2*y = 1/3;\nz = x*y + x;\n";
 
-void expect_verified(const System& system, const Cover& cover) {
-  const Report report = check(system, cover);
-  EXPECT_TRUE(report.verified()) << text(report);
-  std::size_t boxes = 0;
-  for (const Tally& t : report.boxes) boxes += t.verified;
-  EXPECT_EQ(boxes, cover.boxes.size());
-  EXPECT_GT(boxes, 0u);
-  EXPECT_FALSE(report.proof.present);
-}
-
 TEST(Checker, AcceptsACircle) { expect_verified(plain(kCircle), solved(plain(kCircle), 0.1)); }
 
 TEST(Checker, AcceptsPointsWithAnEliminatedVariable) {

@@ -38,6 +38,17 @@ inline std::string text(const Report& report) {
   return all;
 }
 
+/// Every box of the cover is verified.
+inline void expect_verified(const System& system, const Cover& cover) {
+  const Report report = check(system, cover);
+  EXPECT_TRUE(report.verified()) << text(report);
+  std::size_t boxes = 0;
+  for (const Tally& t : report.boxes) boxes += t.verified;
+  EXPECT_EQ(boxes, cover.boxes.size());
+  EXPECT_GT(boxes, 0u);
+  EXPECT_FALSE(report.proof.present);
+}
+
 inline Tally tally(const Report& report, Verdict verdict) { return report.boxes[static_cast<std::size_t>(verdict)]; }
 
 inline std::size_t first(const Cover& cover, Verdict verdict) {
