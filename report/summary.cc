@@ -203,9 +203,12 @@ std::string to_table(const Result& result) {
   }
   if (cover.tolerance > 0) {
     const bool over_determined = static_cast<std::size_t>(result.equations) > result.variables.size();
-    text +=
-        fmt::format("\n{}coefficients that are no integers are taken within a relative tolerance of {:g};\n",
-                    over_determined ? "more equations than variables: " : "", cover.tolerance / certify::kPartialTolerance);
+    text += fmt::format(
+        "\n{} within a relative tolerance of {:g};\n",
+        over_determined ? "more equations than variables: coefficients that are no integers are taken as they are written\n"
+                          "where the equations then fit each other, else"
+                        : "coefficients that are no integers are taken",
+        cover.tolerance / certify::kPartialTolerance);
     text += over_determined ? fmt::format(
                                   "partial: proven for independent equations, on the piece the others hold within {:g} "
                                   "(relative to their coefficients)\n",
