@@ -23,10 +23,7 @@ std::array<std::size_t, kVerdicts> Cover::counts() const {
   return result;
 }
 
-std::size_t Cover::count(Verdict verdict) const {
-  return static_cast<std::size_t>(
-      std::count_if(boxes.begin(), boxes.end(), [verdict](const CoverBox& b) { return b.verdict == verdict; }));
-}
+std::size_t Cover::count(Verdict verdict) const { return counts().at(static_cast<std::size_t>(verdict)); }
 
 std::size_t Cover::wider_than_sigma() const {
   const auto wide = [this](const CoverBox& b) {

@@ -120,7 +120,6 @@ namespace {
 // image := Krawczyk image K over the box x about w.center; w.residual holds Y·F(c), the panel Y. False: no bounded image.
 bool krawczyk(const CompiledSystem& system, const Preconditioner& p, const Interval* x, NewtonWorkspace& w) {
   const int r = p.rank(), n = system.variables();
-  w.contracted = false;
   w.slope.resize(system.entries());
   system.slopes(x, w.center.data(), w.slope.data());
   if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
@@ -138,7 +137,6 @@ bool krawczyk(const CompiledSystem& system, const Preconditioner& p, const Inter
 bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, const Interval* b, NewtonWorkspace& w) {
   constexpr int kCandidates = 6;
   const int r = p.rank();
-  w.contracted = false;
   system.jacobian(b, w.slope.data());
   if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
   w.magnitude.resize(static_cast<std::size_t>(r) * r);
@@ -173,8 +171,8 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
   CORANK_CHECK(UpwardRounding::active());
   Sheet sheet;
   const int r = p.rank(), n = system.variables();
+  w.contracted = false;  // the panel becomes the proof's
   // No dependent variable and no equation: every point of x is a solution.
-  w.contracted = false;
   if ((r == 0 && system.equations() > 0) || r > n || !w.panel.set_matrix(p.y, r)) return sheet;
   set_center(x, n, w);
   multiply_residual(system, p, w);

@@ -26,7 +26,8 @@ struct SplitMatrix {
   std::size_t rows;
 };
 
-// (−lo, hi) of the panel's columns += Y·S by rows, S's rows `equations` sparse: y⁺ takes the ends of an entry as they are, y⁻ exchanges them.
+// (−lo, hi) of the panel's columns += Y·S by rows, S's rows `equations` sparse: y⁺ takes the ends of an entry as they are,
+// y⁻ exchanges them.
 CORANK_WIDE void add_sparse_product(const SplitMatrix& y, const CompiledSystem& system, const std::vector<int>& equations,
                                     const Interval* sparse, double* negated_lower, double* upper) {
   const std::size_t rows = y.rows;
@@ -62,9 +63,9 @@ CORANK_WIDE void multiply_vector(const SplitMatrix& y, const Interval* x, int co
   }
 }
 
-// sums := P·o for finite offsets o = [−o1, o2], P = [−l, h]. −lo and hi of an entry's product are the larger of two products, which depend on
-// where the offset has 0. In row diagonal[j] of column j (−1: none) stands the entry less 1 if minus_one, else 0: exchanged in registers, since a store
-// would delay the loads after it.
+// sums := P·o for finite offsets o = [−o1, o2], P = [−l, h]. −lo and hi of an entry's product are the larger of two
+// products, chosen by the signs of o1, o2. In row diagonal[j] of column j (−1: none) stands the entry less 1 if
+// minus_one, else 0: exchanged in registers, since a store would delay the loads after it.
 CORANK_WIDE void multiply_panel(const double* negated_lower, const double* upper, std::size_t rows, const Interval* offset,
                                 int columns, const double* diagonal, bool minus_one, double* sum_negated_lower,
                                 double* sum_upper) {

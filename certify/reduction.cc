@@ -29,8 +29,8 @@ bool is_affine(const Polynomial& f) {
   });
 }
 
-// The rational number q that leaves f + q·g with the fewest terms, and how many fewer than f has. Irrational coefficients count only where
-// they cancel as expressions: else a 0 that nothing recognizes would stay.
+// The rational number q that leaves f + q·g with the fewest terms, and how many fewer than f has. Irrational coefficients
+// count only where they cancel as expressions: else a 0 that nothing recognizes would stay.
 struct Shortening {
   ExactNumber factor;
   std::ptrdiff_t saved = 0;

@@ -16,8 +16,8 @@
 
 namespace corank::report {
 
-/// The layout that write_result writes; read_result refuses a newer one. Version 1 had no certificates and no counts, version 2 eliminations in
-/// place of the reduction.
+/// The layout that write_result writes; read_result refuses a newer one. Version 1 had no certificates and no counts,
+/// version 2 eliminations in place of the reduction.
 inline constexpr int kFormatVersion = 3;
 
 /// Throws ResultFileError where no file can be created at `path`: to be asked before a long computation.

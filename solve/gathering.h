@@ -1,7 +1,7 @@
 // From what each thread has found to the boxes of a cover, in an order that does not depend on the threads.
 //
-// The boxes stay where their thread has put them until they are copied into the cover: pointers are sorted. Every function is to be called
-// in the arena whose threads it may use.
+// The boxes stay where their thread has put them until they are copied into the cover: pointers are sorted. Every function
+// is to be called in the arena whose threads it may use.
 #pragma once
 
 #include <vector>

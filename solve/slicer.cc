@@ -25,7 +25,8 @@ constexpr int kMostSlabs = 3;          // more parts than that: halve, and look 
 constexpr int kMostPartsAtOnce = 81;   // of a piece with many free sides: the other sides wait
 constexpr double kRoom = 1.0 / 128;    // of a side, at each end
 constexpr double kLeastRoom = 4e-16;   // of its magnitude
-// Of σ: a narrower piece of a curve gets a step of its own, after which it may be a fragment that merges (at 0.85 in solve/merging.cc).
+// Of σ: a narrower piece of a curve gets a step of its own, after which it may be a fragment that merges (at 0.85 in
+// solve/merging.cc).
 constexpr double kPossibleFragment = 0.92;
 constexpr double kTrimShare = 0.9;
 constexpr double kFutileShare = 0.95;
@@ -250,8 +251,8 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
       width = widest(sides);
     }
   }
-  // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts in a row
-  // gain nothing, the piece stays as it is, proven.
+  // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts
+  // in a row gain nothing, the piece stays as it is, proven.
   const int futile_cuts = width > kFutileShare * piece.former_width ? piece.futile_cuts + 1 : 0;
   const auto divisible = [&](int j) { return split_point(sides[static_cast<std::size_t>(j)]).has_value(); };
   if (width <= problem_.sigma || futile_cuts > kFutileCuts || std::none_of(free.begin(), free.end(), divisible)) {

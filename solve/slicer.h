@@ -1,5 +1,5 @@
-// From a proven sheet to boxes of the size asked for. Heuristic in where it cuts; what it says of a piece comes from certify/: each piece
-// inherits the sheet's proof, which holds for every value of the free variables.
+// From a proven sheet to boxes of the size asked for. Heuristic in where it cuts; what it says of a piece comes from
+// certify/: each piece inherits the sheet's proof, which holds for every value of the free variables.
 #pragma once
 
 #include <cmath>
@@ -23,17 +23,17 @@ class Slicer {
          Recorder* recorder = nullptr)
       : problem_(problem), preconditioners_(preconditioners), workspace_(workspace), recorder_(recorder) {}
 
-  /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so. Where the
-  /// search ends meanwhile, the rest is added as pending boxes.
+  /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so.
+  /// Where the search ends meanwhile, the rest is added as pending boxes.
   void slice(const certify::Sheet& sheet, const certify::Interval* x, std::vector<Found>& found);
 
-  /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the tolerance?
-  /// Cuts the piece as finely as the bounds need, `depth` times at most. True is proven, on each of the parts.
+  /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the
+  /// tolerance? Cuts the piece as finely as the bounds need, `depth` times at most. True is proven, on each of the parts.
   bool holds_on_parts(const certify::Sheet& sheet, const std::vector<int>& free, certify::Box piece, int depth);
 
  private:
-  // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower; how far Y·S was
-  // from I in the last step, on this piece or on the one that it was cut from.
+  // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower; how
+  // far Y·S was from I in the last step, on this piece or on the one that it was cut from.
   struct Piece {
     certify::Box sides;
     double former_width = HUGE_VAL;
@@ -57,30 +57,31 @@ class Slicer {
     bool ended = false;
   };
 
-  // Tightens the piece, adds it where it is small enough, else cuts it and goes on with the parts. `inherited` is the preconditioner of
-  // the piece that this one was cut from.
+  // Tightens the piece, adds it where it is small enough, else cuts it and goes on with the parts. `inherited` is the
+  // preconditioner of the piece that this one was cut from.
   void descend(Task& task, Piece piece, const certify::Preconditioner& inherited);
-  // Shrinks a piece, renews the eliminated variables' sides behind its own, and its spread. Returns the preconditioner of its last step: the
-  // inherited one, or `own`, made for the piece where the sheet has turned too much.
+  // Shrinks a piece, renews the eliminated variables' sides behind its own, and its spread. Returns the preconditioner of
+  // its last step: the inherited one, or `own`, made for the piece where the sheet has turned too much.
   const certify::Preconditioner& tighten(const Task& task, Piece& piece, const certify::Preconditioner& inherited,
                                          certify::Preconditioner& own);
-  // The slopes of the last step are those over the piece itself, or over the piece that it was cut from: they serve the other parts, too.
+  // The slopes of the last step are those over the piece itself, or over the piece that it was cut from: they serve the
+  // other parts, too.
   enum class Slopes { own, shared };
   // After that step: shrinks the free sides to where the solutions may lie in x, and the others with them. False: none does.
   bool trim(const Task& task, const certify::Preconditioner& p, Slopes slopes, certify::Box& sides);
   // The same, and where the solutions lie with respect to the domain. Nothing: none in x, or none in the domain.
   std::optional<certify::Location> place(const Task& task, const certify::Preconditioner& p, Slopes slopes,
                                          certify::Box& sides);
-  // After tighten: steepness_[a·k + f] = |∂a/∂f| on the piece, linearized, of each dependent, then each eliminated variable a, with respect
-  // to the f-th of k free variables.
+  // After tighten: steepness_[a·k + f] = |∂a/∂f| on the piece, linearized, of each dependent, then each eliminated variable
+  // a, with respect to the f-th of k free variables.
   void measure_steepness(const certify::Preconditioner& p, const std::vector<int>& free, const certify::Box& piece);
   // The number of equal parts along each free side that makes all sides narrower than σ in the linearization, few in all.
   std::vector<int> parts_of(const certify::Box& piece, const std::vector<int>& free) const;
   // Where each free side is cut into so many equal parts (two parts: at shares[f] of the width, where that is not 0).
   std::vector<std::vector<double>> places_of(const certify::Box& piece, const std::vector<int>& free,
                                              const std::vector<int>& parts, const std::vector<double>& shares) const;
-  // Cuts the piece there, along all free sides, and goes on with each part. Where the last step was with p on the piece (`stepped`), the
-  // parts are tightened by it first: many are small enough then, and need no step of their own.
+  // Cuts the piece there, along all free sides, and goes on with each part. Where the last step was with p on the piece
+  // (`stepped`), the parts are tightened by it first: many are small enough then, and need no step of their own.
   void cut(Task& task, const Piece& piece, const certify::Preconditioner& p, bool stepped,
            const std::vector<std::vector<double>>& places);
   // Tightens a part by the step on the piece that it was cut from, and finds its fate.

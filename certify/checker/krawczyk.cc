@@ -81,11 +81,11 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, bool polis
     if (!invert()) return false;
   }
   center_sides_.assign(center_.begin(), center_.end());
-  at_center_.clear();
-  for (const Row& f : equations_) at_center_.push_back(f.value(center_sides_));
+  Sides at_center;
+  for (const Row& f : equations_) at_center.push_back(f.value(center_sides_));
   residual_.assign(r, Enclosure());
   for (std::size_t a = 0; a < r; ++a)
-    for (std::size_t b = 0; b < r; ++b) residual_[a].add_product(y_[a * r + b], at_center_[b]);
+    for (std::size_t b = 0; b < r; ++b) residual_[a].add_product(y_[a * r + b], at_center[b]);
   return true;
 }
 

@@ -51,7 +51,7 @@ class Krawczyk {
   int n_;
   std::vector<int> dependent_;
   std::vector<double> center_, y_;
-  Sides center_sides_, at_center_, residual_;           // c, F(c), Y·F(c)
+  Sides center_sides_, residual_;                       // c, Y·F(c)
   std::vector<Sides> entries_, product_, derivatives_;  // product_: Y·S of image()
 };
 

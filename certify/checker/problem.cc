@@ -14,7 +14,8 @@ Terms variable_as_terms(int j) { return Terms(Polynomial{{Monomial(1, {{j, 1}})}
 
 ExactNumber magnitude(const ExactNumber& x) { return x.sign() == -1 ? -x : x; }
 
-// f times the least common denominator of its coefficients: at points of few bits its values are then exact, so that a bound is seen to be touched.
+// f times the least common denominator of its coefficients: at points of few bits its values are then exact, so that a
+// bound is seen to be touched.
 // f itself where a coefficient is not rational or not exact, or where the denominators are long.
 Terms without_denominators(const Terms& f) {
   constexpr std::size_t kMostBits = 64;

@@ -53,8 +53,8 @@ class SheetCheck {
     return false;
   }
 
-  // x: a part of the box's free sides, dependent sides that hold every solution of the region over them. `proven`: there is exactly one for
-  // every value. False: stop.
+  // x: a part of the box's free sides, dependent sides that hold every solution of the region over them. `proven`: there is
+  // exactly one for every value. False: stop.
   bool examine(Sides x, bool proven) {
     if (++parts_ > kMostParts) return fail(pending_reason_.empty() ? "too many parts" : pending_reason_);
     if (!proven) {
@@ -92,8 +92,8 @@ class SheetCheck {
   // Existence and uniqueness over x; shrinks its dependent sides to what holds the solutions. False: not shown.
   bool prove(Sides& x) {
     pending_reason_ = "the Jacobian is singular";
-    // About the middle of x; about a solution; about the middle of the region, as the search may have done it. Each time from x as it is:
-    // a side that was shrunk to an image has no interior left for the next.
+    // About the middle of x; about a solution; about the middle of the region, as the search may have done it. Each time
+    // from x as it is: a side that was shrunk to an image has no interior left for the next.
     Sides region;
     for (const int j : problem_.kept()) region.emplace_back(region_[static_cast<std::size_t>(j)]);
     for (const auto& [around, polished] : {std::pair(&x, false), {&x, true}, {&region, false}}) {
@@ -126,9 +126,9 @@ class SheetCheck {
     return false;
   }
 
-  // The box may fill its region so nearly that K about another centre than the solver's leaves it. Then: existence in a Z that ε-inflation of the
-  // box's sides finds, wherever it leads; at most one solution in the hull of Z and x. That one is all that the region may hold, and x
-  // becomes what holds it: whether it lies in the box is still to be shown.
+  // The box may fill its region so nearly that K about another centre than the solver's leaves it. Then: existence in a Z
+  // that ε-inflation of the box's sides finds, wherever it leads; at most one solution in the hull of Z and x. That one is
+  // all that the region may hold, and x becomes what holds it: whether it lies in the box is still to be shown.
   bool prove_near_box(Sides& x) {
     constexpr int kInflations = 10;
     Sides z = x;
@@ -214,7 +214,8 @@ class SheetCheck {
     return false;
   }
 
-  // The free variable, by its place among the kept, whose halves narrow most: the side that was too wide if it alone is `meant`, else any; −1: none.
+  // The free variable, by its place among the kept, whose halves narrow most: the side that was too wide if it alone is
+  // `meant`, else any; −1: none.
   int choose(const Sides& x, bool proven, int meant) const {
     int along = -1;
     double most = 0;

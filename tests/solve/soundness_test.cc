@@ -1,5 +1,7 @@
-// Claims about random small systems, held against solutions that double arithmetic finds: planted ones, and Newton's from many starts.
-// The systems have what certify::reduce rewrites: ties, images, repeated equations, irrational coefficients, ranges that cut the set.
+// Claims about random small systems, held against solutions that double arithmetic finds: planted ones, and Newton's from
+// many starts.
+// The systems have what certify::reduce rewrites: ties, images, repeated equations, irrational coefficients, ranges that
+// cut the set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -365,7 +367,8 @@ void check(unsigned seed, double tolerance, Tally& tally) {
       std::any_of(cover.boxes.begin(), cover.boxes.end(), [&](const CoverBox& b) { return holds(b, generator.planted, 0); }))
       << "seed " << seed << " lost " << text(generator.planted) << '\n'
       << text(system);
-  // Redundant equations that fit each other exactly are solved as they are written; only `partial` speaks of the tolerance then.
+  // Redundant equations that fit each other exactly are solved as they are written; only `partial` speaks of the tolerance
+  // then.
   const bool tolerant = certify::reduce(system).tolerant;
   for (int k = 0; k < (tolerant ? 4 : 1); ++k) {
     const Doubles f = choice(system, tolerant ? tolerance : 0, generator.random);

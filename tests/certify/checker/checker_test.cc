@@ -141,7 +141,8 @@ TEST(Checker, RejectsAViolatedInequality) {
   EXPECT_THAT(reasons(system, solved(plain(kCircle), 0.1)), HasSubstr("an inequality"));
 }
 
-// Repeats that are dropped, sums with irrational coefficients, sums of what was summed: the checker's reduction is the solver's.
+// Repeats that are dropped, sums with irrational coefficients, sums of what was summed: the checker's reduction is the
+// solver's.
 TEST(Checker, RepeatsTheReductionsOfSystemsWithSums) {
   const std::string variables = "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\nz : [-2, 2]\n[SYSTEM EQS]\n";
   for (const char* equations : {
@@ -350,7 +351,8 @@ TEST_F(RootOfTwo, IsCountedOnce) {
   EXPECT_THAT(text(check(system_, cover_)), HasSubstr("same solution"));
 }
 
-// An undecided box around a configuration whose kernel is a plane: M = diag(x, y, x) at the origin … has rank 0 but for its last entry.
+// An undecided box around a configuration whose kernel is a plane: M = diag(x, y, x) at the origin … has rank 0 but for its
+// last entry.
 class Plane : public testing::Test {
  protected:
   void SetUp() override {
