@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "corank/app/exit_status.h"
+#include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::app {
@@ -62,7 +63,11 @@ std::optional<symbolic::SingularitySet> chosen_set(const Question& question, con
 symbolic::TrigonometricSystem system_of(const Question& question, const symbolic::Mechanism& mechanism,
                                         std::optional<symbolic::SingularitySet> set) {
   if (!set) return symbolic::plain_system(mechanism);
-  return symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(question.kernel));
+  const auto side = symbolic::kernel_side_from_string(question.kernel);
+  // Without scales first: it checks what is asked for.
+  symbolic::TrigonometricSystem system = symbolic::singularity_system(mechanism, *set, side);
+  const std::vector<std::string> scales = symbolic::kernel_scales(mechanism, *set, side);
+  return scales.empty() ? system : symbolic::singularity_system(mechanism, *set, side, scales);
 }
 
 }  // namespace corank::app

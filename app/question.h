@@ -35,7 +35,7 @@ symbolic::Mechanism load(const Question& question);
 /// plain system is asked for.
 std::optional<symbolic::SingularitySet> chosen_set(const Question& question, const symbolic::Mechanism& mechanism);
 
-/// The system of that set. Throws ModelError.
+/// The system of that set, its kernel vector scaled (symbolic/kernel_scale.h). Throws ModelError.
 symbolic::TrigonometricSystem system_of(const Question& question, const symbolic::Mechanism& mechanism,
                                         std::optional<symbolic::SingularitySet> set);
 

@@ -26,11 +26,10 @@ namespace {
 constexpr int kDigits = 12;  ///< of isolated points
 
 /// Finer than corank solve's, where that is cheap: pictures want it.
-constexpr DefaultSigma kDefaultSigma{.curve = 0.01, .surface = 0.1, .cspace_surface = 0.05, .larger = 0.4};
 
 struct ReportCommand {
   Question question;
-  SetSearch search{kDefaultSigma, kSets};
+  SetSearch search{1, kSets};
   std::vector<std::string> results;
   std::string folder;
 };
@@ -38,11 +37,12 @@ struct ReportCommand {
 report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism& mechanism, std::size_t index) {
   const std::vector<std::string>& sets = command.search.sets;
   const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(sets[index]);
-  const certify::System system = algebrize(singularity_system(mechanism, set));
+  const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
+  const certify::System system = algebrize(trigonometric);
   solve::Options options = command.search.options(system, set);
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
   line.follow(options);
-  return solve_set(command.question, mechanism, set, system, options, kDigits);
+  return solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, kDigits);
 }
 
 std::vector<report::Result> solve_all(const ReportCommand& command, const symbolic::Mechanism& mechanism) {

@@ -8,21 +8,7 @@
 #include "corank/app/interrupt.h"
 
 namespace corank::app {
-namespace {
-
 using symbolic::SingularitySet;
-
-std::optional<double> default_for(const DefaultSigma& sigma, const certify::System& system, SingularitySet set) {
-  if (system.equations.size() > system.variables.size()) return sigma.curve;
-  switch (system.dimension()) {
-    case 0: return std::nullopt;
-    case 1: return sigma.curve;
-    case 2: return set == SingularitySet::cspace ? sigma.cspace_surface : sigma.surface;
-    default: return sigma.larger;
-  }
-}
-
-}  // namespace
 
 void SetSearch::add_sets(CLI::App& command) {
   command.add_option("--sets", sets, "The sets, with commas")
@@ -31,16 +17,10 @@ void SetSearch::add_sets(CLI::App& command) {
       ->check(CLI::IsMember(kSets))
       ->capture_default_str();
   command
-      .add_option(
-          "--sigma", sigma,
-          fmt::format("Largest edge of a box in the sets of singularities; default: {:g} for curves, {:g} for surfaces",
-                      default_sigma.curve, default_sigma.surface))
+      .add_option("--sigma", sigma,
+                  "Largest edge of a box in the sets of singularities; default: a share of the size of the set found")
       ->check(CLI::PositiveNumber);
-  command
-      .add_option("--cspace-sigma", cspace_sigma,
-                  fmt::format("The same in C-space; default: {:g} for curves, {:g} for surfaces", default_sigma.curve,
-                              default_sigma.cspace_surface))
-      ->check(CLI::PositiveNumber);
+  command.add_option("--cspace-sigma", cspace_sigma, "The same in C-space")->check(CLI::PositiveNumber);
 }
 
 void SetSearch::add_limits(CLI::App& command) {
@@ -56,15 +36,20 @@ void SetSearch::add_limits(CLI::App& command) {
 solve::Options SetSearch::options(const certify::System& system, SingularitySet set) const {
   solve::Options options;
   const std::optional<double>& asked = set == SingularitySet::cspace ? cspace_sigma : sigma;
-  options.sigma = asked ? asked : default_for(default_sigma, system, set);
-  if (const double least = solve::smallest_sigma(system); options.sigma && *options.sigma < least)
-    throw UsageError(fmt::format("{} is below {}, what boxes of doubles resolve here", *options.sigma, least));
+  check_sigma("--sigma", asked, system);
+  options.set_sigma(asked);
+  options.coarser = coarser;
   options.threads = threads;
   options.max_boxes = max_boxes;
   options.time_limit = time_limit;
   options.proof = proof;
   options.stop = &Interrupt::stop();
   return options;
+}
+
+void check_sigma(const std::string& option, const std::optional<double>& sigma, const certify::System& system) {
+  if (const double least = solve::smallest_sigma(system).largest(); sigma && *sigma < least)
+    throw UsageError(fmt::format("{}: {} is below {}, what boxes of doubles resolve here", option, *sigma, least));
 }
 
 std::string SetSearch::command_line(const std::string& subcommand, const Question& question) const {

@@ -6,15 +6,8 @@
 
 namespace corank::app {
 
-/// The largest edge of a box where the user asks for none. Isolated points keep the solver's own.
-struct DefaultSigma {
-  double curve;  ///< and of over-determined systems
-  double surface, cspace_surface;
-  double larger;  ///< of dimension 3 and more
-};
-
 struct SetSearch {
-  DefaultSigma default_sigma;
+  double coarser = 1;  ///< the default of sigma, multiplied
   std::vector<std::string> sets;
   std::optional<double> sigma{}, cspace_sigma{};
   int threads = 0;
@@ -33,5 +26,8 @@ struct SetSearch {
   /// What a user types for sets of this size: "corank report dextar.cuik --sigma 0.1 -D 'l2=1'".
   std::string command_line(const std::string& subcommand, const Question& question) const;
 };
+
+/// Throws UsageError where sigma is smaller than boxes of doubles resolve.
+void check_sigma(const std::string& option, const std::optional<double>& sigma, const certify::System& system);
 
 }  // namespace corank::app

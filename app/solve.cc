@@ -11,6 +11,7 @@
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/set_search.h"
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/cuik_param.h"
@@ -23,7 +24,7 @@ namespace {
 
 struct SolveCommand {
   Question question;
-  std::optional<double> sigma, tolerance;
+  std::optional<double> sigma, sigma_length, sigma_angle, tolerance;
   int threads = 1;
   std::uint64_t max_boxes = 0;
   std::optional<std::uint64_t> max_solutions;
@@ -36,7 +37,8 @@ struct SolveCommand {
 
 solve::Options options_of(const SolveCommand& command) {
   solve::Options options;
-  options.sigma = command.sigma;
+  options.sigma_length = command.sigma_length ? command.sigma_length : command.sigma;
+  options.sigma_angle = command.sigma_angle ? command.sigma_angle : command.sigma;
   options.threads = command.threads;
   options.max_boxes = command.max_boxes;
   options.max_solutions = command.max_solutions.value_or(0);
@@ -72,11 +74,13 @@ ExitStatus solve_model(SolveCommand command) {
   }
   const symbolic::Mechanism mechanism = load(command.question);
   const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
-  certify::System system = symbolic::algebrize(system_of(command.question, mechanism, set));
+  const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
+  certify::System system = symbolic::algebrize(trigonometric);
   system.coefficient_tolerance = command.tolerance.value_or(set ? 0 : solve::printed_tolerance(system));
   apply_parameters(command, system);
-  if (const double least = solve::smallest_sigma(system); command.sigma && *command.sigma < least)
-    throw UsageError(fmt::format("--sigma: {} is below {}, what boxes of doubles resolve here", *command.sigma, least));
+  check_sigma("--sigma", command.sigma, system);
+  check_sigma("--sigma-length", command.sigma_length, system);
+  check_sigma("--sigma-angle", command.sigma_angle, system);
   if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
     throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
   if (command.proof && system.coefficient_tolerance > 0)
@@ -90,7 +94,7 @@ ExitStatus solve_model(SolveCommand command) {
     const Interrupt interrupt;
     ProgressLine line;
     line.follow(options);
-    result = solve_set(command.question, mechanism, set, system, options, command.digits);
+    result = solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, command.digits);
   }
 
   write_file(command.result_path, result);
@@ -135,7 +139,12 @@ void add_solve(CLI::App& program, Action& action) {
   const auto command = std::make_shared<SolveCommand>();
   command->question.add_options(*sub);
   sub->add_option("--sigma", command->sigma,
-                  "Largest edge that a box may have;\ndefault: 1e-6 for isolated points (sqrt(REL) if larger), else 0.1")
+                  "Largest edge that a box may have, in lengths and in the sines and cosines of angles;\n"
+                  "default: 1/200 of the size of the set found for a curve, 1/60 for a surface, 1/20 for more")
+      ->check(finite(false));
+  sub->add_option("--sigma-length", command->sigma_length, "The same for lengths alone, in the model's unit")
+      ->check(finite(false));
+  sub->add_option("--sigma-angle", command->sigma_angle, "The same for the sines and cosines of angles alone")
       ->check(finite(false));
   sub->add_option("--tolerance", command->tolerance,
                   "Take the coefficients that are no integers within so much of their size, each on its own; 0: exact;\n"

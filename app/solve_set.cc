@@ -32,7 +32,7 @@ void mark_auxiliary(const symbolic::Mechanism& mechanism, report::Result& result
 
 report::Result solve_set(const Question& question, const symbolic::Mechanism& mechanism,
                          std::optional<symbolic::SingularitySet> set, const certify::System& system,
-                         const solve::Options& options, int digits) {
+                         const std::vector<std::string>& kernel_scales, const solve::Options& options, int digits) {
   report::Result result;
   result.model = mechanism.name();
   result.model_text = mechanism.source_text();
@@ -43,8 +43,9 @@ report::Result solve_set(const Question& question, const symbolic::Mechanism& me
   if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover);
   report::describe_system(system, result);
   mark_auxiliary(mechanism, result);
-  result.options = {kernel_of(question, set), result.cover.sigma,    system.coefficient_tolerance, options.threads,
-                    options.max_boxes,        options.max_solutions, options.time_limit,           overrides(question)};
+  result.options = {kernel_of(question, set),     result.cover.sigma, kernel_scales,
+                    system.coefficient_tolerance, options.threads,    options.max_boxes,
+                    options.max_solutions,        options.time_limit, overrides(question)};
   return result;
 }
 

@@ -9,9 +9,9 @@
 namespace corank::app {
 
 /// Solves the system of a set (nothing: of a plain system), proves exactly what can be, and returns all that a result file holds.
-/// `digits`: isolated points get so many proven digits after the point; 0: none.
+/// `kernel_scales`: with which the system was made. `digits`: isolated points get so many proven digits after the point; 0: none.
 report::Result solve_set(const Question& question, const symbolic::Mechanism& mechanism,
                          std::optional<symbolic::SingularitySet> set, const certify::System& system,
-                         const solve::Options& options, int digits = 0);
+                         const std::vector<std::string>& kernel_scales, const solve::Options& options, int digits = 0);
 
 }  // namespace corank::app

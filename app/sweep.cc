@@ -22,11 +22,11 @@ namespace corank::app {
 namespace {
 
 /// Coarser than a report's: there are many pictures on the page, and they are small.
-constexpr DefaultSigma kDefaultSigma{.curve = 0.02, .surface = 0.2, .cspace_surface = 0.1, .larger = 0.5};
+constexpr double kCoarser = 2;  // than corank solve
 
 struct SweepCommand {
   Question question;
-  SetSearch search{kDefaultSigma, {"cspace", "forward", "inverse"}};
+  SetSearch search{kCoarser, {"cspace", "forward", "inverse"}};
   std::string folder;
 };
 
@@ -36,14 +36,18 @@ struct Plan {
   std::string value;
   symbolic::Mechanism mechanism;
   std::vector<certify::System> systems;  ///< of the sets
+  std::vector<std::vector<std::string>> kernel_scales;
 };
 
 Plan plan(const SweepCommand& command, const Family& family, std::size_t k) {
-  Plan p{command.question, family.values[k], symbolic::Mechanism(), {}};
+  Plan p{command.question, family.values[k], symbolic::Mechanism(), {}, {}};
   p.question.definitions = definitions_of(family, k, command.question.definitions);
   p.mechanism = load(p.question);
-  for (const std::string& name : command.search.sets)
-    p.systems.push_back(algebrize(singularity_system(p.mechanism, *symbolic::singularity_set_from_string(name))));
+  for (const std::string& name : command.search.sets) {
+    const auto trigonometric = system_of(p.question, p.mechanism, symbolic::singularity_set_from_string(name));
+    p.systems.push_back(algebrize(trigonometric));
+    p.kernel_scales.push_back(trigonometric.kernel_scales);
+  }
   return p;
 }
 
@@ -61,7 +65,7 @@ report::Result solve_one(const SweepCommand& command, const Plan& plan, std::siz
   ProgressLine line(task);
   line.show(task);  // searches may be too short to tell more
   line.follow(options);
-  return solve_set(plan.question, plan.mechanism, set, system, options);
+  return solve_set(plan.question, plan.mechanism, set, system, plan.kernel_scales[set_index], options);
 }
 
 /// "member-03-forward.h5": members from 1, with as many digits as the last one needs.

@@ -35,6 +35,7 @@
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
@@ -184,11 +185,12 @@ void run_models(const std::string& only, int threads) {
     if (line.is_long && only.find(line.model) == std::string::npos) continue;
     const auto model = symbolic::read_model(std::string(CORANK_SOURCE_DIR "/models/") + line.model + ".cuik");
     solve::Options options;
-    options.sigma = line.sigma;
+    options.set_sigma(line.sigma);
     options.threads = threads;
     if (line.is_long) options.time_limit = kLongTimeLimit;
-    run(name, symbolic::algebrize(symbolic::singularity_system(model, line.set)), options, line.prototype_kilo_lu,
-        line.cuik);
+    const auto scales = symbolic::kernel_scales(model, line.set);
+    const auto system = symbolic::singularity_system(model, line.set, std::nullopt, scales);
+    run(name, symbolic::algebrize(system), options, line.prototype_kilo_lu, line.cuik);
   }
 }
 
@@ -208,11 +210,10 @@ void run_cuik_files(const std::string& only, int threads) {
       certify::System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
       system.coefficient_tolerance = solve::printed_tolerance(system);
       solve::Options options;
-      options.sigma = report::sigma_for(report::read_param(fs::path(model).replace_extension(".param")), system);
+      options.set_sigma(report::sigma_for(report::read_param(fs::path(model).replace_extension(".param")), system));
       options.threads = threads;
       options.time_limit = kTimeLimit;
-      run(fmt::format("{} {}", line.name, options.sigma.value_or(solve::default_sigma(system))), system, options, 0,
-          line.cuik);
+      run(fmt::format("{} {}", line.name, options.sigma_length.value_or(0)), system, options, 0, line.cuik);
     } catch (const symbolic::ModelError& error) {
       fmt::print("{:<35}  refused: {}\n", line.name, error.what());
     }

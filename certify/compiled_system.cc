@@ -1,8 +1,10 @@
 #include "corank/certify/compiled_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "corank/certify/check.h"
 #include "corank/certify/trigonometric.h"
 
 namespace corank::certify {
@@ -23,7 +25,8 @@ Interval half_way(const Interval& x, double c) { return scale(0.5, x + Interval(
 
 }  // namespace
 
-CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial> values) : variables_(system.size()) {
+CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial> values)
+    : variables_(system.size()), scales_(system.variables.size(), 1.0) {
   system.validate();
   equations_ = static_cast<int>(system.equations.size());
   rows_ = equations_ + static_cast<int>(system.inequalities.size());
@@ -79,6 +82,12 @@ CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial>
     rows_of_.insert(rows_of_.end(), list.begin(), list.end());
     rows_of_begin_.push_back(static_cast<int>(rows_of_.size()));
   }
+}
+
+void CompiledSystem::set_scales(std::vector<double> scales) {
+  CORANK_CHECK(scales.size() == static_cast<std::size_t>(variables_));
+  for (const double scale : scales) CORANK_CHECK(scale > 0 && std::isfinite(scale));
+  scales_ = std::move(scales);
 }
 
 Interval CompiledSystem::evaluate(const Term& t, const Interval* x) const {

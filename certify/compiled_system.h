@@ -32,6 +32,11 @@ class CompiledSystem {
   /// Throws std::invalid_argument where System::validate does.
   explicit CompiledSystem(const System& system, std::span<const Polynomial> values = {});
 
+  /// Typical sizes of the variables, positive, at first 1: so that choices (which vector r to try in a proof, when a proof is near, what
+  /// to solve for) do not depend on the units of the model. No statement rests on them.
+  const std::vector<double>& scales() const { return scales_; }
+  void set_scales(std::vector<double> scales);
+
   int variables() const { return variables_; }
   int equations() const { return equations_; }
   int inequalities() const { return rows() - equations_; }
@@ -81,6 +86,7 @@ class CompiledSystem {
   std::vector<Term> terms_;
   std::vector<GeneralFactor> factors_;
   std::vector<int> term_begin_, row_begin_, columns_, rows_of_, rows_of_begin_;
+  std::vector<double> scales_;
 };
 
 }  // namespace corank::certify

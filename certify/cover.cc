@@ -17,6 +17,17 @@ Verdict verdict_from_string(const std::string& text) {
   return static_cast<Verdict>(at - kNames.begin());
 }
 
+const char* to_string(Reason reason) {
+  switch (reason) {
+    case Reason::none: return "none";
+    case Reason::degenerate_point: return "degenerate_point";
+    case Reason::degenerate_set: return "degenerate_set";
+    case Reason::tolerance: return "tolerance";
+    case Reason::precision: return "precision";
+  }
+  return "?";
+}
+
 std::array<std::size_t, kVerdicts> Cover::counts() const {
   std::array<std::size_t, kVerdicts> result{};
   for (const CoverBox& b : boxes) ++result.at(static_cast<std::size_t>(b.verdict));
@@ -24,13 +35,5 @@ std::array<std::size_t, kVerdicts> Cover::counts() const {
 }
 
 std::size_t Cover::count(Verdict verdict) const { return counts().at(static_cast<std::size_t>(verdict)); }
-
-std::size_t Cover::wider_than_sigma() const {
-  const auto wide = [this](const CoverBox& b) {
-    return b.verdict != Verdict::pending &&
-           std::any_of(b.box.begin(), b.box.end(), [this](const Interval& side) { return side.hi() - side.lo() > sigma; });
-  };
-  return static_cast<std::size_t>(std::count_if(boxes.begin(), boxes.end(), wide));
-}
 
 }  // namespace corank::certify

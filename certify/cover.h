@@ -32,6 +32,14 @@ enum class Verdict : std::uint8_t {
 };
 inline constexpr int kVerdicts = 7;
 
+/// The largest edge that a box of proven solutions may have: in lengths, in the model's unit, and in the sine and the cosine of
+/// angles. Kernel vectors and auxiliary variables may be as wide as their proof is.
+struct Sigma {
+  double length = 0, angle = 0;
+  double largest() const { return length > angle ? length : angle; }
+  friend bool operator==(const Sigma&, const Sigma&) = default;
+};
+
 /// The tolerance within which the equations outside a `partial` proof hold, in coefficient tolerances: their values combine the
 /// tolerances of several equations.
 inline constexpr double kPartialTolerance = 10;
@@ -39,6 +47,25 @@ inline constexpr double kPartialTolerance = 10;
 const char* to_string(Verdict verdict);
 /// Throws std::invalid_argument for a word that names no verdict.
 Verdict verdict_from_string(const std::string& text);
+
+/// Why a box is `undecided`.
+enum class Reason : std::uint8_t {
+  none,              ///< it is not, or nobody knows
+  degenerate_point,  ///< next to a solution at which the Jacobian has not its full rank, as far as doubles tell
+  degenerate_set,    ///< the same along a curve or a larger set of such solutions
+  tolerance,         ///< the coefficients' tolerance moves the solutions too far
+  precision,         ///< doubles divide it no further
+};
+inline constexpr int kReasons = 5;
+
+const char* to_string(Reason reason);
+
+/// A set of larger dimension than the count of equations says: linear relations with rational coefficients that hold on it and make the others of the
+/// system's equations dependent (certify/self_motion.h).
+struct SelfMotionRecord {
+  int dimension = 0;
+  std::vector<Polynomial> relations;  ///< in all variables, each = 0
+};
 
 struct CoverBox {
   Box box;
@@ -49,6 +76,8 @@ struct CoverBox {
   int point = -1;
   /// No solution in the box has a kernel of larger dimension (certify/kernel_bound.h); −1: the system has no kernel, or nobody asked.
   int corank = -1;
+  int motion = -1;               ///< index in Cover::self_motions: it is `regular` with the free variables of that set
+  Reason reason = Reason::none;  ///< what was found where it was given up; no claim
 };
 
 struct Statistics {
@@ -70,6 +99,7 @@ struct Cover {
   /// exactly one solution (isolated). Boxes that were cut from one sheet share it.
   std::vector<Box> regions;
   std::vector<ExactPoint> exact_points;
+  std::vector<SelfMotionRecord> self_motions;
   /// Of each point and variable a decimal that is wrong by less than a unit of its last digit; no decimals where nothing is proven.
   /// Empty where nobody asked.
   std::vector<std::vector<std::string>> decimals;
@@ -77,15 +107,16 @@ struct Cover {
   std::vector<ReductionStep> reduction;
   std::shared_ptr<const Proof> proof;  ///< of completeness, where it was asked for
   int dimension = 0;                   ///< of the set; for an over-determined system, the largest that a partial box shows
-  double sigma = 0;
+  Sigma sigma;
   double tolerance = 0;  ///< relative tolerance of the coefficients and of what `partial` says; 0: every equation is exact
+  /// So many proven boxes have an edge longer than σ: ill-conditioned pieces that double arithmetic or the coefficients' tolerance
+  /// keep so wide, and pieces that were still to be cut when a limit ended the search.
+  std::size_t wider_than_sigma = 0;
   Statistics statistics;
 
   /// The number of boxes with each verdict: one pass over the boxes.
   std::array<std::size_t, kVerdicts> counts() const;
   std::size_t count(Verdict verdict) const;
-  /// Boxes with an edge longer than σ, pending ones aside: ill-conditioned pieces that double arithmetic can't narrow.
-  std::size_t wider_than_sigma() const;
   /// True where every point of the domain outside the boxes has been excluded: no box is `pending`.
   bool complete() const { return count(Verdict::pending) == 0; }
 };

@@ -80,7 +80,7 @@ NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner
   w.rows = p.equations;
   w.row_sides = p.dependent;
   NewtonOutcome outcome = solve_rows(p, x, w);
-  if (outcome.regular && !outcome.empty) outcome.spread = w.panel.distance_from_identity(p.dependent);
+  if (outcome.regular && !outcome.empty) outcome.spread = w.panel.distance_from_identity(p.dependent, system.scales());
   return outcome;
 }
 
@@ -133,7 +133,8 @@ bool krawczyk(const CompiledSystem& system, const Preconditioner& p, const Inter
 }
 
 // Hypothesis (2): |I − Y·J_D(B)| r < r for some r > 0, which holds for some r exactly where the spectral radius is below 1. The
-// candidates for r come from power iteration; the one that passes is checked with upward rounding.
+// candidates for r come from power iteration, the first one is the variables' scales; the one that passes is checked with upward
+// rounding.
 bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, const Interval* b, NewtonWorkspace& w) {
   constexpr int kCandidates = 6;
   const int r = p.rank();
@@ -145,7 +146,9 @@ bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, 
       w.magnitude[static_cast<std::size_t>(a) * r + k] =
           (Interval(k == a ? 1.0 : 0.0) - w.panel.at(a, p.dependent[k])).mag();
   }
-  w.radius.assign(r, 1.0);
+  const auto scale = [&](int a) { return system.scales()[static_cast<std::size_t>(p.dependent[a])]; };
+  w.radius.resize(r);
+  for (int a = 0; a < r; ++a) w.radius[a] = scale(a);
   w.next_radius.resize(r);
   for (int candidate = 0; candidate < kCandidates; ++candidate) {
     bool passes = true;
@@ -156,10 +159,10 @@ bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, 
       if (!std::isfinite(sum)) return false;
       passes = passes && sum < w.radius[a];
       w.next_radius[a] = sum;
-      largest = std::max(largest, sum);
+      largest = std::max(largest, sum / scale(a));
     }
     if (passes) return true;
-    for (int a = 0; a < r; ++a) w.radius[a] = w.next_radius[a] / largest + 0.05;
+    for (int a = 0; a < r; ++a) w.radius[a] = w.next_radius[a] / largest + 0.05 * scale(a);
   }
   return false;
 }

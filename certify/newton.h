@@ -35,7 +35,7 @@ struct NewtonWorkspace {
 struct NewtonOutcome {
   bool empty = false;    ///< the box holds no solution
   bool regular = false;  ///< no diagonal entry of Y·S(X) held 0: a hint that a proof is worth trying, no claim
-  double spread = 0;     ///< largest row sum of |I − Y·S_D| weighted by the radii: below 1 a proof may succeed; a hint
+  double spread = 0;     ///< largest row sum of |I − Y·S_D|, weighted by the scales: below 1 a proof may succeed; a hint
 };
 
 /// Contracts the dependent variables of x in place.
@@ -53,7 +53,9 @@ bool contract_free(const Preconditioner& p, Interval* x, NewtonWorkspace& w);
 /// What newton_prove shows about a box of values of the free variables.
 struct Sheet {
   bool proven = false;
-  std::vector<int> equations;  ///< the rows that the proof speaks of: all of them, or a subset (over-determined systems)
+  std::vector<int>
+      equations;    ///< the rows that the proof speaks of: all of them, or a subset (over-determined systems, self-motions)
+  int motion = -1;  ///< which self-motion it lies on, along which all rows hold (certify/self_motion.h); −1: none
   std::vector<int> dependent;
   std::vector<Interval> region;  ///< n: free sides as given, dependent sides inflated
   std::vector<Interval> image;   ///< n: free sides as given, dependent sides the Newton image, inside region's interior

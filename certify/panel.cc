@@ -98,11 +98,12 @@ CORANK_WIDE void multiply_panel(const double* negated_lower, const double* upper
   }
 }
 
-// sums += |P_j|, by rows.
-CORANK_WIDE void add_magnitudes(const double* negated_lower, const double* upper, std::size_t rows, double* sums) {
+// sums += weight·|P_j|, by rows.
+CORANK_WIDE void add_magnitudes(const double* negated_lower, const double* upper, std::size_t rows, double weight,
+                                double* sums) {
   for (std::size_t a = 0; a < rows; a += kLanes) {
     const Lanes l = lanes(negated_lower + a), h = lanes(upper + a);
-    lanes(sums + a) += l > h ? l : h;
+    lanes(sums + a) += weight * (l > h ? l : h);
   }
 }
 
@@ -180,16 +181,17 @@ void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent
   }
 }
 
-double Panel::distance_from_identity(const std::vector<int>& dependent) {
+double Panel::distance_from_identity(const std::vector<int>& dependent, const std::vector<double>& weights) {
   sum_upper_.assign(stride_, 0.0);
   for (std::size_t a = 0; a < dependent.size(); ++a) {
     const std::size_t column = index(0, dependent[a]);
-    const double others = sum_upper_[a];
-    add_magnitudes(&negated_lower_[column], &upper_[column], stride_, sum_upper_.data());
-    sum_upper_[a] = others + (Interval(1.0) - at(static_cast<int>(a), dependent[a])).mag();
+    const double others = sum_upper_[a], weight = weights[static_cast<std::size_t>(dependent[a])];
+    add_magnitudes(&negated_lower_[column], &upper_[column], stride_, weight, sum_upper_.data());
+    sum_upper_[a] = others + weight * (Interval(1.0) - at(static_cast<int>(a), dependent[a])).mag();
   }
   double largest = 0;
-  for (const double sum : sum_upper_) largest = std::max(largest, sum);
+  for (std::size_t a = 0; a < dependent.size(); ++a)
+    largest = std::max(largest, sum_upper_[a] / weights[static_cast<std::size_t>(dependent[a])]);
   return largest;
 }
 

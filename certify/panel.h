@@ -28,8 +28,9 @@ class Panel {
   enum class Diagonal { zero, minus_one };  ///< 0; the entry − 1
   void accumulate(const Interval* offset, const std::vector<int>& dependent, Diagonal diagonal, std::vector<Interval>& sums);
 
-  /// The largest row sum of |I − P_D|, D the columns dependent[0], dependent[1], …, rounded upward.
-  double distance_from_identity(const std::vector<int>& dependent);
+  /// The largest weighted row sum Σ_k |I − P_D|_ak w_k / w_a, D the columns dependent[0], dependent[1], …, and w_a > 0 the weight
+  /// of the variable dependent[a].
+  double distance_from_identity(const std::vector<int>& dependent, const std::vector<double>& weights);
 
   /// row[j] −= factor·P_aj for every column j, for a finite factor.
   void subtract_row(double factor, int a, Interval* row) const {

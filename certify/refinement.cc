@@ -155,7 +155,10 @@ Matrix jacobian(const Equations<Real>& f, const std::vector<Real>& x) {
 
 // Gauss–Newton until a step is below 2^−(bits/2); false where the steps do not become that short.
 bool iterate(const Equations<Real>& f, std::vector<Real>& x, int bits) {
-  const Real enough = ldexp(Real(1), -bits / 2 + 8), far = 1e6;
+  const Real enough = ldexp(Real(1), -bits / 2 + 8), most_sizes = 1e6;
+  Real far = 1;  // from lengths of any unit
+  for (const Real& c : x) far = std::max(far, Real(abs(c)));
+  far *= most_sizes;
   const int most = 2 * bits;
   for (int step = 0; step < most; ++step) {
     Vector value(f.rows());

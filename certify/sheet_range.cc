@@ -14,33 +14,35 @@ constexpr double kRoom = 1.0 / 128;  // of a range, left at its ends at least
 
 class FaceRange {
  public:
-  FaceRange(const CompiledSystem& system, const Preconditioner& p, std::vector<Interval>& piece, NewtonWorkspace& w)
+  FaceRange(const CompiledSystem& system, const Preconditioner& p, const std::vector<double>& widths,
+            std::vector<Interval>& piece, NewtonWorkspace& w)
       : system_(system),
         p_(p),
         piece_(piece),
         w_(w),
         n_(static_cast<std::size_t>(system.variables())),
-        r_(static_cast<std::size_t>(p.rank())) {
+        r_(static_cast<std::size_t>(p.rank())),
+        widths_(widths) {
     std::vector<bool> dependent(n_, false);
     for (int d : p.dependent) dependent[static_cast<std::size_t>(d)] = true;
     for (std::size_t j = 0; j < n_; ++j)
       if (!dependent[j]) free_.push_back(static_cast<int>(j));
   }
 
-  void shrink(double width) {
+  void shrink() {
     if (free_.empty() || !differentiate()) return;
-    width_ = width;
     std::vector<Interval> along(free_.size());
     for (std::size_t a = 0; a < r_; ++a) {
       const auto side = static_cast<std::size_t>(p_.dependent[a]);
-      if (piece_[side].width() <= width) continue;
+      if (piece_[side].width() <= widths_[side]) continue;
       for (std::size_t f = 0; f < free_.size(); ++f) along[f] = derivatives_[a * free_.size() + f];
-      shrink(side, along);
+      shrink(side, widths_[side], along);
     }
     for (int k = 0; k < system_.values(); ++k) {
-      if (piece_[n_ + static_cast<std::size_t>(k)].width() <= width) continue;
+      const std::size_t side = n_ + static_cast<std::size_t>(k);
+      if (piece_[side].width() <= widths_[side]) continue;
       differentiate(system_.value_row(k), along);
-      shrink(n_ + static_cast<std::size_t>(k), along);
+      shrink(side, widths_[side], along);
     }
   }
 
@@ -68,9 +70,11 @@ class FaceRange {
   bool differentiate(std::size_t f) {
     constexpr int kSteps = 12;
     const auto slope = [&](std::size_t a) { return w_.panel.at(static_cast<int>(a), free_[f]); };
+    const auto scale = [&](std::size_t a) { return system_.scales()[static_cast<std::size_t>(p_.dependent[a])]; };
     double largest = 1e-300;
-    for (std::size_t a = 0; a < r_; ++a) largest = std::max(largest, slope(a).mag());
-    std::vector<double> v(r_, largest), bound(r_);  // bound: upper bounds, by upward rounding, of E·v
+    for (std::size_t a = 0; a < r_; ++a) largest = std::max(largest, slope(a).mag() / scale(a));
+    std::vector<double> v(r_), bound(r_);  // bound: upper bounds, by upward rounding, of E·v
+    for (std::size_t a = 0; a < r_; ++a) v[a] = largest * scale(a);
     for (int step = 0; step < kSteps; ++step) {
       bool holds = true;
       for (std::size_t a = 0; a < r_; ++a) {
@@ -83,7 +87,7 @@ class FaceRange {
         return true;
       }
       for (std::size_t a = 0; a < r_; ++a) {
-        v[a] = 1.05 * (bound[a] + slope(a).mag()) + 1e-3 * largest;
+        v[a] = 1.05 * (bound[a] + slope(a).mag()) + 1e-3 * largest * scale(a);
         if (!std::isfinite(v[a])) return false;
       }
     }
@@ -103,7 +107,7 @@ class FaceRange {
     }
   }
 
-  void shrink(std::size_t side, const std::vector<Interval>& along) {
+  void shrink(std::size_t side, double width, const std::vector<Interval>& along) {
     Face up(free_.size(), 0), down(free_.size(), 0);
     for (std::size_t f = 0; f < free_.size(); ++f) {
       if (along[f].lo() >= 0) {
@@ -115,7 +119,7 @@ class FaceRange {
     if (up == down) return;  // monotone in no variable
     const double lower = over(down)[side].lo(), upper = over(up)[side].hi();
     CORANK_CHECK(lower <= upper);  // the sheet has solutions
-    const double room = std::max(kRoom * (upper - lower), 0.49 * (width_ - (upper - lower)));
+    const double room = std::max(kRoom * (upper - lower), 0.49 * (width - (upper - lower)));
     CORANK_CHECK(piece_[side].intersect(Interval(lower, upper) + Interval(-room, room)));
   }
 
@@ -132,7 +136,8 @@ class FaceRange {
     for (int k = 0; k < system_.values(); ++k) {
       const int row = system_.value_row(k);
       Interval value = system_.evaluate(row, x.data());
-      if (piece_[x.size()].width() > width_) CORANK_CHECK(value.intersect(value_at_zeros(system_, p_, row, x.data(), w_)));
+      if (piece_[x.size()].width() > widths_[x.size()])
+        CORANK_CHECK(value.intersect(value_at_zeros(system_, p_, row, x.data(), w_)));
       x.push_back(value);
     }
     return at->second = std::move(x);
@@ -143,7 +148,7 @@ class FaceRange {
   std::vector<Interval>& piece_;
   NewtonWorkspace& w_;
   const std::size_t n_, r_;
-  double width_ = 0;
+  const std::vector<double>& widths_;
   std::vector<int> free_;
   std::vector<double> magnitude_;
   std::vector<Interval> derivatives_, gradient_;
@@ -152,16 +157,17 @@ class FaceRange {
 
 }  // namespace
 
-void shrink_to_faces(const CompiledSystem& system, const Sheet& sheet, const Preconditioner& p, double width,
-                     std::vector<Interval>& piece, NewtonWorkspace& w) {
+void shrink_to_faces(const CompiledSystem& system, const Sheet& sheet, const Preconditioner& p,
+                     const std::vector<double>& widths, std::vector<Interval>& piece, NewtonWorkspace& w) {
   CORANK_CHECK(UpwardRounding::active());
   CORANK_CHECK(piece.size() == static_cast<std::size_t>(system.variables() + system.values()));
+  CORANK_CHECK(widths.size() == piece.size());
   // The hypotheses about the sheet.
   CORANK_CHECK(sheet.proven && sheet.region.size() == static_cast<std::size_t>(system.variables()));
   CORANK_CHECK(std::is_permutation(p.dependent.begin(), p.dependent.end(), sheet.dependent.begin(), sheet.dependent.end()));
   CORANK_CHECK(std::is_permutation(p.equations.begin(), p.equations.end(), sheet.equations.begin(), sheet.equations.end()));
   for (std::size_t j = 0; j < sheet.region.size(); ++j) CORANK_CHECK(sheet.region[j].contains(piece[j]));
-  FaceRange(system, p, piece, w).shrink(width);
+  FaceRange(system, p, widths, piece, w).shrink();
 }
 
 }  // namespace corank::certify

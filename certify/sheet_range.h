@@ -10,10 +10,10 @@
 
 namespace corank::certify {
 
-/// Shrinks the sides wider than `width` of a piece of a proven sheet. The piece: n sides, within the sheet's region, then
+/// Shrinks the sides wider than their `widths` of a piece of a proven sheet. The piece: n sides, within the sheet's region, then
 /// one for each value row of the system; its dependent and value sides hold the sheet's solutions over its free ones. p:
 /// the sheet's rows and dependents, in any order. No solution is lost, so that the sheet's claim carries over. A side is
-/// left as wide as `width` allows: who verifies the piece without this theorem has to come that close only.
+/// left as wide as its width allows: who verifies the piece without this theorem has to come that close only.
 ///
 /// Theorem: let the sheet be x_D = d(f), f ∈ X_F, and B the piece; E ≥ |I − Y·J_D(B)|, G ∋ Y·J_f(B) for a free variable f,
 /// and v > 0 with E·v + |G| < v. Then J_D is regular on B and d differentiable (implicit function theorem; the sheet has
@@ -23,7 +23,7 @@ namespace corank::certify {
 /// the end that favours it: on a face of X_F, over which Newton steps bound it; its least value on the opposite one. A
 /// value row q has the derivative q_f + q_D·u, and the same follows.
 /// Sources: Neumaier1990, § 2.3 and § 5.1; Collatz's bound for the spectral radius as in hypothesis (2) of newton_prove.
-void shrink_to_faces(const CompiledSystem& system, const Sheet& sheet, const Preconditioner& p, double width,
-                     std::vector<Interval>& piece, NewtonWorkspace& w);
+void shrink_to_faces(const CompiledSystem& system, const Sheet& sheet, const Preconditioner& p,
+                     const std::vector<double>& widths, std::vector<Interval>& piece, NewtonWorkspace& w);
 
 }  // namespace corank::certify

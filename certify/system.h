@@ -26,6 +26,7 @@ struct Variable {
   ExactNumber lower, upper;                           ///< the search domain, exact
   Interval domain;                                    ///< encloses [lower, upper]
   bool lower_implied = false, upper_implied = false;  ///< the equations imply this side of the domain: it is no boundary
+  bool auxiliary = false;  ///< of no interest by itself, as in [DUMMY VARS]: a box may be wide in it, whatever σ
 
   Variable() = default;
   Variable(std::string name, VariableKind kind, ExactNumber lower, ExactNumber upper);

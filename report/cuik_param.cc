@@ -18,9 +18,10 @@ using Use = CuikParameterUse;
 // Values that are words; each has a number there, and none here.
 const std::set<std::string_view>& value_words() {
   static const std::set<std::string_view> words{
-      "LINKS", "FLINKS",           "QLINKS",          "JOINTS",          "SOLID",       "VCOLLIDE",         "PQP",   "FCL",
-      "C_FCL", "BULLET",           "C_BULLET",        "RIGIDCLL",        "NONE",        "TANGENT_SAMPLING", "EULER", "RK4",
-      "X",     "AMBIENT_SAMPLING", "KDTREE_SAMPLING", "LOCAL_TRAPEZOID", "LOCAL_EULER", "LOCAL_RK4",        "Y",     "Z"};
+      "LINKS", "DOF",   "FLINKS",           "QLINKS",          "JOINTS",          "SOLID",       "VCOLLIDE",         "PQP",
+      "FCL",   "C_FCL", "BULLET",           "C_BULLET",        "RIGIDCLL",        "NONE",        "TANGENT_SAMPLING", "EULER",
+      "RK4",   "X",     "AMBIENT_SAMPLING", "KDTREE_SAMPLING", "LOCAL_TRAPEZOID", "LOCAL_EULER", "LOCAL_RK4",        "Y",
+      "Z"};
   return words;
 }
 
@@ -110,10 +111,10 @@ class ParamParser {
       while (end < text_.size() && is_word(text_[end])) ++end;
       token_.kind = Token::Kind::name;
     } else {
-      if (std::string_view("+-*/^()=").find(c) == std::string_view::npos) {
+      if (std::string_view("+-*/^()=?:").find(c) == std::string_view::npos) {
         const bool printable = c > 0x20 && c < 0x7F;
         fail(line_, printable ? std::string("found '") + c + "'" : "found a character that has no place here",
-             "NAME = value, with +, -, *, /, ^ and parentheses in the value");
+             "NAME = value, with +, -, *, /, ^, ? : and parentheses in the value");
       }
       end = at_ + 1;
       token_.kind = Token::Kind::sign;
@@ -161,7 +162,7 @@ class ParamParser {
     at_ = at;
     line_ = line;
     token_ = token;
-    return sum(0);
+    return choice(0);
   }
 
   void apply(const CuikParameter& parameter, const Token& name, std::optional<double> value) {
@@ -185,6 +186,15 @@ class ParamParser {
     }
   }
 
+  // condition ? a : b
+  double choice(int depth) {
+    const double x = sum(depth);
+    if (!take('?')) return x;
+    const double a = choice(depth + 1);
+    need(':');
+    const double b = choice(depth + 1);
+    return x != 0 ? a : b;
+  }
   double sum(int depth) {
     double x = product(depth);
     for (;;) {
@@ -221,7 +231,7 @@ class ParamParser {
     if (take('-')) return -operand(depth + 1);
     if (take('+')) return operand(depth + 1);
     if (take('(')) {
-      const double x = sum(depth + 1);
+      const double x = choice(depth + 1);
       need(')');
       return x;
     }
@@ -234,7 +244,7 @@ class ParamParser {
     next();
     if (const auto f = functions().find(token.text); f != functions().end()) {
       need('(');
-      const double x = sum(depth + 1);
+      const double x = choice(depth + 1);
       need(')');
       return f->second(x);
     }
@@ -326,6 +336,10 @@ const std::vector<CuikParameter>& cuik_parameters() {
       {"CUT_X", Use::none},
       {"CUT_Y", Use::none},
       {"CUT_Z", Use::none},
+      {"DYNAMIC_PROBLEM", Use::none},
+      {"N_CACHED_DYNAMIC_ACTIONS", Use::none},
+      {"N_SAMPLES", Use::none},
+      {"REACHABILITY", Use::none},
   };
   return all;
 }

@@ -103,7 +103,7 @@ std::string to_sol(const Result& result) {
   const SolFile boxes = boxes_of(result, false);
   std::string out = fmt::format("\n{}\nWritten by corank {}\n{}\n% PARAMETERS:\n", kRule, result.version, kRule);
   const std::string model = without_braces(result.model);
-  out += fmt::format("   SIGMA = {}\n", result.options.sigma);
+  out += fmt::format("   SIGMA = {}\n", result.cover.sigma.largest());
   if (result.options.max_solutions > 0) out += fmt::format("   N_SOLUTIONS = {}\n", result.options.max_solutions);
   out += fmt::format("\n{}\nEquations from file: {}.cuik\n", kRule, model);
   out += fmt::format("% the set solved: {}\n", result.set);

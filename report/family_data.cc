@@ -42,7 +42,7 @@ Json set_of(const Result& result, const std::array<std::string, 2>& axes) {
   for (const int v : variables) names.push_back(result.variables[static_cast<std::size_t>(v)].name);
   return {{"name", result.set},
           {"dimension", result.cover.dimension},
-          {"sigma", result.cover.sigma},
+          {"sigma", result.cover.sigma.largest()},
           {"complete", result.cover.complete()},
           {"count", result.cover.boxes.size()},
           {"variables", names},

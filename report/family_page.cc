@@ -97,7 +97,7 @@ mustache::data run_row(const FamilyMember& member, std::size_t set, const std::s
   mustache::data row;
   row["valueHtml"] = value_html(member, constant);
   row["title"] = set_title(result.set);
-  row["sigma"] = fmt::format("{:g}", result.cover.sigma);
+  row["sigma"] = fmt::format("{:g}", result.cover.sigma.largest());
   row["boxes"] = grouped(result.cover.boxes.size());
   row["processed"] = grouped(result.cover.statistics.processed);
   row["seconds"] = fmt::format("{:.2f}", result.cover.statistics.seconds_total);

@@ -30,8 +30,8 @@ Totals totals_of(const std::vector<FamilyMember>& members) {
       t.partial += cover.count(Verdict::partial);
       t.undecided += cover.count(Verdict::undecided);
       t.pending += cover.count(Verdict::pending);
-      t.finest = std::min(t.finest, cover.sigma);
-      t.coarsest = std::max(t.coarsest, cover.sigma);
+      t.finest = std::min(t.finest, cover.sigma.largest());
+      t.coarsest = std::max(t.coarsest, cover.sigma.largest());
     }
   }
   return t;

@@ -35,7 +35,7 @@ mustache::data run_row(const Result& result, const std::string& file) {
   const certify::Statistics& s = result.cover.statistics;
   mustache::data row;
   row["title"] = set_title(result.set);
-  row["sigma"] = fmt::format("{:g}", result.cover.sigma);
+  row["sigma"] = fmt::format("{:g}", result.cover.sigma.largest());
   row["kernel"] = result.options.kernel.empty() ? "–" : result.options.kernel;
   row["variables"] = std::to_string(result.variables.size());
   row["equations"] = std::to_string(result.equations);

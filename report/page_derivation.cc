@@ -39,8 +39,8 @@ std::string matrix_html(const std::string& base, const std::string& subscript, c
 
 std::string system_html(const symbolic::Mechanism& mechanism, const Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
-  const symbolic::TrigonometricSystem system =
-      singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel));
+  const symbolic::TrigonometricSystem system = singularity_system(
+      mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel), result.options.kernel_scales);
   std::vector<std::string> equations, sources;
   for (const auto* list : {&system.equations, &system.inequalities}) {
     for (const auto& equation : *list) {

@@ -31,8 +31,10 @@ struct ConstantOverride {
 
 /// The options of the run, as given.
 struct RunOptions {
-  std::string kernel;               ///< "right", "left"; empty where the set has no kernel
-  double sigma = 0;                 ///< the one used, also where it was the default
+  std::string kernel;    ///< "right", "left"; empty where the set has no kernel
+  certify::Sigma sigma;  ///< the one used, also where it was the default
+  std::vector<std::string>
+      kernel_scales;                ///< of each kernel unknown, an exact number (symbolic::kernel_scales); none: all are 1
   double tolerance = 0;             ///< of the coefficients, likewise; relative, 0: exact
   int threads = 1;                  ///< 0: one for each core
   std::uint64_t max_boxes = 0;      ///< 0: no limit

@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kFormat = "corank result";
 constexpr int kFirstWithCertificates = 2;
+constexpr int kFirstWithScales = 4;  // and two sigmas, and reasons
 
 // A name beside the final one, removed at the end unless it was renamed.
 class PartFile {
@@ -54,6 +55,12 @@ std::vector<std::string> verdict_words() {
   return words;
 }
 
+std::vector<std::string> reason_words() {
+  std::vector<std::string> words;
+  for (int i = 0; i < certify::kReasons; ++i) words.push_back(certify::to_string(static_cast<certify::Reason>(i)));
+  return words;
+}
+
 const std::vector<std::string>& kind_words() {
   static const std::vector<std::string> words{"length", "cosine", "sine", "kernel", "auxiliary"};
   return words;
@@ -61,7 +68,7 @@ const std::vector<std::string>& kind_words() {
 
 void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<certify::CoverBox>& boxes, std::size_t n) {
   std::vector<double> lower(boxes.size() * n), upper(lower.size());
-  std::vector<std::uint8_t> verdict(boxes.size()), free(lower.size(), 0);
+  std::vector<std::uint8_t> verdict(boxes.size()), reason(boxes.size()), free(lower.size(), 0);
   for (std::size_t i = 0, first = 0; i < boxes.size(); ++i, first += n) {
     const certify::CoverBox& b = boxes[i];
     CORANK_CHECK(b.box.size() == n);
@@ -70,19 +77,21 @@ void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<c
       upper[first + j] = b.box[j].hi();
     }
     verdict[i] = static_cast<std::uint8_t>(b.verdict);
+    reason[i] = static_cast<std::uint8_t>(b.reason);
     for (const int v : b.free) free.at(first + static_cast<std::size_t>(v)) = 1;
   }
   file.doubles(group + "/lower", lower, boxes.size(), n);
   file.doubles(group + "/upper", upper, boxes.size(), n);
   file.enumeration(group + "/verdict", verdict, verdict_words());
   file.bytes(group + "/free", free, boxes.size(), n);
+  file.enumeration(group + "/reason", reason, reason_words());
 }
 
 void write_counts(Hdf5Writer& file, const certify::Cover& cover) {
   const auto counts = cover.counts();
   for (std::size_t v = 0; v < counts.size(); ++v)
     file.attribute("/boxes", to_string(static_cast<certify::Verdict>(v)), std::uint64_t{counts[v]});
-  file.attribute("/boxes", "wider_than_sigma", std::uint64_t{cover.wider_than_sigma()});
+  file.attribute("/boxes", "wider_than_sigma", std::uint64_t{cover.wider_than_sigma});
 }
 
 void write_variables(Hdf5Writer& file, const Result& result) {
@@ -124,7 +133,9 @@ void write_options(Hdf5Writer& file, const RunOptions& options) {
   file.texts("/options/constants/names", names);
   file.texts("/options/constants/expressions", expressions);
   file.attribute("/options", "kernel", options.kernel);
-  file.attribute("/options", "sigma", options.sigma);
+  file.attribute("/options", "sigma_length", options.sigma.length);
+  file.attribute("/options", "sigma_angle", options.sigma.angle);
+  file.texts("/options/kernel_scales", options.kernel_scales);
   file.attribute("/options", "tolerance", options.tolerance);
   file.attribute("/options", "threads", std::int64_t{options.threads});
   file.attribute("/options", "max_boxes", options.max_boxes);
@@ -170,7 +181,7 @@ class ResultReader {
     result.inequalities = count("inequalities");
     read_options(result.options);
     result.cover.dimension = count("dimension");
-    result.cover.sigma = file_.double_attribute("/", "sigma");
+    result.cover.sigma = sigma("/");
     result.cover.tolerance = file_.double_attribute("/", "tolerance");
     result.cover.boxes = boxes("/boxes", result.variables.size());
     result.cover.points = boxes("/points", result.variables.size());
@@ -180,6 +191,7 @@ class ResultReader {
     }
     if (format_ >= kFirstWithCertificates) {
       check_counts(result.cover);
+      result.cover.wider_than_sigma = file_.unsigned_attribute("/boxes", "wider_than_sigma");
       read_certificates(file_, result.cover, result.variables.size());
     }
     return result;
@@ -206,7 +218,6 @@ class ResultReader {
     };
     const auto counts = cover.counts();
     for (std::size_t v = 0; v < counts.size(); ++v) check(to_string(static_cast<certify::Verdict>(v)), counts[v]);
-    check("wider_than_sigma", cover.wider_than_sigma());
   }
 
   void read_variables(Result& result) const {
@@ -233,13 +244,22 @@ class ResultReader {
     }
   }
 
+  certify::Sigma sigma(const std::string& group) const {
+    if (format_ < kFirstWithScales) {
+      const double both = file_.double_attribute(group, "sigma");
+      return {both, both};
+    }
+    return {file_.double_attribute(group, "sigma_length"), file_.double_attribute(group, "sigma_angle")};
+  }
+
   void read_options(RunOptions& options) const {
     const std::vector<std::string> names = file_.texts("/options/constants/names");
     const std::vector<std::string> expressions = file_.texts("/options/constants/expressions");
     if (names.size() != expressions.size()) refuse("/options/constants differ in length");
     for (std::size_t i = 0; i < names.size(); ++i) options.constants.push_back({names[i], expressions[i]});
     options.kernel = file_.text_attribute("/options", "kernel");
-    options.sigma = file_.double_attribute("/options", "sigma");
+    options.sigma = sigma("/options");
+    if (format_ >= kFirstWithScales) options.kernel_scales = file_.texts("/options/kernel_scales");
     options.threads = static_cast<int>(file_.integer_attribute("/options", "threads"));
     options.tolerance = file_.double_attribute("/options", "tolerance");
     options.max_boxes = file_.unsigned_attribute("/options", "max_boxes");
@@ -261,9 +281,13 @@ class ResultReader {
     const std::vector<double> lower = file_.doubles(group + "/lower", verdict.size(), n);
     const std::vector<double> upper = file_.doubles(group + "/upper", verdict.size(), n);
     const std::vector<std::uint8_t> free = file_.bytes(group + "/free", verdict.size(), n);
+    std::vector<std::uint8_t> reason(verdict.size(), 0);
+    if (format_ >= kFirstWithScales) reason = file_.enumeration(group + "/reason", reason_words());
+    if (reason.size() != verdict.size()) refuse(group + "/reason has another length than the verdicts");
     std::vector<certify::CoverBox> boxes(verdict.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       boxes[i].verdict = static_cast<certify::Verdict>(verdict[i]);
+      boxes[i].reason = static_cast<certify::Reason>(reason[i]);
       for (std::size_t v = 0; v < n; ++v) {
         boxes[i].box.push_back(interval(lower[i * n + v], upper[i * n + v], group));
         if (free[i * n + v] != 0) boxes[i].free.push_back(static_cast<int>(v));
@@ -290,7 +314,8 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   file.attribute("/", "set", result.set);
   file.attribute("/", "complete", std::int64_t{result.cover.complete()});
   file.attribute("/", "dimension", std::int64_t{result.cover.dimension});
-  file.attribute("/", "sigma", result.cover.sigma);
+  file.attribute("/", "sigma_length", result.cover.sigma.length);
+  file.attribute("/", "sigma_angle", result.cover.sigma.angle);
   file.attribute("/", "tolerance", result.cover.tolerance);
   file.attribute("/", "configuration_size", std::int64_t{result.configuration_size});
   file.attribute("/", "equations", std::int64_t{result.equations});

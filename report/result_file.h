@@ -1,9 +1,9 @@
 // Result files, RESULT.h5: a result in HDF5, every double bit for bit:
 //
-//   /                   attributes format = "corank result", format_version, version, model, set, complete, dimension, sigma …
+//   /                   attributes format = "corank result", format_version, version, model, set, complete, dimension, sigma_length …
 //   /model/text         the model file as read            /model/system       the solved system in the model language
 //   /variables/…        names, kinds, domain (n×2)        /angles/…           names, cosine, sine (indices), range (k×2)
-//   /boxes/…            lower, upper (N×n), verdict (enumeration), free (N×n mask)          /points/… likewise
+//   /boxes/…            lower, upper (N×n), verdict, reason (enumerations), free (N×n mask)         /points/… likewise
 //   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes
 //   /certificates/…     what `corank verify` needs, see report/certificate_file.h
 //   /options, /statistics   attributes; /options/constants/… names, expressions
@@ -17,8 +17,9 @@
 namespace corank::report {
 
 /// The layout that write_result writes; read_result refuses a newer one. Version 1 had no certificates and no counts,
-/// version 2 eliminations in place of the reduction.
-inline constexpr int kFormatVersion = 3;
+/// version 2 eliminations in place of the reduction, version 3 one
+/// sigma for all variables, kernel vectors of unscaled norm and no reasons.
+inline constexpr int kFormatVersion = 4;
 
 /// Throws ResultFileError where no file can be created at `path`: to be asked before a long computation.
 void check_writable(const std::filesystem::path& path);

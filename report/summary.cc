@@ -179,14 +179,48 @@ std::string outward_text(const Interval& x, int digits) {
   return lower == upper ? lower : "[" + lower + ", " + upper + "]";
 }
 
+std::map<certify::Reason, std::size_t> undecided_reasons(const certify::Cover& cover) {
+  std::map<certify::Reason, std::size_t> reasons;
+  for (const CoverBox& box : cover.boxes)
+    if (box.verdict == Verdict::undecided) ++reasons[box.reason];
+  return reasons;
+}
+
+namespace {
+
+std::string sigma_text(const certify::Sigma& sigma) {
+  if (sigma.length == sigma.angle) return fmt::format("sigma {:g}", sigma.length);
+  return fmt::format("sigma {:g} in lengths, {:g} in sines and cosines", sigma.length, sigma.angle);
+}
+
+std::string in_words(certify::Reason reason) {
+  using enum certify::Reason;
+  switch (reason) {
+    case none: break;
+    case degenerate_point: return "next to a degenerate solution, where the Jacobian has not its full rank";
+    case degenerate_set: return "along a curve, or a larger set, of degenerate solutions";
+    case tolerance: return "the coefficients' tolerance moves the solutions too far";
+    case precision: return "doubles divide them no further";
+  }
+  return "reason unknown";
+}
+
+std::string reasons_text(const certify::Cover& cover) {
+  std::string text;
+  for (const auto& [reason, n] : undecided_reasons(cover)) text += fmt::format("  undecided, {}: {}\n", n, in_words(reason));
+  return text;
+}
+
+}  // namespace
+
 std::string to_table(const Result& result) {
   const certify::Cover& cover = result.cover;
   std::string text = fmt::format("{}, {}: {}, {}, {}; dimension {}\n", result.model, result.set,
                                  plural(result.variables.size(), "variable"),
                                  plural(static_cast<std::size_t>(result.equations), "equation"),
                                  plural(static_cast<std::size_t>(result.inequalities), "inequality"), cover.dimension);
-  text +=
-      fmt::format("sigma {:g}{}{}\n", cover.sigma, result.options.kernel.empty() ? "" : ", kernel ", result.options.kernel);
+  text += fmt::format("{}{}{}\n", sigma_text(cover.sigma), result.options.kernel.empty() ? "" : ", kernel ",
+                      result.options.kernel);
   text += cover.complete() ? "complete: every solution in the search domain is in a box\n"
                            : "INCOMPLETE: the search ended early; solutions may also be in the pending boxes\n";
   text += fmt::format("\n  {:<10}  {:>10}\n", "verdict", "boxes");
@@ -196,7 +230,8 @@ std::string to_table(const Result& result) {
       text += fmt::format("  {:<10}  {:>10}\n", to_string(verdict), n);
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
-  if (const std::size_t wide = cover.wider_than_sigma(); wide > 0) {
+  text += reasons_text(cover);
+  if (const std::size_t wide = cover.wider_than_sigma; wide > 0) {
     text += fmt::format("  {} wider than sigma: {} keeps proven boxes{} from narrowing\n", wide,
                         cover.tolerance > 0 ? "the tolerance" : "rounding",
                         cover.tolerance > 0 ? "" : " of an ill-conditioned system");
@@ -269,7 +304,10 @@ std::string to_json(const Result& result) {
   Json constants = Json::object();
   for (const ConstantOverride& c : result.options.constants) constants[c.name] = c.expression;
   json["options"] = {{"kernel", result.options.kernel.empty() ? Json() : Json(result.options.kernel)},
-                     {"sigma", result.options.sigma},
+                     {"sigma", result.options.sigma.largest()},
+                     {"sigma_length", result.options.sigma.length},
+                     {"sigma_angle", result.options.sigma.angle},
+                     {"kernel_scales", result.options.kernel_scales},
                      {"tolerance", result.options.tolerance},
                      {"threads", result.options.threads},
                      {"max_boxes", result.options.max_boxes},
@@ -281,6 +319,8 @@ std::string to_json(const Result& result) {
   const auto counts = cover.counts();
   for (const Verdict verdict : kVerdictsInOrder)
     json["boxes"][to_string(verdict)] = counts[static_cast<std::size_t>(verdict)];
+  json["undecided_reasons"] = Json::object();
+  for (const auto& [reason, n] : undecided_reasons(cover)) json["undecided_reasons"][to_string(reason)] = n;
   json["points"] = nullptr;
   if (cover.dimension == 0) {
     json["points"] = Json::array();

@@ -1,6 +1,7 @@
 // What a result says, short: a table for people and a JSON object for programs.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "corank/report/result.h"
@@ -11,12 +12,15 @@ namespace corank::report {
 /// ±1e-12); one number where both ends agree.
 std::string outward_text(const certify::Interval& x, int digits);
 
+/// How many undecided boxes there are with each reason.
+std::map<certify::Reason, std::size_t> undecided_reasons(const certify::Cover& cover);
+
 /// A few lines for a terminal: the set, its verdicts, and the points of a set of dimension 0 (configuration only, angles in
 /// radians, bounds rounded outward).
 std::string to_table(const Result& result);
 
 /// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, boxes{processed,
-/// regular, isolated, exact, boundary, partial, undecided, pending}, points, kernel, seconds{total, search, certify}, version.
+/// regular, isolated, exact, boundary, partial, undecided, pending}, undecided_reasons{reason: boxes}, points, kernel, seconds{total, search, certify}, version.
 /// `points` is null where the dimension is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns
 /// as they are, angles in radians in place of their sines and cosines. `kernel` is null where its dimension is not known, else
 /// at_most{bound: boxes}, without undecided boxes that hold no known point, and points, where the dimension is known to be 2 or

@@ -71,7 +71,8 @@ certify::System system_of(const Result& result) {
   if (mechanism.is_plain_system() ? result.set != "system" : !set)
     throw ResultFileError("the result's model has no set '" + result.set + "'");
   certify::System system = symbolic::algebrize(
-      set ? symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel))
+      set ? symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
+                                         result.options.kernel_scales)
           : symbolic::plain_system(mechanism));
   system.coefficient_tolerance = result.options.tolerance;
   try {
@@ -115,7 +116,7 @@ std::vector<std::string> contradictions(const Result& result, const certify::Sys
   check(result.equations == expected.equations, "the number of equations is");
   check(result.inequalities == expected.inequalities, "the number of inequalities is");
   check(without_comments(result.system_text) == without_comments(system_text), "the system is");
-  if (!(result.options.sigma == result.cover.sigma)) list.emplace_back("two different values of sigma");
+  if (result.options.sigma != result.cover.sigma) list.emplace_back("two different values of sigma");
   const double tolerance = certify::kPartialTolerance * system.coefficient_tolerance;
   const bool square = system.equations.size() <= system.variables.size();
   if (!(result.cover.tolerance == tolerance || (!square && result.cover.tolerance == 0)))

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "corank/certify/check.h"
-#include "corank/certify/projection.h"
 #include "corank/solve/chart.h"
 
 namespace corank::solve {
@@ -15,13 +14,17 @@ using certify::Interval;
 using certify::Verdict;
 
 // Measured on Dextar's sets, see bench/HISTORY.md.
-constexpr double kWorthwhileShare = 0.1;  // a projection that gains less is not followed up
-constexpr double kNewtonGain = 0.3;       // repeat Newton while some variable loses this share
+constexpr double kNewtonGain = 0.3;  // repeat Newton while some variable loses this share
 constexpr int kNewtonRepeats = 4;
-constexpr double kProofSpread = 1.5;   // try a proof below this spread |I − Y·S|
-constexpr double kFreeCutShare = 0.1;  // cut a free side unless it is already so much narrower than the others or σ
-constexpr double kLastCutShare = 1.0 / 64;
-constexpr double kRegularCutShare = 1.0 / 8;
+constexpr double kProofSpread = 1.5;    // try a proof below this spread |I − Y·S|
+constexpr double kRankShare = 1;        // of a box's size: singular values below make its solution count as degenerate
+constexpr double kFinestShare = 1e-13;  // of its typical size: doubles resolve little more
+constexpr double kNoisySize = 2e-3;     // of the typical sizes: in larger boxes it is the choice of Y that makes noise
+constexpr double kNoise = 0.5, kRegularNoise = 8;  // of a side: what rounding alone makes as wide is divided in vain
+constexpr double kOpenShare =
+    1.0 / 8;  // of the size at which degenerate ones wait: how much smaller other unproven boxes get
+constexpr double kPartialShare = 0.05;  // of its typical size: as wide as a box is that nobody says a σ of
+constexpr double kFreeCutShare = 0.1;   // cut a free side unless it is already so much narrower than the others
 
 }  // namespace
 
@@ -29,42 +32,11 @@ BoxProcessor::BoxProcessor(const Problem& problem, Recorder* recorder)
     : problem_(problem),
       recorder_(recorder),
       preconditioners_(problem.compiled),
-      slicer_(problem, preconditioners_, workspace_, recorder) {
-  changed_.resize(problem.compiled.variables());
-  pending_rows_.resize(problem.compiled.rows());
-}
-
-bool BoxProcessor::propagate(Interval* x) {
-  const auto& system = problem_.compiled;
-  // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows, since
-  // each return costs a variable a tenth of its width.
-  queue_.clear();
-  for (int row = 0; row < system.rows(); ++row) queue_.push_back(row);
-  std::fill(pending_rows_.begin(), pending_rows_.end(), 1);
-  const std::size_t limit = static_cast<std::size_t>(system.rows()) * 8;
-  for (std::size_t head = 0; head < queue_.size() && head < limit; ++head) {
-    const int row = queue_[head];
-    pending_rows_[row] = 0;
-    std::fill(changed_.begin(), changed_.end(), 0);
-    if (recorder_) before_.assign(x, x + system.variables());
-    const bool empty = !certify::project(system, row, x, kWorthwhileShare, changed_.data());
-    if (recorder_ && (empty || !std::equal(before_.begin(), before_.end(), x))) recorder_->row(row);
-    if (empty) return false;
-    for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) {
-      if (!changed_[system.column(k)]) continue;
-      for (int other : system.rows_of(system.column(k)))
-        if (other != row && !pending_rows_[other]) {
-          pending_rows_[other] = 1;
-          queue_.push_back(other);
-        }
-    }
-  }
-  return true;
-}
+      slicer_(problem, preconditioners_, workspace_, recorder) {}
 
 bool BoxProcessor::contract(Interval* x) {
-  worth_proving_ = regular_ = false;
-  if (!propagate(x)) return false;
+  worth_proving_ = regular_ = noisy_ = false;
+  if (!propagator_.run(problem_.compiled, x, recorder_)) return false;
   const int n = problem_.compiled.variables();
   widths_.resize(static_cast<std::size_t>(n));
   for (int repeat = 0; repeat < kNewtonRepeats; ++repeat) {
@@ -75,27 +47,39 @@ bool BoxProcessor::contract(Interval* x) {
     ++statistics_.newton_steps;
     if (newton.empty || !certify::contract_free(p, x, workspace_)) return false;
     regular_ = newton.regular && p.rank() == problem_.compiled.equations();
+    noisy_ = is_noisy(p, x);
     worth_proving_ = regular_ && newton.spread < kProofSpread;
     bool gained = false;
     for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - kNewtonGain) * widths_[j];
     if (!gained) return true;
-    if (!propagate(x)) return false;
+    if (!propagator_.run(problem_.compiled, x, recorder_)) return false;
   }
   return true;
+}
+
+// Does rounding make what the equations say at a point as uncertain as the box is wide?
+bool BoxProcessor::is_noisy(const certify::Preconditioner& p, const Interval* x) const {
+  for (std::size_t a = 0; a < p.dependent.size() && workspace_.contracted; ++a) {
+    const double noise = workspace_.residual[a].width();
+    if (noise > 0 && noise > (regular_ ? kRegularNoise : kNoise) * x[p.dependent[a]].width()) return true;
+  }
+  return false;
 }
 
 std::vector<int> BoxProcessor::chart_of_last() const {
   const auto& system = problem_.compiled;
   const auto& p = preconditioners_.last();
   const std::size_t n = static_cast<std::size_t>(system.variables()), k = n - static_cast<std::size_t>(p.rank());
-  Chart chart;
+  const auto scale = [&](int j) { return system.scales()[static_cast<std::size_t>(j)]; };
+  Chart chart;  // in scaled variables
   chart.tangent.assign(n * k, 0.0);
   chart.free = other_variables(p.dependent, system.variables());
   for (std::size_t f = 0; f < k; ++f) {
     chart.tangent[static_cast<std::size_t>(chart.free[f]) * k + f] = 1;
     for (int a = 0; a < p.rank(); ++a)
       chart.tangent[static_cast<std::size_t>(p.dependent[static_cast<std::size_t>(a)]) * k + f] =
-          preconditioners_.sensitivity(a, chart.free[f]);
+          preconditioners_.sensitivity(a, chart.free[f]) * scale(chart.free[f]) /
+          scale(p.dependent[static_cast<std::size_t>(a)]);
   }
   improve(chart);
   return other_variables(chart.free, system.variables());
@@ -119,9 +103,9 @@ certify::Sheet BoxProcessor::prove_partially(const Interval* x) {
       certify::newton_prove(problem_.compiled, preconditioners_.near_solution(x, problem_.rank_tolerance), x, workspace_);
   if (!narrow.proven || !problem_.is_partial(narrow) || narrow.dependent.size() == narrow.region.size()) return narrow;
   std::vector<Interval> wide(x, x + problem_.compiled.variables());
-  for (Interval& side : wide) {
-    const double half = 0.5 * problem_.sigma;
-    side = Interval::hull(side, Interval(side.mid() - half, side.mid() + half));
+  for (std::size_t j = 0; j < wide.size(); ++j) {
+    const double half = 0.5 * std::min(problem_.sigma[j], 2 * kPartialShare * problem_.compiled.scales()[j]);
+    wide[j] = Interval::hull(wide[j], Interval(wide[j].mid() - half, wide[j].mid() + half));
   }
   const auto& p = preconditioners_.near_solution(wide.data(), problem_.rank_tolerance);
   certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, wide.data(), workspace_);
@@ -137,8 +121,11 @@ bool BoxProcessor::certify(Interval* x, Proof proof) {
   ++statistics_.proofs_tried;
   const certify::Sheet sheet = proof == Proof::full ? prove(x) : prove_partially(x);
   if (sheet.proven) {
-    if (recorder_) recorder_->newton(preconditioners_.last(), x);
-    slicer_.slice(sheet, x, found_);
+    if (recorder_) {
+      recorder_->newton(preconditioners_.last(), x);
+      recorder_->keep(x);
+    }
+    proven_.push_back({{x, x + problem_.compiled.variables()}, sheet, recorder_ ? recorder_->go_on_later() : 0});
   }
   statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sheet.proven;
@@ -154,62 +141,100 @@ void BoxProcessor::add_unproven(const Interval* x, Verdict verdict) {
 }
 
 int BoxProcessor::widest_free(const Interval* x) {
+  const std::vector<double>& scales = problem_.compiled.scales();
   int widest = -1;
   for (int j : other_variables(dependent_, problem_.compiled.variables())) {
-    if (widest < 0 || x[j].width() > x[widest].width()) widest = j;
+    if (widest < 0 || x[j].width() * scales[widest] > x[widest].width() * scales[j]) widest = j;
   }
   return widest;
 }
 
-int BoxProcessor::choose_for_values(const Interval* x) const {
-  const auto& system = problem_.compiled;
-  std::vector<Interval> slope(static_cast<std::size_t>(system.entries()));
-  std::vector<double> center(static_cast<std::size_t>(system.variables()));
-  for (int j = 0; j < system.variables(); ++j) center[j] = x[j].mid();
-  for (int k = 0; k < system.values(); ++k) {
-    const int row = system.value_row(k);
-    if (system.evaluate(row, x).width() <= problem_.sigma) continue;
-    system.slopes(row, x, center.data(), slope.data());
-    int best = -1;
-    double most = 0;
-    for (int e = system.row_begin(row); e < system.row_begin(row + 1); ++e) {
-      const int j = system.column(e);
-      if (const double share = slope[e].mag() * x[j].width(); share > most && split_point(x[j])) most = share, best = j;
-    }
-    if (best >= 0) return best;
+void BoxProcessor::add_proven(const Postponed& box) {
+  NodeId node = 0;
+  if (recorder_) {
+    recorder_->begin(box.node, box.x.data(), problem_.compiled.variables());
+    recorder_->newton(box.step, box.x.data());
+    node = recorder_->go_on_later();
   }
-  return -1;
+  proven_.push_back({box.x, box.proof, node});
 }
 
-BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
+void BoxProcessor::cut(const Proven& proven) {
+  const auto start = std::chrono::steady_clock::now();
+  if (recorder_) recorder_->begin(proven.node, proven.x.data(), problem_.compiled.variables());
+  slicer_.slice(proven.sheet, proven.x.data(), found_);
+  statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<double> BoxProcessor::midpoint(const Interval* x) const {
+  std::vector<double> result;
+  for (int j = 0; j < problem_.compiled.variables(); ++j) result.push_back(x[j].mid());
+  return result;
+}
+
+std::optional<LocalSolution> BoxProcessor::degenerate_solution(const Interval* x, double share) const {
+  const auto& system = problem_.compiled;
+  auto near = local_solution(problem_, midpoint(x), kRankShare * share);
+  if (!near || near->rank >= std::min(system.equations(), system.variables())) return std::nullopt;
+  for (int j = 0; j < system.variables(); ++j) {
+    const double at = near->x[static_cast<std::size_t>(j)], room = 2 * share * system.scales()[static_cast<std::size_t>(j)];
+    if (at < x[j].lo() - room || at > x[j].hi() + room) return std::nullopt;
+  }
+  return near;
+}
+
+// The variable to bisect; −1: the box is small enough to be given up, and `near` says why where that is known.
+int BoxProcessor::choose_split(const Interval* x, double share, std::optional<LocalSolution>& near) {
+  const auto& branching = problem_.branching;
+  const bool noisy = noisy_ && problem_.relative_width(x) < kNoisySize;
+  int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share));
+  if (split < 0 && !noisy && !problem_.tolerant) {
+    // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or may be, but
+    // not for long.
+    if (!regular_) near = degenerate_solution(x, share);
+    if (!near) split = branching.choose(problem_.compiled, x, problem_.limits(regular_ ? kFinestShare : kOpenShare * share));
+  }
+  // What else cannot be divided waits, too: it may lie on a self-motion.
+  if (split < 0 && !near && !problem_.tolerant) {
+    near = LocalSolution{midpoint(x), problem_.compiled.equations()};
+  }
+  if (!worth_proving_) return split;
+  // Where a proof is near, the solutions in x are a sheet over the free variables: cutting along those alone gives parts whose sheets do
+  // not overlap.
+  const int free = widest_free(x);
+  const auto relative_width = [&](int j) { return x[j].width() / problem_.compiled.scales()[static_cast<std::size_t>(j)]; };
+  if (free >= 0 && split >= 0 && split_point(x[free]) && relative_width(free) > kFreeCutShare * relative_width(split))
+    return free;
+  return split;
+}
+
+BoxProcessor::Outcome BoxProcessor::process(Interval* x, double share) {
   ++statistics_.processed;
   if (!contract(x)) {
     if (recorder_) recorder_->leaf_empty();
     return Outcome::done;
   }
   if (worth_proving_ && certify(x, Proof::full)) return Outcome::done;
-  split_variable_ = problem_.branching.choose(problem_.compiled, x, problem_.sigma);
-  if (split_variable_ < 0) split_variable_ = choose_for_values(x);
-  // A small box in which Newton is regular may be proven when it is smaller still.
-  if (split_variable_ < 0 && regular_)
-    split_variable_ = problem_.branching.choose(problem_.compiled, x, problem_.sigma, kRegularCutShare);
-  // Where a proof is near, the solutions in x are a sheet over the free variables: cutting along those alone gives parts whose sheets do
-  // not overlap. Such boxes are cut on below σ, too, a bounded number of times.
-  if (worth_proving_) {
-    const int free = widest_free(x);
-    if (free >= 0 && split_point(x[free])) {
-      const double least = split_variable_ >= 0 ? kFreeCutShare * x[split_variable_].width()
-                                                : kLastCutShare * problem_.branching.limit(free, problem_.sigma);
-      if (x[free].width() > least) split_variable_ = free;
-    }
-  }
+  std::optional<LocalSolution> near;
+  split_variable_ = choose_split(x, share, near);
   if (split_variable_ >= 0) {
     if (recorder_) recorder_->keep(x);
     return Outcome::split;
   }
+  if (near) {
+    if (recorder_) recorder_->keep(x);
+    postponed_.push_back({{x, x + problem_.compiled.variables()},
+                          std::move(*near),
+                          0,
+                          recorder_ ? recorder_->go_on_later() : 0,
+                          noisy_ && problem_.relative_width(x) < kNoisySize,
+                          {},
+                          {}});
+    return Outcome::postponed;
+  }
   // At its final size: where equations may be redundant, the box gets its one chance of such a proof here, where its rank shows.
   if (problem_.redundant.applies() && certify(x, Proof::partial)) return Outcome::done;
-  add_unproven(x, Verdict::undecided);
+  give_up(x, certify::Reason::tolerance);
   return Outcome::done;
 }
 

@@ -2,6 +2,7 @@
 // box, so threads only share the work and the sorted result is the same for any number of them.
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -18,6 +19,7 @@
 #include "corank/certify/check.h"
 #include "corank/certify/rounding.h"
 #include "corank/solve/box_processor.h"
+#include "corank/solve/degeneracy.h"
 #include "corank/solve/distinct_solutions.h"
 #include "corank/solve/gathering.h"
 #include "corank/solve/merging.h"
@@ -34,11 +36,15 @@ using certify::Interval;
 using certify::Verdict;
 using Clock = std::chrono::steady_clock;
 
+constexpr double kPointGap = 1e-6;  // of the typical sizes: closer undecided boxes are of one point
+// Boxes that resist proof next to a degenerate solution wait until the others are done, first of this size, then of the next.
+constexpr double kFirstShare = 1.0 / 20, kNextShare = 1.0 / 4;
+
 class Search {
  public:
-  Search(const certify::Reduction& reduction, const Options& options, double sigma)
+  Search(const certify::System& system, const certify::Reduction& reduction, const Options& options)
       : options_(options),
-        problem_(reduction, sigma,
+        problem_(system, reduction,
                  [this] {
                    report(false);
                    count_found(workers_.local());
@@ -55,17 +61,43 @@ class Search {
     arena_.execute(f);
   }
 
+  const Problem& problem() const { return problem_; }
+  const SelfMotions& motions() const { return motions_; }
+  void set_sigma(const Sigma& sigma) { problem_.set_sigma(sigma); }
+
+  // Finds sheets, and boxes that nothing can be proven of.
   void run(const certify::Reduction& reduction) {
     roots_ = roots_of(reduction);
-    WorkList all(reduction.kept.size());
-    for (std::size_t r = roots_.size(); r-- > 0;) all.push(roots_[r].data(), 1.0 / static_cast<double>(roots_.size()), r);
-    waiting_ = roots_.size();
+    WorkList list(reduction.kept.size());
+    for (std::size_t r = roots_.size(); r-- > 0;) list.push(roots_[r].data(), 1.0 / static_cast<double>(roots_.size()), r);
+    for (share_ = kFirstShare; !list.empty(); share_ *= kNextShare) {
+      search(std::move(list));
+      list = divide_postponed(reduction.system);
+    }
+  }
+
+  // The sheets that were found, over all threads.
+  std::vector<const Proven*> sheets() {
+    std::vector<const Proven*> all;
+    for (Worker& w : workers_)
+      for (const Proven& sheet : w.processor.proven()) all.push_back(&sheet);
+    return all;
+  }
+
+  // Cuts them to σ.
+  void cut() {
+    const std::vector<const Proven*> all = sheets();
     execute([&] {
+      const auto cut_one = [&](std::size_t i) {
+        const certify::UpwardRounding rounding;
+        Worker& worker = workers_.local();
+        worker.processor.cut(*all[i]);
+        count_found(worker);
+      };
       if (threads_ == 1) {
-        work(std::move(all));
+        for (std::size_t i = 0; i < all.size(); ++i) cut_one(i);
       } else {
-        spawn(std::move(all));
-        CORANK_CHECK(group_.wait() != tbb::canceled);  // else waiting boxes would be lost
+        tbb::parallel_for(std::size_t{0}, all.size(), cut_one);
       }
     });
   }
@@ -130,7 +162,7 @@ class Search {
         : recorder(number > 0 ? std::make_unique<Recorder>(number) : nullptr), processor(problem, recorder.get()) {}
     std::unique_ptr<Recorder> recorder;
     BoxProcessor processor;
-    std::size_t counted = 0;  // of processor.found()
+    std::size_t counted = 0, counted_sheets = 0;  // of processor.found(), of processor.proven()
   };
 
   // The boxes to search, in the variables that are kept, within the domain.
@@ -147,6 +179,54 @@ class Search {
       if (!empty) roots.push_back(std::move(root));
     }
     return roots;
+  }
+
+  void search(WorkList list) {
+    waiting_ = list.size();
+    execute([&] {
+      if (threads_ == 1) {
+        work(std::move(list));
+      } else {
+        spawn(std::move(list));
+        CORANK_CHECK(group_.wait() != tbb::canceled);  // else waiting boxes would be lost
+      }
+    });
+  }
+
+  // What is to be searched further of the boxes that were postponed; the others are given up.
+  WorkList divide_postponed(const certify::System& system) {
+    std::vector<Postponed> all;
+    for (Worker& w : workers_) {
+      std::move(w.processor.postponed().begin(), w.processor.postponed().end(), std::back_inserter(all));
+      w.processor.postponed().clear();
+    }
+    std::sort(all.begin(), all.end(), [](const Postponed& a, const Postponed& b) {
+      return std::lexicographical_compare(a.x.begin(), a.x.end(), b.x.begin(), b.x.end(), [](const auto& x, const auto& y) {
+        return std::pair(x.lo(), x.hi()) < std::pair(y.lo(), y.hi());
+      });
+    });
+    WorkList list(static_cast<std::size_t>(problem_.compiled.variables()));
+    const certify::UpwardRounding rounding;
+    Worker& worker = workers_.local();
+    const std::vector<certify::Reason> reasons = motions_.prove(problem_, system, all, share_);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Postponed& box = all[i];
+      if (all[i].proof.proven) {
+        worker.processor.add_proven(all[i]);
+        done_share_.fetch_add(box.share, std::memory_order_relaxed);
+        count_found(worker);
+        continue;
+      }
+      if (reasons[i] == certify::Reason::none) {
+        list.push(box.x.data(), box.share, box.node);
+        continue;
+      }
+      if (worker.recorder) worker.recorder->begin(box.node, box.x.data(), problem_.compiled.variables());
+      worker.processor.give_up(box.x.data(), reasons[i]);
+      done_share_.fetch_add(box.share, std::memory_order_relaxed);
+      count_found(worker);
+    }
+    return list;
   }
 
   void spawn(WorkList list) {
@@ -170,14 +250,22 @@ class Search {
   // Counts what this thread has found since the last call: for the progress, and towards max_solutions.
   void count_found(Worker& worker) {
     if (!options_.progress && options_.max_solutions == 0) return;
+    count_sheets(worker);
     const std::vector<Found>& found = worker.processor.found();
     for (; worker.counted < found.size(); ++worker.counted) {
       const Found& f = found[worker.counted];
       ++verdicts_[static_cast<int>(f.box.verdict)];
-      if (options_.max_solutions == 0 || f.box.verdict == Verdict::undecided || f.box.verdict == Verdict::pending) continue;
+    }
+  }
+
+  // Sheets count before they are cut.
+  void count_sheets(Worker& worker) {
+    const std::vector<Proven>& sheets = worker.processor.proven();
+    for (; worker.counted_sheets < sheets.size() && options_.max_solutions > 0; ++worker.counted_sheets) {
+      const certify::Sheet& sheet = sheets[worker.counted_sheets].sheet;
       const std::lock_guard lock(solutions_mutex_);
-      if (f.sheet) {
-        isolated_.add(*f.sheet);
+      if (sheet.dependent.size() == sheet.region.size()) {
+        isolated_.add(sheet);
       } else {
         ++pieces_;
       }
@@ -203,7 +291,7 @@ class Search {
       const NodeId node = list.node();
       const double share = list.pop(x.data());
       if (worker.recorder) worker.recorder->begin(node, x.data(), problem_.compiled.variables());
-      const auto outcome = processor.process(x.data());
+      const auto outcome = processor.process(x.data(), share_);
       if (outcome == BoxProcessor::Outcome::split) {
         const int j = processor.split_variable();
         const Interval side = x[j];
@@ -222,6 +310,7 @@ class Search {
       } else {
         waiting_.fetch_sub(1, std::memory_order_relaxed);
       }
+      if (outcome == BoxProcessor::Outcome::postponed) processor.postponed().back().share = share;
       if (outcome == BoxProcessor::Outcome::done) done_share_.fetch_add(share, std::memory_order_relaxed);
       count_found(worker);
       if (busy_.load(std::memory_order_relaxed) < threads_ && threads_ > 1 && list.size() > 1) spawn(list.split_off());
@@ -242,6 +331,8 @@ class Search {
   tbb::task_arena arena_;
   tbb::task_group group_;
   std::vector<certify::Box> roots_;
+  SelfMotions motions_;
+  double share_ = kFirstShare;  // of the typical sizes: how small boxes are that may be postponed
   std::atomic<int> busy_{0}, recorders_{0};
   std::atomic<bool> ended_{false};
   std::atomic<std::uint64_t> processed_{0}, waiting_{0};
@@ -263,38 +354,88 @@ std::string format(double x) {
 
 }  // namespace
 
-double default_sigma(const certify::System& system) {
-  // An over-determined system with a tolerance may have a set of any dimension.
-  const bool over_determined = system.equations.size() > system.variables.size() && system.coefficient_tolerance > 0;
-  constexpr double kCurves = 0.1, kPoints = 1e-6;
-  if (over_determined || certify::reduce(system).system.dimension() > 0) return kCurves;
-  return std::clamp(std::sqrt(system.coefficient_tolerance), kPoints, kCurves);
-}
-
 double printed_tolerance(const certify::System& system) {
   constexpr double kPrintedDecimals = 1e-6;
   return system.equations.size() > system.variables.size() ? kPrintedDecimals : 0;
 }
 
-double smallest_sigma(const certify::System& system) {
-  double largest = 0;
-  for (const auto& v : system.variables) largest = std::max(largest, v.domain.mag());
-  return (system.dimension() == 0 ? 1e-16 : 1e-10) * largest;
+Sigma smallest_sigma(const certify::System& system) {
+  Sigma largest;
+  for (const auto& v : system.variables) {
+    const SigmaClass kind = sigma_class(v);
+    if (kind == SigmaClass::length) largest.length = std::max(largest.length, v.domain.mag());
+    if (kind == SigmaClass::angle) largest.angle = std::max(largest.angle, v.domain.mag());
+  }
+  const double share = system.dimension() == 0 ? 1e-16 : 1e-10;
+  return {share * largest.length, share * largest.angle};
 }
 
+namespace {
+
+void check_sigma(const char* name, const std::optional<double>& sigma, double least) {
+  if (!sigma) return;
+  if (!(*sigma > 0) || !std::isfinite(*sigma)) throw std::invalid_argument(std::string(name) + " must be a positive number");
+  if (*sigma < least)
+    throw std::invalid_argument(std::string(name) + " is below " + format(least) +
+                                ", what boxes of doubles resolve in this domain");
+}
+
+// The σ that is asked for, the others by default from the hull of a set.
+Sigma chosen_sigma(const certify::System& system, const Options& options, const certify::Box& hull, int dimension) {
+  const Sigma by_default = default_sigma(system, hull, dimension);
+  const auto coarser = [&](double sigma) { return dimension == 0 ? sigma : sigma * options.coarser; };
+  return {options.sigma_length.value_or(coarser(by_default.length)),
+          options.sigma_angle.value_or(coarser(by_default.angle))};
+}
+
+// The hull of what has been found, in all variables; the domain where there is nothing.
+certify::Box hull_of(const certify::System& system, const certify::Reduction& reduction, Search& search) {
+  const certify::UpwardRounding rounding;
+  certify::Box hull;
+  for (const Proven* proven : search.sheets()) {
+    certify::Box sides = proven->sheet.image;
+    for (std::size_t j = 0; j < sides.size(); ++j) sides[j].intersect(proven->x[j]);
+    search.problem().append_values(sides);
+    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = certify::Interval::hull(hull[j], sides[j]);
+    if (hull.empty()) hull = std::move(sides);
+  }
+  if (!hull.empty()) return reduction.lift(hull);
+  for (const auto& v : system.variables) hull.push_back(v.domain);
+  return hull;
+}
+
+// Of the sets found: self-motions are larger than expected.
+int largest_dimension(int dimension, Search& search) {
+  for (const Proven* proven : search.sheets())
+    dimension = std::max(dimension, static_cast<int>(proven->sheet.region.size() - proven->sheet.dependent.size()));
+  return dimension;
+}
+
+}  // namespace
+
 Cover solve(const certify::System& system, const Options& options) {
-  const double sigma = options.sigma ? *options.sigma : default_sigma(system);
-  if (!(sigma > 0) || !std::isfinite(sigma)) throw std::invalid_argument("sigma must be a positive number");
-  if (const double least = smallest_sigma(system); sigma < least)
-    throw std::invalid_argument("sigma is below " + format(least) + ", what boxes of doubles resolve in this domain");
+  const Sigma least = smallest_sigma(system);
+  check_sigma("sigma of lengths", options.sigma_length, least.length);
+  check_sigma("sigma of angles", options.sigma_angle, least.angle);
 
   const certify::Reduction reduction = certify::reduce(system);
-  Search search(reduction, options, sigma);
-  if (reduction.consistent) search.run(reduction);
-
+  Search search(system, reduction, options);
   Cover cover;
   cover.dimension = reduction.system.dimension();
-  cover.sigma = sigma;
+  // What the tolerance of coefficients moves is no reason for narrower boxes, and such systems are searched by σ.
+  certify::Box domain;
+  for (const auto& v : system.variables) domain.push_back(v.domain);
+  const bool any_dimension = search.problem().tolerant && system.equations.size() > system.variables.size();
+  cover.sigma = chosen_sigma(system, options, domain, any_dimension ? 1 : cover.dimension);
+  search.set_sigma(cover.sigma);
+  if (reduction.consistent) {
+    search.run(reduction);
+    if (!search.problem().tolerant)
+      cover.sigma =
+          chosen_sigma(system, options, hull_of(system, reduction, search), largest_dimension(cover.dimension, search));
+    search.set_sigma(cover.sigma);
+    search.cut();
+  }
   cover.reduction = reduction.steps;
   cover.statistics = search.statistics();
   std::vector<Found*> found = search.gather();
@@ -312,14 +453,16 @@ Cover solve(const certify::System& system, const Options& options) {
     if (cover.dimension == 0) {
       merge_isolated(found);
       cover.regions = number_regions(reduction, found);
-      cover.points = collect_points(found, sigma);
+      cover.points = collect_points(found, search.problem().limits(kPointGap));
     } else {
       const std::size_t before = found.size();
-      search.merge(found);
-      if (found.size() < before) sort(found);  // merged boxes have other sides
+      if (options.max_solutions == 0) search.merge(found);  // it might leave fewer than were asked for
+      if (found.size() < before) sort(found);               // merged boxes have other sides
       cover.regions = number_regions(reduction, found);
     }
+    for (const Found* f : found) cover.wider_than_sigma += f->region != nullptr && search.problem().excess(f->box.box) > 1;
     if (options.proof && reduction.consistent && !reduction.tolerant && !some_partial) cover.proof = search.proof(found);
+    cover.self_motions = search.motions().records(reduction);
     for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
     cover.boxes = lifted(system, reduction, found);
   });

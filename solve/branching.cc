@@ -56,11 +56,7 @@ std::vector<bool> linearly_defined(const System& system) {
 BranchingRule::BranchingRule(const System& system) : weight_(system.variables.size(), 1.0) {
   const auto defined = linearly_defined(system);
   for (std::size_t j = 0; j < weight_.size(); ++j) {
-    const auto& v = system.variables[j];
     if (defined[j]) weight_[j] = 0;
-    const double width = v.domain.width();
-    inverse_width_.push_back(width > 0 ? 1 / width : 0);  // an overflowing width counts as the largest double
-    if (!std::isfinite(width)) inverse_width_.back() = 1 / std::numeric_limits<double>::max();
   }
   if (std::all_of(weight_.begin(), weight_.end(), [](double w) { return w == 0; }))
     std::fill(weight_.begin(), weight_.end(), 1.0);
@@ -91,24 +87,16 @@ std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, 
   return result;
 }
 
-double BranchingRule::limit(int variable, double sigma) const {
-  const auto j = static_cast<std::size_t>(variable);
-  if (weight_[j] == 0) return sigma;
-  return std::min(sigma, kProofShare / inverse_width_[j]);
-}
-
-int BranchingRule::choose(const certify::CompiledSystem& system, const certify::Interval* x, double sigma,
-                          double scale) const {
+int BranchingRule::choose(const certify::CompiledSystem& system, const certify::Interval* x,
+                          const std::vector<double>& limits) const {
   const std::vector<double> smears = smear(system, x);
   int best = -1, widest = -1;
-  double best_score = 0, widest_width = scale * sigma;
+  double best_score = 0, widest_width = 0;
   for (std::size_t j = 0; j < weight_.size(); ++j) {
-    const double width = std::min(x[j].width(), std::numeric_limits<double>::max());
-    const double share = width * inverse_width_[j];
-    if (width <= scale * limit(static_cast<int>(j), sigma)) continue;
-    if (!split_point(x[j])) continue;
+    if (x[j].width() <= limits[j] || !split_point(x[j])) continue;
+    const double width = std::min(x[j].width(), std::numeric_limits<double>::max()) / system.scales()[j];
     const double square = smears[j] * smears[j];
-    const double score = weight_[j] * share * std::max(square * square, kLeastSmear);
+    const double score = weight_[j] * width * std::max(square * square, kLeastSmear);
     if (score > best_score) best_score = score, best = static_cast<int>(j);
     if (width > widest_width) widest_width = width, widest = static_cast<int>(j);
   }

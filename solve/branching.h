@@ -15,30 +15,23 @@ inline constexpr double kBisectionPoint = 0.47;
 /// Where to bisect a side; nothing where it is too narrow for doubles to divide.
 std::optional<double> split_point(const certify::Interval& side);
 
-/// Unproven boxes are bisected at least until each side is this share of its domain.
-inline constexpr double kProofShare = 0.05;
-
 class BranchingRule {
  public:
   explicit BranchingRule(const certify::System& system);
 
-  /// An unproven box is bisected until no side is wider than this: σ, or kProofShare of the variable's domain (a wider box can hardly be
-  /// proven, however large σ is).
-  double limit(int variable, double sigma) const;
-
-  /// The variable to bisect for an unproven box: the one of largest s⁴ · width / domain width among those wider than `scale` times
-  /// their limit; −1 where there is none that can be divided. s is the sum over the equations i of √(|J_ij| w_j / Σ_k |J_ik| w_k), the variable's share in what makes each uncertain:
-  /// relative smear (key Trombettoni2011), where the root favours a variable of many equations; root and power are measured, see
-  /// bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until all others are narrow.
-  int choose(const certify::CompiledSystem& system, const certify::Interval* x, double sigma, double scale = 1) const;
+  /// The variable to bisect for an unproven box: the one of largest s⁴ · width / typical size (certify::CompiledSystem::scales) among those
+  /// wider than their limit; −1 where there is none that can be divided. s is the sum over the equations i of √(|J_ij| w_j / Σ_k |J_ik|
+  /// w_k), the variable's share in what makes each uncertain: relative smear (key Trombettoni2011), where the root favours a variable of many
+  /// equations; root and power are measured, see bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until
+  /// all others are narrow.
+  int choose(const certify::CompiledSystem& system, const certify::Interval* x, const std::vector<double>& limits) const;
 
   const std::vector<double>& weights() const { return weight_; }
 
  private:
   std::vector<double> smear(const certify::CompiledSystem& system, const certify::Interval* x) const;
 
-  std::vector<double> weight_;         // 0: defined by others, see branching.cc; 1: else
-  std::vector<double> inverse_width_;  // of the domain
+  std::vector<double> weight_;  // 0: defined by others, see branching.cc; 1: else
 };
 
 }  // namespace corank::solve

@@ -43,7 +43,8 @@ constexpr double kSmallSingularValue = 0.2;    // relative to the largest: worth
 constexpr std::size_t kMostOpenBoxes = 3000;   // beyond, clusters are no longer sought
 constexpr int kMostFutile = 16;                // attempts, before a kind of point is no longer sought
 constexpr int kCoreAttempts = 6;
-constexpr int kKernelDepth = 6;  // halvings of a box in which the kernel's dimension is bounded
+constexpr double kNextToHull = 3;  // of its width
+constexpr int kKernelDepth = 6;    // halvings of a box in which the kernel's dimension is bounded
 
 bool contains(const Box& outer, const Box& inner) {
   for (std::size_t j = 0; j < outer.size(); ++j)
@@ -72,7 +73,8 @@ class Prover {
       const double left = std::max(0.0, options.time_limit - cover.statistics.seconds_total);
       deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(left));
     }
-    options_.sigma = cover.sigma;
+    options_.sigma_length = cover.sigma.length;
+    options_.sigma_angle = cover.sigma.angle;
   }
 
   void points() {
@@ -104,7 +106,7 @@ class Prover {
     if (open.empty() || open.size() > kMostOpenBoxes) return;
     std::vector<const Box*> open_sides;
     for (const std::size_t i : open) open_sides.push_back(&cover_.boxes[i].box);
-    std::vector<std::vector<std::size_t>> groups = clusters(open_sides, 0.0);
+    std::vector<std::vector<std::size_t>> groups = clusters(open_sides, std::vector<double>(system_.variables.size(), 0.0));
     int futile = 0;
     for (std::vector<std::size_t>& cluster : groups) {
       if (stopped() || futile >= kMostFutile) break;
@@ -248,22 +250,28 @@ class Prover {
       const certify::ExactVerification verified = certify::verify_exactly(system_, *point);
       if (!verified.holds || verified.corank < 2) continue;
       point->corank = verified.corank;
-      // Next to the box: no farther than a box may be wide.
+      // Next to the boxes: no farther than they are wide together.
       const ExactNumber far = certify::reach(*point, hull);
-      if ((far - ExactNumber::dyadic(3 * cover_.sigma)).sign() == 1) continue;
+      if ((far - ExactNumber::dyadic(kNextToHull * width_of(*point, hull))).sign() == 1) continue;
       return add(std::move(*point));
     }
     return std::nullopt;
+  }
+
+  // The widest side of the hull in the coordinates that the point has.
+  static double width_of(const ExactPoint& point, const Box& hull) {
+    double width = 0;
+    for (std::size_t j = 0; j < hull.size(); ++j)
+      if (!point.coordinates[j].empty()) width = std::max(width, hull[j].width());
+    return width;
   }
 
   // The search again, in the hull without a core about the point's known coordinates; then the core itself. Nothing changes where even large
   // cores leave boxes undecided around them.
   void search_around(int index, const Box& hull, const std::vector<std::size_t>& cluster) {
     const ExactPoint& point = cover_.exact_points[static_cast<std::size_t>(index)];
-    double half = 0;
-    for (std::size_t j = 0; j < hull.size(); ++j)
-      if (!point.coordinates[j].empty()) half = std::max(half, 0.25 * hull[j].width());
-    for (int attempt = 0; attempt < kCoreAttempts && 2 * half <= cover_.sigma; ++attempt, half *= 2) {
+    double half = 0.25 * width_of(point, hull);
+    for (int attempt = 0; attempt < kCoreAttempts; ++attempt, half *= 2) {
       Box core = hull, all = hull;
       const certify::AlgebraicNumber t(point.polynomial, point.lower, point.upper);
       for (const int kept : reduction_.kept) {

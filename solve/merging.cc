@@ -22,7 +22,7 @@ class Merger {
   void run() {
     for (std::size_t i = 0; i < found_.size(); ++i)
       if (found_[i]->box.verdict == Verdict::regular && found_[i]->box.free.size() == 1 &&
-          widest(found_[i]->box.box) <= kFragment * problem_.sigma)
+          problem_.excess(found_[i]->box.box) <= kFragment)
         cells_.push_back({0, i});
     if (cells_.size() < 2) return;
     choose_axes();
@@ -47,7 +47,7 @@ class Merger {
     std::size_t index;
   };
 
-  // The two variables that spread the boxes most.
+  // The two variables that spread the boxes most, in their σ.
   void choose_axes() {
     const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
     std::vector<double> spread(n);
@@ -57,7 +57,7 @@ class Merger {
         least = std::min(least, found_[cell.index]->box.box[j].lo());
         greatest = std::max(greatest, found_[cell.index]->box.box[j].lo());
       }
-      spread[j] = greatest - least;
+      spread[j] = (greatest - least) / problem_.sigma[j];
     }
     axes_[0] = static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) - spread.begin());
     spread[axes_[0]] = -1;
@@ -68,7 +68,7 @@ class Merger {
   long key_of(std::size_t i, long d0, long d1) const {
     constexpr long kStride = 1L << 30;
     const auto cell = [&](std::size_t axis) {
-      return std::lround(std::floor(std::clamp(found_[i]->box.box[axis].lo() / problem_.sigma, -5e8, 5e8)));
+      return std::lround(std::floor(std::clamp(found_[i]->box.box[axis].lo() / problem_.sigma[axis], -5e8, 5e8)));
     };
     return (cell(axes_[0]) + d0) * kStride + cell(axes_[1]) + d1;
   }
@@ -100,7 +100,7 @@ class Merger {
     for (std::size_t j = 0; j < hull.size(); ++j) {
       if (!a.box[j].overlaps(b.box[j])) return false;
       hull[j] = Interval::hull(a.box[j], b.box[j]);
-      if (hull[j].width() > problem_.sigma) return false;
+      if (hull[j].width() > problem_.sigma[j]) return false;
     }
     hull.resize(n);
     const std::vector<int> dependent = other_variables(a.free, system.variables());
@@ -112,7 +112,7 @@ class Merger {
     for (int k = 0; k < kTightenings; ++k) certify::tighten_sheet(system, p, image.data(), workspace_);
     if (problem_.domain.locate_zeros(system, p, image.data(), workspace_) != certify::Location::inside) return false;
     problem_.append_values_at_zeros(p, image, workspace_);
-    if (widest(image) > problem_.sigma) return false;
+    if (problem_.excess(image) > 1) return false;
     problem_.append_values(sheet.region);
     found.region = std::make_shared<const Box>(std::move(sheet.region));
     found.box.box = std::move(image);

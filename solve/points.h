@@ -11,11 +11,13 @@ namespace corank::solve {
 /// nothing but a proven solution. Where identity cannot be decided, the boxes lose their verdict: both become undecided.
 void merge_isolated(std::vector<Found*>& found);
 
-/// The connected groups of the boxes whose sides overlap when widened by gap; each as its indices, ascending; in the order of their first.
-std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::Box*>& boxes, double gap);
+/// The connected groups of the boxes whose sides overlap when widened by their gaps (of the first sides, as many as there are gaps); each as its
+/// indices, ascending; in the order of their first.
+std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::Box*>& boxes,
+                                               const std::vector<double>& gaps);
 
 /// The distinct solutions: each isolated or boundary box, and the hull of each cluster of undecided boxes that are no farther apart
-/// than gap, pending ones left out (the hull is no claim, so the gap is free to choose).
-std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, double gap);
+/// than their gaps; pending ones, and what lies along a larger set, left out (the hull is no claim, so the gaps are free to choose).
+std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, const std::vector<double>& gaps);
 
 }  // namespace corank::solve

@@ -7,7 +7,7 @@
 
 namespace corank::solve {
 namespace {
-// Pivots below this share of a row's largest entry count as zero.
+// Pivots below this share of a row's largest entry count as zero, each times its variable's scale.
 constexpr double kRankTolerance = 1e-9;
 constexpr int kGaussNewtonSteps = 8;
 }  // namespace
@@ -37,7 +37,7 @@ const certify::Preconditioner& PreconditionerFactory::near_solution(const certif
         shift += result_.y[static_cast<std::size_t>(a) * result_.rank() + b] *
                  system_.evaluate_at(result_.equations[b], start.data()).mid();
       center_[result_.dependent[a]] -= shift;
-      moved = std::max(moved, std::fabs(shift));
+      moved = std::max(moved, std::fabs(shift) / system_.scales()[result_.dependent[a]]);
     }
     if (!(moved < former)) {
       center_ = start;
@@ -54,21 +54,25 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
   sparse_.resize(system_.entries());
   system_.approximate_jacobian(center_.data(), sparse_.data());
 
+  const std::vector<double>& scales = system_.scales();
   tableau_.assign(static_cast<std::size_t>(m_) * n_, 0.0);
   row_scale_.assign(m_, 0.0);
   for (int i = 0; i < m_; ++i) {
     for (int k = system_.row_begin(i); k < system_.row_begin(i + 1); ++k) {
       tableau_[static_cast<std::size_t>(i) * n_ + system_.column(k)] = sparse_[k];
-      row_scale_[i] = std::max(row_scale_[i], std::fabs(sparse_[k]));
+      row_scale_[i] = std::max(row_scale_[i], std::fabs(sparse_[k]) * scales[system_.column(k)]);
     }
     row_scale_[i] = row_scale_[i] > 0 ? 1 / row_scale_[i] : 0;
   }
   row_done_.assign(m_, rows ? 1 : 0);
   if (rows)
     for (int i : *rows) row_done_[i] = 0;
-  allowed_.assign(n_, candidates ? 0.0 : 1.0);
-  if (candidates)
-    for (int j : *candidates) allowed_[j] = 1.0;
+  if (candidates) {
+    allowed_.assign(n_, 0.0);
+    for (int j : *candidates) allowed_[j] = scales[j];
+  } else {
+    allowed_ = scales;
+  }
 
   // Each row's largest entry among the allowed columns, renewed only when an exchange step has changed the row or taken the column.
   const auto find_best = [&](int i) {

@@ -12,8 +12,8 @@ class PreconditionerFactory {
  public:
   explicit PreconditionerFactory(const certify::CompiledSystem& system);
 
-  /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x: each pivot makes one variable
-  /// dependent. Fewer than m rows where the Jacobian is numerically rank deficient. If given, only the `candidates` may become
+  /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x, its columns times the variables'
+  /// scales: each pivot makes one variable dependent. Fewer than m rows where the Jacobian is numerically rank deficient. If given, only the `candidates` may become
   /// dependent, and only the `rows` are used.
   const certify::Preconditioner& at_midpoint(const certify::Interval* x, const std::vector<int>* candidates = nullptr,
                                              const std::vector<int>* rows = nullptr);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "corank/solve/propagation.h"
+
 namespace corank::solve {
 namespace {
 
@@ -16,15 +18,49 @@ std::vector<certify::Polynomial> values_of(const certify::Reduction& reduction) 
 
 }  // namespace
 
-Problem::Problem(const certify::Reduction& reduction, double s, std::function<bool()> e)
+Problem::Problem(const certify::System& system, const certify::Reduction& reduction, std::function<bool()> e)
     : compiled(reduction.system, values_of(reduction)),
       redundant(reduction.system),
       domain(reduction.system),
       subset(reduction.subset),
+      tolerant(reduction.tolerant || redundant.applies()),
       rank_tolerance(reduction.tolerant ? kRoundedRankTolerance : kRedundantRankTolerance),
       branching(reduction.system),
-      sigma(s),
-      ended(std::move(e)) {}
+      ended(std::move(e)),
+      classes_(sigma_classes(system, reduction)) {
+  certify::Box search_domain;
+  for (const certify::Variable& v : reduction.system.variables) search_domain.push_back(v.domain);
+  TypicalSizes sizes = typical_sizes(compiled, std::move(search_domain));
+  compiled.set_scales(std::move(sizes.variables));
+  equation_sizes = std::move(sizes.equations);
+}
+
+void Problem::set_sigma(const Sigma& s) {
+  sigma.clear();
+  for (const SigmaClass kind : classes_) sigma.push_back(sigma_of(s, kind));
+}
+
+std::vector<double> Problem::limits(double share) const {
+  std::vector<double> result;
+  for (std::size_t j = 0; j < compiled.scales().size(); ++j) {
+    result.push_back(2 * share * compiled.scales()[j]);
+    if (tolerant) result.back() = std::min(result.back(), sigma[j]);
+  }
+  return result;
+}
+
+double Problem::excess(const certify::Box& sides) const {
+  double largest = 0;
+  for (std::size_t j = 0; j < sides.size(); ++j) largest = std::max(largest, sides[j].width() / sigma[j]);
+  return largest;
+}
+
+double Problem::relative_width(const certify::Interval* x) const {
+  double largest = 0;
+  for (std::size_t j = 0; j < compiled.scales().size(); ++j)
+    largest = std::max(largest, x[j].width() / (2 * compiled.scales()[j]));
+  return largest;
+}
 
 void Problem::append_values(certify::Box& sides) const {
   sides.resize(static_cast<std::size_t>(compiled.variables()));
@@ -45,12 +81,6 @@ std::vector<int> other_variables(const std::vector<int>& given, int variables) {
   for (int j = 0; j < variables; ++j)
     if (std::find(given.begin(), given.end(), j) == given.end()) others.push_back(j);
   return others;
-}
-
-double widest(const certify::Box& x) {
-  double width = 0;
-  for (const certify::Interval& side : x) width = std::max(width, side.width());
-  return width;
 }
 
 }  // namespace corank::solve

@@ -11,17 +11,30 @@
 #include "corank/certify/partial.h"
 #include "corank/certify/reduction.h"
 #include "corank/solve/branching.h"
+#include "corank/solve/sigma.h"
 
 namespace corank::solve {
 
 /// Constant during a search.
 struct Problem {
   /// `ended` tells, from any thread, that a limit or a stop has ended the search.
-  Problem(const certify::Reduction& reduction, double sigma, std::function<bool()> ended);
+  Problem(const certify::System& system, const certify::Reduction& reduction, std::function<bool()> ended);
+
+  /// To be called before pieces are cut.
+  void set_sigma(const Sigma& sigma);
+  /// The largest ratio of a side's width to the σ of its variable: above 1 a piece is to be cut. For the sides of the kept variables, with or
+  /// without those of the eliminated ones behind them.
+  double excess(const certify::Box& sides) const;
+  /// The largest ratio of a kept variable's side to its typical size.
+  double relative_width(const certify::Interval* x) const;
+
+  /// Of each kept variable: as wide as an unproven box may be when it is given up for small; a share of twice its typical size. Where coefficients
+  /// carry a tolerance, below which nothing can be proven, no more than σ.
+  std::vector<double> limits(double share) const;
 
   /// Are the sheet's proofs about an independent subset of the equations only?
   bool is_partial(const certify::Sheet& sheet) const {
-    return subset || static_cast<int>(sheet.equations.size()) < compiled.equations();
+    return subset || (sheet.motion < 0 && static_cast<int>(sheet.equations.size()) < compiled.equations());
   }
   /// Appends the eliminated variables' sides over x to the n sides of x (what follows those is renewed).
   void append_values(certify::Box& sides) const;
@@ -33,10 +46,16 @@ struct Problem {
       redundant;  ///< applies(): a proof may speak of an independent subset of the equations (`partial`)
   certify::DomainTest domain;
   bool subset;            ///< certify::Reduction::subset
+  bool tolerant;          ///< coefficients carry a tolerance, or equations may hold within one only
   double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
   BranchingRule branching;
-  double sigma;
+  /// Of the kept variables, then of the eliminated ones: the σ that applies to it; infinite where none does (kernel vectors, auxiliaries).
+  std::vector<double> sigma;
+  std::vector<double> equation_sizes;  ///< TypicalSizes::equations
   std::function<bool()> ended;
+
+ private:
+  std::vector<SigmaClass> classes_;  // in the order of `sigma`
 };
 
 /// A box of the result and, for an isolated solution, its sheet. The sides of the eliminated variables follow those of the others, as
@@ -51,7 +70,5 @@ struct Found {
 
 /// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the reverse.
 std::vector<int> other_variables(const std::vector<int>& given, int variables);
-
-double widest(const certify::Box& x);
 
 }  // namespace corank::solve

@@ -78,6 +78,11 @@ void Recorder::split(int variable, double where, NodeId lower, NodeId upper) {
   open_->upper = upper;
 }
 
+NodeId Recorder::go_on_later() {
+  open_->goes_on = true;
+  return open_->upper = new_node();
+}
+
 void Recorder::cut(int variable, const std::vector<double>& places) {
   script_.integers.push_back(variable);
   script_.integers.push_back(static_cast<std::int32_t>(places.size()));
@@ -141,9 +146,8 @@ Proof Recorder::assemble(const std::vector<const Recorder*>& recorders, std::vec
       const auto& [thread, node] = all.at(open.back());
       open.pop_back();
       copy(thread, *node);
-      if (!node->is_split) continue;
-      open.push_back(node->upper);
-      open.push_back(node->lower);
+      if (node->is_split || node->goes_on) open.push_back(node->upper);
+      if (node->is_split) open.push_back(node->lower);
     }
   }
   return proof;

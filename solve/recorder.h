@@ -30,6 +30,8 @@ class Recorder {
   void newton(const certify::Preconditioner& p, const certify::Interval* x);
   void keep(const certify::Interval* x);
   void split(int variable, double where, NodeId lower, NodeId upper);
+  /// What becomes of the box, as it is now, will be recorded under the node that is returned, by this recorder or another.
+  NodeId go_on_later();
   void cut(int variable, const std::vector<double>& places);
   void leaf_box(std::size_t found);
   void leaf_empty() { step(certify::Proof::Step::empty); }
@@ -46,8 +48,8 @@ class Recorder {
   };
   struct Node {
     Cursor begin, end;
-    NodeId lower = 0, upper = 0;  // where it was split
-    bool is_split = false;
+    NodeId lower = 0, upper = 0;  // where it was split; upper alone: where its script goes on
+    bool is_split = false, goes_on = false;
   };
   void step(certify::Proof::Step s);
   void close();

@@ -56,12 +56,12 @@ const Preconditioner& Slicer::tighten(const Task& task, Piece& piece, const Prec
       renew();
       step();
     }
-    const double tightened = widest(sides);
-    if (is_point ? tightened == width : tightened <= problem_.sigma || tightened > 0.9 * width) break;
-    if (!is_point && tightened > kNearSigma * problem_.sigma) break;  // to be cut anyway
+    const double tightened = is_point ? problem_.relative_width(sides.data()) : problem_.excess(sides);
+    if (is_point ? tightened == width : tightened <= 1 || tightened > 0.9 * width) break;
+    if (!is_point && tightened > kNearSigma) break;  // to be cut anyway
     width = tightened;
   }
-  if (is_point || widest(sides) <= kNearSigma * problem_.sigma) {
+  if (is_point || problem_.excess(sides) <= kNearSigma) {
     problem_.append_values_at_zeros(*p, sides, workspace_);
   } else {
     problem_.append_values(sides);
@@ -108,9 +108,14 @@ void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& 
   const std::size_t n = static_cast<std::size_t>(system.variables()), r = p.dependent.size();
   steepness_.clear();
   // Y·S has nearly the unit matrix in the dependent columns, so its free columns are −∂(dependent)/∂(free).
-  for (std::size_t a = 0; a < r; ++a)
-    for (int f : free) steepness_.push_back(std::fabs(workspace_.panel.at(static_cast<int>(a), f).mid()));
+  for (std::size_t a = 0; a < r; ++a) {
+    const double sigma = problem_.sigma[static_cast<std::size_t>(p.dependent[a])];
+    if (!std::isfinite(sigma)) continue;
+    for (int f : free) steepness_.push_back(std::fabs(workspace_.panel.at(static_cast<int>(a), f).mid()) / sigma);
+  }
   for (int k = 0; k < system.values(); ++k) {
+    const double sigma = problem_.sigma[n + static_cast<std::size_t>(k)];
+    if (!std::isfinite(sigma)) continue;
     const int row = system.value_row(k);
     system.slopes(row, piece.data(), workspace_.center.data(), workspace_.slope.data());
     gradient_.assign(n, 0.0);
@@ -120,7 +125,7 @@ void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& 
       double slope = gradient_[static_cast<std::size_t>(f)];
       for (std::size_t a = 0; a < r; ++a)
         slope -= gradient_[static_cast<std::size_t>(p.dependent[a])] * workspace_.panel.at(static_cast<int>(a), f).mid();
-      steepness_.push_back(std::fabs(slope));
+      steepness_.push_back(std::fabs(slope) / sigma);
     }
   }
 }
@@ -128,13 +133,13 @@ void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& 
 std::vector<int> Slicer::parts_of(const Box& piece, const std::vector<int>& free) const {
   constexpr double kMostParts = 1 << 20;
   const std::size_t k = free.size();
-  const double sigma = kCutMargin * problem_.sigma;
   std::vector<double> parts(k, 1.0);
   const auto width = [&](std::size_t f) { return piece[static_cast<std::size_t>(free[f])].width(); };
-  for (std::size_t f = 0; f < k; ++f) parts[f] = std::clamp(std::ceil(width(f) / problem_.sigma), 1.0, kMostParts);
-  // The width of a is Σ_f |∂a/∂f| w_f / parts_f.
+  const auto sigma_of_free = [&](std::size_t f) { return problem_.sigma[static_cast<std::size_t>(free[f])]; };
+  for (std::size_t f = 0; f < k; ++f) parts[f] = std::clamp(std::ceil(width(f) / sigma_of_free(f)), 1.0, kMostParts);
+  // The width of a, in its σ, is Σ_f |∂a/∂f| w_f / parts_f.
   for (int step = 0; step < 1000; ++step) {
-    double worst = sigma;
+    double worst = kCutMargin;
     std::size_t grow = k;
     for (std::size_t a = 0; a * k < steepness_.size(); ++a) {
       double sum = 0, best = 0;
@@ -180,7 +185,7 @@ void Slicer::leave_room(const Task& task, Box& piece) const {
   for (std::size_t j = 0; j < piece.size(); ++j) {
     if (std::find(task.free.begin(), task.free.end(), static_cast<int>(j)) != task.free.end()) continue;
     Interval& side = piece[j];
-    const double room = std::min(kRoom * side.width() + kLeastRoom * side.mag(), 0.49 * (problem_.sigma - side.width()));
+    const double room = std::min(kRoom * side.width() + kLeastRoom * side.mag(), 0.49 * (problem_.sigma[j] - side.width()));
     if (!(room > 0)) continue;
     // Inside the region, where the solution is the only one, and not across an end of the domain that the side keeps.
     Interval wider = side + Interval(-room, room);
@@ -206,6 +211,7 @@ void Slicer::add(Task& task, Box piece, Location location) {
     narrow.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
     found.sheet = std::make_unique<const Sheet>(std::move(narrow));
   }
+  found.box.motion = sheet.motion;
   leave_room(task, found.box.box);
   if (recorder_) recorder_->leaf_box(task.found.size());
   task.found.push_back(std::move(found));
@@ -223,13 +229,7 @@ void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& fo
 void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   const std::vector<int>& free = task.free;
   Box& sides = piece.sides;
-  task.ended = task.ended || (++task.turns % kPiecesBetweenChecks == 0 && problem_.ended());
-  if (task.ended) {
-    problem_.append_values(sides);
-    if (recorder_) recorder_->leaf_box(task.found.size());
-    task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
-    return;
-  }
+  task.ended = task.ended || (task.turns++ % kPiecesBetweenChecks == 0 && problem_.ended());
   Preconditioner own;
   const Preconditioner& p = tighten(task, piece, inherited, own);
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
@@ -238,31 +238,35 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     if (recorder_) recorder_->leaf_elsewhere();
     return;
   }
-  double width = widest(sides);
+  double width = problem_.excess(sides);
   bool stepped = true;
   std::vector<int> parts;
-  if (width > problem_.sigma && !free.empty()) {
+  if (width > 1 && !free.empty() && !task.ended) {
     measure_steepness(p, free, sides);
     parts = parts_of(sides, free);
     // Small enough but for overestimation: look closer.
     if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
       certify::shrink_to_faces(problem_.compiled, task.sheet, p, problem_.sigma, sides, workspace_);
       stepped = false;
-      width = widest(sides);
+      width = problem_.excess(sides);
     }
   }
   // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts
   // in a row gain nothing, the piece stays as it is, proven.
   const int futile_cuts = width > kFutileShare * piece.former_width ? piece.futile_cuts + 1 : 0;
   const auto divisible = [&](int j) { return split_point(sides[static_cast<std::size_t>(j)]).has_value(); };
-  if (width <= problem_.sigma || futile_cuts > kFutileCuts || std::none_of(free.begin(), free.end(), divisible)) {
+  // So does what a limit leaves uncut.
+  if (width <= 1 || task.ended || futile_cuts > kFutileCuts || std::none_of(free.begin(), free.end(), divisible)) {
     add(task, std::move(sides), *location);
     return;
   }
   std::size_t along = 0;
+  const auto relative_width = [&](std::size_t f) {
+    const auto j = static_cast<std::size_t>(free[f]);
+    return sides[j].width() / problem_.compiled.scales()[j];
+  };
   for (std::size_t f = 1; f < free.size(); ++f) {
-    const auto wider =
-        sides[static_cast<std::size_t>(free[f])].width() > sides[static_cast<std::size_t>(free[along])].width();
+    const bool wider = relative_width(f) > relative_width(along);
     if (parts[f] > parts[along] || (parts[f] == parts[along] && wider)) along = f;
   }
   piece.former_width = width;
@@ -299,17 +303,19 @@ std::vector<std::vector<double>> Slicer::places_of(const Box& piece, const std::
 
 void Slicer::settle(const Task& task, const Preconditioner& p, Part& part) {
   const auto small = [&] {
-    return std::all_of(part.sides.begin(), part.sides.begin() + problem_.compiled.variables(),
-                       [&](const Interval& side) { return side.width() <= problem_.sigma; });
+    for (std::size_t j = 0; j < static_cast<std::size_t>(problem_.compiled.variables()); ++j)
+      if (part.sides[j].width() > problem_.sigma[j]) return false;
+    return true;
   };
   certify::tighten_part(p, part.sides.data(), workspace_);
   if (!small()) certify::tighten_part(p, part.sides.data(), workspace_);  // the dependents' own share is smaller now
   if (!small()) return;
   problem_.append_values_at_zeros(p, part.sides, workspace_);
-  if (widest(part.sides) > problem_.sigma) return;
+  const double excess = problem_.excess(part.sides);
+  if (excess > 1) return;
   const std::optional<Location> location = place(task, p, Slopes::shared, part.sides);
   if (location == Location::across) return;  // a closer look may find it inside
-  if (location && task.free.size() == 1 && widest(part.sides) <= kPossibleFragment * problem_.sigma) return;
+  if (location && task.free.size() == 1 && excess <= kPossibleFragment) return;
   part.fate = location ? Part::Fate::found : Part::Fate::elsewhere;
 }
 

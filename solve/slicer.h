@@ -23,8 +23,8 @@ class Slicer {
          Recorder* recorder = nullptr)
       : problem_(problem), preconditioners_(preconditioners), workspace_(workspace), recorder_(recorder) {}
 
-  /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so.
-  /// Where the search ends meanwhile, the rest is added as pending boxes.
+  /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so. Where the
+  /// search ends meanwhile, the rest is added uncut.
   void slice(const certify::Sheet& sheet, const certify::Interval* x, std::vector<Found>& found);
 
   /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the

@@ -21,10 +21,13 @@ struct Progress {
 };
 
 struct Options {
-  /// Largest edge that a returned box may have. Default: default_sigma(system). Only where rounding in an ill-conditioned system
-  /// or the coefficients' tolerance keeps a proven box from becoming that narrow it stays wider: Cover::wider_than_sigma counts
-  /// such boxes.
-  std::optional<double> sigma;
+  /// Largest edge that a proven box may have, in lengths and in the sines and cosines of angles; kernel vectors and auxiliary variables may be
+  /// wider. Default: a share of the size of the set that is found (solve/sigma.h). σ says how finely proven sheets are cut, it does not steer
+  /// the search, unless coefficients carry a tolerance. Boxes that stay wider are counted in Cover::wider_than_sigma.
+  std::optional<double> sigma_length, sigma_angle;
+  void set_sigma(std::optional<double> both) { sigma_length = sigma_angle = both; }
+  /// The default of σ, multiplied.
+  double coarser = 1;
   int threads = 1;              ///< 0: one for each core
   std::uint64_t max_boxes = 0;  ///< stop after so many processed boxes; 0: no limit
   /// Stop when so many proven boxes are found; 0: all. Isolated solutions count as distinct ones, as far as the boxes found
@@ -43,21 +46,16 @@ struct Options {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// 1e-6 for a set of dimension 0 (after certify::reduce), and no less than the square root of the coefficient tolerance: so far apart may two solutions
-/// be that merge for some choice of the coefficients. Else, and for over-determined systems with a tolerance, 0.1 (the CUIK
-/// suite's default).
-double default_sigma(const certify::System& system);
-
 /// The coefficient tolerance (System::coefficient_tolerance) to take for a system as somebody printed it: 1e-6 where it has more
 /// equations than variables, since rounded decimals make redundant equations inconsistent; else 0, exact. Not for systems
 /// that symbolic/ derives from a mechanism: their redundancy is exact.
 double printed_tolerance(const certify::System& system);
 
 /// The least σ that solve() accepts: below it the rounding of doubles would keep boxes from becoming that narrow.
-double smallest_sigma(const certify::System& system);
+certify::Sigma smallest_sigma(const certify::System& system);
 
 /// The cover of the system's solution set in its domain. Never throws for a mathematical outcome; throws std::invalid_argument
-/// where the system is not valid (System::validate) or σ is not a positive number of at least smallest_sigma(system). The result does not depend on `threads`
+/// where the system is not valid (System::validate) or a σ is not a positive number of at least smallest_sigma(system). The result does not depend on `threads`
 /// unless a limit or a stop ends the search.
 certify::Cover solve(const certify::System& system, const Options& options = {});
 

@@ -195,8 +195,11 @@ certify::System Algebrizer::run() {
   names_.insert(in_.kernel_unknowns.begin(), in_.kernel_unknowns.end());
 
   add_constants();
-  for (const Coordinate& coordinate : in_.coordinates)
+  for (const Coordinate& coordinate : in_.coordinates) {
+    const auto first = out_.variables.size();
     coordinate.kind == CoordinateKind::angle ? add_angle(coordinate) : add_length(coordinate);
+    for (auto v = first; v < out_.variables.size(); ++v) out_.variables[v].auxiliary = coordinate.auxiliary;
+  }
   out_.configuration_size = out_.size();
   add_kernel_unknowns();
   expander_.length_functions().start(out_.size());

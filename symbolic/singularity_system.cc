@@ -4,8 +4,10 @@
 #include <array>
 #include <filesystem>
 
+#include "corank/certify/exact_number.h"
 #include "corank/symbolic/ginac_bridge.h"
 #include "corank/symbolic/ginac_lock.h"
+#include "corank/symbolic/model_file.h"
 
 namespace corank::symbolic {
 namespace {
@@ -101,11 +103,33 @@ Expression times(const Expression& entry, const Expression& unknown) {
   return entry * unknown;
 }
 
-// Σ entries[j]·ξ_j, term by term in order; nothing where all entries are 0.
-std::optional<Expression> kernel_row(const std::vector<Expression>& entries, const std::vector<std::string>& unknowns) {
+// A scale of 0 would make every configuration singular.
+Expression positive_number(const std::string& text, const std::string& unknown) {
+  bool positive = false;
+  try {
+    positive = certify::ExactNumber::rational(text).sign() == 1;
+  } catch (const std::exception&) {  // no number
+  }
+  if (!positive) throw ModelError({"scale of " + unknown, 0, 0}, "'" + text + "' is no scale", "a positive rational number");
+  return parse_expression(text, "scale of " + unknown);
+}
+
+// s_j ξ_j of each unknown.
+std::vector<Expression> scaled(const std::vector<std::string>& unknowns, const std::vector<std::string>& scales) {
+  std::vector<Expression> result;
+  for (std::size_t j = 0; j < unknowns.size(); ++j) {
+    const Expression unknown = Expression::symbol(unknowns[j]);
+    const bool plain = scales.empty() || scales[j] == "1";
+    result.push_back(plain ? unknown : positive_number(scales[j], unknowns[j]) * unknown);
+  }
+  return result;
+}
+
+// Σ entries[j]·s_j ξ_j, term by term in order; nothing where all entries are 0.
+std::optional<Expression> kernel_row(const std::vector<Expression>& entries, const std::vector<Expression>& unknowns) {
   std::vector<Expression> terms;
   for (std::size_t j = 0; j < entries.size(); ++j)
-    if (!is_number(entries[j], "0")) terms.push_back(times(entries[j], Expression::symbol(unknowns[j])));
+    if (!is_number(entries[j], "0")) terms.push_back(times(entries[j], unknowns[j]));
   if (terms.empty()) return std::nullopt;
   return Expression::node(Kind::sum, terms);
 }
@@ -119,10 +143,16 @@ Expression generic_component(std::size_t i) {
 }
 
 void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const ExpressionMatrix& matrix,
-                const std::string& matrix_name, KernelSide side) {
+                const std::string& matrix_name, KernelSide side, const std::vector<std::string>& scales) {
   const std::size_t rows = matrix.rows.size(), columns = matrix.columns.size();
   const bool right = side == KernelSide::right;
   system.kernel_unknowns = kernel_names(mechanism, right ? columns : rows);
+  system.kernel_scales = scales;
+  if (!scales.empty() && scales.size() != system.kernel_unknowns.size()) {
+    throw ModelError(model_place(mechanism), std::to_string(scales.size()) + " scales of the kernel vector",
+                     std::to_string(system.kernel_unknowns.size()));
+  }
+  const std::vector<Expression> rates = scaled(system.kernel_unknowns, scales);
   const std::vector<const Constraint*> constraints = assembly_constraints(mechanism);
   for (std::size_t i = 0; i < (right ? rows : columns); ++i) {
     std::vector<Expression> entries;
@@ -133,7 +163,7 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const E
     }
     const std::string source = "row " + std::to_string(i + 1) + " of " + matrix_name + (right ? "" : "^T") + " xi = 0";
     // A row of zeros says nothing about xi.
-    if (const auto lhs = kernel_row(entries, system.kernel_unknowns))
+    if (const auto lhs = kernel_row(entries, rates))
       system.equations.push_back({*lhs == Expression(0), source, right ? constraints[i]->where : model_place(mechanism)});
   }
   std::vector<Expression> squares, weighted;
@@ -240,7 +270,8 @@ TrigonometricSystem plain_system(const Mechanism& mechanism) {
   return system;
 }
 
-TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
+TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side,
+                                       const std::vector<std::string>& scales) {
   TrigonometricSystem system = plain_system(mechanism);
   system.name += std::string(" ") + to_string(set);
   if (set == SingularitySet::cspace) return system;
@@ -259,13 +290,13 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySe
                            ", so every configuration has a right kernel",
                        "the left kernel");
     }
-    add_kernel(system, mechanism, derivation.phi_q, "Phi_q", side.value_or(KernelSide::left));
+    add_kernel(system, mechanism, derivation.phi_q, "Phi_q", side.value_or(KernelSide::left), scales);
     return system;
   }
   check_chosen(mechanism, equations, set);
   const bool forward = set == SingularitySet::forward;
   add_kernel(system, mechanism, forward ? derivation.l_y : derivation.l_z, forward ? "L_y" : "L_z",
-             side.value_or(KernelSide::right));
+             side.value_or(KernelSide::right), scales);
   return system;
 }
 

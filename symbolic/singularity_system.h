@@ -48,6 +48,7 @@ struct TrigonometricSystem {
   std::vector<Constant> constants;
   std::vector<Coordinate> coordinates;       ///< q
   std::vector<std::string> kernel_unknowns;  ///< xi1 … (renamed where the model uses the name), each in [−1, 1]
+  std::vector<std::string> kernel_scales;    ///< as given to singularity_system
   struct Equation {
     Relation relation;
     std::string source;  ///< "dextar.cuik:17", "row 3 of L_y xi = 0", "norm of xi" …
@@ -59,10 +60,13 @@ struct TrigonometricSystem {
 
 /// The system of a set: Φ(q) = 0 and, for all but cspace, the kernel equations, ‖ξ‖² = 1 and a·ξ ≥ 0 with a fixed generic a
 /// that drops −ξ. Default kernel: right where the matrix is square (forward, inverse), left for Φ_q (cspace-singular).
+/// `scales`: of each kernel unknown, the number by which its column is multiplied (symbolic/kernel_scale.h), a rational number's text; none: all
+/// are 1.
 /// Throws ModelError where inputs or outputs are missing or do not match the mobility n_q − n_e (a redundant mechanism,
 /// non-square L_y or L_z), or a right kernel is asked of the wide Φ_q.
 TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set,
-                                       std::optional<KernelSide> side = std::nullopt);
+                                       std::optional<KernelSide> side = std::nullopt,
+                                       const std::vector<std::string>& scales = {});
 
 /// The equations and inequalities of the model itself, nothing added (a plain system, or C-space).
 TrigonometricSystem plain_system(const Mechanism& mechanism);

@@ -82,7 +82,7 @@ class Checker {
   // What every later step relies on.
   void check_shapes() {
     const std::size_t n = system_.variables.size();
-    if (!(cover_.sigma > 0)) fail(Place::cover, 0, "sigma is no positive number");
+    if (!(cover_.sigma.length > 0 && cover_.sigma.angle > 0)) fail(Place::cover, 0, "sigma is no positive number");
     const auto valid = [&](const CoverBox& b) {
       return b.box.size() == n && bounded(b.box) && b.region >= -1 && b.region < static_cast<int>(cover_.regions.size()) &&
              b.point >= -1 && b.point < static_cast<int>(cover_.exact_points.size()) && b.corank >= -1 &&

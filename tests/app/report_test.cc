@@ -61,7 +61,7 @@ TEST(Report, TakesConstantsAndSigmas) {
   const Outcome outcome = run_corank({"report", model("three_slider"), "--sets", "cspace,forward", "--cspace-sigma", "0.1",
                                       "-D", "L2=1", "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(report::read_result(folder.file("r/cspace.h5")).cover.sigma, 0.1);
+  EXPECT_EQ(report::read_result(folder.file("r/cspace.h5")).cover.sigma, (certify::Sigma{0.1, 0.1}));
   EXPECT_FALSE(std::filesystem::exists(folder.file("r/inverse.h5")));
   EXPECT_NE(read_text(folder.file("r/index.html")).find("L2 = 1"), std::string::npos);
 }

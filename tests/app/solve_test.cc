@@ -76,7 +76,7 @@ TEST(Solve, WritesAResultThatSaysHowItWasMade) {
   EXPECT_EQ(result.model, "three_slider");
   EXPECT_EQ(result.set, "cspace");
   EXPECT_EQ(result.model_text, read_text(slider));
-  EXPECT_EQ(result.options, (report::RunOptions{"", 0.25, 1e-9, 2, 1000000, 20000, 1e6, {{"L2", "1/2"}}}));
+  EXPECT_EQ(result.options, (report::RunOptions{"", {0.25, 0.25}, {}, 1e-9, 2, 1000000, 20000, 1e6, {{"L2", "1/2"}}}));
   EXPECT_EQ(result.version, report::version());
   EXPECT_EQ(result.cover.dimension, 1);
   EXPECT_TRUE(result.cover.complete());

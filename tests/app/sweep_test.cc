@@ -147,7 +147,8 @@ TEST_F(DextarFamily, IsSolvedWhole) {
     for (const std::string& set : kSets) {
       const Result r = result(m, set);
       EXPECT_TRUE(r.cover.complete());
-      EXPECT_EQ(r.cover.sigma, set == "cspace" ? 0.2 : 0.05);
+      const double sigma = set == "cspace" ? 0.2 : 0.05;
+      EXPECT_EQ(r.cover.sigma, (certify::Sigma{sigma, sigma}));
       ASSERT_EQ(r.options.constants.size(), 1u);
       EXPECT_EQ(r.options.constants[0], (report::ConstantOverride{"l2", std::array{"1.6", "1.25", "0.9"}[m]}));
       EXPECT_EQ(r.variables[0].name, "J3x");

@@ -124,18 +124,21 @@ TEST_F(PanelTest, SubtractsItsRowsAndMeasuresItsDistanceFromTheIdentity) {
     const Case c = random_case(random_, [&] { return std::ldexp(real(random_), static_cast<int>(random_() % 20)); });
     panel.set_matrix(c.y, c.r);
     ASSERT_TRUE(panel.assign_product(full_system(c.r, c.n), c.equations, c.sparse));
+    std::vector<double> weights;
+    for (int j = 0; j < c.n; ++j) weights.push_back(std::ldexp(1.0 + std::fabs(real(random_)), j % 7 - 3));
     double largest = 0;
     for (int a = 0; a < c.r; ++a) {
       double sum = 0;
-      for (int b = 0; b < c.r; ++b) sum += (Interval(a == b ? 1.0 : 0.0) - panel.at(a, c.dependent[b])).mag();
-      largest = std::max(largest, sum);
+      for (int b = 0; b < c.r; ++b)
+        sum += weights[c.dependent[b]] * (Interval(a == b ? 1.0 : 0.0) - panel.at(a, c.dependent[b])).mag();
+      largest = std::max(largest, sum / weights[c.dependent[a]]);
       for (const double factor : {real(random_), -0.75, 0.75}) {
         std::vector<Interval> row = c.offset;
         panel.subtract_row(factor, a, row.data());
         for (int j = 0; j < c.n; ++j) ASSERT_EQ(row[j], c.offset[j] - scale(factor, panel.at(a, j))) << trial;
       }
     }
-    ASSERT_EQ(panel.distance_from_identity(c.dependent), largest) << trial;
+    ASSERT_EQ(panel.distance_from_identity(c.dependent, weights), largest) << trial;
   }
 }
 

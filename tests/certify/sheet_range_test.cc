@@ -40,7 +40,7 @@ class SheetRange : public testing::Test {
     return sides;
   }
   std::vector<Interval> shrunk(std::vector<Interval> sides, double width = 0) {
-    shrink_to_faces(*system_, sheet_, p_, width, sides, workspace_);
+    shrink_to_faces(*system_, sheet_, p_, std::vector<double>(sides.size(), width), sides, workspace_);
     return sides;
   }
 
@@ -138,7 +138,7 @@ TEST_F(SheetRange, SaysNothingOfAPointOrWhereTheJacobianMayBeSingular) {
   const Sheet point = newton_prove(root, p, sides.data(), workspace_);
   ASSERT_TRUE(point.proven);
   sides = point.image;
-  shrink_to_faces(root, point, p, 0, sides, workspace_);
+  shrink_to_faces(root, point, p, {0.0}, sides, workspace_);
   EXPECT_EQ(sides, point.image);
 
   const auto near = piece(Interval(0.3, 0.5), Interval(0.4, 0.7));

@@ -31,7 +31,7 @@ using ::testing::HasSubstr;
 const std::vector<std::string> kPoints{"Welding0D", "Serial6RRX60"};
 const std::vector<std::string> kCurves{"FourBars",  "FourBars_extraeq", "Checker3",      "SmartBird",
                                        "Welding1D", "3RPR_sing",        "FiveBars_sing", "simple_sing"};
-const std::vector<std::string> kLarge{"3RPR", "3RPR_full"};
+const std::vector<std::string> kLarge{"3RPR", "3RPR_full", "Dietmeier"};
 
 struct Problem {
   symbolic::Mechanism mechanism;
@@ -44,7 +44,7 @@ Problem read_problem(const fs::path& model) {
   System system = symbolic::algebrize(symbolic::plain_system(mechanism));
   system.coefficient_tolerance = solve::printed_tolerance(system);
   solve::Options options;
-  options.sigma = report::sigma_for(report::read_param(fs::path(model).replace_extension(".param")), system);
+  options.set_sigma(report::sigma_for(report::read_param(fs::path(model).replace_extension(".param")), system));
   options.threads = 0;
   return {std::move(mechanism), std::move(system), std::move(options)};
 }
@@ -105,7 +105,7 @@ TEST_P(KnownCurve, IsProvenToBeOneAlmostEverywhere) {
     const int v = p.system.find(c.name);
     ASSERT_GE(v, 0) << c.name;
     std::size_t wide = 0;
-    for (const CoverBox& b : cover.boxes) wide += b.box[static_cast<std::size_t>(v)].width() > cover.sigma;
+    for (const CoverBox& b : cover.boxes) wide += b.box[static_cast<std::size_t>(v)].width() > cover.sigma.length;
     EXPECT_EQ(wide, 0u) << c.name;
   }
 }
@@ -191,7 +191,7 @@ TEST(KnownAnswers, TheProgramWritesAnIncompleteResultOfALargeProblem) {
   EXPECT_THAT(run.out, HasSubstr("INCOMPLETE"));
   const report::Result result = report::read_result(folder.file("a.h5"));
   expect_valid_incomplete(p.system, result.cover);
-  EXPECT_EQ(result.options.sigma, 0.1);
+  EXPECT_EQ(result.options.sigma, (certify::Sigma{0.1, 0.1}));
   EXPECT_EQ(result.options.time_limit, 0.5);
 }
 
@@ -224,7 +224,7 @@ TEST_P(Dextar, HasTheSameConfigurationsInTheTutorialsFilesAndFromItsModel) {
   const System derived = symbolic::algebrize(symbolic::singularity_system(model, set));
   const Cover theirs = solve::solve(printed.system, printed.options), ours = solve::solve(derived, printed.options);
   EXPECT_TRUE(theirs.complete() && ours.complete());
-  EXPECT_EQ(theirs.sigma, 0.1);
+  EXPECT_EQ(theirs.sigma, (certify::Sigma{0.1, 0.1}));
   EXPECT_EQ(theirs.sigma, ours.sigma);
 
   // ct2 is the model's c_theta2; DextarConfiguration has the model's order.

@@ -33,7 +33,9 @@ TEST(SuiteFiles, EveryParameterFileIsRead) {
   SKIP_WITHOUT_SUITE_FILES();
   const std::vector<fs::path> files = files_with(".param");
   EXPECT_GE(files.size(), 14u);
-  for (const fs::path& path : files) EXPECT_TRUE(report::read_param(path).sigma.has_value()) << path;
+  std::size_t with_sigma = 0;  // those of planners have none
+  for (const fs::path& path : files) EXPECT_NO_THROW(with_sigma += report::read_param(path).sigma.has_value()) << path;
+  EXPECT_GE(with_sigma, 14u);
 }
 
 TEST(SuiteFiles, EveryParameterThatASolutionFileNamesIsKnown) {
@@ -107,7 +109,7 @@ TEST(SuiteFiles, TheCurvesOfSimpleSingAreCovered) {
   if (!fs::exists(model)) GTEST_SKIP() << model << " is not there";
   const certify::System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
   solve::Options options;
-  options.sigma = report::read_param(fs::path(model).replace_extension(".param")).sigma;
+  options.set_sigma(report::read_param(fs::path(model).replace_extension(".param")).sigma);
   const certify::Cover cover = solve::solve(system, options);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.dimension, 1);
@@ -151,7 +153,7 @@ TEST_P(Coverage, NoBoxOfTheSuiteIsMissed) {
   const fs::path model = suite_folder() / folder / (name + ".cuik");
   const certify::System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
   solve::Options options;
-  options.sigma = report::read_param(fs::path(model).replace_extension(".param")).sigma;
+  options.set_sigma(report::read_param(fs::path(model).replace_extension(".param")).sigma);
   options.threads = 0;
   const certify::Cover cover = solve::solve(system, options);
   EXPECT_TRUE(cover.complete());

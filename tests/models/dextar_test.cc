@@ -29,7 +29,7 @@ certify::System dextar(SingularitySet set, std::optional<KernelSide> side = std:
 
 Cover solve_at(const certify::System& system, double sigma) {
   solve::Options options;
-  options.sigma = sigma;
+  options.set_sigma(sigma);
   options.threads = 0;
   return solve::solve(system, options);
 }

@@ -29,7 +29,7 @@ certify::System system_of(const std::string& model_file, SingularitySet set, con
 
 Cover proven(const certify::System& system, std::optional<double> sigma = std::nullopt) {
   solve::Options options;
-  options.sigma = sigma;
+  options.set_sigma(sigma);
   Cover cover = solve::solve(system, options);
   solve::prove_exactly(system, options, cover);
   return cover;
@@ -205,7 +205,7 @@ struct TwiceZero {
     for (const certify::Interval& side : {certify::Interval(-1e-7, 1e-7), certify::Interval(0, 2e-7)})
       cover.boxes.push_back({{side}, Verdict::undecided, {}});
     cover.points = cover.boxes;
-    cover.sigma = 1e-6;
+    cover.sigma = {1e-6, 1e-6};
   }
   test::SystemBuilder builder;
   Cover cover;

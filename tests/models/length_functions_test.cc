@@ -24,7 +24,7 @@ certify::System system_of(const std::string& model) {
 
 Cover solve_with(const certify::System& system, double sigma) {
   solve::Options options;
-  options.sigma = sigma;
+  options.set_sigma(sigma);
   return solve::solve(system, options);
 }
 

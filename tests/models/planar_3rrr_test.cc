@@ -174,7 +174,7 @@ certify::System forward(const char* model, const char* phi0 = nullptr) {
 
 Cover solve_at(const certify::System& system, double sigma, std::uint64_t max_boxes = 0) {
   solve::Options options;
-  options.sigma = sigma;
+  options.set_sigma(sigma);
   options.threads = max_boxes > 0 ? 1 : 0;
   options.max_boxes = max_boxes;
   return solve::solve(system, options);

@@ -29,7 +29,7 @@ certify::System system_of(const Case& c) {
 
 certify::Cover proven(const certify::System& system, double sigma, int threads) {
   solve::Options options;
-  options.sigma = sigma;
+  options.set_sigma(sigma);
   options.threads = threads;
   options.proof = true;
   certify::Cover cover = solve::solve(system, options);
@@ -75,7 +75,7 @@ TEST(RecordedProof, OfDextarsInverseLocusIsAccepted) {
 TEST(RecordedProof, LeavesTheCoverAsItIs) {
   const certify::System system = system_of({"dextar", "", "", SingularitySet::inverse, 0.1});
   solve::Options options;
-  options.sigma = 0.1;
+  options.set_sigma(0.1);
   certify::Cover plain = solve::solve(system, options);
   solve::prove_exactly(system, options, plain);
   const certify::Cover recorded = proven(system, 0.1, 1);

@@ -23,7 +23,7 @@ Result boxes(const std::vector<std::pair<certify::Box, Verdict>>& list) {
   result.variables.resize(3);
   result.configuration_size = 2;
   result.cover.dimension = 1;
-  result.cover.sigma = 1;
+  result.cover.sigma = {1, 1};
   for (const auto& [box, verdict] : list) result.cover.boxes.push_back({box, verdict, {}});
   return result;
 }

@@ -48,6 +48,11 @@ TEST(CuikParam, ComputesExpressionsAsTheSuiteDoes) {
   EXPECT_EQ(parsed("SIGMA = 0.2 SMALL_SIGMA = SIGMA/2").small_sigma, 0.1);
 }
 
+TEST(CuikParam, ChoosesByACondition) {
+  EXPECT_EQ(parsed("SIGMA = (TRUE?1:2)").sigma, 1);
+  EXPECT_EQ(parsed("SIGMA = FALSE ? 1 : 2-1 ? 3 : 4").sigma, 3);
+}
+
 TEST(CuikParam, TheLastValueCounts) { EXPECT_EQ(parsed("SIGMA = 1\nSIGMA = 2").sigma, 2); }
 
 TEST(CuikParam, NamesFileAndLineOfAFault) {

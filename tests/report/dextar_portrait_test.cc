@@ -21,7 +21,7 @@ Result solved(SingularitySet set, const std::string& name, double sigma) {
   static const auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
   const certify::System system = symbolic::algebrize(symbolic::singularity_system(model, set, std::nullopt));
   solve::Options options;
-  options.sigma = sigma;
+  options.set_sigma(sigma);
   Result result;
   result.set = name;
   result.cover = solve::solve(system, options);

@@ -26,7 +26,8 @@ inline Result sample_result() {
   r.model_text = "% a model\n[SYSTEM VARS]\nα : [0, 1]\n";
   r.set = "forward";
   r.system_text = "x = 0;\n";
-  r.options = {"left", 0.1, 1e-6, 2, (std::uint64_t{1} << 53) + 1, 7, 0.1, {{"L2", "4/5"}, {"d", "sqrt(2)"}}};
+  r.options = {
+      "left", {0.1, 0.25}, {"9/5"}, 1e-6, 2, (std::uint64_t{1} << 53) + 1, 7, 0.1, {{"L2", "4/5"}, {"d", "sqrt(2)"}}};
   r.variables = {{"x", VariableKind::length, {-2.0, 2.0}},
                  {"c_t", VariableKind::cosine, {-1.0, 1.0}},
                  {"s_t", VariableKind::sine, {-1.0, 1.0}},
@@ -35,7 +36,8 @@ inline Result sample_result() {
   r.configuration_size = 3;
   r.equations = 4;
   r.inequalities = 1;
-  r.cover.sigma = 0.1;
+  r.cover.sigma = {0.1, 0.25};
+  r.cover.wider_than_sigma = 1;
   r.cover.tolerance = 1e-5;
   r.cover.statistics = {123, 45, 6, 1.5, 1.25, 0.1};
   r.cover.boxes = {sample_box({{-0.0, 0.0}, {0.0, kTiny}, {-kTiny, -0.0}, {-kHuge, kHuge}}, Verdict::regular, {0, 3}),

@@ -45,7 +45,7 @@ Result solved(const std::string& model, const std::string& set, double sigma, st
   result.system_text = symbolic::to_cuik(system);
   describe_system(system, result);
   solve::Options options;
-  options.sigma = sigma;
+  options.set_sigma(sigma);
   options.proof = true;
   result.cover = solve::solve(system, options);
   solve::prove_exactly(system, options, result.cover);
@@ -230,7 +230,10 @@ const std::vector<Tampering>& tamperings() {
          r.system_text = symbolic::to_cuik(system_of(r));
          describe_system(system_of(r), r);
        }},
-      {"another sigma", "two different values of sigma", curve, [](Result& r) { r.options.sigma = 0.01; }},
+      {"another sigma", "two different values of sigma", curve,
+       [](Result& r) {
+         r.options.sigma = {0.01, 0.01};
+       }},
       {"a region shrunk below its image", "its region", curve,
        [](Result& r) {
          CoverBox& box = r.cover.boxes[first(r, Verdict::regular)];

@@ -56,11 +56,11 @@ TEST(Slicer, CoversASphereWithFewBoxes) {
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-1", {}}});
   for (const double sigma : {0.1, 0.05}) {
     Options options;
-    options.sigma = sigma;
+    options.set_sigma(sigma);
     const Cover cover = solve(b.system(), options);
     EXPECT_TRUE(cover.complete());
     EXPECT_EQ(cover.count(Verdict::regular), cover.boxes.size());
-    EXPECT_EQ(cover.wider_than_sigma(), 0u);
+    EXPECT_EQ(cover.wider_than_sigma, 0u);
     EXPECT_LT(static_cast<double>(cover.boxes.size()), 4 * 4 * std::acos(-1.0) / (2 * sigma * sigma)) << sigma;
     for (int i = 0; i < 2000; ++i) {  // a spiral over the sphere
       const double height = -1 + (2.0 * i + 1) / 2000, angle = 2.4 * i, radius = std::sqrt(1 - height * height);
@@ -81,11 +81,11 @@ TEST(Merging, LeavesFewFragmentsOfACurve) {
   const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
   Options options;
-  options.sigma = 0.25;
+  options.set_sigma(0.25);
   const Cover cover = solve(b.system(), options);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.count(Verdict::regular), cover.boxes.size());
-  EXPECT_EQ(cover.wider_than_sigma(), 0u);
+  EXPECT_EQ(cover.wider_than_sigma, 0u);
   // By arcs of slope at most 1, 8·(1/√2)/0.25 = 22.6.
   EXPECT_LE(cover.boxes.size(), 32u);
   for (int i = 0; i < 5000; ++i) {

@@ -24,9 +24,10 @@ TEST(Branching, BisectsArgumentsRatherThanTheirSines) {
   EXPECT_EQ(rule.weights()[s], 0);
   EXPECT_EQ(rule.weights()[t], 1);
   const std::vector<Interval> x{Interval(-0.1, 0.1), Interval(0, 1), Interval(-1, 1)};
-  EXPECT_NE(rule.choose(compiled, x.data(), 0.05), s);
+  const std::vector<double> limits(3, 0.05);
+  EXPECT_NE(rule.choose(compiled, x.data(), limits), s);
   const std::vector<Interval> narrow{Interval(0, 0.01), Interval(0, 0.01), Interval(-1, 1)};
-  EXPECT_EQ(rule.choose(compiled, narrow.data(), 0.05), s);
+  EXPECT_EQ(rule.choose(compiled, narrow.data(), limits), s);
 }
 
 TEST(Preconditioner, InvertsTheDependentColumns) {

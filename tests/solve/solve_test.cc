@@ -200,7 +200,7 @@ TEST(Solve, GivesTheSameSortedResultForAnyNumberOfThreads) {
 TEST(Solve, RecordsTheSameProofForAnyNumberOfThreads) {
   const auto recorded = [](int threads) {
     Options options;
-    options.sigma = 0.05;
+    options.set_sigma(0.05);
     options.threads = threads;
     options.proof = true;
     return solve(torus().system(), options);
@@ -279,12 +279,12 @@ TEST(Solve, EndsWhereRoundingKeepsASheetWide) {
   b.equation({{"9", {{u, 2}}}, {"-16", {}}});
   b.equation({{"1", {{y, 1}}}, {"-1e8", {{u, 1}}}, {"133333333.333", {}}});
   Options options;
-  options.sigma = 3e-9;
+  options.set_sigma(3e-9);
   options.max_boxes = 1000;
   options.time_limit = 20;
   const Cover cover = solve(b.system(), options);
   EXPECT_TRUE(cover.complete());
-  EXPECT_EQ(cover.wider_than_sigma(), cover.boxes.size());
+  EXPECT_EQ(cover.wider_than_sigma, cover.boxes.size());
 }
 
 TEST(Solve, EndsWhereThePivotOfASheetIsTiny) {
@@ -293,7 +293,7 @@ TEST(Solve, EndsWhereThePivotOfASheetIsTiny) {
   const int d = b.variable("d", "-2e10", "2e10"), t = b.variable("t", "-1", "1");
   b.equation({{"1e-10", {{d, 1}}}, {"1", {{t, 2}}}});
   Options options;
-  options.sigma = 1e6;
+  options.set_sigma(1e6);
   options.time_limit = 30;
   const Cover cover = solve(b.system(), options);
   EXPECT_TRUE(cover.complete());
@@ -343,7 +343,7 @@ TEST(Solve, NeverLosesAPlantedSolution) {
       system.equations.push_back(p);
     }
     Options options;
-    options.sigma = 0.05;
+    options.set_sigma(0.05);
     options.max_boxes = 20000;
     const Cover cover = solve(system, options);
     ASSERT_TRUE(covers(cover, root)) << "trial " << trial;

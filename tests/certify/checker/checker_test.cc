@@ -290,7 +290,7 @@ class RootOfTwo : public testing::Test {
     const Interval side(t - 1e-7, t + 1e-7);  // the point is alone within 1/4
     cover_.boxes.push_back({{side, side, {1.2, 1.21}}, Verdict::exact, {}, -1, 0});
     cover_.points = cover_.boxes;
-    cover_.sigma = 0.1;
+    cover_.sigma = {0.1, 0.1};
     cover_.exact_points = {{{number("-1/2"), 0, 1}, 0, 1, {{0, 1}, {0, 1}, {number("1/2"), 1}}, -1, 0.25}};
     cover_.reduction = {{2, 2}};
   }
@@ -364,7 +364,7 @@ class Plane : public testing::Test {
     const Interval all(-1, 1), zero(-1e-9, 1e-9);
     cover_.boxes.push_back({{zero, zero, all, all, all}, Verdict::undecided, {}, -1, 0});
     cover_.points = cover_.boxes;
-    cover_.sigma = 0.1;
+    cover_.sigma = {0.1, 0.1};
     cover_.exact_points = {{{0, 1}, -1, 1, {{0}, {0}, {}, {}, {}}, 2, 0}};
   }
   System system_;

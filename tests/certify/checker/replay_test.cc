@@ -48,7 +48,7 @@ class TwoPoints : public testing::Test {
     const Interval upper(kRoot - 0.1, kRoot + 0.1), lower(-kRoot - 0.1, -kRoot + 0.1);
     cover_.boxes = {{{lower, lower}, Verdict::undecided, {}}, {{upper, upper}, Verdict::undecided, {}}};
     cover_.points = cover_.boxes;
-    cover_.sigma = 0.2;
+    cover_.sigma = {0.2, 0.2};
   }
   Report replayed(Script script) {
     cover_.proof = std::make_shared<const Proof>(std::move(script.proof()));
@@ -220,7 +220,7 @@ TEST(Replay, ShowsNothingWhereAnEliminatedVariablesSideIsAnother) {
 TEST(Replay, ShowsThatASystemHasNoSolution) {
   const System system = plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx*y = 1;\nx^2 + y^2 = 1;\n");
   Cover cover;
-  cover.sigma = 0.1;
+  cover.sigma = {0.1, 0.1};
   cover.proof = std::make_shared<const Proof>(Recorder(system, cover).run());
   const Report report = check(system, cover);
   EXPECT_TRUE(report.verified()) << text(report);
@@ -230,7 +230,7 @@ TEST(Replay, ShowsThatASystemHasNoSolution) {
 TEST(Replay, SearchesAnewWhereALeafGivesNoReason) {
   const System system = plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx*y = 1;\nx^2 + y^2 = 1;\n");
   Cover cover;
-  cover.sigma = 0.1;
+  cover.sigma = {0.1, 0.1};
   cover.proof = std::make_shared<const Proof>(Script(kSquare).add(Step::empty).proof());
   const Report report = check(system, cover);
   EXPECT_TRUE(report.proof.verified) << text(report);

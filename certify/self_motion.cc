@@ -1,0 +1,86 @@
+#include "corank/certify/self_motion.h"
+
+#include <algorithm>
+
+#include "corank/certify/check.h"
+#include "corank/certify/polynomial_algebra.h"
+#include "corank/certify/rounding.h"
+
+namespace corank::certify {
+namespace {
+
+// The first variable of a relation that no other relation mentions; −1: none.
+int own_variable(const std::vector<Polynomial>& relations, std::size_t i) {
+  for (const Monomial& m : relations[i].monomials) {
+    if (m.factors.empty()) continue;
+    const int v = m.factors[0].variable;
+    bool alone = true;
+    for (std::size_t k = 0; k < relations.size(); ++k) alone = alone && (k == i || !mentions(relations[k], v));
+    if (alone) return v;
+  }
+  return -1;
+}
+
+bool is_linear_and_rational(const Polynomial& f) {
+  return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
+    return m.coefficient.is_rational() && m.degree() <= 1 && !m.is_trigonometric();
+  });
+}
+
+}  // namespace
+
+std::optional<SelfMotion> self_motion(const System& system, std::vector<Polynomial> relations, int dimension) {
+  std::vector<Polynomial> rest = system.equations;
+  for (const Polynomial& f : rest)
+    if (std::any_of(f.monomials.begin(), f.monomials.end(), carries_tolerance)) return std::nullopt;
+  for (std::size_t i = 0; i < relations.size(); ++i) {
+    const int v = own_variable(relations, i);
+    if (v < 0 || !is_linear_and_rational(relations[i])) return std::nullopt;
+    const auto value = solved_for(relations[i], v);
+    if (!value) return std::nullopt;
+    for (Polynomial& f : rest) {
+      for (const Monomial& m : f.monomials)  // what substitute() does not take
+        if (m.is_trigonometric() && m.factors[0].variable == v) return std::nullopt;
+      f = substitute(f, v, *value);
+    }
+  }
+  SelfMotion motion{std::move(relations), system, CompiledSystem(System{}), {}};
+  std::vector<int> classes;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (rest[i].monomials.empty()) continue;
+    const bool known = std::any_of(classes.begin(), classes.end(), [&](int g) {
+      return proportional(rest[i], rest[static_cast<std::size_t>(g)]).has_value();
+    });
+    if (!known) classes.push_back(static_cast<int>(i));
+  }
+  const int m = static_cast<int>(system.equations.size());
+  for (std::size_t i = 0; i < motion.relations.size(); ++i) {
+    motion.sufficient.push_back(m + static_cast<int>(i));
+    motion.extended.equations.push_back(motion.relations[i]);
+  }
+  motion.sufficient.insert(motion.sufficient.end(), classes.begin(), classes.end());
+  if (system.size() - static_cast<int>(motion.sufficient.size()) != dimension) return std::nullopt;
+  motion.compiled = CompiledSystem(motion.extended);
+  return motion;
+}
+
+Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, const Preconditioner& e,
+                        const Preconditioner& r, const Interval* x, NewtonWorkspace& w) {
+  CORANK_CHECK(
+      std::is_permutation(r.equations.begin(), r.equations.end(), motion.sufficient.begin(), motion.sufficient.end()));
+  CORANK_CHECK(std::is_permutation(e.dependent.begin(), e.dependent.end(), r.dependent.begin(), r.dependent.end()));
+  CORANK_CHECK(std::all_of(e.equations.begin(), e.equations.end(), [&](int row) { return row < system.equations(); }));
+  // (1): at most one zero of E in its region, which holds every zero of E in x.
+  Sheet sheet = newton_prove(system, e, x, w);
+  if (!sheet.proven) return {};
+  // (2): a zero of {R, g} for every value of the same free variables, inside that region.
+  const Sheet other = newton_prove(motion.compiled, r, sheet.image.data(), w);
+  if (!other.proven) return {};
+  for (std::size_t j = 0; j < sheet.region.size(); ++j)
+    if (!sheet.region[j].contains(other.image[j])) return {};
+  for (const int d : sheet.dependent)  // both hold the one zero
+    CORANK_CHECK(sheet.image[static_cast<std::size_t>(d)].intersect(other.image[static_cast<std::size_t>(d)]));
+  return sheet;
+}
+
+}  // namespace corank::certify

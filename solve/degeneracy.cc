@@ -1,0 +1,161 @@
+#include "corank/solve/degeneracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "corank/solve/points.h"
+#include "corank/solve/preconditioner.h"
+
+namespace corank::solve {
+namespace {
+
+using certify::Box;
+using certify::Interval;
+using certify::Reason;
+
+constexpr double kPointShare = 1e-7, kOtherShare = 1.0 / 400;  // the last of the sizes
+constexpr double kSetShare = 1.0 / 60;                         // the last along a set of degenerate solutions
+constexpr double kIsolatedHull = 8;                            // in box sizes: boxes around one point hardly reach farther
+constexpr std::size_t kProbes = 8;                             // of a cluster
+constexpr int kDirections = 3;
+constexpr double kProbeStep = 0.5;     // in box sizes of the first level
+constexpr double kTolerance = 1e-6;    // of singular values, at the solutions themselves
+constexpr double kDoublesEnd = 1e-11;  // of the typical sizes
+constexpr double kMotionRankTolerance = 1e-6;
+constexpr int kMotionAttempts = 4;             // in a cluster, without success
+constexpr std::size_t kManyBoxes = 400;        // along a set: dividing them makes too many
+constexpr std::size_t kTooManyBoxes = 30'000;  // whatever they are along
+
+// Is there another degenerate solution a step away from this one, in some direction in which solutions may go on?
+bool goes_on(const Problem& problem, const LocalSolution& start, double step, std::mt19937& random) {
+  const auto& system = problem.compiled;
+  const auto exact = local_solution(problem, start.x, kTolerance);
+  const int full = std::min(system.equations(), system.variables());
+  if (!exact || exact->rank >= full) return false;
+  const std::vector<double> basis = kernel_basis(problem, *exact, 100 * kTolerance);
+  const std::size_t n = static_cast<std::size_t>(system.variables()), k = basis.size() / n;
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < kDirections; ++trial) {
+    std::vector<double> direction(n, 0.0), weights(k);
+    double length = 0;
+    for (double& w : weights) w = normal(random), length += w * w;
+    if (length == 0) return false;
+    LocalSolution there = *exact;
+    for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t c = 0; c < k; ++c) direction[j] += weights[c] / std::sqrt(length) * basis[j * k + c];
+      there.x[j] += step * direction[j] * system.scales()[j];
+    }
+    const auto next = local_solution(problem, there.x, kTolerance);
+    if (!next || next->rank >= full) continue;
+    double moved = 0;
+    for (std::size_t j = 0; j < n; ++j) moved = std::max(moved, std::fabs(next->x[j] - exact->x[j]) / system.scales()[j]);
+    if (moved > 0.2 * step && moved < 5 * step) return true;
+  }
+  return false;
+}
+
+bool is_isolated(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster,
+                 double share) {
+  Box hull = boxes[cluster[0]].x;
+  for (const std::size_t i : cluster)
+    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], boxes[i].x[j]);
+  return problem.relative_width(hull.data()) <= kIsolatedHull * share;
+}
+
+bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster,
+                    double share) {
+  std::mt19937 random(1);
+  const std::size_t probes = std::min(kProbes, cluster.size());
+  std::size_t along = 0;
+  for (std::size_t k = 0; k < probes; ++k)
+    along += goes_on(problem, boxes[cluster[k * cluster.size() / probes]].near, kProbeStep * share, random);
+  return 2 * along >= probes;
+}
+
+}  // namespace
+
+bool SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed& box) {
+  const certify::SelfMotion& motion = known_[index].motion;
+  certify::NewtonWorkspace workspace;
+  PreconditionerFactory of_system(problem.compiled), of_motion(motion.compiled);
+  const certify::Preconditioner e = of_system.near_solution(box.x.data(), kMotionRankTolerance);
+  if (e.rank() != static_cast<int>(motion.sufficient.size())) return false;
+  const certify::Preconditioner r = of_motion.at_midpoint(box.x.data(), &e.dependent, &motion.sufficient);
+  if (r.rank() != e.rank()) return false;
+  box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.x.data(), workspace);
+  box.proof.motion = static_cast<int>(index);
+  box.step = e;
+  return box.proof.proven;
+}
+
+bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
+  bool known = false;
+  for (std::size_t k = 0; k < known_.size() && !box.proof.proven; ++k) {
+    if (!holds_at(known_[k].motion, problem, box.near.x)) continue;
+    known = true;
+    prove_on(k, problem, box);
+  }
+  return known;
+}
+
+void SelfMotions::prove_cluster(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
+                                const std::vector<std::size_t>& cluster, double share) {
+  std::mt19937 random(1);
+  int attempts = 0;
+  for (const std::size_t i : cluster) {
+    Postponed& box = boxes[i];
+    if (prove_on_known(problem, box) || attempts >= kMotionAttempts ||
+        !goes_on(problem, box.near, kProbeStep * share, random))
+      continue;
+    ++attempts;
+    MotionCandidate candidate = find_self_motion(problem, system, box.near);
+    if (!candidate.motion) continue;
+    known_.push_back({std::move(*candidate.motion), candidate.dimension});
+    attempts = 0;
+    prove_on(known_.size() - 1, problem, box);
+  }
+}
+
+std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
+                                       double share) {
+  std::vector<Reason> reasons(boxes.size(), Reason::none);
+  std::vector<const Box*> sides;
+  for (const Postponed& box : boxes) sides.push_back(&box.x);
+  const double last = system.dimension() == 0 ? kPointShare : kOtherShare;
+  for (const std::vector<std::size_t>& cluster : clusters(sides, problem.limits(1e-3 * share))) {
+    Reason reason = share < last ? Reason::degenerate_point : Reason::none;
+    if (!is_isolated(problem, boxes, cluster, share)) {
+      reason = Reason::none;
+      const bool along = is_along_a_set(problem, boxes, cluster, share);
+      if (along) prove_cluster(problem, system, boxes, cluster, share);
+      const auto open = static_cast<std::size_t>(
+          std::count_if(cluster.begin(), cluster.end(), [&](std::size_t i) { return !boxes[i].proof.proven; }));
+      // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around a few places may
+      // be divided on.
+      const std::size_t many = along ? kManyBoxes : kTooManyBoxes;
+      if (share < (along ? kSetShare : kOtherShare) || (open > many && 2 * open > cluster.size()))
+        reason = Reason::degenerate_set;
+    }
+    for (const std::size_t i : cluster) {
+      if (!boxes[i].proof.proven) prove_on_known(problem, boxes[i]);
+      const bool at_doubles_end = problem.relative_width(boxes[i].x.data()) < kDoublesEnd || boxes[i].noisy;
+      reasons[i] = reason == Reason::none && at_doubles_end ? Reason::precision : reason;
+    }
+  }
+  return reasons;
+}
+
+std::vector<certify::SelfMotionRecord> SelfMotions::records(const certify::Reduction& reduction) const {
+  std::vector<certify::SelfMotionRecord> result;
+  for (const Known& known : known_) {
+    result.push_back({known.dimension, known.motion.relations});
+    for (certify::Polynomial& f : result.back().relations)
+      for (certify::Monomial& m : f.monomials)
+        for (certify::Factor& factor : m.factors)
+          factor.variable = reduction.kept[static_cast<std::size_t>(factor.variable)];
+  }
+  return result;
+}
+
+}  // namespace corank::solve

@@ -1,0 +1,82 @@
+#include "corank/solve/local_solution.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "corank/certify/rounding.h"
+
+namespace corank::solve {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr int kSteps = 40;  // a double solution is approached by halves
+constexpr double kStill = 1e-11;
+
+// The scaled Jacobian and residual.
+void linearize(const Problem& problem, const std::vector<double>& x, Matrix& a, Vector& b) {
+  const certify::CompiledSystem& system = problem.compiled;
+  std::vector<double> sparse(static_cast<std::size_t>(system.entries()));
+  system.approximate_jacobian(x.data(), sparse.data());
+  a.setZero(system.equations(), system.variables());
+  b.resize(system.equations());
+  for (int i = 0; i < system.equations(); ++i) {
+    const double size = problem.equation_sizes[static_cast<std::size_t>(i)];
+    for (int k = system.row_begin(i); k < system.row_begin(i + 1); ++k) {
+      const int j = system.column(k);
+      a(i, j) = sparse[static_cast<std::size_t>(k)] * system.scales()[static_cast<std::size_t>(j)] / size;
+    }
+    b(i) = system.evaluate_at(i, x.data()).mid() / size;
+  }
+}
+
+}  // namespace
+
+std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance) {
+  const certify::CompiledSystem& system = problem.compiled;
+  const certify::UpwardRounding rounding;
+  LocalSolution result{std::move(start), 0};
+  Matrix a;
+  Vector b;
+  for (int step = 0; step < kSteps; ++step) {
+    linearize(problem, result.x, a, b);
+    if (!a.allFinite() || !b.allFinite()) return std::nullopt;
+    Eigen::CompleteOrthogonalDecomposition<Matrix> qr;
+    qr.setThreshold(tolerance);
+    qr.compute(a);
+    result.rank = static_cast<int>(qr.rank());
+    const Vector shift = qr.solve(-b);
+    const double length = shift.size() > 0 ? shift.lpNorm<Eigen::Infinity>() : 0;
+    if (!std::isfinite(length)) return std::nullopt;
+    // What a direction without rank leaves of the residual is of second order or, at solutions of higher multiplicity, not much less than the
+    // tolerance.
+    const double left = b.size() > 0 ? b.lpNorm<Eigen::Infinity>() : 0;
+    const bool full = result.rank == std::min(a.rows(), a.cols());
+    if (length < std::max(kStill, 0.1 * tolerance) &&
+        left < (full ? std::max(1e-10, 4 * tolerance * tolerance) : 0.1 * tolerance))
+      return result;
+    for (int j = 0; j < system.variables(); ++j)
+      result.x[static_cast<std::size_t>(j)] += shift(j) * system.scales()[static_cast<std::size_t>(j)];
+  }
+  return std::nullopt;
+}
+
+std::vector<double> kernel_basis(const Problem& problem, const LocalSolution& at, double tolerance) {
+  const certify::UpwardRounding rounding;
+  Matrix a;
+  Vector b;
+  linearize(problem, at.x, a, b);
+  const Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullV);
+  const auto n = a.cols();
+  int rank = 0;
+  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k) rank += svd.singularValues()(k) > tolerance;
+  std::vector<double> basis;
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index k = rank; k < n; ++k) basis.push_back(svd.matrixV()(j, k));
+  return basis;
+}
+
+}  // namespace corank::solve

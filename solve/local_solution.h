@@ -1,0 +1,24 @@
+// Where a small box that resists proof lies close to the set, and of which rank the Jacobian is there. Heuristic throughout: it decides what
+// is tried next and what is said about boxes that stay undecided, never what is proven.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "corank/solve/problem.h"
+
+namespace corank::solve {
+
+struct LocalSolution {
+  std::vector<double> x;  ///< n, nearly a solution
+  int rank = 0;  ///< of the scaled Jacobian there: columns times the variables' scales, rows divided by their typical sizes
+};
+
+/// Gauss–Newton steps of minimal norm (in the scales) from a start, in doubles. Singular values below `tolerance` count as 0. Nothing where
+/// they do not converge.
+std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance);
+
+/// An orthonormal basis, in scaled variables, of the kernel of the Jacobian at x: n × (n − rank), row-major.
+std::vector<double> kernel_basis(const Problem& problem, const LocalSolution& at, double tolerance);
+
+}  // namespace corank::solve

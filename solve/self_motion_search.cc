@@ -1,0 +1,240 @@
+#include "corank/solve/self_motion_search.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "corank/certify/refinement.h"
+#include "corank/certify/rounding.h"
+
+namespace corank::solve {
+namespace {
+
+using certify::ExactNumber;
+using certify::Monomial;
+using certify::Polynomial;
+using Matrix = Eigen::MatrixXd;
+
+constexpr double kTolerance = 1e-7;  // of singular values at samples
+constexpr double kStep = 0.15;       // between samples, in typical sizes
+// Doubles find solutions at which the rank drops to a few digits only. What is read off is verified exactly: it may be wrong.
+constexpr int kBits = 128;  // of the arithmetic that makes samples precise
+constexpr double kNullTolerance = 1e-10;
+constexpr double kRelationTolerance = 1e-9;
+constexpr double kPrecision = 1e-11;              // of rational numbers
+constexpr long kDenominators[] = {100, 100'000};  // at most, in turns: an irrational number is near to one with a large one
+
+// p/q with a small q near x; nothing where there is none.
+std::optional<ExactNumber> rational_near(double x, long largest_denominator) {
+  double rest = x;
+  long p0 = 1, q0 = 0, p1 = 0, q1 = 1;
+  for (int step = 0; step < 20; ++step) {
+    if (std::fabs(rest) > 1e9) return std::nullopt;
+    const long a = std::lround(std::floor(rest));
+    const long p2 = a * p0 + p1, q2 = a * q0 + q1;
+    if (std::labs(q2) > largest_denominator || std::labs(p2) > 1'000'000'000L) return std::nullopt;
+    p1 = p0, q1 = q0, p0 = p2, q0 = q2;
+    if (std::fabs(static_cast<double>(p0) / static_cast<double>(q0) - x) <= kPrecision * std::fabs(x))
+      return ExactNumber(p0) / ExactNumber(q0);
+    rest = 1 / (rest - static_cast<double>(a));
+  }
+  return std::nullopt;
+}
+
+// Solutions on the set, one after the other.
+std::vector<LocalSolution> walk(const Problem& problem, const LocalSolution& start, std::size_t count) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<LocalSolution> samples{start};
+  const std::vector<double>& scales = problem.compiled.scales();
+  const std::size_t n = scales.size();
+  std::vector<double> heading(n);
+  for (double& h : heading) h = normal(random);
+  for (std::size_t trial = 0; trial < 4 * count && samples.size() < count; ++trial) {
+    const LocalSolution& here = samples.back();
+    const std::vector<double> basis = kernel_basis(problem, here, 100 * kTolerance);
+    const std::size_t k = basis.size() / n;
+    if (k == 0) break;
+    // The heading's part along the set, and a little of chance.
+    std::vector<double> direction(n, 0.0);
+    for (std::size_t c = 0; c < k; ++c) {
+      double along = 0.3 * normal(random);
+      for (std::size_t j = 0; j < n; ++j) along += basis[j * k + c] * heading[j];
+      for (std::size_t j = 0; j < n; ++j) direction[j] += along * basis[j * k + c];
+    }
+    double length = 0;
+    for (const double d : direction) length += d * d;
+    if (length == 0) continue;
+    LocalSolution there = here;
+    for (std::size_t j = 0; j < n; ++j) {
+      heading[j] = direction[j] / std::sqrt(length);
+      there.x[j] += kStep * heading[j] * scales[j];
+    }
+    const auto next = local_solution(problem, there.x, kTolerance);
+    if (!next || next->rank != start.rank) {
+      for (double& h : heading) h = normal(random);  // another way
+      continue;
+    }
+    samples.push_back(*next);
+  }
+  return samples;
+}
+
+// As many of the samples as relations take, each moved to the set.
+std::vector<LocalSolution> precise(const certify::System& system, const std::vector<LocalSolution>& samples) {
+  const std::size_t wanted = std::min(samples.size(), system.variables.size() + 4);
+  std::vector<LocalSolution> result;
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const LocalSolution& sample = samples[k * samples.size() / wanted];
+    std::vector<ExactNumber> start;
+    for (const double c : sample.x) start.push_back(ExactNumber::dyadic(c));
+    const auto zero = certify::approximate_zero(system, start, kBits);
+    if (!zero) continue;
+    result.push_back({{}, sample.rank});
+    for (const ExactNumber& c : *zero) result.back().x.push_back(c.enclose().mid());
+  }
+  return result;
+}
+
+// Reduced row echelon form of the relations a·(x/scale) + a_0 = 0, the pivots among the variables.
+struct Echelon {
+  Matrix rows;  // q × (n + 1), scaled
+  std::vector<Eigen::Index> pivots;
+};
+
+Echelon relations_of(const Problem& problem, const std::vector<LocalSolution>& samples) {
+  const auto n = static_cast<Eigen::Index>(problem.compiled.variables());
+  Matrix a(static_cast<Eigen::Index>(samples.size()), n + 1);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (Eigen::Index j = 0; j < n; ++j)
+      a(static_cast<Eigen::Index>(i), j) =
+          samples[i].x[static_cast<std::size_t>(j)] / problem.compiled.scales()[static_cast<std::size_t>(j)];
+    a(static_cast<Eigen::Index>(i), n) = 1;
+  }
+  const Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullV);
+  Eigen::Index rank = 0;
+  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
+    rank += svd.singularValues()(k) > kNullTolerance * svd.singularValues()(0);
+  Echelon e{svd.matrixV().rightCols(n + 1 - rank).transpose(), {}};
+  for (Eigen::Index row = 0; row < e.rows.rows(); ++row) {
+    Eigen::Index r = 0, c = 0;
+    const double best = e.rows.block(row, 0, e.rows.rows() - row, n).cwiseAbs().maxCoeff(&r, &c);
+    if (best < kRelationTolerance) {
+      e.rows.conservativeResize(row, n + 1);
+      break;
+    }
+    e.rows.row(row).swap(e.rows.row(row + r));
+    e.rows.row(row) /= e.rows(row, c);
+    for (Eigen::Index other = 0; other < e.rows.rows(); ++other)
+      if (other != row) e.rows.row(other) -= e.rows(other, c) * e.rows.row(row);
+    e.pivots.push_back(c);
+  }
+  return e;
+}
+
+// x_p + Σ a_j x_j + b = 0 with rational numbers; nothing where they are none.
+std::optional<Polynomial> rational_relation(const Problem& problem, const Eigen::RowVectorXd& row, Eigen::Index pivot,
+                                            long largest_denominator) {
+  const std::vector<double>& scales = problem.compiled.scales();
+  const double unit = scales[static_cast<std::size_t>(pivot)];
+  const Eigen::Index n = row.size() - 1;
+  Polynomial f{{}, "self-motion"};
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (std::fabs(row(j)) < kRelationTolerance) continue;
+    const auto a = rational_near(row(j) * unit / scales[static_cast<std::size_t>(j)], largest_denominator);
+    if (!a) return std::nullopt;
+    if (!a->is_zero()) f.monomials.emplace_back(*a, std::vector<certify::Factor>{{static_cast<int>(j), 1}});
+  }
+  if (std::fabs(row(n)) >= kRelationTolerance) {
+    const auto b = rational_near(row(n) * unit, largest_denominator);
+    if (!b) return std::nullopt;
+    f.monomials.emplace_back(*b, std::vector<certify::Factor>{});
+  }
+  return f;
+}
+
+// Variables that are constant with irrational values: x_p = (value of p / value of q) x_q where that ratio is rational.
+std::vector<Polynomial> ratios(const Problem& problem, const Echelon& e, const std::vector<Eigen::Index>& constants,
+                               long largest_denominator) {
+  std::vector<Polynomial> result;
+  const Eigen::Index n = e.rows.cols() - 1;
+  const auto value = [&](Eigen::Index row) {
+    return -e.rows(row, n) * problem.compiled.scales()[static_cast<std::size_t>(e.pivots[static_cast<std::size_t>(row)])];
+  };
+  std::vector<Eigen::Index> bases;
+  for (const Eigen::Index row : constants) {
+    bool tied = false;
+    for (const Eigen::Index base : bases) {
+      const auto ratio = rational_near(value(row) / value(base), largest_denominator);
+      if (!ratio || ratio->is_zero()) continue;
+      const int p = static_cast<int>(e.pivots[static_cast<std::size_t>(row)]),
+                q = static_cast<int>(e.pivots[static_cast<std::size_t>(base)]);
+      Polynomial f{{}, "self-motion"};
+      f.monomials.emplace_back(1, std::vector<certify::Factor>{{p, 1}});
+      f.monomials.emplace_back(-*ratio, std::vector<certify::Factor>{{q, 1}});
+      result.push_back(std::move(f));
+      tied = true;
+      break;
+    }
+    if (!tied) bases.push_back(row);
+  }
+  return result;
+}
+
+std::vector<Polynomial> rational_relations(const Problem& problem, const Echelon& e, long largest_denominator) {
+  std::vector<Polynomial> relations;
+  std::vector<Eigen::Index> constants;
+  for (Eigen::Index row = 0; row < e.rows.rows(); ++row) {
+    const Eigen::Index pivot = e.pivots[static_cast<std::size_t>(row)];
+    if (auto f = rational_relation(problem, e.rows.row(row), pivot, largest_denominator)) {
+      relations.push_back(std::move(*f));
+      continue;
+    }
+    Eigen::RowVectorXd others = e.rows.row(row).head(e.rows.cols() - 1);
+    others(pivot) = 0;
+    if (others.cwiseAbs().maxCoeff() < kRelationTolerance) constants.push_back(row);
+  }
+  for (Polynomial& f : ratios(problem, e, constants, largest_denominator)) relations.push_back(std::move(f));
+  return relations;
+}
+
+}  // namespace
+
+MotionCandidate find_self_motion(const Problem& problem, const certify::System& system, const LocalSolution& from) {
+  MotionCandidate candidate;
+  const auto start = local_solution(problem, from.x, kTolerance);
+  const int n = problem.compiled.variables(), expected = std::max(0, n - problem.compiled.equations());
+  if (!start) return candidate;
+  const int dimension = n - start->rank;
+  if (dimension <= expected) return candidate;
+  const std::vector<LocalSolution> samples = walk(problem, *start, static_cast<std::size_t>(3 * n + 10));
+  if (samples.size() < static_cast<std::size_t>(n + 2)) return candidate;  // a point, or a set that ends too soon
+  candidate.dimension = dimension;
+  const Echelon e = relations_of(problem, precise(system, samples));
+  const certify::UpwardRounding rounding;
+  for (const long largest_denominator : kDenominators) {
+    if (candidate.motion) break;
+    candidate.motion = certify::self_motion(system, rational_relations(problem, e, largest_denominator), dimension);
+  }
+  if (candidate.motion) candidate.motion->compiled.set_scales(problem.compiled.scales());
+  return candidate;
+}
+
+bool holds_at(const certify::SelfMotion& motion, const Problem& problem, const std::vector<double>& x) {
+  const certify::UpwardRounding rounding;
+  for (const Polynomial& f : motion.relations) {
+    double sum = 0, size = 0;
+    for (const Monomial& m : f.monomials) {
+      const double c = m.enclosure.mid();
+      const double scale =
+          m.factors.empty() ? 1 : problem.compiled.scales()[static_cast<std::size_t>(m.factors[0].variable)];
+      sum += c * (m.factors.empty() ? 1 : x[static_cast<std::size_t>(m.factors[0].variable)]);
+      size = std::max(size, std::fabs(c) * scale);
+    }
+    if (std::fabs(sum) > 1e-5 * size) return false;
+  }
+  return true;
+}
+
+}  // namespace corank::solve

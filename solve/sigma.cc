@@ -1,0 +1,72 @@
+#include "corank/solve/sigma.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corank::solve {
+namespace {
+
+using certify::VariableKind;
+
+double share_of_size(int dimension, double tolerance) {
+  constexpr double kCoarse = 1.0 / 20;
+  if (dimension > 0 && tolerance > 0) return kCoarse;
+  switch (dimension) {
+    case 0: return std::clamp(std::sqrt(tolerance), 1e-6, kCoarse);
+    case 1: return 1.0 / 200;
+    case 2: return 1.0 / 60;
+    default: return kCoarse;
+  }
+}
+
+}  // namespace
+
+SigmaClass sigma_class(const certify::Variable& variable) {
+  if (variable.auxiliary) return SigmaClass::none;
+  switch (variable.kind) {
+    case VariableKind::length: return SigmaClass::length;
+    case VariableKind::sine:
+    case VariableKind::cosine: return SigmaClass::angle;
+    case VariableKind::kernel:
+    case VariableKind::auxiliary: break;
+  }
+  return SigmaClass::none;
+}
+
+std::vector<SigmaClass> sigma_classes(const certify::System& system, const certify::Reduction& reduction) {
+  std::vector<SigmaClass> classes;
+  const auto add = [&](int j) { classes.push_back(sigma_class(system.variables[static_cast<std::size_t>(j)])); };
+  for (const int j : reduction.kept) add(j);
+  for (const auto& definition : reduction.definitions) add(definition.variable);
+  return classes;
+}
+
+double sigma_of(const certify::Sigma& sigma, SigmaClass kind) {
+  switch (kind) {
+    case SigmaClass::length: return sigma.length;
+    case SigmaClass::angle: return sigma.angle;
+    case SigmaClass::none: break;
+  }
+  return HUGE_VAL;
+}
+
+certify::Sigma default_sigma(const certify::System& system, const certify::Box& hull, int dimension) {
+  certify::Sigma size;
+  for (std::size_t j = 0; j < hull.size(); ++j) {
+    // A constant, enclosed, has no size.
+    const double width = hull[j].width() > 1e-9 * hull[j].mag() ? hull[j].width() : 0;
+    const SigmaClass kind = sigma_class(system.variables[j]);
+    if (kind == SigmaClass::length) size.length = std::max(size.length, width);
+    if (kind == SigmaClass::angle) size.angle = std::max(size.angle, width);
+  }
+  const auto share = [&](double width) {
+    // Two digits, so that what the user reads is what was used.
+    const double sigma =
+        share_of_size(dimension, system.coefficient_tolerance) * (width > 0 && std::isfinite(width) ? width : 1);
+    const double unit = std::pow(10.0, std::floor(std::log10(sigma)) - 1);
+    return std::round(sigma / unit) * unit;
+  };
+  return {share(size.length), share(size.angle)};
+}
+
+}  // namespace corank::solve

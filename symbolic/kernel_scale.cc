@@ -1,0 +1,112 @@
+#include "corank/symbolic/kernel_scale.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corank/certify/compiled_system.h"
+#include "corank/certify/projection.h"
+#include "corank/certify/rounding.h"
+#include "corank/symbolic/algebrizer.h"
+
+namespace corank::symbolic {
+namespace {
+
+using certify::Interval;
+
+constexpr int kSweeps = 12;
+constexpr int kLargestExponent = 40;
+constexpr double kLengthUnits = 4;  // of the largest size beside angles; measured, see bench/HISTORY.md
+
+// The constraints over the ranges that they leave.
+struct Configurations {
+  certify::CompiledSystem system;
+  std::vector<Interval> box;
+};
+
+Configurations configurations(const certify::System& system) {
+  const certify::UpwardRounding rounding;
+  Configurations result{certify::CompiledSystem(system), {}};
+  for (const certify::Variable& v : system.variables) result.box.push_back(v.domain);
+  std::vector<std::uint8_t> changed(result.box.size());
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    const std::vector<Interval> before = result.box;
+    for (int row = 0; row < result.system.rows(); ++row)
+      if (!certify::project(result.system, row, result.box.data(), 1, changed.data())) return {result.system, before};
+  }
+  return result;
+}
+
+double size_of(const Interval& x) {
+  const double half = 0.5 * x.width();
+  const double size = half > 1e-12 * x.mag() ? half : x.mag();
+  return size > 0 && std::isfinite(size) ? size : 1;
+}
+
+int exponent_of(double ratio) {
+  return std::clamp(static_cast<int>(std::lround(std::log2(ratio))), -kLargestExponent, kLargestExponent);
+}
+
+// Two digits and a power of ten; then a power of two.
+std::string number(double size, int exponent) {
+  const int ten = static_cast<int>(std::floor(std::log10(size))) - 1;
+  const auto digits = std::lround(size / std::pow(10.0, ten));
+  const certify::ExactNumber value =
+      certify::ExactNumber(digits) * pow(certify::ExactNumber(10), ten) * pow(certify::ExactNumber(2), exponent);
+  return value.text();
+}
+
+std::vector<std::string> texts(const std::vector<double>& sizes, double unit) {
+  if (sizes.empty()) return {};
+  double largest = 0;
+  for (const double size : sizes) largest = std::max(largest, size);
+  std::vector<std::string> result;
+  for (const double size : sizes) result.push_back(size == 0 ? "1" : number(unit, exponent_of(size / largest)));
+  if (std::all_of(result.begin(), result.end(), [](const std::string& text) { return text == "1"; })) return {};
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
+  if (set == SingularitySet::cspace) return {};
+  const Derivation derivation = derive(mechanism);
+  const bool left =
+      side.value_or(set == SingularitySet::cspace_singular ? KernelSide::left : KernelSide::right) == KernelSide::left;
+  const Configurations all = configurations(algebrize(plain_system(mechanism)));
+  std::vector<double> scales;  // 0: an angle's
+  if (left) {
+    const certify::UpwardRounding rounding;
+    std::vector<Interval> entries(static_cast<std::size_t>(all.system.entries()));
+    all.system.jacobian(all.box.data(), entries.data());
+    for (int row = 0; row < static_cast<int>(derivation.phi.size()); ++row) {
+      double largest = 0;
+      for (int k = all.system.row_begin(row); k < all.system.row_begin(row + 1); ++k)
+        largest = std::max(largest, entries[static_cast<std::size_t>(k)].mag() *
+                                        size_of(all.box[static_cast<std::size_t>(all.system.column(k))]));
+      scales.push_back(largest > 0 && std::isfinite(largest) ? 1 / largest : 1);
+    }
+    return texts(scales, 1);
+  }
+  const ExpressionMatrix& matrix = set == SingularitySet::forward   ? derivation.l_y
+                                   : set == SingularitySet::inverse ? derivation.l_z
+                                                                    : derivation.phi_q;
+  bool angles = false;
+  double largest = 0;
+  std::size_t variable = 0;
+  std::vector<double> of_columns;
+  for (const Coordinate& coordinate : mechanism.coordinates()) {
+    const bool is_angle = coordinate.kind == CoordinateKind::angle;
+    const bool used = std::find(matrix.columns.begin(), matrix.columns.end(), coordinate.name) != matrix.columns.end();
+    if (used) {
+      of_columns.push_back(is_angle ? 0 : size_of(all.box[variable]));
+      largest = std::max(largest, of_columns.back());
+      angles = angles || is_angle;
+    }
+    variable += is_angle ? 2 : 1;
+  }
+  return texts(of_columns, angles && largest > 0 ? kLengthUnits * largest : 1);
+}
+
+}  // namespace corank::symbolic
