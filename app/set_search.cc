@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "corank/app/exit_status.h"
-#include "corank/app/interrupt.h"
 
 namespace corank::app {
 namespace {
@@ -35,22 +34,29 @@ void SetSearch::add_sets(CLI::App& command) {
           "--sigma", sigma,
           fmt::format("Largest edge of a box in the sets of singularities; default: {:g} for curves, {:g} for surfaces",
                       default_sigma.curve, default_sigma.surface))
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       .add_option("--cspace-sigma", cspace_sigma,
                   fmt::format("The same in C-space; default: {:g} for curves, {:g} for surfaces", default_sigma.curve,
                               default_sigma.cspace_surface))
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
 }
 
 void SetSearch::add_limits(CLI::App& command) {
-  command.add_option("--threads", threads, "Threads; 0: one for each core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command.add_option("--max-boxes", max_boxes, "End each search after so many processed boxes; 0: no limit")
+  limits.add_options(command, "each search");
+  command
+      .add_option("--max-solutions", max_solutions,
+                  fmt::format("End each search after so many proven boxes, or distinct isolated solutions; 0: all; default: {}",
+                              max_solutions > 0 ? std::to_string(max_solutions) : "all"))
+      ->type_name("N")
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--time-limit", time_limit, "End each search after so many seconds; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
+}
+
+solve::Control::Limits SetSearch::limits_beside(const solve::Options& options, std::uint64_t taken) const {
+  solve::Control::Limits result = limits_of(options);
+  result.later_bytes = solve::kPageBytes;
+  if (result.memory > 0) result.memory = result.memory > taken ? result.memory - taken : 1;
+  return result;
 }
 
 solve::Options SetSearch::options(const certify::System& system, SingularitySet set) const {
@@ -59,11 +65,9 @@ solve::Options SetSearch::options(const certify::System& system, SingularitySet 
   options.sigma = asked ? asked : default_for(default_sigma, system, set);
   if (const double least = solve::smallest_sigma(system); options.sigma && *options.sigma < least)
     throw UsageError(fmt::format("{} is below {}, what boxes of doubles resolve here", *options.sigma, least));
-  options.threads = threads;
-  options.max_boxes = max_boxes;
-  options.time_limit = time_limit;
+  limits.apply(options);
+  options.max_solutions = max_solutions;
   options.proof = proof;
-  options.stop = &Interrupt::stop();
   return options;
 }
 

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "corank/app/box_files.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/cuik_param.h"
@@ -24,10 +24,8 @@ namespace {
 struct SolveCommand {
   Question question;
   std::optional<double> sigma, tolerance;
-  int threads = 1;
-  std::uint64_t max_boxes = 0;
+  SearchLimits limits{.threads = 1};
   std::optional<std::uint64_t> max_solutions;
-  double time_limit = 0;
   int digits = 0;
   bool proof = false;
   std::string param_path, result_path;
@@ -37,12 +35,9 @@ struct SolveCommand {
 solve::Options options_of(const SolveCommand& command) {
   solve::Options options;
   options.sigma = command.sigma;
-  options.threads = command.threads;
-  options.max_boxes = command.max_boxes;
+  command.limits.apply(options);
   options.max_solutions = command.max_solutions.value_or(0);
-  options.time_limit = command.time_limit;
   options.proof = command.proof;
-  options.stop = &Interrupt::stop();
   return options;
 }
 
@@ -85,15 +80,16 @@ ExitStatus solve_model(SolveCommand command) {
   check_output(command.json_path.value_or(""));
 
   solve::Options options = options_of(command);
-  report::Result result;
+  const Interrupt interrupt;
+  ProgressLine line;
+  solve::Control control(limits_of(options));
+  line.follow(options, control);
+  const report::Result result = solve_set(command.question, mechanism, set, system, options, control, command.digits);
   {
-    const Interrupt interrupt;
-    ProgressLine line;
-    line.follow(options);
-    result = solve_set(command.question, mechanism, set, system, options, command.digits);
+    const solve::InStage stage(control, solve::Stage::writing);
+    write_file(command.result_path, result);
   }
-
-  write_file(command.result_path, result);
+  line.clear();
   if (command.json_path) {
     const std::string json = report::to_json(result) + "\n";
     if (command.json_path->empty()) {
@@ -103,8 +99,10 @@ ExitStatus solve_model(SolveCommand command) {
     }
   }
   if (!command.json_path || !command.json_path->empty()) fmt::print("{}", report::to_table(result));
-  if (result.cover.complete()) return kDone;
-  fmt::print(stderr, "corank: {}; the result is incomplete\n", Interrupt::stop() ? "interrupted" : "a limit was reached");
+  if (result.cover.complete() && result.stopped.empty()) return kDone;
+  fmt::print(stderr, "corank: {}; {}\n", stopped_words(result),
+             result.cover.complete() ? "the cover is complete, but less is proven of it than could be"
+                                     : "the result is incomplete");
   return kIncomplete;
 }
 
@@ -117,17 +115,6 @@ CLI::Validator tolerance() {
   return {check, ""};
 }
 
-// Finite numbers only: "inf" and "nan" are numbers to the parser of options.
-CLI::Validator finite(bool zero_allowed) {
-  const auto check = [zero_allowed](const std::string& text) -> std::string {
-    double value = 0;
-    const bool good =
-        CLI::detail::lexical_cast(text, value) && std::isfinite(value) && (value > 0 || (zero_allowed && value == 0));
-    return good ? "" : fmt::format("{} is not a {} number", text, zero_allowed ? "non-negative" : "positive");
-  };
-  return {check, ""};
-}
-
 }  // namespace
 
 void add_solve(CLI::App& program, Action& action) {
@@ -136,24 +123,17 @@ void add_solve(CLI::App& program, Action& action) {
   command->question.add_options(*sub);
   sub->add_option("--sigma", command->sigma,
                   "Largest edge that a box may have;\ndefault: 1e-6 for isolated points (sqrt(REL) if larger), else 0.1")
-      ->check(finite(false));
+      ->check(positive_number());
   sub->add_option("--tolerance", command->tolerance,
                   "Take the coefficients that are no integers within so much of their size, each on its own; 0: exact;\n"
                   "default: 1e-6 for a plain system with more equations than variables, else 0")
       ->type_name("REL")
       ->check(tolerance());
-  sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  sub->add_option("--max-boxes", command->max_boxes, "End the search after so many processed boxes; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
+  command->limits.add_options(*sub, "the search");
   sub->add_option("--max-solutions", command->max_solutions,
                   "End the search after so many proven boxes, or distinct isolated solutions; 0: all")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("--time-limit", command->time_limit, "End the search after so many seconds; 0: no limit")
-      ->type_name("SECONDS")
-      ->check(finite(true));
   sub->add_option("--digits", command->digits,
                   "Isolated points with so many proven digits after the point; 0: only what boxes of doubles show")
       ->type_name("N")

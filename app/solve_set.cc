@@ -1,8 +1,12 @@
 #include "corank/app/solve_set.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <set>
 
 #include "corank/solve/exactness.h"
+#include "corank/symbolic/model_error.h"
 #include "corank/symbolic/printer.h"
 
 namespace corank::app {
@@ -28,19 +32,51 @@ void mark_auxiliary(const symbolic::Mechanism& mechanism, report::Result& result
   }
 }
 
+certify::Reduction reduced(const certify::System& system, solve::Control& control) {
+  const solve::InStage stage(control, solve::Stage::reduction);
+  return certify::reduce(system, [&control] { return control.ended(); });
+}
+
+// A sigma that was asked for is checked where it was.
+void check_default_sigma(const symbolic::Mechanism& mechanism, const certify::System& system,
+                         const certify::Reduction& reduction, const solve::Options& options) {
+  const double least = solve::smallest_sigma(system), sigma = solve::default_sigma(system, reduction);
+  if (options.sigma || sigma >= least) return;
+  const auto wider = [](const certify::Variable& a, const certify::Variable& b) { return a.domain.mag() < b.domain.mag(); };
+  const auto widest = std::max_element(system.variables.begin(), system.variables.end(), wider);
+  const int coordinate = mechanism.find_coordinate(widest->name);
+  throw symbolic::ModelError(
+      coordinate < 0 ? symbolic::SourceLocation{mechanism.name(), 0, 0}
+                     : mechanism.coordinates()[static_cast<std::size_t>(coordinate)].where,
+      fmt::format("the range of {} reaches {:g}, where boxes of doubles are wider than the default sigma {:g}", widest->name,
+                  widest->domain.mag(), sigma),
+      fmt::format("a narrower range, or --sigma of at least {:g}", least));
+}
+
 }  // namespace
+
+std::string stopped_words(const report::Result& result) {
+  return "stopped by " + (result.stopped.empty() ? "a limit" : result.stopped);
+}
 
 report::Result solve_set(const Question& question, const symbolic::Mechanism& mechanism,
                          std::optional<symbolic::SingularitySet> set, const certify::System& system,
-                         const solve::Options& options, int digits) {
+                         const solve::Options& options, solve::Control& control, int digits) {
+  const certify::Reduction reduction = reduced(system, control);
+  check_default_sigma(mechanism, system, reduction, options);
+  solve::Options governed = options;
+  governed.control = &control;
+  governed.reduction = &reduction;
+  governed.max_boxes = 0;  // the control's
   report::Result result;
   result.model = mechanism.name();
   result.model_text = mechanism.source_text();
   result.set = set ? to_string(*set) : "system";
   result.system_text = symbolic::to_cuik(system);
-  result.cover = solve::solve(system, options);
-  solve::prove_exactly(system, options, result.cover);
-  if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover);
+  result.cover = solve::solve(system, governed);
+  solve::prove_exactly(system, governed, result.cover);
+  if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover, governed);
+  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   report::describe_system(system, result);
   mark_auxiliary(mechanism, result);
   result.options = {kernel_of(question, set), result.cover.sigma,    system.coefficient_tolerance, options.threads,

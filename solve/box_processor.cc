@@ -28,7 +28,7 @@ constexpr double kRegularCutShare = 1.0 / 8;
 BoxProcessor::BoxProcessor(const Problem& problem, Recorder* recorder)
     : problem_(problem),
       recorder_(recorder),
-      preconditioners_(problem.compiled),
+      preconditioners_(problem.compiled, problem.ended),
       slicer_(problem, preconditioners_, workspace_, recorder) {
   changed_.resize(problem.compiled.variables());
   pending_rows_.resize(problem.compiled.rows());
@@ -185,6 +185,10 @@ BoxProcessor::Outcome BoxProcessor::process(Interval* x) {
   ++statistics_.processed;
   if (!contract(x)) {
     if (recorder_) recorder_->leaf_empty();
+    return Outcome::done;
+  }
+  if (preconditioners_.over()) {  // the search ends
+    leave(x);
     return Outcome::done;
   }
   if (worth_proving_ && certify(x, Proof::full)) return Outcome::done;

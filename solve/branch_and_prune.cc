@@ -14,12 +14,14 @@
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "corank/certify/check.h"
 #include "corank/certify/rounding.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/distinct_solutions.h"
 #include "corank/solve/gathering.h"
+#include "corank/solve/memory.h"
 #include "corank/solve/merging.h"
 #include "corank/solve/points.h"
 #include "corank/solve/recorder.h"
@@ -38,16 +40,23 @@ class Search {
  public:
   Search(const certify::Reduction& reduction, const Options& options, double sigma)
       : options_(options),
+        control_(*options.control),
         problem_(reduction, sigma,
                  [this] {
                    report(false);
                    count_found(workers_.local());
                    return limit_reached();
                  }),
-        workers_([this] { return Worker(problem_, options_.proof ? ++recorders_ : 0); }),
+        workers_([this] {
+          keep(memory_.of_thread());
+          return Worker(problem_, options_.proof ? ++recorders_ : 0);
+        }),
+        memory_(reduction, control_.limits().later_bytes),
         threads_(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()),
         allow_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
         arena_(threads_) {}
+
+  ~Search() { control_.keep(-kept_); }
 
   // Runs f where its parallel parts have the threads that the options allow.
   template <class F>
@@ -94,7 +103,9 @@ class Search {
     std::iota(nodes.begin(), nodes.end(), NodeId{0});
     return std::make_shared<const certify::Proof>(Recorder::assemble(recorders, roots_, nodes, place));
   }
-  void merge(std::vector<Found*>& found) const { merge_regular(problem_, found); }
+  void merge(std::vector<Found*>& found) const {
+    merge_regular(problem_, found, [this] { return control_.ended(); });
+  }
   certify::Statistics statistics() {
     certify::Statistics sum;
     for (Worker& w : workers_) {
@@ -130,7 +141,8 @@ class Search {
         : recorder(number > 0 ? std::make_unique<Recorder>(number) : nullptr), processor(problem, recorder.get()) {}
     std::unique_ptr<Recorder> recorder;
     BoxProcessor processor;
-    std::size_t counted = 0;  // of processor.found()
+    std::size_t counted = 0, weighed = 0;  // of processor.found()
+    std::uint64_t recorded = 0;            // bytes of the recorder
   };
 
   // The boxes to search, in the variables that are kept, within the domain.
@@ -160,15 +172,33 @@ class Search {
 
   bool limit_reached() {
     if (ended_.load(std::memory_order_relaxed)) return true;
-    const bool over = (options_.stop && options_.stop->load(std::memory_order_relaxed)) ||
-                      (options_.max_boxes && processed_.load(std::memory_order_relaxed) >= options_.max_boxes) ||
-                      (options_.time_limit > 0 && seconds() >= options_.time_limit);
+    const bool over = control_.search_ended() ||
+                      (options_.max_boxes && processed_.load(std::memory_order_relaxed) >= options_.max_boxes);
     if (over) ended_ = true;
     return over;
   }
 
+  void keep(std::int64_t bytes) {
+    kept_.fetch_add(bytes, std::memory_order_relaxed);
+    control_.keep(bytes);
+  }
+  // Counts what this thread has kept since the last call.
+  void weigh(Worker& worker) {
+    if (control_.limits().memory == 0) return;
+    std::int64_t bytes = 0;
+    for (const auto& found = worker.processor.found(); worker.weighed < found.size(); ++worker.weighed)
+      bytes += memory_.of(found[worker.weighed], worker.weighed > 0 ? &found[worker.weighed - 1] : nullptr);
+    if (worker.recorder) {
+      const std::uint64_t recorded = worker.recorder->bytes();
+      bytes += memory_.of_script(recorded - worker.recorded);
+      worker.recorded = recorded;
+    }
+    if (bytes > 0) keep(bytes);
+  }
+
   // Counts what this thread has found since the last call: for the progress, and towards max_solutions.
   void count_found(Worker& worker) {
+    weigh(worker);
     if (!options_.progress && options_.max_solutions == 0) return;
     const std::vector<Found>& found = worker.processor.found();
     for (; worker.counted < found.size(); ++worker.counted) {
@@ -181,13 +211,14 @@ class Search {
       } else {
         ++pieces_;
       }
-      if (pieces_ + isolated_.count() >= options_.max_solutions) ended_ = true;
+      if (pieces_ + isolated_.count() < options_.max_solutions) continue;
+      if (!ended_.exchange(true)) control_.note(Limit::solutions);
     }
   }
 
   // Counts a box that is about to be processed; false: there is to be none.
   bool count_one() {
-    if (limit_reached()) return false;
+    if (limit_reached() || !control_.count_box()) return false;
     const std::uint64_t before = processed_.fetch_add(1, std::memory_order_relaxed);
     if (options_.progress && before % 64 == 0) report(false);
     return true;
@@ -198,7 +229,12 @@ class Search {
     Worker& worker = workers_.local();
     BoxProcessor& processor = worker.processor;
     std::vector<Interval> x(problem_.compiled.variables());
+    std::int64_t listed = 0;
     while (!list.empty()) {
+      if (control_.limits().memory > 0) {
+        const std::int64_t now = memory_.of_waiting(list.size());
+        keep(now - std::exchange(listed, now));
+      }
       if (!count_one()) break;
       const NodeId node = list.node();
       const double share = list.pop(x.data());
@@ -226,6 +262,7 @@ class Search {
       count_found(worker);
       if (busy_.load(std::memory_order_relaxed) < threads_ && threads_ > 1 && list.size() > 1) spawn(list.split_off());
     }
+    keep(-listed);
     while (!list.empty()) {
       const NodeId node = list.node();
       list.pop(x.data());
@@ -235,8 +272,11 @@ class Search {
   }
 
   const Options& options_;
+  Control& control_;
+  std::atomic<std::int64_t> kept_{0};  // bytes that this search has told the control of
   Problem problem_;
   tbb::enumerable_thread_specific<Worker> workers_;
+  MemoryEstimate memory_;
   int threads_;
   tbb::global_control allow_;
   tbb::task_arena arena_;
@@ -255,6 +295,11 @@ class Search {
   Clock::time_point start_ = Clock::now();
 };
 
+certify::Reduction reduced(const certify::System& system, Control& control) {
+  const InStage stage(control, Stage::reduction);
+  return certify::reduce(system, [&control] { return control.ended(); });
+}
+
 std::string format(double x) {
   std::ostringstream text;
   text << x;
@@ -263,11 +308,20 @@ std::string format(double x) {
 
 }  // namespace
 
-double default_sigma(const certify::System& system) {
+Control::Limits limits_of(const Options& options) {
+  return {.time = options.time_limit,
+          .boxes = options.max_boxes,
+          .memory = options.memory_limit,
+          .stop = options.stop};
+}
+
+double default_sigma(const certify::System& system) { return default_sigma(system, certify::reduce(system)); }
+
+double default_sigma(const certify::System& system, const certify::Reduction& reduction) {
   // An over-determined system with a tolerance may have a set of any dimension.
   const bool over_determined = system.equations.size() > system.variables.size() && system.coefficient_tolerance > 0;
   constexpr double kCurves = 0.1, kPoints = 1e-6;
-  if (over_determined || certify::reduce(system).system.dimension() > 0) return kCurves;
+  if (over_determined || reduction.system.dimension() > 0) return kCurves;
   return std::clamp(std::sqrt(system.coefficient_tolerance), kPoints, kCurves);
 }
 
@@ -282,15 +336,35 @@ double smallest_sigma(const certify::System& system) {
   return (system.dimension() == 0 ? 1e-16 : 1e-10) * largest;
 }
 
-Cover solve(const certify::System& system, const Options& options) {
-  const double sigma = options.sigma ? *options.sigma : default_sigma(system);
+Cover solve(const certify::System& system, const Options& given) {
+  if (!given.control) {
+    Control control(limits_of(given));
+    Options options = given;
+    options.control = &control;
+    options.max_boxes = 0;  // the control's
+    return solve(system, options);
+  }
+  Control& control = *given.control;
+  if (!given.reduction) {
+    system.validate();
+    const certify::Reduction reduction = reduced(system, control);
+    Options options = given;
+    options.reduction = &reduction;
+    return solve(system, options);
+  }
+  const Options& options = given;
+  const certify::Reduction& reduction = *options.reduction;
+  const double sigma = options.sigma ? *options.sigma : default_sigma(system, reduction);
   if (!(sigma > 0) || !std::isfinite(sigma)) throw std::invalid_argument("sigma must be a positive number");
   if (const double least = smallest_sigma(system); sigma < least)
     throw std::invalid_argument("sigma is below " + format(least) + ", what boxes of doubles resolve in this domain");
 
-  const certify::Reduction reduction = certify::reduce(system);
+  const certify::Ended overdue = [&control] { return control.overdue(); };
   Search search(reduction, options, sigma);
-  if (reduction.consistent) search.run(reduction);
+  if (reduction.consistent) {
+    const InStage stage(control, Stage::search);
+    search.run(reduction);
+  }
 
   Cover cover;
   cover.dimension = reduction.system.dimension();
@@ -310,10 +384,12 @@ Cover solve(const certify::System& system, const Options& options) {
     const certify::UpwardRounding rounding;  // and subnormal numbers stay
     sort(found);
     if (cover.dimension == 0) {
-      merge_isolated(found);
+      const InStage stage(control, Stage::points);
+      merge_isolated(found, overdue);
       cover.regions = number_regions(reduction, found);
-      cover.points = collect_points(found, sigma);
+      cover.points = collect_points(found, sigma, overdue);
     } else {
+      const InStage stage(control, Stage::merging);
       const std::size_t before = found.size();
       search.merge(found);
       if (found.size() < before) sort(found);  // merged boxes have other sides

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "corank/certify/cover.h"
+#include "corank/certify/reduction.h"
 #include "corank/certify/system.h"
+#include "corank/solve/control.h"
 
 namespace corank::solve {
 
@@ -31,7 +33,8 @@ struct Options {
   /// so far tell them apart. A sheet that is being cut, and other threads, may add a few more: no proof is thrown away. What
   /// is not processed then is `pending`, as with the other limits. With one thread the result is always the same.
   std::uint64_t max_solutions = 0;
-  double time_limit = 0;  ///< seconds; 0: no limit
+  double time_limit = 0;           ///< seconds; 0: no limit
+  std::uint64_t memory_limit = 0;  ///< stop when the boxes found, and what is to be made of them, take more bytes; 0: no limit
   /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a tolerance have none.
   bool proof = false;
   /// Where given: search these boxes, in all variables, instead of the whole domain; the cover is of their solutions.
@@ -41,12 +44,22 @@ struct Options {
   double progress_interval = 0.1;
   /// Where set by another thread or a signal handler, the search ends soon with a valid, incomplete cover.
   const std::atomic<bool>* stop = nullptr;
+  /// Where given: it ends this search and whatever else it is given to; it takes the place of time_limit, memory_limit and stop, and max_boxes are those
+  /// of this search alone.
+  Control* control = nullptr;
+  /// Where given: certify::reduce(system), which is then not made again.
+  const certify::Reduction* reduction = nullptr;
 };
+
+/// What the options say of when to end.
+Control::Limits limits_of(const Options& options);
 
 /// 1e-6 for a set of dimension 0 (after certify::reduce), and no less than the square root of the coefficient tolerance: so far apart may two solutions
 /// be that merge for some choice of the coefficients. Else, and for over-determined systems with a tolerance, 0.1 (the CUIK
 /// suite's default).
 double default_sigma(const certify::System& system);
+/// The same where certify::reduce(system) is known.
+double default_sigma(const certify::System& system, const certify::Reduction& reduction);
 
 /// The coefficient tolerance (System::coefficient_tolerance) to take for a system as somebody printed it: 1e-6 where it has more
 /// equations than variables, since rounded decimals make redundant equations inconsistent; else 0, exact. Not for systems
