@@ -238,7 +238,7 @@ TEST(Interrupt, EndsTheSearchWithAReadableIncompleteResult) {
     program.signal(signal);
     const Outcome outcome = program.finish();
     EXPECT_EQ(outcome.status, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("corank: interrupted; the result is incomplete"));
+    EXPECT_THAT(outcome.err, HasSubstr("corank: stopped by an interrupt, in the stage search; the result is incomplete"));
     const json summary = json::parse(outcome.out);
     EXPECT_EQ(summary["complete"], false);
     const report::Result result = report::read_result(folder.file("r.h5"));
@@ -268,7 +268,7 @@ TEST(Progress, SaysWhatIsDoneAndLeftOnATerminalAndIsWipedOut) {
   program.signal(SIGINT);
   const Outcome outcome = program.finish();
   EXPECT_THAT(outcome.err, testing::ContainsRegex("[0-9]+ done, [0-9]+ left, [0-9.]+ % excluded"));
-  EXPECT_THAT(outcome.err, HasSubstr("\r\x1b[Kcorank: interrupted"));
+  EXPECT_THAT(outcome.err, HasSubstr("\r\x1b[Kcorank: stopped by an interrupt"));
 }
 
 }  // namespace
