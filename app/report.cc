@@ -43,10 +43,15 @@ report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism
                          std::uint64_t taken) {
   const std::vector<std::string>& sets = command.search.sets;
   const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(sets[index]);
+  solve::Options limits;
+  command.search.limits.apply(limits);
+  solve::Control control(command.search.limits_beside(limits, taken));
+  std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
   const certify::System system = algebrize(singularity_system(mechanism, set));
+  control.ended();  // notes the stage
+  stage.reset();
   solve::Options options = command.search.options(system, set);
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
-  solve::Control control(command.search.limits_beside(options, taken));
   line.follow(options, control);
   return solve_set(command.question, mechanism, set, system, options, control, kDigits);
 }

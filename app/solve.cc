@@ -60,13 +60,9 @@ void write_file(const std::string& path, const report::Result& result) {
   }
 }
 
-ExitStatus solve_model(SolveCommand command) {
-  // `--json FILE` without another file: CLI11 took the model for the path of the summary.
-  if (command.question.file.empty() && command.json_path && !command.json_path->empty()) {
-    command.question.file.swap(*command.json_path);
-  }
-  const symbolic::Mechanism mechanism = load(command.question);
-  const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
+// The system of the set, and what else the options have to say about it.
+certify::System system_to_solve(SolveCommand& command, const symbolic::Mechanism& mechanism,
+                                std::optional<symbolic::SingularitySet> set) {
   certify::System system = symbolic::algebrize(system_of(command.question, mechanism, set));
   system.coefficient_tolerance = command.tolerance.value_or(set ? 0 : solve::printed_tolerance(system));
   apply_parameters(command, system);
@@ -76,20 +72,10 @@ ExitStatus solve_model(SolveCommand command) {
     throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
   if (command.proof && system.coefficient_tolerance > 0)
     throw UsageError("--proof: there is none for coefficients with a tolerance; --tolerance 0 takes them as exact");
-  check_output(command.result_path);
-  check_output(command.json_path.value_or(""));
+  return system;
+}
 
-  solve::Options options = options_of(command);
-  const Interrupt interrupt;
-  ProgressLine line;
-  solve::Control control(limits_of(options));
-  line.follow(options, control);
-  const report::Result result = solve_set(command.question, mechanism, set, system, options, control, command.digits);
-  {
-    const solve::InStage stage(control, solve::Stage::writing);
-    write_file(command.result_path, result);
-  }
-  line.clear();
+ExitStatus say(const SolveCommand& command, const report::Result& result) {
   if (command.json_path) {
     const std::string json = report::to_json(result) + "\n";
     if (command.json_path->empty()) {
@@ -104,6 +90,32 @@ ExitStatus solve_model(SolveCommand command) {
              result.cover.complete() ? "the cover is complete, but less is proven of it than could be"
                                      : "the result is incomplete");
   return kIncomplete;
+}
+
+ExitStatus solve_model(SolveCommand command) {
+  // `--json FILE` without another file: CLI11 took the model for the path of the summary.
+  if (command.question.file.empty() && command.json_path && !command.json_path->empty()) {
+    command.question.file.swap(*command.json_path);
+  }
+  solve::Control control(limits_of(options_of(command)));  // reading the model takes its time, too
+  std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
+  const symbolic::Mechanism mechanism = load(command.question);
+  const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
+  const certify::System system = system_to_solve(command, mechanism, set);
+  check_output(command.result_path);
+  check_output(command.json_path.value_or(""));
+  control.ended();  // notes the stage
+
+  solve::Options options = options_of(command);
+  const Interrupt interrupt;
+  ProgressLine line;
+  line.follow(options, control);
+  stage.reset();
+  const report::Result result = solve_set(command.question, mechanism, set, system, options, control, command.digits);
+  stage.emplace(control, solve::Stage::writing);
+  write_file(command.result_path, result);
+  line.clear();
+  return say(command, result);
 }
 
 CLI::Validator tolerance() {

@@ -30,7 +30,7 @@ TEST(Limits, AreNamedByTheTableTheSummaryTheFileAndTheMessage) {
   const TemporaryFolder folder;
   const std::string file = folder.file("r.h5");
   const Words solve{"solve", model("dextar"), "--set", "cspace", "--sigma", "0.05", "-o", file};
-  for (const Limited& limited : {Limited{{"--time-limit", "1e-9"}, "the time limit, in the stage reduction"},
+  for (const Limited& limited : {Limited{{"--time-limit", "1e-9"}, "the time limit, in the stage model"},
                                  Limited{{"--max-boxes", "20"}, "the box limit, in the stage search"},
                                  Limited{{"--max-solutions", "20"}, "the solution limit, in the stage search"},
                                  Limited{{"--memory-limit", "1M"}, "the memory limit, in the stage search"}}) {
