@@ -39,7 +39,8 @@ void ProgressLine::show(const solve::Control::Progress& progress) {
 void ProgressLine::show(const solve::Progress& progress) {
   if (!visible_) return;
   std::string line = task_.empty() ? "" : task_ + ": ";
-  line += fmt::format("search: {} done, {} left, {:.1f} % excluded", progress.processed, progress.waiting, 100 * progress.excluded);
+  line += fmt::format("search: {} done, {} left, {:.1f} % excluded", progress.processed, progress.waiting,
+                      100 * progress.excluded);
   for (std::size_t v = 0; v < progress.verdicts.size(); ++v) {
     if (progress.verdicts[v] == 0) continue;
     line += fmt::format(", {} {}", progress.verdicts[v], certify::to_string(static_cast<certify::Verdict>(v)));

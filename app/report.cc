@@ -164,7 +164,8 @@ void add_report(CLI::App& program, Action& action) {
   sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-report")
       ->type_name("FOLDER");
   sub->footer(
-      "Each search ends after 10 seconds or 200000 boxes unless other limits are given, so that there is a page within a minute; it\n"
+      "Each search ends after 10 seconds or 200000 boxes unless other limits are given, so that there is a page within a "
+      "minute; it\n"
       "says which sets are incomplete.\n\n"
       "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Example:\n  corank report models/dextar.cuik -o dextar");

@@ -1,4 +1,5 @@
-// What ends a search, as options of the command line, and the checks of numbers there: the same for every subcommand that has them.
+// What ends a search, as options of the command line, and the checks of numbers there: the same for every subcommand that
+// has them.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -45,9 +45,10 @@ void SetSearch::add_sets(CLI::App& command) {
 void SetSearch::add_limits(CLI::App& command) {
   limits.add_options(command, "each search");
   command
-      .add_option("--max-solutions", max_solutions,
-                  fmt::format("End each search after so many proven boxes, or distinct isolated solutions; 0: all; default: {}",
-                              max_solutions > 0 ? std::to_string(max_solutions) : "all"))
+      .add_option(
+          "--max-solutions", max_solutions,
+          fmt::format("End each search after so many proven boxes, or distinct isolated solutions; 0: all; default: {}",
+                      max_solutions > 0 ? std::to_string(max_solutions) : "all"))
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
 }

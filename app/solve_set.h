@@ -8,9 +8,10 @@
 
 namespace corank::app {
 
-/// Solves the system of a set (nothing: of a plain system), proves exactly what can be, and returns all that a result file holds. `control`, made of the
-/// options' limits, ends it; what was not done by then is pending or undecided, and Result::stopped says so. Throws ModelError where the default sigma is
-/// smaller than boxes of doubles resolve in the model's ranges.
+/// Solves the system of a set (nothing: of a plain system), proves exactly what can be, and returns all that a result file
+/// holds. `control`, made of the options' limits, ends it; what was not done by then is pending or undecided, and
+/// Result::stopped says so. Throws ModelError where the default sigma is smaller than boxes of doubles resolve in the
+/// model's ranges.
 /// `digits`: isolated points get so many proven digits after the point; 0: none.
 report::Result solve_set(const Question& question, const symbolic::Mechanism& mechanism,
                          std::optional<symbolic::SingularitySet> set, const certify::System& system,

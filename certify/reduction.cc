@@ -429,7 +429,8 @@ bool Reducer::eliminate_image() {
 bool Reducer::shorten() {
   if (!may_add()) return false;
   auto& rows = system_.equations;
-  // Only a row that shares a product with another can shorten it (the constant alone is too little, but for a row that is nothing else).
+  // Only a row that shares a product with another can shorten it (the constant alone is too little, but for a row that is
+  // nothing else).
   std::map<std::vector<int>, std::vector<std::size_t>> with_product;
   std::vector<Products> products;
   for (std::size_t i = 0; i < rows.size(); ++i) {

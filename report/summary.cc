@@ -102,7 +102,8 @@ std::string points_table(const Result& result) {
     text += fmt::format("  {}\n", row.back());
   }
   if (const std::size_t shown = rows.size() - 1; shown < result.cover.points.size())
-    text += fmt::format("  and {} more, which the result file and the JSON summary hold\n", result.cover.points.size() - shown);
+    text +=
+        fmt::format("  and {} more, which the result file and the JSON summary hold\n", result.cover.points.size() - shown);
   return text;
 }
 

@@ -15,8 +15,8 @@ std::string outward_text(const certify::Interval& x, int digits);
 /// radians, bounds rounded outward).
 std::string to_table(const Result& result);
 
-/// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, stopped (null, or by what and
-/// in which stage), boxes{processed,
+/// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, stopped (null, or by
+/// what and in which stage), boxes{processed,
 /// regular, isolated, exact, boundary, partial, undecided, pending}, points, kernel, seconds{total, search, certify}, version.
 /// `points` is null where the dimension is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns
 /// as they are, angles in radians in place of their sines and cosines. `kernel` is null where its dimension is not known, else

@@ -55,8 +55,8 @@ std::size_t BoxTree::build(std::size_t begin, std::size_t end) {
   return node;
 }
 
-// A node all of whose boxes are one group stays so, and need not be entered for a box of that group: boxes that all overlap each other
-// cost no more than others.
+// A node all of whose boxes are one group stays so, and need not be entered for a box of that group: boxes that all overlap
+// each other cost no more than others.
 class BoxTree::Grouping {
  public:
   Grouping(const BoxTree& tree, double gap) : tree_(tree), gap_(gap), sets_(tree.size()), is_one_(tree.nodes_.size(), 0) {}
@@ -71,7 +71,8 @@ class BoxTree::Grouping {
     if (is_one_[node] && of(tree_.order_[n.begin]) == of(i)) return;
     if (n.right == 0) {
       for (std::size_t k = n.begin; k < n.end; ++k)
-        if (const std::size_t other = tree_.order_[k]; of(other) != of(i) && tree_.overlap(tree_.boxes_[other]->data(), x, gap_))
+        if (const std::size_t other = tree_.order_[k];
+            of(other) != of(i) && tree_.overlap(tree_.boxes_[other]->data(), x, gap_))
           sets_.union_set(other, i);
     } else {
       walk(node + 1, i, x);

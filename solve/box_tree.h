@@ -1,5 +1,5 @@
-// Boxes in a tree of bounding boxes: which of many boxes overlap a given one, and which hang together, in a time that is near-linear in
-// their number.
+// Boxes in a tree of bounding boxes: which of many boxes overlap a given one, and which hang together, in a time that is
+// near-linear in their number.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,9 @@ class BoxTree {
     if (!nodes_.empty()) walk(0, x, gap, visit);
   }
 
-  /// The connected groups of the boxes, two being connected where they overlap when widened by gap: the number of each box's group, numbered from 0 by their
-  /// first boxes. Once `ended` is true the groups are those found so far, parts of the true ones.
+  /// The connected groups of the boxes, two being connected where they overlap when widened by gap: the number of each box's
+  /// group, numbered from 0 by their first boxes. Once `ended` is true the groups are those found so far, parts of the true
+  /// ones.
   std::vector<std::size_t> groups(double gap, const certify::Ended& ended) const;
 
  private:
@@ -70,8 +71,7 @@ class GrowingBoxTree {
   void add(const certify::Box& box);
   template <class Visit>
   void for_each_overlapping(const certify::Box& x, Visit visit) const {
-    for (const Part& part : parts_)
-      part.tree.for_each_overlapping(x, 0.0, [&](std::size_t k) { visit(part.first + k); });
+    for (const Part& part : parts_) part.tree.for_each_overlapping(x, 0.0, [&](std::size_t k) { visit(part.first + k); });
   }
 
  private:

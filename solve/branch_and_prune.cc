@@ -172,8 +172,8 @@ class Search {
 
   bool limit_reached() {
     if (ended_.load(std::memory_order_relaxed)) return true;
-    const bool over = control_.search_ended() ||
-                      (options_.max_boxes && processed_.load(std::memory_order_relaxed) >= options_.max_boxes);
+    const bool over =
+        control_.search_ended() || (options_.max_boxes && processed_.load(std::memory_order_relaxed) >= options_.max_boxes);
     if (over) ended_ = true;
     return over;
   }
@@ -309,10 +309,7 @@ std::string format(double x) {
 }  // namespace
 
 Control::Limits limits_of(const Options& options) {
-  return {.time = options.time_limit,
-          .boxes = options.max_boxes,
-          .memory = options.memory_limit,
-          .stop = options.stop};
+  return {.time = options.time_limit, .boxes = options.max_boxes, .memory = options.memory_limit, .stop = options.stop};
 }
 
 double default_sigma(const certify::System& system) { return default_sigma(system, certify::reduce(system)); }

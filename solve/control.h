@@ -1,4 +1,5 @@
-// What may end a run before its end, and where the run is: one value for all that is done for one result, passed down through its stages.
+// What may end a run before its end, and where the run is: one value for all that is done for one result, passed down
+// through its stages.
 #pragma once
 
 #include <atomic>
@@ -12,7 +13,19 @@
 namespace corank::solve {
 
 /// What is being done, in its order.
-enum class Stage : std::uint8_t { model, reduction, search, merging, points, exact, kernel, decimals, writing, figures, page };
+enum class Stage : std::uint8_t {
+  model,
+  reduction,
+  search,
+  merging,
+  points,
+  exact,
+  kernel,
+  decimals,
+  writing,
+  figures,
+  page
+};
 /// "reduction", "exact points" … for people.
 const char* to_string(Stage stage);
 
@@ -32,7 +45,8 @@ std::string to_string(const Ending& ending);
 /// The bytes that a cover takes, with what is made of its boxes later.
 std::uint64_t bytes_of(const certify::Cover& cover, std::uint64_t later_bytes);
 
-/// The bytes that writing takes for a side of a box, beyond those of the cover: in a result file, or on a page with its pictures as well.
+/// The bytes that writing takes for a side of a box, beyond those of the cover: in a result file, or on a page with its
+/// pictures as well.
 inline constexpr std::uint64_t kFileBytes = 17, kPageBytes = 64;
 
 class Control {
@@ -94,7 +108,8 @@ class Control {
   std::atomic<std::int64_t> kept_{0};
 };
 
-/// For its life the control is in the stage. Stages within a stage keep its name: a search in the exact stage is the exact stage.
+/// For its life the control is in the stage. Stages within a stage keep its name: a search in the exact stage is the exact
+/// stage.
 class InStage {
  public:
   InStage(Control& control, Stage stage);

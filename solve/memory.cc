@@ -8,7 +8,7 @@ namespace {
 
 using certify::Interval;
 
-constexpr std::int64_t kBlock = 16;                        // of an allocation's own
+constexpr std::int64_t kBlock = 16;                            // of an allocation's own
 constexpr std::int64_t kSortedBytes = 2 * 6 * sizeof(double);  // pointers and keys, twice while they are sorted
 
 template <class T>
@@ -27,7 +27,8 @@ MemoryEstimate::MemoryEstimate(const certify::Reduction& reduction, std::uint64_
          static_cast<std::int64_t>(later_bytes) * sides;
   region_ = 2 * own + bytes<certify::Box>(2) + 3 * kBlock + static_cast<std::int64_t>(kFileBytes) * sides;
   // Its region and image; a point of the cover beside the box.
-  sheet_ = bytes<certify::Sheet>(1) + bytes<Interval>(2 * n) + bytes<int>(2 * m) + 5 * kBlock + bytes<certify::CoverBox>(1) + own;
+  sheet_ =
+      bytes<certify::Sheet>(1) + bytes<Interval>(2 * n) + bytes<int>(2 * m) + 5 * kBlock + bytes<certify::CoverBox>(1) + own;
   // The tableau, Y (three times) and Y·S.
   waiting_ = bytes<Interval>(n) + bytes<double>(1) + bytes<NodeId>(1);
   thread_ = bytes<double>(m * n + 3 * m * m) + bytes<Interval>(m * n);

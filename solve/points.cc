@@ -82,8 +82,7 @@ void merge_isolated(std::vector<Found*>& found, const certify::Ended& ended) {
 
 std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::Box*>& boxes, double gap,
                                                const certify::Ended& ended) {
-  const std::vector<std::size_t> group =
-      BoxTree(boxes, boxes.empty() ? 0 : boxes[0]->size()).groups(gap, ended);
+  const std::vector<std::size_t> group = BoxTree(boxes, boxes.empty() ? 0 : boxes[0]->size()).groups(gap, ended);
   std::vector<std::vector<std::size_t>> result;
   for (std::size_t i = 0; i < group.size(); ++i) {
     if (group[i] == result.size()) result.emplace_back();
@@ -92,8 +91,7 @@ std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::
   return result;
 }
 
-std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, double gap,
-                                              const certify::Ended& ended) {
+std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, double gap, const certify::Ended& ended) {
   const auto open = indices(found, [](const Found& f) { return !is_proven(f) && f.box.verdict != Verdict::pending; });
   std::vector<const certify::Box*> open_sides;
   for (const std::size_t i : open) open_sides.push_back(&found[i]->box.box);

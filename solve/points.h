@@ -9,8 +9,8 @@
 namespace corank::solve {
 
 /// Removes every isolated box that holds the same solution as another (certify::compare_isolated) and every undecided box that holds
-/// nothing but a proven solution. Where identity cannot be decided, the boxes lose their verdict: both become undecided. So does each box that
-/// is not compared with all others once `ended` is true.
+/// nothing but a proven solution. Where identity cannot be decided, the boxes lose their verdict: both become undecided. So
+/// does each box that is not compared with all others once `ended` is true.
 void merge_isolated(std::vector<Found*>& found, const certify::Ended& ended = {});
 
 /// The connected groups of the boxes whose sides overlap when widened by gap; each as its indices, ascending; in the order of their first.
@@ -19,8 +19,8 @@ std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::
                                                const certify::Ended& ended = {});
 
 /// The distinct solutions: each isolated or boundary box, and the hull of each cluster of undecided boxes that are no farther apart
-/// than gap, pending ones left out (the hull is no claim, so the gap is free to choose). Where `ended` is true before the clusters are known, all undecided
-/// boxes are one.
+/// than gap, pending ones left out (the hull is no claim, so the gap is free to choose). Where `ended` is true before the
+/// clusters are known, all undecided boxes are one.
 std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, double gap,
                                               const certify::Ended& ended = {});
 

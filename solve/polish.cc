@@ -76,8 +76,8 @@ class LeastSquares : public Ipopt::TNLP {
         }
     return all_finite(values, n * (n + 1) / 2);
   }
-  bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number, Number, Number, Number, Index,
-                             const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+  bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number, Number, Number, Number,
+                             Index, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
     return !certify::is_over(ended_);
   }
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*, const Number*, Index, const Number*,

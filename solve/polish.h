@@ -10,8 +10,8 @@
 
 namespace corank::solve {
 
-/// A local minimum of ½‖F(x)‖² over the box, each side widened by half its width, from its midpoint. Nothing where Ipopt fails. Ends with
-/// the point that it has once `ended` is true.
+/// A local minimum of ½‖F(x)‖² over the box, each side widened by half its width, from its midpoint. Nothing where Ipopt
+/// fails. Ends with the point that it has once `ended` is true.
 std::optional<std::vector<double>> polish(const certify::System& system, const certify::Box& box,
                                           const certify::Ended& ended = {});
 

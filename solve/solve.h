@@ -33,8 +33,9 @@ struct Options {
   /// so far tell them apart. A sheet that is being cut, and other threads, may add a few more: no proof is thrown away. What
   /// is not processed then is `pending`, as with the other limits. With one thread the result is always the same.
   std::uint64_t max_solutions = 0;
-  double time_limit = 0;           ///< seconds; 0: no limit
-  std::uint64_t memory_limit = 0;  ///< stop when the boxes found, and what is to be made of them, take more bytes; 0: no limit
+  double time_limit = 0;  ///< seconds; 0: no limit
+  std::uint64_t memory_limit =
+      0;  ///< stop when the boxes found, and what is to be made of them, take more bytes; 0: no limit
   /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a tolerance have none.
   bool proof = false;
   /// Where given: search these boxes, in all variables, instead of the whole domain; the cover is of their solutions.
@@ -44,8 +45,8 @@ struct Options {
   double progress_interval = 0.1;
   /// Where set by another thread or a signal handler, the search ends soon with a valid, incomplete cover.
   const std::atomic<bool>* stop = nullptr;
-  /// Where given: it ends this search and whatever else it is given to; it takes the place of time_limit, memory_limit and stop, and max_boxes are those
-  /// of this search alone.
+  /// Where given: it ends this search and whatever else it is given to; it takes the place of time_limit, memory_limit and
+  /// stop, and max_boxes are those of this search alone.
   Control* control = nullptr;
   /// Where given: certify::reduce(system), which is then not made again.
   const certify::Reduction* reduction = nullptr;

@@ -52,8 +52,8 @@ TEST(Limits, AreNamedByTheTableTheSummaryTheFileAndTheMessage) {
 }
 
 TEST(Limits, ThatDoNotBiteLeaveNoTrace) {
-  const Outcome outcome = run_corank({"solve", model("three_slider"), "--set", "forward", "--time-limit", "1000", "--max-boxes",
-                                      "1000000", "--memory-limit", "8G", "--json"});
+  const Outcome outcome = run_corank({"solve", model("three_slider"), "--set", "forward", "--time-limit", "1000",
+                                      "--max-boxes", "1000000", "--memory-limit", "8G", "--json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(json::parse(outcome.out)["stopped"].is_null());
 }
@@ -82,7 +82,8 @@ TEST(Figures, AreLeftOutAfterAnInterrupt) {
   report::Result result;
   result.set = "cspace";
   report::describe_system(algebrize(singularity_system(mechanism, symbolic::SingularitySet::cspace)), result);
-  result.cover.boxes.push_back({certify::Box(result.variables.size(), certify::Interval(0, 1)), certify::Verdict::pending, {}});
+  result.cover.boxes.push_back(
+      {certify::Box(result.variables.size(), certify::Interval(0, 1)), certify::Verdict::pending, {}});
   std::atomic<bool> stop{false};
   const Figures all = write_figures(folder.file(""), mechanism, {result}, stop);
   EXPECT_FALSE(all.stopped);
@@ -95,8 +96,8 @@ TEST(Figures, AreLeftOutAfterAnInterrupt) {
 
 TEST(Ranges, ThatDoublesCannotResolveAreRefusedWithTheirLine) {
   const TemporaryFolder folder;
-  const std::string huge =
-      folder.write("huge.cuik", "[SYSTEM VARS]\nx : [-1, 1]\ny : [-1e300, 1e300]\n[SYSTEM EQS]\nx*y = 1;\nx - 1e300*y = 0;\n");
+  const std::string huge = folder.write(
+      "huge.cuik", "[SYSTEM VARS]\nx : [-1, 1]\ny : [-1e300, 1e300]\n[SYSTEM EQS]\nx*y = 1;\nx - 1e300*y = 0;\n");
   const Outcome outcome = run_corank({"solve", huge});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("huge.cuik:3:1: the range of y reaches 1e+300"));
@@ -138,8 +139,13 @@ INSTANTIATE_TEST_SUITE_P(
         Hard{"slow_iso8.cuik", {"--sigma", "0.1"}, 0, "2 points: 1 boundary, 1 undecided", ""},
         Hard{"verify_slow.cuik", {}, 0, "1 point: 1 exact", ""},
         // A reduction that would make such numbers.
-        Hard{"slow_over3.cuik", {"--tolerance", "0", "--sigma", "0.1", "--max-boxes", "2000"}, 3, "(2000 processed)", "the box limit"},
-        // A sphere of undecided boxes where points are expected: a quarter of a million, in one cluster but for what is pending between them.
+        Hard{"slow_over3.cuik",
+             {"--tolerance", "0", "--sigma", "0.1", "--max-boxes", "2000"},
+             3,
+             "(2000 processed)",
+             "the box limit"},
+        // A sphere of undecided boxes where points are expected: a quarter of a million, in one cluster but for what is
+        // pending between them.
         Hard{"shell3.cuik", {"--sigma", "0.002", "--max-boxes", "700000"}, 3, "points: ", "the box limit"},
         // 3,000 variables.
         Hard{"manyvars.cuik", {}, 0, "1 point: 1 isolated", ""},

@@ -73,7 +73,8 @@ TEST(Reduction, IsGivenUpAsAWholeOnceItIsToEnd) {
 }
 
 TEST(Reduction, LeavesLongNumbersAlone) {
-  // The second equation less twice the first is y = 1 in this case; with a coefficient of 1 + 10^−700 it is not worth the arithmetic.
+  // The second equation less twice the first is y = 1 in this case; with a coefficient of 1 + 10^−700 it is not worth the
+  // arithmetic.
   const auto steps = [](const std::string& coefficient) {
     SystemBuilder b;
     const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-2", "2");

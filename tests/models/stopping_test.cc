@@ -1,4 +1,5 @@
-// Every stage of a run ends where a clock that nobody waits for says so, with a cover whose claims the independent checker accepts.
+// Every stage of a run ends where a clock that nobody waits for says so, with a cover whose claims the independent checker
+// accepts.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -63,7 +64,8 @@ struct Outcome {
   int questions = 0;  // asked in the stage
 };
 
-// All that `corank solve --digits 20 --proof` does (no proof of curves: to check it takes long), with k answers of "not yet" in the stage.
+// All that `corank solve --digits 20 --proof` does (no proof of curves: to check it takes long), with k answers of "not yet"
+// in the stage.
 Outcome run(const certify::System& system, const Question& question, Stage stage, int k, int threads) {
   FakeClock clock(stage, k);
   Control control({.time = 1, .clock = [&clock] { return clock(); }});
@@ -96,7 +98,8 @@ void expect_honest(const Question& question, const certify::System& system, cons
   constexpr double kRounding = 1e-7;
   if (question.set == SingularitySet::forward) {
     for (const double y : {-1.0, 1.0}) {
-      EXPECT_TRUE(lookup.holds(std::vector<double>{y, -y, 0}, kRounding) && lookup.holds(std::vector<double>{y, y, 0}, kRounding));
+      EXPECT_TRUE(lookup.holds(std::vector<double>{y, -y, 0}, kRounding) &&
+                  lookup.holds(std::vector<double>{y, y, 0}, kRounding));
       EXPECT_TRUE(lookup.holds(std::vector<double>{0, 0, y}, kRounding));
     }
   } else {
@@ -127,8 +130,8 @@ TEST_P(Stopping, EndsTheStageWithAnHonestCover) {
 }
 
 std::string name_of(const testing::TestParamInfo<Stopping::ParamType>& info) {
-  std::string name = std::string(std::get<0>(info.param).constant ? "points_" : "curves_") + to_string(std::get<1>(info.param)) +
-                     "_" + std::to_string(std::get<2>(info.param));
+  std::string name = std::string(std::get<0>(info.param).constant ? "points_" : "curves_") +
+                     to_string(std::get<1>(info.param)) + "_" + std::to_string(std::get<2>(info.param));
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }

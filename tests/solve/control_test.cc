@@ -159,9 +159,7 @@ TEST_F(MachineMemory, KnowsTheFirstVersionOfControlGroups) {
   EXPECT_EQ(memory(), 2000000u);
 }
 
-TEST_F(MachineMemory, IsNothingWhereNothingIsKnown) {
-  EXPECT_EQ(machine_memory(folder_ / "none", folder_ / "none"), 0u);
-}
+TEST_F(MachineMemory, IsNothingWhereNothingIsKnown) { EXPECT_EQ(machine_memory(folder_ / "none", folder_ / "none"), 0u); }
 
 }  // namespace
 }  // namespace corank::solve
