@@ -36,6 +36,12 @@ void SearchLimits::add_options(CLI::App& command, const std::string& search) {
                               default_text(static_cast<double>(max_boxes))))
       ->check(CLI::NonNegativeNumber);
   command
+      .add_option("--max-found", max_found,
+                  fmt::format("End {} after so many found boxes, proven or undecided; 0: no limit; default: {}", search,
+                              max_found > 0 ? std::to_string(max_found) : "none"))
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
+  command
       .add_option("--time-limit", time_limit,
                   fmt::format("End {}, and what follows it, after so many seconds; 0: no limit; default: {}", search,
                               default_text(time_limit)))
@@ -53,6 +59,7 @@ void SearchLimits::add_options(CLI::App& command, const std::string& search) {
 void SearchLimits::apply(solve::Options& options) const {
   options.threads = threads;
   options.max_boxes = max_boxes;
+  options.max_found = max_found;
   options.time_limit = time_limit;
   options.memory_limit = memory_limit.value_or(solve::machine_memory() / 4 * 3);
   options.stop = &Interrupt::stop();

@@ -12,11 +12,11 @@ namespace corank::app {
 
 struct SearchLimits {
   int threads = 0;
-  std::uint64_t max_boxes = 0;
+  std::uint64_t max_boxes = 0, max_found = 0;
   double time_limit = 0;
   std::optional<std::uint64_t> memory_limit{};  ///< bytes; nothing: three quarters of what the machine grants
 
-  /// --threads, --max-boxes, --time-limit, --memory-limit. `search`: "the search" or "each search".
+  /// --threads, --max-boxes, --max-found, --time-limit, --memory-limit. `search`: "the search" or "each search".
   void add_options(CLI::App& command, const std::string& search);
   /// Puts them and the interrupt's flag into the options.
   void apply(solve::Options& options) const;

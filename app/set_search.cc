@@ -42,16 +42,7 @@ void SetSearch::add_sets(CLI::App& command) {
       ->check(positive_number());
 }
 
-void SetSearch::add_limits(CLI::App& command) {
-  limits.add_options(command, "each search");
-  command
-      .add_option(
-          "--max-solutions", max_solutions,
-          fmt::format("End each search after so many proven boxes, or distinct isolated solutions; 0: all; default: {}",
-                      max_solutions > 0 ? std::to_string(max_solutions) : "all"))
-      ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
-}
+void SetSearch::add_limits(CLI::App& command) { limits.add_options(command, "each search"); }
 
 solve::Control::Limits SetSearch::limits_beside(const solve::Options& options, std::uint64_t taken) const {
   solve::Control::Limits result = limits_of(options);
@@ -67,7 +58,6 @@ solve::Options SetSearch::options(const certify::System& system, SingularitySet 
   if (const double least = solve::smallest_sigma(system); options.sigma && *options.sigma < least)
     throw UsageError(fmt::format("{} is below {}, what boxes of doubles resolve here", *options.sigma, least));
   limits.apply(options);
-  options.max_solutions = max_solutions;
   options.proof = proof;
   return options;
 }

@@ -19,12 +19,11 @@ struct SetSearch {
   std::vector<std::string> sets;
   std::optional<double> sigma{}, cspace_sigma{};
   SearchLimits limits{};
-  std::uint64_t max_solutions = 0;
   bool proof = false;
 
   /// --sets, --sigma, --cspace-sigma.
   void add_sets(CLI::App& command);
-  /// --threads, --max-boxes, --max-solutions, --time-limit, --memory-limit.
+  /// Those of SearchLimits.
   void add_limits(CLI::App& command);
 
   /// For the system of a set, without progress. Throws UsageError where sigma is smaller than boxes of doubles resolve.

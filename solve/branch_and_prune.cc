@@ -178,6 +178,9 @@ class Search {
     return over;
   }
 
+  void end(Limit by) {
+    if (!ended_.exchange(true)) control_.note(by);
+  }
   void keep(std::int64_t bytes) {
     kept_.fetch_add(bytes, std::memory_order_relaxed);
     control_.keep(bytes);
@@ -199,11 +202,12 @@ class Search {
   // Counts what this thread has found since the last call: for the progress, and towards max_solutions.
   void count_found(Worker& worker) {
     weigh(worker);
-    if (!options_.progress && options_.max_solutions == 0) return;
+    if (!options_.progress && options_.max_solutions == 0 && options_.max_found == 0) return;
     const std::vector<Found>& found = worker.processor.found();
     for (; worker.counted < found.size(); ++worker.counted) {
       const Found& f = found[worker.counted];
       ++verdicts_[static_cast<int>(f.box.verdict)];
+      if (++found_ == options_.max_found) end(Limit::found);
       if (options_.max_solutions == 0 || f.box.verdict == Verdict::undecided || f.box.verdict == Verdict::pending) continue;
       const std::lock_guard lock(solutions_mutex_);
       if (f.sheet) {
@@ -212,7 +216,7 @@ class Search {
         ++pieces_;
       }
       if (pieces_ + isolated_.count() < options_.max_solutions) continue;
-      if (!ended_.exchange(true)) control_.note(Limit::solutions);
+      end(Limit::solutions);
     }
   }
 
@@ -284,7 +288,7 @@ class Search {
   std::vector<certify::Box> roots_;
   std::atomic<int> busy_{0}, recorders_{0};
   std::atomic<bool> ended_{false};
-  std::atomic<std::uint64_t> processed_{0}, waiting_{0};
+  std::atomic<std::uint64_t> processed_{0}, waiting_{0}, found_{0};
   std::atomic<double> done_share_{0};
   std::array<std::atomic<std::uint64_t>, certify::kVerdicts> verdicts_{};
   std::mutex solutions_mutex_;

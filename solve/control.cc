@@ -40,6 +40,7 @@ const char* to_string(Limit limit) {
     case Limit::time: return "the time limit";
     case Limit::interrupt: return "an interrupt";
     case Limit::boxes: return "the box limit";
+    case Limit::found: return "the limit of boxes found";
     case Limit::solutions: return "the solution limit";
     case Limit::memory: return "the memory limit";
   }

@@ -30,7 +30,7 @@ enum class Stage : std::uint8_t {
 const char* to_string(Stage stage);
 
 /// What ended a run early. Time and interrupt end every stage; the others end searches only.
-enum class Limit : std::uint8_t { time, interrupt, boxes, solutions, memory };
+enum class Limit : std::uint8_t { time, interrupt, boxes, found, solutions, memory };
 /// "the time limit", "an interrupt" …
 const char* to_string(Limit limit);
 

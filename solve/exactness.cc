@@ -72,7 +72,7 @@ class Prover {
   Prover(const System& system, const Options& options, Cover& cover)
       : system_(system), cover_(cover), options_(options), reduction_(*options.reduction) {
     options_.progress = nullptr;
-    options_.max_boxes = options_.max_solutions = 0;
+    options_.max_boxes = options_.max_found = options_.max_solutions = 0;
     options_.sigma = cover.sigma;
   }
 

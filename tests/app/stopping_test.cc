@@ -32,6 +32,7 @@ TEST(Limits, AreNamedByTheTableTheSummaryTheFileAndTheMessage) {
   const Words solve{"solve", model("dextar"), "--set", "cspace", "--sigma", "0.05", "-o", file};
   for (const Limited& limited : {Limited{{"--time-limit", "1e-9"}, "the time limit, in the stage model"},
                                  Limited{{"--max-boxes", "20"}, "the box limit, in the stage search"},
+                                 Limited{{"--max-found", "20"}, "the limit of boxes found, in the stage search"},
                                  Limited{{"--max-solutions", "20"}, "the solution limit, in the stage search"},
                                  Limited{{"--memory-limit", "1M"}, "the memory limit, in the stage search"}}) {
     SCOPED_TRACE(limited.stopped);
@@ -71,8 +72,8 @@ TEST(Limits, ThatEndAReportAreOnItsPage) {
 TEST(Limits, OfAReportAreInItsHelp) {
   const std::string help = run_corank({"report", "--help"}).out;
   EXPECT_THAT(help, HasSubstr("--time-limit SECONDS"));
-  EXPECT_THAT(help, HasSubstr("default: 10"));
-  EXPECT_THAT(help, HasSubstr("default: 200000"));
+  EXPECT_THAT(help, HasSubstr("default: 8"));
+  EXPECT_THAT(help, HasSubstr("default: 150000"));
   EXPECT_THAT(help, HasSubstr("within a minute"));
 }
 

@@ -93,7 +93,7 @@ TEST(Usage, IsRefusedWithStatus2AndOneLine) {
       {{"report", slider, "--cspace-sigma", "inf"}, "--cspace-sigma"},
       {{"report", slider, "--time-limit", "inf"}, "--time-limit"},
       {{"report", slider, "--memory-limit", "8X"}, "--memory-limit"},
-      {{"report", slider, "--max-solutions", "-1"}, "--max-solutions"},
+      {{"report", slider, "--max-found", "-1"}, "--max-found"},
       {{"sweep", slider, "-D", "L2=0.5:1:2", "--sigma", "nan"}, "--sigma"},
       {{"sweep", slider, "-D", "L2=0.5:1:2", "--time-limit", "-1"}, "--time-limit"},
       {{"solve", slider, "--set", "forward", "-D", "L2"}, "NAME=EXPR"},
