@@ -5,14 +5,13 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 
 #include "corank/certify/check.h"
 #include "corank/certify/cover.h"
 #include "corank/certify/domain.h"
-#include "corank/certify/exact_number_node.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/rounding.h"
+#include "corank/certify/shortening.h"
 
 namespace corank::certify {
 namespace {
@@ -30,72 +29,6 @@ bool is_affine(const Polynomial& f) {
   return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
     return m.factors.empty() || (m.factors.size() == 1 && m.factors[0].power == 1 && !m.is_trigonometric());
   });
-}
-
-bool has_long_number(const Polynomial& f) {
-  constexpr std::size_t kMostBits = 2000;
-  return std::any_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
-    const mpq_class& q = m.coefficient.node().value;
-    return std::max(mpz_sizeinbase(q.get_num_mpz_t(), 2), mpz_sizeinbase(q.get_den_mpz_t(), 2)) > kMostBits;
-  });
-}
-
-// The rational number q that leaves f + q·g with the fewest terms, and how many fewer than f has. Irrational coefficients
-// count only where they cancel as expressions: else a 0 that nothing recognizes would stay.
-struct Shortening {
-  ExactNumber factor;
-  std::ptrdiff_t saved = 0;
-};
-Shortening best_shortening(const Polynomial& f, const Polynomial& g) {
-  struct Candidate {
-    ExactNumber factor;
-    std::ptrdiff_t cancelled;
-  };
-  std::vector<Candidate> candidates;
-  std::vector<std::pair<const ExactNumber*, const ExactNumber*>> irrational;
-  std::ptrdiff_t common = 0;
-  for (const Monomial& b : g.monomials)
-    common += std::any_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) { return m.factors == b.factors; });
-  const auto added = static_cast<std::ptrdiff_t>(g.monomials.size()) - common;
-  if (common <= added) return {};  // however many of them cancel
-  for (const Monomial& b : g.monomials) {
-    const auto a =
-        std::find_if(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) { return m.factors == b.factors; });
-    if (a == f.monomials.end()) continue;
-    if (!a->coefficient.is_rational() || !b.coefficient.is_rational() || b.coefficient.is_zero()) {
-      irrational.emplace_back(&a->coefficient, &b.coefficient);
-      continue;
-    }
-    const ExactNumber q = -(a->coefficient / b.coefficient);
-    const auto same = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.factor == q; });
-    if (same == candidates.end()) {
-      candidates.push_back({q, 1});
-    } else {
-      ++same->cancelled;
-    }
-  }
-  Shortening best;
-  for (const Candidate& c : candidates) {
-    const std::ptrdiff_t saved = c.cancelled + static_cast<std::ptrdiff_t>(irrational.size()) - added;
-    if (saved > best.saved && std::all_of(irrational.begin(), irrational.end(),
-                                          [&](const auto& pair) { return cancels(*pair.first, c.factor, *pair.second); }))
-      best = {c.factor, saved};
-  }
-  return best;
-}
-
-// The products that f has, in order: equations that repeat each other have the same.
-using Products = std::vector<std::vector<int>>;
-Products products_of(const Polynomial& f) {
-  Products products;
-  for (const Monomial& m : f.monomials) {
-    products.emplace_back();
-    for (const Factor& x : m.factors)
-      products.back().insert(products.back().end(), {x.variable, x.power, static_cast<int>(x.function)});
-  }
-  std::sort(products.begin(), products.end());
-  products.erase(std::unique(products.begin(), products.end()), products.end());
-  return products;
 }
 
 bool is_integer(const Monomial& m) {
@@ -428,31 +361,10 @@ bool Reducer::eliminate_image() {
 
 bool Reducer::shorten() {
   if (!may_add()) return false;
-  auto& rows = system_.equations;
-  // Only a row that shares a product with another can shorten it (the constant alone is too little, but for a row that is
-  // nothing else).
-  std::map<std::vector<int>, std::vector<std::size_t>> with_product;
-  std::vector<Products> products;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    products.push_back(has_long_number(rows[i]) ? Products{} : products_of(rows[i]));
-    if (products[i].size() > 1) std::erase(products[i], std::vector<int>{});
-    for (const auto& product : products[i]) with_product[product].push_back(i);
-  }
-  std::size_t row = 0, other = 0;
-  Shortening best;
-  std::set<std::size_t> partners;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    partners.clear();
-    for (const auto& product : products[i]) partners.insert(with_product[product].begin(), with_product[product].end());
-    partners.erase(i);
-    for (const std::size_t j : partners) {
-      check_ended();
-      Shortening here = best_shortening(rows[i], rows[j]);
-      if (here.saved > best.saved) best = std::move(here), row = i, other = j;
-    }
-  }
+  const auto& rows = system_.equations;
+  const BestShortening best = best_shortening(rows, [this] { check_ended(); });
   if (best.saved == 0) return false;
-  add(row, other, best.factor);
+  add(best.row, best.other, best.factor);
   return true;
 }
 
