@@ -74,6 +74,7 @@ report::Result solve_set(const Question& question, const symbolic::Mechanism& me
   result.set = set ? to_string(*set) : "system";
   result.system_text = symbolic::to_cuik(system);
   result.cover = solve::solve(system, governed);
+  control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
   solve::prove_exactly(system, governed, result.cover);
   if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover, governed);
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);

@@ -64,28 +64,31 @@ struct Outcome {
   int questions = 0;  // asked in the stage
 };
 
+void solve_all(const certify::System& system, const Question& question, solve::Options options, Cover& cover) {
+  certify::Reduction reduction;
+  {
+    const solve::InStage in(*options.control, Stage::reduction);
+    reduction = certify::reduce(system, [&options] { return options.control->ended(); });
+  }
+  options.sigma = question.sigma;
+  options.reduction = &reduction;
+  cover = solve::solve(system, options);
+  solve::prove_exactly(system, options, cover);
+  if (cover.dimension == 0) solve::prove_decimals(system, 20, cover, options);
+}
+
 // All that `corank solve --digits 20 --proof` does (no proof of curves: to check it takes long), with k answers of "not yet"
 // in the stage.
 Outcome run(const certify::System& system, const Question& question, Stage stage, int k, int threads) {
   FakeClock clock(stage, k);
   Control control({.time = 1, .clock = [&clock] { return clock(); }});
   clock.watch(control);
-  const auto ended = [&control] { return control.ended(); };
-  certify::Reduction reduction;
-  {
-    const solve::InStage in(control, Stage::reduction);
-    reduction = certify::reduce(system, ended);
-  }
   solve::Options options;
-  options.sigma = question.sigma;
   options.threads = threads;
   options.proof = question.set == SingularitySet::forward;
   options.control = &control;
-  options.reduction = &reduction;
   Outcome result;
-  result.cover = solve::solve(system, options);
-  solve::prove_exactly(system, options, result.cover);
-  if (result.cover.dimension == 0) solve::prove_decimals(system, 20, result.cover, options);
+  solve_all(system, question, options, result.cover);
   result.ending = control.ending();
   result.questions = clock.questions();
   return result;
@@ -147,6 +150,53 @@ INSTANTIATE_TEST_SUITE_P(OfCurves, Stopping,
                                                           Stage::kernel),
                                           testing::Values(2)),
                          name_of);
+
+class Interrupted : public testing::TestWithParam<Stage> {};
+
+TEST_P(Interrupted, EndsTheStageInWhichItIs) {
+  const certify::System system = system_of(kPoints);
+  std::atomic<bool> stop{false};
+  Control control({.stop = &stop});
+  control.progress = [&stop](const Control::Progress& p) {
+    if (p.stage == GetParam()) stop = true;
+  };
+  solve::Options options;
+  options.control = &control;
+  Cover cover;
+  solve_all(system, kPoints, options, cover);
+  EXPECT_EQ(control.ending(), (Ending{Limit::interrupt, GetParam()}));
+  EXPECT_EQ(cover.complete(), GetParam() > Stage::search);
+  expect_honest(kPoints, system, cover);
+}
+
+INSTANTIATE_TEST_SUITE_P(InEachStage, Interrupted,
+                         testing::Values(Stage::reduction, Stage::search, Stage::points, Stage::exact, Stage::kernel,
+                                         Stage::decimals),
+                         [](const auto& stage) {
+                           std::string name = to_string(stage.param);
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
+
+TEST(BoxLimit, HoldsForTheSearchesOfTheExactStage) {
+  const certify::System system = system_of(kPoints);
+  const auto exact_within = [&](std::uint64_t boxes, std::optional<Ending> expected) {
+    Control control({.boxes = boxes});
+    solve::Options options;
+    options.control = &control;
+    Cover cover;
+    solve_all(system, kPoints, options, cover);
+    EXPECT_EQ(control.ending(), expected);
+    expect_honest(kPoints, system, cover);
+    EXPECT_TRUE(cover.complete());
+    return cover.count(Verdict::exact);
+  };
+  solve::Options options;
+  options.sigma = kPoints.sigma;
+  const std::uint64_t processed = solve::solve(system, options).statistics.processed;
+  EXPECT_EQ(exact_within(0, std::nullopt), 2u);
+  EXPECT_EQ(exact_within(processed + 2, Ending{Limit::boxes, Stage::exact}), 0u);
+}
 
 }  // namespace
 }  // namespace corank
