@@ -30,7 +30,7 @@ constexpr DefaultSigma kDefaultSigma{.curve = 0.01, .surface = 0.1, .cspace_surf
 
 /// A page of all sets is to be there within a minute, and to open in a browser.
 constexpr double kDefaultTimeLimit = 8;
-constexpr std::uint64_t kDefaultMaxFound = 150'000;
+constexpr std::uint64_t kDefaultMaxFound = 200'000;
 
 struct ReportCommand {
   Question question;
@@ -164,7 +164,7 @@ void add_report(CLI::App& program, Action& action) {
   sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-report")
       ->type_name("FOLDER");
   sub->footer(
-      "Each search ends after 8 seconds or 150000 boxes unless other limits are given, so that there is a page within a "
+      "Each search ends after 8 seconds or 200000 boxes unless other limits are given, so that there is a page within a "
       "minute; it\n"
       "says which sets are incomplete.\n\n"
       "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"

@@ -1,4 +1,4 @@
-// Which rational multiple of one equation, added to another, leaves that with the fewest terms? What certify/reduction.h calls (c).
+// Which rational multiple of one equation, added to another, leaves that with the fewest terms? (c) of certify/reduction.h.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct BestShortening {
   ExactNumber factor;
   std::ptrdiff_t saved = 0;
 };
-/// Of all pairs the first that saves most. Rows with long numbers stay out of it. `check` is called for each pair that is looked at.
+/// Of all pairs the first that saves most. Rows with long numbers stay out of it. `check` is called for each pair.
 BestShortening best_shortening(const std::vector<Polynomial>& rows, const std::function<void()>& check);
 
 }  // namespace corank::certify

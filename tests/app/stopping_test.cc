@@ -73,7 +73,7 @@ TEST(Limits, OfAReportAreInItsHelp) {
   const std::string help = run_corank({"report", "--help"}).out;
   EXPECT_THAT(help, HasSubstr("--time-limit SECONDS"));
   EXPECT_THAT(help, HasSubstr("default: 8"));
-  EXPECT_THAT(help, HasSubstr("default: 150000"));
+  EXPECT_THAT(help, HasSubstr("default: 200000"));
   EXPECT_THAT(help, HasSubstr("within a minute"));
 }
 
