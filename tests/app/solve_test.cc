@@ -271,5 +271,17 @@ TEST(Progress, SaysWhatIsDoneAndLeftOnATerminalAndIsWipedOut) {
   EXPECT_THAT(outcome.err, HasSubstr("\r\x1b[Kcorank: stopped by an interrupt"));
 }
 
+TEST(Progress, NamesTheStages) {
+  const TemporaryFolder folder;
+  CorankOnTerminal program({"solve", model("dextar"), "--set", "inverse", "--sigma", "0.2", "-o", folder.file("r.h5")});
+  const Outcome outcome = program.finish();
+  EXPECT_EQ(outcome.status, 0);
+  std::size_t at = 0;
+  for (const char* stage : {"\rreduction", "\rsearch", "\rmerging", "\rexact points", "\rkernel dimensions", "\rwriting"}) {
+    at = outcome.err.find(stage, at);
+    ASSERT_NE(at, std::string::npos) << stage << " in " << outcome.err;
+  }
+}
+
 }  // namespace
 }  // namespace corank::app
