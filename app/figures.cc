@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "corank/app/progress.h"
 #include "corank/report/portrait.h"
 #include "corank/report/result_file.h"
 
@@ -30,41 +31,47 @@ std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, con
   return axes;
 }
 
-std::vector<std::string> write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
-                                       const std::vector<report::Result>& results) {
+Figures write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
+                      const std::vector<report::Result>& results, const std::atomic<bool>& stop) {
+  ProgressLine line;
   std::vector<report::PictureSource> sources;
   for (const report::Result& result : results) {
     if (!result.cover.boxes.empty()) sources.push_back(report::picture_source(result, result.set));
   }
-  std::vector<std::string> files;
+  Figures figures;
   for (const auto& [name, first] :
        {std::pair{"output-portrait", &mechanism.outputs()}, std::pair{"input-portrait", &mechanism.inputs()}}) {
     report::PictureOptions options;
     options.axes = portrait_axes(mechanism, *first);
     if (options.axes.size() < 2 || sources.empty()) continue;
+    figures.stopped = figures.stopped || stop;
+    if (figures.stopped) continue;
+    line.show(std::string("figures: ") + name);
     const report::Picture picture = report::make_picture(sources, options);
     for (const char* extension : {".svg", ".pdf"}) {
-      files.push_back(std::string(name) + extension);
-      report::write_portrait(folder / files.back(), picture, {});
+      figures.files.push_back(std::string(name) + extension);
+      report::write_portrait(folder / figures.files.back(), picture, {});
     }
   }
-  return files;
+  return figures;
 }
 
-std::vector<std::string> write_family_figures(const std::filesystem::path& folder,
-                                              const std::vector<report::FamilyMember>& members,
-                                              const report::FamilyOptions& options) {
+Figures write_family_figures(const std::filesystem::path& folder, const std::vector<report::FamilyMember>& members,
+                             const report::FamilyOptions& options, const std::atomic<bool>& stop) {
+  ProgressLine line;
   std::vector<report::Picture> pictures;
   std::vector<std::string> titles;
   report::PictureOptions plane;
   plane.axes = {options.axes[0], options.axes[1]};
   for (const report::FamilyMember& member : members) {
+    if (stop) return {{}, true};
+    line.show(fmt::format("figures: {} of {}", pictures.size(), members.size()));
     std::vector<report::PictureSource> sources;
     for (const report::Result& result : member.results) sources.push_back(report::picture_source(result, result.set));
     pictures.push_back(report::make_picture(sources, plane));
     titles.push_back(options.constant + " = " + member.value);
   }
-  return report::write_small_multiples(folder, pictures, titles);
+  return {report::write_small_multiples(folder, pictures, titles), false};
 }
 
 }  // namespace corank::app

@@ -1,6 +1,7 @@
 // The folder of a report or a sweep, and its figures: portraits as files for a paper.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,15 +19,20 @@ void make_folder(const std::filesystem::path& folder);
 /// mechanism has no two.
 std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first);
 
-/// Writes output-portrait and input-portrait, each as .svg and .pdf, into a folder that exists; nothing where there is no box or no plane.
-/// Returns the names of the files.
-std::vector<std::string> write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
-                                       const std::vector<report::Result>& results);
+/// The names of the files; `stopped`: an interrupt has left some out.
+struct Figures {
+  std::vector<std::string> files;
+  bool stopped = false;
+};
 
-/// Writes the output portraits of a family, all with the same axes, as member-1.svg …, and side by side as family.svg. Returns the names
-/// of the files; none where there is no box.
-std::vector<std::string> write_family_figures(const std::filesystem::path& folder,
-                                              const std::vector<report::FamilyMember>& members,
-                                              const report::FamilyOptions& options);
+/// Writes output-portrait and input-portrait, each as .svg and .pdf, into a folder that exists; nothing where there is no
+/// box or no plane. Where `stop` is set meanwhile, the figures that are left are left out.
+Figures write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
+                      const std::vector<report::Result>& results, const std::atomic<bool>& stop);
+
+/// Writes the output portraits of a family, all with the same axes, as member-1.svg …, and side by side as family.svg; none
+/// where there is no box.
+Figures write_family_figures(const std::filesystem::path& folder, const std::vector<report::FamilyMember>& members,
+                             const report::FamilyOptions& options, const std::atomic<bool>& stop);
 
 }  // namespace corank::app

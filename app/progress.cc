@@ -9,6 +9,8 @@
 namespace corank::app {
 namespace {
 
+constexpr auto kInterval = std::chrono::milliseconds(100);
+
 std::size_t terminal_width() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
@@ -18,14 +20,27 @@ std::size_t terminal_width() {
 
 ProgressLine::ProgressLine(std::string task) : task_(std::move(task)), visible_(isatty(STDERR_FILENO) != 0) {}
 
-void ProgressLine::follow(solve::Options& options) {
-  if (visible_) options.progress = [this](const solve::Progress& progress) { show(progress); };
+void ProgressLine::follow(solve::Options& options, solve::Control& control) {
+  if (!visible_) return;
+  options.progress = [this](const solve::Progress& progress) { show(progress); };
+  control.progress = [this](const solve::Control::Progress& progress) { show(progress); };
+}
+
+void ProgressLine::show(const solve::Control::Progress& progress) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!visible_ || (progress.stage == stage_ && now < next_)) return;
+  stage_ = progress.stage;
+  next_ = now + kInterval;
+  std::string line = (task_.empty() ? "" : task_ + ": ") + to_string(progress.stage);
+  if (progress.all > 0) line += fmt::format(": {} of {}", progress.done, progress.all);
+  show(line);
 }
 
 void ProgressLine::show(const solve::Progress& progress) {
   if (!visible_) return;
   std::string line = task_.empty() ? "" : task_ + ": ";
-  line += fmt::format("{} done, {} left, {:.1f} % excluded", progress.processed, progress.waiting, 100 * progress.excluded);
+  line += fmt::format("search: {} done, {} left, {:.1f} % excluded", progress.processed, progress.waiting,
+                      100 * progress.excluded);
   for (std::size_t v = 0; v < progress.verdicts.size(); ++v) {
     if (progress.verdicts[v] == 0) continue;
     line += fmt::format(", {} {}", progress.verdicts[v], certify::to_string(static_cast<certify::Verdict>(v)));

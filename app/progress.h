@@ -1,6 +1,7 @@
-// One line on a terminal that says how far the search is.
+// One line on a terminal that says which stage a run is in, and how far it is.
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "corank/solve/solve.h"
@@ -17,9 +18,10 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   bool visible() const { return visible_; }
-  /// Shows how far the search with these options is; the line has to outlive it.
-  void follow(solve::Options& options);
+  /// Shows how far the run with these options and this control is; the line has to outlive it.
+  void follow(solve::Options& options, solve::Control& control);
   void show(const solve::Progress& progress);
+  void show(const solve::Control::Progress& progress);
   void show(const std::string& text);
   void clear();
 
@@ -27,6 +29,8 @@ class ProgressLine {
   std::string task_;
   bool visible_;
   bool drawn_ = false;
+  solve::Stage stage_ = solve::Stage::search;
+  std::chrono::steady_clock::time_point next_{};  // no picture of the same stage before
 };
 
 }  // namespace corank::app

@@ -27,29 +27,43 @@ constexpr int kDigits = 12;  ///< of isolated points
 
 /// Finer than corank solve's, where that is cheap: pictures want it.
 
+/// A page of all sets is to be there within a minute, and to open in a browser.
+constexpr double kDefaultTimeLimit = 8;
+constexpr std::uint64_t kDefaultMaxFound = 200'000;
+
 struct ReportCommand {
   Question question;
-  SetSearch search{1, kSets};
+  SetSearch search{1, kSets, {}, {}, {.max_found = kDefaultMaxFound, .time_limit = kDefaultTimeLimit}};
   std::vector<std::string> results;
   std::string folder;
 };
 
-report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism& mechanism, std::size_t index) {
+report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism& mechanism, std::size_t index,
+                         std::uint64_t taken) {
   const std::vector<std::string>& sets = command.search.sets;
   const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(sets[index]);
+  solve::Options limits;
+  command.search.limits.apply(limits);
+  solve::Control control(command.search.limits_beside(limits, taken));
+  std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
   const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
   const certify::System system = algebrize(trigonometric);
+  control.ended();  // notes the stage
+  stage.reset();
   solve::Options options = command.search.options(system, set);
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
-  line.follow(options);
-  return solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, kDigits);
+  line.follow(options, control);
+  return solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, control, kDigits);
 }
 
 std::vector<report::Result> solve_all(const ReportCommand& command, const symbolic::Mechanism& mechanism) {
-  const Interrupt interrupt;
   std::vector<report::Result> results;
+  std::uint64_t taken = 0;
   // After an interrupt the searches left end at once, with all of their domain pending.
-  for (std::size_t i = 0; i < command.search.sets.size(); ++i) results.push_back(solve_one(command, mechanism, i));
+  for (std::size_t i = 0; i < command.search.sets.size(); ++i) {
+    results.push_back(solve_one(command, mechanism, i, taken));
+    taken += solve::bytes_of(results.back().cover, solve::kPageBytes);
+  }
   return results;
 }
 
@@ -96,11 +110,14 @@ ExitStatus write_report(ReportCommand command) {
   make_folder(folder / "figures");
   report::check_writable(folder / "index.html");
 
+  const Interrupt interrupt;
   report::PageOptions options;
   if (results.empty()) {
     results = solve_all(command, mechanism);
     options.command = command.search.command_line("report", command.question);
+    ProgressLine line;
     for (const report::Result& result : results) {
+      line.show("writing " + result.set + ".h5");
       options.files.push_back(result.set + ".h5");
       report::write_result(folder / options.files.back(), result);
     }
@@ -108,19 +125,26 @@ ExitStatus write_report(ReportCommand command) {
     options.command = "corank report --results " + fmt::format("{}", fmt::join(command.results, " "));
     for (const std::string& path : command.results) options.files.push_back(std::filesystem::path(path).filename().string());
   }
-  for (const std::string& name : write_figures(folder / "figures", mechanism, results))
-    options.figures.push_back("figures/" + name);
-  report::write_text(folder / "index.html", report_page(mechanism, results, options));
+  const Figures figures = write_figures(folder / "figures", mechanism, results, Interrupt::stop());
+  for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
+  {
+    ProgressLine line;
+    line.show("page");
+    report::write_text(folder / "index.html", report_page(mechanism, results, options));
+  }
 
-  bool complete = true;
+  bool complete = !figures.stopped;
   for (const report::Result& result : results) {
-    complete = complete && result.cover.complete();
+    complete = complete && result.cover.complete() && result.stopped.empty();
     fmt::print("{}: {}\n", report::set_title(result.set), report::set_words(result, report::components(result)).finding);
   }
   fmt::print("{}\n", (folder / "index.html").string());
   if (complete) return kDone;
-  fmt::print(stderr, "corank: {}; the report is incomplete, and says so\n",
-             Interrupt::stop() ? "interrupted" : "a limit was reached");
+  for (const report::Result& result : results)
+    if (!result.cover.complete() || !result.stopped.empty())
+      fmt::print(stderr, "corank: {}: {}\n", result.set, stopped_words(result));
+  if (figures.stopped) fmt::print(stderr, "corank: stopped by an interrupt, in the stage figures\n");
+  fmt::print(stderr, "corank: the report is incomplete, and says so\n");
   return kIncomplete;
 }
 
@@ -140,6 +164,9 @@ void add_report(CLI::App& program, Action& action) {
   sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-report")
       ->type_name("FOLDER");
   sub->footer(
+      "Each search ends after 8 seconds or 200000 boxes unless other limits are given, so that there is a page within a "
+      "minute; it\n"
+      "says which sets are incomplete.\n\n"
       "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Example:\n  corank report models/dextar.cuik -o dextar");
   sub->callback([command, &action] { action = [command] { return write_report(*command); }; });

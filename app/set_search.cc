@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "corank/app/exit_status.h"
-#include "corank/app/interrupt.h"
 
 namespace corank::app {
 using symbolic::SingularitySet;
@@ -19,18 +18,17 @@ void SetSearch::add_sets(CLI::App& command) {
   command
       .add_option("--sigma", sigma,
                   "Largest edge of a box in the sets of singularities; default: a share of the size of the set found")
-      ->check(CLI::PositiveNumber);
-  command.add_option("--cspace-sigma", cspace_sigma, "The same in C-space")->check(CLI::PositiveNumber);
+      ->check(positive_number());
+  command.add_option("--cspace-sigma", cspace_sigma, "The same in C-space")->check(positive_number());
 }
 
-void SetSearch::add_limits(CLI::App& command) {
-  command.add_option("--threads", threads, "Threads; 0: one for each core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command.add_option("--max-boxes", max_boxes, "End each search after so many processed boxes; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
-  command.add_option("--time-limit", time_limit, "End each search after so many seconds; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
+void SetSearch::add_limits(CLI::App& command) { limits.add_options(command, "each search"); }
+
+solve::Control::Limits SetSearch::limits_beside(const solve::Options& options, std::uint64_t taken) const {
+  solve::Control::Limits result = limits_of(options);
+  result.later_bytes = solve::kPageBytes;
+  if (result.memory > 0) result.memory = result.memory > taken ? result.memory - taken : 1;
+  return result;
 }
 
 solve::Options SetSearch::options(const certify::System& system, SingularitySet set) const {
@@ -39,11 +37,8 @@ solve::Options SetSearch::options(const certify::System& system, SingularitySet 
   check_sigma("--sigma", asked, system);
   options.set_sigma(asked);
   options.coarser = coarser;
-  options.threads = threads;
-  options.max_boxes = max_boxes;
-  options.time_limit = time_limit;
+  limits.apply(options);
   options.proof = proof;
-  options.stop = &Interrupt::stop();
   return options;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "corank/app/question.h"
+#include "corank/app/search_limits.h"
 #include "corank/solve/solve.h"
 
 namespace corank::app {
@@ -10,18 +11,18 @@ struct SetSearch {
   double coarser = 1;  ///< the default of sigma, multiplied
   std::vector<std::string> sets;
   std::optional<double> sigma{}, cspace_sigma{};
-  int threads = 0;
-  std::uint64_t max_boxes = 0;
-  double time_limit = 0;
+  SearchLimits limits{};
   bool proof = false;
 
   /// --sets, --sigma, --cspace-sigma.
   void add_sets(CLI::App& command);
-  /// --threads, --max-boxes, --time-limit.
+  /// Those of SearchLimits.
   void add_limits(CLI::App& command);
 
   /// For the system of a set, without progress. Throws UsageError where sigma is smaller than boxes of doubles resolve.
   solve::Options options(const certify::System& system, symbolic::SingularitySet set) const;
+  /// What is to end the search of one more set whose boxes come on a page, where others take so many bytes.
+  solve::Control::Limits limits_beside(const solve::Options& options, std::uint64_t taken) const;
 
   /// What a user types for sets of this size: "corank report dextar.cuik --sigma 0.1 -D 'l2=1'".
   std::string command_line(const std::string& subcommand, const Question& question) const;

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "corank/app/box_files.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/set_search.h"
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
@@ -25,10 +25,8 @@ namespace {
 struct SolveCommand {
   Question question;
   std::optional<double> sigma, sigma_length, sigma_angle, tolerance;
-  int threads = 1;
-  std::uint64_t max_boxes = 0;
+  SearchLimits limits{.threads = 1};
   std::optional<std::uint64_t> max_solutions;
-  double time_limit = 0;
   int digits = 0;
   bool proof = false;
   std::string param_path, result_path;
@@ -39,12 +37,9 @@ solve::Options options_of(const SolveCommand& command) {
   solve::Options options;
   options.sigma_length = command.sigma_length ? command.sigma_length : command.sigma;
   options.sigma_angle = command.sigma_angle ? command.sigma_angle : command.sigma;
-  options.threads = command.threads;
-  options.max_boxes = command.max_boxes;
+  command.limits.apply(options);
   options.max_solutions = command.max_solutions.value_or(0);
-  options.time_limit = command.time_limit;
   options.proof = command.proof;
-  options.stop = &Interrupt::stop();
   return options;
 }
 
@@ -67,14 +62,9 @@ void write_file(const std::string& path, const report::Result& result) {
   }
 }
 
-ExitStatus solve_model(SolveCommand command) {
-  // `--json FILE` without another file: CLI11 took the model for the path of the summary.
-  if (command.question.file.empty() && command.json_path && !command.json_path->empty()) {
-    command.question.file.swap(*command.json_path);
-  }
-  const symbolic::Mechanism mechanism = load(command.question);
-  const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
-  const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
+// The system of the set, and what else the options have to say about it.
+certify::System system_to_solve(SolveCommand& command, const symbolic::TrigonometricSystem& trigonometric,
+                                std::optional<symbolic::SingularitySet> set) {
   certify::System system = symbolic::algebrize(trigonometric);
   system.coefficient_tolerance = command.tolerance.value_or(set ? 0 : solve::printed_tolerance(system));
   apply_parameters(command, system);
@@ -85,19 +75,10 @@ ExitStatus solve_model(SolveCommand command) {
     throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
   if (command.proof && system.coefficient_tolerance > 0)
     throw UsageError("--proof: there is none for coefficients with a tolerance; --tolerance 0 takes them as exact");
-  check_output(command.result_path);
-  check_output(command.json_path.value_or(""));
+  return system;
+}
 
-  solve::Options options = options_of(command);
-  report::Result result;
-  {
-    const Interrupt interrupt;
-    ProgressLine line;
-    line.follow(options);
-    result = solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, command.digits);
-  }
-
-  write_file(command.result_path, result);
+ExitStatus say(const SolveCommand& command, const report::Result& result) {
   if (command.json_path) {
     const std::string json = report::to_json(result) + "\n";
     if (command.json_path->empty()) {
@@ -107,9 +88,39 @@ ExitStatus solve_model(SolveCommand command) {
     }
   }
   if (!command.json_path || !command.json_path->empty()) fmt::print("{}", report::to_table(result));
-  if (result.cover.complete()) return kDone;
-  fmt::print(stderr, "corank: {}; the result is incomplete\n", Interrupt::stop() ? "interrupted" : "a limit was reached");
+  if (result.cover.complete() && result.stopped.empty()) return kDone;
+  fmt::print(stderr, "corank: {}; {}\n", stopped_words(result),
+             result.cover.complete() ? "the cover is complete, but less is proven of it than could be"
+                                     : "the result is incomplete");
   return kIncomplete;
+}
+
+ExitStatus solve_model(SolveCommand command) {
+  // `--json FILE` without another file: CLI11 took the model for the path of the summary.
+  if (command.question.file.empty() && command.json_path && !command.json_path->empty()) {
+    command.question.file.swap(*command.json_path);
+  }
+  solve::Control control(limits_of(options_of(command)));  // reading the model takes its time, too
+  std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
+  const symbolic::Mechanism mechanism = load(command.question);
+  const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
+  const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
+  const certify::System system = system_to_solve(command, trigonometric, set);
+  check_output(command.result_path);
+  check_output(command.json_path.value_or(""));
+  control.ended();  // notes the stage
+
+  solve::Options options = options_of(command);
+  const Interrupt interrupt;
+  ProgressLine line;
+  line.follow(options, control);
+  stage.reset();
+  const report::Result result =
+      solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, control, command.digits);
+  stage.emplace(control, solve::Stage::writing);
+  write_file(command.result_path, result);
+  line.clear();
+  return say(command, result);
 }
 
 CLI::Validator tolerance() {
@@ -117,17 +128,6 @@ CLI::Validator tolerance() {
     double value = 0;
     const bool good = CLI::detail::lexical_cast(text, value) && value >= 0 && value < certify::kCoefficientToleranceLimit;
     return good ? "" : fmt::format("{} is not a number from 0 to below {}", text, certify::kCoefficientToleranceLimit);
-  };
-  return {check, ""};
-}
-
-// Finite numbers only: "inf" and "nan" are numbers to the parser of options.
-CLI::Validator finite(bool zero_allowed) {
-  const auto check = [zero_allowed](const std::string& text) -> std::string {
-    double value = 0;
-    const bool good =
-        CLI::detail::lexical_cast(text, value) && std::isfinite(value) && (value > 0 || (zero_allowed && value == 0));
-    return good ? "" : fmt::format("{} is not a {} number", text, zero_allowed ? "non-negative" : "positive");
   };
   return {check, ""};
 }
@@ -141,28 +141,21 @@ void add_solve(CLI::App& program, Action& action) {
   sub->add_option("--sigma", command->sigma,
                   "Largest edge that a box may have, in lengths and in the sines and cosines of angles;\n"
                   "default: 1/200 of the size of the set found for a curve, 1/60 for a surface, 1/20 for more")
-      ->check(finite(false));
+      ->check(positive_number());
   sub->add_option("--sigma-length", command->sigma_length, "The same for lengths alone, in the model's unit")
-      ->check(finite(false));
+      ->check(positive_number());
   sub->add_option("--sigma-angle", command->sigma_angle, "The same for the sines and cosines of angles alone")
-      ->check(finite(false));
+      ->check(positive_number());
   sub->add_option("--tolerance", command->tolerance,
                   "Take the coefficients that are no integers within so much of their size, each on its own; 0: exact;\n"
                   "default: 1e-6 for a plain system with more equations than variables, else 0")
       ->type_name("REL")
       ->check(tolerance());
-  sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  sub->add_option("--max-boxes", command->max_boxes, "End the search after so many processed boxes; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
+  command->limits.add_options(*sub, "the search");
   sub->add_option("--max-solutions", command->max_solutions,
                   "End the search after so many proven boxes, or distinct isolated solutions; 0: all")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("--time-limit", command->time_limit, "End the search after so many seconds; 0: no limit")
-      ->type_name("SECONDS")
-      ->check(finite(true));
   sub->add_option("--digits", command->digits,
                   "Isolated points with so many proven digits after the point; 0: only what boxes of doubles show")
       ->type_name("N")

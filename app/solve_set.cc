@@ -1,8 +1,12 @@
 #include "corank/app/solve_set.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <set>
 
 #include "corank/solve/exactness.h"
+#include "corank/symbolic/model_error.h"
 #include "corank/symbolic/printer.h"
 
 namespace corank::app {
@@ -28,19 +32,36 @@ void mark_auxiliary(const symbolic::Mechanism& mechanism, report::Result& result
   }
 }
 
+certify::Reduction reduced(const certify::System& system, solve::Control& control) {
+  const solve::InStage stage(control, solve::Stage::reduction);
+  return certify::reduce(system, [&control] { return control.ended(); });
+}
+
 }  // namespace
+
+std::string stopped_words(const report::Result& result) {
+  return "stopped by " + (result.stopped.empty() ? "a limit" : result.stopped);
+}
 
 report::Result solve_set(const Question& question, const symbolic::Mechanism& mechanism,
                          std::optional<symbolic::SingularitySet> set, const certify::System& system,
-                         const std::vector<std::string>& kernel_scales, const solve::Options& options, int digits) {
+                         const std::vector<std::string>& kernel_scales, const solve::Options& options,
+                         solve::Control& control, int digits) {
+  const certify::Reduction reduction = reduced(system, control);
+  solve::Options governed = options;
+  governed.control = &control;
+  governed.reduction = &reduction;
+  governed.max_boxes = 0;  // the control's
   report::Result result;
   result.model = mechanism.name();
   result.model_text = mechanism.source_text();
   result.set = set ? to_string(*set) : "system";
   result.system_text = symbolic::to_cuik(system);
-  result.cover = solve::solve(system, options);
-  solve::prove_exactly(system, options, result.cover);
-  if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover);
+  result.cover = solve::solve(system, governed);
+  control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
+  solve::prove_exactly(system, governed, result.cover);
+  if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover, governed);
+  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   report::describe_system(system, result);
   mark_auxiliary(mechanism, result);
   result.options = {kernel_of(question, set),     result.cover.sigma, kernel_scales,

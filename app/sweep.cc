@@ -58,14 +58,16 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
   return plans;
 }
 
-report::Result solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task) {
+report::Result solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task,
+                         std::uint64_t taken) {
   const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(command.search.sets[set_index]);
   const certify::System& system = plan.systems[set_index];
   solve::Options options = command.search.options(system, set);
   ProgressLine line(task);
   line.show(task);  // searches may be too short to tell more
-  line.follow(options);
-  return solve_set(plan.question, plan.mechanism, set, system, plan.kernel_scales[set_index], options);
+  solve::Control control(command.search.limits_beside(options, taken));
+  line.follow(options, control);
+  return solve_set(plan.question, plan.mechanism, set, system, plan.kernel_scales[set_index], options, control);
 }
 
 /// "member-03-forward.h5": members from 1, with as many digits as the last one needs.
@@ -77,14 +79,16 @@ std::string file_name(std::size_t member, std::size_t members, const std::string
 /// member's sets behind it are all pending, and the members behind it are left out.
 std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const std::vector<Plan>& plans,
                                             const std::string& constant) {
-  const Interrupt interrupt;
   std::vector<report::FamilyMember> members;
+  std::uint64_t taken = 0;
   for (std::size_t k = 0; k < plans.size() && !Interrupt::stop(); ++k) {
     report::FamilyMember member{plans[k].value, plans[k].mechanism, {}, {}};
     for (std::size_t s = 0; s < command.search.sets.size(); ++s) {
       member.results.push_back(solve_one(
           command, plans[k], s,
-          fmt::format("{} = {} ({} of {}), {}", constant, plans[k].value, k + 1, plans.size(), command.search.sets[s])));
+          fmt::format("{} = {} ({} of {}), {}", constant, plans[k].value, k + 1, plans.size(), command.search.sets[s]),
+          taken));
+      taken += solve::bytes_of(member.results.back().cover, solve::kPageBytes);
       member.files.push_back(file_name(k, plans.size(), "-" + command.search.sets[s] + ".h5"));
       report::write_result(std::filesystem::path(command.folder) / member.files.back(), member.results.back());
     }
@@ -104,6 +108,7 @@ ExitStatus write_sweep(SweepCommand command) {
   make_folder(folder / "figures");
   report::check_writable(folder / "index.html");
 
+  const Interrupt interrupt;
   const std::vector<report::FamilyMember> members = solve_all(command, plans, family.constant);
   report::FamilyOptions options;
   options.constant = family.constant;
@@ -111,22 +116,24 @@ ExitStatus write_sweep(SweepCommand command) {
   options.asked = plans.size();
   options.command = command.search.command_line("sweep", command.question);
   options.report_command = command.search.command_line("report", plans.front().question);
-  for (const std::string& name : write_family_figures(folder / "figures", members, options))
-    options.figures.push_back("figures/" + name);
+  const Figures figures = write_family_figures(folder / "figures", members, options, Interrupt::stop());
+  for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
   report::write_text(folder / "index.html", family_page(members, options));
 
-  bool complete = members.size() == plans.size();
+  bool complete = members.size() == plans.size() && !figures.stopped;
   for (const report::FamilyMember& member : members) {
     for (const report::Result& result : member.results) {
-      complete = complete && result.cover.complete();
+      if (!result.stopped.empty())
+        fmt::print(stderr, "corank: {} = {}, {}: {}\n", family.constant, member.value, result.set, stopped_words(result));
+      complete = complete && result.cover.complete() && result.stopped.empty();
       fmt::print("{} = {}, {}: {}\n", family.constant, member.value, report::set_title(result.set),
                  report::set_words(result, report::components(result)).finding);
     }
   }
   fmt::print("{}\n", (folder / "index.html").string());
   if (complete) return kDone;
-  fmt::print(stderr, "corank: {}; {} of {} mechanisms are on the page, and it says what is incomplete\n",
-             Interrupt::stop() ? "interrupted" : "a limit was reached", members.size(), plans.size());
+  fmt::print(stderr, "corank: {} of {} mechanisms are on the page, and it says what is incomplete\n", members.size(),
+             plans.size());
   return kIncomplete;
 }
 

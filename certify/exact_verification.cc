@@ -29,8 +29,8 @@ RationalPolynomial value_of(const Polynomial& f, const ExactPoint& point, const 
 using ExactMatrix = std::vector<std::vector<RationalPolynomial>>;
 
 // Elimination without division: a row a is replaced by pivot · a − a_column · (pivot row), so its rank counts as the pivot is not 0 at t.
-// Nothing where an entry's sign cannot be decided.
-std::optional<int> rank(ExactMatrix rows, const AlgebraicNumber& t) {
+// Nothing where an entry's sign cannot be decided, or where `ended` is true before.
+std::optional<int> rank(ExactMatrix rows, const AlgebraicNumber& t, const Ended& ended) {
   int rank = 0;
   std::vector<bool> used(rows.empty() ? 0 : rows[0].size(), false);
   for (std::size_t from = 0; from < rows.size(); ++from) {
@@ -38,6 +38,7 @@ std::optional<int> rank(ExactMatrix rows, const AlgebraicNumber& t) {
     for (std::size_t i = from; i < rows.size() && row == rows.size(); ++i)
       for (std::size_t j = 0; j < used.size() && row == rows.size(); ++j) {
         if (used[j]) continue;
+        if (is_over(ended)) return std::nullopt;
         const auto s = t.sign(rows[i][j]);
         if (!s) return std::nullopt;
         if (*s != 0) row = i, column = j;
@@ -48,6 +49,7 @@ std::optional<int> rank(ExactMatrix rows, const AlgebraicNumber& t) {
     ++rank;
     const RationalPolynomial pivot = rows[from][column];
     for (std::size_t i = from + 1; i < rows.size(); ++i) {
+      if (is_over(ended)) return std::nullopt;
       const RationalPolynomial factor = scaled(rows[i][column], ExactNumber(-1));
       for (std::size_t j = 0; j < used.size(); ++j)
         rows[i][j] = sum(t.product(pivot, rows[i][j]), t.product(factor, rows[from][j]));
@@ -88,7 +90,7 @@ KernelMatrix kernel_matrix(const System& system) {
   return matrix;
 }
 
-ExactVerification verify_exactly(const System& system, const ExactPoint& point) {
+ExactVerification verify_exactly(const System& system, const ExactPoint& point, const Ended& ended) {
   try {
     if (point.coordinates.size() != system.variables.size()) return fails("the point has another number of coordinates");
     if (system.coefficient_tolerance > 0) return fails("the coefficients have a tolerance");
@@ -113,8 +115,10 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point) 
         return std::all_of(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return known(x.variable); });
       });
     };
-    for (const Polynomial& f : system.equations)
+    for (const Polynomial& f : system.equations) {
+      if (is_over(ended)) return fails("the verification was ended early");
       if (is_known(f) && !value_of(f, point, t).empty()) return fails("the equation " + f.source + " does not hold exactly");
+    }
     for (const Polynomial& g : system.inequalities)
       if (is_known(g) && t.sign(value_of(g, point, t)).value_or(-1) < 0)
         return fails("the inequality " + g.source + " is not proven to hold");
@@ -127,7 +131,7 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point) 
       values.emplace_back();
       for (const Polynomial& entry : row) values.back().push_back(value_of(entry, point, t));
     }
-    const auto r = rank(std::move(values), t);
+    const auto r = rank(std::move(values), t, ended);
     if (!r) return fails("the rank of the kernel matrix cannot be decided");
     result.corank = static_cast<int>(matrix.unknowns.size()) - *r;
     if (result.corank == 0) return fails("the kernel matrix is regular there");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "corank/certify/algebraic_number.h"
+#include "corank/certify/ended.h"
 #include "corank/certify/system.h"
 
 namespace corank::certify {
@@ -30,8 +31,9 @@ struct ExactVerification {
 
 /// Proves, where it holds: the point satisfies every equation and inequality of the system and lies in its domain. Where coordinates of
 /// kernel variables are missing, this is about the equations and inequalities without those, and corank tells for how many
-/// independent ξ the kernel equations hold, too. Needs rational coefficients and no sines or cosines.
-ExactVerification verify_exactly(const System& system, const ExactPoint& point);
+/// independent ξ the kernel equations hold, too. Needs rational coefficients and no sines or cosines. Nothing is proven once
+/// `ended` is true.
+ExactVerification verify_exactly(const System& system, const ExactPoint& point, const Ended& ended = {});
 
 /// Where a point is: asks many boxes about one point.
 class PointLocation {

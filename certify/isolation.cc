@@ -24,12 +24,17 @@ int degree(const Exponents& e) {
 
 class BlowUp {
  public:
-  BlowUp(const System& system, const ExactPoint& point)
-      : system_(system), point_(point), n_(system.variables.size()), t_(point.polynomial, point.lower, point.upper) {}
+  BlowUp(const System& system, const ExactPoint& point, const Ended& ended)
+      : system_(system),
+        point_(point),
+        ended_(ended),
+        n_(system.variables.size()),
+        t_(point.polynomial, point.lower, point.upper) {}
 
   std::optional<std::vector<System>> faces(const ExactNumber& radius) {
     std::vector<Form> rows;
     for (const Polynomial& f : system_.equations) {
+      if (is_over(ended_)) return std::nullopt;
       rows.push_back(shifted(f));
       if (rows.back().contains(Exponents(n_, 0))) return std::nullopt;  // F(p) ≠ 0
     }
@@ -77,7 +82,7 @@ class BlowUp {
   }
 
   // Row operations a := pivot · a − a_v · (pivot row), regular since the pivot is not 0, until a row has no linear part or a pivot of its own.
-  // False where a sign cannot be decided.
+  // False where a sign cannot be decided, or the run has ended.
   bool eliminate_linear_parts(std::vector<Form>& rows) const {
     for (std::size_t from = 0; from < rows.size(); ++from) {
       std::size_t row = rows.size(), v = 0;
@@ -95,6 +100,7 @@ class BlowUp {
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto entry = rows[i].find(unit(v));
         if (i == from || entry == rows[i].end()) continue;
+        if (is_over(ended_)) return false;
         const RationalPolynomial factor = scaled(entry->second, ExactNumber(-1));
         Form next;
         for (const auto& [e, c] : rows[i]) add(next, e, t_.product(pivot, c));
@@ -149,19 +155,21 @@ class BlowUp {
 
   const System& system_;
   const ExactPoint& point_;
+  const Ended& ended_;
   std::size_t n_;
   AlgebraicNumber t_;
 };
 
 }  // namespace
 
-std::optional<std::vector<System>> blow_up(const System& system, const ExactPoint& point, const ExactNumber& radius) {
+std::optional<std::vector<System>> blow_up(const System& system, const ExactPoint& point, const ExactNumber& radius,
+                                           const Ended& ended) {
   if (point.coordinates.size() != system.variables.size() || system.coefficient_tolerance > 0 || radius.sign() != 1)
     return std::nullopt;
   for (const RationalPolynomial& x : point.coordinates)
     if (x.empty()) return std::nullopt;
   try {
-    return BlowUp(system, point).faces(radius);
+    return BlowUp(system, point, ended).faces(radius);
   } catch (const std::domain_error&) {
     return std::nullopt;
   } catch (const std::invalid_argument&) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "corank/certify/ended.h"
 #include "corank/certify/exact_point.h"
 #include "corank/certify/system.h"
 
@@ -18,8 +19,9 @@ namespace corank::certify {
 
 /// The systems of the faces, in the variables u, t and, where p is not rational, p's algebraic number: if all are without
 /// solution, p is the only zero of the system's equations within `radius`, a rational number. Nothing where the equations do not hold at p in exact
-/// arithmetic, a coordinate is missing, or the sign of a pivot cannot be decided.
-std::optional<std::vector<System>> blow_up(const System& system, const ExactPoint& point, const ExactNumber& radius);
+/// arithmetic, a coordinate is missing, the sign of a pivot cannot be decided, or `ended` is true before.
+std::optional<std::vector<System>> blow_up(const System& system, const ExactPoint& point, const ExactNumber& radius,
+                                           const Ended& ended = {});
 
 /// True where no solution in the box is another than the point, by its sole_within: the box lies in the cube of that radius about it.
 bool holds_nothing_else(const ExactPoint& point, const std::vector<Interval>& box);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -10,6 +11,7 @@
 #include "corank/certify/domain.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/rounding.h"
+#include "corank/certify/shortening.h"
 
 namespace corank::certify {
 namespace {
@@ -29,58 +31,22 @@ bool is_affine(const Polynomial& f) {
   });
 }
 
-// The rational number q that leaves f + q·g with the fewest terms, and how many fewer than f has. Irrational coefficients
-// count only where they cancel as expressions: else a 0 that nothing recognizes would stay.
-struct Shortening {
-  ExactNumber factor;
-  std::ptrdiff_t saved = 0;
-};
-Shortening best_shortening(const Polynomial& f, const Polynomial& g) {
-  struct Candidate {
-    ExactNumber factor;
-    std::ptrdiff_t cancelled;
-  };
-  std::vector<Candidate> candidates;
-  std::vector<std::pair<const ExactNumber*, const ExactNumber*>> irrational;
-  std::ptrdiff_t common = 0;
-  for (const Monomial& b : g.monomials) {
-    const auto a =
-        std::find_if(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) { return m.factors == b.factors; });
-    if (a == f.monomials.end()) continue;
-    ++common;
-    if (!a->coefficient.is_rational() || !b.coefficient.is_rational() || b.coefficient.is_zero()) {
-      irrational.emplace_back(&a->coefficient, &b.coefficient);
-      continue;
-    }
-    const ExactNumber q = -(a->coefficient / b.coefficient);
-    const auto same = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.factor == q; });
-    if (same == candidates.end()) {
-      candidates.push_back({q, 1});
-    } else {
-      ++same->cancelled;
-    }
-  }
-  const auto added = static_cast<std::ptrdiff_t>(g.monomials.size()) - common;
-  Shortening best;
-  for (const Candidate& c : candidates) {
-    const std::ptrdiff_t saved = c.cancelled + static_cast<std::ptrdiff_t>(irrational.size()) - added;
-    if (saved > best.saved && std::all_of(irrational.begin(), irrational.end(),
-                                          [&](const auto& pair) { return cancels(*pair.first, c.factor, *pair.second); }))
-      best = {c.factor, saved};
-  }
-  return best;
-}
-
 bool is_integer(const Monomial& m) {
   return m.coefficient.is_rational() && m.enclosure.is_point() && std::nearbyint(m.enclosure.lo()) == m.enclosure.lo();
 }
 
+// Thrown and caught here: the reduction is given up.
+struct GivenUp {};
+
 class Reducer {
  public:
-  Reducer(const System& system, Eliminate eliminate);
+  Reducer(const System& system, Eliminate eliminate, const Ended& ended);
   Reduction run();
 
  private:
+  void check_ended() const {
+    if (is_over(ended_)) throw GivenUp();
+  }
   // Drops what holds identically; sets consistent_. False once the system is known to be inconsistent.
   bool tidy();
   // Is |f| within `partial`'s tolerance all over the domain, for an equation of that scale?
@@ -111,6 +77,7 @@ class Reducer {
   System system_;
   const Eliminate eliminate_;
   const bool tolerant_;
+  const Ended& ended_;
   std::vector<bool> gone_;
   std::vector<bool> is_argument_;                        // of a sine or cosine: stays
   std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
@@ -121,10 +88,11 @@ class Reducer {
   bool consistent_ = true;
 };
 
-Reducer::Reducer(const System& system, Eliminate eliminate)
+Reducer::Reducer(const System& system, Eliminate eliminate, const Ended& ended)
     : system_(system),
       eliminate_(eliminate),
       tolerant_(system.coefficient_tolerance > 0 && eliminate != Eliminate::exact),
+      ended_(ended),
       gone_(system.variables.size(), false),
       is_argument_(system.variables.size(), false) {
   system.validate();
@@ -159,6 +127,7 @@ bool Reducer::may_define(const Polynomial& f) const {
 bool Reducer::affordable(int variable, const Polynomial& value) const {
   constexpr double kMostTerms = 1000, kLargestCoefficient = 1e100;
   constexpr int kLargestPower = 100;
+  if (has_long_number(value)) return false;
   int degree = 0;
   double size = 1;
   for (const Monomial& m : value.monomials) degree = std::max(degree, m.degree()), size += m.enclosure.mag();
@@ -244,12 +213,14 @@ void Reducer::drop_repeated() {
     subset_ = subset_ || nearly;
     return nearly;
   };
+  std::map<Products, std::vector<std::size_t>> alike;  // the rows that stay
   for (std::size_t row = 0; row < rows.size();) {
-    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(row);
-    if (std::any_of(rows.begin(), end, [&](const Polynomial& g) { return repeats(row, g); })) {
+    check_ended();
+    std::vector<std::size_t>& others = alike[products_of(rows[row])];
+    if (std::any_of(others.begin(), others.end(), [&](std::size_t other) { return repeats(row, rows[other]); })) {
       erase_row(row);
     } else {
-      ++row;
+      others.push_back(row++);
     }
   }
 }
@@ -334,6 +305,7 @@ void Reducer::replace_everywhere(int variable, Polynomial value) {
   gone_[static_cast<std::size_t>(variable)] = true;
   const auto replace = [&](Polynomial& f) {
     if (!mentions(f, variable)) return;
+    check_ended();
     f = substitute(f, variable, value);
     refresh(f);
   };
@@ -344,6 +316,7 @@ void Reducer::replace_everywhere(int variable, Polynomial value) {
 }
 
 bool Reducer::eliminate_tied() {
+  check_ended();
   for (std::size_t i = 0; i < system_.equations.size(); ++i) {
     const Polynomial& f = system_.equations[i];
     const std::vector<int> variables = variables_of(f);
@@ -360,6 +333,7 @@ bool Reducer::eliminate_tied() {
 }
 
 bool Reducer::eliminate_image() {
+  check_ended();
   std::vector<int> uses(system_.variables.size(), 0);
   for (const auto* rows : {&system_.equations, &system_.inequalities})
     for (const Polynomial& f : *rows)
@@ -387,17 +361,10 @@ bool Reducer::eliminate_image() {
 
 bool Reducer::shorten() {
   if (!may_add()) return false;
-  auto& rows = system_.equations;
-  std::size_t row = 0, other = 0;
-  Shortening best;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = 0; j < rows.size(); ++j) {
-      if (i == j) continue;
-      Shortening here = best_shortening(rows[i], rows[j]);
-      if (here.saved > best.saved) best = std::move(here), row = i, other = j;
-    }
+  const auto& rows = system_.equations;
+  const BestShortening best = best_shortening(rows, [this] { check_ended(); });
   if (best.saved == 0) return false;
-  add(row, other, best.factor);
+  add(best.row, best.other, best.factor);
   return true;
 }
 
@@ -443,6 +410,17 @@ Reduction Reducer::run() {
   return result;
 }
 
+Reduction unreduced(const System& system) {
+  Reduction result;
+  result.system = system;
+  result.kept.resize(system.variables.size());
+  std::iota(result.kept.begin(), result.kept.end(), 0);
+  result.tolerant = system.coefficient_tolerance > 0;
+  for (auto* rows : {&result.system.equations, &result.system.inequalities})
+    for (Polynomial& f : *rows) widen(f, system.coefficient_tolerance);
+  return result;
+}
+
 }  // namespace
 
 std::vector<Interval> Reduction::lift(const std::vector<Interval>& sides) const {
@@ -454,15 +432,21 @@ std::vector<Interval> Reduction::lift(const std::vector<Interval>& sides) const 
   return box;
 }
 
-Reduction reduce(const System& system, Eliminate eliminate) { return Reducer(system, eliminate).run(); }
+Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended) {
+  try {
+    return Reducer(system, eliminate, ended).run();
+  } catch (const GivenUp&) {
+    return unreduced(system);
+  }
+}
 
-Reduction reduce(const System& system) {
+Reduction reduce(const System& system, const Ended& ended) {
   if (system.coefficient_tolerance > 0 && system.equations.size() <= system.variables.size())
-    return reduce(system, Eliminate::integers);
-  Reduction exact = reduce(system, Eliminate::exact);
+    return reduce(system, Eliminate::integers, ended);
+  Reduction exact = reduce(system, Eliminate::exact, ended);
   if (system.coefficient_tolerance == 0) return exact;
   if (exact.consistent && exact.system.equations.size() <= exact.system.variables.size()) return exact;
-  return reduce(system, Eliminate::integers);
+  return reduce(system, Eliminate::integers, ended);
 }
 
 }  // namespace corank::certify

@@ -6,6 +6,8 @@
 //   (b) a·x + g = 0 with a rational a ≠ 0 and x in no other equation or inequality: x is g's image, whatever g is;
 //   (c) f = 0 becomes f + q·g = 0 with a rational q and another equation g = 0, where that has fewer terms: shorter equations are tighter
 //       over boxes. The rows of a kernel condition that speak of the same velocity are such.
+// Numbers of more than 2,000 bits are left alone: exact arithmetic with them takes minutes, and intervals of doubles gain
+// nothing by it.
 // Theorem: let x_e = p_e(x') be the eliminated variables' values as polynomials in the variables x' that are kept. Then
 // x' ↦ (x', p(x')) is a bijection from the reduced system's solutions to the system's, and keeps boxes of values of kept variables. Proof:
 // (a) and (b) replace the pair {x = p, f = 0} by {x = p, f(p) = 0}, have p's range in x's domain as a condition (on the domain of y, or
@@ -16,6 +18,7 @@
 
 #include <vector>
 
+#include "corank/certify/ended.h"
 #include "corank/certify/reduction_step.h"
 #include "corank/certify/system.h"
 
@@ -49,11 +52,12 @@ enum class Eliminate {
   integers  ///< those with integer coefficients, which carry no tolerance; the others' enclosures are widened by the tolerance
 };
 
-/// Throws std::invalid_argument where the system is not valid.
-Reduction reduce(const System& system, Eliminate eliminate);
+/// Throws std::invalid_argument where the system is not valid. Once `ended` is true the reduction is given up: the result is
+/// the system as it is, without any step, which is a reduction, too.
+Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended = {});
 
 /// Eliminate::exact where the system carries no tolerance, or where it is over-determined and that ends consistent and no longer so: then
 /// only `partial` needs the tolerance, every other proof is about the exact system. Else Eliminate::integers.
-Reduction reduce(const System& system);
+Reduction reduce(const System& system, const Ended& ended = {});
 
 }  // namespace corank::certify

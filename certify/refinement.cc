@@ -154,13 +154,13 @@ Matrix jacobian(const Equations<Real>& f, const std::vector<Real>& x) {
 }
 
 // Gauss–Newton until a step is below 2^−(bits/2); false where the steps do not become that short.
-bool iterate(const Equations<Real>& f, std::vector<Real>& x, int bits) {
+bool iterate(const Equations<Real>& f, std::vector<Real>& x, int bits, const Ended& ended) {
   const Real enough = ldexp(Real(1), -bits / 2 + 8), most_sizes = 1e6;
   Real far = 1;  // from lengths of any unit
   for (const Real& c : x) far = std::max(far, Real(abs(c)));
   far *= most_sizes;
   const int most = 2 * bits;
-  for (int step = 0; step < most; ++step) {
+  for (int step = 0; step < most && !is_over(ended); ++step) {
     Vector value(f.rows());
     for (int row = 0; row < f.rows(); ++row) value(row) = f.value(row, x);
     const Vector shift = jacobian(f, x).completeOrthogonalDecomposition().solve(value);
@@ -186,7 +186,8 @@ std::vector<Real> reals(const std::vector<ExactNumber>& x) {
 }
 
 // One test of the theorem with the bits of the current precision.
-std::optional<std::vector<Range>> krawczyk(const System& system, const std::vector<ExactNumber>& start, int bits) {
+std::optional<std::vector<Range>> krawczyk(const System& system, const std::vector<ExactNumber>& start, int bits,
+                                           const Ended& ended) {
   const std::size_t n = start.size();
   std::vector<Real> c = reals(start);
   const Equations<Real> approximate = real_equations(system, bits);
@@ -195,6 +196,7 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
   std::vector<Real> step(n);
   Real shortest = -1;
   for (int k = 0; k < kSteps; ++k) {  // Newton: until the steps shrink no more
+    if (is_over(ended)) return std::nullopt;
     y = jacobian(approximate, c).fullPivHouseholderQr().inverse();
     Real length = 0;
     std::vector<Real> next = c;
@@ -228,7 +230,7 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
                 tiny * std::max(Real(1), Real(abs(c[i])));
   constexpr int kInflations = 6;
   std::vector<Range> offset(n), box(n), image(n), gradient(n);
-  for (int k = 0; k < kInflations; ++k) {
+  for (int k = 0; k < kInflations && !is_over(ended); ++k) {
     for (std::size_t i = 0; i < n; ++i) {
       Range r = to_range(radius[i]);
       mpfi_neg(offset[i].backend().data(), r.backend().data());
@@ -260,22 +262,23 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
 }  // namespace
 
 std::optional<std::vector<ExactNumber>> approximate_zero(const System& system, const std::vector<ExactNumber>& start,
-                                                         int bits) {
+                                                         int bits, const Ended& ended) {
   CORANK_CHECK(start.size() == system.variables.size());
   const Precision precision(bits);
   std::vector<Real> x = reals(start);
-  if (!iterate(real_equations(system, bits), x, bits)) return std::nullopt;
+  if (!iterate(real_equations(system, bits), x, bits, ended)) return std::nullopt;
   std::vector<ExactNumber> result;
   for (const Real& c : x) result.push_back(from_mpfr(c.backend().data()));
   return result;
 }
 
-std::optional<ProvenZero> prove_zero(const System& system, const std::vector<ExactNumber>& start, int digits, int max_bits) {
+std::optional<ProvenZero> prove_zero(const System& system, const std::vector<ExactNumber>& start, int digits, int max_bits,
+                                     const Ended& ended) {
   CORANK_CHECK(start.size() == system.variables.size());
   if (system.equations.size() != system.variables.size()) return std::nullopt;
-  for (int bits = 53; bits <= max_bits; bits *= 2) {
+  for (int bits = 53; bits <= max_bits && !is_over(ended); bits *= 2) {
     const Precision precision(bits);
-    const auto image = krawczyk(system, start, bits);
+    const auto image = krawczyk(system, start, bits, ended);
     if (!image) continue;
     const Real width = pow(Real(10), -digits);
     const bool narrow = std::all_of(image->begin(), image->end(), [&](const Range& x) {

@@ -6,15 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "corank/certify/ended.h"
 #include "corank/certify/system.h"
 
 namespace corank::certify {
 
 /// Heuristic: a point near `start` where the equations vanish to about bits/2 bits, found by Gauss–Newton steps (least squares, least norm) in
 /// MPFR arithmetic; also at a multiple solution, where each step gains a bit only. Coordinates are dyadic rationals. Nothing where
-/// the steps do not end there.
+/// the steps do not end there, or `ended` is true before.
 std::optional<std::vector<ExactNumber>> approximate_zero(const System& system, const std::vector<ExactNumber>& start,
-                                                         int bits);
+                                                         int bits, const Ended& ended = {});
 
 struct ProvenZero {
   std::vector<std::pair<ExactNumber, ExactNumber>> sides;  ///< rational bounds of each variable
@@ -24,10 +25,10 @@ struct ProvenZero {
 /// For a square system: a box about a zero near `start`, no wider than 10^−digits · max(1, |x|), in which there is **exactly one** zero.
 /// Theorem (Krawczyk; keys Krawczyk1969, Neumaier1990 ch. 5): c a point, Y real, K = c − Y·F(c) + (I − Y·J(X))(X − c), J(X) the interval
 /// Jacobian. K ⊂ int X ⇒ exactly one zero in X, and it lies in K. The arithmetic (MPFI) has 53, 106, 212 … bits, until
-/// the test succeeds and the box is narrow enough, or `max_bits` are not enough: then nothing is proven.
+/// the test succeeds and the box is narrow enough, or `max_bits` are not enough, or `ended` is true: then nothing is proven.
 /// Says nothing about the domain and the inequalities.
 std::optional<ProvenZero> prove_zero(const System& system, const std::vector<ExactNumber>& start, int digits,
-                                     int max_bits = 8192);
+                                     int max_bits = 8192, const Ended& ended = {});
 
 /// Rational bounds of {f(x) : x within the sides}, computed with so many bits.
 std::pair<ExactNumber, ExactNumber> bounds(const Polynomial& f,

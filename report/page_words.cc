@@ -197,8 +197,13 @@ SetWords set_words(const Result& result, const Components& found) {
   if (cover.complete()) {
     words.proven.push_back("Every one in the search domain lies in a box: all else is excluded with outward rounding.");
   } else {
-    words.unproven.push_back(fmt::format("The search ended early: what {} may hold was not looked into.",
+    words.unproven.push_back(fmt::format("The search {}: what {} may hold was not looked into.",
+                                         result.stopped.empty() ? "ended early" : "was stopped by " + result.stopped,
                                          boxes_text(cover.count(Verdict::pending))));
+  }
+  if (cover.complete() && !result.stopped.empty()) {
+    words.unproven.push_back(
+        fmt::format("The work on it was stopped by {}: less is proven of its boxes than could be.", result.stopped));
   }
   if (cover.dimension == 0) {
     say_points(result, words);

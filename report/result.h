@@ -55,6 +55,9 @@ struct Result {
   std::vector<certify::Angle> angles;
   int configuration_size = 0;  ///< the first so many variables describe the configuration
   int equations = 0, inequalities = 0;
+  /// What ended the run early, and where: "the time limit, in the stage exact points"; empty where it ran to its end. A
+  /// cover may be complete all the same: then less is proven of it than could be.
+  std::string stopped;
   certify::Cover cover;
 };
 

@@ -180,6 +180,7 @@ class ResultReader {
     result.equations = count("equations");
     result.inequalities = count("inequalities");
     read_options(result.options);
+    if (file_.has_attribute("/", "stopped")) result.stopped = file_.text_attribute("/", "stopped");
     result.cover.dimension = count("dimension");
     result.cover.sigma = sigma("/");
     result.cover.tolerance = file_.double_attribute("/", "tolerance");
@@ -312,6 +313,7 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   file.attribute("/", "version", result.version);
   file.attribute("/", "model", result.model);
   file.attribute("/", "set", result.set);
+  file.attribute("/", "stopped", result.stopped);
   file.attribute("/", "complete", std::int64_t{result.cover.complete()});
   file.attribute("/", "dimension", std::int64_t{result.cover.dimension});
   file.attribute("/", "sigma_length", result.cover.sigma.length);

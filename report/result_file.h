@@ -1,6 +1,6 @@
 // Result files, RESULT.h5: a result in HDF5, every double bit for bit:
 //
-//   /                   attributes format = "corank result", format_version, version, model, set, complete, dimension, sigma_length …
+//   /                   attributes format = "corank result", format_version, version, model, set, complete, stopped, sigma_length …
 //   /model/text         the model file as read            /model/system       the solved system in the model language
 //   /variables/…        names, kinds, domain (n×2)        /angles/…           names, cosine, sine (indices), range (k×2)
 //   /boxes/…            lower, upper (N×n), verdict, reason (enumerations), free (N×n mask)         /points/… likewise

@@ -76,9 +76,11 @@ std::string plural(std::size_t n, const std::string& word) {
 
 std::string points_table(const Result& result) {
   constexpr int kDigits = 9;
+  constexpr std::size_t kMostRows = 1000;
   std::vector<std::vector<std::string>> rows(1);
   rows[0].push_back("point");
   for (const CoverBox& point : result.cover.points) {
+    if (rows.size() > kMostRows) break;
     rows.push_back({std::to_string(rows.size())});
     for (const Value& v : values(result, point, result.configuration_size)) {
       if (rows.size() == 2) rows[0].push_back(v.name);
@@ -99,6 +101,9 @@ std::string points_table(const Result& result) {
     for (std::size_t c = 1; c + 1 < row.size(); ++c) text += fmt::format("  {:<{}}", row[c], widths[c]);
     text += fmt::format("  {}\n", row.back());
   }
+  if (const std::size_t shown = rows.size() - 1; shown < result.cover.points.size())
+    text +=
+        fmt::format("  and {} more, which the result file and the JSON summary hold\n", result.cover.points.size() - shown);
   return text;
 }
 
@@ -223,6 +228,7 @@ std::string to_table(const Result& result) {
                       result.options.kernel);
   text += cover.complete() ? "complete: every solution in the search domain is in a box\n"
                            : "INCOMPLETE: the search ended early; solutions may also be in the pending boxes\n";
+  if (!result.stopped.empty()) text += fmt::format("stopped by {}\n", result.stopped);
   text += fmt::format("\n  {:<10}  {:>10}\n", "verdict", "boxes");
   const auto boxes_with = cover.counts();
   for (const Verdict verdict : kVerdictsInOrder) {
@@ -315,6 +321,7 @@ std::string to_json(const Result& result) {
                      {"time_limit", result.options.time_limit},
                      {"constants", constants}};
   json["complete"] = cover.complete();
+  json["stopped"] = result.stopped.empty() ? Json() : Json(result.stopped);
   json["boxes"]["processed"] = cover.statistics.processed;
   const auto counts = cover.counts();
   for (const Verdict verdict : kVerdictsInOrder)

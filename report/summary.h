@@ -19,8 +19,9 @@ std::map<certify::Reason, std::size_t> undecided_reasons(const certify::Cover& c
 /// radians, bounds rounded outward).
 std::string to_table(const Result& result);
 
-/// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, boxes{processed,
-/// regular, isolated, exact, boundary, partial, undecided, pending}, undecided_reasons{reason: boxes}, points, kernel, seconds{total, search, certify}, version.
+/// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, stopped (null, or by
+/// what and in which stage), boxes{processed, regular, isolated, exact, boundary, partial, undecided, pending},
+/// undecided_reasons{reason: boxes}, points, kernel, seconds{total, search, certify}, version.
 /// `points` is null where the dimension is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns
 /// as they are, angles in radians in place of their sines and cosines. `kernel` is null where its dimension is not known, else
 /// at_most{bound: boxes}, without undecided boxes that hold no known point, and points, where the dimension is known to be 2 or

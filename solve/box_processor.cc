@@ -31,7 +31,7 @@ constexpr double kFreeCutShare = 0.1;   // cut a free side unless it is already 
 BoxProcessor::BoxProcessor(const Problem& problem, Recorder* recorder)
     : problem_(problem),
       recorder_(recorder),
-      preconditioners_(problem.compiled),
+      preconditioners_(problem.compiled, problem.ended),
       slicer_(problem, preconditioners_, workspace_, recorder) {}
 
 bool BoxProcessor::contract(Interval* x) {
@@ -212,6 +212,10 @@ BoxProcessor::Outcome BoxProcessor::process(Interval* x, double share) {
   ++statistics_.processed;
   if (!contract(x)) {
     if (recorder_) recorder_->leaf_empty();
+    return Outcome::done;
+  }
+  if (preconditioners_.over()) {  // the search ends
+    leave(x);
     return Outcome::done;
   }
   if (worth_proving_ && certify(x, Proof::full)) return Outcome::done;

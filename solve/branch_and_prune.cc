@@ -15,6 +15,7 @@
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "corank/certify/check.h"
 #include "corank/certify/rounding.h"
@@ -22,6 +23,7 @@
 #include "corank/solve/degeneracy.h"
 #include "corank/solve/distinct_solutions.h"
 #include "corank/solve/gathering.h"
+#include "corank/solve/memory.h"
 #include "corank/solve/merging.h"
 #include "corank/solve/points.h"
 #include "corank/solve/recorder.h"
@@ -44,16 +46,23 @@ class Search {
  public:
   Search(const certify::System& system, const certify::Reduction& reduction, const Options& options)
       : options_(options),
+        control_(*options.control),
         problem_(system, reduction,
                  [this] {
                    report(false);
                    count_found(workers_.local());
                    return limit_reached();
                  }),
-        workers_([this] { return Worker(problem_, options_.proof ? ++recorders_ : 0); }),
+        workers_([this] {
+          keep(memory_.of_thread());
+          return Worker(problem_, options_.proof ? ++recorders_ : 0);
+        }),
+        memory_(reduction, control_.limits().later_bytes),
         threads_(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()),
         allow_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
         arena_(threads_) {}
+
+  ~Search() { control_.keep(-kept_); }
 
   // Runs f where its parallel parts have the threads that the options allow.
   template <class F>
@@ -87,6 +96,9 @@ class Search {
   // Cuts them to σ.
   void cut() {
     const std::vector<const Proven*> all = sheets();
+    cutting_ = true;
+    const auto ending = control_.ending();  // a search that was long enough: what it has found is cut all the same
+    if (!ending || ending->by == Limit::boxes || ending->by == Limit::solutions) ended_ = false;
     execute([&] {
       const auto cut_one = [&](std::size_t i) {
         const certify::UpwardRounding rounding;
@@ -126,7 +138,9 @@ class Search {
     std::iota(nodes.begin(), nodes.end(), NodeId{0});
     return std::make_shared<const certify::Proof>(Recorder::assemble(recorders, roots_, nodes, place));
   }
-  void merge(std::vector<Found*>& found) const { merge_regular(problem_, found); }
+  void merge(std::vector<Found*>& found) const {
+    merge_regular(problem_, found, [this] { return control_.ended(); });
+  }
   certify::Statistics statistics() {
     certify::Statistics sum;
     for (Worker& w : workers_) {
@@ -162,7 +176,8 @@ class Search {
         : recorder(number > 0 ? std::make_unique<Recorder>(number) : nullptr), processor(problem, recorder.get()) {}
     std::unique_ptr<Recorder> recorder;
     BoxProcessor processor;
-    std::size_t counted = 0, counted_sheets = 0;  // of processor.found(), of processor.proven()
+    std::size_t counted = 0, counted_sheets = 0, weighed = 0;  // of processor.found(), of proven(), of found()
+    std::uint64_t recorded = 0;                                // bytes of the recorder
   };
 
   // The boxes to search, in the variables that are kept, within the domain.
@@ -240,42 +255,76 @@ class Search {
 
   bool limit_reached() {
     if (ended_.load(std::memory_order_relaxed)) return true;
-    const bool over = (options_.stop && options_.stop->load(std::memory_order_relaxed)) ||
-                      (options_.max_boxes && processed_.load(std::memory_order_relaxed) >= options_.max_boxes) ||
-                      (options_.time_limit > 0 && seconds() >= options_.time_limit);
+    if (cutting_) {
+      const std::uint64_t most = control_.limits().memory;
+      const bool full = most > 0 && control_.kept() > static_cast<std::int64_t>(most);
+      if (full) control_.note(Limit::memory);
+      if (full || control_.ended()) ended_ = true;
+      return ended_;
+    }
+    const bool over =
+        control_.search_ended() || (options_.max_boxes && processed_.load(std::memory_order_relaxed) >= options_.max_boxes);
     if (over) ended_ = true;
     return over;
   }
 
+  void end(Limit by) {
+    if (!ended_.exchange(true)) control_.note(by);
+  }
+  void keep(std::int64_t bytes) {
+    kept_.fetch_add(bytes, std::memory_order_relaxed);
+    control_.keep(bytes);
+  }
+  // Counts what this thread has kept since the last call.
+  void weigh(Worker& worker) {
+    if (control_.limits().memory == 0) return;
+    std::int64_t bytes = 0;
+    for (const auto& found = worker.processor.found(); worker.weighed < found.size(); ++worker.weighed)
+      bytes += memory_.of(found[worker.weighed], worker.weighed > 0 ? &found[worker.weighed - 1] : nullptr);
+    if (worker.recorder) {
+      const std::uint64_t recorded = worker.recorder->bytes();
+      bytes += memory_.of_script(recorded - worker.recorded);
+      worker.recorded = recorded;
+    }
+    if (bytes > 0) keep(bytes);
+  }
+
   // Counts what this thread has found since the last call: for the progress, and towards max_solutions.
   void count_found(Worker& worker) {
-    if (!options_.progress && options_.max_solutions == 0) return;
+    weigh(worker);
+    if (!options_.progress && options_.max_solutions == 0 && options_.max_found == 0 && control_.limits().memory == 0)
+      return;
     count_sheets(worker);
     const std::vector<Found>& found = worker.processor.found();
     for (; worker.counted < found.size(); ++worker.counted) {
       const Found& f = found[worker.counted];
       ++verdicts_[static_cast<int>(f.box.verdict)];
+      if (++found_ == options_.max_found) end(Limit::found);
     }
   }
 
   // Sheets count before they are cut.
   void count_sheets(Worker& worker) {
     const std::vector<Proven>& sheets = worker.processor.proven();
-    for (; worker.counted_sheets < sheets.size() && options_.max_solutions > 0; ++worker.counted_sheets) {
+    for (; worker.counted_sheets < sheets.size(); ++worker.counted_sheets) {
       const certify::Sheet& sheet = sheets[worker.counted_sheets].sheet;
+      keep(static_cast<std::int64_t>(3 * sheet.region.size() * sizeof(Interval)));
+      if (++sheets_ == options_.max_found) end(Limit::found);
+      if (options_.max_solutions == 0) continue;
       const std::lock_guard lock(solutions_mutex_);
       if (sheet.dependent.size() == sheet.region.size()) {
         isolated_.add(sheet);
       } else {
         ++pieces_;
       }
-      if (pieces_ + isolated_.count() >= options_.max_solutions) ended_ = true;
+      if (pieces_ + isolated_.count() < options_.max_solutions) continue;
+      end(Limit::solutions);
     }
   }
 
   // Counts a box that is about to be processed; false: there is to be none.
   bool count_one() {
-    if (limit_reached()) return false;
+    if (limit_reached() || !control_.count_box()) return false;
     const std::uint64_t before = processed_.fetch_add(1, std::memory_order_relaxed);
     if (options_.progress && before % 64 == 0) report(false);
     return true;
@@ -286,7 +335,12 @@ class Search {
     Worker& worker = workers_.local();
     BoxProcessor& processor = worker.processor;
     std::vector<Interval> x(problem_.compiled.variables());
+    std::int64_t listed = 0;
     while (!list.empty()) {
+      if (control_.limits().memory > 0) {
+        const std::int64_t now = memory_.of_waiting(list.size());
+        keep(now - std::exchange(listed, now));
+      }
       if (!count_one()) break;
       const NodeId node = list.node();
       const double share = list.pop(x.data());
@@ -315,6 +369,7 @@ class Search {
       count_found(worker);
       if (busy_.load(std::memory_order_relaxed) < threads_ && threads_ > 1 && list.size() > 1) spawn(list.split_off());
     }
+    keep(-listed);
     while (!list.empty()) {
       const NodeId node = list.node();
       list.pop(x.data());
@@ -324,8 +379,11 @@ class Search {
   }
 
   const Options& options_;
+  Control& control_;
+  std::atomic<std::int64_t> kept_{0};  // bytes that this search has told the control of
   Problem problem_;
   tbb::enumerable_thread_specific<Worker> workers_;
+  MemoryEstimate memory_;
   int threads_;
   tbb::global_control allow_;
   tbb::task_arena arena_;
@@ -334,8 +392,8 @@ class Search {
   SelfMotions motions_;
   double share_ = kFirstShare;  // of the typical sizes: how small boxes are that may be postponed
   std::atomic<int> busy_{0}, recorders_{0};
-  std::atomic<bool> ended_{false};
-  std::atomic<std::uint64_t> processed_{0}, waiting_{0};
+  std::atomic<bool> ended_{false}, cutting_{false};
+  std::atomic<std::uint64_t> processed_{0}, waiting_{0}, found_{0}, sheets_{0};
   std::atomic<double> done_share_{0};
   std::array<std::atomic<std::uint64_t>, certify::kVerdicts> verdicts_{};
   std::mutex solutions_mutex_;
@@ -346,6 +404,11 @@ class Search {
   Clock::time_point start_ = Clock::now();
 };
 
+certify::Reduction reduced(const certify::System& system, Control& control) {
+  const InStage stage(control, Stage::reduction);
+  return certify::reduce(system, [&control] { return control.ended(); });
+}
+
 std::string format(double x) {
   std::ostringstream text;
   text << x;
@@ -353,6 +416,10 @@ std::string format(double x) {
 }
 
 }  // namespace
+
+Control::Limits limits_of(const Options& options) {
+  return {.time = options.time_limit, .boxes = options.max_boxes, .memory = options.memory_limit, .stop = options.stop};
+}
 
 double printed_tolerance(const certify::System& system) {
   constexpr double kPrintedDecimals = 1e-6;
@@ -413,12 +480,29 @@ int largest_dimension(int dimension, Search& search) {
 
 }  // namespace
 
-Cover solve(const certify::System& system, const Options& options) {
+Cover solve(const certify::System& system, const Options& given) {
+  if (!given.control) {
+    Control control(limits_of(given));
+    Options options = given;
+    options.control = &control;
+    options.max_boxes = 0;  // the control's
+    return solve(system, options);
+  }
+  Control& control = *given.control;
+  if (!given.reduction) {
+    system.validate();
+    const certify::Reduction reduction = reduced(system, control);
+    Options options = given;
+    options.reduction = &reduction;
+    return solve(system, options);
+  }
+  const Options& options = given;
+  const certify::Reduction& reduction = *options.reduction;
   const Sigma least = smallest_sigma(system);
   check_sigma("sigma of lengths", options.sigma_length, least.length);
   check_sigma("sigma of angles", options.sigma_angle, least.angle);
 
-  const certify::Reduction reduction = certify::reduce(system);
+  const certify::Ended overdue = [&control] { return control.overdue(); };
   Search search(system, reduction, options);
   Cover cover;
   cover.dimension = reduction.system.dimension();
@@ -429,6 +513,7 @@ Cover solve(const certify::System& system, const Options& options) {
   cover.sigma = chosen_sigma(system, options, domain, any_dimension ? 1 : cover.dimension);
   search.set_sigma(cover.sigma);
   if (reduction.consistent) {
+    const InStage stage(control, Stage::search);
     search.run(reduction);
     if (!search.problem().tolerant)
       cover.sigma =
@@ -451,10 +536,12 @@ Cover solve(const certify::System& system, const Options& options) {
     const certify::UpwardRounding rounding;  // and subnormal numbers stay
     sort(found);
     if (cover.dimension == 0) {
-      merge_isolated(found);
+      const InStage stage(control, Stage::points);
+      merge_isolated(found, overdue);
       cover.regions = number_regions(reduction, found);
-      cover.points = collect_points(found, search.problem().limits(kPointGap));
+      cover.points = collect_points(found, search.problem().limits(kPointGap), overdue);
     } else {
+      const InStage stage(control, Stage::merging);
       const std::size_t before = found.size();
       if (options.max_solutions == 0) search.merge(found);  // it might leave fewer than were asked for
       if (found.size() < before) sort(found);               // merged boxes have other sides

@@ -6,6 +6,8 @@
 
 namespace corank::solve {
 
+constexpr int kMostBits = 8192;
+
 using certify::Box;
 using certify::Cover;
 using certify::CoverBox;
@@ -14,12 +16,17 @@ using certify::ExactPoint;
 using certify::System;
 using certify::Verdict;
 
-void prove_decimals(const System& system, int digits, Cover& cover) {
+void prove_decimals(const System& system, int digits, Cover& cover, const Options& options) {
+  std::optional<Control> own;
+  Control& control = options.control ? *options.control : own.emplace(limits_of(options));
+  const InStage stage(control, Stage::decimals);
+  const certify::Ended ended = [&control] { return control.ended(); };
   cover.decimals.clear();
-  const certify::Reduction reduction = certify::reduce(system);
+  const certify::Reduction reduction = options.reduction ? *options.reduction : certify::reduce(system, ended);
   for (const CoverBox& point : cover.points) {
+    control.report(cover.decimals.size(), cover.points.size());
     std::vector<std::string>& decimals = cover.decimals.emplace_back();
-    if (point.verdict == Verdict::undecided) continue;
+    if (point.verdict == Verdict::undecided || control.ended()) continue;
     if (point.point >= 0) {
       const ExactPoint& exact = cover.exact_points[static_cast<std::size_t>(point.point)];
       const certify::AlgebraicNumber t(exact.polynomial, exact.lower, exact.upper);
@@ -31,7 +38,7 @@ void prove_decimals(const System& system, int digits, Cover& cover) {
     } else if (point.verdict == Verdict::isolated) {
       std::vector<ExactNumber> start;
       for (const int j : reduction.kept) start.push_back(ExactNumber::dyadic(point.box[static_cast<std::size_t>(j)].mid()));
-      const auto zero = certify::prove_zero(reduction.system, start, digits + 2);
+      const auto zero = certify::prove_zero(reduction.system, start, digits + 2, kMostBits, ended);
       const Box& region = point.region >= 0 ? cover.regions[static_cast<std::size_t>(point.region)] : point.box;
       if (!zero || !certify::is_solution_of_region(*zero, reduction, region)) continue;
       decimals.resize(system.variables.size());

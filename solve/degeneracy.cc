@@ -105,6 +105,7 @@ void SelfMotions::prove_cluster(const Problem& problem, const certify::System& s
   int attempts = 0;
   for (const std::size_t i : cluster) {
     Postponed& box = boxes[i];
+    if (problem.ended()) return;
     if (prove_on_known(problem, box) || attempts >= kMotionAttempts ||
         !goes_on(problem, box.near, kProbeStep * share, random))
       continue;
@@ -123,7 +124,8 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::Sy
   std::vector<const Box*> sides;
   for (const Postponed& box : boxes) sides.push_back(&box.x);
   const double last = system.dimension() == 0 ? kPointShare : kOtherShare;
-  for (const std::vector<std::size_t>& cluster : clusters(sides, problem.limits(1e-3 * share))) {
+  for (const std::vector<std::size_t>& cluster : clusters(sides, problem.limits(1e-3 * share), problem.ended)) {
+    if (problem.ended()) break;  // the search takes what is left back
     Reason reason = share < last ? Reason::degenerate_point : Reason::none;
     if (!is_isolated(problem, boxes, cluster, share)) {
       reason = Reason::none;

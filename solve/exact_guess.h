@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "corank/certify/ended.h"
 #include "corank/certify/exact_point.h"
 
 namespace corank::solve {
@@ -11,8 +12,8 @@ namespace corank::solve {
 /// The exact point whose coordinates agree with those given, rational numbers that are right to `bits` bits: rational numbers first (continued
 /// fractions), else polynomials in one algebraic number of at most `degree`, one of the coordinates or a small combination of them, whose integer
 /// relations come from lattice reduction (LLL; key LenstraLenstraLovasz1982). Nothing where all that fits has long numbers: such fits exist for any
-/// coordinates and mean nothing. Coordinates without a value stay unknown.
+/// coordinates and mean nothing. Coordinates without a value stay unknown. Nothing where `ended` is true before.
 std::optional<certify::ExactPoint> guess_exactly(const std::vector<std::optional<certify::ExactNumber>>& coordinates,
-                                                 int bits, int degree);
+                                                 int bits, int degree, const certify::Ended& ended = {});
 
 }  // namespace corank::solve

@@ -4,10 +4,12 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <boost/functional/hash.hpp>
 #include <chrono>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "corank/certify/domain.h"
 #include "corank/certify/exact_verification.h"
@@ -41,6 +43,7 @@ constexpr int kDegree = 4;                     // of algebraic numbers
 constexpr std::uint64_t kFaceBoxes = 200'000;  // to search in one face of a blow-up
 constexpr double kSmallSingularValue = 0.2;    // relative to the largest: worth a try
 constexpr std::size_t kMostOpenBoxes = 3000;   // beyond, clusters are no longer sought
+constexpr int kMostVariables = 150;            // exact points of larger systems take too long
 constexpr int kMostFutile = 16;                // attempts, before a kind of point is no longer sought
 constexpr int kCoreAttempts = 6;
 constexpr double kNextToHull = 3;  // of its width
@@ -66,30 +69,35 @@ std::vector<ExactNumber> dyadic(const std::vector<double>& x) {
 
 class Prover {
  public:
-  Prover(const System& system, const Options& options, Cover& cover) : system_(system), cover_(cover), options_(options) {
+  /// The options have a control.
+  Prover(const System& system, const Options& options, Cover& cover)
+      : system_(system), cover_(cover), options_(options), reduction_(*options.reduction) {
     options_.progress = nullptr;
-    options_.max_boxes = options_.max_solutions = 0;
-    if (options.time_limit > 0) {
-      const double left = std::max(0.0, options.time_limit - cover.statistics.seconds_total);
-      deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(left));
-    }
+    options_.max_boxes = options_.max_found = options_.max_solutions = 0;
     options_.sigma_length = cover.sigma.length;
     options_.sigma_angle = cover.sigma.angle;
   }
 
   void points() {
+    const InStage stage(control_, Stage::exact);
+    const std::unordered_multimap<std::size_t, std::size_t> isolated = isolated_boxes();
     int futile = 0;  // in a row: then the other points are hardly of small degree either
+    std::size_t done = 0;
     for (CoverBox& point : cover_.points) {
+      control_.report(done++, cover_.points.size());
       if (point.verdict != Verdict::isolated || stopped() || futile >= kMostFutile) continue;
       const std::optional<int> exact = exact_point(point.box);
       futile = exact ? 0 : futile + 1;
       if (!exact) continue;
       point.point = *exact;
-      for (CoverBox& box : cover_.boxes)
-        if (box.verdict == Verdict::isolated && box.box == point.box) box.point = *exact;
+      const auto [first, last] = isolated.equal_range(hash(point.box));
+      for (auto i = first; i != last; ++i)
+        if (CoverBox& box = cover_.boxes[i->second]; box.box == point.box) box.point = *exact;
     }
     std::vector<CoverBox> points;
+    done = 0;
     for (CoverBox& point : cover_.points) {
+      control_.report(done++, cover_.points.size());
       if (point.verdict == Verdict::undecided && !stopped() && settle(point)) continue;
       points.push_back(std::move(point));
     }
@@ -98,6 +106,7 @@ class Prover {
   }
 
   void coranks() {
+    const InStage stage(control_, Stage::exact);
     const certify::KernelMatrix matrix = certify::kernel_matrix(system_);
     if (matrix.rows.empty()) return;
     std::vector<std::size_t> open;
@@ -106,9 +115,12 @@ class Prover {
     if (open.empty() || open.size() > kMostOpenBoxes) return;
     std::vector<const Box*> open_sides;
     for (const std::size_t i : open) open_sides.push_back(&cover_.boxes[i].box);
-    std::vector<std::vector<std::size_t>> groups = clusters(open_sides, std::vector<double>(system_.variables.size(), 0.0));
+    std::vector<std::vector<std::size_t>> groups =
+        clusters(open_sides, std::vector<double>(system_.variables.size(), 0.0), ended_);
     int futile = 0;
+    std::size_t done = 0;
     for (std::vector<std::size_t>& cluster : groups) {
+      control_.report(done++, groups.size());
       if (stopped() || futile >= kMostFutile) break;
       for (std::size_t& i : cluster) i = open[i];
       Box hull = cover_.boxes[cluster[0]].box;
@@ -125,6 +137,7 @@ class Prover {
   }
 
   void kernel_dimensions() {
+    const InStage stage(control_, Stage::kernel);
     const certify::KernelBound bound(system_);
     if (!bound.applies()) return;
     const std::vector<certify::PointLocation> places(cover_.exact_points.begin(), cover_.exact_points.end());
@@ -135,7 +148,7 @@ class Prover {
     tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::this_task_arena::max_concurrency());
     arena.execute(
         [&] { tbb::parallel_for(std::size_t{0}, cover_.boxes.size(), [&](std::size_t i) { bound_in(cover_.boxes[i]); }); });
-    for (CoverBox& point : cover_.points) bound_in(point);
+    if (!cover_.points.empty()) bound_points(bound_in);
     // Few: one after the other, since a point's number is narrowed while it is compared.
     const auto explain = [&](CoverBox& box) {
       const certify::UpwardRounding rounding;
@@ -145,7 +158,7 @@ class Prover {
       if (box.point < 0) box.corank = bound.at_most(box.box, kKernelDepth);
     };
     for (CoverBox& box : cover_.boxes) explain(box);
-    for (CoverBox& point : cover_.points) explain(point);
+    if (!cover_.points.empty()) bound_points(explain);
   }
 
  private:
@@ -169,18 +182,39 @@ class Prover {
     return false;
   }
 
-  bool stopped() const {
-    return (options_.stop && options_.stop->load(std::memory_order_relaxed)) || (deadline_ && Clock::now() >= *deadline_);
+  bool stopped() const { return control_.ended(); }
+
+  // What is said of a box is said of the point that it is; `say` of the other points, which are hulls of boxes.
+  template <class Say>
+  void bound_points(Say say) {
+    std::unordered_multimap<std::size_t, std::size_t> places;
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i) places.emplace(hash(cover_.boxes[i].box), i);
+    for (CoverBox& point : cover_.points) {
+      const auto [first, last] = places.equal_range(hash(point.box));
+      const auto same = std::find_if(first, last, [&](const auto& at) { return cover_.boxes[at.second].box == point.box; });
+      if (same == last) {
+        say(point);
+      } else {
+        point.corank = cover_.boxes[same->second].corank;
+        point.point = cover_.boxes[same->second].point;
+      }
+    }
   }
 
-  // A search of its own ends where this one is to end.
-  Options within_limits(Options options) const {
-    constexpr double kLeast = 1e-3;  // 0 is no limit
-    if (deadline_) {
-      const std::chrono::duration<double> left = *deadline_ - Clock::now();
-      options.time_limit = std::max(kLeast, left.count());
+  // Isolated boxes by their sides.
+  static std::size_t hash(const Box& box) {
+    std::size_t seed = 0;
+    for (const Interval& side : box) {
+      boost::hash_combine(seed, side.lo());
+      boost::hash_combine(seed, side.hi());
     }
-    return options;
+    return seed;
+  }
+  std::unordered_multimap<std::size_t, std::size_t> isolated_boxes() const {
+    std::unordered_multimap<std::size_t, std::size_t> result;
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
+      if (cover_.boxes[i].verdict == Verdict::isolated) result.emplace(hash(cover_.boxes[i].box), i);
+    return result;
   }
 
   int add(ExactPoint point) {
@@ -197,12 +231,12 @@ class Prover {
 
   // A verified solution in the box.
   std::optional<int> exact_point(const Box& box) {
-    const std::vector<double> start = polish(system_, box).value_or(midpoint(box));
-    const auto zero = certify::approximate_zero(system_, dyadic(start), kBits);
+    const std::vector<double> start = polish(system_, box, ended_).value_or(midpoint(box));
+    const auto zero = certify::approximate_zero(system_, dyadic(start), kBits, ended_);
     if (!zero) return std::nullopt;
-    auto point = guess_exactly({zero->begin(), zero->end()}, kGuessBits, kDegree);
+    auto point = guess_exactly({zero->begin(), zero->end()}, kGuessBits, kDegree, ended_);
     if (!point) return std::nullopt;
-    const certify::ExactVerification verified = certify::verify_exactly(system_, *point);
+    const certify::ExactVerification verified = certify::verify_exactly(system_, *point, ended_);
     if (!verified.holds || !certify::lies_in(*point, box)) return std::nullopt;
     point->corank = verified.corank;
     return add(std::move(*point));
@@ -215,15 +249,15 @@ class Prover {
     double radius = std::ldexp(1.0, -60);
     const ExactNumber needed = certify::reach(point, box);
     while ((ExactNumber::dyadic(radius) - needed).sign() != 1) radius *= 2;
-    const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius));
+    const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius), ended_);
     if (!faces) return false;
     Options options;
     options.threads = options_.threads;
-    options.stop = options_.stop;
+    options.control = &control_;
     options.max_boxes = kFaceBoxes;
     try {
       for (const System& face : *faces) {
-        const Cover solutions = solve(face, within_limits(options));
+        const Cover solutions = solve(face, options);
         if (!solutions.complete() || !solutions.boxes.empty()) return false;
       }
     } catch (const std::invalid_argument&) {  // elimination has made coefficients that no double holds
@@ -240,14 +274,14 @@ class Prover {
     const int k = static_cast<int>(s.size());
     for (int c = 2; c <= k && s[static_cast<std::size_t>(k - c)] < kSmallSingularValue * s[0]; ++c) {
       const CorankSystem extended = corank_system(system_, matrix, x, c);
-      const auto zero = certify::approximate_zero(extended.system, dyadic(extended.start), kBits);
+      const auto zero = certify::approximate_zero(extended.system, dyadic(extended.start), kBits, ended_);
       if (!zero) continue;
       std::vector<std::optional<ExactNumber>> coordinates(x.size());
       for (std::size_t j = 0; j < extended.configuration.size(); ++j)
         coordinates[static_cast<std::size_t>(extended.configuration[j])] = (*zero)[j];
-      auto point = guess_exactly(coordinates, kGuessBits, kDegree);
+      auto point = guess_exactly(coordinates, kGuessBits, kDegree, ended_);
       if (!point) continue;
-      const certify::ExactVerification verified = certify::verify_exactly(system_, *point);
+      const certify::ExactVerification verified = certify::verify_exactly(system_, *point, ended_);
       if (!verified.holds || verified.corank < 2) continue;
       point->corank = verified.corank;
       // Next to the boxes: no farther than they are wide together.
@@ -281,7 +315,7 @@ class Prover {
         core[j] = Interval(bounds.lower.enclose().lo() - half, bounds.upper.enclose().hi() + half);
         all[j] = Interval::hull(hull[j], core[j]);
       }
-      Options options = within_limits(options_);
+      Options options = options_;
       const Partition partition = difference(all, core);
       if (partition.parts.empty()) return;
       options.roots = partition.parts;
@@ -336,26 +370,43 @@ class Prover {
     return partition;
   }
 
-  using Clock = std::chrono::steady_clock;
-
   const System& system_;
   Cover& cover_;
   Options options_;
-  std::optional<Clock::time_point> deadline_;
-  const certify::Reduction reduction_ = certify::reduce(system_);  // what solve() searches
+  Control& control_ = *options_.control;
+  const certify::Ended ended_ = [this] { return control_.ended(); };
+  const certify::Reduction& reduction_;  // what solve() searches
   CoverEdit edit_{cover_, reduction_};
 };
 
 }  // namespace
 
-void prove_exactly(const System& system, const Options& options, Cover& cover) {
+void prove_exactly(const System& system, const Options& given, Cover& cover) {
   if (system.coefficient_tolerance > 0) return;
+  Options options = given;
+  std::optional<Control> control;
+  if (!options.control) {
+    Control::Limits limits = limits_of(given);
+    constexpr double kLeast = 1e-9;  // 0 is no limit
+    if (limits.time > 0) limits.time = std::max(kLeast, limits.time - cover.statistics.seconds_total);
+    control.emplace(limits);
+    control->count_boxes(cover.statistics.processed);
+    options.control = &*control;
+  }
+  std::optional<certify::Reduction> reduction;
+  if (!options.reduction) {
+    const InStage stage(*options.control, Stage::reduction);
+    options.reduction = &reduction.emplace(certify::reduce(system, [&options] { return options.control->ended(); }));
+  }
+  if (options.control->ended()) return;  // the reduction may not be the search's
   const auto start = std::chrono::steady_clock::now();
   Prover prover(system, options, cover);
-  if (cover.dimension == 0) {
-    prover.points();
-  } else if (cover.complete()) {
-    prover.coranks();
+  if (system.size() <= kMostVariables) {
+    if (cover.dimension == 0) {
+      prover.points();
+    } else if (cover.complete()) {
+      prover.coranks();
+    }
   }
   prover.kernel_dimensions();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -16,8 +16,12 @@ constexpr int kTightenings = 2;
 
 class Merger {
  public:
-  Merger(const Problem& problem, std::vector<Found*>& found)
-      : problem_(problem), found_(found), preconditioners_(problem.compiled), removed_(found.size(), false) {}
+  Merger(const Problem& problem, std::vector<Found*>& found, const certify::Ended& ended)
+      : problem_(problem),
+        found_(found),
+        ended_(ended),
+        preconditioners_(problem.compiled, ended),
+        removed_(found.size(), false) {}
 
   void run() {
     for (std::size_t i = 0; i < found_.size(); ++i)
@@ -81,6 +85,7 @@ class Merger {
       auto at = std::lower_bound(cells_.begin(), cells_.end(), first, [](const Cell& c, long key) { return c.key < key; });
       for (; at != cells_.end() && at->key <= last; ++at) {
         const std::size_t j = at->index;
+        if (certify::is_over(ended_)) return false;
         if (j == i || removed_[j] || found_[i]->box.free != found_[j]->box.free) continue;
         if (!merge(*found_[i], found_[j]->box)) continue;
         found_[i]->leaves.insert(found_[i]->leaves.end(), found_[j]->leaves.begin(), found_[j]->leaves.end());
@@ -121,6 +126,7 @@ class Merger {
 
   const Problem& problem_;
   std::vector<Found*>& found_;
+  const certify::Ended& ended_;
   PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
   std::vector<bool> removed_;
@@ -130,6 +136,8 @@ class Merger {
 
 }  // namespace
 
-void merge_regular(const Problem& problem, std::vector<Found*>& found) { Merger(problem, found).run(); }
+void merge_regular(const Problem& problem, std::vector<Found*>& found, const certify::Ended& ended) {
+  Merger(problem, found, ended).run();
+}
 
 }  // namespace corank::solve

@@ -1,11 +1,10 @@
 #include "corank/solve/points.h"
 
 #include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
-#include <cmath>
 #include <numeric>
 
 #include "corank/certify/distinct.h"
+#include "corank/solve/box_tree.h"
 
 namespace corank::solve {
 namespace {
@@ -15,45 +14,6 @@ using certify::Verdict;
 
 bool is_proven(const Found& f) { return f.sheet != nullptr; }
 
-// Calls visit(i, j) for every pair i in first, j in second (i ≠ j) whose first sides overlap when widened by their gaps, one for each side.
-// Sweeps along the variable that spreads the boxes most.
-template <class Visit>
-void for_each_close_pair(const std::vector<const std::vector<Interval>*>& boxes, const std::vector<std::size_t>& first,
-                         const std::vector<std::size_t>& second, const std::vector<double>& gaps, Visit visit) {
-  if (first.empty() || second.empty() || boxes[second[0]]->empty()) return;
-  std::size_t along = 0;
-  double best = -1;
-  for (std::size_t j = 0; j < gaps.size(); ++j) {
-    double least = HUGE_VAL, greatest = -HUGE_VAL, width = 0;
-    for (std::size_t i : second) {
-      least = std::min(least, (*boxes[i])[j].lo());
-      greatest = std::max(greatest, (*boxes[i])[j].lo());
-      width = std::max(width, (*boxes[i])[j].width());
-    }
-    const double spread = (greatest - least) / (width + gaps[j] + 1e-300);
-    if (spread > best) best = spread, along = j;
-  }
-  std::vector<std::size_t> order(second);
-  const auto lower_end = [&](std::size_t i) { return (*boxes[i])[along].lo(); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return lower_end(a) < lower_end(b); });
-  double width = 0;
-  for (std::size_t i : order) width = std::max(width, (*boxes[i])[along].width());
-  for (std::size_t i : first) {
-    const auto& a = *boxes[i];
-    const double from = a[along].lo() - width - gaps[along], to = a[along].hi() + gaps[along];
-    auto at = std::lower_bound(order.begin(), order.end(), from,
-                               [&](std::size_t k, double value) { return lower_end(k) < value; });
-    for (; at != order.end() && lower_end(*at) <= to; ++at) {
-      if (*at == i) continue;
-      const auto& b = *boxes[*at];
-      bool close = true;
-      for (std::size_t j = 0; j < gaps.size() && close; ++j)
-        close = a[j].lo() <= b[j].hi() + gaps[j] && b[j].lo() <= a[j].hi() + gaps[j];
-      if (close) visit(i, *at);
-    }
-  }
-}
-
 template <class Choose>
 std::vector<std::size_t> indices(const std::vector<Found*>& found, Choose choose) {
   std::vector<std::size_t> result;
@@ -62,25 +22,26 @@ std::vector<std::size_t> indices(const std::vector<Found*>& found, Choose choose
   return result;
 }
 
-std::vector<const std::vector<Interval>*> sides(const std::vector<Found*>& found) {
-  std::vector<const std::vector<Interval>*> result;
+std::vector<const certify::Box*> sides(const std::vector<Found*>& found) {
+  std::vector<const certify::Box*> result;
   for (const Found* f : found) result.push_back(&f->box.box);
   return result;
 }
 
+std::size_t sides_of(const std::vector<Found*>& found) { return found.empty() ? 0 : found[0]->box.box.size(); }
+
+constexpr std::size_t kBetweenChecks = 64;
+
 }  // namespace
 
-void merge_isolated(std::vector<Found*>& found) {
+void merge_isolated(std::vector<Found*>& found, const certify::Ended& ended) {
   std::vector<bool> remove(found.size(), false), unclear(found.size(), false);
-  const auto proven = indices(found, is_proven);
-  const auto all = indices(found, [](const Found&) { return true; });
   const auto absorb = [&](std::size_t i, std::size_t j) {  // box j's solutions, if it has any, are in box i
     remove[j] = true;
     found[i]->leaves.insert(found[i]->leaves.end(), found[j]->leaves.begin(), found[j]->leaves.end());
   };
-  const std::vector<double> gaps(found.empty() ? 0 : found[0]->box.box.size(), 0.0);
-  for_each_close_pair(sides(found), proven, all, gaps, [&](std::size_t i, std::size_t j) {
-    if (remove[i] || remove[j]) return;
+  const auto compare = [&](std::size_t i, std::size_t j) {
+    if (i == j || remove[i] || remove[j]) return;
     if (!is_proven(*found[j])) {
       if (certify::holds_nothing_else(*found[i]->sheet, found[j]->box.box.data())) absorb(i, j);
     } else if (i < j) {
@@ -90,7 +51,22 @@ void merge_isolated(std::vector<Found*>& found) {
         case certify::Identity::unknown: unclear[i] = unclear[j] = true; break;
       }
     }
-  });
+  };
+  const auto proven = indices(found, is_proven);
+  const BoxTree tree(proven.empty() ? std::vector<const certify::Box*>{} : sides(found), sides_of(found));
+  std::vector<std::size_t> close;
+  bool over = false;
+  for (std::size_t k = 0; k < proven.size(); ++k) {
+    over = over || (k % kBetweenChecks == 0 && certify::is_over(ended));
+    if (over) {  // nothing is known of the pairs of those that are left
+      unclear[proven[k]] = true;
+      continue;
+    }
+    close.clear();
+    tree.for_each_overlapping(found[proven[k]]->box.box, 0.0, [&](std::size_t j) { close.push_back(j); });
+    std::sort(close.begin(), close.end());
+    for (const std::size_t j : close) compare(proven[k], j);
+  }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (remove[i]) continue;
@@ -105,25 +81,25 @@ void merge_isolated(std::vector<Found*>& found) {
 }
 
 std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::Box*>& boxes,
-                                               const std::vector<double>& gaps) {
-  boost::disjoint_sets_with_storage<> sets(boxes.size());
-  std::vector<std::size_t> all(boxes.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  for_each_close_pair(boxes, all, all, gaps, [&](std::size_t i, std::size_t j) { sets.union_set(i, j); });
-  std::vector<std::vector<std::size_t>> result;
-  std::vector<std::size_t> place(boxes.size(), boxes.size());  // of each set in the result
+                                               const std::vector<double>& gaps, const certify::Ended& ended) {
+  std::vector<certify::Box> widened(boxes.size());
+  std::vector<const certify::Box*> sides;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    std::size_t& at = place[sets.find_set(i)];
-    if (at == boxes.size()) {
-      at = result.size();
-      result.emplace_back();
-    }
-    result[at].push_back(i);
+    for (std::size_t j = 0; j < gaps.size(); ++j)
+      widened[i].push_back((*boxes[i])[j] + Interval(-0.5 * gaps[j], 0.5 * gaps[j]));
+    sides.push_back(&widened[i]);
+  }
+  const std::vector<std::size_t> group = BoxTree(sides, gaps.size()).groups(0, ended);
+  std::vector<std::vector<std::size_t>> result;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    if (group[i] == result.size()) result.emplace_back();
+    result[group[i]].push_back(i);
   }
   return result;
 }
 
-std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, const std::vector<double>& gaps) {
+std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, const std::vector<double>& gaps,
+                                              const certify::Ended& ended) {
   const auto along_a_set = [](const Found& f) {
     return !f.box.free.empty() || f.box.reason == certify::Reason::degenerate_set || f.box.verdict == Verdict::pending;
   };
@@ -132,7 +108,12 @@ std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, 
   for (const std::size_t i : open) open_sides.push_back(&found[i]->box.box);
   std::vector<bool> joined(found.size(), false);
   std::vector<certify::Box> hulls(found.size());  // of clusters, where their first box stands
-  for (const std::vector<std::size_t>& cluster : clusters(open_sides, gaps)) {
+  std::vector<std::vector<std::size_t>> groups = clusters(open_sides, gaps, ended);
+  if (certify::is_over(ended) && !open.empty()) {  // the groups are pieces of clusters: hardly a box each
+    groups.assign(1, std::vector<std::size_t>(open.size()));
+    std::iota(groups[0].begin(), groups[0].end(), std::size_t{0});
+  }
+  for (const std::vector<std::size_t>& cluster : groups) {
     certify::Box& hull = hulls[open[cluster[0]]];
     hull = *open_sides[cluster[0]];
     for (std::size_t k = 1; k < cluster.size(); ++k) {

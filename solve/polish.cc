@@ -18,7 +18,8 @@ using Ipopt::Number;
 // ½‖F‖² with the Gauss–Newton Hessian JᵀJ, no constraints but the bounds.
 class LeastSquares : public Ipopt::TNLP {
  public:
-  LeastSquares(const certify::CompiledSystem& system, const certify::Box& box) : system_(system), box_(box) {}
+  LeastSquares(const certify::CompiledSystem& system, const certify::Box& box, const certify::Ended& ended)
+      : system_(system), box_(box), ended_(ended) {}
   const std::vector<double>& solution() const { return solution_; }
 
   bool get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& hessian_entries, IndexStyleEnum& style) override {
@@ -75,6 +76,10 @@ class LeastSquares : public Ipopt::TNLP {
         }
     return all_finite(values, n * (n + 1) / 2);
   }
+  bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number, Number, Number, Number,
+                             Index, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+    return !certify::is_over(ended_);
+  }
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*, const Number*, Index, const Number*,
                          const Number*, Number, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
     solution_.assign(x, x + n);
@@ -104,15 +109,17 @@ class LeastSquares : public Ipopt::TNLP {
 
   const certify::CompiledSystem& system_;
   const certify::Box& box_;
+  const certify::Ended& ended_;
   std::vector<double> solution_;
 };
 
 }  // namespace
 
-std::optional<std::vector<double>> polish(const certify::System& system, const certify::Box& box) {
+std::optional<std::vector<double>> polish(const certify::System& system, const certify::Box& box,
+                                          const certify::Ended& ended) {
   const certify::CompiledSystem compiled(system);
   const certify::NearestRounding nearest;
-  const Ipopt::SmartPtr<LeastSquares> problem = new LeastSquares(compiled, box);
+  const Ipopt::SmartPtr<LeastSquares> problem = new LeastSquares(compiled, box, ended);
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = IpoptApplicationFactory();
   ipopt->Options()->SetIntegerValue("print_level", 0);
   ipopt->Options()->SetStringValue("sb", "yes");  // no banner

@@ -10,10 +10,11 @@ namespace {
 // Pivots below this share of a row's largest entry count as zero, each times its variable's scale.
 constexpr double kRankTolerance = 1e-9;
 constexpr int kGaussNewtonSteps = 8;
+constexpr long kLargeTableau = 20'000;  // entries: a step with it is long enough to ask whether the run has ended
 }  // namespace
 
-PreconditionerFactory::PreconditionerFactory(const certify::CompiledSystem& system)
-    : system_(system), m_(system.equations()), n_(system.variables()) {}
+PreconditionerFactory::PreconditionerFactory(const certify::CompiledSystem& system, certify::Ended ended)
+    : system_(system), ended_(std::move(ended)), m_(system.equations()), n_(system.variables()) {}
 
 const certify::Preconditioner& PreconditionerFactory::at_midpoint(const certify::Interval* x,
                                                                   const std::vector<int>* candidates,
@@ -92,7 +93,13 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
 
   result_.equations.clear();
   result_.dependent.clear();
+  const bool large = !candidates && static_cast<long>(m_) * n_ > kLargeTableau;
   for (int step = 0; step < std::min(m_, n_); ++step) {
+    over_ = over_ || (large && certify::is_over(ended_));
+    if (over_) {
+      result_ = {};
+      return result_;
+    }
     int row = -1;
     double best = candidates ? 0 : rank_tolerance;  // candidates come from a proof: they are independent
     for (int i = 0; i < m_; ++i)

@@ -4,13 +4,15 @@
 
 #include <vector>
 
+#include "corank/certify/ended.h"
 #include "corank/certify/newton.h"
 
 namespace corank::solve {
 
 class PreconditionerFactory {
  public:
-  explicit PreconditionerFactory(const certify::CompiledSystem& system);
+  /// Large eliminations are given up once `ended` is true.
+  explicit PreconditionerFactory(const certify::CompiledSystem& system, certify::Ended ended = {});
 
   /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x, its columns times the variables'
   /// scales: each pivot makes one variable dependent. Fewer than m rows where the Jacobian is numerically rank deficient. If given, only the `candidates` may become
@@ -21,6 +23,8 @@ class PreconditionerFactory {
   /// over-determined system shows: away from its solutions redundant equations look independent. Pivots below `rank_tolerance` count as zero.
   const certify::Preconditioner& near_solution(const certify::Interval* x, double rank_tolerance);
 
+  /// An elimination was given up: its result has no rows, which is valid, too.
+  bool over() const { return over_; }
   /// The result of the last call of either.
   const certify::Preconditioner& last() const { return result_; }
   /// After either: ∂(dependent a)/∂(free j) of the linearized system, r×n row-major, 0 for dependent columns.
@@ -33,6 +37,8 @@ class PreconditionerFactory {
                                            double rank_tolerance);
 
   const certify::CompiledSystem& system_;
+  const certify::Ended ended_;
+  bool over_ = false;
   int m_, n_;
   std::vector<double> center_, sparse_, tableau_, row_scale_, best_size_, allowed_;
   std::vector<int> best_column_;

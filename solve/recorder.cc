@@ -12,6 +12,8 @@ using certify::Interval;
 using certify::Proof;
 using Step = Proof::Step;
 
+constexpr std::uint64_t kBlock = 16;  // of an allocation's own
+
 bool fits_float(double y) { return y == 0 || (std::fabs(y) > 1e-30 && std::fabs(y) < 1e30); }
 
 }  // namespace
@@ -25,6 +27,12 @@ void round_to_floats(certify::Preconditioner& p) {
   }
   if (!(fits_float(least) && fits_float(greatest))) return;
   for (double& y : p.y) y = static_cast<double>(static_cast<float>(y));
+}
+
+std::uint64_t Recorder::bytes() const {
+  constexpr std::uint64_t kTreeNode = 48;
+  return script_.steps.size() + sizeof(std::int32_t) * script_.integers.size() + sizeof(double) * script_.reals.size() +
+         combination_bytes_ + nodes_.size() * (sizeof(Node) + kTreeNode);
 }
 
 void Recorder::step(Step s) {
@@ -50,6 +58,8 @@ void Recorder::newton(const certify::Preconditioner& p, const Interval* x) {
   keep(x);
   script_.integers.push_back(static_cast<std::int32_t>(script_.combinations.size()));
   script_.combinations.push_back({p.equations, p.dependent, {p.y.begin(), p.y.end()}});
+  combination_bytes_ += sizeof(script_.combinations.back()) + kBlock * 3 +
+                        sizeof(float) * (p.equations.size() + p.dependent.size() + p.y.size());
   step(Step::newton);
 }
 

@@ -20,6 +20,8 @@ class Recorder {
   /// Each thread's number differs.
   explicit Recorder(int thread) : prefix_(static_cast<std::uint64_t>(thread) << 40) {}
 
+  /// What it keeps, nearly.
+  std::uint64_t bytes() const;
   NodeId new_node() { return prefix_ | next_++; }
   LeafId leaf(std::size_t found) const { return prefix_ | found; }
 
@@ -56,6 +58,7 @@ class Recorder {
 
   std::uint64_t prefix_, next_ = 1;
   certify::Proof script_;
+  std::uint64_t combination_bytes_ = 0;
   std::map<NodeId, Node> nodes_;
   Node* open_ = nullptr;
   std::vector<certify::Interval> kept_;

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "corank/certify/cover.h"
+#include "corank/certify/reduction.h"
 #include "corank/certify/system.h"
+#include "corank/solve/control.h"
 
 namespace corank::solve {
 
@@ -30,11 +32,14 @@ struct Options {
   double coarser = 1;
   int threads = 1;              ///< 0: one for each core
   std::uint64_t max_boxes = 0;  ///< stop after so many processed boxes; 0: no limit
+  std::uint64_t max_found = 0;  ///< stop when so many boxes are found, proven or undecided; 0: no limit
   /// Stop when so many proven boxes are found; 0: all. Isolated solutions count as distinct ones, as far as the boxes found
   /// so far tell them apart. A sheet that is being cut, and other threads, may add a few more: no proof is thrown away. What
   /// is not processed then is `pending`, as with the other limits. With one thread the result is always the same.
   std::uint64_t max_solutions = 0;
   double time_limit = 0;  ///< seconds; 0: no limit
+  std::uint64_t memory_limit =
+      0;  ///< stop when the boxes found, and what is to be made of them, take more bytes; 0: no limit
   /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a tolerance have none.
   bool proof = false;
   /// Where given: search these boxes, in all variables, instead of the whole domain; the cover is of their solutions.
@@ -44,7 +49,15 @@ struct Options {
   double progress_interval = 0.1;
   /// Where set by another thread or a signal handler, the search ends soon with a valid, incomplete cover.
   const std::atomic<bool>* stop = nullptr;
+  /// Where given: it ends this search and whatever else it is given to; it takes the place of time_limit, memory_limit and
+  /// stop, and max_boxes are those of this search alone.
+  Control* control = nullptr;
+  /// Where given: certify::reduce(system), which is then not made again.
+  const certify::Reduction* reduction = nullptr;
 };
+
+/// What the options say of when to end.
+Control::Limits limits_of(const Options& options);
 
 /// The coefficient tolerance (System::coefficient_tolerance) to take for a system as somebody printed it: 1e-6 where it has more
 /// equations than variables, since rounded decimals make redundant equations inconsistent; else 0, exact. Not for systems

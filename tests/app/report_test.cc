@@ -81,7 +81,7 @@ TEST(Report, HasOneProgressLineOverAllSetsAndEndsWithWhatItHasAfterAnInterrupt) 
   program.signal(SIGINT);
   const Outcome outcome = program.finish();
   EXPECT_EQ(outcome.status, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("corank: interrupted; the report is incomplete"));
+  EXPECT_THAT(outcome.err, HasSubstr("corank: cspace: stopped by an interrupt, in the stage "));
   EXPECT_FALSE(report::read_result(folder.file("r/inverse.h5")).cover.complete());
   EXPECT_NE(read_text(folder.file("r/index.html")).find("A search ended before its end"), std::string::npos);
 }

@@ -238,7 +238,7 @@ TEST(Interrupt, EndsTheSearchWithAReadableIncompleteResult) {
     program.signal(signal);
     const Outcome outcome = program.finish();
     EXPECT_EQ(outcome.status, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("corank: interrupted; the result is incomplete"));
+    EXPECT_THAT(outcome.err, HasSubstr("corank: stopped by an interrupt, in the stage search; the result is incomplete"));
     const json summary = json::parse(outcome.out);
     EXPECT_EQ(summary["complete"], false);
     const report::Result result = report::read_result(folder.file("r.h5"));
@@ -268,7 +268,19 @@ TEST(Progress, SaysWhatIsDoneAndLeftOnATerminalAndIsWipedOut) {
   program.signal(SIGINT);
   const Outcome outcome = program.finish();
   EXPECT_THAT(outcome.err, testing::ContainsRegex("[0-9]+ done, [0-9]+ left, [0-9.]+ % excluded"));
-  EXPECT_THAT(outcome.err, HasSubstr("\r\x1b[Kcorank: interrupted"));
+  EXPECT_THAT(outcome.err, HasSubstr("\r\x1b[Kcorank: stopped by an interrupt"));
+}
+
+TEST(Progress, NamesTheStages) {
+  const TemporaryFolder folder;
+  CorankOnTerminal program({"solve", model("dextar"), "--set", "inverse", "--sigma", "0.2", "-o", folder.file("r.h5")});
+  const Outcome outcome = program.finish();
+  EXPECT_EQ(outcome.status, 0);
+  std::size_t at = 0;
+  for (const char* stage : {"\rreduction", "\rsearch", "\rmerging", "\rexact points", "\rkernel dimensions", "\rwriting"}) {
+    at = outcome.err.find(stage, at);
+    ASSERT_NE(at, std::string::npos) << stage << " in " << outcome.err;
+  }
 }
 
 }  // namespace

@@ -271,7 +271,7 @@ TEST(Sweep, OfALimitedSearchSaysSoAndHasStatus3) {
   const Outcome outcome =
       run_corank({"sweep", model("dextar"), "-D", "l2=1.6:0.9:2", "--max-boxes", "20", "-o", folder.file("f")});
   EXPECT_EQ(outcome.status, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("a limit was reached; 2 of 2 mechanisms are on the page"));
+  EXPECT_THAT(outcome.err, HasSubstr("forward: stopped by the box limit, in the stage search\ncorank: l2 = 1.6, inverse: "));
   EXPECT_NE(read_text(folder.file("f/index.html")).find("A search ended before its end"), std::string::npos);
 }
 
@@ -284,7 +284,7 @@ TEST(Sweep, LeavesWhatIsDoneWhenInterrupted) {
   program.signal(SIGINT);
   const Outcome outcome = program.finish();
   EXPECT_EQ(outcome.status, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("corank: interrupted"));
+  EXPECT_THAT(outcome.err, HasSubstr("stopped by an interrupt, in the stage "));
   const std::size_t done = page_model(folder.file("f"))["members"].size();
   EXPECT_GE(done, 2u);
   EXPECT_LT(done, kAsked);

@@ -37,7 +37,7 @@ TEST(Help, OfTheProgramAndOfEverySubcommandHasAnExample) {
 TEST(Help, OfSolveNamesEveryOption) {
   const std::string help = run_corank({"solve", "--help"}).out;
   for (const char* option : {"FILE", "--set", "--sigma", "--kernel", "--threads", "--max-boxes", "--max-solutions",
-                             "--time-limit", "--tolerance", "-D", "-o", "--json"}) {
+                             "--time-limit", "--memory-limit", "--tolerance", "-D", "-o", "--json"}) {
     EXPECT_THAT(help, HasSubstr(option));
   }
 }
@@ -86,6 +86,16 @@ TEST(Usage, IsRefusedWithStatus2AndOneLine) {
       {{"solve", slider, "--set", "forward", "--tolerance", "nan"}, "--tolerance"},
       {{"solve", slider, "--set", "forward", "--tolerance", "0.1"}, "--tolerance"},
       {{"solve", slider, "--set", "forward", "--time-limit", "-1"}, "--time-limit"},
+      {{"solve", slider, "--set", "forward", "--time-limit", "nan"}, "--time-limit"},
+      {{"solve", slider, "--set", "forward", "--memory-limit", "much"}, "--memory-limit"},
+      {{"solve", slider, "--set", "forward", "--memory-limit", "-1G"}, "--memory-limit"},
+      {{"report", slider, "--sigma", "nan"}, "--sigma"},
+      {{"report", slider, "--cspace-sigma", "inf"}, "--cspace-sigma"},
+      {{"report", slider, "--time-limit", "inf"}, "--time-limit"},
+      {{"report", slider, "--memory-limit", "8X"}, "--memory-limit"},
+      {{"report", slider, "--max-found", "-1"}, "--max-found"},
+      {{"sweep", slider, "-D", "L2=0.5:1:2", "--sigma", "nan"}, "--sigma"},
+      {{"sweep", slider, "-D", "L2=0.5:1:2", "--time-limit", "-1"}, "--time-limit"},
       {{"solve", slider, "--set", "forward", "-D", "L2"}, "NAME=EXPR"},
       {{"solve", slider, "--set", "forward", "-D", "=1"}, "NAME=EXPR"},
       {{"solve", slider, "--set", "forward", "-D", "L2="}, "NAME=EXPR"},

@@ -55,6 +55,49 @@ TEST(Reduction, ReplacesTiedVariablesAndImages) {
   EXPECT_TRUE(box[0].contains(2.0) && box[1].contains(0.5) && box[2].contains(-0.5) && box[3].contains(-0.75));
 }
 
+TEST(Reduction, IsGivenUpAsAWholeOnceItIsToEnd) {
+  const System system = chain().system();
+  int questions = 0;
+  reduce(system, Eliminate::exact, [&] { return ++questions < 0; });
+  ASSERT_GT(questions, 5);
+  for (int k = 0; k < questions; ++k) {
+    int asked = 0;
+    const Reduction r = reduce(system, Eliminate::exact, [&] { return asked++ >= k; });
+    EXPECT_EQ(asked, k + 1) << "the first yes ends it";
+    EXPECT_TRUE(r.consistent && r.definitions.empty() && r.steps.empty());
+    EXPECT_EQ(r.kept, (std::vector<int>{0, 1, 2, 3}));
+    ASSERT_EQ(r.system.equations.size(), system.equations.size());
+    for (std::size_t i = 0; i < system.equations.size(); ++i)
+      EXPECT_EQ(text(r.system.equations[i]), text(system.equations[i]));
+  }
+}
+
+TEST(Reduction, LeavesLongNumbersAlone) {
+  // The second equation less twice the first is y = 1 in this case; with a coefficient of 1 + 10^−700 it is not worth the
+  // arithmetic.
+  const auto steps = [](const std::string& coefficient) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-2", "2");
+    b.equation({{"1", {{x, 2}}}, {coefficient, {{x, 3}}}, {"1", {{x, 1}, {y, 1}}}, {"1", {{y, 2}}}});
+    b.equation({{"2", {{x, 2}}}, {"2", {{x, 3}}}, {"2", {{x, 1}, {y, 1}}}, {"2", {{y, 2}}}, {"1", {{y, 1}}}, {"-1", {}}});
+    return reduce(b.system(), Eliminate::exact).steps.size();
+  };
+  EXPECT_GT(steps("1"), 0u);
+  EXPECT_EQ(steps("1" + std::string(699, '0') + "1/1" + std::string(700, '0')), 0u);
+}
+
+TEST(Reduction, TreatsThousandsOfEquations) {
+  // xᵢ² + xᵢ₊₁ = 1/2, cyclic: nothing to be done, which is to be seen without comparing every pair's coefficients.
+  constexpr int kCount = 2000;
+  SystemBuilder b;
+  for (int i = 0; i < kCount; ++i) b.variable("x" + std::to_string(i), "0", "1");
+  for (int i = 0; i < kCount; ++i) b.equation({{"1", {{i, 2}}}, {"1", {{(i + 1) % kCount, 1}}}, {"-1/2", {}}});
+  int questions = 0;
+  const Reduction r = reduce(b.system(), Eliminate::exact, [&] { return ++questions < 0; });
+  EXPECT_TRUE(r.steps.empty());
+  EXPECT_LT(questions, 10 * kCount);
+}
+
 TEST(Reduction, KeepsTheRangesOfWhatItEliminates) {
   // x = 2y + 1 ∈ [−4, 4] gives y ∈ [−5/2, 3/2], z = −y ∈ [−1, 3] gives y ∈ [−3, 1].
   const Reduction r = reduce(chain().system(), Eliminate::exact);

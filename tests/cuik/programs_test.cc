@@ -101,7 +101,7 @@ TEST(Cuik, EndsAfterAsManySolutionsAsTheParametersAskFor) {
   folder.write("circle.param", "SIGMA = 0.01\nN_SOLUTIONS = 30\n");
   const Outcome run = folder.run("cuik circle --threads 1");
   EXPECT_EQ(run.status, 3) << run.err;
-  EXPECT_EQ(run.err, "corank: a limit was reached; the result is incomplete\n");
+  EXPECT_EQ(run.err, "corank: stopped by the solution limit, in the stage search; the result is incomplete\n");
   EXPECT_THAT(folder.read("circle.sol"), HasSubstr("   SIGMA = 0.01\n   N_SOLUTIONS = 30\n"));
   const auto regular = [&] {
     const SolFile file = report::read_sol(folder.file("circle.sol"));

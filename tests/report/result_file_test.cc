@@ -79,6 +79,7 @@ void expect_same(const Result& a, const Result& b) {
   EXPECT_EQ(a.model, b.model);
   EXPECT_EQ(a.model_text, b.model_text);
   EXPECT_EQ(a.set, b.set);
+  EXPECT_EQ(a.stopped, b.stopped);
   EXPECT_EQ(a.system_text, b.system_text);
   EXPECT_EQ(a.options, b.options);
   ASSERT_EQ(a.variables.size(), b.variables.size());
@@ -125,6 +126,13 @@ void expect_same(const Result& a, const Result& b) {
 TEST_F(ResultFile, GivesBackEveryBitOfAResult) {
   write_result(path(), sample_result());
   expect_same(read_result(path()), sample_result());
+}
+
+TEST_F(ResultFile, SaysWhatStoppedTheRun) {
+  Result result = sample_result();
+  result.stopped = "the memory limit, in the stage search";
+  write_result(path(), result);
+  expect_same(read_result(path()), result);
 }
 
 TEST_F(ResultFile, GivesBackAnEmptyResult) {

@@ -25,8 +25,8 @@ std::vector<std::string> keys(const ordered_json& object) {
 
 TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   const ordered_json json = ordered_json::parse(to_json(sample_result()));
-  EXPECT_THAT(keys(json), ElementsAre("model", "set", "system", "options", "complete", "boxes", "points", "kernel",
-                                      "seconds", "version"));
+  EXPECT_THAT(keys(json), ElementsAre("model", "set", "system", "options", "complete", "stopped", "boxes", "points",
+                                      "kernel", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]), ElementsAre("kernel", "sigma", "tolerance", "threads", "max_boxes", "max_solutions",
                                                  "time_limit", "constants"));
@@ -135,6 +135,27 @@ TEST(Table, IsShortForASurface) {
   const std::string table = to_table(result);
   EXPECT_THAT(table, Not(HasSubstr("point")));
   EXPECT_THAT(table, HasSubstr("complete: every solution in the search domain is in a box"));
+}
+
+TEST(Summary, ShowsTheFirstThousandOfVeryManyPoints) {
+  Result result = sample_result();
+  result.cover.dimension = 0;
+  result.cover.points.assign(1521, result.cover.points[0]);
+  const std::string table = to_table(result);
+  EXPECT_NE(table.find("1521 points"), std::string::npos);
+  EXPECT_NE(table.find("\n   1000  "), std::string::npos) << table.substr(0, 2000);
+  EXPECT_EQ(table.find("\n   1001  "), std::string::npos);
+  EXPECT_NE(table.find("\n  and 521 more"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(to_json(result))["points"].size(), 1521u);
+}
+
+TEST(Summary, SaysWhatStoppedTheRun) {
+  Result result = sample_result();
+  EXPECT_EQ(to_table(result).find("stopped by"), std::string::npos);
+  EXPECT_TRUE(nlohmann::json::parse(to_json(result))["stopped"].is_null());
+  result.stopped = "the time limit, in the stage exact points";
+  EXPECT_NE(to_table(result).find("\nstopped by the time limit, in the stage exact points\n"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(to_json(result))["stopped"], result.stopped);
 }
 
 }  // namespace

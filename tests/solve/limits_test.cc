@@ -59,6 +59,25 @@ TEST(Solve, EndsAfterSoManyProvenBoxesWithAValidIncompleteCover) {
   expect_covers_torus(cover);
 }
 
+TEST(Solve, EndsAfterSoManyFoundBoxesWhateverTheirVerdict) {
+  // A double curve, (x² + y² − 1)² = 0: nothing can be proven.
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"1", {{x, 4}}}, {"2", {{x, 2}, {y, 2}}}, {"1", {{y, 4}}}, {"-2", {{x, 2}}}, {"-2", {{y, 2}}}, {"1", {}}});
+  Options options;
+  options.set_sigma(0.01);
+  const std::size_t all = solve(b.system(), options).boxes.size();
+  options.max_found = 50;
+  for (const int threads : {1, 2}) {
+    options.threads = threads;
+    const Cover cover = solve(b.system(), options);
+    EXPECT_FALSE(cover.complete());
+    EXPECT_GE(cover.count(Verdict::undecided), 50u);
+    EXPECT_LT(cover.boxes.size(), all / 2);
+    for (int k = 0; k < 100; ++k) EXPECT_TRUE(covers(cover, {std::cos(0.0628 * k), std::sin(0.0628 * k)}));
+  }
+}
+
 TEST(Solve, FindsAllWhereThereAreFewerSolutionsThanAskedFor) {
   Options options;
   options.max_solutions = 1;

@@ -1,0 +1,29 @@
+// What ends a search, as options of the command line, and the checks of numbers there: the same for every subcommand that
+// has them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "corank/solve/solve.h"
+
+namespace corank::app {
+
+struct SearchLimits {
+  int threads = 0;
+  std::uint64_t max_boxes = 0, max_found = 0;
+  double time_limit = 0;
+  std::optional<std::uint64_t> memory_limit{};  ///< bytes; nothing: three quarters of what the machine grants
+
+  /// --threads, --max-boxes, --max-found, --time-limit, --memory-limit. `search`: "the search" or "each search".
+  void add_options(CLI::App& command, const std::string& search);
+  /// Puts them and the interrupt's flag into the options.
+  void apply(solve::Options& options) const;
+};
+
+/// Finite numbers only: "inf" and "nan" are numbers to the parser of options.
+CLI::Validator positive_number();
+CLI::Validator non_negative_number();
+
+}  // namespace corank::app

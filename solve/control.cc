@@ -1,0 +1,109 @@
+#include "corank/solve/control.h"
+
+#include <chrono>
+
+namespace corank::solve {
+namespace {
+
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Control::Limits with_clock(Control::Limits limits) {
+  if (!limits.clock) limits.clock = steady_seconds;
+  return limits;
+}
+
+constexpr int kStages = 256;
+
+}  // namespace
+
+const char* to_string(Stage stage) {
+  switch (stage) {
+    case Stage::model: return "model";
+    case Stage::reduction: return "reduction";
+    case Stage::search: return "search";
+    case Stage::merging: return "merging";
+    case Stage::points: return "collecting points";
+    case Stage::exact: return "exact points";
+    case Stage::kernel: return "kernel dimensions";
+    case Stage::decimals: return "decimals";
+    case Stage::writing: return "writing";
+    case Stage::figures: return "figures";
+    case Stage::page: return "page";
+  }
+  return "?";
+}
+
+const char* to_string(Limit limit) {
+  switch (limit) {
+    case Limit::time: return "the time limit";
+    case Limit::interrupt: return "an interrupt";
+    case Limit::boxes: return "the box limit";
+    case Limit::found: return "the limit of boxes found";
+    case Limit::solutions: return "the solution limit";
+    case Limit::memory: return "the memory limit";
+  }
+  return "?";
+}
+
+std::string to_string(const Ending& ending) {
+  return std::string(to_string(ending.by)) + ", in the stage " + to_string(ending.stage);
+}
+
+Control::Control(Limits limits)
+    : limits_(with_clock(std::move(limits))), deadline_(limits_.time > 0 ? limits_.clock() + limits_.time : 0) {}
+
+void Control::note(Limit by) const {
+  int none = -1;
+  ending_.compare_exchange_strong(none, static_cast<int>(by) * kStages + static_cast<int>(stage_.load()));
+}
+
+std::optional<Ending> Control::ending() const {
+  const int ending = ending_;
+  if (ending < 0) return std::nullopt;
+  return Ending{static_cast<Limit>(ending / kStages), static_cast<Stage>(ending % kStages)};
+}
+
+bool Control::ended() const {
+  if (ended_.load(std::memory_order_relaxed)) return true;
+  if (limits_.stop && limits_.stop->load(std::memory_order_relaxed)) {
+    note(Limit::interrupt);
+  } else if (limits_.time > 0 && limits_.clock() >= deadline_) {
+    note(Limit::time);
+  } else {
+    return false;
+  }
+  if (double never = 0; ended_at_.compare_exchange_strong(never, limits_.clock())) ended_ = true;
+  return true;
+}
+
+bool Control::overdue() const { return ended() && limits_.clock() - ended_at_ >= kGrace; }
+
+bool Control::search_ended() const {
+  if (ended()) return true;
+  if (limits_.memory && kept_.load(std::memory_order_relaxed) > static_cast<std::int64_t>(limits_.memory)) {
+    note(Limit::memory);
+    return true;
+  }
+  return false;
+}
+
+bool Control::count_box() {
+  if (search_ended()) return false;
+  if (boxes_.fetch_add(1, std::memory_order_relaxed) < limits_.boxes || limits_.boxes == 0) return true;
+  note(Limit::boxes);
+  return false;
+}
+
+void Control::report(std::uint64_t done, std::uint64_t all) const {
+  if (progress) progress({stage_, done, all});
+}
+
+InStage::InStage(Control& control, Stage stage) : control_(control) {
+  if (control.depth_++ > 0) return;
+  control.stage_ = stage;
+  control.report(0, 0);
+}
+
+}  // namespace corank::solve

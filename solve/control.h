@@ -1,0 +1,124 @@
+// What may end a run before its end, and where the run is: one value for all that is done for one result, passed down
+// through its stages.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "corank/certify/cover.h"
+
+namespace corank::solve {
+
+/// What is being done, in its order.
+enum class Stage : std::uint8_t {
+  model,
+  reduction,
+  search,
+  merging,
+  points,
+  exact,
+  kernel,
+  decimals,
+  writing,
+  figures,
+  page
+};
+/// "reduction", "exact points" … for people.
+const char* to_string(Stage stage);
+
+/// What ended a run early. Time and interrupt end every stage; the others end searches only.
+enum class Limit : std::uint8_t { time, interrupt, boxes, found, solutions, memory };
+/// "the time limit", "an interrupt" …
+const char* to_string(Limit limit);
+
+struct Ending {
+  Limit by;
+  Stage stage;
+  friend bool operator==(const Ending&, const Ending&) = default;
+};
+/// "the time limit, in the stage exact points".
+std::string to_string(const Ending& ending);
+
+/// The bytes that a cover takes, with what is made of its boxes later.
+std::uint64_t bytes_of(const certify::Cover& cover, std::uint64_t later_bytes);
+
+/// The bytes that writing takes for a side of a box, beyond those of the cover: in a result file, or on a page with its
+/// pictures as well.
+inline constexpr std::uint64_t kFileBytes = 17, kPageBytes = 64;
+
+class Control {
+ public:
+  struct Limits {
+    double time = 0;           ///< seconds from the control's construction on; 0: no limit
+    std::uint64_t boxes = 0;   ///< processed in all searches together; 0: no limit
+    std::uint64_t memory = 0;  ///< bytes, as keep() counts them; 0: no limit
+    /// Where another thread or a signal handler sets it, the run ends.
+    const std::atomic<bool>* stop = nullptr;
+    /// Seconds since any moment; called from any thread. Default: the machine's steady clock.
+    std::function<double()> clock = {};
+    std::uint64_t later_bytes = kFileBytes;  ///< what later stages take for each side of a box
+  };
+  struct Progress {
+    Stage stage;
+    std::uint64_t done, all;  ///< of what the stage treats; all = 0: it does not say
+  };
+
+  Control() : Control(Limits{}) {}
+  explicit Control(Limits limits);
+  Control(const Control&) = delete;
+  Control& operator=(const Control&) = delete;
+
+  const Limits& limits() const { return limits_; }
+  /// Every stage ends soon once this is true, with a valid result; it stays true.
+  bool ended() const;
+  /// For what makes a result of all that was found, and takes little time: true once the run has ended kGrace seconds ago.
+  bool overdue() const;
+  static constexpr double kGrace = 0.5;
+  /// The same as ended() for a search, which also ends where it has used up boxes or memory.
+  bool search_ended() const;
+  /// A box is about to be processed; false: there is to be none.
+  bool count_box();
+  void count_boxes(std::uint64_t boxes) { boxes_ += boxes; }
+  /// So many bytes more, or less, are kept.
+  void keep(std::int64_t bytes) { kept_.fetch_add(bytes, std::memory_order_relaxed); }
+  std::int64_t kept() const { return kept_; }
+  /// Notes that the search has ended for this reason; the first reason is kept.
+  void note(Limit by) const;
+  /// What ended the run, and in which stage; nothing where it ran, or runs, to its end.
+  std::optional<Ending> ending() const;
+
+  Stage stage() const { return stage_; }
+  /// Called where a stage begins, and by stages that know how far they are; from one thread. To be set before the run.
+  std::function<void(const Progress&)> progress;
+  void report(std::uint64_t done, std::uint64_t all) const;
+
+ private:
+  friend class InStage;
+  const Limits limits_;
+  const double deadline_;
+  std::atomic<Stage> stage_{Stage::search};
+  int depth_ = 0;
+  mutable std::atomic<bool> ended_{false};
+  mutable std::atomic<double> ended_at_{0};
+  mutable std::atomic<int> ending_{-1};  // limit and stage in one
+  std::atomic<std::uint64_t> boxes_{0};
+  std::atomic<std::int64_t> kept_{0};
+};
+
+/// For its life the control is in the stage. Stages within a stage keep its name: a search in the exact stage is the exact
+/// stage.
+class InStage {
+ public:
+  InStage(Control& control, Stage stage);
+  ~InStage() { --control_.depth_; }
+  InStage(const InStage&) = delete;
+  InStage& operator=(const InStage&) = delete;
+
+ private:
+  Control& control_;
+};
+
+}  // namespace corank::solve

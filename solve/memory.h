@@ -1,0 +1,26 @@
+// What a search keeps until its result is written, in bytes: an estimate that counts what there are many of.
+#pragma once
+
+#include "corank/solve/problem.h"
+
+namespace corank::solve {
+
+class MemoryEstimate {
+ public:
+  /// `later_bytes`: what later stages take for a side of a box.
+  MemoryEstimate(const certify::Reduction& reduction, std::uint64_t later_bytes);
+
+  /// A found box: itself, its copy in all variables, its place in the sorted list, and what later stages make of it; its
+  /// region where it is not that of the box found before.
+  std::int64_t of(const Found& found, const Found* former) const;
+  /// A part of the script: itself, the copy in the cover, and the file's.
+  std::int64_t of_script(std::uint64_t bytes) const { return 3 * static_cast<std::int64_t>(bytes); }
+  std::int64_t of_waiting(std::size_t boxes) const { return waiting_ * static_cast<std::int64_t>(boxes); }
+  /// The matrices that a thread works with.
+  std::int64_t of_thread() const { return thread_; }
+
+ private:
+  std::int64_t box_, region_, sheet_, thread_, waiting_;
+};
+
+}  // namespace corank::solve
