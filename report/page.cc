@@ -60,7 +60,7 @@ mustache::data payload(const Result& result) {
 std::string fixed_html(const symbolic::Mechanism& mechanism) {
   std::string html;
   for (const symbolic::Coordinate& c : mechanism.coordinates()) {
-    if (!same_tree(c.lower, c.upper)) continue;
+    if (!is_fixed(c)) continue;
     html += html.empty() ? "" : ", ";
     html += symbolic::math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + symbolic::mathml(c.lower));
   }
