@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "corank/certify/polynomial_algebra.h"
+#include "corank/certify/rounding.h"
 
 namespace corank::certify {
 namespace {
@@ -58,14 +59,44 @@ class Implication {
       for (const auto& [j, a] : sum.coefficients)
         bound(j, [&](const ExactNumber& h) { return at_least(a * h * h, sum.bound); });
     for (const Polynomial* f : rows_) by_products(*f);
+    const std::vector<Polynomial> sums = shorter_sums();
     do {
       changed_ = false;
       for (const Polynomial* f : rows_) by_sums(*f);
+      for (const Polynomial& f : sums) by_sums(f);
     } while (changed_);
     return sides_;
   }
 
  private:
+  static bool is_linear(const Polynomial& f) {
+    return std::all_of(f.monomials.begin(), f.monomials.end(),
+                       [](const Monomial& m) { return m.factors.empty() || m.is_trigonometric() || is_plain_variable(m); });
+  }
+
+  // Of two linear equations each, without a variable of both.
+  std::vector<Polynomial> shorter_sums() const {
+    constexpr std::size_t kMostRows = 60;
+    std::vector<const Polynomial*> linear;
+    for (const Polynomial* f : rows_)
+      if (is_linear(*f)) linear.push_back(f);
+    std::vector<Polynomial> sums;
+    if (linear.size() > kMostRows) return sums;
+    for (std::size_t i = 0; i < linear.size(); ++i)
+      for (std::size_t k = i + 1; k < linear.size(); ++k) add_shorter_sums(*linear[i], *linear[k], sums);
+    return sums;
+  }
+
+  static void add_shorter_sums(const Polynomial& f, const Polynomial& g, std::vector<Polynomial>& sums) {
+    for (const Monomial& m : f.monomials) {
+      const auto same = std::find_if(g.monomials.begin(), g.monomials.end(),
+                                     [&](const Monomial& n) { return n.factors == m.factors && is_plain_variable(n); });
+      if (same == g.monomials.end()) continue;
+      Polynomial sum = certify::sum(f, -m.coefficient / same->coefficient, g);
+      if (sum.monomials.size() < std::max(f.monomials.size(), g.monomials.size())) sums.push_back(std::move(sum));
+    }
+  }
+
   // Takes |x_j| ≤ h as implied for each end h ≥ 0 of its domain for which that is true.
   template <class Holds>
   void bound(int j, Holds holds) {
@@ -94,8 +125,7 @@ class Implication {
 
   // The lemma about sums, for each variable of Σ m = 0.
   void by_sums(const Polynomial& f) {
-    for (const Monomial& m : f.monomials)
-      if (!m.factors.empty() && !m.is_trigonometric() && !is_plain_variable(m)) return;
+    if (!is_linear(f)) return;
     for (const bool upper : {false, true}) {
       ExactNumber sum;
       const Monomial* open = nullptr;  // the last one without a bound
@@ -183,6 +213,9 @@ class Implication {
 
 }  // namespace
 
-std::vector<ImpliedSides> implied_domains(const System& system) { return Implication(system).run(); }
+std::vector<ImpliedSides> implied_domains(const System& system) {
+  const UpwardRounding rounding;  // of the enclosures in sums, which nobody looks at
+  return Implication(system).run();
+}
 
 }  // namespace corank::certify

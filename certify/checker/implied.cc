@@ -35,6 +35,7 @@ Implied::Implied(const System& system, const std::vector<Terms>& equations) {
     }
     if (is_sum && !squares.of.empty() && squares.bound.sign() != -1) squares_.push_back(squares);
   }
+  add_shorter_sums();
   for (const Variable& v : system.variables) {
     domains_.push_back({{v.lower, v.upper}, {v.lower.is_rational(), v.upper.is_rational()}, {}});
   }
@@ -47,6 +48,30 @@ Implied::Implied(const System& system, const std::vector<Terms>& equations) {
         if (domain.implied[side] || !domain.rational[side]) continue;
         domain.implied[side] = holds(y, domain.end[side], side == 1 ? 1 : -1);
         more = more || domain.implied[side];
+      }
+    }
+  }
+}
+
+void Implied::add_shorter_sums() {
+  constexpr std::size_t kMostRows = 120;  // before and after the reduction
+  std::vector<Terms> linear;
+  for (const Terms& f : equations_) {
+    const auto& list = f.list();
+    if (std::all_of(list.begin(), list.end(), [](const auto& term) {
+          return term.first.empty() || is_function(term.first) || is_variable(term.first);
+        }))
+      linear.push_back(f);
+  }
+  if (linear.size() > kMostRows) return;
+  for (std::size_t i = 0; i < linear.size(); ++i) {
+    for (std::size_t k = i + 1; k < linear.size(); ++k) {
+      for (const auto& [factors, c] : linear[i].list()) {
+        const auto same = linear[k].list().find(factors);
+        if (!is_variable(factors) || same == linear[k].list().end()) continue;
+        Terms sum = linear[i].plus(-c.exact / same->second.exact, linear[k]);
+        if (sum.list().size() < std::max(linear[i].list().size(), linear[k].list().size()))
+          equations_.push_back(std::move(sum));
       }
     }
   }

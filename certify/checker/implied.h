@@ -12,7 +12,8 @@ namespace corank::certify::checker {
 /// Lemma (products; Cauchy–Schwarz): a y = Σ bₖ uₖ vₖ + b₀ with distinct uₖ, Σ eᵢuᵢ² ≤ U, and distinct vₖ, Σ fᵢvᵢ² ≤ V, implies
 /// (|a y| − |b₀|)² ≤ max bₖ² · U V/(min e · min f) where |a y| ≥ |b₀|.
 /// Lemma (sums): a y = Σ bᵢ tᵢ + b₀, each tᵢ a sine, a cosine or a variable with a bound known for the side in question, implies the bound
-/// of the right side. For bounds of variables the ends of their domains are taken, where these are implied in turn.
+/// of the right side. For bounds of variables the ends of their domains are taken, where these are implied in turn. The equations are
+/// those given, and f − q·g for two that are linear where that has fewer terms than one of them.
 class Implied {
  public:
   Implied() = default;
@@ -32,6 +33,7 @@ class Implied {
   };
   using Factors = std::vector<Factor>;
 
+  void add_shorter_sums();
   bool by_squares(int y, const ExactNumber& h) const;
   bool by_products(const Terms& f, int y, const ExactNumber& h) const;
   bool by_sum(const Terms& f, int y, const ExactNumber& end, int sign) const;

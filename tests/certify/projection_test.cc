@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 #include <random>
 
@@ -219,7 +220,22 @@ TEST(Domain, IsImpliedByASumOfWhatIsImplied) {
   EXPECT_FALSE(implied[w].lower || implied[w].upper || implied[o].lower || implied[o].upper) << "w + o = -c";
 }
 
-TEST(Domain, IsImpliedByItsOwnSumAlone) {
+TEST(Domain, IsImpliedByTheOtherArmOfAClosedChain) {
+  SystemBuilder b;  // x = 1.18 + 0.9 (c2 + c3), and the chain closes: x = 0.9 (c5 − c4)
+  const int x = b.variable("x", "-1.8", "1.8");
+  std::array<int, 4> c{};
+  for (int i = 0; i < 4; ++i) {
+    c[i] = b.variable("c" + std::to_string(i + 2), "-1", "1");
+    const int s = b.variable("s" + std::to_string(i + 2), "-1", "1");
+    b.equation({{"1", {{c[i], 2}}}, {"1", {{s, 2}}}, {"-1", {}}});
+  }
+  b.equation({{"1.18", {}}, {"0.9", {{c[0], 1}}}, {"0.9", {{c[1], 1}}}, {"0.9", {{c[2], 1}}}, {"-0.9", {{c[3], 1}}}});
+  EXPECT_FALSE(implied_domains(b.system())[x].upper);
+  b.equation({{"-1", {{x, 1}}}, {"1.18", {}}, {"0.9", {{c[0], 1}}}, {"0.9", {{c[1], 1}}}});
+  EXPECT_TRUE(implied_domains(b.system())[x].both());
+}
+
+TEST(Domain, IsNotImpliedByAVariableThatItBounds) {
   SystemBuilder b;  // nothing bounds x or y, though each would bound the other
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
   b.equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}});
