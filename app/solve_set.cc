@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "corank/report/domain_notes.h"
 #include "corank/solve/exactness.h"
 #include "corank/symbolic/printer.h"
 
@@ -42,6 +43,7 @@ report::Result solve_set(const Question& question, const symbolic::Mechanism& me
   solve::prove_exactly(system, options, result.cover);
   if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover);
   report::describe_system(system, result);
+  report::describe_domain(mechanism, system, result);
   mark_auxiliary(mechanism, result);
   result.options = {kernel_of(question, set), result.cover.sigma,    system.coefficient_tolerance, options.threads,
                     options.max_boxes,        options.max_solutions, options.time_limit,           overrides(question)};

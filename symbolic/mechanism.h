@@ -77,8 +77,8 @@ class Mechanism {
   void mark_auxiliary(std::size_t coordinates = 1);
   /// Adds lhs = rhs (an assembly constraint) or an inequality.
   void constrain(const Relation& relation, const SourceLocation& where = {}, const std::string& note = {});
-  /// Each argument is a coordinate's symbol, or a Composite's for all of its coordinates. Throws ModelError for anything else, a repetition, or a coordinate that is
-  /// already an output (input). Repeated calls add.
+  /// Each argument is a coordinate's symbol, or a Composite's for all of its coordinates. Throws ModelError for anything else, a
+  /// repetition, or a coordinate that is already an output (input). Repeated calls add.
   void inputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
   void outputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
   void drawing(Drawing drawing) { drawing_ = std::move(drawing); }
