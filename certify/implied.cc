@@ -47,6 +47,7 @@ class Implication {
       });
       if (!rational) continue;
       if (auto sum = sum_of_squares(f)) {
+        for (const auto& [j, a] : sum->coefficients) squares_of_[j].push_back(squares_.size());
         squares_.push_back(std::move(*sum));
       } else {
         rows_.push_back(&f);
@@ -55,16 +56,26 @@ class Implication {
   }
 
   std::vector<ImpliedSides> run() {
+    const std::vector<Polynomial> sums = shorter_sums();
+    std::vector<const Polynomial*> linear;
+    for (const Polynomial* f : rows_)
+      if (is_linear(*f)) linear.push_back(f);
+    for (const Polynomial& f : sums) linear.push_back(&f);
+    linear_of_.resize(system_.variables.size());
+    for (std::size_t row = 0; row < linear.size(); ++row) {
+      for (const Monomial& m : linear[row]->monomials)
+        if (is_plain_variable(m)) linear_of_[static_cast<std::size_t>(m.factors[0].variable)].push_back(row);
+      open_.push_back(row);
+    }
     for (const SumOfSquares& sum : squares_)
       for (const auto& [j, a] : sum.coefficients)
         bound(j, [&](const ExactNumber& h) { return at_least(a * h * h, sum.bound); });
     for (const Polynomial* f : rows_) by_products(*f);
-    const std::vector<Polynomial> sums = shorter_sums();
-    do {
-      changed_ = false;
-      for (const Polynomial* f : rows_) by_sums(*f);
-      for (const Polynomial& f : sums) by_sums(f);
-    } while (changed_);
+    while (!open_.empty()) {  // a row that has a new bound comes again
+      const std::size_t row = open_.back();
+      open_.pop_back();
+      by_sums(*linear[row]);
+    }
     return sides_;
   }
 
@@ -108,8 +119,10 @@ class Implication {
 
   void imply(int j, bool upper) {
     bool& side = upper ? sides_[static_cast<std::size_t>(j)].upper : sides_[static_cast<std::size_t>(j)].lower;
-    changed_ = changed_ || !side;
+    if (side) return;
     side = true;
+    const auto& rows = linear_of_[static_cast<std::size_t>(j)];
+    open_.insert(open_.end(), rows.begin(), rows.end());
   }
 
   // An implied upper (else lower) bound of m's value.
@@ -125,7 +138,6 @@ class Implication {
 
   // The lemma about sums, for each variable of Σ m = 0.
   void by_sums(const Polynomial& f) {
-    if (!is_linear(f)) return;
     for (const bool upper : {false, true}) {
       ExactNumber sum;
       const Monomial* open = nullptr;  // the last one without a bound
@@ -172,10 +184,9 @@ class Implication {
       }
     }
     if (!linear || products.empty()) return;
-    for (const SumOfSquares& y : squares_) {
-      if (!y.coefficients.contains(products[0].first)) continue;
-      for (const SumOfSquares& z : squares_) {
-        const auto square = square_of_bound(products, y, z);
+    for (const std::size_t first : squares_of(products[0].first)) {
+      for (const std::size_t second : squares_of(products[0].second)) {
+        const auto square = square_of_bound(products, squares_[first], squares_[second]);
         if (!square) continue;
         bound(linear->factors[0].variable, [&](const ExactNumber& h) {
           const ExactNumber left = magnitude(linear->coefficient) * h - rest;
@@ -183,6 +194,12 @@ class Implication {
         });
       }
     }
+  }
+
+  const std::vector<std::size_t>& squares_of(int variable) const {
+    static const std::vector<std::size_t> none;
+    const auto found = squares_of_.find(variable);
+    return found == squares_of_.end() ? none : found->second;
   }
 
   // Y Z/(min e min f), where each product is one of a variable of y and one of z, no variable twice.
@@ -207,8 +224,10 @@ class Implication {
   const System& system_;
   std::vector<ImpliedSides> sides_;
   std::vector<SumOfSquares> squares_;
+  std::map<int, std::vector<std::size_t>> squares_of_;  // those with a variable
   std::vector<const Polynomial*> rows_;
-  bool changed_ = false;
+  std::vector<std::vector<std::size_t>> linear_of_;  // the linear rows of a variable
+  std::vector<std::size_t> open_;                    // linear rows that may say more than before
 };
 
 }  // namespace

@@ -39,16 +39,40 @@ Implied::Implied(const System& system, const std::vector<Terms>& equations) {
   for (const Variable& v : system.variables) {
     domains_.push_back({{v.lower, v.upper}, {v.lower.is_rational(), v.upper.is_rational()}, {}});
   }
-  // Each pass may use what those before it found.
-  for (bool more = true; more;) {
-    more = false;
-    for (int y = 0; y < system.size(); ++y) {
-      Domain& domain = domains_[static_cast<std::size_t>(y)];
-      for (const int side : {0, 1}) {
-        if (domain.implied[side] || !domain.rational[side]) continue;
-        domain.implied[side] = holds(y, domain.end[side], side == 1 ? 1 : -1);
-        more = more || domain.implied[side];
+  index(system.variables.size());
+  spread();
+}
+
+void Implied::index(std::size_t variables) {
+  equations_of_.resize(variables);
+  squares_of_.resize(variables);
+  for (std::size_t i = 0; i < equations_.size(); ++i) {
+    for (const auto& [factors, c] : equations_[i].list()) {
+      for (const Factor& factor : factors) {
+        auto& list = equations_of_[static_cast<std::size_t>(factor.variable)];
+        if (list.empty() || list.back() != i) list.push_back(i);
       }
+    }
+  }
+  for (std::size_t i = 0; i < squares_.size(); ++i)
+    for (const auto& [y, a] : squares_[i].of) squares_of_[static_cast<std::size_t>(y)].push_back(i);
+}
+
+// Looks at each variable, and again where another one of an equation of its has a new bound.
+void Implied::spread() {
+  std::vector<int> open;
+  for (int y = 0; y < static_cast<int>(domains_.size()); ++y) open.push_back(y);
+  while (!open.empty()) {
+    const int y = open.back();
+    open.pop_back();
+    Domain& domain = domains_[static_cast<std::size_t>(y)];
+    for (const int side : {0, 1}) {
+      if (domain.implied[side] || !domain.rational[side]) continue;
+      domain.implied[side] = holds(y, domain.end[side], side == 1 ? 1 : -1);
+      if (!domain.implied[side]) continue;
+      for (const std::size_t i : equations_of_[static_cast<std::size_t>(y)])
+        for (const auto& [factors, c] : equations_[i].list())
+          if (is_variable(factors) && factors[0].variable != y) open.push_back(factors[0].variable);
     }
   }
 }
@@ -84,16 +108,16 @@ bool Implied::holds(int y, const ExactNumber& end, int sign) const {
   if (domain.implied[side] && (sign > 0 ? not_less(end, domain.end[1]) : not_less(domain.end[0], end))) return true;
   const ExactNumber h = sign > 0 ? end : -end;
   if (h.sign() != -1 && by_squares(y, h)) return true;
-  return std::any_of(equations_.begin(), equations_.end(), [&](const Terms& f) {
-    return f.mentions(y) && ((h.sign() != -1 && by_products(f, y, h)) || by_sum(f, y, end, sign));
+  const auto& list = equations_of_[static_cast<std::size_t>(y)];
+  return std::any_of(list.begin(), list.end(), [&](std::size_t i) {
+    return (h.sign() != -1 && by_products(equations_[i], y, h)) || by_sum(equations_[i], y, end, sign);
   });
 }
 
 bool Implied::by_squares(int y, const ExactNumber& h) const {
-  return std::any_of(squares_.begin(), squares_.end(), [&](const Squares& s) {
-    const auto a = s.of.find(y);
-    return a != s.of.end() && not_less(a->second * h * h, s.bound);
-  });
+  const auto& list = squares_of_[static_cast<std::size_t>(y)];
+  return std::any_of(list.begin(), list.end(),
+                     [&](std::size_t i) { return not_less(squares_[i].of.at(y) * h * h, squares_[i].bound); });
 }
 
 // The largest (sign 1) or least value of a term, where it is known.
@@ -143,10 +167,9 @@ bool Implied::by_products(const Terms& f, int y, const ExactNumber& h) const {
   if (a.is_zero() || products.empty()) return false;
   const ExactNumber room = a * h - constant;
   if (room.sign() == -1) return false;
-  for (const Squares& u : squares_) {
-    if (!u.of.contains(products[0].first)) continue;
-    for (const Squares& v : squares_) {
-      const auto bound = product_bound(products, u, v);
+  for (const std::size_t u : squares_of_[static_cast<std::size_t>(products[0].first)]) {
+    for (const std::size_t v : squares_of_[static_cast<std::size_t>(products[0].second)]) {
+      const auto bound = product_bound(products, squares_[u], squares_[v]);
       if (bound && not_less(room * room, largest * largest * *bound)) return true;
     }
   }

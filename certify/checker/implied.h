@@ -34,6 +34,8 @@ class Implied {
   using Factors = std::vector<Factor>;
 
   void add_shorter_sums();
+  void index(std::size_t variables);
+  void spread();
   bool by_squares(int y, const ExactNumber& h) const;
   bool by_products(const Terms& f, int y, const ExactNumber& h) const;
   bool by_sum(const Terms& f, int y, const ExactNumber& end, int sign) const;
@@ -43,6 +45,7 @@ class Implied {
 
   std::vector<Terms> equations_;  // with rational, exact coefficients
   std::vector<Squares> squares_;
+  std::vector<std::vector<std::size_t>> equations_of_, squares_of_;  // in which a variable stands
   std::vector<Domain> domains_;
 };
 
