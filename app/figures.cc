@@ -23,7 +23,7 @@ std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, con
   const auto add = [&](const std::string& name) {
     const symbolic::Coordinate& c = mechanism.coordinates()[static_cast<std::size_t>(mechanism.find_coordinate(name))];
     const bool known = std::find(axes.begin(), axes.end(), name) != axes.end();
-    if (!known && axes.size() < 2 && !same_tree(c.lower, c.upper)) axes.push_back(name);
+    if (!known && axes.size() < 2 && !is_fixed(c)) axes.push_back(name);
   };
   for (const auto* names : {&first, &mechanism.outputs(), &mechanism.inputs()})
     std::for_each(names->begin(), names->end(), add);

@@ -14,9 +14,11 @@
 #include "corank/app/set_search.h"
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
+#include "corank/report/domain_notes.h"
 #include "corank/report/page.h"
 #include "corank/report/page_words.h"
 #include "corank/report/result_file.h"
+#include "corank/report/verification.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 
@@ -105,6 +107,7 @@ ExitStatus write_report(ReportCommand command) {
   std::vector<report::Result> results;
   if (!command.results.empty()) results = read_all(command.results);
   const symbolic::Mechanism mechanism = results.empty() ? load(command.question) : mechanism_of(results.front());
+  for (report::Result& result : results) report::describe_domain(mechanism, report::system_of(result), result);
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
   make_folder(folder / "figures");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "corank/report/domain_notes.h"
 #include "corank/solve/exactness.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/symbolic/printer.h"
@@ -63,6 +64,7 @@ report::Result solve_set(const Question& question, const symbolic::Mechanism& me
   if (digits > 0 && result.cover.dimension == 0) solve::prove_decimals(system, digits, result.cover, governed);
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   report::describe_system(system, result);
+  report::describe_domain(mechanism, system, result);
   mark_auxiliary(mechanism, result);
   result.options = {kernel_of(question, set),     result.cover.sigma, kernel_scales,
                     system.coefficient_tolerance, options.threads,    options.max_boxes,

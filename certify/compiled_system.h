@@ -2,7 +2,7 @@
 //
 // Rows 0 … m−1 are the equations (= 0), rows m … m+p−1 the inequalities (≥ 0); value rows, any further polynomials whose values are
 // asked for, follow. Every interval function requires
-// UpwardRounding::active() and bounded arguments. Derivatives are stored sparsely: entry k of row i, row_begin(i) ≤ k <
+// UpwardRounding::active() and, but for evaluate(), bounded arguments. Derivatives are stored sparsely: entry k of row i, row_begin(i) ≤ k <
 // row_begin(i+1), belongs to variable column(k).
 #pragma once
 

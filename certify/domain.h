@@ -4,18 +4,11 @@
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
+#include "corank/certify/implied.h"
 #include "corank/certify/newton.h"
 #include "corank/certify/system.h"
 
 namespace corank::certify {
-
-/// implied[j] is true where the domain of variable j follows from one equation alone, and therefore is no boundary.
-/// Lemma: if Σ a_i x_i² = b with every a_i > 0, then a_j x_j² ≤ b; so |x_j| ≤ h wherever a_j h² ≥ b.
-/// Lemma: if a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine, then |a x_j| ≤ Σ |b_i|; so |x_j| ≤ h wherever
-/// |a| h ≥ Σ |b_i|.
-/// The hypotheses are checked in exact rational arithmetic. Covers sines and cosines of angles (circles) and lengths, and kernel
-/// vectors (norm). Variable::lower_implied and upper_implied tell the same of one side, where a rewriting of the system knows it.
-std::vector<bool> implied_domains(const System& system);
 
 /// Intersects each side of x with its domain: no solution of the system, which lies in the domain, is lost. Sides that do not meet stay
 /// as they are. Not for proven pieces, whose claim is about the whole box.

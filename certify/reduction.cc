@@ -104,9 +104,9 @@ Reducer::Reducer(const System& system, Eliminate eliminate, const Ended& ended)
   if (tolerant_)
     for (auto* rows : {&system_.equations, &system_.inequalities})
       for (Polynomial& f : *rows) widen(f, system_.coefficient_tolerance);
-  const std::vector<bool> implied = implied_domains(system_);
+  const std::vector<ImpliedSides> implied = implied_domains(system_);
   for (std::size_t j = 0; j < implied.size(); ++j)
-    if (implied[j]) system_.variables[j].lower_implied = system_.variables[j].upper_implied = true;
+    system_.variables[j].lower_implied = implied[j].lower, system_.variables[j].upper_implied = implied[j].upper;
   const UpwardRounding rounding;
   for (const Polynomial& f : system_.equations) {
     origins_.push_back(static_cast<int>(origins_.size()));

@@ -11,7 +11,8 @@
 #include "corank/report/page_derivation.h"
 #include "corank/report/page_points.h"
 #include "corank/report/page_words.h"
-#include "corank/symbolic/mathml.h"
+#include "corank/symbolic/display_name.h"
+#include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::report {
@@ -60,19 +61,37 @@ mustache::data payload(const Result& result) {
 std::string fixed_html(const symbolic::Mechanism& mechanism) {
   std::string html;
   for (const symbolic::Coordinate& c : mechanism.coordinates()) {
-    if (!same_tree(c.lower, c.upper)) continue;
-    html += html.empty() ? "" : ", ";
-    html += symbolic::math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + symbolic::mathml(c.lower));
+    if (!is_fixed(c)) continue;
+    html += (html.empty() ? "" : ", ") + constant_html(c.name, c.lower);
   }
   return html;
 }
 
-std::string overridden(const std::vector<Result>& results) {
-  std::string text;
-  if (results.empty()) return text;
+/// Names, and "tied by 1 equation" where equations speak of them alone.
+std::string chosen_html(const std::vector<std::string>& names, std::size_t ties) {
+  if (ties == 0) return names_html(names);
+  return fmt::format("{} <small>tied by {} equation{}</small>", names_html(names), ties, ties == 1 ? "" : "s");
+}
+
+/// Ranges that the model leaves out: "<i>x</i> in [−0.41, 1.76]".
+std::string found_html(const std::vector<Result>& results) {
+  std::string html;
+  if (results.empty()) return html;
+  for (const int j : results.front().domain.found) {
+    const ResultVariable& v = results.front().variables[static_cast<std::size_t>(j)];
+    html += fmt::format("{}{} in {}", html.empty() ? "" : ", ", symbolic::html_name(v.name),
+                        with_minus(fmt::format("[{:.6g}, {:.6g}]", v.domain.lo(), v.domain.hi())));
+  }
+  return html;
+}
+
+/// The constants that were given with -D.
+std::string overridden_html(const std::vector<Result>& results) {
+  std::string html;
+  if (results.empty()) return html;
   for (const ConstantOverride& c : results.front().options.constants)
-    text += (text.empty() ? "" : ", ") + c.name + " = " + c.expression;
-  return text;
+    html += (html.empty() ? "" : ", ") + constant_html(c.name, symbolic::parse_expression(c.expression, "-D " + c.name));
+  return html;
 }
 
 }  // namespace
@@ -98,13 +117,16 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["script"] = std::string(kPageScript);
   page["three"] = std::string(kThree);
   page["data"] = page_model(mechanism, results);
-  page["inputs"] = names_html(mechanism.inputs());
-  page["outputs"] = names_html(mechanism.outputs());
+  page["inputs"] = chosen_html(mechanism.inputs(), derivation.input_ties.size());
+  page["outputs"] = chosen_html(mechanism.outputs(), derivation.output_ties.size());
+  const std::string found = found_html(results);
+  page["found"] = found;
+  page.set("hasFound", truth(!found.empty()));
   page["coordinates"] = std::to_string(mechanism.coordinates().size());
   page["constraints"] = std::to_string(derivation.phi.size());
   page["mobility"] = std::to_string(mechanism.coordinates().size() - derivation.phi.size());
   page["constants"] = constants_html(mechanism);
-  const std::string changed = overridden(results);
+  const std::string changed = overridden_html(results);
   page["overridden"] = changed;
   page.set("hasOverrides", truth(!changed.empty()));
   const std::string cut = fixed_html(mechanism);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "corank/certify/algebraic_number.h"
 #include "corank/certify/angle.h"
+#include "corank/report/exact_angle.h"
 #include "corank/report/page_words.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
@@ -38,10 +38,18 @@ std::vector<Column> columns(const Result& result) {
 
 /// "−3/5" or "√3/2" typeset; nothing where there is no short text.
 std::string exact_html(const certify::ExactPoint& point, int variable) {
-  const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(variable)];
-  if (x.empty()) return "";
-  const auto text = certify::text({point.polynomial, point.lower, point.upper}, x);
+  const auto text = exact_coordinate(point, variable);
   return text ? symbolic::math(symbolic::mathml(symbolic::Expression(*text))) : "";
+}
+
+/// "3π/4", or "cos: 3/5, sin: 4/5" behind the digits of the angle.
+std::string exact_angle_html(const certify::ExactPoint& point, const Column& column, const Interval& angle) {
+  const certify::Angle as{column.name, column.variable, column.sine, column.range};
+  if (const auto text = multiple_of_pi(point, as, angle))
+    return symbolic::math(symbolic::mathml(symbolic::Expression(*text)));
+  const std::string cosine = exact_html(point, column.variable), sine = exact_html(point, column.sine);
+  if (cosine.empty() || sine.empty()) return digits_text(angle);
+  return digits_text(angle) + " <small>cos: " + cosine + ", sin: " + sine + "</small>";
 }
 
 /// The coordinate of a point as well as it is known: exactly, in decimals, or between bounds.
@@ -49,7 +57,11 @@ std::string cell(const Result& result, const Column& column, std::size_t number)
   const certify::Cover& cover = result.cover;
   const certify::CoverBox& point = cover.points[number];
   const auto at = [&point](int v) { return point.box[static_cast<std::size_t>(v)]; };
-  if (column.sine >= 0) return digits_text(certify::angle_enclosure(at(column.variable), at(column.sine), column.range));
+  if (column.sine >= 0) {
+    const Interval angle = certify::angle_enclosure(at(column.variable), at(column.sine), column.range);
+    return point.point < 0 ? digits_text(angle)
+                           : exact_angle_html(cover.exact_points[static_cast<std::size_t>(point.point)], column, angle);
+  }
   std::string exact, value = digits_text(at(column.variable));
   if (point.point >= 0) exact = exact_html(cover.exact_points[static_cast<std::size_t>(point.point)], column.variable);
   const bool has_decimals = number < cover.decimals.size() && !cover.decimals[number].empty();

@@ -67,6 +67,24 @@ void say_points(const Result& result, SetWords& words) {
   }
 }
 
+/// Ranges that cut the set, and what keeps boxes at the border.
+void say_domain(const DomainNotes& notes, SetWords& words) {
+  for (const bool reached : {true, false}) {
+    std::string names;
+    for (const DomainNotes::End& end : notes.ends)
+      if (end.reached == reached) names += (names.empty() ? "" : ", ") + end.coordinate;
+    if (names.empty()) continue;
+    words.unproven.push_back(
+        fmt::format("The set {} the ends of the declared range of {}: what lies beyond was not searched.",
+                    reached ? "reaches" : "may reach", names));
+  }
+  if (notes.boundary.empty()) return;
+  std::string reasons;
+  for (const DomainNotes::Reason& reason : notes.boundary)
+    reasons += fmt::format("{}{} ({})", reasons.empty() ? "" : ", ", reason.text, boxes_text(reason.boxes));
+  words.unproven.push_back("Boxes at the border are not shown to lie inside of: " + reasons + ".");
+}
+
 /// Where the kernel's dimension is known.
 void say_kernel(const certify::Cover& cover, SetWords& words) {
   const auto count = [&cover](auto&& test) {
@@ -163,13 +181,18 @@ std::string names_html(const std::vector<std::string>& names) {
   return html;
 }
 
+// The name in HTML, whose subscripts do not depend on the reader having a font for mathematics.
+std::string constant_html(const std::string& name, const symbolic::Expression& value) {
+  return "<span class=\"constant\">" + symbolic::html_name(name) + " = " + symbolic::math(symbolic::mathml(value)) +
+         "</span>";
+}
+
 std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except) {
   std::string html;
   for (const symbolic::Constant& c : mechanism.constants()) {
     if (c.name == except) continue;
     html += html.empty() ? "" : ", ";
-    html += "<span class=\"constant\">" +
-            symbolic::math(symbolic::mathml_name(c.name) + "<mo>=</mo>" + symbolic::mathml(c.value)) + "</span>";
+    html += constant_html(c.name, c.value);
   }
   return html.empty() ? "none" : html;
 }
@@ -210,6 +233,7 @@ SetWords set_words(const Result& result, const Components& found) {
   } else {
     say_pieces(result, found, words);
   }
+  say_domain(result.domain, words);
   if (!cover.complete()) words.finding += ", incomplete";
   return words;
 }

@@ -34,7 +34,9 @@ std::string grouped(std::uint64_t n);
 std::string with_minus(std::string text);
 /// Names with commas between them: "<i>θ</i><sub>2</sub>, …".
 std::string names_html(const std::vector<std::string>& names);
-/// "l = 9/10, d = 1.18" in MathML, without the constant `except`; "none" where there is no other.
+/// "<i>l</i> = 9/10" with the value in MathML.
+std::string constant_html(const std::string& name, const symbolic::Expression& value);
+/// "l = 9/10, d = 1.18", likewise, without the constant `except`; "none" where there is no other.
 std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except = "");
 /// One cell of a table for each coordinate: bounds with the digits that are proven, the rest in brackets.
 std::string digits_text(const certify::Interval& x);

@@ -44,6 +44,21 @@ struct RunOptions {
   friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };
 
+/// What the ranges of the model's coordinates did to the search (report/domain_notes.h).
+struct DomainNotes {
+  struct End {
+    std::string coordinate;
+    bool reached = false;  ///< proven: the set has a point on an end of the range; else boxes touch one
+  };
+  struct Reason {
+    std::string text;       ///< "upper end of x", "range of theta", "m.cuik:9", "half-space of xi"
+    std::size_t boxes = 0;  ///< `boundary` boxes that are not shown to be inside of it
+  };
+  std::vector<int> found;  ///< variables without a declared range: their domain was found from the equations
+  std::vector<End> ends;   ///< declared ranges of lengths and limited angles beyond which the set may go on
+  std::vector<Reason> boundary;
+};
+
 struct Result {
   std::string version = report::version();  ///< of the corank that made it
   std::string model;                        ///< the mechanism's name, "dextar"
@@ -59,6 +74,7 @@ struct Result {
   /// cover may be complete all the same: then less is proven of it than could be.
   std::string stopped;
   certify::Cover cover;
+  DomainNotes domain;  ///< computed from the others by describe_domain(): result files do not hold it
 };
 
 /// Copies what a result keeps of a system: variables, angles, sizes, and its dimension to the cover.

@@ -11,6 +11,8 @@
 
 #include "corank/certify/algebraic_number.h"
 #include "corank/certify/angle.h"
+#include "corank/report/domain_notes.h"
+#include "corank/report/exact_angle.h"
 
 namespace corank::report {
 namespace {
@@ -38,14 +40,8 @@ struct Value {
   std::string name;
   Interval value;
   int variable;  ///< −1: an angle
+  const certify::Angle* angle = nullptr;
 };
-
-// "-3/5", "1/2*sqrt(3)": the coordinate of an exact point, where it has a short text.
-std::optional<std::string> exact_text(const certify::ExactPoint& point, int variable) {
-  const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(variable)];
-  if (x.empty()) return std::nullopt;
-  return certify::text({point.polynomial, point.lower, point.upper}, x);
-}
 
 const certify::ExactPoint* exact_point(const Result& result, const CoverBox& box) {
   return box.point < 0 ? nullptr : &result.cover.exact_points[static_cast<std::size_t>(box.point)];
@@ -61,7 +57,8 @@ std::vector<Value> values(const Result& result, const CoverBox& box, int variabl
     if (angle == result.angles.end()) {
       values.push_back({result.variables[static_cast<std::size_t>(i)].name, at(i), i});
     } else if (i == std::min(angle->cosine, angle->sine)) {
-      values.push_back({angle->name, certify::angle_enclosure(at(angle->cosine), at(angle->sine), angle->range), -1});
+      values.push_back(
+          {angle->name, certify::angle_enclosure(at(angle->cosine), at(angle->sine), angle->range), -1, &*angle});
     }
   }
   return values;
@@ -72,6 +69,15 @@ std::string plural(std::size_t n, const std::string& word) {
                            : word.back() == 'x' ? word + "es"
                                                 : word + "s";
   return fmt::format("{} {}", n, n == 1 ? word : many);
+}
+
+// A coordinate of an exact point as well as a short text can say it.
+std::string exact_text(const certify::ExactPoint& point, const Value& v, int digits) {
+  if (v.angle) return exact_angle(point, *v.angle, v.value).value_or(outward_text(v.value, digits));
+  if (const auto text = exact_coordinate(point, v.variable)) return *text;
+  const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(v.variable)];
+  if (x.empty()) return outward_text(v.value, digits);
+  return outward_text(certify::AlgebraicNumber(point.polynomial, point.lower, point.upper).enclose(x), digits);
 }
 
 std::string points_table(const Result& result) {
@@ -85,8 +91,7 @@ std::string points_table(const Result& result) {
     for (const Value& v : values(result, point, result.configuration_size)) {
       if (rows.size() == 2) rows[0].push_back(v.name);
       const certify::ExactPoint* exact = exact_point(result, point);
-      const auto text = exact && v.variable >= 0 ? exact_text(*exact, v.variable) : std::nullopt;
-      rows.back().push_back(text.value_or(outward_text(v.value, kDigits)));
+      rows.back().push_back(exact ? exact_text(*exact, v, kDigits) : outward_text(v.value, kDigits));
     }
     rows.back().push_back(to_string(point.verdict));
   }
@@ -160,9 +165,9 @@ std::string kernel_text(const Result& result) {
     text += fmt::format("  {}: dimension {} at", ++number, point.corank);
     const char* comma = " ";
     for (int v = 0; v < result.configuration_size; ++v) {
-      text +=
-          fmt::format("{}{} = {}", comma, result.variables[static_cast<std::size_t>(v)].name,
-                      exact_text(point, v).value_or("a number of degree " + std::to_string(point.polynomial.size() - 1)));
+      text += fmt::format(
+          "{}{} = {}", comma, result.variables[static_cast<std::size_t>(v)].name,
+          exact_coordinate(point, v).value_or("a number of degree " + std::to_string(point.polynomial.size() - 1)));
       comma = ", ";
     }
     text += "\n";
@@ -171,6 +176,31 @@ std::string kernel_text(const Result& result) {
     text +=
         fmt::format("  whether it is larger than 1 anywhere in {} is not known\n", plural(larger - explained, "other box"));
   return text;
+}
+
+std::string found_ranges_text(const Result& result) {
+  constexpr int kDigits = 6;
+  std::string text = "ranges found from the equations:";
+  for (const int j : result.domain.found) {
+    const ResultVariable& v = result.variables[static_cast<std::size_t>(j)];
+    text += fmt::format("{} {} in [{:.{}g}, {:.{}g}]", j == result.domain.found.front() ? "" : ",", v.name, v.domain.lo(),
+                        kDigits, v.domain.hi(), kDigits);  // few digits by themselves, enclosed
+  }
+  return text + "\n";
+}
+
+// What keeps `boundary` boxes from being regular or isolated.
+std::string boundary_text(const DomainNotes& notes) {
+  std::string text = "  boundary: not shown to be inside";
+  for (const DomainNotes::Reason& reason : notes.boundary)
+    text += fmt::format("{} {} ({})", &reason == notes.boundary.data() ? "" : ",", reason.text, reason.boxes);
+  return text + "\n";
+}
+
+std::string seconds_text(const certify::Cover& cover) {
+  const certify::Statistics& s = cover.statistics;
+  return fmt::format("\n{:.3f} s: search {:.3f} s, certify {:.3f} s\n", s.seconds_total, s.seconds_search,
+                     s.seconds_certify);
 }
 
 }  // namespace
@@ -226,9 +256,15 @@ std::string to_table(const Result& result) {
                                  plural(static_cast<std::size_t>(result.inequalities), "inequality"), cover.dimension);
   text += fmt::format("{}{}{}\n", sigma_text(cover.sigma), result.options.kernel.empty() ? "" : ", kernel ",
                       result.options.kernel);
+  if (!result.domain.found.empty()) text += found_ranges_text(result);
   text += cover.complete() ? "complete: every solution in the search domain is in a box\n"
                            : "INCOMPLETE: the search ended early; solutions may also be in the pending boxes\n";
   if (!result.stopped.empty()) text += fmt::format("stopped by {}\n", result.stopped);
+  for (const std::string& sentence : range_end_sentences(result.domain)) text += sentence + "\n";
+  if (cover.boxes.empty()) {
+    text += fmt::format("\nnone: there is no solution in the search domain   ({} processed)\n", cover.statistics.processed);
+    return text + seconds_text(cover);
+  }
   text += fmt::format("\n  {:<10}  {:>10}\n", "verdict", "boxes");
   const auto boxes_with = cover.counts();
   for (const Verdict verdict : kVerdictsInOrder) {
@@ -237,6 +273,7 @@ std::string to_table(const Result& result) {
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
   text += reasons_text(cover);
+  if (!result.domain.boundary.empty()) text += boundary_text(result.domain);
   if (const std::size_t wide = cover.wider_than_sigma; wide > 0) {
     text += fmt::format("  {} wider than sigma: {} keeps proven boxes{} from narrowing\n", wide,
                         cover.tolerance > 0 ? "the tolerance" : "rounding",
@@ -269,10 +306,7 @@ std::string to_table(const Result& result) {
     if (!cover.decimals.empty()) text += decimals_text(result);
   }
   text += kernel_text(result);
-  const certify::Statistics& s = cover.statistics;
-  text +=
-      fmt::format("\n{:.3f} s: search {:.3f} s, certify {:.3f} s\n", s.seconds_total, s.seconds_search, s.seconds_certify);
-  return text;
+  return text + seconds_text(cover);
 }
 
 namespace {
@@ -281,7 +315,7 @@ namespace {
 Json exact_json(const Result& result, const certify::ExactPoint& point) {
   Json json = Json::object();
   for (std::size_t v = 0; v < result.variables.size(); ++v)
-    if (const auto text = exact_text(point, static_cast<int>(v))) json[result.variables[v].name] = *text;
+    if (const auto text = exact_coordinate(point, static_cast<int>(v))) json[result.variables[v].name] = *text;
   return json;
 }
 
@@ -328,6 +362,17 @@ std::string to_json(const Result& result) {
     json["boxes"][to_string(verdict)] = counts[static_cast<std::size_t>(verdict)];
   json["undecided_reasons"] = Json::object();
   for (const auto& [reason, n] : undecided_reasons(cover)) json["undecided_reasons"][to_string(reason)] = n;
+  json["boundary_reasons"] = Json::array();
+  for (const DomainNotes::Reason& reason : result.domain.boundary)
+    json["boundary_reasons"].push_back({{"reason", reason.text}, {"boxes", reason.boxes}});
+  json["range_ends"] = Json::array();
+  for (const DomainNotes::End& end : result.domain.ends)
+    json["range_ends"].push_back({{"variable", end.coordinate}, {"reached", end.reached}});
+  json["ranges_found"] = Json::object();
+  for (const int j : result.domain.found) {
+    const ResultVariable& v = result.variables[static_cast<std::size_t>(j)];
+    json["ranges_found"][v.name] = {{"lo", v.domain.lo()}, {"hi", v.domain.hi()}};
+  }
   json["points"] = nullptr;
   if (cover.dimension == 0) {
     json["points"] = Json::array();

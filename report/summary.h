@@ -21,7 +21,10 @@ std::string to_table(const Result& result);
 
 /// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, stopped (null, or by
 /// what and in which stage), boxes{processed, regular, isolated, exact, boundary, partial, undecided, pending},
-/// undecided_reasons{reason: boxes}, points, kernel, seconds{total, search, certify}, version.
+/// undecided_reasons{reason: boxes}, boundary_reasons, range_ends, ranges_found, points, kernel, seconds{total, search, certify}, version.
+/// `boundary_reasons` is a list of {reason, boxes}: what `boundary` boxes are not shown to be inside
+/// of. `range_ends` is a list of {variable, reached}: declared ranges whose ends the set reaches (proven), or may reach. `ranges_found` has
+/// name: {lo, hi} of each variable without a declared range.
 /// `points` is null where the dimension is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns
 /// as they are, angles in radians in place of their sines and cosines. `kernel` is null where its dimension is not known, else
 /// at_most{bound: boxes}, without undecided boxes that hold no known point, and points, where the dimension is known to be 2 or

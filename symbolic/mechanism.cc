@@ -1,5 +1,6 @@
 #include "corank/symbolic/mechanism.h"
 
+#include <array>
 #include <unordered_set>
 
 #include "corank/symbolic/expression_words.h"
@@ -18,46 +19,96 @@ SourceLocation place(const Expression& e, const SourceLocation& otherwise) {
 
 }  // namespace
 
-void Mechanism::declare(const std::string& name, bool is_constant, const SourceLocation& where) {
-  const std::string expectation = is_constant ? "another name for the constant" : "another name for the variable";
+bool is_fixed(const Coordinate& coordinate) { return coordinate.has_range && same_tree(coordinate.lower, coordinate.upper); }
+
+void Mechanism::declare(const std::string& name, Declared kind, const SourceLocation& where) {
+  const std::string expectation =
+      kind == Declared::constant ? "another name for the constant" : "another name for the variable";
   if (!is_identifier(name)) {
     throw ModelError(where, in_quotes(name) + " is no name", "letters, digits and _, beginning with no digit");
   }
   if (is_reserved(name)) throw ModelError(where, "the name " + in_quotes(name) + " is reserved", expectation);
   if (const auto found = names_.find(name); found != names_.end()) {
-    const auto [old_is_constant, index] = found->second;
+    const auto [old_kind, index] = found->second;
     throw ModelError(where,
                      "the name " + in_quotes(name) + " is already declared" +
-                         declared_at(old_is_constant ? constants_[index].where : coordinates_[index].where),
+                         declared_at(old_kind == Declared::constant     ? constants_[index].where
+                                     : old_kind == Declared::coordinate ? coordinates_[index].where
+                                                                        : composites_[index].where),
                      expectation);
   }
-  names_.emplace(name, Declaration{is_constant, is_constant ? constants_.size() : coordinates_.size()});
+  names_.emplace(name, Declaration{kind, kind == Declared::constant     ? constants_.size()
+                                         : kind == Declared::coordinate ? coordinates_.size()
+                                                                        : composites_.size()});
 }
 
 Expression Mechanism::constant(const std::string& name, const Expression& value, const SourceLocation& where) {
-  declare(name, true, where);
+  declare(name, Declared::constant, where);
   constants_.push_back({name, value, where});
   return Expression::symbol(name);
 }
 
 Expression Mechanism::length(const std::string& name, const Expression& lower, const Expression& upper,
                              const SourceLocation& where) {
-  declare(name, false, where);
+  declare(name, Declared::coordinate, where);
   coordinates_.push_back({name, CoordinateKind::length, lower, upper, where});
   return Expression::symbol(name);
 }
 
 Expression Mechanism::angle(const std::string& name, const Expression& lower, const Expression& upper,
                             const SourceLocation& where) {
-  declare(name, false, where);
+  declare(name, Declared::coordinate, where);
   coordinates_.push_back({name, CoordinateKind::angle, lower, upper, where});
   return Expression::symbol(name);
 }
 
-void Mechanism::mark_auxiliary() { coordinates_.at(coordinates_.size() - 1).auxiliary = true; }
+Expression Mechanism::length_without_range(const std::string& name, const SourceLocation& where) {
+  declare(name, Declared::coordinate, where);
+  coordinates_.push_back({name, CoordinateKind::length, 0, 0, where});
+  coordinates_.back().has_range = false;
+  return Expression::symbol(name);
+}
 
-void Mechanism::constrain(const Relation& relation, const SourceLocation& where) {
-  constraints_.push_back({relation, where});
+std::vector<Expression> Mechanism::compose(Composite::Kind kind, const std::string& name,
+                                           const std::vector<std::string>& suffixes, const SourceLocation& where) {
+  declare(name, Declared::composite, where);
+  composites_.push_back({kind, name, {}, where});
+  std::vector<Expression> components;
+  for (const std::string& suffix : suffixes) {
+    components.push_back(length(name + "_" + suffix, -1, 1, where));
+    composites_.back().components.push_back(components.back().name());
+  }
+  return components;
+}
+
+std::vector<Expression> Mechanism::unit_vector(const std::string& name, const SourceLocation& where) {
+  const std::vector<Expression> w = compose(Composite::Kind::unit, name, {"x", "y", "z"}, where);
+  constrain(pow(w[0], 2) + pow(w[1], 2) + pow(w[2], 2) == Expression(1), where, name + " @ unit");
+  return w;
+}
+
+std::vector<Expression> Mechanism::rotation(const std::string& name, const SourceLocation& where) {
+  const std::vector<Expression> r =
+      compose(Composite::Kind::rotation, name, {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"}, where);
+  const auto column = [&r](std::size_t j) { return std::array{r[j], r[3 + j], r[6 + j]}; };
+  const auto a = column(0), b = column(1), c = column(2);
+  const std::string note = name + " @ rotation";
+  for (const auto& axis : {a, b})
+    constrain(pow(axis[0], 2) + pow(axis[1], 2) + pow(axis[2], 2) == Expression(1), where, note);
+  constrain(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] == Expression(0), where, note);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    constrain(c[i] == a[j] * b[k] - a[k] * b[j], where, note);
+  }
+  return r;
+}
+
+void Mechanism::mark_auxiliary(std::size_t coordinates) {
+  for (std::size_t i = 1; i <= coordinates; ++i) coordinates_.at(coordinates_.size() - i).auxiliary = true;
+}
+
+void Mechanism::constrain(const Relation& relation, const SourceLocation& where, const std::string& note) {
+  constraints_.push_back({relation, where, note});
 }
 
 void Mechanism::choose(const std::string& role, const std::vector<Expression>& symbols, const SourceLocation& where,
@@ -72,18 +123,21 @@ void Mechanism::choose(const std::string& role, const std::vector<Expression>& s
     if (symbol.kind() != Expression::Kind::symbol) {
       throw ModelError(at, "the " + role + " " + in_quotes(symbol.text()) + " is no name", expectation);
     }
-    const std::string& name = symbol.name();
-    if (has_constant(name)) throw ModelError(at, "the " + role + " " + in_quotes(name) + " is a constant", expectation);
-    if (find_coordinate(name) < 0)
-      throw ModelError(at, "the " + role + " " + in_quotes(name) + " is not declared", expectation);
-    if (!seen.insert(name).second) {
-      throw ModelError(at, "the " + role + " " + in_quotes(name) + " is named twice", "each " + role + " once");
+    if (has_constant(symbol.name()))
+      throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is a constant", expectation);
+    const Composite* const composite = find_composite(symbol.name());
+    if (!composite && find_coordinate(symbol.name()) < 0)
+      throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is not declared", expectation);
+    for (const std::string& name : composite ? composite->components : std::vector{symbol.name()}) {
+      if (!seen.insert(name).second) {
+        throw ModelError(at, "the " + role + " " + in_quotes(name) + " is named twice", "each " + role + " once");
+      }
+      if (taken.contains(name)) {
+        throw ModelError(at, "the " + role + " " + in_quotes(name) + " is already an " + other_role,
+                         "a variable that is no " + other_role);
+      }
+      result.push_back(name);
     }
-    if (taken.contains(name)) {
-      throw ModelError(at, "the " + role + " " + in_quotes(name) + " is already an " + other_role,
-                       "a variable that is no " + other_role);
-    }
-    result.push_back(name);
   }
   chosen = std::move(result);
 }
@@ -110,18 +164,24 @@ void Mechanism::set_constant(const std::string& name, const Expression& value) {
 
 int Mechanism::find_coordinate(const std::string& name) const {
   const auto found = names_.find(name);
-  return found == names_.end() || found->second.is_constant ? -1 : static_cast<int>(found->second.index);
+  return found == names_.end() || found->second.kind != Declared::coordinate ? -1 : static_cast<int>(found->second.index);
 }
 
 bool Mechanism::has_constant(const std::string& name) const {
   const auto found = names_.find(name);
-  return found != names_.end() && found->second.is_constant;
+  return found != names_.end() && found->second.kind == Declared::constant;
+}
+
+const Composite* Mechanism::find_composite(const std::string& name) const {
+  const auto found = names_.find(name);
+  return found == names_.end() || found->second.kind != Declared::composite ? nullptr : &composites_[found->second.index];
 }
 
 void Mechanism::validate() const {
   ModelValidator validator(*this);
   for (const Constant& c : constants_) validator.add_constant(c);
-  for (const Coordinate& c : coordinates_) validator.check_range(c);
+  for (const Coordinate& c : coordinates_)
+    if (c.has_range) validator.check_range(c);
   for (const Constraint& c : constraints_) validator.check_constraint(c);
   for (const DrawingPoint& p : drawing_.points) validator.check_point(p);
   drawing_.validate();

@@ -27,15 +27,34 @@ enum class CoordinateKind { length, angle };
 struct Coordinate {
   std::string name;
   CoordinateKind kind = CoordinateKind::length;
-  Expression lower, upper;  ///< in constants; lengths in the model's unit, angles in radians
+  Expression lower,
+      upper;  ///< in constants; lengths in the model's unit, angles in radians; without meaning where has_range is false
   SourceLocation where;
   bool auxiliary =
       false;  ///< from [DUMMY VARS] or [CARTESIAN VARS]: defined by the others through equations, and of no interest
+  bool has_range = true;  ///< false: a length whose range the equations are to give (found_ranges.h)
+};
+
+/// A coordinate with a range of one value.
+bool is_fixed(const Coordinate& coordinate);
+
+/// Coordinates declared together, with the equations that tie them:
+///   unit      w_x, w_y, w_z with w_x² + w_y² + w_z² = 1;
+///   rotation  R_xx, R_xy … R_zz, row by row, the columns a = (R_xx, R_yx, R_zx), b, c being the axes of the moving frame in the fixed one:
+///             |a|² = 1, |b|² = 1, a·b = 0, c = a × b. These are as many independent equations as 9 − dim SO(3) = 6, at every rotation;
+///             reflections do not satisfy them.
+struct Composite {
+  enum class Kind { unit, rotation };
+  Kind kind;
+  std::string name;
+  std::vector<std::string> components;
+  SourceLocation where;
 };
 
 struct Constraint {
   Relation relation;  ///< = : part of Φ; ≤, ≥ : an inequality that every configuration must satisfy
   SourceLocation where;
+  std::string note = {};  ///< "w @ unit" where a declaration implies it
 };
 
 class Mechanism {
@@ -49,12 +68,17 @@ class Mechanism {
                     const SourceLocation& where = {});
   Expression angle(const std::string& name, const Expression& lower = -pi(), const Expression& upper = pi(),
                    const SourceLocation& where = {});
-  /// Marks the coordinate declared last.
-  void mark_auxiliary();
+  /// A length whose range is what the equations say; those of a set throw where they do not bound it.
+  Expression length_without_range(const std::string& name, const SourceLocation& where = {});
+  /// Declare a Composite's coordinates, lengths in [−1, 1], and add its equations. They return the coordinates.
+  std::vector<Expression> unit_vector(const std::string& name, const SourceLocation& where = {});
+  std::vector<Expression> rotation(const std::string& name, const SourceLocation& where = {});
+  /// Marks the coordinates declared last.
+  void mark_auxiliary(std::size_t coordinates = 1);
   /// Adds lhs = rhs (an assembly constraint) or an inequality.
-  void constrain(const Relation& relation, const SourceLocation& where = {});
-  /// Each argument is a coordinate's symbol. Throws ModelError for anything else, a repetition, or a coordinate that is
-  /// already an output (input). Repeated calls add.
+  void constrain(const Relation& relation, const SourceLocation& where = {}, const std::string& note = {});
+  /// Each argument is a coordinate's symbol, or a Composite's for all of its coordinates. Throws ModelError for anything else, a
+  /// repetition, or a coordinate that is already an output (input). Repeated calls add.
   void inputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
   void outputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
   void drawing(Drawing drawing) { drawing_ = std::move(drawing); }
@@ -69,6 +93,7 @@ class Mechanism {
 
   const std::vector<Constant>& constants() const { return constants_; }
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
+  const std::vector<Composite>& composites() const { return composites_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }
   const std::vector<std::string>& inputs() const { return inputs_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
@@ -81,6 +106,8 @@ class Mechanism {
   /// Index of a coordinate, −1 where there is none.
   int find_coordinate(const std::string& name) const;
   bool has_constant(const std::string& name) const;
+  /// Null where no unit vector or rotation matrix has that name.
+  const Composite* find_composite(const std::string& name) const;
 
   /// Throws ModelError, with the place, for: a name in a constant, range, constraint that is not declared (before, for
   /// constants); a coordinate in a constant or range; an absurd power (9^9^9^9); no coordinates; no constraints; a faulty
@@ -88,21 +115,26 @@ class Mechanism {
   void validate() const;
 
  private:
-  /// Registers the name of the next constant or coordinate, where it is free and no reserved word.
-  void declare(const std::string& name, bool is_constant, const SourceLocation& where);
+  enum class Declared { constant, coordinate, composite };
+  /// Registers the name of the next constant, coordinate or composite, where it is free and no reserved word.
+  void declare(const std::string& name, Declared kind, const SourceLocation& where);
+  /// Declares a composite and its coordinates name_suffix.
+  std::vector<Expression> compose(Composite::Kind kind, const std::string& name, const std::vector<std::string>& suffixes,
+                                  const SourceLocation& where);
   void choose(const std::string& role, const std::vector<Expression>& symbols, const SourceLocation& where,
               std::vector<std::string>& chosen, const std::string& other_role, const std::vector<std::string>& others) const;
 
   std::string name_, source_text_;
   std::vector<Constant> constants_;
   std::vector<Coordinate> coordinates_;
+  std::vector<Composite> composites_;
   std::vector<Constraint> constraints_;
   std::vector<std::string> inputs_, outputs_;
   SourceLocation inputs_where_, outputs_where_;
   Drawing drawing_;
-  /// A name in use: the constant or the coordinate of that index.
+  /// A name in use: the constant, the coordinate or the composite of that index.
   struct Declaration {
-    bool is_constant;
+    Declared kind;
     std::size_t index;
   };
   std::unordered_map<std::string, Declaration> names_;

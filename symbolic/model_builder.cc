@@ -111,13 +111,23 @@ void ModelBuilder::finish_constant() {
 }
 
 void ModelBuilder::finish_variable() {
-  if (kind == CoordinateKind::length) {
+  if (kind == CoordinateKind::length && values.empty()) {
+    mechanism.length_without_range(declared, declared_where);
+  } else if (values.empty()) {
+    mechanism.angle(declared, -pi(), pi(), declared_where);
+  } else if (kind == CoordinateKind::length) {
     mechanism.length(declared, values.at(0), values.at(1), declared_where);
   } else {
     mechanism.angle(declared, values.at(0), values.at(1), declared_where);
   }
   if (auxiliary) mechanism.mark_auxiliary();
   values.clear();
+}
+
+void ModelBuilder::finish_composite(Composite::Kind composite) {
+  const bool unit = composite == Composite::Kind::unit;
+  unit ? mechanism.unit_vector(declared, declared_where) : mechanism.rotation(declared, declared_where);
+  if (auxiliary) mechanism.mark_auxiliary(unit ? 3 : 9);
 }
 
 void ModelBuilder::finish_equation() {

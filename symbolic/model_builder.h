@@ -88,7 +88,8 @@ struct ModelBuilder {
   Drawing drawing;
 
   void finish_constant();
-  void finish_variable();
+  void finish_variable();  ///< with its range where `values` has one
+  void finish_composite(Composite::Kind composite);
   void finish_equation();
   void finish_point();
   void begin_part(DrawingPart::Kind part, const SourceLocation& where);

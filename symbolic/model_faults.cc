@@ -95,13 +95,16 @@ void Fault::no_number_end() const {
 
 void Fault::no_range() const {
   say("found " + describe_start(rest) + " where the range of " + in_quotes(builder.declared) + " should stand",
-      "[lower, upper]");
+      "[lower, upper], or nothing in that line where the equations bound the variable");
 }
 
 void Fault::unknown_section() const {
   std::string title = builder.section_title;
   const auto first = title.find_first_not_of(" \t"), last = title.find_last_not_of(" \t");
   title = first == std::string::npos ? "" : title.substr(first, last - first + 1);
+  if (title.find(',') != std::string::npos)
+    throw ModelError(builder.section_where, "section [" + shortened(title) + "] is unknown",
+                     "a section; the range of a variable stands in the variable's line");
   const bool known_to_cuik =
       title == "VELOCITY VARS" || title == "VELOCITY EQS" || title == "NON DYNAMIC VARS" || title == "NON DYNAMIC EQS";
   const char* const why = known_to_cuik ? "] is not supported" : "] is unknown";

@@ -61,7 +61,9 @@ CORANK_FAULT(constant_name, fault.found_instead_of("a definition, name := expres
 CORANK_FAULT(assign, fault.found_instead_of("':=' behind the constant's name"))
 CORANK_FAULT(variable_name,
              fault.found_instead_of("a declaration, name : [lower, upper] or name ~ [lower, upper], or a section"))
-CORANK_FAULT(declarator, fault.found_instead_of("':' (a length) or '~' (an angle) behind the variable's name"))
+CORANK_FAULT(declarator,
+             fault.found_instead_of("':' (a length), '~' (an angle) or '@' (a vector or matrix) behind the variable's name"))
+CORANK_FAULT(composite_word, fault.found_instead_of("unit (a unit vector) or rotation (a rotation matrix) behind '@'"))
 CORANK_FAULT(range_open, fault.no_range())
 CORANK_FAULT(range_comma, fault.found_instead_of("',' between the ends of the range"))
 CORANK_FAULT(range_close, fault.found_instead_of("']' behind the range"))

@@ -120,6 +120,9 @@ CORANK_ACTION(variable_name, { declare(in, b); })
 CORANK_ACTION0(length_mark, { b.kind = CoordinateKind::length; })
 CORANK_ACTION0(angle_mark, { b.kind = CoordinateKind::angle; })
 CORANK_ACTION0(variable_end, { b.finish_variable(); })
+CORANK_ACTION0(no_range, { b.finish_variable(); })
+CORANK_ACTION(composite_word,
+              { b.finish_composite(in.string_view() == "unit" ? Composite::Kind::unit : Composite::Kind::rotation); })
 CORANK_ACTION(equation_begin, {
   b.equation_where = place(in, b);
   b.equation_is_empty = true;

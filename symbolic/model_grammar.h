@@ -98,18 +98,27 @@ struct definition : seq<must<constant_name>, line_gap, must<assign>, line_gap, e
                         opt<line_gap, one<';'>>> {};
 struct constants_section : seq<constants_header, star<gap, not_at<section_or_end>, definition>> {};
 
-// [SYSTEM VARS]  name : [lower, upper] or name ~ [lower, upper]
+template <typename Letters>
+struct word : seq<Letters, not_at<name_tail>> {};
+
+// [SYSTEM VARS]  name : [lower, upper], name ~ [lower, upper], either without its range, or name @ unit, name @ rotation
 struct variable_name : identifier {};
 struct length_mark : seq<one<':'>, not_at<one<'='>>> {};
 struct angle_mark : one<'~'> {};
+struct composite_mark : one<'@'> {};
 struct declarator : sor<length_mark, angle_mark> {};
+struct no_range : at<sor<eolf, one<';'>>> {};
 struct range_open : one<'['> {};
 struct range_comma : one<','> {};
 struct range_close : one<']'> {};
 struct variable_end : success {};
+struct range : seq<must<range_open>, gap, expression<gap>, gap, must<range_comma>, gap, expression<gap>, gap,
+                   must<range_close>, variable_end> {};
+struct composite_word : sor<word<TAO_PEGTL_STRING("unit")>, word<TAO_PEGTL_STRING("rotation")>> {};
 struct declaration
-    : seq<must<variable_name>, line_gap, must<declarator>, line_gap, must<range_open>, gap, expression<gap>, gap,
-          must<range_comma>, gap, expression<gap>, gap, must<range_close>, variable_end, opt<line_gap, one<';'>>> {};
+    : seq<must<variable_name>, line_gap,
+          sor<seq<composite_mark, line_gap, must<composite_word>>, seq<must<declarator>, line_gap, sor<no_range, range>>>,
+          opt<line_gap, one<';'>>> {};
 struct variables_section : seq<variables_header, star<gap, not_at<section_or_end>, declaration>> {};
 
 // [SYSTEM EQS]  expression = expression;
@@ -128,8 +137,6 @@ struct names : seq<gap, must<listed_name>, star<gap, sor<if_must<one<','>, gap, 
 struct names_section : seq<sor<inputs_header, outputs_header>, names> {};
 
 // [DRAWING]  point P = (x, y), or another word and the names of points; each ends with its line.
-template <typename Letters>
-struct word : seq<Letters, not_at<name_tail>> {};
 struct point_word : word<TAO_PEGTL_STRING("point")> {};
 struct unit_word : word<TAO_PEGTL_STRING("unit")> {};
 struct slider_word : word<TAO_PEGTL_STRING("slider")> {};

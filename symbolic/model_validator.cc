@@ -41,6 +41,7 @@ long double rough_number(const std::string& decimal) {
 ModelValidator::ModelValidator(const Mechanism& mechanism) {
   for (const Constant& c : mechanism.constants()) declared_.emplace(c.name, &c);
   for (const Coordinate& c : mechanism.coordinates()) coordinates_.emplace(c.name, &c);
+  for (const Composite& c : mechanism.composites()) composites_.emplace(c.name, &c);
 }
 
 void ModelValidator::add_constant(const Constant& constant) {
@@ -128,6 +129,12 @@ ModelValidator::Size ModelValidator::check_symbol(const Expression& e, const Con
   const bool is_coordinate = coordinates_.contains(name);
   if (is_coordinate && !context.constants_only) return {1, false, 0};
   if (is_coordinate) throw ModelError(where, "the variable " + what + " may not stand there", "numbers and constants");
+  if (const auto composite = composites_.find(name); composite != composites_.end()) {
+    const Composite& c = *composite->second;
+    const bool unit = c.kind == Composite::Kind::unit;
+    throw ModelError(where, std::string(unit ? "the unit vector " : "the rotation matrix ") + what + " is no number",
+                     "one of its components " + c.components.front() + " … " + c.components.back());
+  }
   throw ModelError(where, "the name " + what + " is not declared",
                    context.constants_only ? "a declared constant" : "a declared constant or variable");
 }

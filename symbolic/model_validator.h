@@ -48,6 +48,7 @@ class ModelValidator {
   std::unordered_map<std::string, Size> constants_;            ///< those added so far
   std::unordered_map<std::string, const Constant*> declared_;  ///< all constants
   std::unordered_map<std::string, const Coordinate*> coordinates_;
+  std::unordered_map<std::string, const Composite*> composites_;
 };
 
 }  // namespace corank::symbolic

@@ -45,6 +45,14 @@ void print_matrix(std::ostream& out, const std::string& name, const ExpressionMa
   }
 }
 
+// Which rows are zero because their equations speak of the chosen coordinates alone.
+void print_ties(std::ostream& out, const std::string& chosen, const std::vector<std::size_t>& rows) {
+  if (rows.empty()) return;
+  out << "  ";
+  for (const std::size_t row : rows) out << number_label(row) << " ";
+  out << (rows.size() == 1 ? "ties" : "tie") << " the " << chosen << " to one another; the rank is that of the other rows\n";
+}
+
 // Numbered lines "(3)  text    source", the sources aligned unless the texts are very long.
 void print_numbered(std::ostream& out, const std::vector<std::pair<std::string, std::string>>& lines,
                     std::size_t first = 0) {
@@ -172,12 +180,14 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
   print_matrix(out, "Φ_q", derivation.phi_q);
   out << "\n";
   print_matrix(out, "L_y", derivation.l_y);
+  print_ties(out, "inputs", derivation.input_ties);
   out << "\n";
   print_matrix(out, "L_z", derivation.l_z);
+  print_ties(out, "outputs", derivation.output_ties);
   out << "\nSystem " << system.name << "\n";
   for (const Coordinate& coordinate : system.coordinates)
     out << "  " << coordinate.name << (coordinate.kind == CoordinateKind::angle ? " ~ [" : " : [") << coordinate.lower.text()
-        << ", " << coordinate.upper.text() << "]\n";
+        << ", " << coordinate.upper.text() << "]" << (coordinate.has_range ? "" : "   % found from the equations") << "\n";
   for (const std::string& name : system.kernel_unknowns) out << "  " << name << " : [-1, 1]\n";
   std::vector<std::pair<std::string, std::string>> lines = relation_lines(system.equations);
   const auto inequalities = relation_lines(system.inequalities);

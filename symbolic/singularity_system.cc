@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "corank/certify/exact_number.h"
+#include "corank/symbolic/found_ranges.h"
 #include "corank/symbolic/ginac_bridge.h"
 #include "corank/symbolic/ginac_lock.h"
 #include "corank/symbolic/model_file.h"
@@ -54,20 +55,61 @@ ExpressionMatrix columns_where(const ExpressionMatrix& matrix, const std::vector
   return result;
 }
 
-// Mobility must equal the number of inputs (of outputs): otherwise L_y (L_z) is not square, and the mechanism is redundant.
-void check_mobility(const Mechanism& mechanism, std::size_t equations, const std::vector<std::string>& chosen,
-                    const std::string& noun, const SourceLocation& named_at) {
-  const auto mobility = static_cast<long>(mechanism.coordinates().size()) - static_cast<long>(equations);
-  if (static_cast<long>(chosen.size()) == mobility) return;
-  const std::string numbers = count(mechanism.coordinates().size(), "coordinate") + " and " + count(equations, "equation") +
-                              ", so mobility " + std::to_string(mobility);
-  throw ModelError(named_at.line > 0 ? named_at : model_place(mechanism),
-                   "the mechanism has " + numbers + ", but " + count(chosen.size(), noun) +
-                       (static_cast<long>(chosen.size()) > mobility && mobility >= 0 ? ": a redundant mechanism" : ""),
-                   mobility < 0 ? "no more equations than coordinates" : count(static_cast<std::size_t>(mobility), noun));
+// Equations in the chosen coordinates alone: their rows have no entry in the other columns.
+std::vector<std::size_t> zero_rows(const ExpressionMatrix& matrix) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; !matrix.columns.empty() && i < matrix.rows.size(); ++i)
+    if (std::all_of(matrix.rows[i].begin(), matrix.rows[i].end(), [](const Expression& e) { return is_number(e, "0"); }))
+      rows.push_back(i);
+  return rows;
 }
 
-void check_chosen(const Mechanism& mechanism, std::size_t equations, SingularitySet set) {
+// Lemma (doc/theory.md): a matrix and the same without rows of zeros have the same right kernel.
+ExpressionMatrix without_rows(const ExpressionMatrix& matrix, const std::vector<std::size_t>& rows) {
+  ExpressionMatrix result{matrix.columns, {}};
+  for (std::size_t i = 0; i < matrix.rows.size(); ++i)
+    if (!std::binary_search(rows.begin(), rows.end(), i)) result.rows.push_back(matrix.rows[i]);
+  return result;
+}
+
+/// The inputs, or the outputs.
+struct Chosen {
+  const std::vector<std::string>& names;
+  const std::vector<std::size_t>& ties;
+  std::string noun;
+  const SourceLocation& where;
+};
+
+// What would do, where the mobility is `wanted`.
+std::string wanted_text(const Chosen& chosen, std::size_t wanted) {
+  if (chosen.names.size() <= wanted + chosen.ties.size())
+    return count(wanted + chosen.ties.size(), chosen.noun) + (chosen.ties.empty() ? "" : " with these ties");
+  const std::size_t more = chosen.names.size() - chosen.ties.size() - wanted;
+  return count(wanted, chosen.noun) + ", or " + count(more, chosen.ties.empty() ? "equation" : "more equation") + " in " +
+         chosen.noun + "s alone that " + (more == 1 ? "ties" : "tie") + " them (w @ unit and R @ rotation have theirs)";
+}
+
+// Mobility must equal the number of inputs (of outputs) less their ties: otherwise L_y (L_z) is not square, and the mechanism is redundant.
+void check_mobility(const Mechanism& mechanism, std::size_t equations, const Chosen& chosen) {
+  const SourceLocation where = chosen.where.line > 0 ? chosen.where : model_place(mechanism);
+  if (chosen.names.size() == mechanism.coordinates().size() && equations > 0)
+    throw ModelError(where, "every coordinate is an " + chosen.noun + ", so nothing is left to move where they are locked",
+                     "coordinates that are no " + chosen.noun + "s");
+  const auto mobility = static_cast<long>(mechanism.coordinates().size()) - static_cast<long>(equations);
+  const long free = static_cast<long>(chosen.names.size()) - static_cast<long>(chosen.ties.size());
+  if (free == mobility) return;
+  std::string problem = "the mechanism has " + count(mechanism.coordinates().size(), "coordinate") + " and " +
+                        count(equations, "equation") + ", so mobility " + std::to_string(mobility) + ", but " +
+                        count(chosen.names.size(), chosen.noun);
+  if (!chosen.ties.empty())
+    problem += " tied by " + count(chosen.ties.size(), "equation") + ", so " + std::to_string(free) + " free";
+  if (free > mobility && mobility >= 0) problem += ": a redundant mechanism";
+  throw ModelError(
+      where, problem,
+      mobility < 0 ? "no more equations than coordinates" : wanted_text(chosen, static_cast<std::size_t>(mobility)));
+}
+
+void check_chosen(const Mechanism& mechanism, const Derivation& derivation, SingularitySet set) {
   const bool forward = set == SingularitySet::forward;
   const std::string noun = forward ? "input" : "output";
   if ((forward ? mechanism.inputs() : mechanism.outputs()).empty()) {
@@ -75,10 +117,11 @@ void check_chosen(const Mechanism& mechanism, std::size_t equations, Singularity
                      "the model names no " + noun + "s, which the " + to_string(set) + " singularities need",
                      std::string("a line [") + (forward ? "INPUTS" : "OUTPUTS") + "]");
   }
+  const std::size_t equations = derivation.phi.size();
   if (!mechanism.inputs().empty())
-    check_mobility(mechanism, equations, mechanism.inputs(), "input", mechanism.inputs_where());
+    check_mobility(mechanism, equations, {mechanism.inputs(), derivation.input_ties, "input", mechanism.inputs_where()});
   if (!mechanism.outputs().empty())
-    check_mobility(mechanism, equations, mechanism.outputs(), "output", mechanism.outputs_where());
+    check_mobility(mechanism, equations, {mechanism.outputs(), derivation.output_ties, "output", mechanism.outputs_where()});
 }
 
 std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n) {
@@ -250,6 +293,8 @@ Derivation derive(const Mechanism& mechanism) {
   result.l_y = columns_where(result.phi_q, in_l_y);
   result.l_z = columns_where(result.phi_q, in_l_z);
   result.l_p = columns_where(result.phi_q, in_l_p);
+  if (!mechanism.inputs().empty()) result.input_ties = zero_rows(result.l_y);
+  if (!mechanism.outputs().empty()) result.output_ties = zero_rows(result.l_z);
   return result;
 }
 
@@ -265,8 +310,10 @@ TrigonometricSystem plain_system(const Mechanism& mechanism) {
     const std::string number = (equation ? "equation " : "inequality ") + std::to_string(list.size() + 1);
     // The file without its folders: results must not depend on where a model lies.
     const SourceLocation line{std::filesystem::path(constraint.where.file).filename().string(), constraint.where.line, 0};
-    list.push_back({constraint.relation, line.line > 0 ? line.text() : number, constraint.where});
+    const std::string note = constraint.note.empty() ? "" : " (" + constraint.note + ")";
+    list.push_back({constraint.relation, (line.line > 0 ? line.text() : number) + note, constraint.where});
   }
+  find_ranges(system);
   return system;
 }
 
@@ -293,10 +340,14 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySe
     add_kernel(system, mechanism, derivation.phi_q, "Phi_q", side.value_or(KernelSide::left), scales);
     return system;
   }
-  check_chosen(mechanism, equations, set);
+  check_chosen(mechanism, derivation, set);
   const bool forward = set == SingularitySet::forward;
-  add_kernel(system, mechanism, forward ? derivation.l_y : derivation.l_z, forward ? "L_y" : "L_z",
-             side.value_or(KernelSide::right), scales);
+  const ExpressionMatrix& matrix = forward ? derivation.l_y : derivation.l_z;
+  // A right kernel passes rows of zeros over; a left one would have an unknown that nothing is asked of.
+  const bool left = side == KernelSide::left;
+  add_kernel(system, mechanism,
+             left ? without_rows(matrix, forward ? derivation.input_ties : derivation.output_ties) : matrix,
+             forward ? "L_y" : "L_z", side.value_or(KernelSide::right), scales);
   return system;
 }
 

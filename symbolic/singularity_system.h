@@ -28,6 +28,9 @@ struct ExpressionMatrix {
 struct Derivation {
   std::vector<Expression> phi;  ///< lhs − rhs of each equation
   ExpressionMatrix phi_q, l_y, l_z, l_p;
+  /// Equations in inputs (outputs) and constants alone, such as a unit vector's norm: their rows of L_y (L_z) are zero. They leave the
+  /// kernel as it is, and so many inputs (outputs) more than the mobility may be named.
+  std::vector<std::size_t> input_ties, output_ties;
 };
 
 /// Throws ModelError where the mechanism is not valid (Mechanism::validate).
@@ -60,10 +63,12 @@ struct TrigonometricSystem {
 
 /// The system of a set: Φ(q) = 0 and, for all but cspace, the kernel equations, ‖ξ‖² = 1 and a·ξ ≥ 0 with a fixed generic a
 /// that drops −ξ. Default kernel: right where the matrix is square (forward, inverse), left for Φ_q (cspace-singular).
+/// L_y and L_z are taken without the zero rows of ties (Derivation): ker L_z is the same without them, at every configuration, and what
+/// is left is square where the outputs less their ties are as many as the mobility (doc/theory.md, "Tied outputs and inputs").
 /// `scales`: of each kernel unknown, the number by which its column is multiplied (symbolic/kernel_scale.h), a rational number's text; none: all
 /// are 1.
-/// Throws ModelError where inputs or outputs are missing or do not match the mobility n_q − n_e (a redundant mechanism,
-/// non-square L_y or L_z), or a right kernel is asked of the wide Φ_q.
+/// Throws ModelError where inputs or outputs are missing or, less their ties, do not match the mobility n_q − n_e (a redundant
+/// mechanism, non-square L_y or L_z), or a right kernel is asked of the wide Φ_q.
 TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt,
                                        const std::vector<std::string>& scales = {});

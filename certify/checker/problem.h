@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "corank/certify/checker/implied.h"
 #include "corank/certify/checker/rows.h"
 #include "corank/certify/cover.h"
 
@@ -40,14 +41,10 @@ class Problem {
   Sides domain() const;
 
  private:
-  bool implied_by_squares(const Terms& f, int y, const ExactNumber& h) const;
-  bool implied_by_functions(const Terms& f, int y, const ExactNumber& h) const;
-  // Do the equations imply y ≤ h (sign 1), y ≥ h (sign −1)?
-  bool implied(int y, const ExactNumber& h, int sign) const;
   void add_domain(int variable, const std::optional<Terms>& value, int sign);
 
   System system_;
-  std::vector<Terms> sources_;  // the equations before and after the reduction
+  Implied implied_;  // by the equations before and after the reduction
   std::vector<int> kept_, place_;
   std::vector<Row> equations_;
   std::vector<Value> values_;

@@ -118,10 +118,13 @@ export class Panel {
           coordinate.role === "passive" ? "" : coordinate.role
         }</td></tr>`;
       });
+    const drawn = this.model.drawing.points.length > 0;
+    const shown = drawn ? "Drawn at" : "Values at";
     const how = moved
-      ? `Drawn at a point in or next to the box, found by Newton’s method (residual ${residual.toExponential(0)}).`
-      : "Drawn at the middle of the box: Newton’s method found no point in it.";
-    const arrows = set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
+      ? `${shown} a point in or next to the box, found by Newton’s method (residual ${residual.toExponential(0)}).`
+      : `${shown} the middle of the box: Newton’s method found no point in it.`;
+    const arrows =
+      drawn && set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
     return `<p class="headline"><span class="swatch ${set.name}"></span>${setTitles[set.name]} · box ${groupedText(box + 1)} of ${groupedText(
       set.count,
     )} · <span class="verdict ${verdict}">${verdict}</span></p><table>${rows.join("")}</table><p class="fine">${how}${arrows}</p>`;

@@ -31,6 +31,37 @@ void expect_page_of_results(const std::string& page, const std::string& folder) 
   }
 }
 
+TEST(Report, OfARobotWithTiedOutputsSaysThem) {
+  const TemporaryFolder folder;
+  const std::string to = folder.file("spherical");
+  const Outcome outcome =
+      run_corank({"report", model("spherical_five_bar"), "--sigma", "0.05", "--cspace-sigma", "0.2", "-o", to});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Inverse singularities: Curves: "));
+  EXPECT_THAT(outcome.out, HasSubstr("C-space singularities: None\n"));
+  const std::string page = read_text(to + "/index.html");
+  expect_page_of_results(page, to);
+  EXPECT_THAT(
+      page,
+      HasSubstr(
+          "<dd><i>w</i><sub>x</sub>, <i>w</i><sub>y</sub>, <i>w</i><sub>z</sub> <small>tied by 1 equation</small></dd>"));
+  EXPECT_THAT(page, HasSubstr("(w @ unit)"));
+}
+
+TEST(Report, NamesTheRangesThatCutASet) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("cut.cuik",
+                                        "[SYSTEM VARS]\nx : [-1/2, 1/2]\ny :\nt ~\n[SYSTEM EQS]\nx = cos(t);\ny = sin(t);\n"
+                                        "[INPUTS] t\n[OUTPUTS] x\n");
+  const std::string sentence = "the ends of the declared range of x: what lies beyond was not searched.";
+  const std::string to = folder.file("a"), again = folder.file("b");
+  EXPECT_EQ(run_corank({"report", file, "-o", to}).status, 0);
+  EXPECT_THAT(read_text(to + "/index.html"), HasSubstr(sentence));
+  EXPECT_THAT(read_text(to + "/index.html"), HasSubstr("<dd><i>y</i> in [−1.01, 1.01], from the equations</dd>"));
+  EXPECT_EQ(run_corank({"report", "--results", to + "/cspace.h5", "-o", again}).status, 0);
+  EXPECT_THAT(read_text(again + "/index.html"), HasSubstr(sentence)) << "a result file holds what it takes to say so";
+}
+
 TEST(Report, OfTheThreeSliderHoldsItsResultFiles) {
   const TemporaryFolder folder;
   const std::string to = folder.file("new/slider");

@@ -12,7 +12,9 @@ namespace corank::app {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::AnyOf;
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -281,6 +283,98 @@ TEST(Progress, NamesTheStages) {
     at = outcome.err.find(stage, at);
     ASSERT_NE(at, std::string::npos) << stage << " in " << outcome.err;
   }
+}
+
+// A planar five-bar; RANGE is that of x and y.
+std::string five_bar(const std::string& range) {
+  std::string text = R"([CONSTANTS]
+d := 11/10
+[SYSTEM VARS]
+x : RANGE
+y : RANGE
+t1 ~
+t2 ~
+p1 ~
+p2 ~
+[SYSTEM EQS]
+x = 3/4*cos(t1) + cos(p1);
+y = 3/4*sin(t1) + sin(p1);
+x = d + 1/2*cos(t2) + cos(p2);
+y = 1/2*sin(t2) + sin(p2);
+[INPUTS] t1, t2
+[OUTPUTS] x, y
+)";
+  for (std::size_t at = text.find("RANGE"); at != std::string::npos; at = text.find("RANGE")) text.replace(at, 5, range);
+  return text;
+}
+
+TEST(Solve, NamesTheVariablesWhoseRangesCutTheSet) {
+  const TemporaryFolder folder;
+  const std::string narrow = folder.write("narrow.cuik", five_bar("[-1, 1]")),
+                    wide = folder.write("wide.cuik", five_bar("[-9, 9]"));
+  const auto solve = [](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> args = {"solve", file, "--set", "cspace", "--sigma", "0.2"};
+    args.insert(args.end(), more.begin(), more.end());
+    const Outcome outcome = run_corank(args);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_THAT(solve(narrow, {}),
+              AllOf(ContainsRegex("reach[a-z]* the ends? of .*x"), ContainsRegex("reach[a-z]* the ends? of .*y")));
+  EXPECT_THAT(solve(wide, {}), Not(HasSubstr("not searched beyond")));
+  const json cut = json::parse(solve(narrow, {"--json"})), whole = json::parse(solve(wide, {"--json"}));
+  ASSERT_EQ(cut["range_ends"].size(), 2u);
+  EXPECT_EQ(cut["range_ends"][0]["variable"], "x");
+  EXPECT_EQ(whole["range_ends"].size(), 0u);
+  // Every boundary box has its reason, and only the ends of x and y are reasons.
+  EXPECT_GT(cut["boxes"]["boundary"], 0);
+  int reasons = 0;
+  for (const json& reason : cut["boundary_reasons"]) {
+    EXPECT_THAT(reason["reason"].get<std::string>(),
+                AnyOf("lower end of x", "upper end of x", "lower end of y", "upper end of y"));
+    reasons += reason["boxes"].get<int>();
+  }
+  EXPECT_GE(reasons, cut["boxes"]["boundary"]);
+  EXPECT_EQ(whole["boundary_reasons"].size(), 0u);
+}
+
+TEST(Solve, ReachesTheEndOfAFreeVariablesRange) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("arc.cuik", "[SYSTEM VARS]\nx : [-1/2, 1/2]\nt ~ [0, pi]\n[SYSTEM EQS]\nx = cos(t)^3;\n");
+  const Outcome outcome = run_corank({"solve", file, "--sigma", "0.05", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json summary = json::parse(outcome.out);
+  ASSERT_EQ(summary["range_ends"].size(), 1u) << "t stays away from 0 and pi";
+  EXPECT_EQ(summary["range_ends"][0]["variable"], "x");
+}
+
+TEST(Solve, NamesALimitedAngleAndAnInequality) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("limited.cuik", "[SYSTEM VARS]\nx : \nt ~ [-1, 1]\n[SYSTEM EQS]\nx = sin(t);\nx*cos(t) <= 1/3;\n");
+  const Outcome outcome = run_corank({"solve", file, "--sigma", "0.05"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("reach the end of t: not searched beyond\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("limited.cuik:6 ("));
+  EXPECT_THAT(outcome.out, HasSubstr("ranges found from the equations: x in [-0.842, 0.617]\n"));
+}
+
+TEST(Solve, FindsTheRangesThatAModelLeavesOut) {
+  const TemporaryFolder folder;
+  const std::string without = folder.write("bars.cuik", five_bar("")), file = folder.file("r.h5");
+  const Outcome outcome = run_corank({"solve", without, "--set", "forward", "-o", file});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("ranges found from the equations: x in [-0.41, 1.76], y in [-1.51, 1.51]\n"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("not searched beyond")));
+  EXPECT_EQ(run_corank({"verify", file}).status, 0);
+  EXPECT_THAT(run_corank({"derive", without}).out, HasSubstr("  x : [-0.41, 1.76]   % found from the equations\n"));
+  EXPECT_THAT(run_corank({"derive", without, "--format", "cuik"}).out, HasSubstr("\nx    : [-0.41, 1.76]\n"));
+  const std::string open = folder.write("open.cuik", "[SYSTEM VARS]\nx :\ny :\n[SYSTEM EQS]\nx*y = 1;\n");
+  const Outcome refused = run_corank({"solve", open});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.err,
+              HasSubstr("open.cuik:2:1: the equations are not seen to bound 'x', which has no range; expected a range"));
 }
 
 }  // namespace

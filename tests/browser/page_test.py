@@ -36,6 +36,21 @@ class Dextar(page_case.PageCase):
         super().test_asks_nothing_of_the_network_and_throws_nothing()
         print(f"\nready {self.run_js('document.documentElement.dataset.ready')} ms after the page was asked for", file=sys.stderr)
 
+    def test_speaks_of_arrows_and_of_drawing_only_where_something_is_drawn(self):
+        text = """(points) => {
+          const panel = corank.panel, set = panel.model.sets.find((s) => s.name === "inverse"), kept = panel.model.drawing.points;
+          panel.model.drawing.points = points ?? kept;
+          const values = Object.fromEntries(panel.model.coordinates.map(({name}) => [name, 0]));
+          const text = [true, false].map((moved) => panel.describe({set, box: 0, residual: 1e-12, moved}, values)).join();
+          panel.model.drawing.points = kept;
+          return text;
+        }"""
+        drawn, bare = self.run_js(f"({text})()"), self.run_js(f"({text})([])")
+        self.assertIn("Arrows: ", drawn)
+        self.assertEqual(drawn.count("Drawn at"), 2)
+        self.assertNotIn("Arrows", bare)
+        self.assertNotIn("Drawn", bare)
+
     def test_output_portrait_has_boxes_over_the_reach_of_both_arms_and_over_nothing_else(self):
         sigma = self.run_js("corank.model.sets.find((s) => s.name === 'cspace').sigma")
         places = [(0.1 * i + 0.003, 0.1 * k + 0.007) for i in range(-12, 31) for k in range(-20, 21)]

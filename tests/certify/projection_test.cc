@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 #include <random>
 
@@ -172,10 +173,11 @@ TEST(Domain, IsImpliedByACircleOrANorm) {
   b.equation({{"1", {{y, 2}}}, {"1", {{c, 2}}}, {"-0.64", {}}});
   b.equation({{"1", {{z, 2}}}, {"-1", {{c, 2}}}, {"-1", {}}});
   const auto implied = implied_domains(b.system());
-  EXPECT_TRUE(implied[c]);
-  EXPECT_FALSE(implied[s]) << "−1/2 cuts the circle";
-  EXPECT_TRUE(implied[y]) << "0.8² = 0.64 exactly";
-  EXPECT_FALSE(implied[z]) << "not a sum of squares";
+  EXPECT_TRUE(implied[c].both());
+  EXPECT_FALSE(implied[s].lower) << "−1/2 cuts the circle";
+  EXPECT_TRUE(implied[s].upper);
+  EXPECT_TRUE(implied[y].both()) << "0.8² = 0.64 exactly";
+  EXPECT_FALSE(implied[z].both()) << "not a sum of squares";
 }
 
 TEST(Domain, IsImpliedByASineOrCosine) {
@@ -191,13 +193,74 @@ TEST(Domain, IsImpliedByASineOrCosine) {
   b.equation({{"1", {{y, 1}}}, {"1", {{t, 1, Function::cosine}}}, {"1", {{t, 1}}}});
   b.equation({{"1", {{t, 1, Function::cosine}}}, {"1", {{t, 1, Function::sine}}}, {"-1", {}}});
   const auto implied = implied_domains(b.system());
-  EXPECT_TRUE(implied[c]);
-  EXPECT_TRUE(implied[q]) << "2q = sin t";
-  EXPECT_FALSE(implied[r]) << "0.49 cuts it off";
-  EXPECT_FALSE(implied[u]) << "−0.49 cuts it off";
-  EXPECT_TRUE(implied[z]) << "3/2 + 1 + 1/2 = 3";
-  EXPECT_FALSE(implied[y]) << "t is not bounded by its equations";
-  EXPECT_FALSE(implied[t]);
+  EXPECT_TRUE(implied[c].both());
+  EXPECT_TRUE(implied[q].both()) << "2q = sin t";
+  EXPECT_FALSE(implied[r].both()) << "0.49 cuts it off";
+  EXPECT_FALSE(implied[u].both()) << "−0.49 cuts it off";
+  EXPECT_TRUE(implied[z].both()) << "3/2 + 1 + 1/2 = 3";
+  EXPECT_FALSE(implied[y].lower || implied[y].upper) << "t is not bounded by its equations";
+  EXPECT_FALSE(implied[t].lower || implied[t].upper);
+}
+
+TEST(Domain, IsImpliedByASumOfWhatIsImplied) {
+  SystemBuilder b;
+  const int c = b.variable("c", "-1", "1"), s = b.variable("s", "-1", "1"), d = b.variable("d", "-1", "1"),
+            e = b.variable("e", "-1", "1"), x = b.variable("x", "-18/10", "18/10"), y = b.variable("y", "-18/10", "17/10"),
+            z = b.variable("z", "-28/10", "28/10"), w = b.variable("w", "-5", "5"), o = b.variable("o", "-5", "5");
+  b.equation({{"1", {{c, 2}}}, {"1", {{s, 2}}}, {"-1", {}}}).equation({{"1", {{d, 2}}}, {"1", {{e, 2}}}, {"-1", {}}});
+  b.equation({{"-1", {{z, 1}}}, {"1", {{x, 1}}}, {"1", {}}});  // before the bounds of x are known
+  b.equation({{"1", {{x, 1}}}, {"-7/10", {{c, 1}}}, {"-11/10", {{d, 1}}}});
+  b.equation({{"2", {{y, 1}}}, {"-14/10", {{s, 1}}}, {"22/10", {{e, 1}}}});
+  b.equation({{"1", {{w, 1}}}, {"1", {{o, 1}}}, {"1", {{c, 1}}}});
+  const auto implied = implied_domains(b.system());
+  EXPECT_TRUE(implied[x].both());
+  EXPECT_TRUE(implied[y].lower);
+  EXPECT_FALSE(implied[y].upper) << "1.7 cuts off what 1.8 would not";
+  EXPECT_TRUE(implied[z].both()) << "[-0.8, 2.8]";
+  EXPECT_FALSE(implied[w].lower || implied[w].upper || implied[o].lower || implied[o].upper) << "w + o = -c";
+}
+
+TEST(Domain, IsImpliedByTheOtherArmOfAClosedChain) {
+  SystemBuilder b;  // x = 1.18 + 0.9 (c2 + c3), and the chain closes: x = 0.9 (c5 − c4)
+  const int x = b.variable("x", "-1.8", "1.8");
+  std::array<int, 4> c{};
+  for (int i = 0; i < 4; ++i) {
+    c[i] = b.variable("c" + std::to_string(i + 2), "-1", "1");
+    const int s = b.variable("s" + std::to_string(i + 2), "-1", "1");
+    b.equation({{"1", {{c[i], 2}}}, {"1", {{s, 2}}}, {"-1", {}}});
+  }
+  b.equation({{"1.18", {}}, {"0.9", {{c[0], 1}}}, {"0.9", {{c[1], 1}}}, {"0.9", {{c[2], 1}}}, {"-0.9", {{c[3], 1}}}});
+  EXPECT_FALSE(implied_domains(b.system())[x].upper);
+  b.equation({{"-1", {{x, 1}}}, {"1.18", {}}, {"0.9", {{c[0], 1}}}, {"0.9", {{c[1], 1}}}});
+  EXPECT_TRUE(implied_domains(b.system())[x].both());
+}
+
+TEST(Domain, IsNotImpliedByAVariableThatItBounds) {
+  SystemBuilder b;  // nothing bounds x or y, though each would bound the other
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}});
+  const auto implied = implied_domains(b.system());
+  EXPECT_FALSE(implied[x].lower || implied[x].upper || implied[y].lower || implied[y].upper);
+}
+
+TEST(Domain, OfACrossProductIsImpliedByTheNorms) {
+  SystemBuilder b;
+  std::array<int, 3> p{}, q{};
+  for (int i = 0; i < 3; ++i) p[i] = b.variable("p" + std::to_string(i), "-1", "1");
+  for (int i = 0; i < 3; ++i) q[i] = b.variable("q" + std::to_string(i), "-1", "1");
+  const int r = b.variable("r", "-1", "1"), narrow = b.variable("narrow", "-1", "9/10"), sum = b.variable("sum", "-1", "1"),
+            twice = b.variable("twice", "-1", "1");
+  for (const auto& v : {p, q}) b.equation({{"1", {{v[0], 2}}}, {"1", {{v[1], 2}}}, {"1", {{v[2], 2}}}, {"-1", {}}});
+  b.equation({{"1", {{r, 1}}}, {"-1", {{p[0], 1}, {q[1], 1}}}, {"1", {{p[1], 1}, {q[0], 1}}}});
+  b.equation({{"1", {{narrow, 1}}}, {"-1", {{p[0], 1}, {q[1], 1}}}, {"1", {{p[1], 1}, {q[0], 1}}}});
+  b.equation({{"1", {{sum, 1}}}, {"-1", {{p[0], 1}, {q[1], 1}}}, {"1", {{p[1], 1}, {q[0], 1}}}, {"-1/10", {}}});
+  b.equation(
+      {{"1", {{twice, 1}}}, {"-1", {{p[0], 1}, {q[1], 1}}}, {"1", {{p[0], 1}, {q[0], 1}}}});  // p0 (q1 − q0): up to √2
+  const auto implied = implied_domains(b.system());
+  EXPECT_TRUE(implied[r].both());
+  EXPECT_TRUE(implied[narrow].lower && !implied[narrow].upper);
+  EXPECT_FALSE(implied[sum].lower || implied[sum].upper) << "a tenth more than 1";
+  EXPECT_FALSE(implied[twice].lower || implied[twice].upper);
 }
 
 TEST(Domain, LocatesPiecesInsideOutsideAndAcross) {

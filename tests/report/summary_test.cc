@@ -25,8 +25,9 @@ std::vector<std::string> keys(const ordered_json& object) {
 
 TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   const ordered_json json = ordered_json::parse(to_json(sample_result()));
-  EXPECT_THAT(keys(json), ElementsAre("model", "set", "system", "options", "complete", "stopped", "boxes", "points",
-                                      "kernel", "seconds", "version"));
+  EXPECT_THAT(keys(json), ElementsAre("model", "set", "system", "options", "complete", "stopped", "boxes", "undecided_reasons",
+                                      "boundary_reasons", "range_ends", "ranges_found", "points", "kernel", "seconds",
+                                      "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]), ElementsAre("kernel", "sigma", "tolerance", "threads", "max_boxes", "max_solutions",
                                                  "time_limit", "constants"));
@@ -126,6 +127,52 @@ TEST(Table, SaysWhatATolerancedSystemMeans) {
   EXPECT_THAT(to_table(result), HasSubstr("the others hold within 1e-05"));
   result.cover.tolerance = 0;
   EXPECT_THAT(to_table(result), Not(HasSubstr("coefficients")));
+}
+
+Result result_at_the_ends() {
+  Result result = sample_result();
+  result.domain = {{0}, {{"x", true}, {"t", false}, {"z", true}}, {{"upper end of x", 3}, {"m.cuik:9", 1}}};
+  result.variables[0].domain = {-0.11, 1.81};
+  return result;
+}
+
+TEST(Table, SaysWhatRangesDo) {
+  const std::string table = to_table(result_at_the_ends());
+  EXPECT_THAT(table, HasSubstr("ranges found from the equations: x in [-0.11, 1.81]\n"));
+  EXPECT_THAT(table,
+              HasSubstr("\nreaches the ends of x, z: not searched beyond\nmay reach the end of t: not searched beyond\n"));
+  EXPECT_THAT(table, HasSubstr("boundary: not shown to be inside upper end of x (3), m.cuik:9 (1)\n"));
+  const std::string plain = to_table(sample_result());
+  for (const char* word : {"found from", "reach", "not shown"}) EXPECT_THAT(plain, Not(HasSubstr(word)));
+}
+
+TEST(JsonSummary, SaysWhatRangesDo) {
+  const ordered_json json = ordered_json::parse(to_json(result_at_the_ends()));
+  EXPECT_EQ(json["boundary_reasons"],
+            ordered_json::parse(R"([{"reason": "upper end of x", "boxes": 3}, {"reason": "m.cuik:9", "boxes": 1}])"));
+  EXPECT_EQ(json["range_ends"][1], ordered_json::parse(R"({"variable": "t", "reached": false})"));
+  EXPECT_EQ(json["range_ends"][2]["reached"], true);
+  EXPECT_EQ(json["ranges_found"]["x"]["lo"], -0.11);
+}
+
+TEST(Table, SaysNoneForAnEmptySet) {
+  Result result = sample_result();
+  result.cover.boxes.clear();
+  result.cover.points.clear();
+  const std::string table = to_table(result);
+  EXPECT_THAT(table,
+              HasSubstr("complete: every solution in the search domain is in a box\n\nnone: there is no solution in the "
+                        "search domain   (123 processed)\n\n1.500 s"));
+  EXPECT_THAT(table, Not(HasSubstr("verdict")));
+}
+
+TEST(Table, PrintsAnExactAngle) {
+  Result result = sample_result();
+  certify::CoverBox& point = result.cover.points[1];
+  point.box[1] = {0.59, 0.61}, point.box[2] = {0.79, 0.81};
+  result.cover.exact_points[1].coordinates[1] = {certify::ExactNumber::rational("3/5")};
+  result.cover.exact_points[1].coordinates[2] = {certify::ExactNumber::rational("4/5")};
+  EXPECT_THAT(to_table(result), HasSubstr("  atan2(4/5, 3/5)  "));
 }
 
 TEST(Table, IsShortForASurface) {

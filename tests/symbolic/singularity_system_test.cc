@@ -212,8 +212,79 @@ TEST(SingularitySystem, LeavesOutKernelRowsThatAreZero) {
   const TrigonometricSystem s = singularity_system(m, SingularitySet::inverse);
   EXPECT_THAT(texts(s.equations),
               ElementsAre("x^2 + y^2 = 1", "x = z", "2*x*xi1 = 0", "xi1 - xi2 = 0", "xi1^2 + xi2^2 = 1"));
+}
+
+constexpr const char* kSphere = "t ~ [-pi, pi]\np ~ [-pi, pi]\nw @ unit";
+constexpr const char* kLegs = "w_x*cos(t) + w_y*sin(t) = 1/3;\nw_y*cos(p) + w_z*sin(p) = 1/3;";
+constexpr const char* kSphereChosen = "[INPUTS] t, p\n[OUTPUTS] w";
+
+TEST(Ties, AreEquationsInOutputsOrInputsAlone) {
+  const Derivation d = derive(model(kSphere, kLegs, kSphereChosen));
+  EXPECT_TRUE(d.input_ties.empty());
+  EXPECT_THAT(d.output_ties, ElementsAre(0u));
+  EXPECT_THAT(d.l_z.rows[0][0].text(), "0");
+  const Derivation turned = derive(model(kSphere, kLegs, "[INPUTS] w\n[OUTPUTS] t, p"));
+  EXPECT_THAT(turned.input_ties, ElementsAre(0u));
+  EXPECT_TRUE(turned.output_ties.empty());
+}
+
+TEST(Ties, LetAsManyMoreOutputsOrInputsBeNamed) {
+  for (const char* chosen : {kSphereChosen, "[INPUTS] w\n[OUTPUTS] t, p"}) {
+    const Mechanism m = model(kSphere, kLegs, chosen);
+    for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse}) {
+      for (const KernelSide side : {KernelSide::right, KernelSide::left}) {
+        const TrigonometricSystem s = singularity_system(m, set, side);
+        // Φ, a kernel row for each row (column) that counts, the norm: one more than the unknowns have beyond q.
+        const bool tied = (set == SingularitySet::inverse) == (m.outputs().size() == 3);
+        EXPECT_EQ(s.kernel_unknowns.size(), tied ? 2u : 3u);
+        EXPECT_EQ(s.equations.size(), 3 + s.kernel_unknowns.size() + 1);
+      }
+    }
+  }
+}
+
+TEST(Ties, LeaveTheKernelEquationsOfTheOtherRows) {
+  const TrigonometricSystem s = singularity_system(model(kSphere, kLegs, kSphereChosen), SingularitySet::inverse);
+  EXPECT_THAT(texts(s.equations),
+              ElementsAre("w_x^2 + w_y^2 + w_z^2 = 1", "w_x*cos(t) + w_y*sin(t) = 1/3", "w_y*cos(p) + w_z*sin(p) = 1/3",
+                          HasSubstr("*xi1 = 0"), HasSubstr("*xi2 = 0"), "xi1^2 + xi2^2 = 1"));
+  EXPECT_EQ(s.equations[0].source, "m.cuik:4 (w @ unit)");
+  EXPECT_EQ(s.equations[3].source, "row 2 of L_z xi = 0");
+}
+
+TEST(Ties, ThatDoNotMatchTheMobilityAreCounted) {
+  auto [line, message] = error_of(
+      [&] { singularity_system(model(kSphere, kLegs, "[INPUTS] t\n[OUTPUTS] w_x, w_y, w_z, p"), SingularitySet::inverse); });
+  EXPECT_EQ(line, 8);
+  EXPECT_THAT(message, HasSubstr("so mobility 2, but 1 input; expected 2 inputs"));
+  std::tie(line, message) = error_of([&] {
+    singularity_system(model(std::string(kSphere) + "\nx : [-1, 1]", std::string(kLegs) + "\nx = cos(t);", "[OUTPUTS] w, x"),
+                       SingularitySet::inverse);
+  });
+  EXPECT_EQ(line, 10);
+  EXPECT_THAT(message,
+              HasSubstr("6 coordinates and 4 equations, so mobility 2, but 4 outputs tied by 1 equation, so 3 free: a "
+                        "redundant mechanism; expected 2 outputs, or 1 more equation in outputs alone that ties them"));
   const Mechanism bound = model("x : [-1, 1]\ny : [-1, 1]", "x^2 = 1;", "[INPUTS] x\n[OUTPUTS] y");
-  EXPECT_THAT(texts(singularity_system(bound, SingularitySet::forward).equations), ElementsAre("x^2 = 1", "xi1^2 = 1"));
+  std::tie(line, message) = error_of([&] { singularity_system(bound, SingularitySet::forward); });
+  EXPECT_THAT(message, HasSubstr("1 input tied by 1 equation, so 0 free; expected 2 inputs with these ties"));
+}
+
+TEST(Ties, ThatNeedPassiveCoordinatesAreAskedFor) {
+  // |u| = 1 follows only together with p and r.
+  const Mechanism m = model("u : [-1, 1]\nv : [-1, 1]\np : [-1, 1]\nr : [-1, 1]", "u = p;\nv = r;\np^2 + r^2 = 1;",
+                            "[INPUTS] p\n[OUTPUTS] u, v");
+  const auto [line, message] = error_of([&] { singularity_system(m, SingularitySet::inverse); });
+  EXPECT_EQ(line, 11);
+  EXPECT_THAT(message, HasSubstr("so mobility 1, but 2 outputs: a redundant mechanism; expected 1 output, or 1 equation in "
+                                 "outputs alone that ties them"));
+}
+
+TEST(SingularitySystem, RefusesOutputsThatLeaveNothingToMove) {
+  const Mechanism m = model("w @ unit", "w_x = w_y;", "[OUTPUTS] w");
+  const auto [line, message] = error_of([&] { singularity_system(m, SingularitySet::inverse); });
+  EXPECT_EQ(line, 5);
+  EXPECT_THAT(message, HasSubstr("every coordinate is an output"));
 }
 
 TEST(SingularitySystem, KnowsItsWords) {

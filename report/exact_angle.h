@@ -1,0 +1,24 @@
+// An angle whose cosine and sine are known exactly, in a short text.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "corank/certify/angle.h"
+#include "corank/certify/exact_point.h"
+#include "corank/certify/system.h"
+
+namespace corank::report {
+
+/// "-3/5", "1/2*sqrt(3)": a coordinate of an exact point, where it has a short text.
+std::optional<std::string> exact_coordinate(const certify::ExactPoint& point, int variable);
+
+/// "3*pi/4", where that is the angle, exactly, with `enclosure` to tell its turn. Nothing for other angles.
+std::optional<std::string> multiple_of_pi(const certify::ExactPoint& point, const certify::Angle& angle,
+                                          const certify::Interval& enclosure);
+
+/// That, or "atan2(4/5, 3/5)" with sine and cosine; nothing where these have no short text.
+std::optional<std::string> exact_angle(const certify::ExactPoint& point, const certify::Angle& angle,
+                                       const certify::Interval& enclosure);
+
+}  // namespace corank::report
