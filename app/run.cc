@@ -7,6 +7,7 @@
 
 #include "corank/app/subcommands.h"
 #include "corank/certify/check.h"
+#include "corank/report/printable.h"
 #include "corank/report/result_file.h"
 #include "corank/symbolic/model_error.h"
 
@@ -14,7 +15,7 @@ namespace corank::app {
 
 int run(const std::string& name, const std::vector<std::string>& args) {
   const auto say = [&name](ExitStatus status, const std::string& message) {
-    fmt::print(stderr, "{}: {}\n", name, message);
+    fmt::print(stderr, "{}: {}\n", name, report::printable(message));  // it may quote a file
     return status;
   };
   CLI::App program("corank returns all singularities of a robot mechanism, each with a proof.", "corank");

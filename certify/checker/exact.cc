@@ -5,6 +5,8 @@
 namespace corank::certify::checker {
 namespace {
 
+constexpr std::size_t kLongestSturm = 200;  // coefficients
+
 void strip(RationalPolynomial& f) {
   while (!f.empty() && f.back().is_zero()) f.pop_back();
 }
@@ -44,10 +46,66 @@ int changes(const std::vector<RationalPolynomial>& chain, const ExactNumber& x) 
   return count;
 }
 
+RationalPolynomial derivative(const RationalPolynomial& f) {
+  RationalPolynomial result;
+  for (std::size_t k = 1; k < f.size(); ++k) result.push_back(ExactNumber(static_cast<long>(k)) * f[k]);
+  return result;
+}
+
+using Enclosures = std::vector<Enclosure>;
+
+Enclosures enclosures(const RationalPolynomial& f) {
+  Enclosures result;
+  for (const ExactNumber& c : f) result.emplace_back(c);
+  return result;
+}
+
+Enclosure at(const Enclosures& f, const Enclosure& x) {
+  Enclosure sum;
+  for (std::size_t k = f.size(); k-- > 0;) sum = sum * x + f[k];
+  return sum;
+}
+
+// Nothing where the enclosure does not tell it.
+std::optional<int> sign_at(const Enclosures& f, const ExactNumber& x) {
+  const Enclosure value = at(f, Enclosure(x));
+  if (value.is_zero()) return 0;
+  if (value.is_negative()) return -1;
+  if (value.is_positive()) return 1;
+  return std::nullopt;
+}
+
+// Lemma: if p has opposite signs at the ends of an interval, and if every part of it has no zero of p, or p' with one and the same sign throughout, then p
+// has exactly one root in the interval. Between two neighbouring roots, each with p' > 0 (p' < 0), p would have to change its sign once more.
+// False: not shown in a few parts.
+bool is_crossed_once(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper) {
+  constexpr int kMostParts = 200;
+  const Enclosures f = enclosures(p), slope = enclosures(derivative(p));
+  std::vector<Enclosure> open{Enclosure::hull(Enclosure(lower), Enclosure(upper))};
+  int sign = 0;
+  for (int parts = 0; !open.empty(); ++parts) {
+    const Enclosure x = open.back();
+    open.pop_back();
+    if (const Enclosure value = at(f, x); value.is_negative() || value.is_positive()) continue;
+    const Enclosure steepness = at(slope, x);
+    if (steepness.is_negative() || steepness.is_positive()) {
+      const int here = steepness.is_negative() ? -1 : 1;
+      if (sign == -here) return false;
+      sign = here;
+      continue;
+    }
+    const double middle = x.mid();
+    if (parts > kMostParts || !(x.lo() < middle && middle < x.hi())) return false;
+    for (const Enclosure& half : {Enclosure(x.lo(), middle), Enclosure(middle, x.hi())}) {
+      Enclosure part = x;
+      if (part.intersect(half)) open.push_back(part);
+    }
+  }
+  return true;
+}
+
 int roots_between(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper) {
-  RationalPolynomial derivative;
-  for (std::size_t k = 1; k < p.size(); ++k) derivative.push_back(ExactNumber(static_cast<long>(k)) * p[k]);
-  std::vector<RationalPolynomial> chain{p, derivative};
+  std::vector<RationalPolynomial> chain{p, derivative(p)};
   while (chain.back().size() > 1) {
     RationalPolynomial next = remainder(chain[chain.size() - 2], chain.back());
     if (next.empty()) break;
@@ -82,13 +140,23 @@ std::string ExactCheck::check_root() {
   const ExactNumber leading = p_.back();
   for (ExactNumber& c : p_) c = c / leading;
   ExactNumber lower = point_.lower, upper = point_.upper;
-  if ((upper - lower).sign() != 1 || sign_at(p_, lower) * sign_at(p_, upper) != -1)
+  const Enclosures enclosed = enclosures(p_);
+  const auto sign_of_p = [&](const ExactNumber& x) {
+    const auto sign = sign_at(enclosed, x);
+    return sign ? *sign : sign_at(p_, x);
+  };
+  if ((upper - lower).sign() != 1 || sign_of_p(lower) * sign_of_p(upper) != -1)
     return "its polynomial has not opposite signs at the ends of its interval";
-  if (roots_between(p_, lower, upper) != 1) return "its polynomial has not exactly one root in its interval";
-  const int sign = sign_at(p_, lower);
+  const bool is_short = p_.size() <= kLongestSturm;  // else the numbers of exact steps fill the memory
+  if (!is_crossed_once(p_, lower, upper) && (!is_short || roots_between(p_, lower, upper) != 1))
+    return is_short ? "its polynomial has not exactly one root in its interval"
+                    : "that its polynomial, of a large degree, has exactly one root in its interval is not shown";
+  const int sign = sign_of_p(lower);
   for (int step = 0; step < Enclosure::kBits + 16; ++step) {
     const ExactNumber middle = (lower + upper) / 2;
-    const int here = sign_at(p_, middle);
+    const auto fast = sign_at(enclosed, middle);
+    if (!fast && !is_short) break;  // narrow enough for what enclosures can tell
+    const int here = fast ? *fast : sign_at(p_, middle);
     if (here == 0) lower = upper = middle;
     if (here == 0) break;
     (here == sign ? lower : upper) = middle;
