@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "corank/report/printable.h"
 #include "corank/report/result_file.h"
 
 namespace corank::app {
@@ -24,7 +25,7 @@ int variable_index(const report::SolFile& boxes, const std::string& file, const 
 ExitStatus completeness(const report::SolFile& boxes, const std::string& file) {
   for (const report::SolBox& box : boxes.boxes) {
     if (box.verdict != certify::Verdict::pending) continue;
-    fmt::print(stderr, "corank: {} is incomplete: its search ended before its end\n", file);
+    fmt::print(stderr, "corank: {} is incomplete: its search ended before its end\n", report::printable_line(file));
     return kIncomplete;
   }
   return kDone;

@@ -24,9 +24,10 @@ ExactNumber at(const RationalPolynomial& f, const ExactNumber& x) {
 int sign_at(const RationalPolynomial& f, const ExactNumber& x) { return at(f, x).sign().value(); }
 
 // The remainder of f by g ≠ 0.
-RationalPolynomial remainder(RationalPolynomial f, const RationalPolynomial& g) {
+RationalPolynomial remainder(RationalPolynomial f, const RationalPolynomial& g, const StopFlag& stop) {
   strip(f);
   while (f.size() >= g.size()) {
+    stop.poll();
     const ExactNumber q = f.back() / g.back();
     const std::size_t shift = f.size() - g.size();
     for (std::size_t k = 0; k < g.size(); ++k) f[shift + k] = f[shift + k] - q * g[k];
@@ -78,12 +79,13 @@ std::optional<int> sign_at(const Enclosures& f, const ExactNumber& x) {
 // Lemma: if p has opposite signs at the ends of an interval, and if every part of it has no zero of p, or p' with one and the same sign throughout, then p
 // has exactly one root in the interval. Between two neighbouring roots, each with p' > 0 (p' < 0), p would have to change its sign once more.
 // False: not shown in a few parts.
-bool is_crossed_once(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper) {
+bool is_crossed_once(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper, const StopFlag& stop) {
   constexpr int kMostParts = 200;
   const Enclosures f = enclosures(p), slope = enclosures(derivative(p));
   std::vector<Enclosure> open{Enclosure::hull(Enclosure(lower), Enclosure(upper))};
   int sign = 0;
   for (int parts = 0; !open.empty(); ++parts) {
+    stop.poll();
     const Enclosure x = open.back();
     open.pop_back();
     if (const Enclosure value = at(f, x); value.is_negative() || value.is_positive()) continue;
@@ -104,10 +106,10 @@ bool is_crossed_once(const RationalPolynomial& p, const ExactNumber& lower, cons
   return true;
 }
 
-int roots_between(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper) {
+int roots_between(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper, const StopFlag& stop) {
   std::vector<RationalPolynomial> chain{p, derivative(p)};
   while (chain.back().size() > 1) {
-    RationalPolynomial next = remainder(chain[chain.size() - 2], chain.back());
+    RationalPolynomial next = remainder(chain[chain.size() - 2], chain.back(), stop);
     if (next.empty()) break;
     for (ExactNumber& c : next) c = -c;
     chain.push_back(std::move(next));
@@ -117,7 +119,8 @@ int roots_between(const RationalPolynomial& p, const ExactNumber& lower, const E
 
 }  // namespace
 
-ExactCheck::ExactCheck(const System& system, const ExactPoint& point) : system_(system), point_(point) {
+ExactCheck::ExactCheck(const System& system, const ExactPoint& point, const StopFlag& stop)
+    : system_(system), point_(point), stop_(stop) {
   if (point.coordinates.size() != system.variables.size()) {
     fault_ = "it has not one coordinate for each variable";
     return;
@@ -148,11 +151,12 @@ std::string ExactCheck::check_root() {
   if ((upper - lower).sign() != 1 || sign_of_p(lower) * sign_of_p(upper) != -1)
     return "its polynomial has not opposite signs at the ends of its interval";
   const bool is_short = p_.size() <= kLongestSturm;  // else the numbers of exact steps fill the memory
-  if (!is_crossed_once(p_, lower, upper) && (!is_short || roots_between(p_, lower, upper) != 1))
+  if (!is_crossed_once(p_, lower, upper, stop_) && (!is_short || roots_between(p_, lower, upper, stop_) != 1))
     return is_short ? "its polynomial has not exactly one root in its interval"
                     : "that its polynomial, of a large degree, has exactly one root in its interval is not shown";
   const int sign = sign_of_p(lower);
   for (int step = 0; step < Enclosure::kBits + 16; ++step) {
+    stop_.poll();
     const ExactNumber middle = (lower + upper) / 2;
     const auto fast = sign_at(enclosed, middle);
     if (!fast && !is_short) break;  // narrow enough for what enclosures can tell
@@ -167,13 +171,15 @@ std::string ExactCheck::check_root() {
   return {};
 }
 
-RationalPolynomial ExactCheck::reduced(RationalPolynomial f) const { return remainder(std::move(f), p_); }
+RationalPolynomial ExactCheck::reduced(RationalPolynomial f) const { return remainder(std::move(f), p_, stop_); }
 
 RationalPolynomial ExactCheck::product(const RationalPolynomial& f, const RationalPolynomial& g) const {
   if (f.empty() || g.empty()) return {};
   RationalPolynomial result(f.size() + g.size() - 1);
-  for (std::size_t i = 0; i < f.size(); ++i)
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    stop_.poll();
     for (std::size_t k = 0; k < g.size(); ++k) result[i + k] = result[i + k] + f[i] * g[k];
+  }
   return reduced(std::move(result));
 }
 

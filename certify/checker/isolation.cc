@@ -163,8 +163,8 @@ class BlowUp {
     return face;
   }
 
-  static bool is_empty(const System& face) {
-    const Problem problem(face, {});
+  bool is_empty(const System& face) const {
+    const Problem problem(face, {}, point_.stop());
     if (problem.contradiction()) return true;
     return Search(problem).is_empty(problem.domain(), kMostParts);
   }

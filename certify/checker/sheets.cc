@@ -58,6 +58,7 @@ class SheetCheck {
   // x: a part of the box's free sides, dependent sides that hold every solution of the region over them. `proven`: there is
   // exactly one for every value. False: stop.
   bool examine(Sides x, bool proven) {
+    problem_.stop().poll();
     if (++parts_ > kMostParts) return fail(pending_reason_.empty() ? "too many parts" : pending_reason_);
     if (!proven) {
       const bool shown = prove(x);
@@ -119,6 +120,7 @@ class SheetCheck {
   bool prove_about_center(Sides& x) {
     bool exists = false;
     for (int step = 0; step < kProofSteps; ++step) {
+      problem_.stop().poll();
       const Sides image = newton_.image(x);
       bool within = true;
       for (std::size_t a = 0; a < image.size() && within; ++a) within = image[a].strictly_inside(x[place(a)]);
@@ -145,6 +147,7 @@ class SheetCheck {
       z[place(a)] = Enclosure(box_.box[static_cast<std::size_t>(problem_.kept()[place(a)])]);
     if (!newton_.set(dependent_, z, Center::polished)) return false;
     for (int step = 0; step < kInflations; ++step) {
+      problem_.stop().poll();
       const Sides image = newton_.image(z);
       bool inside = true;
       for (std::size_t a = 0; a < image.size(); ++a) {
