@@ -42,6 +42,7 @@ void Watch::watch(double seconds, const std::atomic<bool>& interrupt, Duration g
   while (!done_ && !interrupt && Clock::now() < end)
     changed_.wait_until(lock, std::min(end, later(Clock::now(), kGlance)), [this] { return done_; });
   stop_ = true;
+  stop_.notify_all();
   changed_.wait_until(lock, later(Clock::now(), grace), [this] { return done_; });
   if (!done_) give_up_(stage_);
 }
