@@ -21,7 +21,7 @@ ExitStatus derive(Question question, const std::string& format) {
   } else {
     const symbolic::Derivation derivation = symbolic::derive(mechanism);
     fmt::print("{}", report::printable(format == "latex" ? symbolic::to_latex(derivation, system)
-                                                      : symbolic::to_text(derivation, system)));
+                                                         : symbolic::to_text(derivation, system)));
   }
   return kDone;
 }

@@ -23,7 +23,8 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   program.require_subcommand(1);
   program.footer(
       "Example:\n  corank solve models/three_slider.cuik --set forward\n\n"
-      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n"
+      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt), 4 (verify only)\n"
+      "verified, but not that nothing is missing.\n"
       "corank SUBCOMMAND --help tells more.");
   Action action;
   add_derive(program, action);

@@ -1,5 +1,5 @@
-// Watches over work that has to end by a time or on Ctrl-C: it asks for the end with a flag, and where the work does not look at it, ends the
-// program with a statement.
+// Watches over work that has to end by a time or on Ctrl-C: it asks for the end with a flag, and where the work does not
+// look at it, ends the program with a statement.
 #pragma once
 
 #include <atomic>
@@ -18,8 +18,8 @@ class Watch {
   /// How long the work may go on after the flag was set: a limit holds within a second.
   static constexpr Duration kGrace{0.8};
 
-  /// Sets stop() after `seconds` (0: never), or once `interrupt` is set. Where this object still lives a `grace` later, `give_up` is called with the stage, from
-  /// another thread; it is to say what is known and to end the program.
+  /// Sets stop() after `seconds` (0: never), or once `interrupt` is set. Where this object still lives a `grace` later,
+  /// `give_up` is called with the stage, from another thread; it is to say what is known and to end the program.
   Watch(double seconds, const std::atomic<bool>& interrupt, std::function<void(const std::string& stage)> give_up,
         Duration grace = kGrace);
   ~Watch();

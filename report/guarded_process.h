@@ -1,4 +1,5 @@
-// Work on data that may make a library crash, hang or fill the memory: in a child process with limits, whose results come back as bytes.
+// Work on data that may make a library crash, hang or fill the memory: in a child process with limits, whose results come
+// back as bytes.
 #pragma once
 
 #include <cstddef>
@@ -48,9 +49,9 @@ class ByteSink {
   int descriptor_;
 };
 
-/// Runs `work` in a child process and returns what it wrote. An exception of `work` comes back as a GuardedWorkError with its text; so does
-/// the child's end by a signal, a limit or otherwise, whose `work` this process has then not felt. The child is a copy of this thread alone: `work`
-/// must not wait for others.
+/// Runs `work` in a child process and returns what it wrote. An exception of `work` comes back as a GuardedWorkError with
+/// its text; so does the child's end by a signal, a limit or otherwise, whose `work` this process has then not felt. The
+/// child is a copy of this thread alone: `work` must not wait for others.
 SharedBytes run_guarded(const ProcessLimits& limits, const std::function<void(ByteSink&)>& work);
 
 }  // namespace corank::report

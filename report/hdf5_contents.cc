@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kDeepest = 6, kMostItems = 1000;
 constexpr std::size_t kLongestName = 200;
-constexpr std::uint64_t kBlock = std::uint64_t{8} << 20;   // bytes read at a time
+constexpr std::uint64_t kBlock = std::uint64_t{8} << 20;  // bytes read at a time
 constexpr std::uint64_t kLongestChunk = std::uint64_t{1} << 24;
-constexpr std::uint64_t kMostDeflated = 1040;              // deflate shrinks no more than so many times
+constexpr std::uint64_t kMostDeflated = 1040;  // deflate shrinks no more than so many times
 constexpr std::uint64_t kLongestAttribute = std::uint64_t{1} << 16;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::runtime_error(what); }
@@ -182,7 +182,8 @@ class Contents {
     const std::string& name = item.name;
     const Handle properties(H5Dget_create_plist(set), H5Pclose, name + " is damaged");
     const H5D_layout_t layout = H5Pget_layout(properties);
-    if (H5Pget_external_count(properties) != 0) refuse(name + " is stored in another file: a result holds all that it is made of");
+    if (H5Pget_external_count(properties) != 0)
+      refuse(name + " is stored in another file: a result holds all that it is made of");
     if (layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED) refuse(name + " is stored as no array of a result is");
     const int filters = H5Pget_nfilters(properties);
     for (int k = 0; k < filters; ++k) {
@@ -216,8 +217,8 @@ class Contents {
       refuse(item.name + " is stored in chunks that no result has");
     const std::uint64_t chunks = (item.sizes[0] + chunk[0] - 1) / chunk[0];
     hsize_t present = 0;
-    if (chunks > stored || item.sizes[0] * item.width / kMostDeflated > stored || H5Dget_num_chunks(set, space, &present) < 0 ||
-        present != chunks)
+    if (chunks > stored || item.sizes[0] * item.width / kMostDeflated > stored ||
+        H5Dget_num_chunks(set, space, &present) < 0 || present != chunks)
       refuse(item.name + " declares more than the file holds");
   }
 
@@ -246,8 +247,8 @@ class Contents {
     for (std::uint64_t from = 0; from < item.sizes[0]; from += rows) {
       const std::array<hsize_t, 2> start{from, 0}, count{std::min<std::uint64_t>(rows, item.sizes[0] - from), item.sizes[1]};
       data.resize(count[0] * row);
-      const Handle part(item.rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(item.rank, count.data(), nullptr), H5Sclose,
-                        "cannot read " + item.name);
+      const Handle part(item.rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(item.rank, count.data(), nullptr),
+                        H5Sclose, "cannot read " + item.name);
       if (item.rank > 0 && H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0)
         refuse("cannot read " + item.name);
       if (H5Dread(set, type, part, item.rank == 0 ? H5S_ALL : space, H5P_DEFAULT, data.data()) < 0)

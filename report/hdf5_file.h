@@ -57,12 +57,13 @@ class Hdf5Writer {
   std::int64_t file_ = -1;
 };
 
-/// Reads what a stranger may have written: the HDF5 library works in a child process with limits of memory and time, after a check of the
-/// file's structure (report/hdf5_contents.h); what comes back is plain.
+/// Reads what a stranger may have written: the HDF5 library works in a child process with limits of memory and time, after
+/// a check of the file's structure (report/hdf5_contents.h); what comes back is plain.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& path);
-  /// Items that are in memory already, as report/plain_items.h lays them out; `path` is for messages. The bytes have to outlive the reader.
+  /// Items that are in memory already, as report/plain_items.h lays them out; `path` is for messages. The bytes have to
+  /// outlive the reader.
   Hdf5Reader(std::string path, std::span<const std::byte> items);
 
   /// Each throws where the item is missing, or has another shape or type.
@@ -94,7 +95,8 @@ class Hdf5Reader {
   void parse(std::span<const std::byte> bytes);
   const Item& array(const std::string& name) const;
   const Item& array(const std::string& name, ItemType type, const std::string& expected) const;
-  const Item& shaped(const std::string& name, ItemType type, std::size_t rows, std::size_t columns, const std::string& expected) const;
+  const Item& shaped(const std::string& name, ItemType type, std::size_t rows, std::size_t columns,
+                     const std::string& expected) const;
   const Item& attribute(const std::string& object, const std::string& name) const;
   template <class T>
   void read_vector(const std::string& name, ItemType type, std::vector<T>& data) const;

@@ -56,7 +56,7 @@ void write_dataset(hid_t file, const std::string& path, const std::string& name,
   const OwnHandle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path, "cannot write " + name);
   H5Pset_create_intermediate_group(links, 1);
   const OwnHandle set(H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT), H5Dclose, path,
-                   "cannot write " + name);
+                      "cannot write " + name);
   if (H5Sget_simple_extent_npoints(space) == 0) return;
   if (H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail(path, "cannot write " + name + " (disk full?)");
 }
@@ -78,7 +78,7 @@ void write_attribute(hid_t file, const std::string& path, const std::string& obj
   const OwnHandle at(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose, path, "cannot write to " + object);
   const Scalar space(path);
   const OwnHandle attribute(H5Acreate2(at, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path,
-                         "cannot write the attribute " + name + " of " + object);
+                            "cannot write the attribute " + name + " of " + object);
   if (H5Awrite(attribute, type, data) < 0) fail(path, "cannot write the attribute " + name + " of " + object);
 }
 
@@ -105,7 +105,7 @@ void Hdf5Writer::close() {
 void Hdf5Writer::group(const std::string& name) {
   const QuietErrors quiet;
   const OwnHandle created(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_,
-                       "cannot make the group " + name);
+                          "cannot make the group " + name);
 }
 
 void Hdf5Writer::doubles(const std::string& name, std::span<const double> data, std::size_t rows, std::size_t columns) {

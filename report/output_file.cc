@@ -101,9 +101,11 @@ bool is_left_over(std::string_view name, const std::string& prefix) {
 
 void remove_left_overs(const fs::path& folder, const std::string& prefix) {
   std::error_code error;
-  for (fs::directory_iterator at(folder.empty() ? fs::path(".") : folder, error), end; !error && at != end; at.increment(error)) {
+  for (fs::directory_iterator at(folder.empty() ? fs::path(".") : folder, error), end; !error && at != end;
+       at.increment(error)) {
     std::error_code ignored;
-    if (is_left_over(at->path().filename().string(), prefix) && at->is_regular_file(ignored)) fs::remove(at->path(), ignored);
+    if (is_left_over(at->path().filename().string(), prefix) && at->is_regular_file(ignored))
+      fs::remove(at->path(), ignored);
   }
 }
 

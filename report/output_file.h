@@ -1,4 +1,5 @@
-// A file that is written beside its place and takes it in one step, so that nobody ever sees half of it and nothing is left where writing ends early.
+// A file that is written beside its place and takes it in one step, so that nobody ever sees half of it and nothing is left
+// where writing ends early.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +8,12 @@
 
 namespace corank::report {
 
-/// Makes the empty file part(), "NAME.HOST.PID.part" beside the final one, which is removed at the end of this object's life, or at the end of the
-/// process by SIGINT, SIGTERM or SIGHUP, unless finish() has given it its name. Part files of the same name that belong to no
-/// process of this machine any more are removed, too.
+/// Makes the empty file part(), "NAME.HOST.PID.part" beside the final one, which is removed at the end of this object's
+/// life, or at the end of the process by SIGINT, SIGTERM or SIGHUP, unless finish() has given it its name. Part files of the
+/// same name that belong to no process of this machine any more are removed, too.
 ///
-/// A symbolic link keeps being one: its target is written. Throws ResultFileError where there is something that is no regular file, where
-/// the file is read-only, or where no file can be made.
+/// A symbolic link keeps being one: its target is written. Throws ResultFileError where there is something that is no
+/// regular file, where the file is read-only, or where no file can be made.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& path);

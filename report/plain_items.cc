@@ -74,7 +74,8 @@ class Parser {
       if (item.sizes[k] != 1) throw PlainItemsError("an item has sizes without dimensions");
     item.name = text();
     const std::uint64_t words = number();
-    if (words > kMostWords || (words > 0 && item.type != ItemType::word)) throw PlainItemsError("an item has too many words");
+    if (words > kMostWords || (words > 0 && item.type != ItemType::word))
+      throw PlainItemsError("an item has too many words");
     for (std::uint64_t w = 0; w < words; ++w) {
       const std::uint64_t value = number();
       if (value > 255) throw PlainItemsError("a word has a number above 255");

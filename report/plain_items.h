@@ -1,4 +1,5 @@
-// What a result file holds as plain values: named arrays, texts and attributes, and the bytes in which one process hands them to another.
+// What a result file holds as plain values: named arrays, texts and attributes, and the bytes in which one process hands
+// them to another.
 #pragma once
 
 #include <array>
@@ -39,8 +40,8 @@ std::string item_header(const Item& item, std::uint64_t data_size);
 std::string item_padding(std::uint64_t data_size);
 std::string the_end();
 
-/// The items by name. Trusts nothing: throws PlainItemsError where the bytes are no complete list of items with distinct names, each with
-/// as much data as its shape asks for. The items refer to the bytes.
+/// The items by name. Trusts nothing: throws PlainItemsError where the bytes are no complete list of items with distinct
+/// names, each with as much data as its shape asks for. The items refer to the bytes.
 std::map<std::string, Item> parse_items(std::span<const std::byte> bytes);
 
 }  // namespace corank::report

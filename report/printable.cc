@@ -32,7 +32,8 @@ Character first_character(std::string_view text) {
 bool is_harmless(std::uint32_t c, bool one_line) {
   if (c == '\n' || c == '\t') return !one_line;
   const bool control = c < 0x20 || (c >= 0x7f && c <= 0x9f);
-  const bool direction = c == 0x61c || c == 0x200e || c == 0x200f || (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
+  const bool direction =
+      c == 0x61c || c == 0x200e || c == 0x200f || (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
   return !control && !direction;
 }
 

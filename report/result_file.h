@@ -28,9 +28,9 @@ void check_writable(const std::filesystem::path& path);
 /// Writes a new file beside `path` and renames it, so that `path` never holds half a result. Throws ResultFileError.
 void write_result(const std::filesystem::path& path, const Result& result);
 
-/// The result that write_result was given, bit for bit (free variables in ascending order; control characters in names made visible). The file
-/// may be a stranger's: throws ResultFileError, a printable line, for one that is missing, foreign, cut short, damaged or inconsistent, or that takes
-/// another file's contents for its own.
+/// The result that write_result was given, bit for bit (free variables in ascending order; control characters in names made
+/// visible). The file may be a stranger's: throws ResultFileError, a printable line, for one that is missing, foreign, cut
+/// short, damaged or inconsistent, or that takes another file's contents for its own.
 Result read_result(const std::filesystem::path& path);
 /// The same from items in memory (report/plain_items.h); `name` is for messages.
 Result read_result(const std::string& name, std::span<const std::byte> items);

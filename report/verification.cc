@@ -56,7 +56,10 @@ std::string completeness(const Report& report, bool complete) {
   if (!proof.present && report.interrupted) return "";
   if (!proof.present) return "completeness: no proof in the file\n";
   std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched anew\n",
-                                 proof.verified ? "replayed" : report.interrupted ? "not shown yet" : "NOT SHOWN", proof.steps, proof.leaves, proof.searched);
+                                 proof.verified       ? "replayed"
+                                 : report.interrupted ? "not shown yet"
+                                                      : "NOT SHOWN",
+                                 proof.steps, proof.leaves, proof.searched);
   if (proof.verified && !complete) text += "  but for the pending boxes: the search ended early\n";
   return text;
 }
@@ -70,8 +73,8 @@ std::string conclusion(const Verification& verification, const Result& result) {
   if (report.interrupted) {
     std::size_t checked = 0;
     for (const Tally& t : report.boxes) checked += t.verified + t.failed;
-    return fmt::format("interrupted in {}: {} of {} boxes were checked{}; nothing is said of the rest\n", report.stage, checked,
-                       result.cover.boxes.size(), report.failures.empty() ? "" : ", NOT VERIFIED");
+    return fmt::format("interrupted in {}: {} of {} boxes were checked{}; nothing is said of the rest\n", report.stage,
+                       checked, result.cover.boxes.size(), report.failures.empty() ? "" : ", NOT VERIFIED");
   }
   if (open > 0) text += fmt::format("{} undecided box{} nothing\n", open, open == 1 ? " claims" : "es claim");
   if (pending > 0) text += fmt::format("{} pending box{} not searched\n", pending, pending == 1 ? " was" : "es were");

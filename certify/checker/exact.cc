@@ -76,8 +76,9 @@ std::optional<int> sign_at(const Enclosures& f, const ExactNumber& x) {
   return std::nullopt;
 }
 
-// Lemma: if p has opposite signs at the ends of an interval, and if every part of it has no zero of p, or p' with one and the same sign throughout, then p
-// has exactly one root in the interval. Between two neighbouring roots, each with p' > 0 (p' < 0), p would have to change its sign once more.
+// Lemma: if p has opposite signs at the ends of an interval, and if every part of it has no zero of p, or p' with one and
+// the same sign throughout, then p has exactly one root in the interval. Between two neighbouring roots, each with p' > 0
+// (p' < 0), p would have to change its sign once more.
 // False: not shown in a few parts.
 bool is_crossed_once(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper, const StopFlag& stop) {
   constexpr int kMostParts = 200;

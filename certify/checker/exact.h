@@ -36,7 +36,7 @@ class ExactCheck {
   const RationalPolynomial& polynomial(int variable) const { return reduced_[static_cast<std::size_t>(variable)]; }
   const RationalPolynomial& minimal() const { return p_; }  ///< p, monic
   const StopFlag& stop() const { return stop_; }
-  const ExactNumber& lower() const { return lower_; }       ///< bounds of t, narrow
+  const ExactNumber& lower() const { return lower_; }  ///< bounds of t, narrow
   const ExactNumber& upper() const { return upper_; }
   RationalPolynomial product(const RationalPolynomial& f, const RationalPolynomial& g) const;
   RationalPolynomial sum(const RationalPolynomial& f, const RationalPolynomial& g) const;

@@ -23,9 +23,9 @@ class Krawczyk {
   explicit Krawczyk(const std::vector<Row>& equations, int variables);
 
   /// Chooses the r dependent variables, the centre c (a point) and Y, about the inverse of the dependent columns of the
-  /// Jacobian at c. Any c and Y are valid. c: the middle of x; `polished`: moved towards a zero, within x, by Newton's method in doubles;
-  /// `refined`: so with values and an inverse computed from enclosures, for solutions so close to a double one that doubles do not tell
-  /// them apart. False where the matrix is singular.
+  /// Jacobian at c. Any c and Y are valid. c: the middle of x; `polished`: moved towards a zero, within x, by Newton's method
+  /// in doubles; `refined`: so with values and an inverse computed from enclosures, for solutions so close to a double one
+  /// that doubles do not tell them apart. False where the matrix is singular.
   enum class Center { middle, polished, refined };
   bool set(const std::vector<int>& dependent, const Sides& x, Center around);
 

@@ -17,8 +17,8 @@ inline std::filesystem::path defects_folder() {
 
 inline std::string defect(const std::string& name) { return (defects_folder() / name).string(); }
 
-#define SKIP_WITHOUT_DEFECT_FILES()                                                                              \
-  if (!std::filesystem::exists(corank::app::defects_folder() / "README.md")) {                                   \
+#define SKIP_WITHOUT_DEFECT_FILES()                                                                                       \
+  if (!std::filesystem::exists(corank::app::defects_folder() / "README.md")) {                                            \
     GTEST_SKIP() << "files that broke something are not in " << corank::app::defects_folder() << " (CORANK_DEFECTS_DIR)"; \
   }
 

@@ -19,7 +19,8 @@ class Verify : public testing::Test {
  protected:
   void SetUp() override { solve({"--proof"}); }
   void solve(std::vector<std::string> more) {
-    std::vector<std::string> words{"solve", model("three_slider"), "--set", "forward", "-D", "L2=3/4", "--kernel", "left", "-o", path()};
+    std::vector<std::string> words{
+        "solve", model("three_slider"), "--set", "forward", "-D", "L2=3/4", "--kernel", "left", "-o", path()};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = run_corank(words);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -122,7 +123,8 @@ TEST_F(Verify, FailsWithoutAProofWhereOneIsRequired) {
 TEST_F(Verify, SaysWhereASearchHadEndedEarly) {
   const TemporaryFolder folder;
   const std::string file = folder.file("s.h5");
-  ASSERT_EQ(run_corank({"solve", model("three_slider"), "--set", "cspace", "--max-boxes", "5", "--proof", "-o", file}).status, 3);
+  ASSERT_EQ(
+      run_corank({"solve", model("three_slider"), "--set", "cspace", "--max-boxes", "5", "--proof", "-o", file}).status, 3);
   const Outcome outcome = run_corank({"verify", file});
   EXPECT_EQ(outcome.status, 4);
   EXPECT_THAT(outcome.out, HasSubstr("not searched\n"));
@@ -133,7 +135,8 @@ TEST_F(Verify, SaysWhereASearchHadEndedEarly) {
 TEST_F(Verify, EndsAtItsTimeLimitWithAStatement) {
   const Outcome outcome = run_corank({"verify", path(), "--time-limit", "1e-9"});
   EXPECT_EQ(outcome.status, 3);
-  EXPECT_THAT(outcome.out, HasSubstr("interrupted in the reduction: 0 of 8 boxes were checked; nothing is said of the rest\n"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("interrupted in the reduction: 0 of 8 boxes were checked; nothing is said of the rest\n"));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("verified\n")));
   const json summary = json::parse(run_corank({"verify", path(), "--time-limit", "1e-9", "--json"}).out);
   EXPECT_EQ(summary["verified"], false);
@@ -142,7 +145,11 @@ TEST_F(Verify, EndsAtItsTimeLimitWithAStatement) {
 }
 
 TEST_F(Verify, PrintsNoControlCharactersOfAFile) {
-  change([](report::Result& r) { r.model = "a\x1b]0;owned\x07\xc2\x9b" "31m"; });
+  change([](report::Result& r) {
+    r.model =
+        "a\x1b]0;owned\x07\xc2\x9b"
+        "31m";
+  });
   const Outcome outcome = run_corank({"verify", path()});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.out, StartsWith("a\\x1b]0;owned\\x07\\u009b31m, forward: checked"));

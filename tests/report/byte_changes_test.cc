@@ -1,18 +1,18 @@
-// Bytes of result files changed at random: each is refused or read, without a crash or a hang, and what is still verified is still true.
-// CORANK_BYTE_CHANGES: how many changes of each file, by default a few.
+// Bytes of result files changed at random: each is refused or read, without a crash or a hang, and what is still verified is
+// still true. CORANK_BYTE_CHANGES: how many changes of each file, by default a few.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <random>
 
+#include "corank/report/result_file.h"
 #include "corank/report/verification.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
-#include "corank/report/result_file.h"
 #include "corank/tests/report/portrait_reader.h"
 
 namespace corank::report {
@@ -59,7 +59,8 @@ bool meet(const Box& a, const Box& b) {
 std::vector<Box> known_solutions(const Kind& kind) {
   std::vector<Box> known;
   for (const CoverBox& b : solved(kind, kind.sigma / 8).cover.boxes)
-    if (b.verdict == Verdict::regular || b.verdict == Verdict::isolated || b.verdict == Verdict::exact) known.push_back(b.box);
+    if (b.verdict == Verdict::regular || b.verdict == Verdict::isolated || b.verdict == Verdict::exact)
+      known.push_back(b.box);
   return known;
 }
 
@@ -68,7 +69,8 @@ void expect_true(const Verification& verification, const Result& result, const K
   EXPECT_EQ(result.set, kind.set);
   for (const CoverBox& b : result.cover.boxes) {
     if (b.verdict != Verdict::isolated && b.verdict != Verdict::exact) continue;
-    EXPECT_TRUE(std::any_of(known.begin(), known.end(), [&](const Box& k) { return meet(k, b.box); })) << "a solution too many";
+    EXPECT_TRUE(std::any_of(known.begin(), known.end(), [&](const Box& k) { return meet(k, b.box); }))
+        << "a solution too many";
   }
   if (!verification.complete()) return;
   for (const Box& k : known) {
@@ -117,18 +119,17 @@ TEST_P(ByteChanges, NeitherCrashNorHangNorPassWithAFalseClaim) {
     }
     ASSERT_FALSE(HasFailure()) << "change " << k;
   }
-  std::printf("of %d changes %d were refused, %d left no model, %d were not verified, %d changed no claim\n", changes(), outcomes[0],
-              outcomes[1], outcomes[2], outcomes[3]);
+  std::printf("of %d changes %d were refused, %d left no model, %d were not verified, %d changed no claim\n", changes(),
+              outcomes[0], outcomes[1], outcomes[2], outcomes[3]);
   EXPECT_GT(outcomes[0], 0);
   EXPECT_GT(outcomes[3], 0) << "most bytes of a file are of no effect";
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ByteChanges,
-                         testing::Values(Kind{"three_slider", "forward", "1", 1e-6, true},
-                                         Kind{"three_slider", "forward", "3/4", 1e-6, false},
-                                         Kind{"three_slider", "cspace", "", 0.5, true},
-                                         Kind{"dextar", "inverse", "", 0.4, false}),
-                         [](const auto& test) { return test.param.model + "_" + test.param.set + std::to_string(test.index); });
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, ByteChanges,
+    testing::Values(Kind{"three_slider", "forward", "1", 1e-6, true}, Kind{"three_slider", "forward", "3/4", 1e-6, false},
+                    Kind{"three_slider", "cspace", "", 0.5, true}, Kind{"dextar", "inverse", "", 0.4, false}),
+    [](const auto& test) { return test.param.model + "_" + test.param.set + std::to_string(test.index); });
 
 }  // namespace
 }  // namespace corank::report

@@ -1,4 +1,5 @@
-// The bytes in which one process hands a file's contents to another: read back exactly, and refused where they are anything else.
+// The bytes in which one process hands a file's contents to another: read back exactly, and refused where they are anything
+// else.
 #include "corank/report/plain_items.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,8 @@ std::string sample() {
   const double sigma = 0.1;
   std::string raw(8, '\0');
   std::memcpy(raw.data(), &sigma, 8);
-  return bytes_of(words, std::string("\0\7\7", 3)) + bytes_of(number, raw) + bytes_of(text_item("/names", 2, 2), "abcd") + the_end();
+  return bytes_of(words, std::string("\0\7\7", 3)) + bytes_of(number, raw) + bytes_of(text_item("/names", 2, 2), "abcd") +
+         the_end();
 }
 
 std::map<std::string, Item> parsed(const std::string& bytes) { return parse_items(std::as_bytes(std::span(bytes))); }
@@ -68,7 +70,8 @@ TEST(PlainItems, AreRefusedWhereANameStandsTwice) {
 
 TEST(PlainItems, AreRefusedWhereShapeAndDataContradictEachOther) {
   EXPECT_THROW(parsed(bytes_of(text_item("/names", 2, 3), "abcd") + the_end()), PlainItemsError);
-  EXPECT_THROW(parsed(bytes_of(text_item("/names", std::uint64_t{1} << 63, 2), "") + the_end()), PlainItemsError) << "overflow";
+  EXPECT_THROW(parsed(bytes_of(text_item("/names", std::uint64_t{1} << 63, 2), "") + the_end()), PlainItemsError)
+      << "overflow";
   EXPECT_THROW(parsed(bytes_of(text_item("/names", 0, 2), "") + the_end()), PlainItemsError);
 }
 

@@ -16,8 +16,14 @@ TEST(Printable, MakesControlCharactersVisible) {
   EXPECT_EQ(printable("a\x1b[31mb\x07\r"), "a\\x1b[31mb\\x07\\x0d");
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a\\x00b");
   EXPECT_EQ(printable("\x7f"), "\\x7f");
-  EXPECT_EQ(printable("\xc2\x9b" "31m"), "\\u009b31m") << "the one character that begins a sequence";
-  EXPECT_EQ(printable("a\xe2\x80\xae" "b"), "a\\u202eb") << "turns the direction of text";
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "\\u009b31m")
+      << "the one character that begins a sequence";
+  EXPECT_EQ(printable("a\xe2\x80\xae"
+                      "b"),
+            "a\\u202eb")
+      << "turns the direction of text";
 }
 
 TEST(Printable, MakesWhatIsNoUtf8Visible) {

@@ -43,9 +43,9 @@ void replace(hid_t file, const char* name, hid_t type, std::vector<hsize_t> size
   EXPECT_GE(H5Ldelete(file, name, H5P_DEFAULT), 0);
   const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
   if (prepare) prepare(properties);
-  const hid_t space = sizes.empty() ? H5Screate(H5S_SCALAR)
-                                    : H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(),
-                                                       most.empty() ? nullptr : most.data());
+  const hid_t space =
+      sizes.empty() ? H5Screate(H5S_SCALAR)
+                    : H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), most.empty() ? nullptr : most.data());
   const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
   EXPECT_GE(set, 0) << name;
   H5Dclose(set);
@@ -80,8 +80,9 @@ TEST_F(Stranger, MayNotLinkToElsewhere) {
       make(f);
     });
   };
-  EXPECT_THAT(link([](hid_t f) { H5Lcreate_external("other.h5", "/model/text", f, "/model/text", H5P_DEFAULT, H5P_DEFAULT); }),
-              HasSubstr("/model/text is a link to elsewhere"));
+  EXPECT_THAT(
+      link([](hid_t f) { H5Lcreate_external("other.h5", "/model/text", f, "/model/text", H5P_DEFAULT, H5P_DEFAULT); }),
+      HasSubstr("/model/text is a link to elsewhere"));
   EXPECT_THAT(link([](hid_t f) { H5Lcreate_soft("/model/system", f, "/model/text", H5P_DEFAULT, H5P_DEFAULT); }),
               HasSubstr("/model/text is a link to elsewhere"));
   EXPECT_THAT(refusal([](hid_t f) { H5Lcreate_soft("/nowhere", f, "/unknown", H5P_DEFAULT, H5P_DEFAULT); }),
@@ -109,7 +110,8 @@ TEST_F(Stranger, MayNotPutAVirtualOrACompactArray) {
   EXPECT_THAT(refusal([&](hid_t f) { replace(f, "/certificates/proof/reals", H5T_NATIVE_DOUBLE, {4}, virtual_layout); }),
               HasSubstr("stored as no array of a result is"));
   EXPECT_THAT(refusal([&](hid_t f) {
-                replace(f, "/certificates/proof/reals", H5T_NATIVE_DOUBLE, {4}, [](hid_t p) { H5Pset_layout(p, H5D_COMPACT); });
+                replace(f, "/certificates/proof/reals", H5T_NATIVE_DOUBLE, {4},
+                        [](hid_t p) { H5Pset_layout(p, H5D_COMPACT); });
               }),
               HasSubstr("stored as no array of a result is"));
 }
@@ -123,7 +125,9 @@ TEST_F(Stranger, MayNotDeclareMoreThanTheFileHolds) {
   constexpr hsize_t kHuge = hsize_t{16} << 30;
   EXPECT_THAT(refusal([&](hid_t f) { replace(f, "/certificates/proof/steps", H5T_NATIVE_UINT8, {kHuge}, chunked); }),
               HasSubstr("/certificates/proof/steps declares more than the file holds"));
-  EXPECT_THAT(refusal([&](hid_t f) { replace(f, "/boxes/lower", H5T_NATIVE_DOUBLE, {kHuge, 4}); }),
+  EXPECT_THAT(refusal([&](hid_t f) {
+                replace(f, "/boxes/lower", H5T_NATIVE_DOUBLE, {kHuge, 4});
+              }),
               HasSubstr("/boxes/lower declares more than the file holds"));
   EXPECT_THAT(refusal([&](hid_t f) { replace(f, "/model/text", text_type(std::size_t{1} << 31), {}); }),
               HasSubstr("/model/text declares more than the file holds"));
@@ -139,7 +143,8 @@ TEST_F(Stranger, MayNotPutOtherTypesShapesOrFilters) {
       const hsize_t chunk = 16;
       H5Pset_chunk(p, 1, &chunk);
     };
-    return refusal([&](hid_t f) { replace(f, reals, type, sizes, most.empty() ? std::function<void(hid_t)>() : chunked, most); });
+    return refusal(
+        [&](hid_t f) { replace(f, reals, type, sizes, most.empty() ? std::function<void(hid_t)>() : chunked, most); });
   };
   EXPECT_THAT(refused(H5T_IEEE_F64BE, {1}), HasSubstr("a type that no result has"));
   EXPECT_THAT(refused(H5T_STD_I16LE, {1}), HasSubstr("a type that no result has"));
