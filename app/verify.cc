@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
@@ -48,8 +47,7 @@ report::Verification check(const report::Result& result, const certify::System& 
 // Called where the work does not end although it was asked to; the other threads still run.
 [[noreturn]] void give_up(const VerifyCommand& command, const std::string& stage) {
   if (command.json) {
-    const nlohmann::ordered_json json = {{"verified", false}, {"complete", false}, {"interrupted", true}, {"stage", stage}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", report::ended_early_json(stage));
   } else {
     fmt::print("{}: interrupted in {}: what it had checked is not known, and nothing is said of the file\n",
                report::printable_line(command.input), stage);

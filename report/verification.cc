@@ -196,4 +196,8 @@ std::string to_json(const Verification& verification) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string ended_early_json(const std::string& stage) {
+  return Json{{"verified", false}, {"complete", false}, {"interrupted", true}, {"stage", stage}}.dump(2);
+}
+
 }  // namespace corank::report

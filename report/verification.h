@@ -38,5 +38,7 @@ std::string to_table(const Verification& verification, const Result& result);
 /// "not_checkable"} …}, "points", "exact_points", "completeness": {"proof", "verified", "steps", "leaves", "searched"},
 /// "contradictions", "failures": [{"what", "number", "reason"}]}; numbers count from 1.
 std::string to_json(const Verification& verification);
+/// The same of a check that had no report when it was ended, in the stage: {"verified", "complete", "interrupted", "stage"}.
+std::string ended_early_json(const std::string& stage);
 
 }  // namespace corank::report

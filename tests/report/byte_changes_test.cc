@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <random>
 
+#include "corank/report/page.h"
 #include "corank/report/result_file.h"
+#include "corank/report/summary.h"
 #include "corank/report/verification.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
@@ -79,6 +81,25 @@ void expect_true(const Verification& verification, const Result& result, const K
   }
 }
 
+// Tables, pictures and pages of whatever could be read. What cannot be shown is refused in words.
+void show(const Result& result, const Verification& verification) {
+  to_table(verification, result);
+  to_json(verification);
+  to_table(result);
+  to_json(result);
+  try {
+    const PictureSource source = picture_source(result, "r.h5");
+    make_picture({source}, {{"1", "2"}, ColorScheme::verdict, 0});
+    if (!verification.contradictions.empty()) return;  // corank report refuses it
+    symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
+    for (const auto& [name, expression] : result.options.constants)
+      mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
+    report_page(mechanism, {result}, {"", {}, {"r.h5"}});
+  } catch (const ResultFileError&) {
+  } catch (const std::invalid_argument&) {
+  }
+}
+
 int changes() {
   const char* const given = std::getenv("CORANK_BYTE_CHANGES");
   return given ? std::atoi(given) : 120;
@@ -109,8 +130,7 @@ TEST_P(ByteChanges, NeitherCrashNorHangNorPassWithAFalseClaim) {
       const Verification verification = verify(result);
       ++outcomes[verification.verified() ? 3 : 2];
       if (verification.verified()) expect_true(verification, result, kind, known);
-      to_table(verification, result);
-      to_json(verification);
+      show(result, verification);
     } catch (const ResultFileError& error) {
       ++outcomes[0];
       EXPECT_EQ(std::string(error.what()).find_first_of("\n\x1b"), std::string::npos);
