@@ -33,9 +33,11 @@ ExitStatus completeness(const report::SolFile& boxes, const std::string& file) {
 
 void check_output(const std::string& path) {
   if (path.empty()) return;
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".cuik") throw UsageError(path + ": not written over, it looks like a model");
-  if (extension == ".param") throw UsageError(path + ": not written over, it looks like a parameter file");
+  std::error_code ignored;
+  for (const std::filesystem::path& name : {std::filesystem::path(path), std::filesystem::weakly_canonical(path, ignored)}) {
+    if (name.extension() == ".cuik") throw UsageError(path + ": not written over, it looks like a model");
+    if (name.extension() == ".param") throw UsageError(path + ": not written over, it looks like a parameter file");
+  }
   report::check_writable(path);
 }
 

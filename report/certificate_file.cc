@@ -172,7 +172,7 @@ class Reader {
     if (texts.empty()) return;
     if (n_ == 0 || texts.size() != cover_.points.size() * n_)
       refuse(kGroup + "decimals has another length than the list of points");
-    const auto is_decimal = [](const std::string& t) { return t.find_first_not_of("+-.0123456789eE") == std::string::npos; };
+    const auto is_decimal = [](const std::string& t) { return t.find_first_not_of("-.0123456789") == std::string::npos; };
     if (!std::all_of(texts.begin(), texts.end(), is_decimal)) refuse(kGroup + "decimals holds what is no number");
     for (std::size_t i = 0; i < cover_.points.size(); ++i) {
       const auto from = texts.begin() + static_cast<std::ptrdiff_t>(i * n_);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -15,6 +19,7 @@
 namespace corank::report {
 namespace {
 
+using certify::Interval;
 using certify::Verdict;
 using certify::checker::Failure;
 using certify::checker::Report;
@@ -62,6 +67,26 @@ std::string completeness(const Report& report, bool complete) {
                                  proof.steps, proof.leaves, proof.searched);
   if (proof.verified && !complete) text += "  but for the pending boxes: the search ended early\n";
   return text;
+}
+
+// Decimals are not proven anew; but those of a point have to be in its box, up to a unit of their last digit.
+std::vector<std::string> misplaced_decimals(const Result& result) {
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < std::min(result.cover.decimals.size(), result.cover.points.size()); ++i) {
+    const std::vector<std::string>& decimals = result.cover.decimals[i];
+    for (std::size_t v = 0; v < std::min(decimals.size(), result.cover.points[i].box.size()); ++v) {
+      if (decimals[v].empty()) continue;  // nothing is said of it
+      const std::size_t point = std::min(decimals[v].find('.'), decimals[v].size() - 1);
+      const double value = std::strtod(decimals[v].c_str(), nullptr), size = std::fabs(value),
+                   unit = std::pow(10.0, -static_cast<double>(decimals[v].size() - 1 - point)),
+                   room = unit + 4 * std::numeric_limits<double>::epsilon() * size;
+      const Interval& side = result.cover.points[i].box[v];
+      if (value + room >= side.lo() && value - room <= side.hi()) continue;
+      list.push_back(fmt::format("the decimals of point {} are not in its box", i + 1));
+      break;
+    }
+  }
+  return list;
 }
 
 // Of boxes that claim nothing, and what ends the table.
@@ -147,6 +172,7 @@ std::vector<std::string> contradictions(const Result& result, const certify::Sys
   const bool square = system.equations.size() <= system.variables.size();
   if (!(result.cover.tolerance == tolerance || (!square && result.cover.tolerance == 0)))
     list.emplace_back("the tolerance is not that of the options");
+  for (const std::string& misplaced : misplaced_decimals(result)) list.push_back(misplaced);
   return list;
 }
 
@@ -161,7 +187,7 @@ std::string to_table(const Verification& verification, const Result& result) {
     text += row(to_string(static_cast<Verdict>(v)), report.boxes[static_cast<std::size_t>(v)]);
   text += row("points", report.points) + row("exact points", report.exact_points);
   text += "\n" + completeness(report, result.cover.complete());
-  if (!result.cover.decimals.empty()) text += "decimals: not checked\n";
+  if (!result.cover.decimals.empty()) text += "decimals: in their boxes, but not proven anew\n";
   for (std::size_t i = 0; i < std::min(report.failures.size(), kShownFailures); ++i) {
     const Failure& f = report.failures[i];
     text += f.place == Failure::Place::cover ? fmt::format("cover: {}\n", f.reason)

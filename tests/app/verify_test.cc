@@ -96,7 +96,19 @@ TEST_F(Verify, ReplaysAProofWhereEveryVariableWasEliminated) {
   const Outcome outcome = run_corank({"verify", file});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.out, HasSubstr("completeness: replayed"));
-  EXPECT_THAT(outcome.out, HasSubstr("decimals: not checked\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("decimals: in their boxes, but not proven anew\n"));
+}
+
+TEST_F(Verify, RejectsDecimalsOutsideTheirBox) {
+  solve({"--digits", "20", "--proof"});
+  ASSERT_EQ(run_corank({"verify", path()}).status, 0);
+  change([](report::Result& r) {
+    for (char& c : r.cover.decimals[2][0])
+      if (c >= '0' && c <= '9') c = static_cast<char>('9' - (c - '0'));
+  });
+  const Outcome outcome = run_corank({"verify", path()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("file: the decimals of point 3 are not in its box\n"));
 }
 
 TEST_F(Verify, SaysWhereCompletenessIsNotProven) {
