@@ -66,7 +66,8 @@ void limit(int resource, std::uint64_t soft, std::uint64_t hard) {
 void prepare_child(const ProcessLimits& limits, std::uint64_t memory, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kFailed);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTERM, SIGINT, SIGXCPU}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTERM, SIGXCPU}) std::signal(signal, SIG_DFL);
+  std::signal(SIGINT, SIG_IGN);  // on a terminal it comes to both: this process decides, whose end is the child's, too
   if (const int null = open("/dev/null", O_RDWR); null >= 0)
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
   limit(RLIMIT_CORE, 0, 0);
@@ -100,7 +101,7 @@ int wait_for(pid_t child) {
 std::string end_of(int status, const ProcessLimits& limits) {
   if (!WIFSIGNALED(status)) return "the process that reads it failed";
   const int signal = WTERMSIG(status);
-  if (signal == SIGINT || signal == SIGTERM) return "interrupted";
+  if (signal == SIGTERM) return "interrupted";
   if (signal == SIGXCPU) return "not done after " + std::to_string(limits.cpu_seconds) + " s of processor time";
   return std::string("the process that reads it ended by a signal (") + strsignal(signal) + ")";
 }
