@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "corank/certify/algebraic_number.h"
 #include "corank/certify/angle.h"
+#include "corank/report/exact_text.h"
 #include "corank/report/page_words.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
@@ -38,9 +38,7 @@ std::vector<Column> columns(const Result& result) {
 
 /// "−3/5" or "√3/2" typeset; nothing where there is no short text.
 std::string exact_html(const certify::ExactPoint& point, int variable) {
-  const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(variable)];
-  if (x.empty()) return "";
-  const auto text = certify::text({point.polynomial, point.lower, point.upper}, x);
+  const auto text = exact_text(point, variable);
   return text ? symbolic::math(symbolic::mathml(symbolic::Expression(*text))) : "";
 }
 

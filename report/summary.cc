@@ -9,8 +9,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corank/certify/algebraic_number.h"
 #include "corank/certify/angle.h"
+#include "corank/report/exact_text.h"
 
 namespace corank::report {
 namespace {
@@ -39,13 +39,6 @@ struct Value {
   Interval value;
   int variable;  ///< −1: an angle
 };
-
-// "-3/5", "1/2*sqrt(3)": the coordinate of an exact point, where it has a short text.
-std::optional<std::string> exact_text(const certify::ExactPoint& point, int variable) {
-  const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(variable)];
-  if (x.empty()) return std::nullopt;
-  return certify::text({point.polynomial, point.lower, point.upper}, x);
-}
 
 const certify::ExactPoint* exact_point(const Result& result, const CoverBox& box) {
   return box.point < 0 ? nullptr : &result.cover.exact_points[static_cast<std::size_t>(box.point)];

@@ -88,16 +88,14 @@ void show(const Result& result, const Verification& verification) {
   to_table(result);
   to_json(result);
   try {
-    const PictureSource source = picture_source(result, "r.h5");
-    make_picture({source}, {{"1", "2"}, ColorScheme::verdict, 0});
-    if (!verification.contradictions.empty()) return;  // corank report refuses it
-    symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
-    for (const auto& [name, expression] : result.options.constants)
-      mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
-    report_page(mechanism, {result}, {"", {}, {"r.h5"}});
-  } catch (const ResultFileError&) {
-  } catch (const std::invalid_argument&) {
+    make_picture({picture_source(result, "r.h5")}, {{"1", "2"}, ColorScheme::verdict, 0});
+  } catch (const std::invalid_argument&) {  // such as no variables
   }
+  if (!verification.contradictions.empty()) return;  // corank report refuses it
+  symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
+  for (const auto& [name, expression] : result.options.constants)
+    mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
+  report_page(mechanism, {result}, {"", {}, {"r.h5"}});
 }
 
 int changes() {

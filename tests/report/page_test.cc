@@ -183,6 +183,9 @@ TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
   EXPECT_THAT(html, HasSubstr("<td>[0.333333333, 0.333333334]</td>")) << "the bounds of a point without decimals";
   EXPECT_THAT(html, HasSubstr("<msqrt><mn>2</mn></msqrt>"));
   EXPECT_THAT(html, HasSubstr("<td>2</td></tr>")) << "the dimension of the kernel";
+  result.cover.exact_points[0].lower = 3;
+  result.cover.exact_points[0].upper = 4;
+  EXPECT_THAT(points_html({result}), HasSubstr("a number of degree 2")) << "what a file says may define none";
 }
 
 }  // namespace
