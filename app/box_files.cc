@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "corank/report/printable.h"
 #include "corank/report/result_file.h"
 
 namespace corank::app {
@@ -24,7 +25,7 @@ int variable_index(const report::SolFile& boxes, const std::string& file, const 
 ExitStatus completeness(const report::SolFile& boxes, const std::string& file) {
   for (const report::SolBox& box : boxes.boxes) {
     if (box.verdict != certify::Verdict::pending) continue;
-    fmt::print(stderr, "corank: {} is incomplete: its search ended before its end\n", file);
+    fmt::print(stderr, "corank: {} is incomplete: its search ended before its end\n", report::printable_line(file));
     return kIncomplete;
   }
   return kDone;
@@ -32,9 +33,11 @@ ExitStatus completeness(const report::SolFile& boxes, const std::string& file) {
 
 void check_output(const std::string& path) {
   if (path.empty()) return;
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".cuik") throw UsageError(path + ": not written over, it looks like a model");
-  if (extension == ".param") throw UsageError(path + ": not written over, it looks like a parameter file");
+  std::error_code ignored;
+  for (const std::filesystem::path& name : {std::filesystem::path(path), std::filesystem::weakly_canonical(path, ignored)}) {
+    if (name.extension() == ".cuik") throw UsageError(path + ": not written over, it looks like a model");
+    if (name.extension() == ".param") throw UsageError(path + ": not written over, it looks like a parameter file");
+  }
   report::check_writable(path);
 }
 

@@ -5,6 +5,7 @@
 
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
+#include "corank/report/printable.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/printer.h"
 
@@ -16,10 +17,11 @@ ExitStatus derive(Question question, const std::string& format) {
   if (question.set.empty() && !mechanism.is_plain_system()) question.set = "cspace";
   const symbolic::TrigonometricSystem system = system_of(question, mechanism, chosen_set(question, mechanism));
   if (format == "cuik") {
-    fmt::print("{}", symbolic::to_cuik(symbolic::algebrize(system)));
+    fmt::print("{}", report::printable(symbolic::to_cuik(symbolic::algebrize(system))));
   } else {
     const symbolic::Derivation derivation = symbolic::derive(mechanism);
-    fmt::print("{}", format == "latex" ? symbolic::to_latex(derivation, system) : symbolic::to_text(derivation, system));
+    fmt::print("{}", report::printable(format == "latex" ? symbolic::to_latex(derivation, system)
+                                                         : symbolic::to_text(derivation, system)));
   }
   return kDone;
 }

@@ -3,6 +3,8 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "corank/report/output_file.h"
+
 namespace corank::app {
 namespace {
 
@@ -10,7 +12,9 @@ std::atomic<bool> stop_flag = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
 extern "C" void on_signal(int signal) {
-  if (stop_flag.exchange(true)) std::_Exit(128 + signal);
+  if (!stop_flag.exchange(true)) return;
+  report::remove_part_files();
+  std::_Exit(128 + signal);
 }
 
 }  // namespace

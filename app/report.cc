@@ -17,10 +17,12 @@
 #include "corank/report/domain_notes.h"
 #include "corank/report/page.h"
 #include "corank/report/page_words.h"
+#include "corank/report/printable.h"
 #include "corank/report/result_file.h"
 #include "corank/report/verification.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
+#include "corank/symbolic/printer.h"
 
 namespace corank::app {
 namespace {
@@ -69,11 +71,20 @@ std::vector<report::Result> solve_all(const ReportCommand& command, const symbol
   return results;
 }
 
+/// What a stranger's result says of its variables has to be so before a picture relies on it.
+void check_against_model(const report::Result& result, const std::string& path) {
+  const certify::System system = report::system_of(result);
+  const auto contradictions = report::contradictions(result, system, symbolic::to_cuik(system));
+  if (!contradictions.empty())
+    throw report::ResultFileError(fmt::format("{}: contradicts the model in it: {}", path, fmt::join(contradictions, "; ")));
+}
+
 /// Reads results of one model, and brings them and their paths into the order of kSets.
 std::vector<report::Result> read_all(std::vector<std::string>& paths) {
   std::map<std::ptrdiff_t, std::pair<std::string, report::Result>> by_set;
   for (const std::string& path : paths) {
     report::Result result = report::read_result(path);
+    check_against_model(result, path);
     const auto place = std::find(kSets.begin(), kSets.end(), result.set) - kSets.begin();
     const auto [other, added] = by_set.try_emplace(place, path, result);
     const auto& [first_path, first] = by_set.begin()->second;
@@ -141,7 +152,7 @@ ExitStatus write_report(ReportCommand command) {
     complete = complete && result.cover.complete() && result.stopped.empty();
     fmt::print("{}: {}\n", report::set_title(result.set), report::set_words(result, report::components(result)).finding);
   }
-  fmt::print("{}\n", (folder / "index.html").string());
+  fmt::print("{}\n", report::printable_line((folder / "index.html").string()));
   if (complete) return kDone;
   for (const report::Result& result : results)
     if (!result.cover.complete() || !result.stopped.empty())

@@ -7,6 +7,7 @@
 
 #include "corank/app/subcommands.h"
 #include "corank/certify/check.h"
+#include "corank/report/printable.h"
 #include "corank/report/result_file.h"
 #include "corank/symbolic/model_error.h"
 
@@ -14,7 +15,7 @@ namespace corank::app {
 
 int run(const std::string& name, const std::vector<std::string>& args) {
   const auto say = [&name](ExitStatus status, const std::string& message) {
-    fmt::print(stderr, "{}: {}\n", name, message);
+    fmt::print(stderr, "{}: {}\n", name, report::printable(message));  // it may quote a file
     return status;
   };
   CLI::App program("corank returns all singularities of a robot mechanism, each with a proof.", "corank");
@@ -22,7 +23,8 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   program.require_subcommand(1);
   program.footer(
       "Example:\n  corank solve models/three_slider.cuik --set forward\n\n"
-      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n"
+      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt), 4 (verify only)\n"
+      "verified, but not that nothing is missing.\n"
       "corank SUBCOMMAND --help tells more.");
   Action action;
   add_derive(program, action);

@@ -15,6 +15,7 @@
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/cuik_param.h"
+#include "corank/report/printable.h"
 #include "corank/report/result_file.h"
 #include "corank/report/summary.h"
 #include "corank/symbolic/algebrizer.h"
@@ -49,7 +50,9 @@ void apply_parameters(SolveCommand& command, const certify::System& system) {
   if (!command.sigma) command.sigma = report::sigma_for(parameters, system);
   if (!command.max_solutions) command.max_solutions = parameters.n_solutions;
   if (!parameters.ignored.empty()) {
-    fmt::print(stderr, "corank: {}: without effect here: {}\n", command.param_path, fmt::join(parameters.ignored, ", "));
+    fmt::print(stderr, "{}",
+               report::printable(fmt::format("corank: {}: without effect here: {}\n", command.param_path,
+                                             fmt::join(parameters.ignored, ", "))));
   }
 }
 
@@ -87,7 +90,7 @@ ExitStatus say(const SolveCommand& command, const report::Result& result) {
       report::write_text(*command.json_path, json);
     }
   }
-  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", report::to_table(result));
+  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", report::printable(report::to_table(result)));
   if (result.cover.complete() && result.stopped.empty()) return kDone;
   fmt::print(stderr, "corank: {}; {}\n", stopped_words(result),
              result.cover.complete() ? "the cover is complete, but less is proven of it than could be"

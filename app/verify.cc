@@ -2,11 +2,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/watch.h"
+#include "corank/report/printable.h"
 #include "corank/report/result_file.h"
 #include "corank/report/verification.h"
 
@@ -18,16 +22,17 @@ constexpr auto kInterval = std::chrono::milliseconds(100);  // between two pictu
 struct VerifyCommand {
   std::string input;
   bool json = false;
+  bool require_proof = false;
   int threads = 1;
+  double time_limit = 0;
 };
 
-report::Verification check(const report::Result& result, int threads) {
+report::Verification check(const report::Result& result, const certify::System& system, int threads, Watch& watch) {
   using Clock = std::chrono::steady_clock;
-  const Interrupt interrupt;
   ProgressLine line;
   certify::checker::Options options;
   options.threads = threads;
-  options.stop = &Interrupt::stop();
+  options.stop = &watch.stop();
   if (line.visible()) {
     options.progress = [&line, next = Clock::now()](const certify::checker::Progress& p) mutable {
       if (Clock::now() < next) return;
@@ -36,15 +41,43 @@ report::Verification check(const report::Result& result, int threads) {
                              : fmt::format("step {} of {}", p.steps, p.all_steps));
     };
   }
-  return report::verify(result, options);
+  return report::verify(result, system, options);
+}
+
+// Called where the work does not end although it was asked to; the other threads still run.
+[[noreturn]] void give_up(const VerifyCommand& command, const std::string& stage) {
+  if (command.json) {
+    fmt::print("{}\n", report::ended_early_json(stage));
+  } else {
+    fmt::print("{}: interrupted in {}: what it had checked is not known, and nothing is said of the file\n",
+               report::printable_line(command.input), stage);
+  }
+  std::fflush(nullptr);
+  std::_Exit(kIncomplete);
+}
+
+ExitStatus status(const report::Verification& verification, const VerifyCommand& command) {
+  if (verification.complete()) return kDone;
+  if (verification.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
+  const bool open = verification.report.interrupted && verification.report.failures.empty();
+  return open ? kIncomplete : kBadInput;
 }
 
 ExitStatus verify(const VerifyCommand& command) {
+  const Interrupt interrupt;
+  Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
+  watch.enter("reading the file");
   const report::Result result = report::read_result(command.input);
-  const report::Verification verification = check(result, command.threads);
+  watch.enter("deriving the equations from the model");
+  const certify::System system = report::system_of(result);
+  watch.enter("the check");
+  const report::Verification verification = check(result, system, command.threads, watch);
+  watch.done();
   fmt::print("{}", command.json ? report::to_json(verification) + "\n" : report::to_table(verification, result));
-  if (verification.verified()) return kDone;
-  return verification.report.interrupted ? kIncomplete : kBadInput;
+  const ExitStatus result_status = status(verification, command);
+  if (verification.verified() && result_status == kBadInput)
+    fmt::print(stderr, "corank: --require-proof: that the boxes hold all solutions is not proven by this file\n");
+  return result_status;
 }
 
 }  // namespace
@@ -55,16 +88,23 @@ void add_verify(CLI::App& program, Action& action) {
   const auto command = std::make_shared<VerifyCommand>();
   sub->add_option("RESULT", command->input, "The result (.h5)")->required();
   sub->add_flag("--json", command->json, "Print JSON instead of the table");
+  sub->add_flag("--require-proof", command->require_proof,
+                "Fail where the file does not prove that its boxes hold all solutions in the search domain");
   sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  sub->add_option("--time-limit", command->time_limit, "End the check after so many seconds; 0: no limit")
+      ->type_name("SECONDS")
+      ->check(CLI::NonNegativeNumber);
   sub->footer(
       "Every box is proven again from the model in the file: with intervals of 160 bits where its verdict is regular,\n"
-      "isolated or boundary, in exact arithmetic where it is exact or has an exact point. An undecided box without one,\n"
-      "a partial and a pending box are not checkable. Where the file holds a proof that the cover is complete, it is "
-      "replayed.\n\n"
-      "Exit status: 0 all verified, 1 something failed or is not checkable, 2 usage, 3 interrupted.\n\n"
-      "Example:\n  corank solve models/dextar.cuik --set forward -o forward.h5\n  corank verify forward.h5");
+      "isolated or boundary, in exact arithmetic where it is exact or has an exact point. An undecided box without one\n"
+      "and a pending box claim nothing; a partial box is not checkable. Where the file holds a proof that the cover is\n"
+      "complete (corank solve --proof), it is replayed.\n\n"
+      "Exit status: 0 all verified, completeness included; 1 something failed or is not checkable, or the file cannot be\n"
+      "read; 2 usage; 3 ended early (limit or interrupt), nothing was found wrong so far; 4 all verified, but not its\n"
+      "completeness: the file has no proof of it, or the search had ended early (1 with --require-proof).\n\n"
+      "Example:\n  corank solve models/dextar.cuik --set forward --proof -o forward.h5\n  corank verify forward.h5");
   sub->callback([command, &action] { action = [command] { return verify(*command); }; });
 }
 

@@ -1,9 +1,11 @@
 #include "corank/report/certificate_file.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
 #include "corank/certify/check.h"
+#include "corank/report/printable.h"
 
 namespace corank::report {
 namespace {
@@ -105,7 +107,9 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& problem) const { throw ResultFileError(file_.path() + ": " + problem); }
+  [[noreturn]] void refuse(const std::string& problem) const {
+    throw ResultFileError(printable_line(file_.path() + ": " + problem));
+  }
 
   template <class T>
   std::vector<T> vector(const std::string& name) const {
@@ -168,6 +172,8 @@ class Reader {
     if (texts.empty()) return;
     if (n_ == 0 || texts.size() != cover_.points.size() * n_)
       refuse(kGroup + "decimals has another length than the list of points");
+    const auto is_decimal = [](const std::string& t) { return t.find_first_not_of("-.0123456789") == std::string::npos; };
+    if (!std::all_of(texts.begin(), texts.end(), is_decimal)) refuse(kGroup + "decimals holds what is no number");
     for (std::size_t i = 0; i < cover_.points.size(); ++i) {
       const auto from = texts.begin() + static_cast<std::ptrdiff_t>(i * n_);
       cover_.decimals.emplace_back(from, from + static_cast<std::ptrdiff_t>(n_));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 #include "corank/certify/algebraic_number.h"
 
@@ -42,7 +43,13 @@ int turns(const certify::Interval& enclosure, double angle) {
 std::optional<std::string> exact_coordinate(const certify::ExactPoint& point, int variable) {
   const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(variable)];
   if (x.empty()) return std::nullopt;
-  return certify::text({point.polynomial, point.lower, point.upper}, x);
+  try {
+    return certify::text({point.polynomial, point.lower, point.upper}, x);
+  } catch (const std::invalid_argument&) {  // no polynomial with one root in the interval
+    return std::nullopt;
+  } catch (const std::domain_error&) {  // numbers of too many bits
+    return std::nullopt;
+  }
 }
 
 std::optional<std::string> multiple_of_pi(const certify::ExactPoint& point, const certify::Angle& angle,

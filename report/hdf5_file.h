@@ -3,10 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "corank/report/guarded_process.h"
+#include "corank/report/plain_items.h"
 
 namespace corank::report {
 
@@ -52,12 +57,14 @@ class Hdf5Writer {
   std::int64_t file_ = -1;
 };
 
+/// Reads what a stranger may have written: the HDF5 library works in a child process with limits of memory and time, after
+/// a check of the file's structure (report/hdf5_contents.h); what comes back is plain.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& path);
-  ~Hdf5Reader();
-  Hdf5Reader(const Hdf5Reader&) = delete;
-  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+  /// Items that are in memory already, as report/plain_items.h lays them out; `path` is for messages. The bytes have to
+  /// outlive the reader.
+  Hdf5Reader(std::string path, std::span<const std::byte> items);
 
   /// Each throws where the item is missing, or has another shape or type.
   std::vector<double> doubles(const std::string& name, std::size_t rows, std::size_t columns) const;
@@ -80,11 +87,23 @@ class Hdf5Reader {
   std::uint64_t unsigned_attribute(const std::string& object, const std::string& name) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;
 
+  /// For messages, which are printable.
   const std::string& path() const { return path_; }
 
  private:
+  [[noreturn]] void fail(const std::string& what) const;
+  void parse(std::span<const std::byte> bytes);
+  const Item& array(const std::string& name) const;
+  const Item& array(const std::string& name, ItemType type, const std::string& expected) const;
+  const Item& shaped(const std::string& name, ItemType type, std::size_t rows, std::size_t columns,
+                     const std::string& expected) const;
+  const Item& attribute(const std::string& object, const std::string& name) const;
+  template <class T>
+  void read_vector(const std::string& name, ItemType type, std::vector<T>& data) const;
+
   std::string path_;
-  std::int64_t file_ = -1;
+  std::optional<SharedBytes> bytes_;
+  std::map<std::string, Item> items_;
 };
 
 }  // namespace corank::report

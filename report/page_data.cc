@@ -181,7 +181,7 @@ std::string box_payload(const Result& result, std::span<const int> variables) {
 }
 
 std::string script_safe(std::string text) {
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 2)) text.insert(at + 1, "\\");
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) text.replace(at, 1, "\\u003c");
   return text;
 }
 

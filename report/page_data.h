@@ -16,7 +16,7 @@ namespace corank::report {
 /// RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
 
-/// JSON that may stand inside <script>, which a "</" could end.
+/// JSON that may stand inside <script>: without "<", since "</script" ends one and "<!--<script" makes the next end not count.
 std::string script_safe(std::string json);
 
 /// The float below or equal, above or equal.

@@ -50,7 +50,7 @@ std::string system_html(const symbolic::Mechanism& mechanism, const Result& resu
   }
   return fmt::format("<details><summary>{}: {} equation{}{}</summary><div class=\"scroll\">{}</div></details>",
                      set_title(result.set), system.equations.size(), system.equations.size() == 1 ? "" : "s",
-                     result.options.kernel.empty() ? "" : ", " + result.options.kernel + " kernel",
+                     result.options.kernel.empty() ? "" : ", " + symbolic::html_text(result.options.kernel) + " kernel",
                      numbered(equations, sources));
 }
 

@@ -65,7 +65,8 @@ std::string cell(const Result& result, const Column& column, std::size_t number)
   std::string exact, value = digits_text(at(column.variable));
   if (point.point >= 0) exact = exact_html(cover.exact_points[static_cast<std::size_t>(point.point)], column.variable);
   const bool has_decimals = number < cover.decimals.size() && !cover.decimals[number].empty();
-  if (has_decimals) value = with_minus(cover.decimals[number][static_cast<std::size_t>(column.variable)]);
+  if (has_decimals)
+    value = symbolic::html_text(with_minus(cover.decimals[number][static_cast<std::size_t>(column.variable)]));
   if (exact.empty()) return value;
   const bool is_decimal = value.find('[') == std::string::npos && value.find('.') == std::string::npos;
   return is_decimal ? exact : exact + " <small>" + value + "</small>";  // an integer needs no decimals
@@ -102,7 +103,8 @@ std::string kernel_points_html(const Result& result, const std::vector<Column>& 
 
 std::string table_html(const Result& result) {
   const std::vector<Column> shown = columns(result);
-  std::string html = fmt::format("<section class=\"points\" data-set=\"{}\"><h3>{}</h3>", result.set, set_title(result.set));
+  std::string html = fmt::format("<section class=\"points\" data-set=\"{}\"><h3>{}</h3>", symbolic::html_text(result.set),
+                                 set_title(result.set));
   if (!result.cover.points.empty()) {
     html += "<div class=\"scroll\"><table><thead><tr><th>point</th>";
     for (const Column& column : shown) html += "<th>" + symbolic::html_name(column.name) + "</th>";

@@ -1,15 +1,13 @@
 #include "corank/report/result_file.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 
 #include "corank/certify/check.h"
 #include "corank/report/certificate_file.h"
+#include "corank/report/output_file.h"
+#include "corank/report/printable.h"
 
 namespace corank::report {
 namespace {
@@ -17,37 +15,6 @@ namespace {
 constexpr const char* kFormat = "corank result";
 constexpr int kFirstWithCertificates = 2;
 constexpr int kFirstWithScales = 4;  // and two sigmas, and reasons
-
-// A name beside the final one, removed at the end unless it was renamed.
-class PartFile {
- public:
-  explicit PartFile(const std::filesystem::path& path) : path_(path), part_(path) {
-    part_ += "." + std::to_string(getpid()) + ".part";
-    if (path.empty() || std::filesystem::is_directory(path)) {
-      throw ResultFileError(path.string() + ": cannot write here; expected the name of a file");
-    }
-    errno = 0;
-    if (!std::ofstream(part_)) {
-      throw ResultFileError(path.string() + ": cannot write here: " + std::strerror(errno));
-    }
-  }
-  ~PartFile() {
-    std::error_code ignored;
-    std::filesystem::remove(part_, ignored);
-  }
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
-
-  const std::filesystem::path& part() const { return part_; }
-  void finish() const {
-    std::error_code error;
-    std::filesystem::rename(part_, path_, error);
-    if (error) throw ResultFileError(path_.string() + ": cannot write here: " + error.message());
-  }
-
- private:
-  std::filesystem::path path_, part_;
-};
 
 std::vector<std::string> verdict_words() {
   std::vector<std::string> words;
@@ -157,7 +124,7 @@ void write_statistics(Hdf5Writer& file, const certify::Statistics& statistics) {
 
 class ResultReader {
  public:
-  explicit ResultReader(const std::filesystem::path& path) : file_(path.string()) {
+  explicit ResultReader(Hdf5Reader file) : file_(std::move(file)) {
     if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != kFormat) {
       refuse("this is no corank result");
     }
@@ -169,9 +136,9 @@ class ResultReader {
 
   Result read() {
     Result result;
-    result.version = file_.text_attribute("/", "version");
-    result.model = file_.text_attribute("/", "model");
-    result.set = file_.text_attribute("/", "set");
+    result.version = word("/", "version");
+    result.model = word("/", "model");
+    result.set = word("/", "set");
     result.model_text = file_.text("/model/text");
     result.system_text = file_.text("/model/system");
     read_variables(result);
@@ -179,6 +146,8 @@ class ResultReader {
     result.configuration_size = count("configuration_size");
     result.equations = count("equations");
     result.inequalities = count("inequalities");
+    if (result.configuration_size > static_cast<int>(result.variables.size()))
+      refuse("the attribute configuration_size is above the number of variables");
     read_options(result.options);
     if (file_.has_attribute("/", "stopped")) result.stopped = file_.text_attribute("/", "stopped");
     result.cover.dimension = count("dimension");
@@ -199,7 +168,19 @@ class ResultReader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& problem) const { throw ResultFileError(file_.path() + ": " + problem); }
+  [[noreturn]] void refuse(const std::string& problem) const {
+    throw ResultFileError(printable_line(file_.path() + ": " + problem));
+  }
+
+  // Names go to terminals and pages: what could steer those is made visible.
+  std::string word(const std::string& object, const std::string& name) const {
+    return printable_line(file_.text_attribute(object, name));
+  }
+  std::vector<std::string> words(const std::string& name) const {
+    std::vector<std::string> list = file_.texts(name);
+    for (std::string& text : list) text = printable_line(text);
+    return list;
+  }
 
   int count(const std::string& name) const {
     const std::int64_t value = file_.integer_attribute("/", name);
@@ -222,7 +203,7 @@ class ResultReader {
   }
 
   void read_variables(Result& result) const {
-    const std::vector<std::string> names = file_.texts("/variables/names");
+    const std::vector<std::string> names = words("/variables/names");
     const std::vector<std::uint8_t> kinds = file_.enumeration("/variables/kinds", kind_words());
     const std::vector<double> domain = file_.doubles("/variables/domain", names.size(), 2);
     if (kinds.size() != names.size()) refuse("/variables/kinds and names differ in length");
@@ -233,7 +214,7 @@ class ResultReader {
   }
 
   void read_angles(Result& result) const {
-    const std::vector<std::string> names = file_.texts("/angles/names");
+    const std::vector<std::string> names = words("/angles/names");
     const std::vector<std::int64_t> cosines = file_.integers("/angles/cosine"), sines = file_.integers("/angles/sine");
     const std::vector<double> range = file_.doubles("/angles/range", names.size(), 2);
     if (cosines.size() != names.size() || sines.size() != names.size()) refuse("/angles differ in length");
@@ -254,14 +235,18 @@ class ResultReader {
   }
 
   void read_options(RunOptions& options) const {
-    const std::vector<std::string> names = file_.texts("/options/constants/names");
-    const std::vector<std::string> expressions = file_.texts("/options/constants/expressions");
+    const std::vector<std::string> names = words("/options/constants/names");
+    const std::vector<std::string> expressions = words("/options/constants/expressions");
     if (names.size() != expressions.size()) refuse("/options/constants differ in length");
     for (std::size_t i = 0; i < names.size(); ++i) options.constants.push_back({names[i], expressions[i]});
-    options.kernel = file_.text_attribute("/options", "kernel");
+    options.kernel = word("/options", "kernel");
+    if (!options.kernel.empty() && options.kernel != "right" && options.kernel != "left")
+      refuse("the attribute kernel of /options is neither right nor left: '" + options.kernel + "'");
     options.sigma = sigma("/options");
-    if (format_ >= kFirstWithScales) options.kernel_scales = file_.texts("/options/kernel_scales");
-    options.threads = static_cast<int>(file_.integer_attribute("/options", "threads"));
+    if (format_ >= kFirstWithScales) options.kernel_scales = words("/options/kernel_scales");
+    const std::int64_t threads = file_.integer_attribute("/options", "threads");
+    if (threads < 0 || threads > 1'000'000) refuse("the attribute threads of /options is out of range");
+    options.threads = static_cast<int>(threads);
     options.tolerance = file_.double_attribute("/options", "tolerance");
     options.max_boxes = file_.unsigned_attribute("/options", "max_boxes");
     options.max_solutions = file_.unsigned_attribute("/options", "max_solutions");
@@ -303,10 +288,10 @@ class ResultReader {
 
 }  // namespace
 
-void check_writable(const std::filesystem::path& path) { const PartFile created_and_removed(path); }
+void check_writable(const std::filesystem::path& path) { const OutputFile created_and_removed(path); }
 
 void write_result(const std::filesystem::path& path, const Result& result) {
-  const PartFile target(path);
+  const OutputFile target(path);
   Hdf5Writer file(target.part().string());
   file.attribute("/", "format", std::string(kFormat));
   file.attribute("/", "format_version", std::int64_t{kFormatVersion});
@@ -336,10 +321,14 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   target.finish();
 }
 
-Result read_result(const std::filesystem::path& path) { return ResultReader(path).read(); }
+Result read_result(const std::filesystem::path& path) { return ResultReader(Hdf5Reader(path.string())).read(); }
+
+Result read_result(const std::string& name, std::span<const std::byte> items) {
+  return ResultReader(Hdf5Reader(name, items)).read();
+}
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
-  const PartFile target(path);
+  const OutputFile target(path);
   std::ofstream file(target.part(), std::ios::binary);
   file << text << std::flush;
   file.close();

@@ -10,6 +10,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "corank/report/hdf5_file.h"
 #include "corank/report/result.h"
@@ -21,15 +23,18 @@ namespace corank::report {
 /// sigma for all variables, kernel vectors of unscaled norm and no reasons.
 inline constexpr int kFormatVersion = 4;
 
-/// Throws ResultFileError where no file can be created at `path`: to be asked before a long computation.
+/// Throws ResultFileError where no file can be written at `path` (report/output_file.h): to be asked before a long computation.
 void check_writable(const std::filesystem::path& path);
 
 /// Writes a new file beside `path` and renames it, so that `path` never holds half a result. Throws ResultFileError.
 void write_result(const std::filesystem::path& path, const Result& result);
 
-/// The result that write_result was given, bit for bit (free variables in ascending order). Throws ResultFileError for a file
-/// that is missing, foreign, cut short or inconsistent.
+/// The result that write_result was given, bit for bit (free variables in ascending order; control characters in names made
+/// visible). The file may be a stranger's: throws ResultFileError, a printable line, for one that is missing, foreign, cut
+/// short, damaged or inconsistent, or that takes another file's contents for its own.
 Result read_result(const std::filesystem::path& path);
+/// The same from items in memory (report/plain_items.h); `name` is for messages.
+Result read_result(const std::string& name, std::span<const std::byte> items);
 
 /// Writes a text in the same way. Throws ResultFileError.
 void write_text(const std::filesystem::path& path, const std::string& text);

@@ -77,7 +77,13 @@ std::string exact_text(const certify::ExactPoint& point, const Value& v, int dig
   if (const auto text = exact_coordinate(point, v.variable)) return *text;
   const certify::RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(v.variable)];
   if (x.empty()) return outward_text(v.value, digits);
-  return outward_text(certify::AlgebraicNumber(point.polynomial, point.lower, point.upper).enclose(x), digits);
+  try {
+    return outward_text(certify::AlgebraicNumber(point.polynomial, point.lower, point.upper).enclose(x), digits);
+  } catch (const std::invalid_argument&) {  // what a file says of it defines no number
+    return outward_text(v.value, digits);
+  } catch (const std::domain_error&) {  // numbers of too many bits
+    return outward_text(v.value, digits);
+  }
 }
 
 std::string points_table(const Result& result) {

@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "corank/report/hdf5_file.h"
+#include "corank/report/printable.h"
 #include "corank/report/summary.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
@@ -14,6 +19,7 @@
 namespace corank::report {
 namespace {
 
+using certify::Interval;
 using certify::Verdict;
 using certify::checker::Failure;
 using certify::checker::Report;
@@ -52,11 +58,54 @@ std::string row(const std::string& name, const Tally& t) {
 
 std::string completeness(const Report& report, bool complete) {
   const certify::checker::ProofTally& proof = report.proof;
+  if (!proof.present && report.interrupted) return "";
   if (!proof.present) return "completeness: no proof in the file\n";
   std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched anew\n",
-                                 proof.verified ? "replayed" : "NOT SHOWN", proof.steps, proof.leaves, proof.searched);
+                                 proof.verified       ? "replayed"
+                                 : report.interrupted ? "not shown yet"
+                                                      : "NOT SHOWN",
+                                 proof.steps, proof.leaves, proof.searched);
   if (proof.verified && !complete) text += "  but for the pending boxes: the search ended early\n";
   return text;
+}
+
+// Decimals are not proven anew; but those of a point have to be in its box, up to a unit of their last digit.
+std::vector<std::string> misplaced_decimals(const Result& result) {
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < std::min(result.cover.decimals.size(), result.cover.points.size()); ++i) {
+    const std::vector<std::string>& decimals = result.cover.decimals[i];
+    for (std::size_t v = 0; v < std::min(decimals.size(), result.cover.points[i].box.size()); ++v) {
+      if (decimals[v].empty()) continue;  // nothing is said of it
+      const std::size_t point = std::min(decimals[v].find('.'), decimals[v].size() - 1);
+      const double value = std::strtod(decimals[v].c_str(), nullptr), size = std::fabs(value),
+                   unit = std::pow(10.0, -static_cast<double>(decimals[v].size() - 1 - point)),
+                   room = unit + 4 * std::numeric_limits<double>::epsilon() * size;
+      const Interval& side = result.cover.points[i].box[v];
+      if (value + room >= side.lo() && value - room <= side.hi()) continue;
+      list.push_back(fmt::format("the decimals of point {} are not in its box", i + 1));
+      break;
+    }
+  }
+  return list;
+}
+
+// Of boxes that claim nothing, and what ends the table.
+std::string conclusion(const Verification& verification, const Result& result) {
+  const Report& report = verification.report;
+  std::string text;
+  const std::size_t open = report.boxes[static_cast<std::size_t>(Verdict::undecided)].unchecked,
+                    pending = report.boxes[static_cast<std::size_t>(Verdict::pending)].unchecked;
+  if (report.interrupted) {
+    std::size_t checked = 0;
+    for (const Tally& t : report.boxes) checked += t.verified + t.failed;
+    return fmt::format("interrupted in {}: {} of {} boxes were checked{}; nothing is said of the rest\n", report.stage,
+                       checked, result.cover.boxes.size(), report.failures.empty() ? "" : ", NOT VERIFIED");
+  }
+  if (open > 0) text += fmt::format("{} undecided box{} nothing\n", open, open == 1 ? " claims" : "es claim");
+  if (pending > 0) text += fmt::format("{} pending box{} not searched\n", pending, pending == 1 ? " was" : "es were");
+  return text + (verification.complete()   ? "verified\n"
+                 : verification.verified() ? "verified, but not its completeness\n"
+                                           : "NOT VERIFIED\n");
 }
 
 Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.failed}, {"not_checkable", t.unchecked}}; }
@@ -84,7 +133,10 @@ certify::System system_of(const Result& result) {
 }
 
 Verification verify(const Result& result, const certify::checker::Options& options) {
-  const certify::System system = system_of(result);
+  return verify(result, system_of(result), options);
+}
+
+Verification verify(const Result& result, const certify::System& system, const certify::checker::Options& options) {
   Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
   // Boxes of another system are not worth a check.
   if (verification.contradictions.empty()) verification.report = certify::checker::check(system, result.cover, options);
@@ -121,6 +173,7 @@ std::vector<std::string> contradictions(const Result& result, const certify::Sys
   const bool square = system.equations.size() <= system.variables.size();
   if (!(result.cover.tolerance == tolerance || (!square && result.cover.tolerance == 0)))
     list.emplace_back("the tolerance is not that of the options");
+  for (const std::string& misplaced : misplaced_decimals(result)) list.push_back(misplaced);
   return list;
 }
 
@@ -129,13 +182,13 @@ std::string to_table(const Verification& verification, const Result& result) {
   std::string text = fmt::format("{}, {}: checked against its model with intervals of 160 bits and exact numbers\n\n",
                                  result.model, result.set);
   for (const std::string& c : verification.contradictions) text += "file: " + c + "\n";
-  if (!verification.contradictions.empty()) return text + "NOT VERIFIED: nothing else was checked\n";
+  if (!verification.contradictions.empty()) return printable(text + "NOT VERIFIED: nothing else was checked\n");
   text += fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", "verdict", "verified", "failed", "not checkable");
   for (int v = 0; v < certify::kVerdicts; ++v)
     text += row(to_string(static_cast<Verdict>(v)), report.boxes[static_cast<std::size_t>(v)]);
   text += row("points", report.points) + row("exact points", report.exact_points);
   text += "\n" + completeness(report, result.cover.complete());
-  if (!result.cover.decimals.empty()) text += "decimals: not checked\n";
+  if (!result.cover.decimals.empty()) text += "decimals: in their boxes, but not proven anew\n";
   for (std::size_t i = 0; i < std::min(report.failures.size(), kShownFailures); ++i) {
     const Failure& f = report.failures[i];
     text += f.place == Failure::Place::cover ? fmt::format("cover: {}\n", f.reason)
@@ -143,15 +196,16 @@ std::string to_table(const Verification& verification, const Result& result) {
   }
   if (report.failures.size() > kShownFailures)
     text += fmt::format("… and {} more\n", report.failures.size() - kShownFailures);
-  text += verification.verified() ? "verified\n" : report.interrupted ? "interrupted\n" : "NOT VERIFIED\n";
-  return text;
+  return printable(text + conclusion(verification, result));
 }
 
 std::string to_json(const Verification& verification) {
   const Report& report = verification.report;
   Json json;
   json["verified"] = verification.verified();
+  json["complete"] = verification.complete();
   json["interrupted"] = report.interrupted;
+  if (report.interrupted) json["stage"] = report.stage;
   for (int v = 0; v < certify::kVerdicts; ++v)
     json["verdicts"][to_string(static_cast<Verdict>(v))] = to_json(report.boxes[static_cast<std::size_t>(v)]);
   json["points"] = to_json(report.points);
@@ -166,7 +220,11 @@ std::string to_json(const Verification& verification) {
   json["failures"] = Json::array();
   for (const Failure& f : report.failures)
     json["failures"].push_back({{"what", word(f.place)}, {"number", f.index + 1}, {"reason", f.reason}});
-  return json.dump(2);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string ended_early_json(const std::string& stage) {
+  return Json{{"verified", false}, {"complete", false}, {"interrupted", true}, {"stage", stage}}.dump(2);
 }
 
 }  // namespace corank::report

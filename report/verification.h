@@ -16,12 +16,15 @@ struct Verification {
 
   /// No contradiction, and every claim is confirmed.
   bool verified() const { return contradictions.empty() && report.verified(); }
+  /// verified(), and that the boxes hold all solutions in the search domain is proven, too.
+  bool complete() const { return contradictions.empty() && report.complete(); }
 };
 
 /// The system that a result's model and options give. Throws ModelError where the model is none, ResultFileError where it has no such set.
 certify::System system_of(const Result& result);
 
-/// Checks a result against its model: system_of, contradictions, certify::checker::check.
+/// Checks a result against its model: contradictions, certify::checker::check. `system` is system_of(result).
+Verification verify(const Result& result, const certify::System& system, const certify::checker::Options& options = {});
 Verification verify(const Result& result, const certify::checker::Options& options = {});
 
 /// Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the polynomials'
@@ -31,8 +34,11 @@ std::vector<std::string> contradictions(const Result& result, const certify::Sys
 /// A table of counts per verdict, the completeness proof, the first failures.
 std::string to_table(const Verification& verification, const Result& result);
 
-/// {"verified", "interrupted", "verdicts": {"regular": {"verified", "failed", "not_checkable"} …}, "points", "exact_points", "completeness":
-/// {"proof", "verified", "steps", "leaves", "searched"}, "contradictions", "failures": [{"what", "number", "reason"}]}; numbers count from 1.
+/// {"verified", "complete", "interrupted", "stage" (where it ended early), "verdicts": {"regular": {"verified", "failed",
+/// "not_checkable"} …}, "points", "exact_points", "completeness": {"proof", "verified", "steps", "leaves", "searched"},
+/// "contradictions", "failures": [{"what", "number", "reason"}]}; numbers count from 1.
 std::string to_json(const Verification& verification);
+/// The same of a check that had no report when it was ended, in the stage: {"verified", "complete", "interrupted", "stage"}.
+std::string ended_early_json(const std::string& stage);
 
 }  // namespace corank::report

@@ -80,7 +80,12 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySe
     const certify::UpwardRounding rounding;
     std::vector<Interval> entries(static_cast<std::size_t>(all.system.entries()));
     all.system.jacobian(all.box.data(), entries.data());
+    const std::vector<std::size_t> none;
+    const auto& ties = set == SingularitySet::forward   ? derivation.input_ties
+                       : set == SingularitySet::inverse ? derivation.output_ties
+                                                        : none;
     for (int row = 0; row < static_cast<int>(derivation.phi.size()); ++row) {
+      if (std::find(ties.begin(), ties.end(), static_cast<std::size_t>(row)) != ties.end()) continue;
       double largest = 0;
       for (int k = all.system.row_begin(row); k < all.system.row_begin(row + 1); ++k)
         largest = std::max(largest, entries[static_cast<std::size_t>(k)].mag() *

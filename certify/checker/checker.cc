@@ -44,7 +44,7 @@ class Checker {
       : system_(system),
         cover_(cover),
         options_(options),
-        kernel_(system),
+        stop_(options.stop),
         threads_(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()),
         allow_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
         arena_(threads_) {}
@@ -52,22 +52,11 @@ class Checker {
   Report run() {
     const NearestRounding nearest;
     try {
-      problem_.emplace(system_, cover_.reduction);
-    } catch (const std::invalid_argument& error) {
-      system_.validate();  // that is for the caller
-      fail(Place::cover, 0, error.what());
-    } catch (const std::domain_error& error) {  // coefficients that sums have made too long
-      fail(Place::cover, 0, std::string("the reduction: ") + error.what());
+      check_all();
+    } catch (const Stopped&) {
+      report_.interrupted = true;
     }
-    check_shapes();
-    if (problem_ && report_.failures.empty()) {  // else nothing below has a meaning
-      check_order();
-      check_exact_points();
-      check_boxes();
-      check_points();
-      check_distinct();
-      if (cover_.proof && !report_.interrupted) check_proof();
-    }
+    if (report_.interrupted) report_.stage = stage_;
     std::stable_sort(report_.failures.begin(), report_.failures.end(), [](const Failure& a, const Failure& b) {
       return a.place != b.place ? a.place < b.place : a.index < b.index;
     });
@@ -75,6 +64,36 @@ class Checker {
   }
 
  private:
+  void check_all() {
+    try {
+      kernel_ = std::make_unique<const KernelCheck>(system_, stop_);
+      problem_.emplace(system_, cover_.reduction, stop_);
+    } catch (const std::invalid_argument& error) {
+      system_.validate();  // that is for the caller
+      fail(Place::cover, 0, error.what());
+    } catch (const std::domain_error& error) {  // coefficients that sums have made too long
+      fail(Place::cover, 0, std::string("the reduction: ") + error.what());
+    }
+    check_shapes();
+    if (!problem_ || !report_.failures.empty()) return;  // nothing below has a meaning
+    check_order();
+    enter("the exact points");
+    check_exact_points();
+    enter("the boxes");
+    check_boxes();
+    enter("the points");
+    check_points();
+    check_distinct();
+    if (!cover_.proof) return;
+    enter("the proof of completeness");
+    check_proof();
+  }
+
+  void enter(const char* stage) {
+    stage_ = stage;
+    stop_.poll();
+  }
+
   void fail(Place place, std::size_t index, const std::string& reason) {
     report_.failures.push_back({place, index, reason});
   }
@@ -129,7 +148,7 @@ class Checker {
       const ExactPoint& point = cover_.exact_points[i];
       std::string reason;
       try {
-        exact_.emplace_back(std::make_unique<ExactCheck>(system_, point));
+        exact_.emplace_back(std::make_unique<ExactCheck>(system_, point, stop_));
         reason = exact_.back()->fault();
         if (reason.empty()) reason = exact_.back()->holds();
         if (reason.empty()) reason = exact_.back()->kernel();
@@ -151,7 +170,7 @@ class Checker {
   // What could not be shown of the box; nothing where all was, or where there is nothing to check (`checkable`).
   std::string check_box(const CoverBox& box, bool& checkable) const {
     std::string reason = check_verdict(box, checkable);
-    if (reason.empty() && box.corank >= 0 && !kernel_.is_at_most(box.corank, box.box))
+    if (reason.empty() && box.corank >= 0 && !kernel_->is_at_most(box.corank, box.box))
       reason = "a kernel of a dimension above " + std::to_string(box.corank) + " is not excluded";
     checkable = checkable || !reason.empty();
     return reason;
@@ -209,21 +228,31 @@ class Checker {
     std::atomic<bool> stopped{false};
     arena_.execute([&] {
       tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-        if (stopped || (options_.stop && options_.stop->load(std::memory_order_relaxed))) {
+        if (stopped || stop_.is_set()) {
           stopped = true;
           return;
         }
         const NearestRounding nearest;
         bool can = false;
-        reasons[i] = check_box(cover_.boxes[i], can);
+        try {
+          reasons[i] = check_box(cover_.boxes[i], can);
+        } catch (const Stopped&) {
+          stopped = true;
+          return;
+        }
         checkable[i] = can;
         done[i] = 1;
         const std::uint64_t so_far = ++count;
         if (so_far % 32 == 0) progress(so_far, 0);
       });
     });
-    report_.interrupted = stopped;
-    for (std::size_t i = 0; i < n; ++i) {
+    tally_boxes(reasons, checkable, done);
+    if (stopped) throw Stopped{};
+  }
+
+  void tally_boxes(const std::vector<std::string>& reasons, const std::vector<unsigned char>& checkable,
+                   const std::vector<unsigned char>& done) {
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i) {
       Tally& tally = report_.boxes[static_cast<std::size_t>(cover_.boxes[i].verdict)];
       if (!done[i] || !checkable[i]) {
         ++tally.unchecked;
@@ -248,6 +277,7 @@ class Checker {
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i) {
       const CoverBox& box = cover_.boxes[i];
       if (box.verdict == Verdict::pending) continue;
+      stop_.poll();
       bool found = false;
       for (std::size_t turn = 0; turn < cover_.points.size() && !found; ++turn) {
         const std::size_t k = (next + turn) % cover_.points.size();
@@ -269,6 +299,7 @@ class Checker {
         reason = check_box(point, can);
       if (!reason.empty()) fail(Place::point, k, reason);
       const bool open = point.verdict == Verdict::undecided && point.point < 0;
+      if (open && reason.empty()) ++report_.points_without_claim;
       ++(!reason.empty()                             ? report_.points.failed
          : open || point.verdict == Verdict::partial ? report_.points.unchecked
                                                      : report_.points.verified);
@@ -287,6 +318,7 @@ class Checker {
       indices.push_back(k);
     }
     const auto apart = [&](std::size_t a, std::size_t b) {
+      stop_.poll();
       return told_apart(cover_.points[indices[a]], cover_.points[indices[b]]);
     };
     for (const auto& [a, b] : meeting_pairs(boxes, apart, kMostFailures)) {
@@ -316,7 +348,7 @@ class Checker {
   void check_proof() {
     const auto step = [this](std::uint64_t number) {
       progress(cover_.boxes.size(), number);
-      return options_.stop && options_.stop->load(std::memory_order_relaxed);
+      return stop_.is_set();
     };
     Replayed result = arena_.execute([&] { return replay(*problem_, cover_, step); });
     report_.proof = result.tally;
@@ -334,10 +366,12 @@ class Checker {
   const System& system_;
   const Cover& cover_;
   const Options& options_;
-  const KernelCheck kernel_;
+  StopFlag stop_;
+  const char* stage_ = "the reduction";
   int threads_;
   tbb::global_control allow_;
   tbb::task_arena arena_;
+  std::unique_ptr<const KernelCheck> kernel_;
   std::optional<Problem> problem_;
   std::vector<std::unique_ptr<ExactCheck>> exact_;
   std::vector<std::string> exact_reasons_;
@@ -348,9 +382,18 @@ class Checker {
 }  // namespace
 
 bool Report::verified() const {
-  if (!consistent() || (proof.present && !proof.verified)) return false;
-  return points.unchecked == 0 &&
-         std::all_of(boxes.begin(), boxes.end(), [](const Tally& t) { return t.failed == 0 && t.unchecked == 0; });
+  if (!consistent() || (proof.present && !proof.verified) || points.unchecked > points_without_claim) return false;
+  for (int v = 0; v < kVerdicts; ++v) {
+    const auto verdict = static_cast<Verdict>(v);
+    const bool claims = verdict != Verdict::undecided && verdict != Verdict::pending;
+    if (const Tally& t = boxes[static_cast<std::size_t>(v)]; t.failed > 0 || (claims && t.unchecked > 0)) return false;
+  }
+  return true;
+}
+
+bool Report::complete() const {
+  const Tally& pending = boxes[static_cast<std::size_t>(Verdict::pending)];
+  return verified() && proof.present && proof.verified && pending == Tally{};
 }
 
 Report check(const System& system, const Cover& cover, const Options& options) {

@@ -42,16 +42,21 @@ struct ProofTally {
 
 struct Report {
   std::array<Tally, kVerdicts> boxes;
-  Tally points;  ///< entries of Cover::points, for sets of dimension 0
+  Tally points;                          ///< entries of Cover::points, for sets of dimension 0
+  std::size_t points_without_claim = 0;  ///< undecided ones, counted as unchecked
   Tally exact_points;
   ProofTally proof;
   std::vector<Failure> failures;  ///< in the order of places and indices
   bool interrupted = false;
+  std::string stage;  ///< where it ended early: "the boxes", "the proof" …
 
   /// Nothing failed, and the check came to its end.
   bool consistent() const { return failures.empty() && !interrupted; }
-  /// consistent(), and every claim could be checked. An undecided box without an exact point claims nothing, which no check can confirm.
+  /// consistent(), and every claim is confirmed; but nothing is said of completeness. An undecided box without an exact
+  /// point and a pending one claim nothing.
   bool verified() const;
+  /// verified(), and that nothing is missing in the search domain is shown, too.
+  bool complete() const;
 };
 
 struct Progress {

@@ -5,6 +5,8 @@
 namespace corank::certify::checker {
 namespace {
 
+constexpr std::size_t kLongestSturm = 200;  // coefficients
+
 void strip(RationalPolynomial& f) {
   while (!f.empty() && f.back().is_zero()) f.pop_back();
 }
@@ -22,9 +24,10 @@ ExactNumber at(const RationalPolynomial& f, const ExactNumber& x) {
 int sign_at(const RationalPolynomial& f, const ExactNumber& x) { return at(f, x).sign().value(); }
 
 // The remainder of f by g ≠ 0.
-RationalPolynomial remainder(RationalPolynomial f, const RationalPolynomial& g) {
+RationalPolynomial remainder(RationalPolynomial f, const RationalPolynomial& g, const StopFlag& stop) {
   strip(f);
   while (f.size() >= g.size()) {
+    stop.poll();
     const ExactNumber q = f.back() / g.back();
     const std::size_t shift = f.size() - g.size();
     for (std::size_t k = 0; k < g.size(); ++k) f[shift + k] = f[shift + k] - q * g[k];
@@ -44,12 +47,70 @@ int changes(const std::vector<RationalPolynomial>& chain, const ExactNumber& x) 
   return count;
 }
 
-int roots_between(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper) {
-  RationalPolynomial derivative;
-  for (std::size_t k = 1; k < p.size(); ++k) derivative.push_back(ExactNumber(static_cast<long>(k)) * p[k]);
-  std::vector<RationalPolynomial> chain{p, derivative};
+RationalPolynomial derivative(const RationalPolynomial& f) {
+  RationalPolynomial result;
+  for (std::size_t k = 1; k < f.size(); ++k) result.push_back(ExactNumber(static_cast<long>(k)) * f[k]);
+  return result;
+}
+
+using Enclosures = std::vector<Enclosure>;
+
+Enclosures enclosures(const RationalPolynomial& f) {
+  Enclosures result;
+  for (const ExactNumber& c : f) result.emplace_back(c);
+  return result;
+}
+
+Enclosure at(const Enclosures& f, const Enclosure& x) {
+  Enclosure sum;
+  for (std::size_t k = f.size(); k-- > 0;) sum = sum * x + f[k];
+  return sum;
+}
+
+// Nothing where the enclosure does not tell it.
+std::optional<int> sign_at(const Enclosures& f, const ExactNumber& x) {
+  const Enclosure value = at(f, Enclosure(x));
+  if (value.is_zero()) return 0;
+  if (value.is_negative()) return -1;
+  if (value.is_positive()) return 1;
+  return std::nullopt;
+}
+
+// Lemma: if p has opposite signs at the ends of an interval, and if every part of it has no zero of p, or p' with one and
+// the same sign throughout, then p has exactly one root in the interval. Between two neighbouring roots, each with p' > 0
+// (p' < 0), p would have to change its sign once more.
+// False: not shown in a few parts.
+bool is_crossed_once(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper, const StopFlag& stop) {
+  constexpr int kMostParts = 200;
+  const Enclosures f = enclosures(p), slope = enclosures(derivative(p));
+  std::vector<Enclosure> open{Enclosure::hull(Enclosure(lower), Enclosure(upper))};
+  int sign = 0;
+  for (int parts = 0; !open.empty(); ++parts) {
+    stop.poll();
+    const Enclosure x = open.back();
+    open.pop_back();
+    if (const Enclosure value = at(f, x); value.is_negative() || value.is_positive()) continue;
+    const Enclosure steepness = at(slope, x);
+    if (steepness.is_negative() || steepness.is_positive()) {
+      const int here = steepness.is_negative() ? -1 : 1;
+      if (sign == -here) return false;
+      sign = here;
+      continue;
+    }
+    const double middle = x.mid();
+    if (parts > kMostParts || !(x.lo() < middle && middle < x.hi())) return false;
+    for (const Enclosure& half : {Enclosure(x.lo(), middle), Enclosure(middle, x.hi())}) {
+      Enclosure part = x;
+      if (part.intersect(half)) open.push_back(part);
+    }
+  }
+  return true;
+}
+
+int roots_between(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper, const StopFlag& stop) {
+  std::vector<RationalPolynomial> chain{p, derivative(p)};
   while (chain.back().size() > 1) {
-    RationalPolynomial next = remainder(chain[chain.size() - 2], chain.back());
+    RationalPolynomial next = remainder(chain[chain.size() - 2], chain.back(), stop);
     if (next.empty()) break;
     for (ExactNumber& c : next) c = -c;
     chain.push_back(std::move(next));
@@ -59,7 +120,8 @@ int roots_between(const RationalPolynomial& p, const ExactNumber& lower, const E
 
 }  // namespace
 
-ExactCheck::ExactCheck(const System& system, const ExactPoint& point) : system_(system), point_(point) {
+ExactCheck::ExactCheck(const System& system, const ExactPoint& point, const StopFlag& stop)
+    : system_(system), point_(point), stop_(stop) {
   if (point.coordinates.size() != system.variables.size()) {
     fault_ = "it has not one coordinate for each variable";
     return;
@@ -82,13 +144,24 @@ std::string ExactCheck::check_root() {
   const ExactNumber leading = p_.back();
   for (ExactNumber& c : p_) c = c / leading;
   ExactNumber lower = point_.lower, upper = point_.upper;
-  if ((upper - lower).sign() != 1 || sign_at(p_, lower) * sign_at(p_, upper) != -1)
+  const Enclosures enclosed = enclosures(p_);
+  const auto sign_of_p = [&](const ExactNumber& x) {
+    const auto sign = sign_at(enclosed, x);
+    return sign ? *sign : sign_at(p_, x);
+  };
+  if ((upper - lower).sign() != 1 || sign_of_p(lower) * sign_of_p(upper) != -1)
     return "its polynomial has not opposite signs at the ends of its interval";
-  if (roots_between(p_, lower, upper) != 1) return "its polynomial has not exactly one root in its interval";
-  const int sign = sign_at(p_, lower);
+  const bool is_short = p_.size() <= kLongestSturm;  // else the numbers of exact steps fill the memory
+  if (!is_crossed_once(p_, lower, upper, stop_) && (!is_short || roots_between(p_, lower, upper, stop_) != 1))
+    return is_short ? "its polynomial has not exactly one root in its interval"
+                    : "that its polynomial, of a large degree, has exactly one root in its interval is not shown";
+  const int sign = sign_of_p(lower);
   for (int step = 0; step < Enclosure::kBits + 16; ++step) {
+    stop_.poll();
     const ExactNumber middle = (lower + upper) / 2;
-    const int here = sign_at(p_, middle);
+    const auto fast = sign_at(enclosed, middle);
+    if (!fast && !is_short) break;  // narrow enough for what enclosures can tell
+    const int here = fast ? *fast : sign_at(p_, middle);
     if (here == 0) lower = upper = middle;
     if (here == 0) break;
     (here == sign ? lower : upper) = middle;
@@ -99,13 +172,15 @@ std::string ExactCheck::check_root() {
   return {};
 }
 
-RationalPolynomial ExactCheck::reduced(RationalPolynomial f) const { return remainder(std::move(f), p_); }
+RationalPolynomial ExactCheck::reduced(RationalPolynomial f) const { return remainder(std::move(f), p_, stop_); }
 
 RationalPolynomial ExactCheck::product(const RationalPolynomial& f, const RationalPolynomial& g) const {
   if (f.empty() || g.empty()) return {};
   RationalPolynomial result(f.size() + g.size() - 1);
-  for (std::size_t i = 0; i < f.size(); ++i)
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    stop_.poll();
     for (std::size_t k = 0; k < g.size(); ++k) result[i + k] = result[i + k] + f[i] * g[k];
+  }
   return reduced(std::move(result));
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "corank/certify/checker/enclosure.h"
+#include "corank/certify/checker/stop.h"
 #include "corank/certify/cover.h"
 
 namespace corank::certify::checker {
@@ -14,7 +15,7 @@ namespace corank::certify::checker {
 class ExactCheck {
  public:
   /// Checks that the point defines numbers: fault() is empty where it does.
-  ExactCheck(const System& system, const ExactPoint& point);
+  ExactCheck(const System& system, const ExactPoint& point, const StopFlag& stop = {});
   const std::string& fault() const { return fault_; }
 
   /// Each of these returns what could not be shown, nothing where all was.
@@ -34,7 +35,8 @@ class ExactCheck {
   // Arithmetic modulo p: no coefficients stand for 0.
   const RationalPolynomial& polynomial(int variable) const { return reduced_[static_cast<std::size_t>(variable)]; }
   const RationalPolynomial& minimal() const { return p_; }  ///< p, monic
-  const ExactNumber& lower() const { return lower_; }       ///< bounds of t, narrow
+  const StopFlag& stop() const { return stop_; }
+  const ExactNumber& lower() const { return lower_; }  ///< bounds of t, narrow
   const ExactNumber& upper() const { return upper_; }
   RationalPolynomial product(const RationalPolynomial& f, const RationalPolynomial& g) const;
   RationalPolynomial sum(const RationalPolynomial& f, const RationalPolynomial& g) const;
@@ -52,6 +54,7 @@ class ExactCheck {
 
   const System& system_;
   const ExactPoint& point_;
+  StopFlag stop_;
   RationalPolynomial p_;
   ExactNumber lower_, upper_;
   Enclosure t_;

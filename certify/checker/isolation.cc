@@ -144,6 +144,16 @@ class BlowUp {
         }
       if (!f.monomials.empty()) face.equations.push_back(std::move(f));
     }
+    const auto names_a = [&](const Polynomial& f) {
+      return std::any_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
+        return std::any_of(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return x.variable == n_ + 1; });
+      });
+    };
+    // Rows without a: what defines it says nothing of them.
+    if (std::none_of(face.equations.begin(), face.equations.end(), names_a)) {
+      face.variables.pop_back();
+      return face;
+    }
     Polynomial p;
     for (std::size_t k = 0; k < point_.minimal().size(); ++k)
       if (!point_.minimal()[k].is_zero())
@@ -153,8 +163,8 @@ class BlowUp {
     return face;
   }
 
-  static bool is_empty(const System& face) {
-    const Problem problem(face, {});
+  bool is_empty(const System& face) const {
+    const Problem problem(face, {}, point_.stop());
     if (problem.contradiction()) return true;
     return Search(problem).is_empty(problem.domain(), kMostParts);
   }

@@ -13,7 +13,7 @@ constexpr int kMostParts = 2000;
 
 }  // namespace
 
-KernelCheck::KernelCheck(const System& system) {
+KernelCheck::KernelCheck(const System& system, const StopFlag& stop) : stop_(stop) {
   std::vector<int> column(system.variables.size(), -1), identity(system.variables.size());
   std::iota(identity.begin(), identity.end(), 0);
   for (int j = 0; j < system.size(); ++j)
@@ -97,6 +97,7 @@ bool KernelCheck::is_at_most(int most, const Box& box) const {
   for (const Interval& side : box) whole.emplace_back(side);
   std::vector<Sides> open{std::move(whole)};
   for (int parts = 0; !open.empty(); ++parts) {
+    stop_.poll();
     Sides x = std::move(open.back());
     open.pop_back();
     if (has_rank(static_cast<std::size_t>(columns_ - std::max(most, 0)), x)) continue;

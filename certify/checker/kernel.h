@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "corank/certify/checker/rows.h"
+#include "corank/certify/checker/stop.h"
 #include "corank/certify/cover.h"
 
 namespace corank::certify::checker {
 
 class KernelCheck {
  public:
-  explicit KernelCheck(const System& system);
+  explicit KernelCheck(const System& system, const StopFlag& stop = {});
 
   /// Number of kernel variables.
   int columns() const { return columns_; }
@@ -23,6 +24,7 @@ class KernelCheck {
  private:
   bool has_rank(std::size_t s, const Sides& x) const;
 
+  StopFlag stop_;
   int columns_ = 0;
   std::vector<std::vector<Row>> rows_;
   std::vector<int> arguments_;  // the variables that M depends on

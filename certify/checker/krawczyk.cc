@@ -61,24 +61,22 @@ void drop_noise(std::vector<double>& y, std::size_t r) {
 Krawczyk::Krawczyk(const std::vector<Row>& equations, int variables)
     : equations_(equations), n_(variables), entries_(equations.size()) {}
 
-bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, bool polished) {
+bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, Center around) {
   constexpr int kSteps = 4;
   const std::size_t r = equations_.size();
   if (dependent.size() != r) return false;
   dependent_ = dependent;
   center_.resize(static_cast<std::size_t>(n_));
   for (std::size_t j = 0; j < center_.size(); ++j) center_[j] = x[j].mid();
-  if (!invert()) return false;
+  const auto inverted = [&] { return around == Center::refined ? invert_refined() : invert(); };
+  if (!inverted()) return false;
   std::vector<double> values(r);
-  for (int step = 0; polished && step < kSteps; ++step) {
-    for (std::size_t b = 0; b < r; ++b) values[b] = equations_[b].approximate(center_);
-    for (std::size_t a = 0; a < r; ++a) {
-      const auto d = static_cast<std::size_t>(dependent_[a]);
-      double shift = 0;
-      for (std::size_t b = 0; b < r; ++b) shift += y_[a * r + b] * values[b];
-      if (std::isfinite(shift)) center_[d] = std::clamp(center_[d] - shift, x[d].lo(), x[d].hi());
-    }
-    if (!invert()) return false;
+  for (int step = 0; around != Center::middle && step < kSteps; ++step) {
+    const Sides at(center_.begin(), center_.end());
+    for (std::size_t b = 0; b < r; ++b)
+      values[b] = around == Center::refined ? equations_[b].value(at).mid() : equations_[b].approximate(center_);
+    polish(x, values);
+    if (!inverted()) return false;
   }
   center_sides_.assign(center_.begin(), center_.end());
   Sides at_center;
@@ -87,6 +85,16 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, bool polis
   for (std::size_t a = 0; a < r; ++a)
     for (std::size_t b = 0; b < r; ++b) residual_[a].add_product(y_[a * r + b], at_center[b]);
   return true;
+}
+
+void Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
+  const std::size_t r = equations_.size();
+  for (std::size_t a = 0; a < r; ++a) {
+    const auto d = static_cast<std::size_t>(dependent_[a]);
+    double shift = 0;
+    for (std::size_t b = 0; b < r; ++b) shift += y_[a * r + b] * values[b];
+    if (std::isfinite(shift)) center_[d] = std::clamp(center_[d] - shift, x[d].lo(), x[d].hi());
+  }
 }
 
 bool Krawczyk::invert() {
@@ -104,6 +112,39 @@ bool Krawczyk::invert() {
   if (y_.size() != r * r) return false;
   drop_noise(y_, r);
   return true;
+}
+
+bool Krawczyk::invert_refined() {
+  const std::size_t r = equations_.size();
+  const Sides center(center_.begin(), center_.end());
+  std::vector<int> row_of(center_.size(), -1);
+  for (std::size_t a = 0; a < r; ++a) row_of[static_cast<std::size_t>(dependent_[a])] = static_cast<int>(a);
+  Sides entries;
+  std::vector<Sides> t(r, Sides(2 * r));  // J_D | I
+  for (std::size_t b = 0; b < r; ++b) {
+    equations_[b].derivatives(center, entries);
+    t[b][r + b] = Enclosure(1.0);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      if (const int a = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; a >= 0)
+        t[b][static_cast<std::size_t>(a)] = entries[k];
+  }
+  for (std::size_t k = 0; k < r; ++k) {
+    const auto pivot = std::max_element(t.begin() + static_cast<std::ptrdiff_t>(k), t.end(),
+                                        [k](const Sides& a, const Sides& b) { return a[k].mig() < b[k].mig(); });
+    if (!((*pivot)[k].mig() > 0)) return false;
+    std::iter_swap(t.begin() + static_cast<std::ptrdiff_t>(k), pivot);
+    const Enclosure own = t[k][k];
+    for (Enclosure& entry : t[k]) entry = quotient(entry, own);
+    for (std::size_t i = 0; i < r; ++i) {
+      if (i == k || t[i][k].is_zero()) continue;
+      const Enclosure factor = -t[i][k];
+      for (std::size_t j = 0; j < 2 * r; ++j) t[i][j].add_product(factor, t[k][j]);
+    }
+  }
+  y_.assign(r * r, 0.0);
+  for (std::size_t a = 0; a < r; ++a)
+    for (std::size_t b = 0; b < r; ++b) y_[a * r + b] = t[a][r + b].mid();
+  return std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); });
 }
 
 void Krawczyk::multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const {

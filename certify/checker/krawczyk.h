@@ -23,9 +23,11 @@ class Krawczyk {
   explicit Krawczyk(const std::vector<Row>& equations, int variables);
 
   /// Chooses the r dependent variables, the centre c (a point) and Y, about the inverse of the dependent columns of the
-  /// Jacobian at c. Any c and Y are valid. c: the middle of x; `polished`: moved towards a zero, within x, by Newton's method in doubles. False
-  /// where the matrix is singular.
-  bool set(const std::vector<int>& dependent, const Sides& x, bool polished);
+  /// Jacobian at c. Any c and Y are valid. c: the middle of x; `polished`: moved towards a zero, within x, by Newton's method
+  /// in doubles; `refined`: so with values and an inverse computed from enclosures, for solutions so close to a double one
+  /// that doubles do not tell them apart. False where the matrix is singular.
+  enum class Center { middle, polished, refined };
+  bool set(const std::vector<int>& dependent, const Sides& x, Center around);
 
   /// K = c_D − Y·F(c) + (I − Y·S_D)(Z − c_D) − Y·S_F (X_F − c_F) over x = X_F × Z, with slopes S about c: every zero of F in x has its dependent
   /// variables in K. Entry a belongs to dependent[a].
@@ -44,6 +46,9 @@ class Krawczyk {
  private:
   // y_ := inverse of the dependent columns at the centre.
   bool invert();
+  // The same from the Jacobian in enclosures, by elimination with their midpoints.
+  bool invert_refined();
+  void polish(const Sides& x, const std::vector<double>& values);
   // Y·M, M the rows' entries in their columns.
   void multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const;
 

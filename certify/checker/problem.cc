@@ -28,8 +28,9 @@ Terms without_denominators(const Terms& f) {
 
 }  // namespace
 
-Problem::Problem(const System& system, const std::vector<ReductionStep>& reduction) : system_(system) {
-  const Reduced reduced = reduce(system, reduction);
+Problem::Problem(const System& system, const std::vector<ReductionStep>& reduction, const StopFlag& stop)
+    : system_(system), stop_(stop) {
+  const Reduced reduced = reduce(system, reduction, stop);
   contradiction_ = reduced.contradiction;
   kept_ = reduced.kept;
   place_.assign(system.variables.size(), -1);
@@ -45,6 +46,7 @@ Problem::Problem(const System& system, const std::vector<ReductionStep>& reducti
   implied_lower_.assign(kept_.size(), 0);
   implied_upper_.assign(kept_.size(), 0);
   for (int j = 0; j < system.size(); ++j) {
+    stop.poll();
     const auto& value = reduced.values[static_cast<std::size_t>(j)];
     if (value) values_.push_back({j, Row(*value, place_)});
     for (const int sign : {-1, 1}) add_domain(j, value, sign);

@@ -19,9 +19,10 @@ struct Condition {
 class Problem {
  public:
   /// Throws std::invalid_argument where a step of the reduction is not legal.
-  Problem(const System& system, const std::vector<ReductionStep>& reduction);
+  Problem(const System& system, const std::vector<ReductionStep>& reduction, const StopFlag& stop = {});
 
   const System& system() const { return system_; }
+  const StopFlag& stop() const { return stop_; }
   int size() const { return static_cast<int>(kept_.size()); }
   const std::vector<int>& kept() const { return kept_; }
   int place(int variable) const { return place_[static_cast<std::size_t>(variable)]; }  ///< among the kept, −1: eliminated
@@ -44,6 +45,7 @@ class Problem {
   void add_domain(int variable, const std::optional<Terms>& value, int sign);
 
   System system_;
+  StopFlag stop_;
   Implied implied_;  // by the equations before and after the reduction
   std::vector<int> kept_, place_;
   std::vector<Row> equations_;

@@ -201,6 +201,8 @@ class Replay {
       tasks.wait();
     } catch (const Malformed& fault) {
       fail(fault.step, fault.reason);
+    } catch (const Stopped&) {
+      stopped_ = true;
     }
     for (const Search& search : searches_) result.tally.searched += search.searched();
     result.tally.leaves = leaves_;
@@ -240,7 +242,15 @@ class Replay {
     return stopped_;
   }
 
-  void play(const Script& script, Cursor at, State state) {
+  void play(const Script& script, const Cursor& at, State state) {
+    try {
+      follow(script, at, std::move(state));
+    } catch (const Stopped&) {
+      stopped_ = true;
+    }
+  }
+
+  void follow(const Script& script, Cursor at, State state) {
     const NearestRounding nearest;
     Search& search = searches_.local();
     for (;; at = script.after(at)) {

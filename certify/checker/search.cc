@@ -127,6 +127,7 @@ bool Search::contract(Sides& x) {
   LinearCombination p;
   std::vector<double> center;
   for (int pass = 0; pass < kPasses; ++pass) {
+    problem_.stop().poll();
     const double before = total_width(x);
     for (int row = 0; row <= static_cast<int>(problem_.equations().size()); ++row)
       if (!project(x, row)) return false;

@@ -7,6 +7,8 @@
 namespace corank::certify::checker {
 namespace {
 
+using Center = Krawczyk::Center;
+
 constexpr int kMostParts = 4096;
 constexpr int kProofSteps = 12;
 constexpr int kTightenings = 2, kPointTightenings = 30;
@@ -56,12 +58,13 @@ class SheetCheck {
   // x: a part of the box's free sides, dependent sides that hold every solution of the region over them. `proven`: there is
   // exactly one for every value. False: stop.
   bool examine(Sides x, bool proven) {
+    problem_.stop().poll();
     if (++parts_ > kMostParts) return fail(pending_reason_.empty() ? "too many parts" : pending_reason_);
     if (!proven) {
       const bool shown = prove(x);
       if (!reason_.empty()) return false;
       if (!shown) return bisect(x, false);
-    } else if (!newton_.set(dependent_, x, true)) {
+    } else if (!newton_.set(dependent_, x, Center::polished)) {
       pending_reason_ = "the Jacobian is singular";
       return bisect(x, true);
     }
@@ -84,7 +87,9 @@ class SheetCheck {
         if (settled(x)) return true;
         break;
       }
-      if ((box_.free.empty() || step == 0) && !newton_.set(dependent_, x, !box_.free.empty())) break;
+      if ((box_.free.empty() || step == 0) &&
+          !newton_.set(dependent_, x, box_.free.empty() ? point_center_ : Center::polished))
+        break;
     }
     return bisect(x, true);
   }
@@ -96,20 +101,26 @@ class SheetCheck {
     // from x as it is: a side that was shrunk to an image has no interior left for the next.
     Sides region;
     for (const int j : problem_.kept()) region.emplace_back(region_[static_cast<std::size_t>(j)]);
-    for (const auto& [around, polished] : {std::pair(&x, false), {&x, true}, {&region, false}}) {
+    for (const auto& [around, center] : {std::pair(&x, Center::middle), {&x, Center::polished}, {&region, Center::middle}}) {
       Sides part = x;
-      if (newton_.set(dependent_, *around, polished) && prove_about_center(part)) {
+      if (newton_.set(dependent_, *around, center) && prove_about_center(part)) {
         x = std::move(part);
         return true;
       }
       if (!reason_.empty()) return false;
     }
-    return prove_near_box(x);
+    if (prove_near_box(x)) return true;
+    if (!reason_.empty() || !box_.free.empty()) return false;
+    // A point near a double one.
+    if (!newton_.set(dependent_, x, Center::refined) || !prove_about_center(x)) return false;
+    point_center_ = Center::refined;
+    return true;
   }
 
   bool prove_about_center(Sides& x) {
     bool exists = false;
     for (int step = 0; step < kProofSteps; ++step) {
+      problem_.stop().poll();
       const Sides image = newton_.image(x);
       bool within = true;
       for (std::size_t a = 0; a < image.size() && within; ++a) within = image[a].strictly_inside(x[place(a)]);
@@ -134,8 +145,9 @@ class SheetCheck {
     Sides z = x;
     for (std::size_t a = 0; a < dependent_.size(); ++a)
       z[place(a)] = Enclosure(box_.box[static_cast<std::size_t>(problem_.kept()[place(a)])]);
-    if (!newton_.set(dependent_, z, true)) return false;
+    if (!newton_.set(dependent_, z, Center::polished)) return false;
     for (int step = 0; step < kInflations; ++step) {
+      problem_.stop().poll();
       const Sides image = newton_.image(z);
       bool inside = true;
       for (std::size_t a = 0; a < image.size(); ++a) {
@@ -249,6 +261,7 @@ class SheetCheck {
   const CoverBox& box_;
   const Box& region_;
   Krawczyk newton_;
+  Center point_center_ = Center::middle;  // of a point's box, once its solution has been shown
   std::vector<unsigned char> is_free_;
   std::vector<int> dependent_;
   int parts_ = 0;

@@ -201,7 +201,7 @@ namespace {
 
 class Reducer {
  public:
-  explicit Reducer(const System& system) : system_(system) {
+  Reducer(const System& system, const StopFlag& stop) : system_(system), stop_(stop) {
     // Where equations outnumber variables the tolerance is for `partial` only.
     const double tolerance = system.equations.size() <= system.variables.size() ? system.coefficient_tolerance : 0;
     for (const Polynomial& f : system.equations) equations_.emplace_back(Terms(f, tolerance));
@@ -236,8 +236,10 @@ class Reducer {
       if (!replaced) refuse("its value cannot be put in");
       f = std::move(*replaced);
     };
-    for (auto& f : equations_)
+    for (auto& f : equations_) {
+      stop_.poll();
       if (f) replace(*f);
+    }
     for (Terms& g : result_.inequalities) replace(g);
     for (auto& other : result_.values)
       if (other) replace(*other);
@@ -259,6 +261,7 @@ class Reducer {
     for (int j = 0; j < system_.size(); ++j)
       if (!result_.values[static_cast<std::size_t>(j)]) result_.kept.push_back(j);
     for (auto& f : equations_) {
+      stop_.poll();
       if (!f) continue;
       if (f->is_constant() && !f->list().empty() && !f->list().begin()->second.range.has_zero())
         result_.contradiction = true;
@@ -271,16 +274,18 @@ class Reducer {
 
  private:
   const System& system_;
+  const StopFlag& stop_;
   std::vector<std::optional<Terms>> equations_;
   Reduced result_;
 };
 
 }  // namespace
 
-Reduced reduce(const System& system, const std::vector<ReductionStep>& steps) {
+Reduced reduce(const System& system, const std::vector<ReductionStep>& steps, const StopFlag& stop) {
   system.validate();
-  Reducer reducer(system);
+  Reducer reducer(system, stop);
   for (const ReductionStep& s : steps) {
+    stop.poll();
     if (s.is_sum()) {
       reducer.add(s.equation, s.other, s.factor);
     } else {

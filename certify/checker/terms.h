@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corank/certify/checker/enclosure.h"
+#include "corank/certify/checker/stop.h"
 #include "corank/certify/reduction_step.h"
 #include "corank/certify/system.h"
 
@@ -74,6 +75,6 @@ struct Reduced {
 /// Repeats the reduction. Theorem: certify/reduction.h. Each step is legal: an elimination's equation is a·x + g = 0 with a rational a ≠ 0 and x
 /// not in g, or the domain of x is one number; a sum is of two different equations that are there. Throws std::invalid_argument,
 /// with the reason, where one is not.
-Reduced reduce(const System& system, const std::vector<ReductionStep>& steps);
+Reduced reduce(const System& system, const std::vector<ReductionStep>& steps, const StopFlag& stop = {});
 
 }  // namespace corank::certify::checker

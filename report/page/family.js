@@ -3,7 +3,7 @@ import {readSet} from "./data.js";
 import {Picture, pageColours} from "./picture.js";
 import {smallGroups} from "./spots.js";
 import {followTheme, takeTheme} from "./theme.js";
-import {htmlLabel, numberText, unitOf, withMinus} from "./values.js";
+import {htmlLabel, htmlText, htmlUnit, numberText, withMinus} from "./values.js";
 
 const smallPad = {left: 1, right: 1, top: 1, bottom: 1};
 
@@ -97,7 +97,7 @@ class Family {
     const at = plane.fromPixels(event.clientX - box.left, event.clientY - box.top);
     this.place.innerHTML = plane.holds(at)
       ? this.model.coordinates
-          .map((axis, k) => `${htmlLabel(axis)} = ${numberText(at[k], 3)} ${unitOf(this.model, axis) || ""}`.trim())
+          .map((axis, k) => `${htmlLabel(axis)} = ${numberText(at[k], 3)} ${htmlUnit(this.model, axis)}`.trim())
           .join(", ")
       : "";
   }
@@ -108,7 +108,7 @@ class Family {
     const text = withMinus(members[k].text);
     this.slider.value = k;
     this.slider.setAttribute("aria-valuetext", `${constant.name} = ${text}, ${k + 1} of ${members.length}`);
-    for (const shown of document.querySelectorAll(".value")) shown.innerHTML = `${htmlLabel(constant)} = ${text}`;
+    for (const shown of document.querySelectorAll(".value")) shown.innerHTML = `${htmlLabel(constant)} = ${htmlText(text)}`;
     this.canvas.setAttribute("aria-label", `Output portrait for ${constant.name} = ${text}`);
     this.buttons.forEach((button, i) => button.setAttribute("aria-pressed", String(i === k)));
     for (const cards of document.querySelectorAll("#result .cards")) cards.hidden = Number(cards.dataset.member) !== k;

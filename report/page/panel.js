@@ -2,7 +2,7 @@
 // place, and what is known of it.
 import {drawMechanism} from "./mechanism.js";
 import {pointOfBoxes} from "./newton.js";
-import {coordinateValues, groupedText, htmlLabel, isAngle, numberText, setTitles, unitOf} from "./values.js";
+import {coordinateValues, groupedText, htmlLabel, htmlUnit, isAngle, numberText, setTitles} from "./values.js";
 
 export class Panel {
   // `onShow(configuration)` is told what is drawn: {set, box, x}, or null.
@@ -111,7 +111,7 @@ export class Panel {
     const rows = this.model.coordinates
       .filter(({role}) => role !== "auxiliary")
       .map((coordinate) => {
-        const unit = unitOf(this.model, coordinate),
+        const unit = htmlUnit(this.model, coordinate),
           value = values[coordinate.name];
         const degrees = isAngle(coordinate) ? ` <small>${numberText((value * 180) / Math.PI, 4)}°</small>` : "";
         return `<tr><th>${htmlLabel(coordinate)}</th><td>${numberText(value)}${unit ? ` ${unit}` : ""}${degrees}</td><td>${

@@ -1,6 +1,6 @@
 // A portrait: a picture over two coordinates with a cursor, the place of what is shown, and choices of axes.
 import {Picture, pageColours} from "./picture.js";
-import {coordinateValue, htmlLabel, numberText, plainLabel, unitOf} from "./values.js";
+import {coordinateValue, htmlLabel, htmlUnit, numberText, plainLabel} from "./values.js";
 
 export class Portrait {
   // `listener` has hover(candidates, place, portrait), pin(…), step(direction), escape().
@@ -150,7 +150,7 @@ export class Portrait {
 
   placeText([x, y]) {
     const text = (axis, value) => {
-      const unit = unitOf(this.model, axis);
+      const unit = htmlUnit(this.model, axis);
       return `${htmlLabel(axis)} = ${numberText(value, 3)}${unit ? ` ${unit}` : ""}`;
     };
     return `${text(this.picture.axes[0], x)}, ${text(this.picture.axes[1], y)}`;

@@ -52,11 +52,14 @@ export function coordinateValues(model, x) {
 
 // What a select box or an axis shows: "θ2", and the unit behind it.
 export const plainLabel = (item) => item.label[0] + item.label[1];
+// For innerHTML: what a model says is text, whatever it looks like.
+export const htmlText = (text) =>
+  text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/"/g, "&quot;");
 export function htmlLabel(item) {
-  const escape = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
-  return `<i>${escape(item.label[0])}</i>` + (item.label[1] ? `<sub>${escape(item.label[1])}</sub>` : "");
+  return `<i>${htmlText(item.label[0])}</i>` + (item.label[1] ? `<sub>${htmlText(item.label[1])}</sub>` : "");
 }
 export const unitOf = (model, coordinate) => (isAngle(coordinate) ? "rad" : model.drawing.unit);
+export const htmlUnit = (model, coordinate) => htmlText(unitOf(model, coordinate) || "");
 
 export const withMinus = (text) => text.replace(/-/g, "−");
 export function numberText(x, digits = 4) {

@@ -17,9 +17,12 @@ using testing::StartsWith;
 
 class Verify : public testing::Test {
  protected:
-  void SetUp() override {
-    const Outcome outcome =
-        run_corank({"solve", model("three_slider"), "--set", "forward", "-D", "L2=3/4", "--kernel", "left", "-o", path()});
+  void SetUp() override { solve({"--proof"}); }
+  void solve(std::vector<std::string> more) {
+    std::vector<std::string> words{
+        "solve", model("three_slider"), "--set", "forward", "-D", "L2=3/4", "--kernel", "left", "-o", path()};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run_corank(words);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
   std::string path() const { return folder_.file("r.h5"); }
@@ -38,7 +41,7 @@ TEST_F(Verify, PrintsATableAndReturnsZeroWhereAllIsVerified) {
   EXPECT_EQ(outcome.status, 0) << outcome.out;
   EXPECT_THAT(outcome.out, StartsWith("three_slider, forward: checked"));
   EXPECT_THAT(outcome.out, HasSubstr("isolated              8          0              0\n"));
-  EXPECT_THAT(outcome.out, HasSubstr("completeness: no proof in the file\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("completeness: replayed"));
   EXPECT_THAT(outcome.out, HasSubstr("\nverified\n"));
   EXPECT_EQ(outcome.err, "");
 }
@@ -49,7 +52,8 @@ TEST_F(Verify, PrintsJson) {
   const json summary = json::parse(outcome.out);
   EXPECT_EQ(summary["verified"], true);
   EXPECT_EQ(summary["verdicts"]["isolated"], (json{{"verified", 8}, {"failed", 0}, {"not_checkable", 0}}));
-  EXPECT_EQ(summary["completeness"]["proof"], false);
+  EXPECT_EQ(summary["complete"], true);
+  EXPECT_EQ(summary["completeness"]["proof"], true);
   EXPECT_TRUE(summary["failures"].empty());
 }
 
@@ -92,16 +96,78 @@ TEST_F(Verify, ReplaysAProofWhereEveryVariableWasEliminated) {
   const Outcome outcome = run_corank({"verify", file});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.out, HasSubstr("completeness: replayed"));
-  EXPECT_THAT(outcome.out, HasSubstr("decimals: not checked\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("decimals: in their boxes, but not proven anew\n"));
 }
 
-TEST_F(Verify, ReturnsOneWhereAClaimCannotBeChecked) {
+TEST_F(Verify, RejectsDecimalsOutsideTheirBox) {
+  solve({"--digits", "20", "--proof"});
+  ASSERT_EQ(run_corank({"verify", path()}).status, 0);
+  change([](report::Result& r) {
+    for (char& c : r.cover.decimals[2][0])
+      if (c >= '0' && c <= '9') c = static_cast<char>('9' - (c - '0'));
+  });
+  const Outcome outcome = run_corank({"verify", path()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("file: the decimals of point 3 are not in its box\n"));
+}
+
+TEST_F(Verify, SaysWhereCompletenessIsNotProven) {
+  solve({});
+  const Outcome outcome = run_corank({"verify", path()});
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_THAT(outcome.out, HasSubstr("completeness: no proof in the file\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nverified, but not its completeness\n"));
+  EXPECT_EQ(outcome.err, "");
+  const Outcome as_json = run_corank({"verify", path(), "--json"});
+  EXPECT_EQ(as_json.status, 4);
+  EXPECT_EQ(json::parse(as_json.out)["verified"], true);
+  EXPECT_EQ(json::parse(as_json.out)["complete"], false);
+}
+
+TEST_F(Verify, FailsWithoutAProofWhereOneIsRequired) {
+  EXPECT_EQ(run_corank({"verify", path(), "--require-proof"}).status, 0);
+  solve({});
+  const Outcome outcome = run_corank({"verify", path(), "--require-proof"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("--require-proof"));
+}
+
+TEST_F(Verify, SaysWhereASearchHadEndedEarly) {
   const TemporaryFolder folder;
   const std::string file = folder.file("s.h5");
-  ASSERT_EQ(run_corank({"solve", model("three_slider"), "--set", "cspace", "--max-boxes", "5", "-o", file}).status, 3);
+  ASSERT_EQ(
+      run_corank({"solve", model("three_slider"), "--set", "cspace", "--max-boxes", "5", "--proof", "-o", file}).status, 3);
   const Outcome outcome = run_corank({"verify", file});
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.out, HasSubstr("pending"));
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_THAT(outcome.out, HasSubstr("not searched\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nverified, but not its completeness\n"));
+  EXPECT_EQ(run_corank({"verify", file, "--require-proof"}).status, 1);
+}
+
+TEST_F(Verify, EndsAtItsTimeLimitWithAStatement) {
+  const Outcome outcome = run_corank({"verify", path(), "--time-limit", "1e-9"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.out,
+              HasSubstr("interrupted in the reduction: 0 of 8 boxes were checked; nothing is said of the rest\n"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("verified\n")));
+  const json summary = json::parse(run_corank({"verify", path(), "--time-limit", "1e-9", "--json"}).out);
+  EXPECT_EQ(summary["verified"], false);
+  EXPECT_EQ(summary["interrupted"], true);
+  EXPECT_EQ(summary["stage"], "the reduction");
+}
+
+TEST_F(Verify, PrintsNoControlCharactersOfAFile) {
+  change([](report::Result& r) {
+    r.model =
+        "a\x1b]0;owned\x07\xc2\x9b"
+        "31m";
+  });
+  const Outcome outcome = run_corank({"verify", path()});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, StartsWith("a\\x1b]0;owned\\x07\\u009b31m, forward: checked"));
+  EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos);
+  change([](report::Result& r) { r.set = "\x1b[2J"; });
+  EXPECT_THAT(run_corank({"verify", path()}).err, HasSubstr("no set '\\x1b[2J'"));
 }
 
 }  // namespace

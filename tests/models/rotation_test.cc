@@ -44,7 +44,7 @@ certify::System system_of(SingularitySet set) {
 
 Cover solve_at(SingularitySet set, double sigma) {
   solve::Options options;
-  options.sigma = sigma;
+  options.set_sigma(sigma);
   return solve::solve(system_of(set), options);
 }
 

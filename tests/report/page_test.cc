@@ -134,6 +134,20 @@ TEST(Page, EscapesWhatAModelMaySay) {
   EXPECT_FALSE(holds(page, "</script><b>"));
 }
 
+TEST(Page, HoldsNoMarkupOfAResultsNames) {
+  const Mechanism mechanism = symbolic::parse_model(slider().source_text(), "z<!--<script>.cuik");
+  Result result = solved(mechanism, SingularitySet::forward);
+  result.options.kernel = "right";
+  result.version = "<script>alert(1)</script>";
+  result.options.constants = {{"<img src=x onerror=alert(2)>", "1"}};
+  const std::string page = report_page(mechanism, {result}, {"", {}, {"\"><script>alert(3)</script>.h5"}});
+  EXPECT_FALSE(holds(page, "<!--<script"));
+  EXPECT_FALSE(holds(page, "<script>alert"));
+  EXPECT_FALSE(holds(page, "<img src=x"));
+  EXPECT_EQ(json::parse(script_text(page, "model"))["model"], "z<!--<script>");
+  EXPECT_EQ(script_text(page, "model").find('<'), std::string::npos);
+}
+
 TEST(Page, SaysWhereASearchEndedEarly) {
   const Mechanism mechanism = slider();
   Result result = solved(mechanism, SingularitySet::forward);
@@ -169,6 +183,9 @@ TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
   EXPECT_THAT(html, HasSubstr("<td>[0.333333333, 0.333333334]</td>")) << "the bounds of a point without decimals";
   EXPECT_THAT(html, HasSubstr("<msqrt><mn>2</mn></msqrt>"));
   EXPECT_THAT(html, HasSubstr("<td>2</td></tr>")) << "the dimension of the kernel";
+  result.cover.exact_points[0].lower = 3;
+  result.cover.exact_points[0].upper = 4;
+  EXPECT_THAT(points_html({result}), HasSubstr("a number of degree 2")) << "what a file says may define none";
 }
 
 }  // namespace

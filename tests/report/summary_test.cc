@@ -25,9 +25,9 @@ std::vector<std::string> keys(const ordered_json& object) {
 
 TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   const ordered_json json = ordered_json::parse(to_json(sample_result()));
-  EXPECT_THAT(keys(json), ElementsAre("model", "set", "system", "options", "complete", "stopped", "boxes", "undecided_reasons",
-                                      "boundary_reasons", "range_ends", "ranges_found", "points", "kernel", "seconds",
-                                      "version"));
+  EXPECT_THAT(keys(json),
+              ElementsAre("model", "set", "system", "options", "complete", "stopped", "boxes", "undecided_reasons",
+                          "boundary_reasons", "range_ends", "ranges_found", "points", "kernel", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]), ElementsAre("kernel", "sigma", "tolerance", "threads", "max_boxes", "max_solutions",
                                                  "time_limit", "constants"));

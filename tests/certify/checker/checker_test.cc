@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "corank/certify/checker/distinct.h"
 #include "corank/tests/certify/checker/covers.h"
@@ -61,26 +62,61 @@ TEST(Checker, GivesTheSameReportForAnyNumberOfThreads) {
   EXPECT_EQ(text(check(system, cover)), text(check(system, cover, four)));
 }
 
-TEST(Checker, EndsWhereItIsStopped) {
-  const std::atomic<bool> stop = true;
+// Stopped before it begins, or as soon as the progress says so.
+Report stopped(const System& system, const Cover& cover, const std::function<bool(const Progress&)>& at) {
+  std::atomic<bool> stop = at({});
   Options options;
   options.stop = &stop;
-  const Report report = check(plain(kCircle), solved(plain(kCircle), 0.1), options);
-  EXPECT_TRUE(report.interrupted);
-  EXPECT_FALSE(report.verified());
+  options.progress = [&](const Progress& p) { stop = stop || at(p); };
+  return check(system, cover, options);
 }
 
-TEST(Checker, CallsWhatClaimsNothingNotCheckable) {
+TEST(Checker, EndsWhereItIsStoppedAndNamesTheStage) {
+  const System system = plain(kCircle);
+  solve::Options options;
+  options.set_sigma(0.01);
+  options.proof = true;
+  const Cover cover = solve::solve(system, options);
+  const Report first = stopped(system, cover, [](const Progress&) { return true; });
+  EXPECT_TRUE(first.interrupted);
+  EXPECT_EQ(first.stage, "the reduction");
+  const Report second = stopped(system, cover, [](const Progress& p) { return p.boxes > 0; });
+  EXPECT_EQ(second.stage, "the boxes");
+  EXPECT_GE(tally(second, Verdict::regular).verified, 1u);
+  EXPECT_LT(tally(second, Verdict::regular).verified, cover.boxes.size());
+  const Report third = stopped(system, cover, [](const Progress& p) { return p.steps > 0; });
+  EXPECT_EQ(third.stage, "the proof of completeness");
+  EXPECT_EQ(tally(third, Verdict::regular).verified, cover.boxes.size());
+  for (const Report& report : {first, second, third}) EXPECT_FALSE(report.verified() || report.complete());
+  const Report last = stopped(system, cover, [](const Progress&) { return false; });
+  EXPECT_TRUE(last.verified() && last.complete()) << text(last);
+}
+
+TEST(Checker, VerifiesWithoutAProofButNotThatNothingIsMissing) {
+  const Report report = check(plain(kCircle), solved(plain(kCircle), 0.1));
+  EXPECT_TRUE(report.verified());
+  EXPECT_FALSE(report.complete());
+}
+
+TEST(Checker, HoldsNothingAgainstBoxesThatClaimNothing) {
   Cover cover = solved(plain(kCircle), 0.1);
   const std::size_t n = cover.boxes.size();
-  cover.boxes[0].verdict = Verdict::undecided;
-  cover.boxes[0].free.clear();
-  const int region = std::exchange(cover.boxes[0].region, -1);
-  cover.boxes[1].region = region;  // so that each region has a box
-  const Report report = check(plain(kCircle), cover);
-  EXPECT_EQ(tally(report, Verdict::undecided), (Tally{0, 0, 1}));
-  EXPECT_FALSE(report.verified());
-  EXPECT_LE(tally(report, Verdict::regular).verified, n - 1);
+  const auto unclaimed = [&](Verdict verdict) {
+    Cover changed = cover;
+    const int region = changed.boxes[0].region;
+    for (CoverBox& b : changed.boxes)
+      if (b.region == region) b.verdict = verdict, b.free.clear(), b.region = -1;
+    changed.regions.erase(changed.regions.begin() + region);
+    for (CoverBox& b : changed.boxes) b.region -= b.region > region;
+    return check(plain(kCircle), changed);
+  };
+  for (const Verdict verdict : {Verdict::undecided, Verdict::pending}) {
+    const Report report = unclaimed(verdict);
+    EXPECT_GE(tally(report, verdict).unchecked, 1u);
+    EXPECT_TRUE(report.verified()) << text(report);
+    EXPECT_LT(tally(report, Verdict::regular).verified, n);
+  }
+  EXPECT_FALSE(unclaimed(Verdict::partial).verified()) << "a claim that cannot be checked";
 }
 
 // --- what is false ---

@@ -1,0 +1,47 @@
+// Watches over work that has to end by a time or on Ctrl-C: it asks for the end with a flag, and where the work does not
+// look at it, ends the program with a statement.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace corank::app {
+
+class Watch {
+ public:
+  using Duration = std::chrono::duration<double>;
+  /// How long the work may go on after the flag was set: a limit holds within a second.
+  static constexpr Duration kGrace{0.8};
+
+  /// Sets stop() after `seconds` (0: never), or once `interrupt` is set. Where this object still lives a `grace` later,
+  /// `give_up` is called with the stage, from another thread; it is to say what is known and to end the program.
+  Watch(double seconds, const std::atomic<bool>& interrupt, std::function<void(const std::string& stage)> give_up,
+        Duration grace = kGrace);
+  ~Watch();
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  const std::atomic<bool>& stop() const { return stop_; }
+  /// What is done from now on, in words for the statement: "reading the file".
+  void enter(const std::string& stage);
+  /// From now on give_up is not called any more: the work has ended, and says itself what it found.
+  void done();
+
+ private:
+  void watch(double seconds, const std::atomic<bool>& interrupt, Duration grace);
+
+  std::function<void(const std::string&)> give_up_;
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::string stage_;
+  bool done_ = false;
+  std::thread thread_;
+};
+
+}  // namespace corank::app
