@@ -24,6 +24,7 @@ const char* to_string(Reason reason) {
     case Reason::degenerate_set: return "degenerate_set";
     case Reason::tolerance: return "tolerance";
     case Reason::precision: return "precision";
+    case Reason::limit: return "limit";
   }
   return "?";
 }

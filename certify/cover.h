@@ -55,8 +55,9 @@ enum class Reason : std::uint8_t {
   degenerate_set,    ///< the same along a curve or a larger set of such solutions
   tolerance,         ///< the coefficients' tolerance moves the solutions too far
   precision,         ///< doubles divide it no further
+  limit,             ///< a limit or an interrupt ended the search before it was divided further
 };
-inline constexpr int kReasons = 5;
+inline constexpr int kReasons = 6;
 
 const char* to_string(Reason reason);
 

@@ -41,8 +41,13 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string nearest(std::string name) {
+std::string upper(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return name;
+}
+
+std::string nearest(std::string name) {
+  name = upper(std::move(name));
   const auto closer = [&](const CuikParameter& a, const CuikParameter& b) {
     return distance(name, a.name) < distance(name, b.name);
   };
@@ -111,10 +116,10 @@ class ParamParser {
       while (end < text_.size() && is_word(text_[end])) ++end;
       token_.kind = Token::Kind::name;
     } else {
-      if (std::string_view("+-*/^()=?:").find(c) == std::string_view::npos) {
+      if (std::string_view("+-*/^()=?:<>").find(c) == std::string_view::npos) {
         const bool printable = c > 0x20 && c < 0x7F;
         fail(line_, printable ? std::string("found '") + c + "'" : "found a character that has no place here",
-             "NAME = value, with +, -, *, /, ^, ? : and parentheses in the value");
+             "NAME = value, with +, -, *, /, ^, <, >, ? : and parentheses in the value");
       }
       end = at_ + 1;
       token_.kind = Token::Kind::sign;
@@ -136,7 +141,7 @@ class ParamParser {
     if (token_.kind != Token::Kind::name) found("a parameter, NAME = value");
     const Token name = token_;
     const auto& all = cuik_parameters();
-    const auto known = std::find_if(all.begin(), all.end(), [&](const CuikParameter& p) { return p.name == name.text; });
+    const auto known = std::find_if(all.begin(), all.end(), [&](const CuikParameter& p) { return p.name == upper(name.text); });
     if (known == all.end()) {
       fail(name.line, "the parameter '" + name.text + "' is unknown",
            "a parameter of the CUIK suite; did you mean " + nearest(name.text) + "?");
@@ -155,7 +160,7 @@ class ParamParser {
     const int line = line_;
     const Token token = token_;
     if (sign) next();
-    if (token_.kind == Token::Kind::name && value_words().contains(token_.text)) {
+    if (token_.kind == Token::Kind::name && value_words().contains(upper(token_.text))) {
       next();
       return std::nullopt;
     }
@@ -188,7 +193,12 @@ class ParamParser {
 
   // condition ? a : b
   double choice(int depth) {
-    const double x = sum(depth);
+    double x = sum(depth);
+    if (take('>')) {
+      x = x > sum(depth);
+    } else if (take('<')) {
+      x = x < sum(depth);
+    }
     if (!take('?')) return x;
     const double a = choice(depth + 1);
     need(':');
@@ -242,7 +252,7 @@ class ParamParser {
     }
     if (token.kind != Token::Kind::name) found("a value");
     next();
-    if (const auto f = functions().find(token.text); f != functions().end()) {
+    if (const auto f = functions().find(upper(token.text)); f != functions().end()) {
       need('(');
       const double x = choice(depth + 1);
       need(')');

@@ -91,8 +91,13 @@ Json polynomials(const std::vector<certify::Polynomial>& list) {
 certify::System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   const std::optional<SingularitySet> set = symbolic::singularity_set_from_string(result.set);
   if (!set) throw ResultFileError("the result's set '" + result.set + "' is no set of a mechanism");
-  certify::System system = algebrize(singularity_system(
-      mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel), result.options.kernel_scales));
+  certify::System system;
+  try {
+    system = algebrize(singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
+                                          result.options.kernel_scales));
+  } catch (const symbolic::ModelError& error) {  // scales that are none of this model
+    throw ResultFileError(std::string("the result's system: ") + error.what());
+  }
   const auto same = [](const certify::Variable& a, const ResultVariable& b) { return a.name == b.name; };
   if (!std::equal(system.variables.begin(), system.variables.end(), result.variables.begin(), result.variables.end(), same))
     throw ResultFileError("the result of the set '" + result.set + "' has other variables than the model " +

@@ -242,6 +242,7 @@ std::string in_words(certify::Reason reason) {
     case degenerate_set: return "along a curve, or a larger set, of degenerate solutions";
     case tolerance: return "the coefficients' tolerance moves the solutions too far";
     case precision: return "doubles divide them no further";
+    case limit: return "a limit ended the search before they were divided further";
   }
   return "reason unknown";
 }

@@ -159,10 +159,10 @@ void BoxProcessor::add_proven(const Postponed& box) {
   proven_.push_back({box.x, box.proof, node});
 }
 
-void BoxProcessor::cut(const Proven& proven) {
+void BoxProcessor::cut(const Proven& proven, bool whole) {
   const auto start = std::chrono::steady_clock::now();
   if (recorder_) recorder_->begin(proven.node, proven.x.data(), problem_.compiled.variables());
-  slicer_.slice(proven.sheet, proven.x.data(), found_);
+  slicer_.slice(proven.sheet, proven.x.data(), found_, whole);
   statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -49,8 +49,8 @@ class BoxProcessor {
   Outcome process(certify::Interval* x, double share);
   /// Keeps a postponed box that was proven to hold a self-motion.
   void add_proven(const Postponed& box);
-  /// Cuts a sheet into found() pieces.
-  void cut(const Proven& proven);
+  /// Cuts a sheet into found() pieces, or leaves it whole.
+  void cut(const Proven& proven, bool whole);
   /// Adds x, unprocessed, to found().
   void leave(const certify::Interval* x) { add_unproven(x, certify::Verdict::pending); }
   /// Adds x, which nothing could be proven of, to found().

@@ -97,13 +97,15 @@ class Search {
   void cut() {
     const std::vector<const Proven*> all = sheets();
     cutting_ = true;
-    const auto ending = control_.ending();  // a search that was long enough: what it has found is cut all the same
-    if (!ending || ending->by == Limit::boxes || ending->by == Limit::solutions) ended_ = false;
+    // A search that was long enough: what it has found is cut all the same. What another limit has ended is left uncut: proven.
+    const auto ending = control_.ending();
+    const bool whole = ended_ && ending && ending->by != Limit::boxes && ending->by != Limit::solutions;
+    if (!whole) ended_ = false;
     execute([&] {
       const auto cut_one = [&](std::size_t i) {
         const certify::UpwardRounding rounding;
         Worker& worker = workers_.local();
-        worker.processor.cut(*all[i]);
+        worker.processor.cut(*all[i], whole);
         count_found(worker);
       };
       if (threads_ == 1) {
@@ -223,7 +225,8 @@ class Search {
     WorkList list(static_cast<std::size_t>(problem_.compiled.variables()));
     const certify::UpwardRounding rounding;
     Worker& worker = workers_.local();
-    const std::vector<certify::Reason> reasons = motions_.prove(problem_, system, all, share_);
+    std::vector<certify::Reason> reasons = motions_.prove(problem_, system, all, share_);
+    if (limit_reached()) std::replace(reasons.begin(), reasons.end(), certify::Reason::none, certify::Reason::limit);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Postponed& box = all[i];
       if (all[i].proof.proven) {
@@ -300,12 +303,16 @@ class Search {
       const Found& f = found[worker.counted];
       ++verdicts_[static_cast<int>(f.box.verdict)];
       if (++found_ == options_.max_found) end(Limit::found);
+      const bool proven = f.box.verdict != Verdict::undecided && f.box.verdict != Verdict::pending;
+      if (cutting_ && proven && !f.box.free.empty() && ++cut_ == options_.max_solutions) end(Limit::solutions);
     }
   }
 
   // Sheets count before they are cut.
   void count_sheets(Worker& worker) {
     const std::vector<Proven>& sheets = worker.processor.proven();
+    const std::size_t postponed = worker.processor.postponed().size();
+    if (options_.max_found > 0 && sheets_ + postponed >= options_.max_found) end(Limit::found);
     for (; worker.counted_sheets < sheets.size(); ++worker.counted_sheets) {
       const certify::Sheet& sheet = sheets[worker.counted_sheets].sheet;
       keep(static_cast<std::int64_t>(3 * sheet.region.size() * sizeof(Interval)));
@@ -393,7 +400,7 @@ class Search {
   double share_ = kFirstShare;  // of the typical sizes: how small boxes are that may be postponed
   std::atomic<int> busy_{0}, recorders_{0};
   std::atomic<bool> ended_{false}, cutting_{false};
-  std::atomic<std::uint64_t> processed_{0}, waiting_{0}, found_{0}, sheets_{0};
+  std::atomic<std::uint64_t> processed_{0}, waiting_{0}, found_{0}, sheets_{0}, cut_{0};
   std::atomic<double> done_share_{0};
   std::array<std::atomic<std::uint64_t>, certify::kVerdicts> verdicts_{};
   std::mutex solutions_mutex_;

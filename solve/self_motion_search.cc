@@ -211,7 +211,9 @@ MotionCandidate find_self_motion(const Problem& problem, const certify::System& 
   const std::vector<LocalSolution> samples = walk(problem, *start, static_cast<std::size_t>(3 * n + 10));
   if (samples.size() < static_cast<std::size_t>(n + 2)) return candidate;  // a point, or a set that ends too soon
   candidate.dimension = dimension;
-  const Echelon e = relations_of(problem, precise(system, samples));
+  const std::vector<LocalSolution> points = precise(system, samples);
+  if (points.size() < static_cast<std::size_t>(n + 2)) return candidate;
+  const Echelon e = relations_of(problem, points);
   const certify::UpwardRounding rounding;
   for (const long largest_denominator : kDenominators) {
     if (candidate.motion) break;

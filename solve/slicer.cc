@@ -217,11 +217,11 @@ void Slicer::add(Task& task, Box piece, Location location) {
   task.found.push_back(std::move(found));
 }
 
-void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found) {
+void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found, bool whole) {
   Box region = sheet.region;
   problem_.append_values(region);
   Task task{sheet, x, found, other_variables(sheet.dependent, problem_.compiled.variables()),
-            std::make_shared<const Box>(std::move(region))};
+            std::make_shared<const Box>(std::move(region)), whole};
   const Preconditioner p = preconditioners_.at_midpoint(sheet.image.data(), &sheet.dependent, &sheet.equations);
   descend(task, {sheet.image}, p);
 }
@@ -229,7 +229,13 @@ void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& fo
 void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   const std::vector<int>& free = task.free;
   Box& sides = piece.sides;
-  task.ended = task.ended || (task.turns++ % kPiecesBetweenChecks == 0 && problem_.ended());
+  task.ended = task.ended || (!task.whole && task.turns++ % kPiecesBetweenChecks == 0 && problem_.ended());
+  if (task.ended) {
+    problem_.append_values(sides);
+    if (recorder_) recorder_->leaf_box(task.found.size());
+    task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
+    return;
+  }
   Preconditioner own;
   const Preconditioner& p = tighten(task, piece, inherited, own);
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
@@ -241,7 +247,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   double width = problem_.excess(sides);
   bool stepped = true;
   std::vector<int> parts;
-  if (width > 1 && !free.empty() && !task.ended) {
+  if (width > 1 && !free.empty() && !task.whole) {
     measure_steepness(p, free, sides);
     parts = parts_of(sides, free);
     // Small enough but for overestimation: look closer.
@@ -255,8 +261,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   // in a row gain nothing, the piece stays as it is, proven.
   const int futile_cuts = width > kFutileShare * piece.former_width ? piece.futile_cuts + 1 : 0;
   const auto divisible = [&](int j) { return split_point(sides[static_cast<std::size_t>(j)]).has_value(); };
-  // So does what a limit leaves uncut.
-  if (width <= 1 || task.ended || futile_cuts > kFutileCuts || std::none_of(free.begin(), free.end(), divisible)) {
+  if (width <= 1 || task.whole || futile_cuts > kFutileCuts || std::none_of(free.begin(), free.end(), divisible)) {
     add(task, std::move(sides), *location);
     return;
   }

@@ -24,8 +24,8 @@ class Slicer {
       : problem_(problem), preconditioners_(preconditioners), workspace_(workspace), recorder_(recorder) {}
 
   /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so. Where the
-  /// search ends meanwhile, the rest is added uncut.
-  void slice(const certify::Sheet& sheet, const certify::Interval* x, std::vector<Found>& found);
+  /// search ends meanwhile, the rest is added as pending boxes. `whole`: the sheet is not cut at all.
+  void slice(const certify::Sheet& sheet, const certify::Interval* x, std::vector<Found>& found, bool whole = false);
 
   /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the
   /// tolerance? Cuts the piece as finely as the bounds need, `depth` times at most. True is proven, on each of the parts.
@@ -53,6 +53,7 @@ class Slicer {
     std::vector<Found>& found;
     std::vector<int> free;
     std::shared_ptr<const certify::Box> region;
+    bool whole = false;
     unsigned turns = 0;
     bool ended = false;
   };

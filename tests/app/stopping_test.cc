@@ -95,14 +95,13 @@ TEST(Figures, AreLeftOutAfterAnInterrupt) {
   EXPECT_TRUE(none.files.empty());
 }
 
-TEST(Ranges, ThatDoublesCannotResolveAreRefusedWithTheirLine) {
+TEST(Ranges, ThatAreHugeDoNoHarmWhereTheEquationsBoundTheSet) {
   const TemporaryFolder folder;
   const std::string huge = folder.write(
-      "huge.cuik", "[SYSTEM VARS]\nx : [-1, 1]\ny : [-1e300, 1e300]\n[SYSTEM EQS]\nx*y = 1;\nx - 1e300*y = 0;\n");
+      "huge.cuik", "[SYSTEM VARS]\nx : [-1, 1]\ny : [-1e300, 1e300]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\nx - y = 0;\n");
   const Outcome outcome = run_corank({"solve", huge});
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("huge.cuik:3:1: the range of y reaches 1e+300"));
-  EXPECT_EQ(run_corank({"solve", huge, "--sigma", "1e299"}).status, 0);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("2 points: 2 isolated"));
 }
 
 // Files that once took long, or broke something; no part of the repository.
@@ -137,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         // Faces of a blow-up with numbers of thousands of digits.
         Hard{"slow_over.cuik", {"--tolerance", "0", "--max-boxes", "20000"}, 0, "1 point: 1 exact", ""},
-        Hard{"slow_iso8.cuik", {"--sigma", "0.1"}, 0, "2 points: 1 boundary, 1 undecided", ""},
+        Hard{"slow_iso8.cuik", {"--sigma", "0.1"}, 0, "2 points: 2 boundary", ""},
         Hard{"verify_slow.cuik", {}, 0, "1 point: 1 exact", ""},
         // A reduction that would make such numbers.
         Hard{"slow_over3.cuik",
@@ -147,10 +146,10 @@ INSTANTIATE_TEST_SUITE_P(
              "the box limit"},
         // A sphere of undecided boxes where points are expected: a quarter of a million, in one cluster but for what is
         // pending between them.
-        Hard{"shell3.cuik", {"--sigma", "0.002", "--max-boxes", "700000"}, 3, "points: ", "the box limit"},
+        Hard{"shell3.cuik", {"--sigma", "0.002"}, 0, "1 point: 1 isolated", ""},
         // 3,000 variables.
         Hard{"manyvars.cuik", {}, 0, "1 point: 1 isolated", ""},
-        Hard{"huge_exp.cuik", {}, 1, "", "huge_exp.cuik:2:1: the range of x reaches 1e+300"}),
+        Hard{"huge_exp.cuik", {}, 0, "complete", ""}),
     [](const auto& hard) { return std::filesystem::path(hard.param.file).stem().string(); });
 
 TEST(HardFilesInTime, EndAtATimeLimitInWhateverStageTheyAre) {

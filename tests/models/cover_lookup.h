@@ -36,10 +36,12 @@ class CoverLookup {
   double widest_ = 0;
 };
 
-inline double widest_edge(const certify::Cover& cover) {
+// Of the configuration's first `coordinates` variables in proven boxes, which σ is about.
+inline double widest_edge(const certify::Cover& cover, int coordinates) {
   double width = 0;
   for (const auto& b : cover.boxes)
-    for (const auto& side : b.box) width = std::max(width, side.width());
+    for (int j = 0; j < coordinates && b.verdict != certify::Verdict::undecided; ++j)
+      width = std::max(width, b.box[static_cast<std::size_t>(j)].width());
   return width;
 }
 

@@ -47,7 +47,7 @@ Result solved(const Kind& kind, double sigma) {
   options.proof = kind.proof;
   result.cover = solve::solve(system, options);
   solve::prove_exactly(system, options, result.cover);
-  result.options.set_sigma(result.cover.sigma);
+  result.options.sigma = result.cover.sigma;
   return result;
 }
 

@@ -242,7 +242,7 @@ class InconsistentFile : public ResultFile {
     for (const char* name : {"complete", "dimension", "configuration_size", "equations", "inequalities"}) {
       unless_changed(name, [&] { file.attribute("/", name, std::int64_t{1}); });
     }
-    file.attribute("/", "sigma", 0.1);
+    for (const char* name : {"sigma", "sigma_length", "sigma_angle"}) file.attribute("/", name, 0.1);
     file.attribute("/", "tolerance", 0.0);
     for (const char* name : {"/model/text", "/model/system"}) file.text(name, "x");
     file.texts("/variables/names", {"x"});
@@ -255,7 +255,9 @@ class InconsistentFile : public ResultFile {
     file.doubles("/angles/range", std::vector{0.0, 1.0}, 1, 2);
     for (const char* name : {"names", "expressions"}) file.texts(std::string("/options/constants/") + name, {});
     file.attribute("/options", "kernel", std::string());
-    for (const char* name : {"sigma", "tolerance", "time_limit"}) file.attribute("/options", name, 0.1);
+    for (const char* name : {"sigma", "sigma_length", "sigma_angle", "tolerance", "time_limit"})
+      file.attribute("/options", name, 0.1);
+    file.texts("/options/kernel_scales", {});
     file.attribute("/options", "threads", std::int64_t{1});
     for (const char* name : {"max_boxes", "max_solutions"}) file.attribute("/options", name, std::uint64_t{0});
     for (const std::string group : {"/boxes", "/points"}) {
@@ -264,6 +266,7 @@ class InconsistentFile : public ResultFile {
       unless_changed(group + "/verdict",
                      [&] { file.enumeration(group + "/verdict", std::vector<std::uint8_t>{0}, {"regular"}); });
       file.bytes(group + "/free", std::vector<std::uint8_t>{0}, 1, 1);
+      file.enumeration(group + "/reason", std::vector<std::uint8_t>{0}, {"none"});
     }
     file.group("/statistics");
     for (const char* name : {"processed", "newton_steps", "proofs_tried"})

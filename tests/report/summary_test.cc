@@ -29,7 +29,7 @@ TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
               ElementsAre("model", "set", "system", "options", "complete", "stopped", "boxes", "undecided_reasons",
                           "boundary_reasons", "range_ends", "ranges_found", "points", "kernel", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
-  EXPECT_THAT(keys(json["options"]), ElementsAre("kernel", "sigma", "tolerance", "threads", "max_boxes", "max_solutions",
+  EXPECT_THAT(keys(json["options"]), ElementsAre("kernel", "sigma", "sigma_length", "sigma_angle", "kernel_scales", "tolerance", "threads", "max_boxes", "max_solutions",
                                                  "time_limit", "constants"));
   EXPECT_THAT(keys(json["boxes"]),
               ElementsAre("processed", "regular", "isolated", "exact", "boundary", "partial", "undecided", "pending"));
@@ -110,7 +110,7 @@ TEST(Table, CountsVerdictsAndListsPointsWithAngles) {
   const std::string table = to_table(result);
   EXPECT_THAT(table, HasSubstr("sample, forward: 4 variables, 4 equations, 1 inequality; dimension 0"));
   EXPECT_THAT(table, HasSubstr("INCOMPLETE"));
-  EXPECT_THAT(table, HasSubstr("2 wider than sigma"));
+  EXPECT_THAT(table, HasSubstr("1 wider than sigma"));
   EXPECT_THAT(table, HasSubstr("2 points: 1 isolated, 1 undecided"));
   EXPECT_THAT(table, HasSubstr("[3.03093"));
   EXPECT_THAT(table, HasSubstr("[0.333333333, 0.333333334]"));

@@ -119,8 +119,7 @@ TEST(Solve, ATimeLimitEndsTheCuttingOfAWideSheet) {
   options.set_sigma(2e-8);
   options.time_limit = 0.05;
   const Cover cover = solve(b.system(), options);
-  EXPECT_TRUE(cover.complete()) << "what is not cut is proven all the same";
-  EXPECT_GT(cover.wider_than_sigma, 0u);
+  EXPECT_FALSE(cover.complete());
   for (int k = -100; k <= 100; ++k) EXPECT_TRUE(covers(cover, {k / 128.0, k * k / 131072.0})) << k;
 }
 
