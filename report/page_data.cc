@@ -105,6 +105,16 @@ certify::System system_of(const symbolic::Mechanism& mechanism, const Result& re
   return system;
 }
 
+/// What each component of ξ is multiplied by to be a rate.
+Json kernel_scales(const Result& result, std::size_t columns) {
+  Json scales = Json::array();
+  for (std::size_t k = 0; k < columns; ++k)
+    scales.push_back(k < result.options.kernel_scales.size()
+                         ? certify::ExactNumber::rational(result.options.kernel_scales[k]).enclose().mid()
+                         : 1.0);
+  return scales;
+}
+
 /// The coordinates that the components of ξ belong to, where ξ is a velocity (M ξ = 0).
 Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const Result& result) {
   Json columns = Json::array();
@@ -131,6 +141,7 @@ Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& de
     names.push_back(v.name);
     domains.push_back({v.domain.lo(), v.domain.hi()});
   }
+  const Json columns = kernel_columns(mechanism, derivation, result);
   return {{"name", result.set},
           {"dimension", result.cover.dimension},
           {"sigma", result.cover.sigma.largest()},
@@ -139,7 +150,8 @@ Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& de
           {"variables", names},
           {"domains", domains},
           {"configuration", result.configuration_size},
-          {"columns", kernel_columns(mechanism, derivation, result)},
+          {"columns", columns},
+          {"scales", kernel_scales(result, columns.size())},
           {"equations", polynomials(system.equations)},
           {"points", points(result)}};
 }

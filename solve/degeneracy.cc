@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "corank/certify/rounding.h"
 #include "corank/solve/points.h"
 #include "corank/solve/preconditioner.h"
 
@@ -20,12 +21,29 @@ constexpr double kIsolatedHull = 8;                            // in box sizes: 
 constexpr std::size_t kProbes = 8;                             // of a cluster
 constexpr int kDirections = 3;
 constexpr double kProbeStep = 0.5;     // in box sizes of the first level
+constexpr double kCloseShare = 1e-4;   // of the typical sizes
 constexpr double kTolerance = 1e-6;    // of singular values, at the solutions themselves
 constexpr double kDoublesEnd = 1e-11;  // of the typical sizes
 constexpr double kMotionRankTolerance = 1e-6;
 constexpr int kMotionAttempts = 4;             // in a cluster, without success
 constexpr std::size_t kManyBoxes = 400;        // along a set: dividing them makes too many
 constexpr std::size_t kTooManyBoxes = 30'000;  // whatever they are along
+
+// Is every equation's zero, linearized, close to x? Where equations are badly scaled, small residuals say little.
+bool may_be_solution(const Problem& problem, const std::vector<double>& x) {
+  const certify::UpwardRounding rounding;
+  const certify::CompiledSystem& system = problem.compiled;
+  std::vector<double> jacobian(static_cast<std::size_t>(system.entries()));
+  system.approximate_jacobian(x.data(), jacobian.data());
+  for (int row = 0; row < system.equations(); ++row) {
+    const Interval value = system.evaluate_at(row, x.data());
+    double slope = 0;
+    for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
+      slope += std::fabs(jacobian[static_cast<std::size_t>(k)]) * system.scales()[static_cast<std::size_t>(system.column(k))];
+    if (value.mig() > kCloseShare * slope) return false;
+  }
+  return true;
+}
 
 // Is there another degenerate solution a step away from this one, in some direction in which solutions may go on?
 bool goes_on(const Problem& problem, const LocalSolution& start, double step, std::mt19937& random) {
@@ -47,7 +65,7 @@ bool goes_on(const Problem& problem, const LocalSolution& start, double step, st
       there.x[j] += step * direction[j] * system.scales()[j];
     }
     const auto next = local_solution(problem, there.x, kTolerance);
-    if (!next || next->rank >= full) continue;
+    if (!next || next->rank >= full || !may_be_solution(problem, next->x)) continue;
     double moved = 0;
     for (std::size_t j = 0; j < n; ++j) moved = std::max(moved, std::fabs(next->x[j] - exact->x[j]) / system.scales()[j]);
     if (moved > 0.2 * step && moved < 5 * step) return true;
@@ -136,7 +154,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::Sy
       // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around a few places may
       // be divided on.
       const std::size_t many = along ? kManyBoxes : kTooManyBoxes;
-      if (share < (along ? kSetShare : kOtherShare) || (open > many && 2 * open > cluster.size()))
+      if (share < (along ? kSetShare : last) || (open > many && 2 * open > cluster.size()))
         reason = Reason::degenerate_set;
     }
     for (const std::size_t i : cluster) {

@@ -218,6 +218,13 @@ void Slicer::add(Task& task, Box piece, Location location) {
 }
 
 void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found, bool whole) {
+  if (!whole && problem_.ended()) {
+    Box sides(x, x + problem_.compiled.variables());
+    problem_.append_values(sides);
+    if (recorder_) recorder_->leaf_box(found.size());
+    found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
+    return;
+  }
   Box region = sheet.region;
   problem_.append_values(region);
   Task task{sheet, x, found, other_variables(sheet.dependent, problem_.compiled.variables()),

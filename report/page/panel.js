@@ -102,7 +102,7 @@ export class Panel {
   velocity(set, x) {
     if (set.columns.length === 0) return null;
     const rates = {};
-    set.columns.forEach((coordinate, k) => (rates[this.model.coordinates[coordinate].name] = x[set.configuration + k]));
+    set.columns.forEach((coordinate, k) => (rates[this.model.coordinates[coordinate].name] = set.scales[k] * x[set.configuration + k]));
     return rates;
   }
 
