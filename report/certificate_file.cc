@@ -22,6 +22,7 @@ const std::string kGroup = "/certificates/";
 const std::string kPoints = kGroup + "exact_points/";
 const std::string kProof = kGroup + "proof/";
 const std::string kReduction = kGroup + "reduction/";
+const std::string kMotions = kGroup + "self_motions/";
 
 void append(const std::vector<Interval>& box, std::vector<double>& lower, std::vector<double>& upper) {
   for (const Interval& side : box) {
@@ -37,8 +38,9 @@ std::string to_text(const RationalPolynomial& f) {
 }
 
 void write_indices(Hdf5Writer& file, const std::string& name, const std::vector<CoverBox>& boxes) {
-  std::vector<std::int32_t> regions, points, coranks;
+  std::vector<std::int32_t> regions, points, coranks, motions;
   for (const CoverBox& box : boxes) {
+    motions.push_back(box.motion);
     regions.push_back(box.region);
     points.push_back(box.point);
     coranks.push_back(box.corank);
@@ -46,6 +48,26 @@ void write_indices(Hdf5Writer& file, const std::string& name, const std::vector<
   file.packed(kGroup + name + "_corank", coranks);
   file.packed(kGroup + name + "_region", regions);
   file.packed(kGroup + name + "_point", points);
+  file.packed(kGroup + name + "_motion", motions);
+}
+
+// The relations of all self-motions, one after the other, each with a coefficient for every variable and a constant.
+void write_motions(Hdf5Writer& file, const std::vector<certify::SelfMotionRecord>& motions, std::size_t variables) {
+  std::vector<std::int64_t> dimensions, counts;
+  std::vector<std::string> coefficients;
+  for (const certify::SelfMotionRecord& motion : motions) {
+    dimensions.push_back(motion.dimension);
+    counts.push_back(static_cast<std::int64_t>(motion.relations.size()));
+    for (const certify::Polynomial& f : motion.relations) {
+      std::vector<ExactNumber> row(variables + 1);
+      for (const certify::Monomial& m : f.monomials)
+        row[m.factors.empty() ? variables : static_cast<std::size_t>(m.factors[0].variable)] = m.coefficient;
+      for (const ExactNumber& c : row) coefficients.push_back(c.text());
+    }
+  }
+  file.integers(kMotions + "dimension", dimensions);
+  file.integers(kMotions + "relations", counts);
+  file.texts(kMotions + "coefficients", coefficients);
 }
 
 void write_points(Hdf5Writer& file, const std::vector<ExactPoint>& points, std::size_t variables) {
@@ -100,6 +122,7 @@ class Reader {
     read_reduction();
     cover_.regions = boxes(kGroup + "region", n_);
     read_points();
+    read_motions();
     read_indices("box", cover_.boxes);
     read_indices("point", cover_.points);
     read_decimals();
@@ -148,6 +171,33 @@ class Reader {
     }
   }
 
+  void read_motions() {
+    if (!file_.has(kGroup + "self_motions")) return;  // before format version 4
+    const auto dimensions = file_.integers(kMotions + "dimension"), counts = file_.integers(kMotions + "relations");
+    const auto coefficients = file_.texts(kMotions + "coefficients");
+    if (dimensions.size() != counts.size()) refuse(kMotions + "dimension and relations differ in length");
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      if (counts[k] < 0 || counts[k] > static_cast<std::int64_t>(n_) || dimensions[k] < 0 ||
+          dimensions[k] > static_cast<std::int64_t>(n_))
+        refuse(kMotions + "dimension or relations is out of range");
+      certify::SelfMotionRecord motion{static_cast<int>(dimensions[k]), {}};
+      for (std::int64_t i = 0; i < counts[k]; ++i) {
+        if (coefficients.size() - next < n_ + 1) refuse(kMotions + "coefficients is too short");
+        certify::Polynomial f{{}, "self-motion"};
+        for (std::size_t v = 0; v <= n_; ++v) {
+          const ExactNumber c = number(coefficients[next++], kMotions + "coefficients");
+          std::vector<certify::Factor> factors;
+          if (v < n_) factors.push_back({static_cast<int>(v), 1});
+          if (!c.is_zero()) f.monomials.emplace_back(c, std::move(factors));
+        }
+        motion.relations.push_back(std::move(f));
+      }
+      cover_.self_motions.push_back(std::move(motion));
+    }
+    if (next != coefficients.size()) refuse(kMotions + "coefficients is too long");
+  }
+
   void read_indices(const std::string& name, std::vector<CoverBox>& list) const {
     const auto regions = vector<std::int32_t>(kGroup + name + "_region"),
                points = vector<std::int32_t>(kGroup + name + "_point"),
@@ -164,6 +214,13 @@ class Reader {
       list[i].region = regions[i];
       list[i].point = points[i];
       list[i].corank = coranks[i];
+    }
+    if (!file_.has(kGroup + name + "_motion")) return;  // before format version 4
+    const auto motions = vector<std::int32_t>(kGroup + name + "_motion");
+    if (motions.size() != list.size()) refuse(kGroup + name + "_motion has another length than the list of boxes");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (!fits(motions[i], cover_.self_motions.size())) refuse(kGroup + name + "_motion is out of range");
+      list[i].motion = motions[i];
     }
   }
 
@@ -292,6 +349,7 @@ void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variab
   }
   file.texts(kGroup + "decimals", decimals);
   write_points(file, cover.exact_points, variables);
+  write_motions(file, cover.self_motions, variables);
   if (cover.proof) write_proof(file, *cover.proof);
 }
 

@@ -141,7 +141,8 @@ class ParamParser {
     if (token_.kind != Token::Kind::name) found("a parameter, NAME = value");
     const Token name = token_;
     const auto& all = cuik_parameters();
-    const auto known = std::find_if(all.begin(), all.end(), [&](const CuikParameter& p) { return p.name == upper(name.text); });
+    const auto known =
+        std::find_if(all.begin(), all.end(), [&](const CuikParameter& p) { return p.name == upper(name.text); });
     if (known == all.end()) {
       fail(name.line, "the parameter '" + name.text + "' is unknown",
            "a parameter of the CUIK suite; did you mean " + nearest(name.text) + "?");

@@ -247,6 +247,44 @@ std::string in_words(certify::Reason reason) {
   return "reason unknown";
 }
 
+// "c_t3 = c_t2": the relation solved for the first variable that has the coefficient 1 or −1, or the first.
+std::string relation_text(const Result& result, const certify::Polynomial& f) {
+  using certify::ExactNumber;
+  std::size_t own = 0;
+  const auto is_unit = [](const certify::Monomial& m) { return !m.factors.empty() && m.coefficient.text() == "1"; };
+  for (std::size_t k = f.monomials.size(); k-- > 0;)
+    if (is_unit(f.monomials[k])) own = k;
+  const auto name = [&](const certify::Monomial& m) {
+    return result.variables[static_cast<std::size_t>(m.factors[0].variable)].name;
+  };
+  std::string text;
+  for (std::size_t k = 0; k < f.monomials.size(); ++k) {
+    const certify::Monomial& m = f.monomials[k];
+    if (k == own) continue;
+    ExactNumber c = -(m.coefficient / f.monomials[own].coefficient);
+    const bool negative = c.sign() == -1;
+    if (negative) c = -c;
+    const std::string factor = m.factors.empty() ? c.text() : (c.text() == "1" ? "" : c.text() + "*") + name(m);
+    text += text.empty() ? (negative ? "-" : "") + factor : (negative ? " - " : " + ") + factor;
+  }
+  return name(f.monomials[own]) + " = " + (text.empty() ? "0" : text);
+}
+
+std::string motions_text(const Result& result) {
+  std::string text;
+  const certify::Cover& cover = result.cover;
+  for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
+    const auto on_it = [k](const CoverBox& box) { return box.motion == static_cast<int>(k); };
+    std::string relations;
+    for (const certify::Polynomial& f : cover.self_motions[k].relations)
+      relations += (relations.empty() ? "" : ", ") + relation_text(result, f);
+    text += fmt::format(
+        "a set of dimension {}, larger than expected (a self-motion), in {}: {}\n", cover.self_motions[k].dimension,
+        plural(static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), on_it)), "box"), relations);
+  }
+  return text;
+}
+
 std::string reasons_text(const certify::Cover& cover) {
   std::string text;
   for (const auto& [reason, n] : undecided_reasons(cover)) text += fmt::format("  undecided, {}: {}\n", n, in_words(reason));
@@ -280,6 +318,7 @@ std::string to_table(const Result& result) {
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
   text += reasons_text(cover);
+  text += motions_text(result);
   if (!result.domain.boundary.empty()) text += boundary_text(result.domain);
   if (const std::size_t wide = cover.wider_than_sigma; wide > 0) {
     text += fmt::format("  {} wider than sigma: {} keeps proven boxes{} from narrowing\n", wide,
@@ -369,6 +408,15 @@ std::string to_json(const Result& result) {
     json["boxes"][to_string(verdict)] = counts[static_cast<std::size_t>(verdict)];
   json["undecided_reasons"] = Json::object();
   for (const auto& [reason, n] : undecided_reasons(cover)) json["undecided_reasons"][to_string(reason)] = n;
+  json["self_motions"] = Json::array();
+  for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
+    Json relations = Json::array();
+    for (const certify::Polynomial& f : cover.self_motions[k].relations) relations.push_back(relation_text(result, f));
+    const auto on_it = [k](const CoverBox& box) { return box.motion == static_cast<int>(k); };
+    json["self_motions"].push_back({{"dimension", cover.self_motions[k].dimension},
+                                    {"boxes", std::count_if(cover.boxes.begin(), cover.boxes.end(), on_it)},
+                                    {"relations", relations}});
+  }
   json["boundary_reasons"] = Json::array();
   for (const DomainNotes::Reason& reason : result.domain.boundary)
     json["boundary_reasons"].push_back({{"reason", reason.text}, {"boxes", reason.boxes}});

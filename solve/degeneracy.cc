@@ -39,7 +39,8 @@ bool may_be_solution(const Problem& problem, const std::vector<double>& x) {
     const Interval value = system.evaluate_at(row, x.data());
     double slope = 0;
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
-      slope += std::fabs(jacobian[static_cast<std::size_t>(k)]) * system.scales()[static_cast<std::size_t>(system.column(k))];
+      slope +=
+          std::fabs(jacobian[static_cast<std::size_t>(k)]) * system.scales()[static_cast<std::size_t>(system.column(k))];
     if (value.mig() > kCloseShare * slope) return false;
   }
   return true;
@@ -154,8 +155,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::Sy
       // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around a few places may
       // be divided on.
       const std::size_t many = along ? kManyBoxes : kTooManyBoxes;
-      if (share < (along ? kSetShare : last) || (open > many && 2 * open > cluster.size()))
-        reason = Reason::degenerate_set;
+      if (share < (along ? kSetShare : last) || (open > many && 2 * open > cluster.size())) reason = Reason::degenerate_set;
     }
     for (const std::size_t i : cluster) {
       if (!boxes[i].proof.proven) prove_on_known(problem, boxes[i]);

@@ -227,8 +227,12 @@ void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& fo
   }
   Box region = sheet.region;
   problem_.append_values(region);
-  Task task{sheet, x, found, other_variables(sheet.dependent, problem_.compiled.variables()),
-            std::make_shared<const Box>(std::move(region)), whole};
+  Task task{sheet,
+            x,
+            found,
+            other_variables(sheet.dependent, problem_.compiled.variables()),
+            std::make_shared<const Box>(std::move(region)),
+            whole};
   const Preconditioner p = preconditioners_.at_midpoint(sheet.image.data(), &sheet.dependent, &sheet.equations);
   descend(task, {sheet.image}, p);
 }
@@ -238,6 +242,11 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   Box& sides = piece.sides;
   task.ended = task.ended || (!task.whole && task.turns++ % kPiecesBetweenChecks == 0 && problem_.ended());
   if (task.ended) {
+    for (std::size_t j = 0; j < static_cast<std::size_t>(problem_.compiled.variables()); ++j)
+      if (!sides[j].intersect(task.x[j])) {  // another box's business
+        if (recorder_) recorder_->leaf_elsewhere();
+        return;
+      }
     problem_.append_values(sides);
     if (recorder_) recorder_->leaf_box(task.found.size());
     task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});

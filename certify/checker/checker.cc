@@ -16,6 +16,7 @@
 #include "corank/certify/checker/isolation.h"
 #include "corank/certify/checker/kernel.h"
 #include "corank/certify/checker/replay.h"
+#include "corank/certify/checker/self_motion.h"
 #include "corank/certify/checker/sheets.h"
 
 namespace corank::certify::checker {
@@ -76,6 +77,12 @@ class Checker {
     }
     check_shapes();
     if (!problem_ || !report_.failures.empty()) return;  // nothing below has a meaning
+    try {
+      for (const SelfMotionRecord& record : cover_.self_motions)
+        motions_.push_back(std::make_unique<const MotionCheck>(*problem_, record));
+    } catch (const std::domain_error& error) {  // numbers of too many bits
+      return fail(Place::cover, 0, std::string("a self-motion: ") + error.what());
+    }
     check_order();
     enter("the exact points");
     check_exact_points();
@@ -104,8 +111,8 @@ class Checker {
     if (!(cover_.sigma.length > 0 && cover_.sigma.angle > 0)) fail(Place::cover, 0, "sigma is no positive number");
     const auto valid = [&](const CoverBox& b) {
       return b.box.size() == n && bounded(b.box) && b.region >= -1 && b.region < static_cast<int>(cover_.regions.size()) &&
-             b.point >= -1 && b.point < static_cast<int>(cover_.exact_points.size()) && b.corank >= -1 &&
-             b.corank <= static_cast<int>(n);
+             b.point >= -1 && b.point < static_cast<int>(cover_.exact_points.size()) && b.motion >= -1 &&
+             b.motion < static_cast<int>(cover_.self_motions.size()) && b.corank >= -1 && b.corank <= static_cast<int>(n);
     };
     const std::string fault =
         "it has not one bounded side for each variable, or names a region or a point that does not exist";
@@ -176,6 +183,13 @@ class Checker {
     return reason;
   }
 
+  // A piece of a self-motion: one zero of its relations and what they leave, and no other of the equations themselves.
+  std::string check_on_motion(const MotionCheck& motion, const CoverBox& box, const Box& region) const {
+    if (!motion.fault().empty()) return "its self-motion is none: " + motion.fault();
+    std::string reason = check_sheet(*problem_, motion.rows(), box, region);
+    return reason.empty() ? motion.unique(box, region) : reason;
+  }
+
   std::string check_verdict(const CoverBox& box, bool& checkable) const {
     checkable = true;
     switch (box.verdict) {
@@ -188,7 +202,9 @@ class Checker {
           return {};
         }
         if (box.region < 0) return "the file has no region for it";
-        std::string reason = check_sheet(*problem_, box, cover_.regions[static_cast<std::size_t>(box.region)]);
+        const Box& region = cover_.regions[static_cast<std::size_t>(box.region)];
+        std::string reason = box.motion < 0 ? check_sheet(*problem_, problem_->equations(), box, region)
+                                            : check_on_motion(*motions_[static_cast<std::size_t>(box.motion)], box, region);
         // A solution, or a configuration in the box whose kernel is larger.
         if (reason.empty() && box.point >= 0) reason = check_point_in(box, box.verdict != Verdict::isolated);
         return reason;
@@ -373,6 +389,7 @@ class Checker {
   tbb::task_arena arena_;
   std::unique_ptr<const KernelCheck> kernel_;
   std::optional<Problem> problem_;
+  std::vector<std::unique_ptr<const MotionCheck>> motions_;
   std::vector<std::unique_ptr<ExactCheck>> exact_;
   std::vector<std::string> exact_reasons_;
   std::mutex mutex_;

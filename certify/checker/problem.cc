@@ -39,7 +39,7 @@ Problem::Problem(const System& system, const std::vector<ReductionStep>& reducti
   for (const Polynomial& f : system.equations)
     sources.emplace_back(f, system.equations.size() <= system.variables.size() ? system.coefficient_tolerance : 0);
   for (const Terms& f : reduced.equations) {
-    equations_.emplace_back(f, place_);
+    equations_.emplace_back(f, place_), terms_.push_back(f);
     sources.push_back(f);
   }
   implied_ = Implied(system, sources);

@@ -26,7 +26,9 @@ class Problem {
   int size() const { return static_cast<int>(kept_.size()); }
   const std::vector<int>& kept() const { return kept_; }
   int place(int variable) const { return place_[static_cast<std::size_t>(variable)]; }  ///< among the kept, −1: eliminated
+  const std::vector<int>& places() const { return place_; }
   const std::vector<Row>& equations() const { return equations_; }
+  const std::vector<Terms>& terms() const { return terms_; }  ///< of the equations, by the variables' own indices
   bool contradiction() const { return contradiction_; }
   /// Eliminated variables' values.
   struct Value {
@@ -49,6 +51,7 @@ class Problem {
   Implied implied_;  // by the equations before and after the reduction
   std::vector<int> kept_, place_;
   std::vector<Row> equations_;
+  std::vector<Terms> terms_;
   std::vector<Value> values_;
   std::vector<Condition> conditions_;
   std::vector<unsigned char> implied_lower_, implied_upper_;  // of the kept

@@ -15,8 +15,8 @@ constexpr int kTightenings = 2, kPointTightenings = 30;
 
 class SheetCheck {
  public:
-  SheetCheck(const Problem& problem, const CoverBox& box, const Box& region)
-      : problem_(problem), box_(box), region_(region), newton_(problem.equations(), problem.size()) {}
+  SheetCheck(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region)
+      : problem_(problem), equations_(equations), box_(box), region_(region), newton_(equations, problem.size()) {}
 
   std::string run() {
     if (std::string fault = check_shape(); !fault.empty()) return fault;
@@ -41,7 +41,7 @@ class SheetCheck {
     }
     for (std::size_t k = 0; k < problem_.kept().size(); ++k)
       if (!is_free_[static_cast<std::size_t>(problem_.kept()[k])]) dependent_.push_back(static_cast<int>(k));
-    if (dependent_.size() != problem_.equations().size())
+    if (dependent_.size() != equations_.size())
       return "the equations that remain are not as many as the dependent variables";
     if ((box_.verdict == Verdict::isolated && !box_.free.empty()) || (box_.verdict == Verdict::regular && box_.free.empty()))
       return "its free variables contradict its verdict";
@@ -82,7 +82,7 @@ class SheetCheck {
       }
       if (step == steps) {
         // A bound that a solution touches: where one equation alone gives it exactly, no combination may.
-        for (const Row& f : problem_.equations())
+        for (const Row& f : equations_)
           if (!f.project(x, true)) return fail("a part of it has no solution");
         if (settled(x)) return true;
         break;
@@ -258,6 +258,7 @@ class SheetCheck {
   }
 
   const Problem& problem_;
+  const std::vector<Row>& equations_;
   const CoverBox& box_;
   const Box& region_;
   Krawczyk newton_;
@@ -272,8 +273,8 @@ class SheetCheck {
 
 }  // namespace
 
-std::string check_sheet(const Problem& problem, const CoverBox& box, const Box& region) {
-  return SheetCheck(problem, box, region).run();
+std::string check_sheet(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region) {
+  return SheetCheck(problem, equations, box, region).run();
 }
 
 }  // namespace corank::certify::checker

@@ -13,6 +13,7 @@ namespace corank::certify::checker {
 ///   parts of the box's free sides where need be), and it lies in the box, which lies in the region;
 ///   regular, isolated: it lies in the exact domain and satisfies the inequalities.
 /// Returns what could not be shown, nothing where all was.
-std::string check_sheet(const Problem& problem, const CoverBox& box, const Box& region);
+/// The equations are those given: the problem's, or others that imply them (certify/checker/self_motion.h).
+std::string check_sheet(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region);
 
 }  // namespace corank::certify::checker

@@ -148,8 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         // pending between them.
         Hard{"shell3.cuik", {"--sigma", "0.002"}, 0, "1 point: 1 isolated", ""},
         // 3,000 variables.
-        Hard{"manyvars.cuik", {}, 0, "1 point: 1 isolated", ""},
-        Hard{"huge_exp.cuik", {}, 0, "complete", ""}),
+        Hard{"manyvars.cuik", {}, 0, "1 point: 1 isolated", ""}, Hard{"huge_exp.cuik", {}, 0, "complete", ""}),
     [](const auto& hard) { return std::filesystem::path(hard.param.file).stem().string(); });
 
 TEST(HardFilesInTime, EndAtATimeLimitInWhateverStageTheyAre) {

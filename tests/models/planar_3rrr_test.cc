@@ -277,8 +277,7 @@ TEST(Planar3Rrr, WithAFixedOrientationHasItsInverseSingularitiesWhereALegIsStret
 
 TEST(Planar3Rrr, WithAFixedOrientationGivesTheSameBoxesFromItsAlgebrizedFile) {
   const auto system = forward("3rrr_fixed_orientation");
-  auto again =
-      symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(symbolic::to_cuik(system), "derived.cuik")));
+  auto again = symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(symbolic::to_cuik(system), "derived.cuik")));
   // Of a plain system sigma concerns every variable.
   for (std::size_t v = 0; v < system.variables.size(); ++v) again.variables[v].kind = system.variables[v].kind;
   const Cover direct = solve_at(system, 0.2), derived = solve_at(again, 0.2);
