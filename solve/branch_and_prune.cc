@@ -555,7 +555,9 @@ Cover solve(const certify::System& system, const Options& given) {
       cover.regions = number_regions(reduction, found);
     }
     for (const Found* f : found) cover.wider_than_sigma += f->region != nullptr && search.problem().excess(f->box.box) > 1;
-    if (options.proof && reduction.consistent && !reduction.tolerant && !some_partial) cover.proof = search.proof(found);
+    // A replay would have to find the self-motions again.
+    const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial && search.motions().none();
+    if (options.proof && replayable) cover.proof = search.proof(found);
     cover.self_motions = search.motions().records(reduction);
     for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
     cover.boxes = lifted(system, reduction, found);

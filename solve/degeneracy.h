@@ -19,6 +19,7 @@ class SelfMotions {
   /// larger set of degenerate solutions their number grows without end: what is not proven there stays as it is.
   std::vector<certify::Reason> prove(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
                                      double share);
+  bool none() const { return known_.empty(); }
   /// In all variables.
   std::vector<certify::SelfMotionRecord> records(const certify::Reduction& reduction) const;
 

@@ -40,7 +40,7 @@ struct Options {
   double time_limit = 0;  ///< seconds; 0: no limit
   std::uint64_t memory_limit =
       0;  ///< stop when the boxes found, and what is to be made of them, take more bytes; 0: no limit
-  /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a tolerance have none.
+  /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a tolerance, and covers with self-motions, have none.
   bool proof = false;
   /// Where given: search these boxes, in all variables, instead of the whole domain; the cover is of their solutions.
   std::vector<certify::Box> roots;

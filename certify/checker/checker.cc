@@ -293,6 +293,8 @@ class Checker {
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i) {
       const CoverBox& box = cover_.boxes[i];
       if (box.verdict == Verdict::pending) continue;
+      // Pieces of self-motions are no points, and what lies along a set claims nothing.
+      if (box.motion >= 0 || (box.verdict == Verdict::undecided && box.reason == Reason::degenerate_set)) continue;
       stop_.poll();
       bool found = false;
       for (std::size_t turn = 0; turn < cover_.points.size() && !found; ++turn) {

@@ -1,0 +1,99 @@
+// Sets of larger dimension than the count of equations says: the rhombus four-bar, whose coupler turns freely where its crank is folded.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "corank/certify/checker/checker.h"
+#include "corank/solve/exactness.h"
+#include "corank/solve/solve.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/kernel_scale.h"
+#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/singularity_system.h"
+
+namespace corank {
+namespace {
+
+using certify::Cover;
+using certify::CoverBox;
+using certify::Verdict;
+using symbolic::SingularitySet;
+
+// All four bars of one length, in the given unit: r cos t1 + r cos t2 = r + r cos t3, r sin t1 + r sin t2 = r sin t3.
+certify::System rhombus(SingularitySet set, const std::string& length) {
+  const auto model =
+      symbolic::parse_model("[CONSTANTS]\nr := " + length +
+                                "\n[SYSTEM VARS]\nt1 ~ [-pi, pi]\nt2 ~ [-pi, pi]\nt3 ~ [-pi, pi]\n[SYSTEM EQS]\n"
+                                "r*cos(t1) + r*cos(t2) = r + r*cos(t3);\nr*sin(t1) + r*sin(t2) = r*sin(t3);\n"
+                                "[INPUTS] t1\n[OUTPUTS] t3\n",
+                            "rhombus.cuik");
+  return symbolic::algebrize(symbolic::singularity_system(model, set));
+}
+
+Cover solved(const certify::System& system) {
+  Cover cover = solve::solve(system);
+  solve::prove_exactly(system, {}, cover);
+  return cover;
+}
+
+bool holds(const CoverBox& box, const std::vector<double>& q) {
+  for (std::size_t j = 0; j < q.size(); ++j)
+    if (q[j] < box.box[j].lo() - 1e-12 || q[j] > box.box[j].hi() + 1e-12) return false;
+  return true;
+}
+
+// Closed form: with t1 = 0 locked, t3 = t2 and t2 is any angle; else t1 = ±pi, t2 = 0, t3 = ±pi.
+TEST(SelfMotion, OfTheRhombusIsProvenWithItsDimensionAndItsRelations) {
+  for (const char* length : {"1", "1000", "1/1000"}) {
+    const certify::System system = rhombus(SingularitySet::forward, length);
+    const Cover cover = solved(system);
+    EXPECT_TRUE(cover.complete());
+    EXPECT_EQ(cover.dimension, 0);
+    EXPECT_EQ(cover.count(Verdict::undecided), 0u) << length;
+    EXPECT_EQ(cover.count(Verdict::exact), 1u);
+    ASSERT_EQ(cover.points.size(), 1u) << "a curve is no point";
+    ASSERT_EQ(cover.self_motions.size(), 1u);
+    EXPECT_EQ(cover.self_motions[0].dimension, 1);
+    EXPECT_EQ(cover.self_motions[0].relations.size(), 5u);
+    std::size_t on_it = 0;
+    for (const CoverBox& box : cover.boxes) {
+      if (box.motion < 0) continue;
+      ++on_it;
+      EXPECT_EQ(box.verdict, Verdict::regular);
+      EXPECT_EQ(box.free.size(), 1u);
+    }
+    EXPECT_EQ(on_it + 1, cover.boxes.size());
+    for (int k = 0; k < 500; ++k) {
+      const double t = -3.14 + 6.28 * k / 500;
+      const std::vector<double> q{1, 0, std::cos(t), std::sin(t), std::cos(t), std::sin(t)};
+      EXPECT_TRUE(std::any_of(cover.boxes.begin(), cover.boxes.end(), [&](const CoverBox& b) { return holds(b, q); })) << t;
+    }
+    const auto report = certify::checker::check(system, cover);
+    EXPECT_TRUE(report.consistent()) << (report.failures.empty() ? "" : report.failures[0].reason);
+    EXPECT_EQ(report.boxes[static_cast<int>(Verdict::regular)].verified, on_it);
+  }
+}
+
+TEST(SelfMotion, IsNotVerifiedWithARelationThatDoesNotHold) {
+  const certify::System system = rhombus(SingularitySet::inverse, "1");
+  const Cover good = solved(system);
+  ASSERT_EQ(good.self_motions.size(), 1u);
+  EXPECT_TRUE(certify::checker::check(system, good).consistent());
+  for (std::size_t k = 0; k < good.self_motions[0].relations.size(); ++k) {
+    Cover changed = good;
+    certify::Polynomial& f = changed.self_motions[0].relations[k];
+    f.monomials[0].coefficient = f.monomials[0].coefficient * certify::ExactNumber(2);
+    if (f.monomials.size() == 1) f.monomials.emplace_back(certify::ExactNumber(1), std::vector<certify::Factor>{});
+    EXPECT_FALSE(certify::checker::check(system, changed).consistent()) << k;
+    changed = good;
+    changed.self_motions[0].relations.erase(changed.self_motions[0].relations.begin() + static_cast<std::ptrdiff_t>(k));
+    EXPECT_FALSE(certify::checker::check(system, changed).consistent()) << k;
+  }
+  Cover larger = good;
+  larger.self_motions[0].dimension = 2;
+  EXPECT_FALSE(certify::checker::check(system, larger).consistent());
+}
+
+}  // namespace
+}  // namespace corank

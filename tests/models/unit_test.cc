@@ -1,0 +1,79 @@
+// The answer does not depend on the unit of length, on generous ranges, or on sigma.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "corank/solve/solve.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/kernel_scale.h"
+#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/singularity_system.h"
+
+namespace corank {
+namespace {
+
+using certify::Cover;
+using certify::Verdict;
+using symbolic::SingularitySet;
+
+// A planar 3-RPR platform with its first leg's length as input, the others fixed: x, y of its first corner, in `unit` per metre; the
+// declared ranges are `generous` times as wide as needed. Our own lengths.
+certify::System platform(const std::string& unit, int generous, SingularitySet set) {
+  const std::string n = std::to_string(generous);
+  const auto model = symbolic::parse_model(
+      "[CONSTANTS]\nu := " + unit + "\na := 9/10*u\nb := 2/5*u\nh := 7/10*u\nr2 := 4/5*u\n[SYSTEM VARS]\n" + "x : [-" + n +
+          "*2*u, " + n + "*2*u]\ny : [-" + n + "*2*u, " + n + "*2*u]\nphi ~ [-pi, pi]\n" + "r1 : [1/10*u, " + n +
+          "*3/2*u]\nr3 : [1/10*u, " + n + "*3/2*u]\n[SYSTEM EQS]\nx^2 + y^2 = r1^2;\n" +
+          "(x + b*cos(phi) - a)^2 + (y + b*sin(phi))^2 = r2^2;\n" +
+          "(x + b*cos(phi + pi/3) - a/2)^2 + (y + b*sin(phi + pi/3) - h)^2 = r3^2;\n[INPUTS] r1, r3\n[OUTPUTS] x, y\n",
+      "platform.cuik");
+  return symbolic::algebrize(symbolic::singularity_system(model, set, std::nullopt, symbolic::kernel_scales(model, set)));
+}
+
+TEST(Unit, OfLengthChangesNeitherBoxesNorVerdicts) {
+  for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse}) {
+    const Cover metres = solve::solve(platform("1", 1, set));
+    EXPECT_TRUE(metres.complete());
+    EXPECT_EQ(metres.count(Verdict::undecided), 0u);
+    for (const char* unit : {"1/1000000", "1/1000", "1000", "1000000", "39.37"}) {
+      const Cover cover = solve::solve(platform(unit, 1, set));
+      const double count = static_cast<double>(metres.boxes.size());
+      EXPECT_TRUE(cover.complete());
+      EXPECT_EQ(cover.count(Verdict::undecided), 0u) << unit;
+      EXPECT_NEAR(static_cast<double>(cover.boxes.size()), count, 0.02 * count + 2) << unit;
+      EXPECT_NEAR(static_cast<double>(cover.statistics.processed), static_cast<double>(metres.statistics.processed),
+                  0.05 * static_cast<double>(metres.statistics.processed) + 8)
+          << unit;
+    }
+  }
+}
+
+TEST(Sigma, DoesNotSteerTheSearch) {
+  const certify::System system = platform("1000", 1, SingularitySet::forward);
+  std::uint64_t processed = 0;
+  for (const double sigma : {1000.0, 100.0, 10.0, 1.0}) {
+    solve::Options options;
+    options.sigma_length = sigma;
+    options.sigma_angle = sigma / 1000;
+    const Cover cover = solve::solve(system, options);
+    EXPECT_TRUE(cover.complete());
+    EXPECT_EQ(cover.count(Verdict::undecided), 0u) << sigma;
+    if (processed == 0) processed = cover.statistics.processed;
+    EXPECT_EQ(cover.statistics.processed, processed) << "the same tree";
+  }
+}
+
+TEST(KernelScales, AreThoseOfTheRangesThatTheConstraintsLeave) {
+  const auto scales = [](const char* range) {
+    const auto model = symbolic::parse_model(
+        std::string("[SYSTEM VARS]\nx : ") + range + "\ny : " + range +
+            "\nt ~ [-pi, pi]\n[SYSTEM EQS]\nx = 100*cos(t);\ny = 100*sin(t);\n[INPUTS] t\n[OUTPUTS] x\n",
+        "circle.cuik");
+    return symbolic::kernel_scales(model, SingularitySet::inverse);
+  };
+  EXPECT_EQ(scales("[-100, 100]"), scales("[-100000, 100000]"));
+  EXPECT_EQ(scales("[-100, 100]"), (std::vector<std::string>{"400", "1"}));
+}
+
+}  // namespace
+}  // namespace corank
