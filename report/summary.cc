@@ -164,7 +164,12 @@ std::string kernel_text(const Result& result) {
     between = ",";
   }
   text += "\n";
-  if (explained > 0) text += fmt::format("  {} of these {} hold a point where it is proven:\n", explained, larger);
+  const auto points = std::count_if(result.cover.exact_points.begin(), result.cover.exact_points.end(),
+                                    [](const certify::ExactPoint& p) { return p.corank > 1; });
+  if (explained > 0)
+    text +=
+        fmt::format("  {} of these hold {} where it is proven:\n", explained == larger ? "all" : std::to_string(explained),
+                    points == 1 ? "the point" : fmt::format("one of {} points", points));
   int number = 0;
   for (const certify::ExactPoint& point : result.cover.exact_points) {
     if (point.corank < 2) continue;

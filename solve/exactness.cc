@@ -330,6 +330,7 @@ class Prover {
       if (cover_.proof && !around.proof) return;
       CoverBox middle{std::move(core), Verdict::undecided, {}};
       middle.point = index;
+      middle.reason = certify::Reason::degenerate_point;
       edit_.replace(cluster, partition, std::move(around), std::move(middle));
       return;
     }
