@@ -219,6 +219,10 @@ void Slicer::add(Task& task, Box piece, Location location) {
 
 void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found, bool whole) {
   if (!whole && problem_.ended()) {
+    if (problem_.domain.locate(problem_.compiled, x) == Location::outside) {
+      if (recorder_) recorder_->leaf_elsewhere();
+      return;
+    }
     Box sides(x, x + problem_.compiled.variables());
     problem_.append_values(sides);
     if (recorder_) recorder_->leaf_box(found.size());
@@ -242,11 +246,13 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   Box& sides = piece.sides;
   task.ended = task.ended || (!task.whole && task.turns++ % kPiecesBetweenChecks == 0 && problem_.ended());
   if (task.ended) {
+    bool here = problem_.domain.locate(problem_.compiled, sides.data()) != Location::outside;
     for (std::size_t j = 0; j < static_cast<std::size_t>(problem_.compiled.variables()); ++j)
-      if (!sides[j].intersect(task.x[j])) {  // another box's business
-        if (recorder_) recorder_->leaf_elsewhere();
-        return;
-      }
+      here = here && sides[j].intersect(task.x[j]);
+    if (!here) {  // outside the domain, or another box's business
+      if (recorder_) recorder_->leaf_elsewhere();
+      return;
+    }
     problem_.append_values(sides);
     if (recorder_) recorder_->leaf_box(task.found.size());
     task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
