@@ -140,6 +140,14 @@ void BoxProcessor::add_unproven(const Interval* x, Verdict verdict) {
   found_.push_back(std::move(found));
 }
 
+void BoxProcessor::leave(const Interval* x) {
+  if (problem_.domain.locate(problem_.compiled, x) != certify::Location::outside) {
+    add_unproven(x, Verdict::pending);
+  } else if (recorder_) {
+    recorder_->leaf_empty();
+  }
+}
+
 int BoxProcessor::widest_free(const Interval* x) {
   const std::vector<double>& scales = problem_.compiled.scales();
   int widest = -1;

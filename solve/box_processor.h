@@ -52,7 +52,7 @@ class BoxProcessor {
   /// Cuts a sheet into found() pieces, or leaves it whole.
   void cut(const Proven& proven, bool whole);
   /// Adds x, unprocessed, to found().
-  void leave(const certify::Interval* x) { add_unproven(x, certify::Verdict::pending); }
+  void leave(const certify::Interval* x);
   /// Adds x, which nothing could be proven of, to found().
   void give_up(const certify::Interval* x, certify::Reason reason) {
     add_unproven(x, certify::Verdict::undecided);

@@ -217,16 +217,19 @@ void Slicer::add(Task& task, Box piece, Location location) {
   task.found.push_back(std::move(found));
 }
 
+void Slicer::leave(std::vector<Found>& found, Box sides) {
+  if (problem_.domain.locate(problem_.compiled, sides.data()) == Location::outside) {
+    if (recorder_) recorder_->leaf_elsewhere();
+    return;
+  }
+  problem_.append_values(sides);
+  if (recorder_) recorder_->leaf_box(found.size());
+  found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
+}
+
 void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found, bool whole) {
   if (!whole && problem_.ended()) {
-    if (problem_.domain.locate(problem_.compiled, x) == Location::outside) {
-      if (recorder_) recorder_->leaf_elsewhere();
-      return;
-    }
-    Box sides(x, x + problem_.compiled.variables());
-    problem_.append_values(sides);
-    if (recorder_) recorder_->leaf_box(found.size());
-    found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
+    leave(found, Box(x, x + problem_.compiled.variables()));
     return;
   }
   Box region = sheet.region;
@@ -246,16 +249,14 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   Box& sides = piece.sides;
   task.ended = task.ended || (!task.whole && task.turns++ % kPiecesBetweenChecks == 0 && problem_.ended());
   if (task.ended) {
-    bool here = problem_.domain.locate(problem_.compiled, sides.data()) != Location::outside;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(problem_.compiled.variables()); ++j)
-      here = here && sides[j].intersect(task.x[j]);
-    if (!here) {  // outside the domain, or another box's business
-      if (recorder_) recorder_->leaf_elsewhere();
-      return;
+    bool here = true;
+    sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
+    for (std::size_t j = 0; j < sides.size(); ++j) here = here && sides[j].intersect(task.x[j]);
+    if (here) {
+      leave(task.found, std::move(sides));
+    } else if (recorder_) {
+      recorder_->leaf_elsewhere();  // another box's business
     }
-    problem_.append_values(sides);
-    if (recorder_) recorder_->leaf_box(task.found.size());
-    task.found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
     return;
   }
   Preconditioner own;
@@ -275,6 +276,10 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     // Small enough but for overestimation: look closer.
     if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
       certify::shrink_to_faces(problem_.compiled, task.sheet, p, problem_.sigma, sides, workspace_);
+      if (problem_.domain.locate(problem_.compiled, sides.data()) == Location::outside) {
+        if (recorder_) recorder_->leaf_elsewhere();
+        return;
+      }
       stepped = false;
       width = problem_.excess(sides);
     }

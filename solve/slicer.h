@@ -90,6 +90,8 @@ class Slicer {
   // Widens the sides that are not free a little, where σ allows: who verifies the box has to come that close only.
   void leave_room(const Task& task, certify::Box& piece) const;
   void add(Task& task, certify::Box piece, certify::Location location);
+  // What a limit leaves, unless it is outside the domain.
+  void leave(std::vector<Found>& found, certify::Box sides);
 
   const Problem& problem_;
   PreconditionerFactory& preconditioners_;
