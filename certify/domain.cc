@@ -28,10 +28,15 @@ DomainTest::DomainTest(const System& system) {
 }
 
 template <class Value>
-Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x, double tolerance, Value value) const {
+Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x, double tolerance,
+                            const std::vector<int>* dependent, Value value) const {
   Location location = Location::inside;
+  const auto is_free = [&](std::size_t j) {
+    return dependent && std::find(dependent->begin(), dependent->end(), static_cast<int>(j)) == dependent->end();
+  };
   for (std::size_t j = 0; j < domain_.size(); ++j) {
     if (!domain_[j].overlaps(x[j])) return Location::outside;
+    if (domain_[j].contains(x[j]) && is_free(j)) continue;
     const double slack = tolerance > 0 ? tolerance * std::max(1.0, domain_[j].mag()) : 0;
     if (!(lower_[j] - slack <= x[j].lo() && x[j].hi() <= upper_[j] + slack)) location = Location::across;
   }
@@ -45,12 +50,12 @@ Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x, d
 }
 
 Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x, double tolerance) const {
-  return locate(compiled, x, tolerance, [](int, const Interval& g) { return g; });
+  return locate(compiled, x, tolerance, nullptr, [](int, const Interval& g) { return g; });
 }
 
 Location DomainTest::locate_zeros(const CompiledSystem& compiled, const Preconditioner& p, const Interval* x,
                                   NewtonWorkspace& w, double tolerance) const {
-  return locate(compiled, x, tolerance, [&](int row, Interval g) {
+  return locate(compiled, x, tolerance, &p.dependent, [&](int row, Interval g) {
     // Both enclose the row's values at the zeros; disjoint, they say that there is none.
     if (!g.intersect(value_at_zeros(compiled, p, row, x, w))) return Interval(-1.0);
     return g;

@@ -26,14 +26,16 @@ class DomainTest {
   /// With a tolerance > 0 (verdict `partial`) a piece counts as inside where it leaves the domain by no more than
   /// tolerance · max(1, |domain|), and an inequality by no more than the tolerance.
   Location locate(const CompiledSystem& compiled, const Interval* x, double tolerance = 0) const;
-  /// The same of the zeros of p's rows in x, after newton_contract(compiled, p, y, w) with x ⊂ Y: an inequality that the box does not
-  /// decide may be decided there (value_at_zeros).
+  /// The same of the zeros of p's rows in x whose free values are in the domain, after newton_contract(compiled, p, y, w) with x ⊂ Y: an
+  /// inequality that the box does not decide may be decided there (value_at_zeros). So a free side may reach as far beyond an end as that
+  /// end is rounded to become a double: the values there are not in the domain.
   Location locate_zeros(const CompiledSystem& compiled, const Preconditioner& p, const Interval* x, NewtonWorkspace& w,
                         double tolerance = 0) const;
 
  private:
   template <class Value>
-  Location locate(const CompiledSystem& compiled, const Interval* x, double tolerance, Value value) const;
+  Location locate(const CompiledSystem& compiled, const Interval* x, double tolerance, const std::vector<int>* dependent,
+                  Value value) const;
 
   std::vector<Interval> domain_;       // encloses the exact domain
   std::vector<double> lower_, upper_;  // inside the exact domain; infinite where that side is implied

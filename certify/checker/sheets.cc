@@ -202,7 +202,7 @@ class SheetCheck {
     }
     if (box_.verdict == Verdict::boundary) return true;
     for (const Condition& condition : problem_.conditions()) {
-      if (condition.implied) continue;
+      if (condition.implied || is_end_of_free(condition)) continue;
       Enclosure value = condition.row.value(clipped);
       if (!value.is_nonnegative()) value.intersect(newton_.value_at_zeros(condition.row, x));
       if (value.is_nonnegative()) continue;
@@ -215,6 +215,14 @@ class SheetCheck {
       return false;
     }
     return true;
+  }
+
+  // Of a free variable whose side reaches no farther than its domain's ends, rounded outward: the claim is about values in the domain.
+  bool is_end_of_free(const Condition& condition) const {
+    if (condition.variable < 0 || std::find(box_.free.begin(), box_.free.end(), condition.variable) == box_.free.end())
+      return false;
+    const auto j = static_cast<std::size_t>(condition.variable);
+    return problem_.system().variables[j].domain.contains(box_.box[j]);
   }
 
   bool inside(const Enclosure& side, int variable) {

@@ -35,6 +35,24 @@ TEST(Checker, AcceptsSinesOfLengths) {
   expect_verified(system, solved(system, 0.1));
 }
 
+// 2/5 lies between two doubles: the boxes of the arc reach to the greater one, and claim what holds up to 2/5.
+TEST(Checker, AcceptsFreeSidesThatEndWhereTheRangeDoesAndNoneBeyond) {
+  const System system = plain("[SYSTEM VARS]\nx : [-2, 2/5]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n");
+  Cover cover = solved(system, 0.1);
+  EXPECT_EQ(cover.count(Verdict::boundary), 0u) << "the arc ends there with its free variable";
+  expect_verified(system, cover);
+  int ends = 0;
+  for (CoverBox& box : cover.boxes) {
+    if (box.box[0].hi() < 0.4) continue;
+    ++ends;
+    EXPECT_EQ(box.free, std::vector<int>{0});
+    EXPECT_EQ(box.box[0].hi(), system.variables[0].domain.hi());
+    box.box[0] = Interval(box.box[0].lo(), std::nextafter(box.box[0].hi(), 1.0));
+  }
+  EXPECT_EQ(ends, 2);
+  EXPECT_EQ(tally(check(system, cover), Verdict::regular).failed, 2u);
+}
+
 TEST(Checker, AcceptsASystemWithATolerance) {
   System system = plain(kCirclesAndLine);
   system.coefficient_tolerance = 1e-7;
