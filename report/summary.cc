@@ -326,9 +326,11 @@ std::string to_table(const Result& result) {
   text += motions_text(result);
   if (!result.domain.boundary.empty()) text += boundary_text(result.domain);
   if (const std::size_t wide = cover.wider_than_sigma; wide > 0) {
-    text += fmt::format("  {} wider than sigma: {} keeps proven boxes{} from narrowing\n", wide,
-                        cover.tolerance > 0 ? "the tolerance" : "rounding",
-                        cover.tolerance > 0 ? "" : " of an ill-conditioned system");
+    text += fmt::format("  {} wider than sigma: {}\n", wide,
+                        !result.stopped.empty() ? "the search ended before they were cut"
+                        : cover.tolerance > 0
+                            ? "the tolerance keeps proven boxes from narrowing"
+                            : "cutting them makes them no narrower, they are at the end of what doubles resolve");
   }
   if (cover.tolerance > 0) {
     const bool over_determined = static_cast<std::size_t>(result.equations) > result.variables.size();

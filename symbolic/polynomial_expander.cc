@@ -196,7 +196,9 @@ ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e
   std::map<std::string, int> angles;
   std::map<std::string, ConstantValue> lengths;
   ConstantValue offset = form.offset;
-  for (const auto& [name, multiple] : form.multiples) {
+  for (const auto& each : form.multiples) {  // no structured binding: C++20's lambdas may capture it, clang 14's may not
+    const std::string& name = each.first;
+    const ConstantValue& multiple = each.second;
     if (is_angle(name)) {
       const int n = whole_multiple(e, name, multiple);
       const auto fixed = fixed_angles_.find(name);

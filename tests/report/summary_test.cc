@@ -203,6 +203,7 @@ TEST(Summary, SaysWhatStoppedTheRun) {
   EXPECT_TRUE(nlohmann::json::parse(to_json(result))["stopped"].is_null());
   result.stopped = "the time limit, in the stage exact points";
   EXPECT_NE(to_table(result).find("\nstopped by the time limit, in the stage exact points\n"), std::string::npos);
+  EXPECT_NE(to_table(result).find("1 wider than sigma: the search ended before they were cut\n"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(to_json(result))["stopped"], result.stopped);
 }
 
