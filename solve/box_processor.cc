@@ -66,25 +66,6 @@ bool BoxProcessor::is_noisy(const certify::Preconditioner& p, const Interval* x)
   return false;
 }
 
-std::vector<int> BoxProcessor::chart_of_last() const {
-  const auto& system = problem_.compiled;
-  const auto& p = preconditioners_.last();
-  const std::size_t n = static_cast<std::size_t>(system.variables()), k = n - static_cast<std::size_t>(p.rank());
-  const auto scale = [&](int j) { return system.scales()[static_cast<std::size_t>(j)]; };
-  Chart chart;  // in scaled variables
-  chart.tangent.assign(n * k, 0.0);
-  chart.free = other_variables(p.dependent, system.variables());
-  for (std::size_t f = 0; f < k; ++f) {
-    chart.tangent[static_cast<std::size_t>(chart.free[f]) * k + f] = 1;
-    for (int a = 0; a < p.rank(); ++a)
-      chart.tangent[static_cast<std::size_t>(p.dependent[static_cast<std::size_t>(a)]) * k + f] =
-          preconditioners_.sensitivity(a, chart.free[f]) * scale(chart.free[f]) /
-          scale(p.dependent[static_cast<std::size_t>(a)]);
-  }
-  improve(chart);
-  return other_variables(chart.free, system.variables());
-}
-
 certify::Sheet BoxProcessor::prove(const Interval* x) {
   if (preconditioners_.at_midpoint(x).rank() < problem_.compiled.equations()) {
     dependent_ = preconditioners_.last().dependent;
@@ -92,7 +73,7 @@ certify::Sheet BoxProcessor::prove(const Interval* x) {
   }
   std::vector<int> pivots = preconditioners_.last().dependent;
   std::sort(pivots.begin(), pivots.end());
-  dependent_ = chart_of_last();
+  dependent_ = preconditioners_.chart_of_last(problem_.compiled.scales(), kChartGain);
   const auto& p = pivots == dependent_ ? preconditioners_.last() : preconditioners_.at_midpoint(x, &dependent_);
   if (p.rank() < problem_.compiled.equations()) return {};
   return certify::newton_prove(problem_.compiled, p, x, workspace_);

@@ -73,8 +73,6 @@ class BoxProcessor {
   // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), keeps it and returns true.
   enum class Proof { full, partial };
   certify::Sheet prove(const certify::Interval* x);
-  // The dependent variables of a good chart where preconditioners_ was asked last.
-  std::vector<int> chart_of_last() const;
   // Proves an independent subset and bounds the others over a box no narrower than σ: in a tiny box around a singular point any
   // equation looks redundant.
   certify::Sheet prove_partially(const certify::Interval* x);

@@ -4,15 +4,14 @@
 
 namespace corank::solve {
 namespace {
-constexpr double kGain = 1.05;  // an exchange costs a new elimination
 constexpr int kExchanges = 16;
 }  // namespace
 
-void improve(Chart& chart) {
+void improve(Chart& chart, double gain) {
   const std::size_t k = chart.free.size();
   std::vector<double>& t = chart.tangent;
   for (int step = 0; step < kExchanges; ++step) {
-    double best = kGain;
+    double best = gain;
     std::size_t at = t.size();
     for (std::size_t i = 0; i < t.size(); ++i)
       if (std::fabs(t[i]) > best) best = std::fabs(t[i]), at = i;

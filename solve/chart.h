@@ -14,8 +14,10 @@ struct Chart {
   std::vector<int> free;        ///< k row indices
 };
 
-/// Exchanges free variables for others until no exchange gains volume noticeably. Source: maximal-volume submatrices, key
-/// Goreinov2010.
-void improve(Chart& chart);
+constexpr double kChartGain = 1.05;  ///< an exchange costs a new elimination
+
+/// Exchanges free variables for others until no exchange multiplies the volume by more than `gain`. Source: maximal-volume submatrices,
+/// key Goreinov2010.
+void improve(Chart& chart, double gain = kChartGain);
 
 }  // namespace corank::solve

@@ -5,6 +5,9 @@
 
 #include "corank/solve/recorder.h"
 
+#include "corank/solve/chart.h"
+#include "corank/solve/problem.h"
+
 namespace corank::solve {
 namespace {
 // Pivots below this share of a row's largest entry count as zero, each times its variable's scale.
@@ -132,6 +135,25 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
           tableau_[static_cast<std::size_t>(result_.equations[a]) * n_ + result_.dependent[b]];
   round_to_floats(result_);
   return result_;
+}
+
+std::vector<int> PreconditionerFactory::chart_of_last(const std::vector<double>& sizes, double gain) const {
+  const auto size = [&](int j) { return sizes[static_cast<std::size_t>(j)]; };
+  const std::vector<int>& dependent = result_.dependent;
+  const std::size_t k = static_cast<std::size_t>(n_) - dependent.size();
+  Chart chart;  // in units of the sizes
+  chart.tangent.assign(static_cast<std::size_t>(n_) * k, 0.0);
+  chart.free = other_variables(dependent, n_);
+  for (std::size_t f = 0; f < k; ++f) {
+    const int j = chart.free[f];
+    chart.tangent[static_cast<std::size_t>(j) * k + f] = 1;
+    for (int a = 0; a < result_.rank(); ++a) {
+      const int other = dependent[static_cast<std::size_t>(a)];
+      chart.tangent[static_cast<std::size_t>(other) * k + f] = sensitivity(a, j) * size(j) / size(other);
+    }
+  }
+  improve(chart, gain);
+  return other_variables(chart.free, n_);
 }
 
 }  // namespace corank::solve

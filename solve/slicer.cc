@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "corank/certify/sheet_range.h"
 
@@ -31,6 +33,10 @@ constexpr double kPossibleFragment = 0.92;
 constexpr double kTrimShare = 0.9;
 constexpr double kFutileShare = 0.95;
 constexpr int kFutileCuts = 10;
+constexpr double kGainOfAChart = 1.2;  // another chart has seams with this one
+constexpr double kPartsForAChart = 4;  // a piece to be cut into fewer stays in its chart
+constexpr int kMostChartsTried = 6;
+constexpr double kNoSigma = 1e6;              // of the typical size, where a variable has no σ: never free
 constexpr int kBoundaryDepth = 2;             // halvings of a piece that may leave the domain
 constexpr std::size_t kMostHalvedSides = 12;  // at once: 4,096 parts
 constexpr unsigned kPiecesBetweenChecks = 16;
@@ -227,6 +233,32 @@ void Slicer::leave(std::vector<Found>& found, Box sides) {
   found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
 }
 
+std::optional<std::vector<int>> Slicer::better_chart(const Task& task, const Box& sides) {
+  const Sheet& sheet = task.sheet;
+  if (sheet.motion >= 0 || problem_.is_partial(sheet)) return std::nullopt;
+  const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
+  std::vector<double> sizes(n);
+  for (std::size_t j = 0; j < n; ++j)
+    sizes[j] = std::isfinite(problem_.sigma[j]) ? problem_.sigma[j] : kNoSigma * problem_.compiled.scales()[j];
+  const auto& p = preconditioners_.at_midpoint(sides.data(), &sheet.dependent, &sheet.equations);
+  if (p.dependent.size() < sheet.dependent.size()) return std::nullopt;
+  std::vector<int> dependent = preconditioners_.chart_of_last(sizes, kGainOfAChart);
+  if (std::is_permutation(dependent.begin(), dependent.end(), sheet.dependent.begin(), sheet.dependent.end()))
+    return std::nullopt;
+  return dependent;
+}
+
+bool Slicer::slice_in_chart(Task& task, Box sides, const std::vector<int>& dependent) {
+  sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
+  for (std::size_t j = 0; j < sides.size(); ++j)
+    if (!sides[j].intersect(task.x[j])) return false;
+  const auto& p = preconditioners_.at_midpoint(sides.data(), &dependent, &task.sheet.equations);
+  if (p.dependent.size() < dependent.size()) return false;
+  const Sheet sheet = certify::newton_prove(problem_.compiled, p, sides.data(), workspace_);
+  if (sheet.proven) slice(sheet, sides.data(), task.found, false);
+  return sheet.proven;
+}
+
 void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found, bool whole) {
   if (!whole && problem_.ended()) {
     leave(found, Box(x, x + problem_.compiled.variables()));
@@ -273,6 +305,13 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   if (width > 1 && !free.empty() && !task.whole) {
     measure_steepness(p, free, sides);
     parts = parts_of(sides, free);
+    const double number = std::accumulate(parts.begin(), parts.end(), 1.0, std::multiplies<>());
+    if (piece.charts_tried < kMostChartsTried && number >= kPartsForAChart) {
+      const auto dependent = better_chart(task, sides);
+      piece.charts_tried = dependent ? piece.charts_tried + 1 : kMostChartsTried;
+      if (dependent && slice_in_chart(task, sides, *dependent)) return;
+      stepped = !dependent;
+    }
     // Small enough but for overestimation: look closer.
     if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
       certify::shrink_to_faces(problem_.compiled, task.sheet, p, problem_.sigma, sides, workspace_);
@@ -374,7 +413,8 @@ void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, bool s
         if (recorder_) recorder_->leaf_elsewhere();
         return;
       case Part::Fate::open:
-        return descend(task, {std::move(part.sides), piece.former_width, piece.futile_cuts, piece.spread}, p);
+        return descend(task,
+                       {std::move(part.sides), piece.former_width, piece.futile_cuts, piece.spread, piece.charts_tried}, p);
     }
   };
   std::size_t next = 0;

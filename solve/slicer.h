@@ -39,6 +39,7 @@ class Slicer {
     double former_width = HUGE_VAL;
     int futile_cuts = 0;
     double spread = 0;
+    int charts_tried = 0;
   };
   // A part of a piece, and what becomes of it: it goes on as a piece, is added as it is, or holds nothing that is wanted here.
   struct Part {
@@ -89,6 +90,10 @@ class Slicer {
   void settle(const Task& task, const certify::Preconditioner& p, Part& part);
   // Widens the sides that are not free a little, where σ allows: who verifies the box has to come that close only.
   void leave_room(const Task& task, certify::Box& piece) const;
+  // The search chose free variables that prove well; others may need fewer boxes of size σ: their dependents, where there are such.
+  std::optional<std::vector<int>> better_chart(const Task& task, const certify::Box& sides);
+  // Proves the piece's solutions in x to be a sheet with these dependents, and slices that; false: that is not proven.
+  bool slice_in_chart(Task& task, certify::Box sides, const std::vector<int>& dependent);
   void add(Task& task, certify::Box piece, certify::Location location);
   // What a limit leaves, unless it is outside the domain.
   void leave(std::vector<Found>& found, certify::Box sides);
