@@ -142,8 +142,8 @@ std::optional<double> seconds_per_proof(const certify::System& system, const cer
   const auto start = std::chrono::steady_clock::now();
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
     for (const Sample& s : samples) {
-      const certify::Preconditioner& p = preconditioners.at_midpoint(s.box.data(), &s.dependent);
-      certify::newton_prove(compiled, p, s.box.data(), workspace);
+      const certify::Preconditioner& p = preconditioners.at_midpoint(s.box, &s.dependent);
+      certify::newton_prove(compiled, p, s.box, workspace);
     }
   }
   return seconds_since(start) / static_cast<double>(kRepeats * count);

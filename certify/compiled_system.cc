@@ -90,7 +90,7 @@ void CompiledSystem::set_scales(std::vector<double> scales) {
   scales_ = std::move(scales);
 }
 
-Interval CompiledSystem::evaluate(const Term& t, const Interval* x) const {
+Interval CompiledSystem::evaluate(const Term& t, std::span<const Interval> x) const {
   switch (t.shape) {
     case Shape::constant: return t.c;
     case Shape::linear: return t.c * x[t.x];
@@ -105,7 +105,7 @@ Interval CompiledSystem::evaluate(const Term& t, const Interval* x) const {
   return product;
 }
 
-Interval CompiledSystem::evaluate(int row, const Interval* x) const {
+Interval CompiledSystem::evaluate(int row, std::span<const Interval> x) const {
   Interval sum;
   for (const Term& t : terms(row)) sum += evaluate(t, x);
   return sum;
@@ -131,14 +131,16 @@ Interval CompiledSystem::evaluate_at(int row, const double* x) const {
   return sum;
 }
 
-void CompiledSystem::slopes(const Interval* x, const double* c, Interval* s) const { slopes(0, equations_, x, c, s); }
+void CompiledSystem::slopes(std::span<const Interval> x, const double* c, std::span<Interval> s) const {
+  slopes(0, equations_, x, c, s);
+}
 
-void CompiledSystem::slopes(int row, const Interval* x, const double* c, Interval* s) const {
+void CompiledSystem::slopes(int row, std::span<const Interval> x, const double* c, std::span<Interval> s) const {
   slopes(row, row + 1, x, c, s);
 }
 
-void CompiledSystem::slopes(int from, int to, const Interval* x, const double* c, Interval* s) const {
-  std::fill(s + row_begin_[from], s + row_begin_[to], Interval());
+void CompiledSystem::slopes(int from, int to, std::span<const Interval> x, const double* c, std::span<Interval> s) const {
+  std::fill(s.begin() + row_begin_[from], s.begin() + row_begin_[to], Interval());
   for (int k = term_begin_[from]; k < term_begin_[to]; ++k) {
     const Term& t = terms_[k];
     switch (t.shape) {
@@ -166,12 +168,14 @@ void CompiledSystem::slopes(int from, int to, const Interval* x, const double* c
   }
 }
 
-void CompiledSystem::jacobian(const Interval* x, Interval* j) const { jacobian(0, equations_, x, j); }
+void CompiledSystem::jacobian(std::span<const Interval> x, std::span<Interval> j) const { jacobian(0, equations_, x, j); }
 
-void CompiledSystem::jacobian(int row, const Interval* x, Interval* j) const { jacobian(row, row + 1, x, j); }
+void CompiledSystem::jacobian(int row, std::span<const Interval> x, std::span<Interval> j) const {
+  jacobian(row, row + 1, x, j);
+}
 
-void CompiledSystem::jacobian(int from, int to, const Interval* x, Interval* j) const {
-  std::fill(j + row_begin_[from], j + row_begin_[to], Interval());
+void CompiledSystem::jacobian(int from, int to, std::span<const Interval> x, std::span<Interval> j) const {
+  std::fill(j.begin() + row_begin_[from], j.begin() + row_begin_[to], Interval());
   for (int k = term_begin_[from]; k < term_begin_[to]; ++k) {
     const Term& t = terms_[k];
     switch (t.shape) {

@@ -60,27 +60,27 @@ class CompiledSystem {
   }
 
   /// Encloses {term(x) : x ∈ X}.
-  Interval evaluate(const Term& term, const Interval* x) const;
+  Interval evaluate(const Term& term, std::span<const Interval> x) const;
   /// Encloses {f_row(x) : x ∈ X}: the natural interval extension.
-  Interval evaluate(int row, const Interval* x) const;
+  Interval evaluate(int row, std::span<const Interval> x) const;
   /// Encloses f_row at a point.
   Interval evaluate_at(int row, const double* x) const;
   /// Slopes of the equations: s with f(x) − f(c) ∈ s (x − c) for every x ∈ X, c the given point (inside X or not). For a
   /// quadratic f this is J((X + c)/2), half as wide as J(X). Slopes about one centre serve existence, never uniqueness.
   /// Source: key Neumaier1990, § 2.3; certify/trigonometric.h.
-  void slopes(const Interval* x, const double* c, Interval* s) const;
+  void slopes(std::span<const Interval> x, const double* c, std::span<Interval> s) const;
   /// The same of one row of any kind, into its own entries of s.
-  void slopes(int row, const Interval* x, const double* c, Interval* s) const;
+  void slopes(int row, std::span<const Interval> x, const double* c, std::span<Interval> s) const;
   /// Interval Jacobian of the equations: encloses ∂f_i/∂x_j(x) for every x ∈ X.
-  void jacobian(const Interval* x, Interval* j) const;
+  void jacobian(std::span<const Interval> x, std::span<Interval> j) const;
   /// The same of one row of any kind, into its own entries of j.
-  void jacobian(int row, const Interval* x, Interval* j) const;
+  void jacobian(int row, std::span<const Interval> x, std::span<Interval> j) const;
   /// Jacobian at a point in plain floating point, for heuristics only: nothing is proven by it.
   void approximate_jacobian(const double* x, double* j) const;
 
  private:
-  void slopes(int from, int to, const Interval* x, const double* c, Interval* s) const;
-  void jacobian(int from, int to, const Interval* x, Interval* j) const;
+  void slopes(int from, int to, std::span<const Interval> x, const double* c, std::span<Interval> s) const;
+  void jacobian(int from, int to, std::span<const Interval> x, std::span<Interval> j) const;
 
   int variables_ = 0, equations_ = 0, rows_ = 0;
   std::vector<Term> terms_;

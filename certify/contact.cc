@@ -39,7 +39,7 @@ class ContactTest {
       if (!(x[j].hi() < upper_[j].lo())) contacts.push_back({Contact::With::upper_end, index});
     }
     for (int row = compiled_.equations(); row < compiled_.rows(); ++row)
-      if (!(compiled_.evaluate(row, x.data()).lo() > 0))
+      if (!(compiled_.evaluate(row, x).lo() > 0))
         contacts.push_back({Contact::With::inequality, row - compiled_.equations()});
   }
 
@@ -62,7 +62,7 @@ class ContactTest {
         x[static_cast<std::size_t>(b.free[k])] = (corner >> k & 1U) != 0 ? side.hi() : side.lo();
       }
       for (int step = 0; step < 4; ++step)  // the one solution over this corner stays
-        if (newton_contract(compiled_, *p, x.data(), workspace_).empty) return false;
+        if (NewtonStep(compiled_, *p, x, workspace_).outcome().empty) return false;
       const Interval& value = x[static_cast<std::size_t>(c.index)];
       beneath = beneath || value.hi() < end(c).lo();
       above = above || value.lo() > end(c).hi();

@@ -5,7 +5,7 @@
 namespace corank::certify {
 namespace {
 
-bool contains(const std::vector<Interval>& outer, const Interval* inner) {
+bool contains(const std::vector<Interval>& outer, std::span<const Interval> inner) {
   for (std::size_t j = 0; j < outer.size(); ++j)
     if (!outer[j].contains(inner[j])) return false;
   return true;
@@ -17,11 +17,11 @@ Identity compare_isolated(const Sheet& a, const Sheet& b) {
   CORANK_CHECK(a.proven && b.proven && a.dependent.size() == a.region.size() && b.dependent.size() == b.region.size());
   for (std::size_t j = 0; j < a.image.size(); ++j)
     if (!a.image[j].overlaps(b.image[j])) return Identity::different;
-  if (contains(a.region, b.image.data()) || contains(b.region, a.image.data())) return Identity::same;
+  if (contains(a.region, b.image) || contains(b.region, a.image)) return Identity::same;
   return Identity::unknown;
 }
 
-bool holds_nothing_else(const Sheet& sheet, const Interval* box) {
+bool holds_nothing_else(const Sheet& sheet, std::span<const Interval> box) {
   CORANK_CHECK(sheet.proven && sheet.dependent.size() == sheet.region.size());
   return contains(sheet.region, box);
 }

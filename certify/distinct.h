@@ -1,6 +1,8 @@
 // When do two proofs speak of the same solution?
 #pragma once
 
+#include <span>
+
 #include "corank/certify/newton.h"
 #include "corank/certify/reduction.h"
 #include "corank/certify/refinement.h"
@@ -16,7 +18,7 @@ Identity compare_isolated(const Sheet& a, const Sheet& b);
 
 /// True where every solution in the box is the sheet's solution, so that the box adds nothing to the sheet's image: the box lies in
 /// the sheet's region. For sheets without free variables.
-bool holds_nothing_else(const Sheet& sheet, const Interval* box);
+bool holds_nothing_else(const Sheet& sheet, std::span<const Interval> box);
 
 /// True where a zero of the reduced system is the isolated solution whose proof has this region, given in all variables: exactly one zero
 /// lies within the region's kept sides, so one that is proven to lie there is that. False also where zeros of the reduced system need not be

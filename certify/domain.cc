@@ -28,7 +28,7 @@ DomainTest::DomainTest(const System& system) {
 }
 
 template <class Value>
-Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x, double tolerance,
+Location DomainTest::locate(const CompiledSystem& compiled, std::span<const Interval> x, double tolerance,
                             const std::vector<int>* dependent, Value value) const {
   Location location = Location::inside;
   const auto is_free = [&](std::size_t j) {
@@ -49,15 +49,14 @@ Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x, d
   return location;
 }
 
-Location DomainTest::locate(const CompiledSystem& compiled, const Interval* x, double tolerance) const {
+Location DomainTest::locate(const CompiledSystem& compiled, std::span<const Interval> x, double tolerance) const {
   return locate(compiled, x, tolerance, nullptr, [](int, const Interval& g) { return g; });
 }
 
-Location DomainTest::locate_zeros(const CompiledSystem& compiled, const Preconditioner& p, const Interval* x,
-                                  NewtonWorkspace& w, double tolerance) const {
-  return locate(compiled, x, tolerance, &p.dependent, [&](int row, Interval g) {
+Location DomainTest::locate_zeros(const NewtonStep& step, std::span<const Interval> x, double tolerance) const {
+  return locate(step.system(), x, tolerance, &step.dependent(), [&](int row, Interval g) {
     // Both enclose the row's values at the zeros; disjoint, they say that there is none.
-    if (!g.intersect(value_at_zeros(compiled, p, row, x, w))) return Interval(-1.0);
+    if (!g.intersect(step.value_at_zeros(row, x))) return Interval(-1.0);
     return g;
   });
 }

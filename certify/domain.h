@@ -1,6 +1,7 @@
 // Where a piece of the solution set lies: inside the search domain and the inequalities, outside, or across.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
@@ -25,17 +26,16 @@ class DomainTest {
   const Interval& side(std::size_t j) const { return domain_[j]; }
   /// With a tolerance > 0 (verdict `partial`) a piece counts as inside where it leaves the domain by no more than
   /// tolerance · max(1, |domain|), and an inequality by no more than the tolerance.
-  Location locate(const CompiledSystem& compiled, const Interval* x, double tolerance = 0) const;
-  /// The same of the zeros of p's rows in x whose free values are in the domain, after newton_contract(compiled, p, y, w) with x ⊂ Y: an
-  /// inequality that the box does not decide may be decided there (value_at_zeros). So a free side may reach as far beyond an end as that
-  /// end is rounded to become a double: the values there are not in the domain.
-  Location locate_zeros(const CompiledSystem& compiled, const Preconditioner& p, const Interval* x, NewtonWorkspace& w,
-                        double tolerance = 0) const;
+  Location locate(const CompiledSystem& compiled, std::span<const Interval> x, double tolerance = 0) const;
+  /// The same of the zeros of the step's rows in x, a part of its box, whose free values are in the domain: an inequality that the box does
+  /// not decide may be decided there (NewtonStep::value_at_zeros). So a free side may reach as far beyond an end as that end is rounded to
+  /// become a double: the values there are not in the domain.
+  Location locate_zeros(const NewtonStep& step, std::span<const Interval> x, double tolerance = 0) const;
 
  private:
   template <class Value>
-  Location locate(const CompiledSystem& compiled, const Interval* x, double tolerance, const std::vector<int>* dependent,
-                  Value value) const;
+  Location locate(const CompiledSystem& compiled, std::span<const Interval> x, double tolerance,
+                  const std::vector<int>* dependent, Value value) const;
 
   std::vector<Interval> domain_;       // encloses the exact domain
   std::vector<double> lower_, upper_;  // inside the exact domain; infinite where that side is implied

@@ -70,7 +70,7 @@ int KernelBound::at_most_in_one(const Box& box) const {
   Eigen::MatrixXd middle(rows, k);
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < k; ++j) {
-      m.push_back(compiled_.evaluate(compiled_.value_row(i * k + j), box.data()));
+      m.push_back(compiled_.evaluate(compiled_.value_row(i * k + j), box));
       middle(i, j) = m.back().mid();
     }
   // Complete pivoting: the first s pivots belong to a well-conditioned submatrix, for every s.

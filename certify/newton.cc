@@ -3,18 +3,19 @@
 #include <algorithm>
 
 #include "corank/certify/check.h"
+#include "corank/certify/newton_buffers.h"
 #include "corank/certify/rounding.h"
 
 namespace corank::certify {
 namespace {
 
-void set_center(const Interval* x, int n, NewtonWorkspace& w) {
+void set_center(std::span<const Interval> x, int n, NewtonBuffers& w) {
   w.center.resize(n);
   for (int j = 0; j < n; ++j) w.center[j] = x[j].mid();
 }
 
 // residual (r) := Y · F(c), after panel.set_matrix(Y).
-void multiply_residual(const CompiledSystem& system, const Preconditioner& p, NewtonWorkspace& w) {
+void multiply_residual(const CompiledSystem& system, const Preconditioner& p, NewtonBuffers& w) {
   const int r = p.rank();
   w.values.resize(static_cast<std::size_t>(r));
   for (int b = 0; b < r; ++b) w.values[b] = system.evaluate_at(p.equations[b], w.center.data());
@@ -25,17 +26,8 @@ bool bounded(const std::vector<Interval>& x) {
   return std::all_of(x.begin(), x.end(), [](const Interval& side) { return side.is_bounded(); });
 }
 
-// What the panel and the residual say was computed by the last newton_contract for these rows and a box that contains x.
-void check_step(const Preconditioner& p, const Interval* x, const NewtonWorkspace& w) {
-  CORANK_CHECK(UpwardRounding::active());
-  CORANK_CHECK(p.equations == w.rows && p.dependent == w.row_sides);
-  bool part = true;
-  for (std::size_t j = 0; j < w.stepped.size(); ++j) part = part && w.stepped[j].contains(x[j]);
-  CORANK_CHECK(part);
-}
-
 // The rows Y·F(c) + Y·S·(x − c) ∋ 0 of the panel, each solved for its dependent variable.
-NewtonOutcome solve_rows(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
+NewtonOutcome solve_rows(const Preconditioner& p, std::span<Interval> x, NewtonBuffers& w) {
   const int r = p.rank(), n = w.panel.columns();
   w.offset.resize(static_cast<std::size_t>(n));
   for (int j = 0; j < n; ++j) w.offset[j] = x[j] - Interval(w.center[j]);
@@ -67,26 +59,70 @@ NewtonOutcome solve_rows(const Preconditioner& p, Interval* x, NewtonWorkspace& 
 
 }  // namespace
 
-NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
-  w.contracted = false;
-  if (!w.panel.set_matrix(p.y, p.rank())) return {};
-  set_center(x, system.variables(), w);
-  w.slope.resize(system.entries());
-  system.slopes(x, w.center.data(), w.slope.data());
-  if (!w.panel.assign_product(system, p.equations, w.slope)) return {};
-  multiply_residual(system, p, w);
-  w.contracted = true;
-  w.stepped.assign(x, x + system.variables());
-  w.rows = p.equations;
-  w.row_sides = p.dependent;
-  NewtonOutcome outcome = solve_rows(p, x, w);
-  if (outcome.regular && !outcome.empty) outcome.spread = w.panel.distance_from_identity(p.dependent, system.scales());
-  return outcome;
+NewtonWorkspace::NewtonWorkspace() = default;
+NewtonWorkspace::~NewtonWorkspace() = default;
+NewtonWorkspace::NewtonWorkspace(NewtonWorkspace&&) noexcept = default;
+NewtonWorkspace& NewtonWorkspace::operator=(NewtonWorkspace&&) noexcept = default;
+
+std::unique_ptr<NewtonBuffers> NewtonWorkspace::take() {
+  if (spare_.empty()) return std::make_unique<NewtonBuffers>();
+  std::unique_ptr<NewtonBuffers> last = std::move(spare_.back());
+  spare_.pop_back();
+  return last;
 }
 
-bool contract_free(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
-  if (!w.contracted) return true;
-  check_step(p, x, w);
+void NewtonWorkspace::give_back(std::unique_ptr<NewtonBuffers> buffers) { spare_.push_back(std::move(buffers)); }
+
+NewtonStep::NewtonStep(const CompiledSystem& system, const Preconditioner& p, std::span<Interval> x, NewtonWorkspace& w)
+    : system_(&system), home_(&w), buffers_(w.take()) {
+  NewtonBuffers& b = *buffers_;
+  b.p.equations = p.equations;
+  b.p.dependent = p.dependent;
+  if (!b.panel.set_matrix(p.y, p.rank())) return;
+  set_center(x, system.variables(), b);
+  b.slope.resize(static_cast<std::size_t>(system.entries()));
+  system.slopes(x, b.center.data(), b.slope);
+  if (!b.panel.assign_product(system, p.equations, b.slope)) return;
+  multiply_residual(system, p, b);
+  bounded_ = true;
+  b.stepped.assign(x.begin(), x.begin() + system.variables());
+  outcome_ = solve_rows(p, x, b);
+  if (outcome_.regular && !outcome_.empty) outcome_.spread = b.panel.distance_from_identity(p.dependent, system.scales());
+}
+
+NewtonStep::~NewtonStep() {
+  if (buffers_) home_->give_back(std::move(buffers_));
+}
+
+NewtonStep::NewtonStep(NewtonStep&& other) noexcept = default;
+
+NewtonStep& NewtonStep::operator=(NewtonStep&& other) noexcept {
+  std::swap(system_, other.system_);
+  std::swap(home_, other.home_);
+  std::swap(buffers_, other.buffers_);
+  std::swap(outcome_, other.outcome_);
+  std::swap(bounded_, other.bounded_);
+  return *this;
+}
+
+const std::vector<int>& NewtonStep::equations() const { return buffers_->p.equations; }
+const std::vector<int>& NewtonStep::dependent() const { return buffers_->p.dependent; }
+std::span<const double> NewtonStep::center() const { return buffers_->center; }
+double NewtonStep::derivative(int a, int j) const { return bounded_ ? -buffers_->panel.at(a, j).mid() : 0; }
+double NewtonStep::noise(int a) const { return bounded_ ? buffers_->residual[static_cast<std::size_t>(a)].width() : 0; }
+
+void NewtonStep::check_part(std::span<const Interval> x) const {
+  CORANK_CHECK(UpwardRounding::active());
+  bool part = true;
+  for (std::size_t j = 0; j < buffers_->stepped.size(); ++j) part = part && buffers_->stepped[j].contains(x[j]);
+  CORANK_CHECK(part);
+}
+
+bool NewtonStep::contract_free(std::span<Interval> x) const {
+  if (!bounded_) return true;
+  check_part(x);
+  NewtonBuffers& w = *buffers_;
+  const Preconditioner& p = w.p;
   const int r = p.rank(), n = w.panel.columns();
   w.is_dependent.assign(static_cast<std::size_t>(n), 0);
   for (int d : p.dependent) w.is_dependent[d] = 1;
@@ -118,10 +154,10 @@ bool contract_free(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
 namespace {
 
 // image := Krawczyk image K over the box x about w.center; w.residual holds Y·F(c), the panel Y. False: no bounded image.
-bool krawczyk(const CompiledSystem& system, const Preconditioner& p, const Interval* x, NewtonWorkspace& w) {
+bool krawczyk(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x, NewtonBuffers& w) {
   const int r = p.rank(), n = system.variables();
   w.slope.resize(system.entries());
-  system.slopes(x, w.center.data(), w.slope.data());
+  system.slopes(x, w.center.data(), w.slope);
   if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
   w.offset.resize(n);
   for (int j = 0; j < n; ++j) w.offset[j] = x[j] - Interval(w.center[j]);
@@ -135,10 +171,11 @@ bool krawczyk(const CompiledSystem& system, const Preconditioner& p, const Inter
 // Hypothesis (2): |I − Y·J_D(B)| r < r for some r > 0, which holds for some r exactly where the spectral radius is below 1. The
 // candidates for r come from power iteration, the first one is the variables' scales; the one that passes is checked with upward
 // rounding.
-bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, const Interval* b, NewtonWorkspace& w) {
+bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> b,
+                         NewtonBuffers& w) {
   constexpr int kCandidates = 6;
   const int r = p.rank();
-  system.jacobian(b, w.slope.data());
+  system.jacobian(b, w.slope);
   if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
   w.magnitude.resize(static_cast<std::size_t>(r) * r);
   for (int a = 0; a < r; ++a) {
@@ -169,27 +206,28 @@ bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, 
 
 }  // namespace
 
-Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const Interval* x, NewtonWorkspace& w,
-                   int iterations) {
+Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x,
+                   NewtonWorkspace& workspace, int iterations) {
   CORANK_CHECK(UpwardRounding::active());
+  const BorrowedBuffers borrowed(workspace);
+  NewtonBuffers& w = *borrowed;
   Sheet sheet;
   const int r = p.rank(), n = system.variables();
-  w.contracted = false;  // the panel becomes the proof's
   // No dependent variable and no equation: every point of x is a solution.
   if ((r == 0 && system.equations() > 0) || r > n || !w.panel.set_matrix(p.y, r)) return sheet;
   set_center(x, n, w);
   multiply_residual(system, p, w);
   if (!bounded(w.residual)) return sheet;
   std::vector<Interval>& b = w.region;  // X_F × Z
-  b.assign(x, x + n);
+  b.assign(x.begin(), x.begin() + n);
   for (int step = 0; step < iterations; ++step) {
-    if (!krawczyk(system, p, b.data(), w)) return sheet;
+    if (!krawczyk(system, p, b, w)) return sheet;
     bool inside = true;
     for (int a = 0; a < r && inside; ++a) inside = b[p.dependent[a]].strictly_contains(w.image[a]);
     if (inside) {  // hypothesis (1) holds for B
       std::vector<Interval> image(b);
       for (int a = 0; a < r; ++a) image[p.dependent[a]] = w.image[a];
-      if (!jacobian_is_regular(system, p, b.data(), w)) return sheet;
+      if (!jacobian_is_regular(system, p, b, w)) return sheet;
       sheet.proven = true;
       sheet.equations = p.equations;
       sheet.dependent = p.dependent;
@@ -206,13 +244,15 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const 
   return sheet;
 }
 
-Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
-                        NewtonWorkspace& w) {
-  if (!w.contracted) return Interval::whole();
-  check_step(p, x, w);
+Interval NewtonStep::value_at_zeros(int row, std::span<const Interval> x) const {
+  if (!bounded_) return Interval::whole();
+  check_part(x);
+  NewtonBuffers& w = *buffers_;
+  const Preconditioner& p = w.p;
+  const CompiledSystem& system = *system_;
   const int r = p.rank(), n = system.variables();
-  w.slope.resize(system.entries());
-  system.slopes(row, x, w.center.data(), w.slope.data());
+  w.slope.resize(static_cast<std::size_t>(system.entries()));
+  system.slopes(row, x, w.center.data(), w.slope);
   w.gradient.assign(n, Interval());
   for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) w.gradient[system.column(k)] = w.slope[k];
   Interval value = system.evaluate_at(row, w.center.data());
@@ -227,18 +267,18 @@ Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, i
   return value;
 }
 
-double tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
-  // The dependents of p are the sheet's; newton_contract touches no other variable and deletes no solution. An empty outcome
-  // would contradict the sheet's existence proof.
-  const NewtonOutcome outcome = newton_contract(system, p, x, w);
-  CORANK_CHECK(!outcome.empty);
-  return outcome.regular ? outcome.spread : HUGE_VAL;
+void NewtonStep::tighten_part(std::span<Interval> x) const {
+  if (!bounded_) return;
+  check_part(x);
+  CORANK_CHECK(!solve_rows(buffers_->p, x, *buffers_).empty);
 }
 
-void tighten_part(const Preconditioner& p, Interval* x, NewtonWorkspace& w) {
-  if (!w.contracted) return;
-  check_step(p, x, w);
-  CORANK_CHECK(!solve_rows(p, x, w).empty);
+NewtonStep tighten_sheet(const CompiledSystem& system, const Preconditioner& p, std::span<Interval> x, NewtonWorkspace& w) {
+  // The dependents of p are the sheet's; a step touches no other variable and deletes no solution. An empty outcome would contradict the
+  // sheet's existence proof.
+  NewtonStep step(system, p, x, w);
+  CORANK_CHECK(!step.outcome().empty);
+  return step;
 }
 
 }  // namespace corank::certify

@@ -4,10 +4,12 @@
 // *valid*: it decides how much is gained, never whether a conclusion is true. The other variables are called free.
 #pragma once
 
+#include <cmath>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
-#include "corank/certify/panel.h"
 
 namespace corank::certify {
 
@@ -18,37 +20,79 @@ struct Preconditioner {
   int rank() const { return static_cast<int>(dependent.size()); }
 };
 
-/// Buffers for one thread. Between calls only those of the last newton_contract mean something, to contract_free,
-/// tighten_part and value_at_zeros, which check that they are given its rows and a part of its box.
-struct NewtonWorkspace {
-  Panel panel;
-  std::vector<Interval> slope, values, residual, offset, image, region, gradient;
-  std::vector<double> center, magnitude, radius, next_radius;
-  std::vector<unsigned char> is_dependent;
-  std::vector<int> free;
-  // The last newton_contract:
-  bool contracted = false;           ///< it had a bounded Y·S and Y·F(c), and nothing has replaced them
-  std::vector<Interval> stepped;     ///< the box that it was given
-  std::vector<int> rows, row_sides;  ///< its p.equations and p.dependent
+struct NewtonBuffers;  // certify/newton_buffers.h
+
+/// Memory for the steps and proofs of one thread, so that they need not allocate any: nothing in it means anything. Outlives its steps.
+class NewtonWorkspace {
+ public:
+  NewtonWorkspace();
+  ~NewtonWorkspace();
+  NewtonWorkspace(NewtonWorkspace&&) noexcept;
+  NewtonWorkspace& operator=(NewtonWorkspace&&) noexcept;
+
+  /// Buffers until they are given back.
+  std::unique_ptr<NewtonBuffers> take();
+  void give_back(std::unique_ptr<NewtonBuffers> buffers);
+
+ private:
+  std::vector<std::unique_ptr<NewtonBuffers>> spare_;
 };
 
 struct NewtonOutcome {
   bool empty = false;    ///< the box holds no solution
   bool regular = false;  ///< no diagonal entry of Y·S(X) held 0: a hint that a proof is worth trying, no claim
-  double spread = 0;     ///< largest row sum of |I − Y·S_D|, weighted by the scales: below 1 a proof may succeed; a hint
+  double spread =
+      HUGE_VAL;  ///< largest row sum of |I − Y·S_D|, weighted by the scales, where regular: below 1 a proof may succeed; a hint
 };
 
-/// Contracts the dependent variables of x in place.
-/// Theorem (interval Newton, Hansen–Sengupta step; key Neumaier1990, ch. 5; HansenSengupta1981): for any centre c and real
-/// Y, a zero x of F in X satisfies Y·F(c) + Y·S(X)·(x − c) ∋ 0 row by row, so each row bounds its dependent variable by the
-/// others. Points of X outside the contracted box are no solutions; where a row is unsatisfiable, X holds none. Proves
-/// nothing about existence.
-NewtonOutcome newton_contract(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
+/// One interval Newton step on a box X about its midpoint c: the rows Y·F(c) + Y·S(X)·(x − c) ∋ 0, which each zero x of p's equations in
+/// X satisfies. What it says about a part of X needs nothing but the step. Requires UpwardRounding::active() throughout; a box that is no
+/// part of X breaks an invariant (CORANK_CHECK).
+class NewtonStep {
+ public:
+  /// Contracts the dependent variables of x in place.
+  /// Theorem (interval Newton, Hansen–Sengupta step; key Neumaier1990, ch. 5; HansenSengupta1981): for any centre c and real
+  /// Y, a zero x of F in X satisfies Y·F(c) + Y·S(X)·(x − c) ∋ 0 row by row, so each row bounds its dependent variable by the
+  /// others. Points of X outside the contracted box are no solutions; where a row is unsatisfiable, X holds none. Proves
+  /// nothing about existence.
+  NewtonStep(const CompiledSystem& system, const Preconditioner& p, std::span<Interval> x, NewtonWorkspace& w);
+  ~NewtonStep();
+  NewtonStep(NewtonStep&& other) noexcept;
+  NewtonStep& operator=(NewtonStep&& other) noexcept;
 
-/// After newton_contract(system, p, y, w): contracts the free variables of x ⊂ y in place. The same rows, each solved for a
-/// free variable, so the same theorem: every zero of F in x lies in what is left. False: x holds none. Where the step had
-/// no bounded Y·S: nothing happens.
-bool contract_free(const Preconditioner& p, Interval* x, NewtonWorkspace& w);
+  const NewtonOutcome& outcome() const { return outcome_; }
+  const CompiledSystem& system() const { return *system_; }
+  const std::vector<int>& equations() const;  ///< p's
+  const std::vector<int>& dependent() const;  ///< p's
+
+  /// Contracts the free variables of a part x of X in place: the same rows, each solved for a free variable, so the same theorem. Every
+  /// zero of F in x lies in what is left. False: x holds none. Where the step has no bounded Y·S nothing happens.
+  bool contract_free(std::span<Interval> x) const;
+
+  /// Encloses f_row at the zeros of p's rows in a part x of X, `row` any row of the system. Let R = Y·F and λ real: R(c) + Y·S (z − c) ∋ 0
+  /// at a zero z, so f_row(z) ∈ f_row(c) − λ·R(c) + (S_row − λ·Y·S)(x − c). Here λ makes the dependent variables' part vanish nearly; any
+  /// λ is valid. Where the step has no bounded Y·S: the whole line.
+  Interval value_at_zeros(int row, std::span<const Interval> x) const;
+
+  /// Of a step inside a proven sheet (tighten_sheet): tightens a part x of X in the same way, by the slopes over X, which hold on every part
+  /// of it. A tenth of the work of a step, and less sharp. Where the step has no bounded Y·S nothing happens.
+  void tighten_part(std::span<Interval> x) const;
+
+  /// For heuristics, nothing is proven by them: the step's centre, ∂(dependent[a])/∂(free j) of the linearized system, and how wide rounding
+  /// makes Y·F(c) in row a. Nearly meaningless, 0, where the step has no bounded Y·S.
+  std::span<const double> center() const;
+  double derivative(int a, int j) const;
+  double noise(int a) const;
+
+ private:
+  void check_part(std::span<const Interval> x) const;
+
+  const CompiledSystem* system_;
+  NewtonWorkspace* home_;
+  std::unique_ptr<NewtonBuffers> buffers_;
+  NewtonOutcome outcome_;
+  bool bounded_ = false;  // Y·S and Y·F(c) are
+};
 
 /// What newton_prove shows about a box of values of the free variables.
 struct Sheet {
@@ -74,23 +118,11 @@ struct Sheet {
 ///   (3) every zero of F in B lies in X_F × K. So if Z_{k+1} ⊇ K(Z_k) and Z_0 is x's own, no zero of x is left behind.
 /// S may be slopes about c in (1); (2) needs the interval Jacobian J over B.
 /// Z comes from ε-inflation of the image, at most `iterations` times; the dependent variables stay the same throughout.
-Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, const Interval* x, NewtonWorkspace& w,
+Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x, NewtonWorkspace& w,
                    int iterations = 8);
 
-/// After newton_contract(system, p, y, w): encloses f_row at the zeros of p's rows in x ⊂ Y, Y the box that the step was
-/// given and `row` any row. Let R = Y·F and λ real: R(c) + Y·S (z − c) ∋ 0 at a zero z, so f_row(z) ∈ f_row(c) − λ·R(c) +
-/// (S_row − λ·Y·S)(X − c). Here λ makes the dependent variables' part vanish nearly; any λ is valid. Where the step had no
-/// bounded Y·S: the whole line.
-Interval value_at_zeros(const CompiledSystem& system, const Preconditioner& p, int row, const Interval* x,
-                        NewtonWorkspace& w);
-
-/// One step of (1)'s image inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is
-/// known to hold the solutions, free sides within the sheet's, and p the sheet's rows and dependents. Shrinks dependent sides
-/// only, so that the sheet's claim carries over. Returns the step's NewtonOutcome::spread, infinite where Y·S_D is not regular.
-double tighten_sheet(const CompiledSystem& system, const Preconditioner& p, Interval* x, NewtonWorkspace& w);
-
-/// After tighten_sheet(system, p, y, w): tightens a part x ⊂ y in the same way, by the slopes over y, which hold on every
-/// part of it. A tenth of the work, and less sharp. Where the step had no bounded Y·S: nothing happens.
-void tighten_part(const Preconditioner& p, Interval* x, NewtonWorkspace& w);
+/// A step inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is known to hold the solutions, free
+/// sides within the sheet's, and p the sheet's rows and dependents. Shrinks dependent sides only, so that the sheet's claim carries over.
+NewtonStep tighten_sheet(const CompiledSystem& system, const Preconditioner& p, std::span<Interval> x, NewtonWorkspace& w);
 
 }  // namespace corank::certify

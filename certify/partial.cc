@@ -15,12 +15,12 @@ RedundantEquations::RedundantEquations(const System& system) {
   }
 }
 
-bool RedundantEquations::hold(const CompiledSystem& system, const DomainTest& domain, const Preconditioner& p,
-                              const Interval* x, NewtonWorkspace& w) const {
-  if (domain.locate_zeros(system, p, x, w, tolerance_) != Location::inside) return false;
-  for (int row = 0; row < system.equations(); ++row) {
-    if (std::find(p.equations.begin(), p.equations.end(), row) != p.equations.end()) continue;
-    if (!(value_at_zeros(system, p, row, x, w).mag() <= bounds_[static_cast<std::size_t>(row)])) return false;
+bool RedundantEquations::hold(const DomainTest& domain, const NewtonStep& step, std::span<const Interval> x) const {
+  if (domain.locate_zeros(step, x, tolerance_) != Location::inside) return false;
+  const std::vector<int>& equations = step.equations();
+  for (int row = 0; row < step.system().equations(); ++row) {
+    if (std::find(equations.begin(), equations.end(), row) != equations.end()) continue;
+    if (!(step.value_at_zeros(row, x).mag() <= bounds_[static_cast<std::size_t>(row)])) return false;
   }
   return true;
 }

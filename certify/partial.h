@@ -1,6 +1,7 @@
 // The verdict `partial`: what is asked of the equations that a proof does not speak of.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "corank/certify/domain.h"
@@ -17,10 +18,9 @@ class RedundantEquations {
   /// kPartialTolerance · τ, relative to the sum of an equation's |coefficients|; 0 where applies() is false.
   double tolerance() const { return tolerance_; }
 
-  /// After newton_contract(system, p, y, w) with x ⊂ Y: do all zeros of p's rows in x lie in the domain and satisfy every other equation
-  /// and every inequality, each within the tolerance? True proves it (value_at_zeros); false proves nothing.
-  bool hold(const CompiledSystem& system, const DomainTest& domain, const Preconditioner& p, const Interval* x,
-            NewtonWorkspace& w) const;
+  /// Do all zeros of the step's rows in x, a part of its box, lie in the domain and satisfy every other equation and every inequality, each
+  /// within the tolerance? True proves it (NewtonStep::value_at_zeros); false proves nothing.
+  bool hold(const DomainTest& domain, const NewtonStep& step, std::span<const Interval> x) const;
 
  private:
   double tolerance_ = 0;

@@ -10,7 +10,7 @@ constexpr int kMaxStackTerms = 64;
 
 class Projector {
  public:
-  Projector(const CompiledSystem& system, Interval* x, double share, std::uint8_t* changed)
+  Projector(const CompiledSystem& system, std::span<Interval> x, double share, std::uint8_t* changed)
       : system_(system), x_(x), share_(share), changed_(changed) {}
 
   // Shrinks the variables of t to where t(x) ∈ image.
@@ -56,14 +56,14 @@ class Projector {
   }
 
   const CompiledSystem& system_;
-  Interval* x_;
+  std::span<Interval> x_;
   double share_;
   std::uint8_t* changed_;
 };
 
 }  // namespace
 
-bool project(const CompiledSystem& system, int row, Interval* x, double share, std::uint8_t* changed) {
+bool project(const CompiledSystem& system, int row, std::span<Interval> x, double share, std::uint8_t* changed) {
   const auto terms = system.terms(row);
   const std::size_t n = terms.size();
   Interval stack[2 * kMaxStackTerms + 1];

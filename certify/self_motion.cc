@@ -65,7 +65,7 @@ std::optional<SelfMotion> self_motion(const System& system, std::vector<Polynomi
 }
 
 Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, const Preconditioner& e,
-                        const Preconditioner& r, const Interval* x, NewtonWorkspace& w) {
+                        const Preconditioner& r, std::span<const Interval> x, NewtonWorkspace& w) {
   CORANK_CHECK(
       std::is_permutation(r.equations.begin(), r.equations.end(), motion.sufficient.begin(), motion.sufficient.end()));
   CORANK_CHECK(std::is_permutation(e.dependent.begin(), e.dependent.end(), r.dependent.begin(), r.dependent.end()));
@@ -74,7 +74,7 @@ Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, 
   Sheet sheet = newton_prove(system, e, x, w);
   if (!sheet.proven) return {};
   // (2): a zero of {R, g} for every value of the same free variables, inside that region.
-  const Sheet other = newton_prove(motion.compiled, r, sheet.image.data(), w);
+  const Sheet other = newton_prove(motion.compiled, r, sheet.image, w);
   if (!other.proven) return {};
   for (std::size_t j = 0; j < sheet.region.size(); ++j)
     if (!sheet.region[j].contains(other.image[j])) return {};

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "corank/certify/newton.h"
@@ -36,6 +37,6 @@ std::optional<SelfMotion> self_motion(const System& system, std::vector<Polynomi
 /// The theorem above: e chooses E and its dependent variables, r the rows `sufficient` with the same dependents; any Y are valid. Every zero of F in x lies in
 /// the sheet's image, and the sheet's claim (certify/newton.h) is about all of F. Not proven where one of the hypotheses is not shown.
 Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, const Preconditioner& e,
-                        const Preconditioner& r, const Interval* x, NewtonWorkspace& w);
+                        const Preconditioner& r, std::span<const Interval> x, NewtonWorkspace& w);
 
 }  // namespace corank::certify

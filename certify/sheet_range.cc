@@ -4,6 +4,7 @@
 #include <map>
 
 #include "corank/certify/check.h"
+#include "corank/certify/newton_buffers.h"
 #include "corank/certify/rounding.h"
 
 namespace corank::certify {
@@ -20,6 +21,7 @@ class FaceRange {
         p_(p),
         piece_(piece),
         w_(w),
+        borrowed_(w),
         n_(static_cast<std::size_t>(system.variables())),
         r_(static_cast<std::size_t>(p.rank())),
         widths_(widths) {
@@ -52,15 +54,15 @@ class FaceRange {
 
   // derivatives_[a·k + f] ∋ ∂(dependent a)/∂(free f) on the sheet over the piece. False: no bound.
   bool differentiate() {
-    w_.contracted = false;
-    w_.slope.resize(static_cast<std::size_t>(system_.entries()));
-    system_.jacobian(piece_.data(), w_.slope.data());
-    w_.panel.set_matrix(p_.y, p_.rank());
-    if (!w_.panel.assign_product(system_, p_.equations, w_.slope)) return false;
+    buffers_.slope.resize(static_cast<std::size_t>(system_.entries()));
+    system_.jacobian(piece_, buffers_.slope);
+    buffers_.panel.set_matrix(p_.y, p_.rank());
+    if (!buffers_.panel.assign_product(system_, p_.equations, buffers_.slope)) return false;
     magnitude_.resize(r_ * r_);
     for (std::size_t a = 0; a < r_; ++a)
       for (std::size_t b = 0; b < r_; ++b)
-        magnitude_[a * r_ + b] = (Interval(a == b ? 1.0 : 0.0) - w_.panel.at(static_cast<int>(a), p_.dependent[b])).mag();
+        magnitude_[a * r_ + b] =
+            (Interval(a == b ? 1.0 : 0.0) - buffers_.panel.at(static_cast<int>(a), p_.dependent[b])).mag();
     derivatives_.assign(r_ * free_.size(), Interval());
     for (std::size_t f = 0; f < free_.size(); ++f)
       if (!differentiate(f)) return false;
@@ -69,7 +71,7 @@ class FaceRange {
 
   bool differentiate(std::size_t f) {
     constexpr int kSteps = 12;
-    const auto slope = [&](std::size_t a) { return w_.panel.at(static_cast<int>(a), free_[f]); };
+    const auto slope = [&](std::size_t a) { return buffers_.panel.at(static_cast<int>(a), free_[f]); };
     const auto scale = [&](std::size_t a) { return system_.scales()[static_cast<std::size_t>(p_.dependent[a])]; };
     double largest = 1e-300;
     for (std::size_t a = 0; a < r_; ++a) largest = std::max(largest, slope(a).mag() / scale(a));
@@ -96,10 +98,10 @@ class FaceRange {
 
   // along[f] ∋ the derivative of a value row.
   void differentiate(int row, std::vector<Interval>& along) {
-    system_.jacobian(row, piece_.data(), w_.slope.data());
+    system_.jacobian(row, piece_, buffers_.slope);
     gradient_.assign(n_, Interval());
     for (int e = system_.row_begin(row); e < system_.row_begin(row + 1); ++e)
-      gradient_[static_cast<std::size_t>(system_.column(e))] = w_.slope[static_cast<std::size_t>(e)];
+      gradient_[static_cast<std::size_t>(system_.column(e))] = buffers_.slope[static_cast<std::size_t>(e)];
     for (std::size_t f = 0; f < free_.size(); ++f) {
       along[f] = gradient_[static_cast<std::size_t>(free_[f])];
       for (std::size_t a = 0; a < r_; ++a)
@@ -132,12 +134,12 @@ class FaceRange {
       Interval& side = x[static_cast<std::size_t>(free_[f])];
       if (face[f] != 0) side = Interval(face[f] > 0 ? side.hi() : side.lo());
     }
-    for (int k = 0; k < kTightenings; ++k) tighten_sheet(system_, p_, x.data(), w_);
+    NewtonStep step = tighten_sheet(system_, p_, x, w_);
+    for (int k = 1; k < kTightenings; ++k) step = tighten_sheet(system_, p_, x, w_);
     for (int k = 0; k < system_.values(); ++k) {
       const int row = system_.value_row(k);
-      Interval value = system_.evaluate(row, x.data());
-      if (piece_[x.size()].width() > widths_[x.size()])
-        CORANK_CHECK(value.intersect(value_at_zeros(system_, p_, row, x.data(), w_)));
+      Interval value = system_.evaluate(row, x);
+      if (piece_[x.size()].width() > widths_[x.size()]) CORANK_CHECK(value.intersect(step.value_at_zeros(row, x)));
       x.push_back(value);
     }
     return at->second = std::move(x);
@@ -147,6 +149,8 @@ class FaceRange {
   const Preconditioner& p_;
   std::vector<Interval>& piece_;
   NewtonWorkspace& w_;
+  const BorrowedBuffers borrowed_;
+  NewtonBuffers& buffers_ = *borrowed_;
   const std::size_t n_, r_;
   const std::vector<double>& widths_;
   std::vector<int> free_;

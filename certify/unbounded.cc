@@ -125,7 +125,7 @@ bool contract_unbounded(const System& system, std::vector<Interval>& x) {
   for (int round = 0; round < kRounds; ++round) {
     const Box before = x;
     for (int row = 0; row < compiled.rows(); ++row)
-      if (!project(compiled, row, x.data(), 0, changed.data())) return false;
+      if (!project(compiled, row, x, 0, changed.data())) return false;
     if (!contract_squares(system, x)) return false;
     if (!gains(before, x)) break;
   }

@@ -34,7 +34,7 @@ BoxProcessor::BoxProcessor(const Problem& problem, Recorder* recorder)
       preconditioners_(problem.compiled, problem.ended),
       slicer_(problem, preconditioners_, workspace_, recorder) {}
 
-bool BoxProcessor::contract(Interval* x) {
+bool BoxProcessor::contract(std::span<Interval> x) {
   worth_proving_ = regular_ = noisy_ = false;
   if (!propagator_.run(problem_.compiled, x, recorder_)) return false;
   const int n = problem_.compiled.variables();
@@ -43,11 +43,12 @@ bool BoxProcessor::contract(Interval* x) {
     for (int j = 0; j < n; ++j) widths_[j] = x[j].width();
     const auto& p = preconditioners_.at_midpoint(x);
     if (recorder_) recorder_->newton(p, x);
-    const auto newton = certify::newton_contract(problem_.compiled, p, x, workspace_);
+    const certify::NewtonStep step(problem_.compiled, p, x, workspace_);
+    const certify::NewtonOutcome& newton = step.outcome();
     ++statistics_.newton_steps;
-    if (newton.empty || !certify::contract_free(p, x, workspace_)) return false;
+    if (newton.empty || !step.contract_free(x)) return false;
     regular_ = newton.regular && p.rank() == problem_.compiled.equations();
-    noisy_ = is_noisy(p, x);
+    noisy_ = is_noisy(step, x);
     worth_proving_ = regular_ && newton.spread < kProofSpread;
     bool gained = false;
     for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - kNewtonGain) * widths_[j];
@@ -58,15 +59,16 @@ bool BoxProcessor::contract(Interval* x) {
 }
 
 // Does rounding make what the equations say at a point as uncertain as the box is wide?
-bool BoxProcessor::is_noisy(const certify::Preconditioner& p, const Interval* x) const {
-  for (std::size_t a = 0; a < p.dependent.size() && workspace_.contracted; ++a) {
-    const double noise = workspace_.residual[a].width();
-    if (noise > 0 && noise > (regular_ ? kRegularNoise : kNoise) * x[p.dependent[a]].width()) return true;
+bool BoxProcessor::is_noisy(const certify::NewtonStep& step, std::span<const Interval> x) const {
+  for (std::size_t a = 0; a < step.dependent().size(); ++a) {
+    const double noise = step.noise(static_cast<int>(a));
+    const double width = x[static_cast<std::size_t>(step.dependent()[a])].width();
+    if (noise > 0 && noise > (regular_ ? kRegularNoise : kNoise) * width) return true;
   }
   return false;
 }
 
-certify::Sheet BoxProcessor::prove(const Interval* x) {
+certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
   if (preconditioners_.at_midpoint(x).rank() < problem_.compiled.equations()) {
     dependent_ = preconditioners_.last().dependent;
     return {};
@@ -79,17 +81,17 @@ certify::Sheet BoxProcessor::prove(const Interval* x) {
   return certify::newton_prove(problem_.compiled, p, x, workspace_);
 }
 
-certify::Sheet BoxProcessor::prove_partially(const Interval* x) {
+certify::Sheet BoxProcessor::prove_partially(std::span<const Interval> x) {
   certify::Sheet narrow =
       certify::newton_prove(problem_.compiled, preconditioners_.near_solution(x, problem_.rank_tolerance), x, workspace_);
   if (!narrow.proven || !problem_.is_partial(narrow) || narrow.dependent.size() == narrow.region.size()) return narrow;
-  std::vector<Interval> wide(x, x + problem_.compiled.variables());
+  std::vector<Interval> wide(x.begin(), x.begin() + problem_.compiled.variables());
   for (std::size_t j = 0; j < wide.size(); ++j) {
     const double half = 0.5 * std::min(problem_.sigma[j], 2 * kPartialShare * problem_.compiled.scales()[j]);
     wide[j] = Interval::hull(wide[j], Interval(wide[j].mid() - half, wide[j].mid() + half));
   }
-  const auto& p = preconditioners_.near_solution(wide.data(), problem_.rank_tolerance);
-  certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, wide.data(), workspace_);
+  const auto& p = preconditioners_.near_solution(wide, problem_.rank_tolerance);
+  certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, wide, workspace_);
   if (!sheet.proven || !problem_.is_partial(sheet)) return sheet;
   const std::vector<int> free = other_variables(sheet.dependent, problem_.compiled.variables());
   if (!slicer_.holds_on_parts(sheet, free, sheet.image, kPartialDepth)) return {};
@@ -97,7 +99,7 @@ certify::Sheet BoxProcessor::prove_partially(const Interval* x) {
   return sheet;
 }
 
-bool BoxProcessor::certify(Interval* x, Proof proof) {
+bool BoxProcessor::certify(std::span<Interval> x, Proof proof) {
   const auto start = std::chrono::steady_clock::now();
   ++statistics_.proofs_tried;
   const certify::Sheet sheet = proof == Proof::full ? prove(x) : prove_partially(x);
@@ -106,22 +108,23 @@ bool BoxProcessor::certify(Interval* x, Proof proof) {
       recorder_->newton(preconditioners_.last(), x);
       recorder_->keep(x);
     }
-    proven_.push_back({{x, x + problem_.compiled.variables()}, sheet, recorder_ ? recorder_->go_on_later() : 0});
+    proven_.push_back(
+        {{x.begin(), x.begin() + problem_.compiled.variables()}, sheet, recorder_ ? recorder_->go_on_later() : 0});
   }
   statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sheet.proven;
 }
 
-void BoxProcessor::add_unproven(const Interval* x, Verdict verdict) {
+void BoxProcessor::add_unproven(std::span<const Interval> x, Verdict verdict) {
   Found found;
-  found.box.box.assign(x, x + problem_.compiled.variables());
+  found.box.box.assign(x.begin(), x.begin() + problem_.compiled.variables());
   problem_.append_values(found.box.box);
   found.box.verdict = verdict;
   if (recorder_) recorder_->leaf_box(found_.size());
   found_.push_back(std::move(found));
 }
 
-void BoxProcessor::leave(const Interval* x) {
+void BoxProcessor::leave(std::span<const Interval> x) {
   if (problem_.domain.locate(problem_.compiled, x) != certify::Location::outside) {
     add_unproven(x, Verdict::pending);
   } else if (recorder_) {
@@ -129,7 +132,7 @@ void BoxProcessor::leave(const Interval* x) {
   }
 }
 
-int BoxProcessor::widest_free(const Interval* x) {
+int BoxProcessor::widest_free(std::span<const Interval> x) {
   const std::vector<double>& scales = problem_.compiled.scales();
   int widest = -1;
   for (int j : other_variables(dependent_, problem_.compiled.variables())) {
@@ -141,8 +144,8 @@ int BoxProcessor::widest_free(const Interval* x) {
 void BoxProcessor::add_proven(const Postponed& box) {
   NodeId node = 0;
   if (recorder_) {
-    recorder_->begin(box.node, box.x.data(), problem_.compiled.variables());
-    recorder_->newton(box.step, box.x.data());
+    recorder_->begin(box.node, box.x, problem_.compiled.variables());
+    recorder_->newton(box.step, box.x);
     node = recorder_->go_on_later();
   }
   proven_.push_back({box.x, box.proof, node});
@@ -150,18 +153,18 @@ void BoxProcessor::add_proven(const Postponed& box) {
 
 void BoxProcessor::cut(const Proven& proven, bool whole) {
   const auto start = std::chrono::steady_clock::now();
-  if (recorder_) recorder_->begin(proven.node, proven.x.data(), problem_.compiled.variables());
-  slicer_.slice(proven.sheet, proven.x.data(), found_, whole);
+  if (recorder_) recorder_->begin(proven.node, proven.x, problem_.compiled.variables());
+  slicer_.slice(proven.sheet, proven.x, found_, whole);
   statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<double> BoxProcessor::midpoint(const Interval* x) const {
+std::vector<double> BoxProcessor::midpoint(std::span<const Interval> x) const {
   std::vector<double> result;
   for (int j = 0; j < problem_.compiled.variables(); ++j) result.push_back(x[j].mid());
   return result;
 }
 
-std::optional<LocalSolution> BoxProcessor::degenerate_solution(const Interval* x, double share) const {
+std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const Interval> x, double share) const {
   const auto& system = problem_.compiled;
   auto near = local_solution(problem_, midpoint(x), kRankShare * share);
   if (!near || near->rank >= std::min(system.equations(), system.variables())) return std::nullopt;
@@ -173,7 +176,7 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(const Interval* x
 }
 
 // The variable to bisect; −1: the box is small enough to be given up, and `near` says why where that is known.
-int BoxProcessor::choose_split(const Interval* x, double share, std::optional<LocalSolution>& near) {
+int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near) {
   const auto& branching = problem_.branching;
   const bool noisy = noisy_ && problem_.relative_width(x) < kNoisySize;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share));
@@ -197,7 +200,7 @@ int BoxProcessor::choose_split(const Interval* x, double share, std::optional<Lo
   return split;
 }
 
-BoxProcessor::Outcome BoxProcessor::process(Interval* x, double share) {
+BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double share) {
   ++statistics_.processed;
   if (!contract(x)) {
     if (recorder_) recorder_->leaf_empty();
@@ -216,7 +219,7 @@ BoxProcessor::Outcome BoxProcessor::process(Interval* x, double share) {
   }
   if (near) {
     if (recorder_) recorder_->keep(x);
-    postponed_.push_back({{x, x + problem_.compiled.variables()},
+    postponed_.push_back({{x.begin(), x.begin() + problem_.compiled.variables()},
                           std::move(*near),
                           0,
                           recorder_ ? recorder_->go_on_later() : 0,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "corank/solve/local_solution.h"
@@ -46,15 +47,15 @@ class BoxProcessor {
   /// Treats the box x (changed in place). done: it is empty, or its solutions are in a sheet of proven(), or in found(). split: it has
   /// shrunk to x and is to be bisected at split_variable(). postponed: it is the last of postponed().
   /// `share` of the typical sizes: how small a box is before it may be postponed.
-  Outcome process(certify::Interval* x, double share);
+  Outcome process(std::span<certify::Interval> x, double share);
   /// Keeps a postponed box that was proven to hold a self-motion.
   void add_proven(const Postponed& box);
   /// Cuts a sheet into found() pieces, or leaves it whole.
   void cut(const Proven& proven, bool whole);
   /// Adds x, unprocessed, to found().
-  void leave(const certify::Interval* x);
+  void leave(std::span<const certify::Interval> x);
   /// Adds x, which nothing could be proven of, to found().
-  void give_up(const certify::Interval* x, certify::Reason reason) {
+  void give_up(std::span<const certify::Interval> x, certify::Reason reason) {
     add_unproven(x, certify::Verdict::undecided);
     found_.back().box.reason = reason;
   }
@@ -67,22 +68,22 @@ class BoxProcessor {
 
  private:
   // Propagation and interval Newton in turns. False: empty.
-  bool contract(certify::Interval* x);
+  bool contract(std::span<certify::Interval> x);
   // The widest side that Newton leaves free, −1 where there is none.
-  int widest_free(const certify::Interval* x);
+  int widest_free(std::span<const certify::Interval> x);
   // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), keeps it and returns true.
   enum class Proof { full, partial };
-  certify::Sheet prove(const certify::Interval* x);
+  certify::Sheet prove(std::span<const certify::Interval> x);
   // Proves an independent subset and bounds the others over a box no narrower than σ: in a tiny box around a singular point any
   // equation looks redundant.
-  certify::Sheet prove_partially(const certify::Interval* x);
-  bool certify(certify::Interval* x, Proof proof);
+  certify::Sheet prove_partially(std::span<const certify::Interval> x);
+  bool certify(std::span<certify::Interval> x, Proof proof);
   // A solution in x or next to it at which the Jacobian has not its full rank.
-  std::optional<LocalSolution> degenerate_solution(const certify::Interval* x, double share) const;
-  bool is_noisy(const certify::Preconditioner& p, const certify::Interval* x) const;
-  std::vector<double> midpoint(const certify::Interval* x) const;
-  int choose_split(const certify::Interval* x, double share, std::optional<LocalSolution>& near);
-  void add_unproven(const certify::Interval* x, certify::Verdict verdict);
+  std::optional<LocalSolution> degenerate_solution(std::span<const certify::Interval> x, double share) const;
+  bool is_noisy(const certify::NewtonStep& step, std::span<const certify::Interval> x) const;
+  std::vector<double> midpoint(std::span<const certify::Interval> x) const;
+  int choose_split(std::span<const certify::Interval> x, double share, std::optional<LocalSolution>& near);
+  void add_unproven(std::span<const certify::Interval> x, certify::Verdict verdict);
 
   const Problem& problem_;
   Recorder* const recorder_;

@@ -78,7 +78,7 @@ class Search {
   void run(const certify::Reduction& reduction) {
     roots_ = roots_of(reduction);
     WorkList list(reduction.kept.size());
-    for (std::size_t r = roots_.size(); r-- > 0;) list.push(roots_[r].data(), 1.0 / static_cast<double>(roots_.size()), r);
+    for (std::size_t r = roots_.size(); r-- > 0;) list.push(roots_[r], 1.0 / static_cast<double>(roots_.size()), r);
     for (share_ = kFirstShare; !list.empty(); share_ *= kNextShare) {
       search(std::move(list));
       list = divide_postponed(reduction.system);
@@ -236,11 +236,11 @@ class Search {
         continue;
       }
       if (reasons[i] == certify::Reason::none) {
-        list.push(box.x.data(), box.share, box.node);
+        list.push(box.x, box.share, box.node);
         continue;
       }
-      if (worker.recorder) worker.recorder->begin(box.node, box.x.data(), problem_.compiled.variables());
-      worker.processor.give_up(box.x.data(), reasons[i]);
+      if (worker.recorder) worker.recorder->begin(box.node, box.x, problem_.compiled.variables());
+      worker.processor.give_up(box.x, reasons[i]);
       done_share_.fetch_add(box.share, std::memory_order_relaxed);
       count_found(worker);
     }
@@ -350,9 +350,9 @@ class Search {
       }
       if (!count_one()) break;
       const NodeId node = list.node();
-      const double share = list.pop(x.data());
-      if (worker.recorder) worker.recorder->begin(node, x.data(), problem_.compiled.variables());
-      const auto outcome = processor.process(x.data(), share_);
+      const double share = list.pop(x);
+      if (worker.recorder) worker.recorder->begin(node, x, problem_.compiled.variables());
+      const auto outcome = processor.process(x, share_);
       if (outcome == BoxProcessor::Outcome::split) {
         const int j = processor.split_variable();
         const Interval side = x[j];
@@ -364,9 +364,9 @@ class Search {
           worker.recorder->split(j, at, lower, upper);
         }
         x[j] = Interval(at, side.hi());
-        list.push(x.data(), share * (1 - kBisectionPoint), upper);
+        list.push(x, share * (1 - kBisectionPoint), upper);
         x[j] = Interval(side.lo(), at);
-        list.push(x.data(), share * kBisectionPoint, lower);
+        list.push(x, share * kBisectionPoint, lower);
         waiting_.fetch_add(1, std::memory_order_relaxed);
       } else {
         waiting_.fetch_sub(1, std::memory_order_relaxed);
@@ -379,9 +379,9 @@ class Search {
     keep(-listed);
     while (!list.empty()) {
       const NodeId node = list.node();
-      list.pop(x.data());
-      if (worker.recorder) worker.recorder->begin(node, x.data(), problem_.compiled.variables());
-      processor.leave(x.data());
+      list.pop(x);
+      if (worker.recorder) worker.recorder->begin(node, x, problem_.compiled.variables());
+      processor.leave(x);
     }
   }
 

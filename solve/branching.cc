@@ -67,10 +67,10 @@ std::optional<double> split_point(const certify::Interval& side) {
   return at > side.lo() && at < side.hi() ? std::optional(at) : std::nullopt;
 }
 
-std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, const certify::Interval* x) const {
+std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, std::span<const certify::Interval> x) const {
   std::vector<double> result(weight_.size(), 0.0), part(weight_.size());
   std::vector<certify::Interval> jacobian(static_cast<std::size_t>(system.entries()));
-  system.jacobian(x, jacobian.data());
+  system.jacobian(x, jacobian);
   for (int row = 0; row < system.equations(); ++row) {
     const int begin = system.row_begin(row), end = system.row_begin(row + 1);
     double sum = 0;
@@ -87,7 +87,7 @@ std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, 
   return result;
 }
 
-int BranchingRule::choose(const certify::CompiledSystem& system, const certify::Interval* x,
+int BranchingRule::choose(const certify::CompiledSystem& system, std::span<const certify::Interval> x,
                           const std::vector<double>& limits) const {
   const std::vector<double> smears = smear(system, x);
   int best = -1, widest = -1;

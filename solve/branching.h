@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
@@ -24,12 +25,13 @@ class BranchingRule {
   /// w_k), the variable's share in what makes each uncertain: relative smear (key Trombettoni2011), where the root favours a variable of many
   /// equations; root and power are measured, see bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until
   /// all others are narrow.
-  int choose(const certify::CompiledSystem& system, const certify::Interval* x, const std::vector<double>& limits) const;
+  int choose(const certify::CompiledSystem& system, std::span<const certify::Interval> x,
+             const std::vector<double>& limits) const;
 
   const std::vector<double>& weights() const { return weight_; }
 
  private:
-  std::vector<double> smear(const certify::CompiledSystem& system, const certify::Interval* x) const;
+  std::vector<double> smear(const certify::CompiledSystem& system, std::span<const certify::Interval> x) const;
 
   std::vector<double> weight_;  // 0: defined by others, see branching.cc; 1: else
 };

@@ -79,7 +79,7 @@ bool is_isolated(const Problem& problem, const std::vector<Postponed>& boxes, co
   Box hull = boxes[cluster[0]].x;
   for (const std::size_t i : cluster)
     for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], boxes[i].x[j]);
-  return problem.relative_width(hull.data()) <= kIsolatedHull * share;
+  return problem.relative_width(hull) <= kIsolatedHull * share;
 }
 
 bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster,
@@ -98,11 +98,11 @@ bool SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed&
   const certify::SelfMotion& motion = known_[index].motion;
   certify::NewtonWorkspace workspace;
   PreconditionerFactory of_system(problem.compiled), of_motion(motion.compiled);
-  const certify::Preconditioner e = of_system.near_solution(box.x.data(), kMotionRankTolerance);
+  const certify::Preconditioner e = of_system.near_solution(box.x, kMotionRankTolerance);
   if (e.rank() != static_cast<int>(motion.sufficient.size())) return false;
-  const certify::Preconditioner r = of_motion.at_midpoint(box.x.data(), &e.dependent, &motion.sufficient);
+  const certify::Preconditioner r = of_motion.at_midpoint(box.x, &e.dependent, &motion.sufficient);
   if (r.rank() != e.rank()) return false;
-  box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.x.data(), workspace);
+  box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.x, workspace);
   box.proof.motion = static_cast<int>(index);
   box.step = e;
   return box.proof.proven;
@@ -159,7 +159,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::Sy
     }
     for (const std::size_t i : cluster) {
       if (!boxes[i].proof.proven) prove_on_known(problem, boxes[i]);
-      const bool at_doubles_end = problem.relative_width(boxes[i].x.data()) < kDoublesEnd || boxes[i].noisy;
+      const bool at_doubles_end = problem.relative_width(boxes[i].x) < kDoublesEnd || boxes[i].noisy;
       reasons[i] = reason == Reason::none && at_doubles_end ? Reason::precision : reason;
     }
   }

@@ -109,14 +109,15 @@ class Merger {
     }
     hull.resize(n);
     const std::vector<int> dependent = other_variables(a.free, system.variables());
-    const auto& p = preconditioners_.at_midpoint(hull.data(), &dependent);
+    const auto& p = preconditioners_.at_midpoint(hull, &dependent);
     if (p.rank() < system.equations()) return false;
-    certify::Sheet sheet = certify::newton_prove(system, p, hull.data(), workspace_);
+    certify::Sheet sheet = certify::newton_prove(system, p, hull, workspace_);
     if (!sheet.proven) return false;
     Box& image = sheet.image;
-    for (int k = 0; k < kTightenings; ++k) certify::tighten_sheet(system, p, image.data(), workspace_);
-    if (problem_.domain.locate_zeros(system, p, image.data(), workspace_) != certify::Location::inside) return false;
-    problem_.append_values_at_zeros(p, image, workspace_);
+    certify::NewtonStep step = certify::tighten_sheet(system, p, image, workspace_);
+    for (int k = 1; k < kTightenings; ++k) step = certify::tighten_sheet(system, p, image, workspace_);
+    if (problem_.domain.locate_zeros(step, image) != certify::Location::inside) return false;
+    problem_.append_values_at_zeros(step, image);
     if (problem_.excess(image) > 1) return false;
     problem_.append_values(sheet.region);
     found.region = std::make_shared<const Box>(std::move(sheet.region));

@@ -43,7 +43,7 @@ void merge_isolated(std::vector<Found*>& found, const certify::Ended& ended) {
   const auto compare = [&](std::size_t i, std::size_t j) {
     if (i == j || remove[i] || remove[j]) return;
     if (!is_proven(*found[j])) {
-      if (certify::holds_nothing_else(*found[i]->sheet, found[j]->box.box.data())) absorb(i, j);
+      if (certify::holds_nothing_else(*found[i]->sheet, found[j]->box.box)) absorb(i, j);
     } else if (i < j) {
       switch (certify::compare_isolated(*found[i]->sheet, *found[j]->sheet)) {
         case certify::Identity::same: absorb(i, j); break;

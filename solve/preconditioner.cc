@@ -19,7 +19,7 @@ constexpr long kLargeTableau = 20'000;  // entries: a step with it is long enoug
 PreconditionerFactory::PreconditionerFactory(const certify::CompiledSystem& system, certify::Ended ended)
     : system_(system), ended_(std::move(ended)), m_(system.equations()), n_(system.variables()) {}
 
-const certify::Preconditioner& PreconditionerFactory::at_midpoint(const certify::Interval* x,
+const certify::Preconditioner& PreconditionerFactory::at_midpoint(std::span<const certify::Interval> x,
                                                                   const std::vector<int>* candidates,
                                                                   const std::vector<int>* rows) {
   center_.resize(n_);
@@ -27,7 +27,8 @@ const certify::Preconditioner& PreconditionerFactory::at_midpoint(const certify:
   return at_center(candidates, rows, kRankTolerance);
 }
 
-const certify::Preconditioner& PreconditionerFactory::near_solution(const certify::Interval* x, double rank_tolerance) {
+const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<const certify::Interval> x,
+                                                                    double rank_tolerance) {
   center_.resize(n_);
   for (int j = 0; j < n_; ++j) center_[j] = x[j].mid();
   double former = HUGE_VAL;

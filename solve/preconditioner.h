@@ -2,6 +2,7 @@
 // valid for any choice.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "corank/certify/ended.h"
@@ -17,11 +18,12 @@ class PreconditionerFactory {
   /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x, its columns times the variables'
   /// scales: each pivot makes one variable dependent. Fewer than m rows where the Jacobian is numerically rank deficient. If given, only the `candidates` may become
   /// dependent, and only the `rows` are used.
-  const certify::Preconditioner& at_midpoint(const certify::Interval* x, const std::vector<int>* candidates = nullptr,
+  const certify::Preconditioner& at_midpoint(std::span<const certify::Interval> x,
+                                             const std::vector<int>* candidates = nullptr,
                                              const std::vector<int>* rows = nullptr);
   /// The same at a point near the midpoint where all equations nearly hold (a few Gauss–Newton steps), so that the rank of an
   /// over-determined system shows: away from its solutions redundant equations look independent. Pivots below `rank_tolerance` count as zero.
-  const certify::Preconditioner& near_solution(const certify::Interval* x, double rank_tolerance);
+  const certify::Preconditioner& near_solution(std::span<const certify::Interval> x, double rank_tolerance);
 
   /// An elimination was given up: its result has no rows, which is valid, too.
   bool over() const { return over_; }

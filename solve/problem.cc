@@ -55,7 +55,7 @@ double Problem::excess(const certify::Box& sides) const {
   return largest;
 }
 
-double Problem::relative_width(const certify::Interval* x) const {
+double Problem::relative_width(std::span<const certify::Interval> x) const {
   double largest = 0;
   for (std::size_t j = 0; j < compiled.scales().size(); ++j)
     largest = std::max(largest, x[j].width() / (2 * compiled.scales()[j]));
@@ -64,16 +64,14 @@ double Problem::relative_width(const certify::Interval* x) const {
 
 void Problem::append_values(certify::Box& sides) const {
   sides.resize(static_cast<std::size_t>(compiled.variables()));
-  for (int k = 0; k < compiled.values(); ++k) sides.push_back(compiled.evaluate(compiled.value_row(k), sides.data()));
+  for (int k = 0; k < compiled.values(); ++k) sides.push_back(compiled.evaluate(compiled.value_row(k), sides));
 }
 
-void Problem::append_values_at_zeros(const certify::Preconditioner& p, certify::Box& sides,
-                                     certify::NewtonWorkspace& w) const {
+void Problem::append_values_at_zeros(const certify::NewtonStep& step, certify::Box& sides) const {
   append_values(sides);
   const std::size_t n = static_cast<std::size_t>(compiled.variables());
   for (int k = 0; k < compiled.values(); ++k)
-    sides[n + static_cast<std::size_t>(k)].intersect(
-        certify::value_at_zeros(compiled, p, compiled.value_row(k), sides.data(), w));
+    sides[n + static_cast<std::size_t>(k)].intersect(step.value_at_zeros(compiled.value_row(k), sides));
 }
 
 std::vector<int> other_variables(const std::vector<int>& given, int variables) {

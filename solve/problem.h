@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "corank/certify/cover.h"
 #include "corank/certify/domain.h"
@@ -26,7 +27,7 @@ struct Problem {
   /// without those of the eliminated ones behind them.
   double excess(const certify::Box& sides) const;
   /// The largest ratio of a kept variable's side to its typical size.
-  double relative_width(const certify::Interval* x) const;
+  double relative_width(std::span<const certify::Interval> x) const;
 
   /// Of each kept variable: as wide as an unproven box may be when it is given up for small; a share of twice its typical size. Where coefficients
   /// carry a tolerance, below which nothing can be proven, no more than σ.
@@ -38,8 +39,8 @@ struct Problem {
   }
   /// Appends the eliminated variables' sides over x to the n sides of x (what follows those is renewed).
   void append_values(certify::Box& sides) const;
-  /// The same of the zeros of p's rows in x, after certify::newton_contract with p and w on a box that contains x.
-  void append_values_at_zeros(const certify::Preconditioner& p, certify::Box& sides, certify::NewtonWorkspace& w) const;
+  /// The same of the zeros of the step's rows in the sides, a part of its box.
+  void append_values_at_zeros(const certify::NewtonStep& step, certify::Box& sides) const;
 
   certify::CompiledSystem compiled;  ///< value rows: the eliminated variables
   certify::RedundantEquations

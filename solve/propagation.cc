@@ -15,7 +15,7 @@ constexpr int kDomainRuns = 8;            // of the search domain
 
 }  // namespace
 
-bool Propagator::run(const certify::CompiledSystem& system, certify::Interval* x, Recorder* recorder) {
+bool Propagator::run(const certify::CompiledSystem& system, std::span<certify::Interval> x, Recorder* recorder) {
   changed_.resize(static_cast<std::size_t>(system.variables()));
   // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows, since
   // each return costs a variable a tenth of its width.
@@ -27,9 +27,9 @@ bool Propagator::run(const certify::CompiledSystem& system, certify::Interval* x
     const int row = queue_[head];
     pending_[row] = 0;
     std::fill(changed_.begin(), changed_.end(), 0);
-    if (recorder) before_.assign(x, x + system.variables());
+    if (recorder) before_.assign(x.begin(), x.begin() + system.variables());
     const bool empty = !certify::project(system, row, x, kWorthwhileShare, changed_.data());
-    if (recorder && (empty || !std::equal(before_.begin(), before_.end(), x))) recorder->row(row);
+    if (recorder && (empty || !std::equal(before_.begin(), before_.end(), x.begin()))) recorder->row(row);
     if (empty) return false;
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) {
       if (!changed_[system.column(k)]) continue;
@@ -49,7 +49,7 @@ TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<ce
   Propagator propagator;
   for (int run = 0; run < kDomainRuns; ++run) {
     const std::vector<certify::Interval> before = domain;
-    if (!propagator.run(system, domain.data())) {  // there is nothing to search
+    if (!propagator.run(system, domain)) {  // there is nothing to search
       domain = before;
       break;
     }
@@ -65,7 +65,7 @@ TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<ce
     sizes.variables.push_back(usable(half > least ? half : side.mag()));
   }
   std::vector<certify::Interval> jacobian(static_cast<std::size_t>(system.entries()));
-  system.jacobian(domain.data(), jacobian.data());
+  system.jacobian(domain, jacobian);
   for (int row = 0; row < system.equations(); ++row) {
     double largest = 0;
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)

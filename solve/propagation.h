@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
@@ -15,7 +16,7 @@ class Propagator {
  public:
   /// Projects every row, and each row again when one of its variables has lost more than a tenth of its width. False: x holds no
   /// solution. Where given, the recorder keeps what was gained.
-  bool run(const certify::CompiledSystem& system, certify::Interval* x, Recorder* recorder = nullptr);
+  bool run(const certify::CompiledSystem& system, std::span<certify::Interval> x, Recorder* recorder = nullptr);
 
  private:
   std::vector<certify::Interval> before_;  // for the recorder

@@ -42,10 +42,10 @@ void Recorder::step(Step s) {
 
 void Recorder::close() { open_->end = {script_.steps.size(), script_.integers.size(), script_.reals.size()}; }
 
-void Recorder::begin(NodeId node, const Interval* x, int variables) {
+void Recorder::begin(NodeId node, std::span<const Interval> x, int variables) {
   const Cursor here{script_.steps.size(), script_.integers.size(), script_.reals.size()};
   open_ = &nodes_.try_emplace(node, Node{here, here}).first->second;
-  kept_.assign(x, x + variables);
+  kept_.assign(x.begin(), x.begin() + variables);
 }
 
 void Recorder::row(int row) {
@@ -53,7 +53,7 @@ void Recorder::row(int row) {
   step(Step::row);
 }
 
-void Recorder::newton(const certify::Preconditioner& p, const Interval* x) {
+void Recorder::newton(const certify::Preconditioner& p, std::span<const Interval> x) {
   if (p.rank() == 0 || !std::all_of(p.y.begin(), p.y.end(), fits_float)) return;
   keep(x);
   script_.integers.push_back(static_cast<std::int32_t>(script_.combinations.size()));
@@ -63,7 +63,7 @@ void Recorder::newton(const certify::Preconditioner& p, const Interval* x) {
   step(Step::newton);
 }
 
-void Recorder::keep(const Interval* x) {
+void Recorder::keep(std::span<const Interval> x) {
   std::vector<std::int32_t> sides;
   std::vector<double> bounds;
   for (std::size_t j = 0; j < kept_.size(); ++j) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "corank/certify/newton.h"
@@ -26,11 +27,11 @@ class Recorder {
   LeafId leaf(std::size_t found) const { return prefix_ | found; }
 
   /// What follows is done to this box, until it is split or ends in a leaf.
-  void begin(NodeId node, const certify::Interval* x, int variables);
+  void begin(NodeId node, std::span<const certify::Interval> x, int variables);
   void row(int row);
   /// A step with p about the midpoint of x, the box as it is before. Nothing is kept of a p that floats cannot hold.
-  void newton(const certify::Preconditioner& p, const certify::Interval* x);
-  void keep(const certify::Interval* x);
+  void newton(const certify::Preconditioner& p, std::span<const certify::Interval> x);
+  void keep(std::span<const certify::Interval> x);
   void split(int variable, double where, NodeId lower, NodeId upper);
   /// What becomes of the box, as it is now, will be recorded under the node that is returned, by this recorder or another.
   NodeId go_on_later();

@@ -13,6 +13,7 @@ namespace {
 using certify::Box;
 using certify::Interval;
 using certify::Location;
+using certify::NewtonStep;
 using certify::Preconditioner;
 using certify::Sheet;
 using certify::Verdict;
@@ -43,14 +44,18 @@ constexpr unsigned kPiecesBetweenChecks = 16;
 
 }  // namespace
 
-const Preconditioner& Slicer::tighten(const Task& task, Piece& piece, const Preconditioner& inherited, Preconditioner& own) {
+NewtonStep Slicer::tighten(const Task& task, Piece& piece, const Preconditioner*& p, Preconditioner& own) {
   Box& sides = piece.sides;
-  const Preconditioner* p = &inherited;
+  const Preconditioner* const inherited = p;
   const auto renew = [&] {
-    own = preconditioners_.at_midpoint(sides.data(), &task.sheet.dependent, &task.sheet.equations);
+    own = preconditioners_.at_midpoint(sides, &task.sheet.dependent, &task.sheet.equations);
     p = &own;
   };
-  const auto step = [&] { piece.spread = certify::tighten_sheet(problem_.compiled, *p, sides.data(), workspace_); };
+  std::optional<NewtonStep> last;
+  const auto step = [&] {
+    last = certify::tighten_sheet(problem_.compiled, *p, sides, workspace_);
+    piece.spread = last->outcome().spread;
+  };
   sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
   const bool is_point = task.free.empty();
   if (!is_point && piece.spread > kStaleSpread) renew();  // the parts of such a piece are hardly better
@@ -58,24 +63,24 @@ const Preconditioner& Slicer::tighten(const Task& task, Piece& piece, const Prec
   for (int k = 0; k < (is_point ? kPointTightenings : kTightenings); ++k) {
     if (is_point && k > 0) renew();
     step();
-    if (piece.spread > kStaleSpread && p == &inherited && !is_point) {
+    if (piece.spread > kStaleSpread && p == inherited && !is_point) {
       renew();
       step();
     }
-    const double tightened = is_point ? problem_.relative_width(sides.data()) : problem_.excess(sides);
+    const double tightened = is_point ? problem_.relative_width(sides) : problem_.excess(sides);
     if (is_point ? tightened == width : tightened <= 1 || tightened > 0.9 * width) break;
     if (!is_point && tightened > kNearSigma) break;  // to be cut anyway
     width = tightened;
   }
   if (is_point || problem_.excess(sides) <= kNearSigma) {
-    problem_.append_values_at_zeros(*p, sides, workspace_);
+    problem_.append_values_at_zeros(*last, sides);
   } else {
     problem_.append_values(sides);
   }
-  return *p;
+  return *std::move(last);
 }
 
-bool Slicer::trim(const Task& task, const Preconditioner& p, Slopes slopes, Box& sides) {
+bool Slicer::trim(const Task& task, NewtonStep& step, const Preconditioner* own, Box& sides) {
   const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
   bool inside = true;
   for (std::size_t j = 0; j < n; ++j) {
@@ -85,7 +90,7 @@ bool Slicer::trim(const Task& task, const Preconditioner& p, Slopes slopes, Box&
   if (inside) return true;
   met_.assign(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t j = 0; j < n; ++j) met_[j].intersect(task.x[j]);
-  if (!certify::contract_free(p, met_.data(), workspace_)) return false;
+  if (!step.contract_free(met_)) return false;
   bool narrower = false;
   for (int f : task.free) {
     const auto j = static_cast<std::size_t>(f);
@@ -93,44 +98,44 @@ bool Slicer::trim(const Task& task, const Preconditioner& p, Slopes slopes, Box&
     sides[j] = met_[j];
   }
   if (narrower) {  // so are the other sides
-    if (slopes == Slopes::own) {
-      certify::tighten_sheet(problem_.compiled, p, sides.data(), workspace_);
+    if (own) {
+      step = certify::tighten_sheet(problem_.compiled, *own, sides, workspace_);
     } else {
-      certify::tighten_part(p, sides.data(), workspace_);
+      step.tighten_part(sides);
     }
-    problem_.append_values_at_zeros(p, sides, workspace_);
+    problem_.append_values_at_zeros(step, sides);
   }
   return true;
 }
 
-std::optional<Location> Slicer::place(const Task& task, const Preconditioner& p, Slopes slopes, Box& sides) {
-  if (!trim(task, p, slopes, sides)) return std::nullopt;
-  const Location location = problem_.domain.locate_zeros(problem_.compiled, p, sides.data(), workspace_);
+std::optional<Location> Slicer::place(const Task& task, NewtonStep& step, const Preconditioner* own, Box& sides) {
+  if (!trim(task, step, own, sides)) return std::nullopt;
+  const Location location = problem_.domain.locate_zeros(step, sides);
   return location == Location::outside ? std::nullopt : std::optional(location);
 }
 
-void Slicer::measure_steepness(const Preconditioner& p, const std::vector<int>& free, const Box& piece) {
+void Slicer::measure_steepness(const NewtonStep& step, const std::vector<int>& free, const Box& piece) {
   const auto& system = problem_.compiled;
-  const std::size_t n = static_cast<std::size_t>(system.variables()), r = p.dependent.size();
+  const std::size_t n = static_cast<std::size_t>(system.variables()), r = step.dependent().size();
   steepness_.clear();
-  // Y·S has nearly the unit matrix in the dependent columns, so its free columns are −∂(dependent)/∂(free).
+  slope_.resize(static_cast<std::size_t>(system.entries()));
   for (std::size_t a = 0; a < r; ++a) {
-    const double sigma = problem_.sigma[static_cast<std::size_t>(p.dependent[a])];
+    const double sigma = problem_.sigma[static_cast<std::size_t>(step.dependent()[a])];
     if (!std::isfinite(sigma)) continue;
-    for (int f : free) steepness_.push_back(std::fabs(workspace_.panel.at(static_cast<int>(a), f).mid()) / sigma);
+    for (int f : free) steepness_.push_back(std::fabs(step.derivative(static_cast<int>(a), f)) / sigma);
   }
   for (int k = 0; k < system.values(); ++k) {
     const double sigma = problem_.sigma[n + static_cast<std::size_t>(k)];
     if (!std::isfinite(sigma)) continue;
     const int row = system.value_row(k);
-    system.slopes(row, piece.data(), workspace_.center.data(), workspace_.slope.data());
+    system.slopes(row, piece, step.center().data(), slope_);
     gradient_.assign(n, 0.0);
     for (int e = system.row_begin(row); e < system.row_begin(row + 1); ++e)
-      gradient_[static_cast<std::size_t>(system.column(e))] = workspace_.slope[static_cast<std::size_t>(e)].mid();
+      gradient_[static_cast<std::size_t>(system.column(e))] = slope_[static_cast<std::size_t>(e)].mid();
     for (int f : free) {
       double slope = gradient_[static_cast<std::size_t>(f)];
       for (std::size_t a = 0; a < r; ++a)
-        slope -= gradient_[static_cast<std::size_t>(p.dependent[a])] * workspace_.panel.at(static_cast<int>(a), f).mid();
+        slope += gradient_[static_cast<std::size_t>(step.dependent()[a])] * step.derivative(static_cast<int>(a), f);
       steepness_.push_back(std::fabs(slope) / sigma);
     }
   }
@@ -165,13 +170,13 @@ std::vector<int> Slicer::parts_of(const Box& piece, const std::vector<int>& free
 }
 
 bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Box piece, int depth) {
-  const auto& p = preconditioners_.at_midpoint(piece.data(), &sheet.dependent, &sheet.equations);
+  const auto& p = preconditioners_.at_midpoint(piece, &sheet.dependent, &sheet.equations);
   if (p.rank() != static_cast<int>(sheet.dependent.size())) return false;
-  certify::tighten_sheet(problem_.compiled, p, piece.data(), workspace_);
+  const NewtonStep step = certify::tighten_sheet(problem_.compiled, p, piece, workspace_);
   if (problem_.is_partial(sheet)) {
-    if (problem_.redundant.hold(problem_.compiled, problem_.domain, p, piece.data(), workspace_)) return true;
+    if (problem_.redundant.hold(problem_.domain, step, piece)) return true;
   } else {
-    const Location location = problem_.domain.locate_zeros(problem_.compiled, p, piece.data(), workspace_);
+    const Location location = problem_.domain.locate_zeros(step, piece);
     if (location != Location::across) return location == Location::inside;
   }
   if (depth == 0 || free.empty() || free.size() > kMostHalvedSides) return false;
@@ -224,7 +229,7 @@ void Slicer::add(Task& task, Box piece, Location location) {
 }
 
 void Slicer::leave(std::vector<Found>& found, Box sides) {
-  if (problem_.domain.locate(problem_.compiled, sides.data()) == Location::outside) {
+  if (problem_.domain.locate(problem_.compiled, sides) == Location::outside) {
     if (recorder_) recorder_->leaf_elsewhere();
     return;
   }
@@ -240,7 +245,7 @@ std::optional<std::vector<int>> Slicer::better_chart(const Task& task, const Box
   std::vector<double> sizes(n);
   for (std::size_t j = 0; j < n; ++j)
     sizes[j] = std::isfinite(problem_.sigma[j]) ? problem_.sigma[j] : kNoSigma * problem_.compiled.scales()[j];
-  const auto& p = preconditioners_.at_midpoint(sides.data(), &sheet.dependent, &sheet.equations);
+  const auto& p = preconditioners_.at_midpoint(sides, &sheet.dependent, &sheet.equations);
   if (p.dependent.size() < sheet.dependent.size()) return std::nullopt;
   std::vector<int> dependent = preconditioners_.chart_of_last(sizes, kGainOfAChart);
   if (std::is_permutation(dependent.begin(), dependent.end(), sheet.dependent.begin(), sheet.dependent.end()))
@@ -252,16 +257,16 @@ bool Slicer::slice_in_chart(Task& task, Box sides, const std::vector<int>& depen
   sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
   for (std::size_t j = 0; j < sides.size(); ++j)
     if (!sides[j].intersect(task.x[j])) return false;
-  const auto& p = preconditioners_.at_midpoint(sides.data(), &dependent, &task.sheet.equations);
+  const auto& p = preconditioners_.at_midpoint(sides, &dependent, &task.sheet.equations);
   if (p.dependent.size() < dependent.size()) return false;
-  const Sheet sheet = certify::newton_prove(problem_.compiled, p, sides.data(), workspace_);
-  if (sheet.proven) slice(sheet, sides.data(), task.found, false);
+  const Sheet sheet = certify::newton_prove(problem_.compiled, p, sides, workspace_);
+  if (sheet.proven) slice(sheet, sides, task.found, false);
   return sheet.proven;
 }
 
-void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& found, bool whole) {
+void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole) {
   if (!whole && problem_.ended()) {
-    leave(found, Box(x, x + problem_.compiled.variables()));
+    leave(found, Box(x.begin(), x.begin() + problem_.compiled.variables()));
     return;
   }
   Box region = sheet.region;
@@ -272,7 +277,7 @@ void Slicer::slice(const Sheet& sheet, const Interval* x, std::vector<Found>& fo
             other_variables(sheet.dependent, problem_.compiled.variables()),
             std::make_shared<const Box>(std::move(region)),
             whole};
-  const Preconditioner p = preconditioners_.at_midpoint(sheet.image.data(), &sheet.dependent, &sheet.equations);
+  const Preconditioner p = preconditioners_.at_midpoint(sheet.image, &sheet.dependent, &sheet.equations);
   descend(task, {sheet.image}, p);
 }
 
@@ -291,35 +296,35 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     }
     return;
   }
-  Preconditioner own;
-  const Preconditioner& p = tighten(task, piece, inherited, own);
+  Preconditioner renewed;
+  const Preconditioner* p = &inherited;
+  std::optional<NewtonStep> step = tighten(task, piece, p, renewed);
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
-  const std::optional<Location> location = place(task, p, Slopes::own, sides);
+  const std::optional<Location> location = place(task, *step, p, sides);
   if (!location) {
     if (recorder_) recorder_->leaf_elsewhere();
     return;
   }
   double width = problem_.excess(sides);
-  bool stepped = true;
   std::vector<int> parts;
   if (width > 1 && !free.empty() && !task.whole) {
-    measure_steepness(p, free, sides);
+    measure_steepness(*step, free, sides);
     parts = parts_of(sides, free);
     const double number = std::accumulate(parts.begin(), parts.end(), 1.0, std::multiplies<>());
     if (piece.charts_tried < kMostChartsTried && number >= kPartsForAChart) {
       const auto dependent = better_chart(task, sides);
       piece.charts_tried = dependent ? piece.charts_tried + 1 : kMostChartsTried;
       if (dependent && slice_in_chart(task, sides, *dependent)) return;
-      stepped = !dependent;
+      if (dependent) step.reset();
     }
     // Small enough but for overestimation: look closer.
     if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
-      certify::shrink_to_faces(problem_.compiled, task.sheet, p, problem_.sigma, sides, workspace_);
-      if (problem_.domain.locate(problem_.compiled, sides.data()) == Location::outside) {
+      certify::shrink_to_faces(problem_.compiled, task.sheet, *p, problem_.sigma, sides, workspace_);
+      if (problem_.domain.locate(problem_.compiled, sides) == Location::outside) {
         if (recorder_) recorder_->leaf_elsewhere();
         return;
       }
-      stepped = false;
+      step.reset();
       width = problem_.excess(sides);
     }
   }
@@ -356,7 +361,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     if (parts[f] > kMostPartsAtOnce / at_once) parts[f] = 1;
     at_once *= parts[f];
   }
-  cut(task, piece, p, stepped, places_of(sides, free, parts, shares));
+  cut(task, piece, *p, std::move(step), places_of(sides, free, parts, shares));
 }
 
 std::vector<std::vector<double>> Slicer::places_of(const Box& piece, const std::vector<int>& free,
@@ -372,25 +377,25 @@ std::vector<std::vector<double>> Slicer::places_of(const Box& piece, const std::
   return places;
 }
 
-void Slicer::settle(const Task& task, const Preconditioner& p, Part& part) {
+void Slicer::settle(const Task& task, NewtonStep& step, Part& part) {
   const auto small = [&] {
     for (std::size_t j = 0; j < static_cast<std::size_t>(problem_.compiled.variables()); ++j)
       if (part.sides[j].width() > problem_.sigma[j]) return false;
     return true;
   };
-  certify::tighten_part(p, part.sides.data(), workspace_);
-  if (!small()) certify::tighten_part(p, part.sides.data(), workspace_);  // the dependents' own share is smaller now
+  step.tighten_part(part.sides);
+  if (!small()) step.tighten_part(part.sides);  // the dependents' own share is smaller now
   if (!small()) return;
-  problem_.append_values_at_zeros(p, part.sides, workspace_);
+  problem_.append_values_at_zeros(step, part.sides);
   const double excess = problem_.excess(part.sides);
   if (excess > 1) return;
-  const std::optional<Location> location = place(task, p, Slopes::shared, part.sides);
+  const std::optional<Location> location = place(task, step, nullptr, part.sides);
   if (location == Location::across) return;  // a closer look may find it inside
   if (location && task.free.size() == 1 && excess <= kPossibleFragment) return;
   part.fate = location ? Part::Fate::found : Part::Fate::elsewhere;
 }
 
-void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, bool stepped,
+void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, std::optional<NewtonStep> step,
                  const std::vector<std::vector<double>>& places) {
   const std::vector<int>& free = task.free;
   std::size_t count = 1;
@@ -404,8 +409,9 @@ void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, bool s
       Interval& side = all[index].sides[static_cast<std::size_t>(free[f])];
       side = Interval(k == 0 ? side.lo() : places[f][k - 1], k == places[f].size() ? side.hi() : places[f][k]);
     }
-    if (stepped) settle(task, p, all[index]);
+    if (step) settle(task, *step, all[index]);
   }
+  step.reset();  // its buffers are the parts'
   const auto finish = [&](Part& part) {
     switch (part.fate) {
       case Part::Fate::found: return add(task, std::move(part.sides), Location::inside);

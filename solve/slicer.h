@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "corank/solve/preconditioner.h"
@@ -25,7 +26,8 @@ class Slicer {
 
   /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so. Where the
   /// search ends meanwhile, the rest is added as pending boxes. `whole`: the sheet is not cut at all.
-  void slice(const certify::Sheet& sheet, const certify::Interval* x, std::vector<Found>& found, bool whole = false);
+  void slice(const certify::Sheet& sheet, std::span<const certify::Interval> x, std::vector<Found>& found,
+             bool whole = false);
 
   /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the
   /// tolerance? Cuts the piece as finely as the bounds need, `depth` times at most. True is proven, on each of the parts.
@@ -50,7 +52,7 @@ class Slicer {
   // What is the same for all pieces of one sheet.
   struct Task {
     const certify::Sheet& sheet;
-    const certify::Interval* x;
+    std::span<const certify::Interval> x;
     std::vector<Found>& found;
     std::vector<int> free;
     std::shared_ptr<const certify::Box> region;
@@ -62,32 +64,30 @@ class Slicer {
   // Tightens the piece, adds it where it is small enough, else cuts it and goes on with the parts. `inherited` is the
   // preconditioner of the piece that this one was cut from.
   void descend(Task& task, Piece piece, const certify::Preconditioner& inherited);
-  // Shrinks a piece, renews the eliminated variables' sides behind its own, and its spread. Returns the preconditioner of
-  // its last step: the inherited one, or `own`, made for the piece where the sheet has turned too much.
-  const certify::Preconditioner& tighten(const Task& task, Piece& piece, const certify::Preconditioner& inherited,
-                                         certify::Preconditioner& own);
-  // The slopes of the last step are those over the piece itself, or over the piece that it was cut from: they serve the
-  // other parts, too.
-  enum class Slopes { own, shared };
-  // After that step: shrinks the free sides to where the solutions may lie in x, and the others with them. False: none does.
-  bool trim(const Task& task, const certify::Preconditioner& p, Slopes slopes, certify::Box& sides);
+  // Shrinks a piece, renews the eliminated variables' sides behind its own, and its spread. Returns the last step; p becomes its
+  // preconditioner: the inherited one that it is, or `own`, made for the piece where the sheet has turned too much.
+  certify::NewtonStep tighten(const Task& task, Piece& piece, const certify::Preconditioner*& p,
+                              certify::Preconditioner& own);
+  // Shrinks the free sides to where the solutions may lie in x, and the others with them. False: none does. By the piece's own step,
+  // renewed with the preconditioner `own`, or, without one, by the slopes of the step on the piece that it was cut from.
+  bool trim(const Task& task, certify::NewtonStep& step, const certify::Preconditioner* own, certify::Box& sides);
   // The same, and where the solutions lie with respect to the domain. Nothing: none in x, or none in the domain.
-  std::optional<certify::Location> place(const Task& task, const certify::Preconditioner& p, Slopes slopes,
+  std::optional<certify::Location> place(const Task& task, certify::NewtonStep& step, const certify::Preconditioner* own,
                                          certify::Box& sides);
-  // After tighten: steepness_[a·k + f] = |∂a/∂f| on the piece, linearized, of each dependent, then each eliminated variable
-  // a, with respect to the f-th of k free variables.
-  void measure_steepness(const certify::Preconditioner& p, const std::vector<int>& free, const certify::Box& piece);
+  // steepness_[a·k + f] = |∂a/∂f| on the step's piece, linearized, of each dependent, then each eliminated variable a, with respect to
+  // the f-th of k free variables.
+  void measure_steepness(const certify::NewtonStep& step, const std::vector<int>& free, const certify::Box& piece);
   // The number of equal parts along each free side that makes all sides narrower than σ in the linearization, few in all.
   std::vector<int> parts_of(const certify::Box& piece, const std::vector<int>& free) const;
   // Where each free side is cut into so many equal parts (two parts: at shares[f] of the width, where that is not 0).
   std::vector<std::vector<double>> places_of(const certify::Box& piece, const std::vector<int>& free,
                                              const std::vector<int>& parts, const std::vector<double>& shares) const;
-  // Cuts the piece there, along all free sides, and goes on with each part. Where the last step was with p on the piece
-  // (`stepped`), the parts are tightened by it first: many are small enough then, and need no step of their own.
-  void cut(Task& task, const Piece& piece, const certify::Preconditioner& p, bool stepped,
+  // Cuts the piece there, along all free sides, and goes on with each part. The parts are tightened by the piece's step first, where there is
+  // one: many are small enough then, and need no step of their own.
+  void cut(Task& task, const Piece& piece, const certify::Preconditioner& p, std::optional<certify::NewtonStep> step,
            const std::vector<std::vector<double>>& places);
   // Tightens a part by the step on the piece that it was cut from, and finds its fate.
-  void settle(const Task& task, const certify::Preconditioner& p, Part& part);
+  void settle(const Task& task, certify::NewtonStep& step, Part& part);
   // Widens the sides that are not free a little, where σ allows: who verifies the box has to come that close only.
   void leave_room(const Task& task, certify::Box& piece) const;
   // The search chose free variables that prove well; others may need fewer boxes of size σ: their dependents, where there are such.
@@ -104,6 +104,7 @@ class Slicer {
   Recorder* recorder_;
   certify::Box met_;
   std::vector<double> steepness_, gradient_;
+  std::vector<certify::Interval> slope_;
 };
 
 }  // namespace corank::solve

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "corank/certify/interval.h"
@@ -15,16 +16,16 @@ class WorkList {
   explicit WorkList(std::size_t n) : n_(n) {}
   bool empty() const { return shares_.empty(); }
   std::size_t size() const { return shares_.size(); }
-  void push(const certify::Interval* x, double share, NodeId node) {
-    sides_.insert(sides_.end(), x, x + n_);
+  void push(std::span<const certify::Interval> x, double share, NodeId node) {
+    sides_.insert(sides_.end(), x.begin(), x.begin() + n_);
     shares_.push_back(share);
     nodes_.push_back(node);
   }
   NodeId node() const { return nodes_.back(); }  // of the newest
   // Copies the newest box to x and removes it; returns its share.
-  double pop(certify::Interval* x) {
+  double pop(std::span<certify::Interval> x) {
     nodes_.pop_back();
-    std::copy(sides_.end() - static_cast<std::ptrdiff_t>(n_), sides_.end(), x);
+    std::copy(sides_.end() - static_cast<std::ptrdiff_t>(n_), sides_.end(), x.begin());
     sides_.resize(sides_.size() - n_);
     const double share = shares_.back();
     shares_.pop_back();

@@ -33,7 +33,7 @@ Configurations configurations(const certify::System& system) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     const std::vector<Interval> before = result.box;
     for (int row = 0; row < result.system.rows(); ++row)
-      if (!certify::project(result.system, row, result.box.data(), 1, changed.data())) return {result.system, before};
+      if (!certify::project(result.system, row, result.box, 1, changed.data())) return {result.system, before};
   }
   return result;
 }
@@ -79,7 +79,7 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySe
   if (left) {
     const certify::UpwardRounding rounding;
     std::vector<Interval> entries(static_cast<std::size_t>(all.system.entries()));
-    all.system.jacobian(all.box.data(), entries.data());
+    all.system.jacobian(all.box, entries);
     const std::vector<std::size_t> none;
     const auto& ties = set == SingularitySet::forward   ? derivation.input_ties
                        : set == SingularitySet::inverse ? derivation.output_ties

@@ -192,9 +192,9 @@ RC_GTEST_PROP(SystemContainment, OfValuesSlopesAndDerivatives, ()) {
     c.push_back(*rc::gen::inRange(0, 2) == 0 ? member(x.back()) : finite_double());
   }
   std::vector<Interval> slopes(static_cast<std::size_t>(system.entries())), jacobian(slopes);
-  upward([&] { return system.slopes(x.data(), c.data(), slopes.data()), system.jacobian(x.data(), jacobian.data()), 0; });
+  upward([&] { return system.slopes(x, c.data(), slopes), system.jacobian(x, jacobian), 0; });
   for (int row = 0; row < system.equations(); ++row) {
-    RC_ASSERT(random.value(row, a).in(upward([&] { return system.evaluate(row, x.data()); })));
+    RC_ASSERT(random.value(row, a).in(upward([&] { return system.evaluate(row, x); })));
     RC_ASSERT(random.value(row, a).in(upward([&] { return system.evaluate_at(row, a.data()); })));
     // f(a) − f(c) between the sums of the least and of the greatest s_j (a_j − c_j).
     Ball least, greatest;

@@ -25,7 +25,7 @@ class Newton : public testing::Test {
  protected:
   Sheet prove(const SystemBuilder& builder, Interval x) {
     const CompiledSystem f(builder.system());
-    return newton_prove(f, scalar_preconditioner(f, x), &x, workspace_);
+    return newton_prove(f, scalar_preconditioner(f, x), {&x, 1}, workspace_);
   }
   UpwardRounding rounding_;
   NewtonWorkspace workspace_;
@@ -133,7 +133,7 @@ TEST_F(Newton, ProvesASheetForEveryValueOfTheFreeVariable) {
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
   const CompiledSystem f(b.system());
   const std::vector<Interval> box{Interval(0.9, 1), Interval(0.1, 0.3)};
-  const Sheet sheet = newton_prove(f, {{0}, {x}, {0.5}}, box.data(), workspace_);
+  const Sheet sheet = newton_prove(f, {{0}, {x}, {0.5}}, box, workspace_);
   ASSERT_TRUE(sheet.proven);
   EXPECT_EQ(sheet.region[y], Interval(0.1, 0.3));
   for (double v : {0.1, 0.17, 0.2, 0.3}) EXPECT_TRUE(sheet.image[x].contains(std::sqrt(1 - v * v))) << v;
@@ -146,7 +146,7 @@ TEST_F(Newton, DoesNotProveASheetThatFoldsOver) {
   b.equation({{"1", {{x, 2}}}, {"-1", {{y, 1}}}});
   const CompiledSystem f(b.system());
   const std::vector<Interval> box{Interval(0, 0.5), Interval(-0.01, 0.2)};
-  EXPECT_FALSE(newton_prove(f, {{0}, {x}, {2.0}}, box.data(), workspace_).proven);
+  EXPECT_FALSE(newton_prove(f, {{0}, {x}, {2.0}}, box, workspace_).proven);
 }
 
 TEST_F(Newton, AnyPreconditionerKeepsEverySolution) {
@@ -161,9 +161,9 @@ TEST_F(Newton, AnyPreconditionerKeepsEverySolution) {
     std::vector<Interval> box{Interval(4 - size(random), 4 + size(random)), Interval(3 - size(random), 3 + size(random))};
     const Preconditioner p{
         {0, 1}, trial % 2 ? std::vector{x, y} : std::vector{y, x}, {any(random), any(random), any(random), any(random)}};
-    ASSERT_FALSE(newton_contract(f, p, box.data(), workspace_).empty);
+    ASSERT_FALSE(NewtonStep(f, p, box, workspace_).outcome().empty);
     ASSERT_TRUE(box[x].contains(4.0) && box[y].contains(3.0));
-    const Sheet sheet = newton_prove(f, p, box.data(), workspace_);
+    const Sheet sheet = newton_prove(f, p, box, workspace_);
     if (sheet.proven) {
       ASSERT_TRUE(sheet.image[x].contains(4.0) && sheet.image[y].contains(3.0));
     }
@@ -186,8 +186,9 @@ TEST_F(Newton, ContractingFreeVariablesKeepsEverySolution) {
     for (double v : zero) box.emplace_back(v - size(random), v + size(random));
     const std::vector<Interval> before = box;
     const Preconditioner p{{0}, {x}, {trial % 2 ? 1.0 : any(random)}};
-    ASSERT_FALSE(newton_contract(f, p, box.data(), workspace_).empty);
-    ASSERT_TRUE(contract_free(p, box.data(), workspace_));
+    const NewtonStep step(f, p, box, workspace_);
+    ASSERT_FALSE(step.outcome().empty);
+    ASSERT_TRUE(step.contract_free(box));
     for (int j : {x, y, z}) ASSERT_TRUE(box[j].contains(zero[j]) && before[j].contains(box[j]));
     contracted += box[z].width() < 0.9 * before[z].width();
   }
@@ -201,13 +202,14 @@ TEST_F(Newton, ContractingFreeVariablesEmptiesABoxThatTheSheetMisses) {
   const CompiledSystem f(b.system());
   const Preconditioner p{{0}, {x}, {1.0}};
   std::vector<Interval> box{Interval(0, 1), Interval(0, 1)};
-  ASSERT_FALSE(newton_contract(f, p, box.data(), workspace_).empty);
+  const NewtonStep step(f, p, box, workspace_);
+  ASSERT_FALSE(step.outcome().empty);
   box[x] = Interval(0.25, 0.5);
-  ASSERT_TRUE(contract_free(p, box.data(), workspace_));
+  ASSERT_TRUE(step.contract_free(box));
   EXPECT_NEAR(box[y].lo(), 0.25, 1e-12);
   EXPECT_NEAR(box[y].hi(), 0.5, 1e-12);
   box = {Interval(0.75, 1), Interval(0, 0.5)};
-  EXPECT_FALSE(contract_free(p, box.data(), workspace_));
+  EXPECT_FALSE(step.contract_free(box));
 }
 
 TEST_F(Newton, TighteningAPartKeepsItsPointsOfTheSheetAndLittleElse) {
@@ -219,19 +221,20 @@ TEST_F(Newton, TighteningAPartKeepsItsPointsOfTheSheetAndLittleElse) {
   const auto u_at = [](double px, double py) { return std::sqrt(2 - px * px - py * py); };
   const Preconditioner p{{0}, {u}, {0.5 / u_at(0.3, 0.5)}};
   const std::vector<Interval> box{Interval(0.2, 0.4), Interval(0.4, 0.6), Interval(1.2, 1.4)};
-  const Sheet sheet = newton_prove(f, p, box.data(), workspace_);
+  const Sheet sheet = newton_prove(f, p, box, workspace_);
   ASSERT_TRUE(sheet.proven);
   std::mt19937 random(17);
   std::uniform_real_distribution<double> share(0, 1);
   std::vector<Interval> whole = sheet.image;
-  ASSERT_LT(tighten_sheet(f, p, whole.data(), workspace_), 1);
+  const NewtonStep step = tighten_sheet(f, p, whole, workspace_);
+  ASSERT_LT(step.outcome().spread, 1);
   for (int trial = 0; trial < 2000; ++trial) {
     std::vector<Interval> part = whole;
     for (const int j : {x, y}) {
       const double from = whole[j].lo() + 0.18 * share(random);
       part[j] = Interval(from, std::min(from + 0.1 * share(random), whole[j].hi()));
     }
-    tighten_part(p, part.data(), workspace_);
+    step.tighten_part(part);
     ASSERT_TRUE(whole[u].contains(part[u]));
     const double range = u_at(part[x].lo(), part[y].lo()) - u_at(part[x].hi(), part[y].hi());
     ASSERT_LT(part[u].width(), range + 0.04) << "the slopes are those over the whole";
@@ -250,21 +253,23 @@ TEST_F(Newton, APartIsTightenedOnlyByAStepOnABoxThatContainsIt) {
   const CompiledSystem f(b.system());
   const Preconditioner p{{0}, {x}, {0.5}};
   const std::vector<Interval> box{Interval(0.9, 1), Interval(0.1, 0.3)};
-  const auto step = [&] {
-    std::vector<Interval> whole = box;
-    ASSERT_FALSE(newton_contract(f, p, whole.data(), workspace_).empty);
-  };
+  std::vector<Interval> whole = box;
+  const NewtonStep step(f, p, whole, workspace_);
+  ASSERT_FALSE(step.outcome().empty);
   std::vector<Interval> part{Interval(0.9, 1), Interval(0.2, 0.4)};
-  step();
-  EXPECT_THROW(tighten_part(p, part.data(), workspace_), std::logic_error) << "y reaches beyond the box of the step";
+  EXPECT_THROW(step.tighten_part(part), std::logic_error) << "y reaches beyond the box of the step";
+  EXPECT_THROW(step.contract_free(part), std::logic_error);
+  EXPECT_THROW(step.value_at_zeros(0, part), std::logic_error);
   part[y] = Interval(0.2, 0.3);
-  EXPECT_THROW(tighten_part({{0}, {y}, {2.0}}, part.data(), workspace_), std::logic_error) << "another step's rows";
-  tighten_part(p, part.data(), workspace_);
+  step.tighten_part(part);
   EXPECT_LT(part[x].width(), 0.05);
-  ASSERT_TRUE(newton_prove(f, p, box.data(), workspace_).proven);
+  const std::vector<Interval> tightened = part;
+  ASSERT_TRUE(newton_prove(f, p, box, workspace_).proven);
+  std::vector<Interval> other{Interval(0.95, 1), Interval(0.1, 0.2)};
+  const NewtonStep later(f, {{0}, {y}, {2.0}}, other, workspace_);
   part[x] = box[x];
-  tighten_part(p, part.data(), workspace_);
-  EXPECT_EQ(part[x], box[x]) << "the proof has taken the step's place";
+  step.tighten_part(part);
+  EXPECT_EQ(part, tightened) << "proofs and other steps with the same memory leave it as it is";
 }
 
 TEST_F(Newton, ASingularPreconditionerProvesNothing) {
@@ -273,11 +278,11 @@ TEST_F(Newton, ASingularPreconditionerProvesNothing) {
   b.equation({{"1", {{x, 1}}}, {"-1", {}}}).equation({{"1", {{y, 1}}}, {"-1", {}}});
   const CompiledSystem f(b.system());
   const std::vector<Interval> box{Interval(0, 2.5), Interval(0, 2.5)};
-  EXPECT_TRUE(newton_prove(f, {{0, 1}, {x, y}, {1, 0, 0, 1}}, box.data(), workspace_).proven);
-  EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 0, 0, 0}}, box.data(), workspace_).proven);
-  EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {0, 0, 0, 0}}, box.data(), workspace_).proven);
-  EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 1, 1, 1}}, box.data(), workspace_).proven);
-  const Sheet partial = newton_prove(f, {{0}, {x}, {1}}, box.data(), workspace_);
+  EXPECT_TRUE(newton_prove(f, {{0, 1}, {x, y}, {1, 0, 0, 1}}, box, workspace_).proven);
+  EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 0, 0, 0}}, box, workspace_).proven);
+  EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {0, 0, 0, 0}}, box, workspace_).proven);
+  EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 1, 1, 1}}, box, workspace_).proven);
+  const Sheet partial = newton_prove(f, {{0}, {x}, {1}}, box, workspace_);
   EXPECT_TRUE(partial.proven);
   EXPECT_EQ(partial.equations, std::vector<int>{0}) << "a proof says which rows it speaks of";
 }
@@ -292,8 +297,8 @@ TEST_F(Newton, ComparesIsolatedSolutions) {
   EXPECT_EQ(compare_isolated(left, right), Identity::different);
   EXPECT_EQ(compare_isolated(right, again), Identity::same);
   const Interval inside(1.35, 1.36), outside(1.0, 1.36);
-  EXPECT_TRUE(holds_nothing_else(right, &inside));
-  EXPECT_FALSE(holds_nothing_else(right, &outside));
+  EXPECT_TRUE(holds_nothing_else(right, {&inside, 1}));
+  EXPECT_FALSE(holds_nothing_else(right, {&outside, 1}));
 }
 
 // On the unit circle, (x² + y²)² − 1 vanishes and x⁴ + y⁴ − 1 + 2x²y² does; x² + y² + x/1000 − 1 does not.
@@ -308,12 +313,13 @@ TEST_F(Newton, EnclosesTheValueOfADependentEquationAtZeros) {
   for (double width : {0.1, 0.01}) {
     const std::vector<Interval> box{Interval(0.95, 1), Interval(0.1, 0.1 + width)};
     const Preconditioner p{{0}, {x}, {1 / (2 * 0.99)}};
-    const Sheet sheet = newton_prove(f, p, box.data(), workspace_);
+    const Sheet sheet = newton_prove(f, p, box, workspace_);
     ASSERT_TRUE(sheet.proven);
     std::vector<Interval> piece = sheet.image;
-    ASSERT_FALSE(newton_contract(f, p, piece.data(), workspace_).empty);
-    const Interval zero = value_at_zeros(f, p, 1, piece.data(), workspace_);
-    const Interval other = value_at_zeros(f, p, 2, piece.data(), workspace_);
+    const NewtonStep step(f, p, piece, workspace_);
+    ASSERT_FALSE(step.outcome().empty);
+    const Interval zero = step.value_at_zeros(1, piece);
+    const Interval other = step.value_at_zeros(2, piece);
     EXPECT_TRUE(zero.contains(0.0));
     for (double v : {0.1, 0.1 + width / 2, 0.1 + width}) EXPECT_TRUE(other.contains(std::sqrt(1 - v * v) / 1000)) << v;
     narrow[width < 0.05] = zero.width();
@@ -351,8 +357,8 @@ TEST_F(Newton, SlopesAndJacobiansEncloseDifferencesAndDerivatives) {
       c[j] = in(random);  // the centre need not lie in the box
     }
     std::vector<Interval> s(f.entries()), jacobian(f.entries());
-    f.slopes(box.data(), c, s.data());
-    f.jacobian(box.data(), jacobian.data());
+    f.slopes(box, c, s);
+    f.jacobian(box, jacobian);
     Interval difference;
     for (int j = 0; j < 3; ++j) difference += s[j] * (Interval(p[j]) - Interval(c[j]));
     const Interval slack(-1e-11, 1e-11);  // the expected values carry rounding errors
@@ -364,7 +370,7 @@ TEST_F(Newton, SlopesAndJacobiansEncloseDifferencesAndDerivatives) {
     f.approximate_jacobian(p, approximate);
     for (int j = 0; j < 3; ++j) ASSERT_NEAR(approximate[j], d[j], 1e-12) << j;
     for (int j = 0; j < 3; ++j) ASSERT_TRUE((jacobian[j] + slack).contains(d[j])) << j;
-    ASSERT_TRUE((f.evaluate(0, box.data()) + slack).contains(value(p[0], p[1], p[2])));
+    ASSERT_TRUE((f.evaluate(0, box) + slack).contains(value(p[0], p[1], p[2])));
     ASSERT_TRUE((f.evaluate_at(0, p) + slack).contains(value(p[0], p[1], p[2])));
   }
 }

@@ -18,7 +18,7 @@ using test::SystemBuilder;
 bool project_once(const System& system, std::vector<Interval>& x, int row = 0) {
   const UpwardRounding rounding;
   std::vector<std::uint8_t> changed(x.size());
-  return project(CompiledSystem(system), row, x.data(), 0.1, changed.data());
+  return project(CompiledSystem(system), row, x, 0.1, changed.data());
 }
 
 TEST(Projection, ShrinksACircleToItsArc) {
@@ -272,7 +272,7 @@ TEST(Domain, LocatesPiecesInsideOutsideAndAcross) {
   const DomainTest domain(b.system());
   const auto locate = [&](Interval x, Interval y) {
     const std::vector<Interval> box{x, y};
-    return domain.locate(compiled, box.data());
+    return domain.locate(compiled, box);
   };
   EXPECT_EQ(locate({0.5, 0.6}, {0.1, 0.2}), Location::inside);
   EXPECT_EQ(locate({0.1, 0.2}, {0.5, 0.6}), Location::outside);

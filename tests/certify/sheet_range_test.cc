@@ -32,11 +32,11 @@ class SheetRange : public testing::Test {
     const double u = std::sqrt(1 - x.mid() * x.mid());
     p_ = {{0, 1}, {2, 3}, {1 / (2 * u), 0, y.mid() / (2 * u), 1}};
     const std::vector<Interval> box{x, y, Interval(u - 0.01, u + 0.01), Interval(u * y.mid() - 0.01, u * y.mid() + 0.01)};
-    sheet_ = newton_prove(*system_, p_, box.data(), workspace_);
+    sheet_ = newton_prove(*system_, p_, box, workspace_);
     if (!sheet_.proven) return {};
     std::vector<Interval> sides = sheet_.image;
-    tighten_sheet(*system_, p_, sides.data(), workspace_);
-    sides.push_back(system_->evaluate(system_->value_row(0), sides.data()));
+    tighten_sheet(*system_, p_, sides, workspace_);
+    sides.push_back(system_->evaluate(system_->value_row(0), sides));
     return sides;
   }
   std::vector<Interval> shrunk(std::vector<Interval> sides, double width = 0) {
@@ -135,7 +135,7 @@ TEST_F(SheetRange, SaysNothingOfAPointOrWhereTheJacobianMayBeSingular) {
   const CompiledSystem root(b.system());
   const Preconditioner p{{0}, {0}, {1 / 2.8}};
   std::vector<Interval> sides{Interval(1.41, 1.42)};
-  const Sheet point = newton_prove(root, p, sides.data(), workspace_);
+  const Sheet point = newton_prove(root, p, sides, workspace_);
   ASSERT_TRUE(point.proven);
   sides = point.image;
   shrink_to_faces(root, point, p, {0.0}, sides, workspace_);

@@ -25,9 +25,9 @@ TEST(Branching, BisectsArgumentsRatherThanTheirSines) {
   EXPECT_EQ(rule.weights()[t], 1);
   const std::vector<Interval> x{Interval(-0.1, 0.1), Interval(0, 1), Interval(-1, 1)};
   const std::vector<double> limits(3, 0.05);
-  EXPECT_NE(rule.choose(compiled, x.data(), limits), s);
+  EXPECT_NE(rule.choose(compiled, x, limits), s);
   const std::vector<Interval> narrow{Interval(0, 0.01), Interval(0, 0.01), Interval(-1, 1)};
-  EXPECT_EQ(rule.choose(compiled, narrow.data(), limits), s);
+  EXPECT_EQ(rule.choose(compiled, narrow, limits), s);
 }
 
 TEST(Preconditioner, InvertsTheDependentColumns) {
@@ -36,7 +36,7 @@ TEST(Preconditioner, InvertsTheDependentColumns) {
   const certify::CompiledSystem compiled(system);
   PreconditionerFactory factory(compiled);
   const std::vector<Interval> x{Interval(0.5, 0.9), Interval(0.6, 0.8)};
-  const auto& p = factory.at_midpoint(x.data());
+  const auto& p = factory.at_midpoint(x);
   ASSERT_EQ(p.rank(), 2);
   const double jacobian[2][2] = {{2 * 0.7, 2 * 0.7}, {1, -1}};  // at (0.7, 0.7)
   for (int a = 0; a < 2; ++a)

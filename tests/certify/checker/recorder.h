@@ -41,15 +41,15 @@ class Recorder {
     std::vector<std::uint8_t> changed(x.size());
     for (int row = 0; row < compiled_.rows(); ++row) {
       step(Proof::Step::row, {row});
-      if (!project(compiled_, row, x.data(), 0.1, changed.data())) return false;
+      if (!project(compiled_, row, x, 0.1, changed.data())) return false;
     }
     keep(x);
-    Preconditioner p = factory_.at_midpoint(x.data());
+    Preconditioner p = factory_.at_midpoint(x);
     Proof::Combination combination{p.equations, p.dependent, {}};
     for (double& y : p.y) combination.y.push_back(static_cast<float>(y)), y = combination.y.back();
     step(Proof::Step::newton, {static_cast<int>(proof_.combinations.size())});
     proof_.combinations.push_back(combination);
-    if (newton_contract(compiled_, p, x.data(), workspace_).empty) return false;
+    if (NewtonStep(compiled_, p, x, workspace_).outcome().empty) return false;
     keep(x);
     return true;
   }
