@@ -53,7 +53,8 @@ NewtonStep Slicer::tighten(const Task& task, Piece& piece, const Preconditioner*
   };
   std::optional<NewtonStep> last;
   const auto step = [&] {
-    last = certify::tighten_sheet(problem_.compiled, *p, sides, workspace_);
+    last.reset();  // its memory knows Y already
+    last.emplace(certify::tighten_sheet(problem_.compiled, *p, sides, workspace_));
     piece.spread = last->outcome().spread;
   };
   sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
