@@ -8,7 +8,7 @@
 #include "corank/app/box_files.h"
 #include "corank/app/subcommands.h"
 #include "corank/certify/angle.h"
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 
 namespace corank::app {
 namespace {
@@ -17,7 +17,7 @@ struct Pair {
   int sine, cosine;
 };
 
-std::vector<Pair> pairs_of(const std::vector<std::string>& words, const report::SolFile& boxes) {
+std::vector<Pair> pairs_of(const std::vector<std::string>& words, const result::SolFile& boxes) {
   std::vector<Pair> pairs;
   std::set<int> seen;
   for (std::size_t i = 1; i + 2 < words.size(); i += 2) {
@@ -31,7 +31,7 @@ std::vector<Pair> pairs_of(const std::vector<std::string>& words, const report::
 }
 
 // "atan2_st4_ct4", longer where a variable has that name.
-std::string angle_name(const report::SolFile& boxes, const Pair& pair) {
+std::string angle_name(const result::SolFile& boxes, const Pair& pair) {
   const auto name = [&boxes](int v) { return boxes.variables.at(static_cast<std::size_t>(v)); };
   std::string text = "atan2_" + name(pair.sine) + "_" + name(pair.cosine);
   while (std::find(boxes.variables.begin(), boxes.variables.end(), text) != boxes.variables.end()) text += "_";
@@ -40,15 +40,15 @@ std::string angle_name(const report::SolFile& boxes, const Pair& pair) {
 
 // A regular or isolated box makes a claim about the solutions with these sines and cosines, and none about the angles' whole intervals:
 // its verdict does not pass over. The lack of a claim does.
-std::optional<certify::Verdict> verdict_in_angles(const std::optional<certify::Verdict>& verdict) {
-  const bool claims_nothing = verdict == certify::Verdict::undecided || verdict == certify::Verdict::pending;
+std::optional<Verdict> verdict_in_angles(const std::optional<Verdict>& verdict) {
+  const bool claims_nothing = verdict == Verdict::undecided || verdict == Verdict::pending;
   return claims_nothing ? verdict : std::nullopt;
 }
 
-report::SolFile in_angles(const report::SolFile& boxes, const std::vector<Pair>& pairs) {
+result::SolFile in_angles(const result::SolFile& boxes, const std::vector<Pair>& pairs) {
   std::set<std::size_t> replaced;
   for (const Pair& p : pairs) replaced.insert({static_cast<std::size_t>(p.sine), static_cast<std::size_t>(p.cosine)});
-  report::SolFile out;
+  result::SolFile out;
   for (std::size_t i = 0; i < boxes.variables.size(); ++i) {
     if (!replaced.contains(i)) out.variables.push_back(boxes.variables[i]);
   }
@@ -56,9 +56,9 @@ report::SolFile in_angles(const report::SolFile& boxes, const std::vector<Pair>&
     if (!boxes.variables.empty()) out.variables.push_back(angle_name(boxes, p));
   }
   // Wide enough for atan2 itself and for its going on beyond π where a box crosses the negative axis: no turn is ever added.
-  const certify::Interval range(-4, 7);
-  for (const report::SolBox& from : boxes.boxes) {
-    report::SolBox& box = out.boxes.emplace_back();
+  const Interval range(-4, 7);
+  for (const result::SolBox& from : boxes.boxes) {
+    result::SolBox& box = out.boxes.emplace_back();
     for (std::size_t i = 0; i < from.box.size(); ++i) {
       if (!replaced.contains(i)) box.box.push_back(from.box[i]);
     }
@@ -73,10 +73,10 @@ ExitStatus angles(const std::vector<std::string>& words) {
   if (words.size() < 4 || words.size() % 2 != 0) {
     throw UsageError("expected RESULT, pairs of a sine and a cosine, and OUTPUT.sol; corank angles --help tells more");
   }
-  const report::SolFile boxes = read_boxes(words.front());
+  const result::SolFile boxes = read_boxes(words.front());
   const std::vector<Pair> pairs = pairs_of(words, boxes);
   check_output(words.back());
-  report::write_text(words.back(), report::to_sol(in_angles(boxes, pairs)));
+  result::write_text(words.back(), result::to_sol(in_angles(boxes, pairs)));
   return completeness(boxes, words.front());
 }
 

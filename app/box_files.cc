@@ -4,17 +4,17 @@
 
 #include <filesystem>
 
-#include "corank/report/printable.h"
-#include "corank/report/result_file.h"
+#include "corank/result/printable.h"
+#include "corank/result/result_file.h"
 
 namespace corank::app {
 
-report::SolFile read_boxes(const std::string& path) {
-  if (std::filesystem::path(path).extension() == ".h5") return report::boxes_of(report::read_result(path));
-  return report::read_sol(path);
+result::SolFile read_boxes(const std::string& path) {
+  if (std::filesystem::path(path).extension() == ".h5") return result::boxes_of(result::read_result(path));
+  return result::read_sol(path);
 }
 
-int variable_index(const report::SolFile& boxes, const std::string& file, const std::string& name_or_number) {
+int variable_index(const result::SolFile& boxes, const std::string& file, const std::string& name_or_number) {
   const int index = boxes.find(name_or_number);
   if (index >= 0) return index;
   throw UsageError(
@@ -22,10 +22,10 @@ int variable_index(const report::SolFile& boxes, const std::string& file, const 
                   boxes.variables.empty() ? "" : fmt::format(" or one of {}", fmt::join(boxes.variables, ", "))));
 }
 
-ExitStatus completeness(const report::SolFile& boxes, const std::string& file) {
-  for (const report::SolBox& box : boxes.boxes) {
-    if (box.verdict != certify::Verdict::pending) continue;
-    fmt::print(stderr, "corank: {} is incomplete: its search ended before its end\n", report::printable_line(file));
+ExitStatus completeness(const result::SolFile& boxes, const std::string& file) {
+  for (const result::SolBox& box : boxes.boxes) {
+    if (box.verdict != Verdict::pending) continue;
+    fmt::print(stderr, "corank: {} is incomplete: its search ended before its end\n", result::printable_line(file));
     return kIncomplete;
   }
   return kDone;
@@ -38,7 +38,7 @@ void check_output(const std::string& path) {
     if (name.extension() == ".cuik") throw UsageError(path + ": not written over, it looks like a model");
     if (name.extension() == ".param") throw UsageError(path + ": not written over, it looks like a parameter file");
   }
-  report::check_writable(path);
+  result::check_writable(path);
 }
 
 }  // namespace corank::app

@@ -5,7 +5,7 @@
 
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/printable.h"
+#include "corank/result/printable.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/printer.h"
 
@@ -17,10 +17,10 @@ ExitStatus derive(Question question, const std::string& format) {
   if (question.set.empty() && !mechanism.is_plain_system()) question.set = "cspace";
   const symbolic::TrigonometricSystem system = system_of(question, mechanism, chosen_set(question, mechanism));
   if (format == "cuik") {
-    fmt::print("{}", report::printable(symbolic::to_cuik(symbolic::algebrize(system))));
+    fmt::print("{}", result::printable(symbolic::to_cuik(symbolic::algebrize(system))));
   } else {
     const symbolic::Derivation derivation = symbolic::derive(mechanism);
-    fmt::print("{}", report::printable(format == "latex" ? symbolic::to_latex(derivation, system)
+    fmt::print("{}", result::printable(format == "latex" ? symbolic::to_latex(derivation, system)
                                                          : symbolic::to_text(derivation, system)));
   }
   return kDone;

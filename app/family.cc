@@ -6,13 +6,11 @@
 #include <stdexcept>
 
 #include "corank/app/exit_status.h"
-#include "corank/certify/exact_number.h"
+#include "corank/core/exact_number.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::app {
 namespace {
-
-using certify::ExactNumber;
 using symbolic::Expression;
 
 bool is_swept(const std::string& definition) {

@@ -7,7 +7,7 @@
 
 #include "corank/app/progress.h"
 #include "corank/report/portrait.h"
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 
 namespace corank::app {
 
@@ -15,7 +15,7 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw report::ResultFileError(fmt::format("{}: no folder can be made there: {}", folder.string(), error.message()));
+    throw result::ResultFileError(fmt::format("{}: no folder can be made there: {}", folder.string(), error.message()));
 }
 
 std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first) {
@@ -32,10 +32,10 @@ std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, con
 }
 
 Figures write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
-                      const std::vector<report::Result>& results, const std::atomic<bool>& stop) {
+                      const std::vector<result::Result>& results, const std::atomic<bool>& stop) {
   ProgressLine line;
   std::vector<report::PictureSource> sources;
-  for (const report::Result& result : results) {
+  for (const result::Result& result : results) {
     if (!result.cover.boxes.empty()) sources.push_back(report::picture_source(result, result.set));
   }
   Figures figures;
@@ -67,7 +67,7 @@ Figures write_family_figures(const std::filesystem::path& folder, const std::vec
     if (stop) return {{}, true};
     line.show(fmt::format("figures: {} of {}", pictures.size(), members.size()));
     std::vector<report::PictureSource> sources;
-    for (const report::Result& result : member.results) sources.push_back(report::picture_source(result, result.set));
+    for (const result::Result& result : member.results) sources.push_back(report::picture_source(result, result.set));
     pictures.push_back(report::make_picture(sources, plane));
     titles.push_back(options.constant + " = " + member.value);
   }

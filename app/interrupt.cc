@@ -3,7 +3,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "corank/report/output_file.h"
+#include "corank/result/output_file.h"
 
 namespace corank::app {
 namespace {
@@ -13,7 +13,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
 
 extern "C" void on_signal(int signal) {
   if (!stop_flag.exchange(true)) return;
-  report::remove_part_files();
+  result::remove_part_files();
   std::_Exit(128 + signal);
 }
 

@@ -9,8 +9,8 @@
 #include "corank/app/subcommands.h"
 #include "corank/report/gcl.h"
 #include "corank/report/portrait.h"
-#include "corank/report/result_file.h"
 #include "corank/report/vtp.h"
+#include "corank/result/result_file.h"
 
 namespace corank::app {
 namespace {
@@ -26,8 +26,8 @@ struct PlotCommand {
 };
 
 report::PictureSource read_source(const std::string& path) {
-  if (std::filesystem::path(path).extension() == ".h5") return report::picture_source(report::read_result(path), path);
-  return report::picture_source(report::read_sol(path), path);
+  if (std::filesystem::path(path).extension() == ".h5") return report::picture_source(result::read_result(path), path);
+  return report::picture_source(result::read_sol(path), path);
 }
 
 void check_format(const PlotCommand& command) {
@@ -57,16 +57,16 @@ ExitStatus plot(const PlotCommand& command) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  if (is_empty(picture)) throw report::ResultFileError(fmt::format("{}: no boxes to draw", fmt::join(command.inputs, ", ")));
+  if (is_empty(picture)) throw result::ResultFileError(fmt::format("{}: no boxes to draw", fmt::join(command.inputs, ", ")));
   check_output(command.output);
   if (report::is_portrait_format(command.output)) {
     report::write_portrait(command.output, picture, command.portrait);
   } else if (command.output.ends_with(".vtp")) {
-    report::write_text(command.output, report::to_vtp(picture));
+    result::write_text(command.output, report::to_vtp(picture));
   } else {
     const std::string words = fmt::format("corank plot {} --axes {} --size {}", fmt::join(command.inputs, " "),
                                           fmt::join(command.picture.axes, ","), command.picture.size);
-    report::write_text(command.output,
+    result::write_text(command.output,
                        report::to_gcl(picture, {std::filesystem::path(command.inputs[0]).stem().string(), words}));
   }
   ExitStatus status = kDone;

@@ -43,7 +43,7 @@ void ProgressLine::show(const solve::Progress& progress) {
                       100 * progress.excluded);
   for (std::size_t v = 0; v < progress.verdicts.size(); ++v) {
     if (progress.verdicts[v] == 0) continue;
-    line += fmt::format(", {} {}", progress.verdicts[v], certify::to_string(static_cast<certify::Verdict>(v)));
+    line += fmt::format(", {} {}", progress.verdicts[v], to_string(static_cast<Verdict>(v)));
   }
   line += fmt::format(", {:.1f} s", progress.seconds);
   show(line);

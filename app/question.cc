@@ -26,8 +26,8 @@ void Question::add_definitions(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
-std::vector<report::ConstantOverride> overrides(const Question& question) {
-  std::vector<report::ConstantOverride> list;
+std::vector<result::ConstantOverride> overrides(const Question& question) {
+  std::vector<result::ConstantOverride> list;
   for (const std::string& text : question.definitions) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
@@ -40,7 +40,7 @@ std::vector<report::ConstantOverride> overrides(const Question& question) {
 
 symbolic::Mechanism load(const Question& question) {
   if (question.file.empty()) throw UsageError("FILE is required; corank --help tells more");
-  const std::vector<report::ConstantOverride> constants = overrides(question);
+  const std::vector<result::ConstantOverride> constants = overrides(question);
   symbolic::Mechanism mechanism = symbolic::read_model(question.file);
   for (const auto& [name, expression] : constants) {
     mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/report/result.h"
+#include "corank/result/result.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::app {
@@ -26,7 +26,7 @@ struct Question {
 };
 
 /// "NAME=EXPR" → name and expression. Throws UsageError.
-std::vector<report::ConstantOverride> overrides(const Question& question);
+std::vector<result::ConstantOverride> overrides(const Question& question);
 
 /// Reads the model and puts the overridden constants in. Throws ModelError, UsageError.
 symbolic::Mechanism load(const Question& question);

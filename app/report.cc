@@ -14,12 +14,12 @@
 #include "corank/app/set_search.h"
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/domain_notes.h"
 #include "corank/report/page.h"
 #include "corank/report/page_words.h"
-#include "corank/report/printable.h"
-#include "corank/report/result_file.h"
-#include "corank/report/verification.h"
+#include "corank/result/domain_notes.h"
+#include "corank/result/printable.h"
+#include "corank/result/result_file.h"
+#include "corank/result/verification.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
@@ -42,7 +42,7 @@ struct ReportCommand {
   std::string folder;
 };
 
-report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism& mechanism, std::size_t index,
+result::Result solve_one(const ReportCommand& command, const symbolic::Mechanism& mechanism, std::size_t index,
                          std::uint64_t taken) {
   const std::vector<std::string>& sets = command.search.sets;
   const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(sets[index]);
@@ -51,7 +51,7 @@ report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism
   solve::Control control(command.search.limits_beside(limits, taken));
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
   const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
-  const certify::System system = algebrize(trigonometric);
+  const System system = algebrize(trigonometric);
   control.ended();  // notes the stage
   stage.reset();
   solve::Options options = command.search.options(system, set);
@@ -60,8 +60,8 @@ report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism
   return solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, control, kDigits);
 }
 
-std::vector<report::Result> solve_all(const ReportCommand& command, const symbolic::Mechanism& mechanism) {
-  std::vector<report::Result> results;
+std::vector<result::Result> solve_all(const ReportCommand& command, const symbolic::Mechanism& mechanism) {
+  std::vector<result::Result> results;
   std::uint64_t taken = 0;
   // After an interrupt the searches left end at once, with all of their domain pending.
   for (std::size_t i = 0; i < command.search.sets.size(); ++i) {
@@ -72,30 +72,30 @@ std::vector<report::Result> solve_all(const ReportCommand& command, const symbol
 }
 
 /// What a stranger's result says of its variables has to be so before a picture relies on it.
-void check_against_model(const report::Result& result, const std::string& path) {
-  const certify::System system = report::system_of(result);
-  const auto contradictions = report::contradictions(result, system, symbolic::to_cuik(system));
+void check_against_model(const result::Result& result, const std::string& path) {
+  const System system = result::system_of(result);
+  const auto contradictions = result::contradictions(result, system, symbolic::to_cuik(system));
   if (!contradictions.empty())
-    throw report::ResultFileError(fmt::format("{}: contradicts the model in it: {}", path, fmt::join(contradictions, "; ")));
+    throw result::ResultFileError(fmt::format("{}: contradicts the model in it: {}", path, fmt::join(contradictions, "; ")));
 }
 
 /// Reads results of one model, and brings them and their paths into the order of kSets.
-std::vector<report::Result> read_all(std::vector<std::string>& paths) {
-  std::map<std::ptrdiff_t, std::pair<std::string, report::Result>> by_set;
+std::vector<result::Result> read_all(std::vector<std::string>& paths) {
+  std::map<std::ptrdiff_t, std::pair<std::string, result::Result>> by_set;
   for (const std::string& path : paths) {
-    report::Result result = report::read_result(path);
+    result::Result result = result::read_result(path);
     check_against_model(result, path);
     const auto place = std::find(kSets.begin(), kSets.end(), result.set) - kSets.begin();
     const auto [other, added] = by_set.try_emplace(place, path, result);
     const auto& [first_path, first] = by_set.begin()->second;
     if (!added) {
-      throw report::ResultFileError(fmt::format("{}: holds the set {}, as {} does", path, result.set, other->second.first));
+      throw result::ResultFileError(fmt::format("{}: holds the set {}, as {} does", path, result.set, other->second.first));
     }
     if (result.model_text != first.model_text || result.options.constants != first.options.constants) {
-      throw report::ResultFileError(fmt::format("{} and {} are of two models, or with other constants", path, first_path));
+      throw result::ResultFileError(fmt::format("{} and {} are of two models, or with other constants", path, first_path));
     }
   }
-  std::vector<report::Result> results;
+  std::vector<result::Result> results;
   paths.clear();
   for (auto& [place, entry] : by_set) {
     paths.push_back(entry.first);
@@ -105,7 +105,7 @@ std::vector<report::Result> read_all(std::vector<std::string>& paths) {
 }
 
 /// The mechanism as the results had it: their own copy of its text, with the constants that were put in.
-symbolic::Mechanism mechanism_of(const report::Result& result) {
+symbolic::Mechanism mechanism_of(const result::Result& result) {
   symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
   for (const auto& [name, expression] : result.options.constants)
     mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
@@ -115,14 +115,14 @@ symbolic::Mechanism mechanism_of(const report::Result& result) {
 ExitStatus write_report(ReportCommand command) {
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results take the place of FILE: their model is in them");
-  std::vector<report::Result> results;
+  std::vector<result::Result> results;
   if (!command.results.empty()) results = read_all(command.results);
   const symbolic::Mechanism mechanism = results.empty() ? load(command.question) : mechanism_of(results.front());
-  for (report::Result& result : results) report::describe_domain(mechanism, report::system_of(result), result);
+  for (result::Result& result : results) result::describe_domain(mechanism, result::system_of(result), result);
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
   make_folder(folder / "figures");
-  report::check_writable(folder / "index.html");
+  result::check_writable(folder / "index.html");
 
   const Interrupt interrupt;
   report::PageOptions options;
@@ -130,10 +130,10 @@ ExitStatus write_report(ReportCommand command) {
     results = solve_all(command, mechanism);
     options.command = command.search.command_line("report", command.question);
     ProgressLine line;
-    for (const report::Result& result : results) {
+    for (const result::Result& result : results) {
       line.show("writing " + result.set + ".h5");
       options.files.push_back(result.set + ".h5");
-      report::write_result(folder / options.files.back(), result);
+      result::write_result(folder / options.files.back(), result);
     }
   } else {
     options.command = "corank report --results " + fmt::format("{}", fmt::join(command.results, " "));
@@ -144,17 +144,17 @@ ExitStatus write_report(ReportCommand command) {
   {
     ProgressLine line;
     line.show("page");
-    report::write_text(folder / "index.html", report_page(mechanism, results, options));
+    result::write_text(folder / "index.html", report_page(mechanism, results, options));
   }
 
   bool complete = !figures.stopped;
-  for (const report::Result& result : results) {
+  for (const result::Result& result : results) {
     complete = complete && result.cover.complete() && result.stopped.empty();
     fmt::print("{}: {}\n", report::set_title(result.set), report::set_words(result, report::components(result)).finding);
   }
-  fmt::print("{}\n", report::printable_line((folder / "index.html").string()));
+  fmt::print("{}\n", result::printable_line((folder / "index.html").string()));
   if (complete) return kDone;
-  for (const report::Result& result : results)
+  for (const result::Result& result : results)
     if (!result.cover.complete() || !result.stopped.empty())
       fmt::print(stderr, "corank: {}: {}\n", result.set, stopped_words(result));
   if (figures.stopped) fmt::print(stderr, "corank: stopped by an interrupt, in the stage figures\n");

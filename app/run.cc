@@ -6,20 +6,20 @@
 #include <new>
 
 #include "corank/app/subcommands.h"
-#include "corank/certify/check.h"
-#include "corank/report/printable.h"
-#include "corank/report/result_file.h"
+#include "corank/core/check.h"
+#include "corank/result/printable.h"
+#include "corank/result/result_file.h"
 #include "corank/symbolic/model_error.h"
 
 namespace corank::app {
 
 int run(const std::string& name, const std::vector<std::string>& args) {
   const auto say = [&name](ExitStatus status, const std::string& message) {
-    fmt::print(stderr, "{}: {}\n", name, report::printable(message));  // it may quote a file
+    fmt::print(stderr, "{}: {}\n", name, result::printable(message));  // it may quote a file
     return status;
   };
   CLI::App program("corank returns all singularities of a robot mechanism, each with a proof.", "corank");
-  program.set_version_flag("--version", "corank " + report::version());
+  program.set_version_flag("--version", "corank " + result::version());
   program.require_subcommand(1);
   program.footer(
       "Example:\n  corank solve models/three_slider.cuik --set forward\n\n"
@@ -48,11 +48,11 @@ int run(const std::string& name, const std::vector<std::string>& args) {
     return say(kUsage, error.what());
   } catch (const symbolic::ModelError& error) {
     return say(kBadInput, error.what());
-  } catch (const report::ResultFileError& error) {
+  } catch (const result::ResultFileError& error) {
     return say(kBadInput, error.what());
   } catch (const std::bad_alloc&) {
     return say(kBadInput, "out of memory; a larger --sigma or --max-boxes needs less");
-  } catch (const certify::InvariantError& error) {
+  } catch (const InvariantError& error) {
     return say(kBug, fmt::format("{}; this is a bug in corank", error.what()));
   } catch (const std::exception& error) {
     return say(kBug, fmt::format("unexpected: {}; this is a bug in corank", error.what()));

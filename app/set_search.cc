@@ -31,7 +31,7 @@ solve::Control::Limits SetSearch::limits_beside(const solve::Options& options, s
   return result;
 }
 
-solve::Options SetSearch::options(const certify::System& system, SingularitySet set) const {
+solve::Options SetSearch::options(const System& system, SingularitySet set) const {
   solve::Options options;
   const std::optional<double>& asked = set == SingularitySet::cspace ? cspace_sigma : sigma;
   check_sigma("--sigma", asked, system);
@@ -42,7 +42,7 @@ solve::Options SetSearch::options(const certify::System& system, SingularitySet 
   return options;
 }
 
-void check_sigma(const std::string& option, const std::optional<double>& sigma, const certify::System& system) {
+void check_sigma(const std::string& option, const std::optional<double>& sigma, const System& system) {
   if (const double least = solve::smallest_sigma(system).largest(); sigma && *sigma < least)
     throw UsageError(fmt::format("{}: {} is below {}, what boxes of doubles resolve here", option, *sigma, least));
 }

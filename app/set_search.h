@@ -20,7 +20,7 @@ struct SetSearch {
   void add_limits(CLI::App& command);
 
   /// For the system of a set, without progress. Throws UsageError where sigma is smaller than boxes of doubles resolve.
-  solve::Options options(const certify::System& system, symbolic::SingularitySet set) const;
+  solve::Options options(const System& system, symbolic::SingularitySet set) const;
   /// What is to end the search of one more set whose boxes come on a page, where others take so many bytes.
   solve::Control::Limits limits_beside(const solve::Options& options, std::uint64_t taken) const;
 
@@ -29,6 +29,6 @@ struct SetSearch {
 };
 
 /// Throws UsageError where sigma is smaller than boxes of doubles resolve.
-void check_sigma(const std::string& option, const std::optional<double>& sigma, const certify::System& system);
+void check_sigma(const std::string& option, const std::optional<double>& sigma, const System& system);
 
 }  // namespace corank::app

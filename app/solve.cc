@@ -14,10 +14,10 @@
 #include "corank/app/set_search.h"
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/cuik_param.h"
-#include "corank/report/printable.h"
-#include "corank/report/result_file.h"
-#include "corank/report/summary.h"
+#include "corank/result/cuik_param.h"
+#include "corank/result/printable.h"
+#include "corank/result/result_file.h"
+#include "corank/result/summary.h"
 #include "corank/symbolic/algebrizer.h"
 
 namespace corank::app {
@@ -44,31 +44,31 @@ solve::Options options_of(const SolveCommand& command) {
   return options;
 }
 
-void apply_parameters(SolveCommand& command, const certify::System& system) {
+void apply_parameters(SolveCommand& command, const System& system) {
   if (command.param_path.empty()) return;
-  const report::CuikParameters parameters = report::read_param(command.param_path);
-  if (!command.sigma) command.sigma = report::sigma_for(parameters, system);
+  const result::CuikParameters parameters = result::read_param(command.param_path);
+  if (!command.sigma) command.sigma = result::sigma_for(parameters, system);
   if (!command.max_solutions) command.max_solutions = parameters.n_solutions;
   if (!parameters.ignored.empty()) {
     fmt::print(stderr, "{}",
-               report::printable(fmt::format("corank: {}: without effect here: {}\n", command.param_path,
+               result::printable(fmt::format("corank: {}: without effect here: {}\n", command.param_path,
                                              fmt::join(parameters.ignored, ", "))));
   }
 }
 
-void write_file(const std::string& path, const report::Result& result) {
+void write_file(const std::string& path, const result::Result& result) {
   if (path.empty()) return;
   if (std::filesystem::path(path).extension() == ".sol") {
-    report::write_text(path, report::to_sol(result));
+    result::write_text(path, result::to_sol(result));
   } else {
-    report::write_result(path, result);
+    result::write_result(path, result);
   }
 }
 
 // The system of the set, and what else the options have to say about it.
-certify::System system_to_solve(SolveCommand& command, const symbolic::TrigonometricSystem& trigonometric,
-                                std::optional<symbolic::SingularitySet> set) {
-  certify::System system = symbolic::algebrize(trigonometric);
+System system_to_solve(SolveCommand& command, const symbolic::TrigonometricSystem& trigonometric,
+                       std::optional<symbolic::SingularitySet> set) {
+  System system = symbolic::algebrize(trigonometric);
   system.coefficient_tolerance = command.tolerance.value_or(set ? 0 : solve::printed_tolerance(system));
   apply_parameters(command, system);
   check_sigma("--sigma", command.sigma, system);
@@ -81,16 +81,16 @@ certify::System system_to_solve(SolveCommand& command, const symbolic::Trigonome
   return system;
 }
 
-ExitStatus say(const SolveCommand& command, const report::Result& result) {
+ExitStatus say(const SolveCommand& command, const result::Result& result) {
   if (command.json_path) {
-    const std::string json = report::to_json(result) + "\n";
+    const std::string json = result::to_json(result) + "\n";
     if (command.json_path->empty()) {
       fmt::print("{}", json);
     } else {
-      report::write_text(*command.json_path, json);
+      result::write_text(*command.json_path, json);
     }
   }
-  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", report::printable(report::to_table(result)));
+  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", result::printable(result::to_table(result)));
   if (result.cover.complete() && result.stopped.empty()) return kDone;
   fmt::print(stderr, "corank: {}; {}\n", stopped_words(result),
              result.cover.complete() ? "the cover is complete, but less is proven of it than could be"
@@ -108,7 +108,7 @@ ExitStatus solve_model(SolveCommand command) {
   const symbolic::Mechanism mechanism = load(command.question);
   const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
   const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
-  const certify::System system = system_to_solve(command, trigonometric, set);
+  const System system = system_to_solve(command, trigonometric, set);
   check_output(command.result_path);
   check_output(command.json_path.value_or(""));
   control.ended();  // notes the stage
@@ -118,7 +118,7 @@ ExitStatus solve_model(SolveCommand command) {
   ProgressLine line;
   line.follow(options, control);
   stage.reset();
-  const report::Result result =
+  const result::Result result =
       solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, control, command.digits);
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result);
@@ -129,8 +129,8 @@ ExitStatus solve_model(SolveCommand command) {
 CLI::Validator tolerance() {
   const auto check = [](const std::string& text) -> std::string {
     double value = 0;
-    const bool good = CLI::detail::lexical_cast(text, value) && value >= 0 && value < certify::kCoefficientToleranceLimit;
-    return good ? "" : fmt::format("{} is not a number from 0 to below {}", text, certify::kCoefficientToleranceLimit);
+    const bool good = CLI::detail::lexical_cast(text, value) && value >= 0 && value < kCoefficientToleranceLimit;
+    return good ? "" : fmt::format("{} is not a number from 0 to below {}", text, kCoefficientToleranceLimit);
   };
   return {check, ""};
 }

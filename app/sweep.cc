@@ -14,7 +14,7 @@
 #include "corank/app/subcommands.h"
 #include "corank/report/family_page.h"
 #include "corank/report/page_words.h"
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_error.h"
 
@@ -35,7 +35,7 @@ struct Plan {
   Question question;
   std::string value;
   symbolic::Mechanism mechanism;
-  std::vector<certify::System> systems;  ///< of the sets
+  std::vector<System> systems;  ///< of the sets
   std::vector<std::vector<std::string>> kernel_scales;
 };
 
@@ -58,10 +58,10 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
   return plans;
 }
 
-report::Result solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task,
+result::Result solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task,
                          std::uint64_t taken) {
   const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(command.search.sets[set_index]);
-  const certify::System& system = plan.systems[set_index];
+  const System& system = plan.systems[set_index];
   solve::Options options = command.search.options(system, set);
   ProgressLine line(task);
   line.show(task);  // searches may be too short to tell more
@@ -90,7 +90,7 @@ std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const s
           taken));
       taken += solve::bytes_of(member.results.back().cover, solve::kPageBytes);
       member.files.push_back(file_name(k, plans.size(), "-" + command.search.sets[s] + ".h5"));
-      report::write_result(std::filesystem::path(command.folder) / member.files.back(), member.results.back());
+      result::write_result(std::filesystem::path(command.folder) / member.files.back(), member.results.back());
     }
     members.push_back(std::move(member));
   }
@@ -106,7 +106,7 @@ ExitStatus write_sweep(SweepCommand command) {
   if (command.folder.empty()) command.folder = first.name() + "-sweep";
   const std::filesystem::path folder = command.folder;
   make_folder(folder / "figures");
-  report::check_writable(folder / "index.html");
+  result::check_writable(folder / "index.html");
 
   const Interrupt interrupt;
   const std::vector<report::FamilyMember> members = solve_all(command, plans, family.constant);
@@ -118,11 +118,11 @@ ExitStatus write_sweep(SweepCommand command) {
   options.report_command = command.search.command_line("report", plans.front().question);
   const Figures figures = write_family_figures(folder / "figures", members, options, Interrupt::stop());
   for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
-  report::write_text(folder / "index.html", family_page(members, options));
+  result::write_text(folder / "index.html", family_page(members, options));
 
   bool complete = members.size() == plans.size() && !figures.stopped;
   for (const report::FamilyMember& member : members) {
-    for (const report::Result& result : member.results) {
+    for (const result::Result& result : member.results) {
       if (!result.stopped.empty())
         fmt::print(stderr, "corank: {} = {}, {}: {}\n", family.constant, member.value, result.set, stopped_words(result));
       complete = complete && result.cover.complete() && result.stopped.empty();

@@ -10,9 +10,9 @@
 #include "corank/app/progress.h"
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
-#include "corank/report/printable.h"
-#include "corank/report/result_file.h"
-#include "corank/report/verification.h"
+#include "corank/result/printable.h"
+#include "corank/result/result_file.h"
+#include "corank/result/verification.h"
 
 namespace corank::app {
 namespace {
@@ -27,36 +27,36 @@ struct VerifyCommand {
   double time_limit = 0;
 };
 
-report::Verification check(const report::Result& result, const certify::System& system, int threads, Watch& watch) {
+result::Verification check(const result::Result& result, const System& system, int threads, Watch& watch) {
   using Clock = std::chrono::steady_clock;
   ProgressLine line;
-  certify::checker::Options options;
+  check::Options options;
   options.threads = threads;
   options.stop = &watch.stop();
   if (line.visible()) {
-    options.progress = [&line, next = Clock::now()](const certify::checker::Progress& p) mutable {
+    options.progress = [&line, next = Clock::now()](const check::Progress& p) mutable {
       if (Clock::now() < next) return;
       next = Clock::now() + kInterval;
       line.show(p.steps == 0 ? fmt::format("{} of {} boxes", p.boxes, p.all_boxes)
                              : fmt::format("step {} of {}", p.steps, p.all_steps));
     };
   }
-  return report::verify(result, system, options);
+  return result::verify(result, system, options);
 }
 
 // Called where the work does not end although it was asked to; the other threads still run.
 [[noreturn]] void give_up(const VerifyCommand& command, const std::string& stage) {
   if (command.json) {
-    fmt::print("{}\n", report::ended_early_json(stage));
+    fmt::print("{}\n", result::ended_early_json(stage));
   } else {
     fmt::print("{}: interrupted in {}: what it had checked is not known, and nothing is said of the file\n",
-               report::printable_line(command.input), stage);
+               result::printable_line(command.input), stage);
   }
   std::fflush(nullptr);
   std::_Exit(kIncomplete);
 }
 
-ExitStatus status(const report::Verification& verification, const VerifyCommand& command) {
+ExitStatus status(const result::Verification& verification, const VerifyCommand& command) {
   if (verification.complete()) return kDone;
   if (verification.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
   const bool open = verification.report.interrupted && verification.report.failures.empty();
@@ -67,13 +67,13 @@ ExitStatus verify(const VerifyCommand& command) {
   const Interrupt interrupt;
   Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
   watch.enter("reading the file");
-  const report::Result result = report::read_result(command.input);
+  const result::Result result = result::read_result(command.input);
   watch.enter("deriving the equations from the model");
-  const certify::System system = report::system_of(result);
+  const System system = result::system_of(result);
   watch.enter("the check");
-  const report::Verification verification = check(result, system, command.threads, watch);
+  const result::Verification verification = check(result, system, command.threads, watch);
   watch.done();
-  fmt::print("{}", command.json ? report::to_json(verification) + "\n" : report::to_table(verification, result));
+  fmt::print("{}", command.json ? result::to_json(verification) + "\n" : result::to_table(verification, result));
   const ExitStatus result_status = status(verification, command);
   if (verification.verified() && result_status == kBadInput)
     fmt::print(stderr, "corank: --require-proof: that the boxes hold all solutions is not proven by this file\n");

@@ -6,11 +6,11 @@
 #include <random>
 #include <vector>
 
-#include "corank/certify/interval.h"
+#include "corank/core/interval.h"
 
 namespace {
 
-using Own = corank::certify::Interval;
+using Own = corank::Interval;
 using Cgal = CGAL::Interval_nt<false>;
 
 template <class T>
@@ -46,7 +46,7 @@ void cgal_product(benchmark::State& s) {
   run<Cgal>(s, [](const Cgal& a, const Cgal& b) { return a * b; });
 }
 void own_square(benchmark::State& s) {
-  run<Own>(s, [](const Own& a, const Own&) { return corank::certify::square(a); });
+  run<Own>(s, [](const Own& a, const Own&) { return corank::square(a); });
 }
 void cgal_square(benchmark::State& s) {
   run<Cgal>(s, [](const Cgal& a, const Cgal&) { return CGAL::square(a); });

@@ -30,8 +30,8 @@
 #include "corank/bench/lu_unit.h"
 #include "corank/certify/newton.h"
 #include "corank/certify/reduction.h"
-#include "corank/certify/rounding.h"
-#include "corank/report/cuik_param.h"
+#include "corank/core/rounding.h"
+#include "corank/result/cuik_param.h"
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
@@ -43,7 +43,6 @@
 namespace {
 
 using namespace corank;
-using certify::Verdict;
 using symbolic::SingularitySet;
 
 constexpr double kTimeLimit = 10, kLongTimeLimit = 300;
@@ -112,16 +111,16 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // Mean seconds of one certified test, see above; nothing where no box is proven.
-std::optional<double> seconds_per_proof(const certify::System& system, const certify::Cover& cover) {
+std::optional<double> seconds_per_proof(const System& system, const Cover& cover) {
   const certify::Reduction reduction = certify::reduce(system);
   constexpr std::size_t kSamples = 500;
   constexpr int kRepeats = 5;
   struct Sample {
-    certify::Box box;
+    Box box;
     std::vector<int> dependent;
   };
   std::vector<Sample> proven;
-  for (const certify::CoverBox& b : cover.boxes) {
+  for (const CoverBox& b : cover.boxes) {
     if (b.verdict == Verdict::undecided || b.verdict == Verdict::pending) continue;
     proven.emplace_back();
     for (int j = 0; j < reduction.system.size(); ++j) {
@@ -138,7 +137,7 @@ std::optional<double> seconds_per_proof(const certify::System& system, const cer
   const certify::CompiledSystem compiled(reduction.system);
   solve::PreconditionerFactory preconditioners(compiled);
   certify::NewtonWorkspace workspace;
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   const auto start = std::chrono::steady_clock::now();
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
     for (const Sample& s : samples) {
@@ -157,10 +156,10 @@ void print_header() {
              "overhead", "/proto", "boxes", "kLU", "speedup");
 }
 
-void run(const std::string& name, const certify::System& system, const solve::Options& options, double prototype,
+void run(const std::string& name, const System& system, const solve::Options& options, double prototype,
          const CuikRun& cuik) {
   const double unit_before = bench::lu_seconds();
-  const certify::Cover cover = solve::solve(system, options);
+  const Cover cover = solve::solve(system, options);
   const double unit = 0.5 * (unit_before + bench::lu_seconds());
   const double seconds = cover.statistics.seconds_total, kilo_lu = seconds / unit / 1000;
   const double returned = static_cast<double>(cover.boxes.size() - cover.count(Verdict::pending));
@@ -207,10 +206,10 @@ void run_cuik_files(const std::string& only, int threads) {
     if (std::string(line.name).find(only) == std::string::npos) continue;
     const fs::path model = folder / (std::string(line.name) + ".cuik");
     try {
-      certify::System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
+      System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
       system.coefficient_tolerance = solve::printed_tolerance(system);
       solve::Options options;
-      options.set_sigma(report::sigma_for(report::read_param(fs::path(model).replace_extension(".param")), system));
+      options.set_sigma(result::sigma_for(result::read_param(fs::path(model).replace_extension(".param")), system));
       options.threads = threads;
       options.time_limit = kTimeLimit;
       run(fmt::format("{} {}", line.name, options.sigma_length.value_or(0)), system, options, 0, line.cuik);

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "corank/certify/exact_point.h"
-#include "corank/certify/interval.h"
+#include "corank/core/exact_point.h"
+#include "corank/core/interval.h"
 
 namespace corank::certify {
 

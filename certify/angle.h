@@ -1,7 +1,7 @@
 // From a cosine and a sine back to an angle, with proof.
 #pragma once
 
-#include "corank/certify/interval.h"
+#include "corank/core/interval.h"
 
 namespace corank::certify {
 

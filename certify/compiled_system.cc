@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "corank/certify/check.h"
 #include "corank/certify/trigonometric.h"
+#include "corank/core/check.h"
 
 namespace corank::certify {
 namespace {

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

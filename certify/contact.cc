@@ -6,11 +6,11 @@
 #include <map>
 #include <optional>
 
-#include "corank/certify/check.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/implied.h"
 #include "corank/certify/newton.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "corank/certify/cover.h"
-#include "corank/certify/system.h"
+#include "corank/core/cover.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

@@ -1,6 +1,6 @@
 #include "corank/certify/distinct.h"
 
-#include "corank/certify/check.h"
+#include "corank/core/check.h"
 
 namespace corank::certify {
 namespace {

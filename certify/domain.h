@@ -7,7 +7,7 @@
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/implied.h"
 #include "corank/certify/newton.h"
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "corank/certify/algebraic_number.h"
-#include "corank/certify/ended.h"
-#include "corank/certify/system.h"
+#include "corank/core/ended.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

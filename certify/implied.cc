@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "corank/certify/polynomial_algebra.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
-#include "corank/certify/ended.h"
-#include "corank/certify/exact_point.h"
-#include "corank/certify/system.h"
+#include "corank/core/ended.h"
+#include "corank/core/exact_point.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corank/certify/check.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
-#include "corank/certify/cover.h"
 #include "corank/certify/exact_verification.h"
+#include "corank/core/cover.h"
 
 namespace corank::certify {
 

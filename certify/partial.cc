@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "corank/certify/cover.h"
+#include "corank/core/cover.h"
 
 namespace corank::certify {
 

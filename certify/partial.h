@@ -6,7 +6,7 @@
 
 #include "corank/certify/domain.h"
 #include "corank/certify/newton.h"
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

@@ -4,9 +4,9 @@
 #include <map>
 #include <tuple>
 
-#include "corank/certify/check.h"
-#include "corank/certify/rounding.h"
 #include "corank/certify/trigonometric.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

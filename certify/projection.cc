@@ -1,7 +1,7 @@
 #include "corank/certify/projection.h"
 
-#include "corank/certify/check.h"
 #include "corank/certify/trigonometric.h"
+#include "corank/core/check.h"
 
 namespace corank::certify {
 namespace {

@@ -6,12 +6,12 @@
 #include <numeric>
 #include <optional>
 
-#include "corank/certify/check.h"
-#include "corank/certify/cover.h"
 #include "corank/certify/domain.h"
 #include "corank/certify/polynomial_algebra.h"
-#include "corank/certify/rounding.h"
 #include "corank/certify/shortening.h"
+#include "corank/core/check.h"
+#include "corank/core/cover.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -18,9 +18,9 @@
 
 #include <vector>
 
-#include "corank/certify/ended.h"
-#include "corank/certify/reduction_step.h"
-#include "corank/certify/system.h"
+#include "corank/core/ended.h"
+#include "corank/core/reduction_step.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

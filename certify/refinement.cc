@@ -8,9 +8,9 @@
 
 #include <Eigen/QR>
 
-#include "corank/certify/check.h"
-#include "corank/certify/exact_number_node.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/check.h"
+#include "corank/core/exact_number_node.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "corank/certify/ended.h"
-#include "corank/certify/system.h"
+#include "corank/core/ended.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "corank/certify/check.h"
 #include "corank/certify/polynomial_algebra.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "corank/certify/newton.h"
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

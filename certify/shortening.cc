@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "corank/certify/exact_number_node.h"
 #include "corank/certify/polynomial_algebra.h"
+#include "corank/core/exact_number_node.h"
 
 namespace corank::certify {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "corank/certify/check.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

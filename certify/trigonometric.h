@@ -11,7 +11,7 @@
 
 #include <optional>
 
-#include "corank/certify/interval.h"
+#include "corank/core/interval.h"
 
 namespace corank::certify {
 

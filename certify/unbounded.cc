@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <map>
 
-#include "corank/certify/check.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/projection.h"
-#include "corank/certify/rounding.h"
 #include "corank/certify/trigonometric.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 
 namespace corank::certify {
 

@@ -21,14 +21,28 @@ if(CORANK_SANITIZE)
   target_link_options(corank_flags INTERFACE -fsanitize=${CORANK_SANITIZE})
 endif()
 
-# corank_library(<folder> PATH … SOURCES … PUBLIC_HEADERS … PUBLIC_LINK … PRIVATE_LINK … HEADER_ONLY …): the target corank_<folder>,
-# alias corank::<folder>. PATH: of the folder, where it is no folder of the repository's root. PUBLIC_HEADERS are installed. HEADER_ONLY libraries are private, and nothing is left of them for whoever
-# links the installed library.
+# cmake/folders.txt: CORANK_FOLDERS in order, CORANK_USES_<folder> what a folder may use.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/folders.txt)
+file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/folders.txt lines REGEX "^[a-z]+:")
+foreach(line IN LISTS lines)
+  string(REGEX MATCH "^([a-z]+): ?(.*)$" matched ${line})
+  set(folder ${CMAKE_MATCH_1})
+  string(REPLACE " " ";" CORANK_USES_${folder} "${CMAKE_MATCH_2}")
+  list(APPEND CORANK_FOLDERS ${folder})
+endforeach()
+
+# corank_uses(<target> PUBLIC|PRIVATE <folder>): links what the folder may use.
+function(corank_uses target scope folder)
+  foreach(used IN LISTS CORANK_USES_${folder})
+    target_link_libraries(${target} ${scope} corank::${used})
+  endforeach()
+endfunction()
+
+# corank_library(<folder> SOURCES … PUBLIC_HEADERS … PRIVATE_LINK … HEADER_ONLY …): the target corank_<folder>, alias corank::<folder>, linked to what
+# cmake/folders.txt says. PUBLIC_HEADERS are installed. HEADER_ONLY libraries are private, and nothing is left of them for whoever links the
+# installed library.
 function(corank_library folder)
-  cmake_parse_arguments(ARG "" "PATH" "SOURCES;PUBLIC_HEADERS;PUBLIC_LINK;PRIVATE_LINK;HEADER_ONLY" ${ARGN})
-  if(NOT ARG_PATH)
-    set(ARG_PATH ${folder})
-  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC_HEADERS;PRIVATE_LINK;HEADER_ONLY" ${ARGN})
   add_library(corank_${folder} STATIC ${ARG_SOURCES})
   add_library(corank::${folder} ALIAS corank_${folder})
   set_target_properties(corank_${folder} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON)
@@ -36,11 +50,11 @@ function(corank_library folder)
   target_include_directories(corank_${folder} PUBLIC $<BUILD_INTERFACE:${CORANK_BUILD_INCLUDE}>
                                                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM ARG_HEADER_ONLY REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
-  target_link_libraries(corank_${folder} PUBLIC ${ARG_PUBLIC_LINK}
-                        PRIVATE ${ARG_PRIVATE_LINK} ${ARG_HEADER_ONLY} $<BUILD_INTERFACE:corank_flags>)
+  target_link_libraries(corank_${folder} PRIVATE ${ARG_PRIVATE_LINK} ${ARG_HEADER_ONLY} $<BUILD_INTERFACE:corank_flags>)
+  corank_uses(corank_${folder} PUBLIC ${folder})
   install(TARGETS corank_${folder} EXPORT corankTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   list(TRANSFORM ARG_PUBLIC_HEADERS REPLACE "^.*/" "")
   list(TRANSFORM ARG_PUBLIC_HEADERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   set_property(GLOBAL APPEND PROPERTY CORANK_PUBLIC_HEADERS ${ARG_PUBLIC_HEADERS})
-  install(FILES ${ARG_PUBLIC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corank/${ARG_PATH})
+  install(FILES ${ARG_PUBLIC_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/corank/${folder})
 endfunction()

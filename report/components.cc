@@ -2,22 +2,22 @@
 
 #include <algorithm>
 
-#include "corank/solve/box_tree.h"
+#include "corank/core/box_tree.h"
 
 namespace corank::report {
 
-Components components(const Result& result) {
-  const std::vector<certify::CoverBox>& boxes = result.cover.boxes;
-  std::vector<const certify::Box*> sides;
-  for (const certify::CoverBox& b : boxes) sides.push_back(&b.box);
-  const solve::BoxTree tree(std::move(sides), static_cast<std::size_t>(result.configuration_size));
+Components components(const result::Result& result) {
+  const std::vector<CoverBox>& boxes = result.cover.boxes;
+  std::vector<const Box*> sides;
+  for (const CoverBox& b : boxes) sides.push_back(&b.box);
+  const BoxTree tree(std::move(sides), static_cast<std::size_t>(result.configuration_size));
   Components found;
   for (const std::size_t group : tree.groups(0, {})) found.of_box.push_back(static_cast<int>(group));
   const int last = boxes.empty() ? -1 : *std::max_element(found.of_box.begin(), found.of_box.end());
   std::vector<bool> proven(static_cast<std::size_t>(last + 1));
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const certify::Verdict verdict = boxes[i].verdict;
-    if (verdict == certify::Verdict::regular || verdict == certify::Verdict::isolated || verdict == certify::Verdict::exact)
+    const Verdict verdict = boxes[i].verdict;
+    if (verdict == Verdict::regular || verdict == Verdict::isolated || verdict == Verdict::exact)
       proven[static_cast<std::size_t>(found.of_box[i])] = true;
   }
   found.count = static_cast<int>(proven.size());

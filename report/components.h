@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "corank/report/result.h"
+#include "corank/result/result.h"
 
 namespace corank::report {
 
@@ -19,6 +19,6 @@ struct Components {
 };
 
 /// Two boxes touch where they have a point in common; pending boxes count as any other.
-Components components(const Result& result);
+Components components(const result::Result& result);
 
 }  // namespace corank::report

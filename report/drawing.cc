@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corank/certify/check.h"
+#include "corank/core/check.h"
 
 namespace corank::report {
 namespace {
-
-using certify::Interval;
 
 constexpr double kPointsPerMm = 72 / 25.4, kCell = 72.0 / 1200;
 constexpr int kMostCells = 8192;

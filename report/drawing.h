@@ -57,9 +57,9 @@ struct Drawing {
 
   double width = 0, height = 0;
   double frame_x = 0, frame_y = 0, frame_width = 0, frame_height = 0;
-  certify::Interval x_range, y_range;  ///< of the coordinates over the frame
-  double cell = 0;                     ///< edge of a cell
-  double outline = 0, mark = 0;        ///< width of the shapes' line, radius of a mark
+  Interval x_range, y_range;     ///< of the coordinates over the frame
+  double cell = 0;               ///< edge of a cell
+  double outline = 0, mark = 0;  ///< width of the shapes' line, radius of a mark
   std::vector<Shape> shapes;
   std::vector<Swatch> swatches;
   std::vector<Line> lines;
@@ -67,7 +67,7 @@ struct Drawing {
 };
 
 /// The ranges that the axes have to show for the boxes of these pictures, which have the same two axes and a box among them.
-std::array<certify::Interval, 2> common_ranges(const std::vector<Picture>& pictures);
+std::array<Interval, 2> common_ranges(const std::vector<Picture>& pictures);
 
 /// Requires two axes, and a box where the options give no ranges.
 Drawing lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width);

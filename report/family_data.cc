@@ -36,7 +36,7 @@ Json coordinates(const symbolic::Mechanism& mechanism, const std::array<std::str
   return list;
 }
 
-Json set_of(const Result& result, const std::array<std::string, 2>& axes) {
+Json set_of(const result::Result& result, const std::array<std::string, 2>& axes) {
   const std::vector<int> variables = plane_variables(result, axes);
   Json names = Json::array();
   for (const int v : variables) names.push_back(result.variables[static_cast<std::size_t>(v)].name);
@@ -51,7 +51,7 @@ Json set_of(const Result& result, const std::array<std::string, 2>& axes) {
 
 }  // namespace
 
-std::vector<int> plane_variables(const Result& result, const std::array<std::string, 2>& axes) {
+std::vector<int> plane_variables(const result::Result& result, const std::array<std::string, 2>& axes) {
   std::vector<int> list;
   for (const std::string& name : axes) {
     const auto angle =
@@ -74,10 +74,10 @@ std::string family_set_id(std::size_t member, const std::string& set) { return s
 std::string family_model(const std::vector<FamilyMember>& members, const FamilyOptions& options) {
   const symbolic::Mechanism& first = members.at(0).mechanism;
   Json verdicts = Json::array(), list = Json::array();
-  for (int v = 0; v < certify::kVerdicts; ++v) verdicts.push_back(to_string(static_cast<certify::Verdict>(v)));
+  for (int v = 0; v < kVerdicts; ++v) verdicts.push_back(to_string(static_cast<Verdict>(v)));
   for (const FamilyMember& member : members) {
     Json sets = Json::array();
-    for (const Result& result : member.results) sets.push_back(set_of(result, options.axes));
+    for (const result::Result& result : member.results) sets.push_back(set_of(result, options.axes));
     list.push_back(
         {{"text", member.value}, {"value", constant_values(member.mechanism).at(options.constant)}, {"sets", sets}});
   }

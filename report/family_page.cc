@@ -19,7 +19,6 @@ namespace corank::report {
 namespace {
 
 namespace mustache = kainjow::mustache;
-using certify::Verdict;
 
 mustache::data truth(bool value) {
   return mustache::data{value ? mustache::data::type::bool_true : mustache::data::type::bool_false};
@@ -51,7 +50,7 @@ std::vector<Columns> columns_of(const std::vector<FamilyMember>& members) {
   std::vector<Columns> all;
   for (std::size_t s = 0; s < members.front().results.size(); ++s) {
     all.push_back({s, {}});
-    for (int v = 0; v < certify::kVerdicts; ++v) {
+    for (int v = 0; v < kVerdicts; ++v) {
       const auto verdict = static_cast<Verdict>(v);
       if (std::any_of(members.begin(), members.end(), [&](const auto& m) { return m.results[s].cover.count(verdict) > 0; }))
         all.back().verdicts.push_back(verdict);
@@ -84,7 +83,7 @@ mustache::data heads(const std::vector<Columns>& all, const FamilyMember& member
 mustache::data counts(const std::vector<Columns>& all, const FamilyMember& member) {
   mustache::data cells = list();
   for (const Columns& columns : all) {
-    const Result& result = member.results[columns.set];
+    const result::Result& result = member.results[columns.set];
     cells << cell("count", grouped(static_cast<std::uint64_t>(components(result).count)), true)
           << cell("count", grouped(result.cover.boxes.size()), false);
     for (const Verdict verdict : columns.verdicts) cells << cell("count", grouped(result.cover.count(verdict)), false);
@@ -93,7 +92,7 @@ mustache::data counts(const std::vector<Columns>& all, const FamilyMember& membe
 }
 
 mustache::data run_row(const FamilyMember& member, std::size_t set, const std::string& constant) {
-  const Result& result = member.results[set];
+  const result::Result& result = member.results[set];
   mustache::data row;
   row["valueHtml"] = value_html(member, constant);
   row["title"] = set_title(result.set);
@@ -108,7 +107,7 @@ mustache::data run_row(const FamilyMember& member, std::size_t set, const std::s
 mustache::data entry(const FamilyMember& member, std::size_t index, const std::vector<Columns>& columns,
                      const std::string& constant) {
   mustache::data data, cards = list();
-  for (const Result& result : member.results) cards << mustache::data{"card", card_html(result)};
+  for (const result::Result& result : member.results) cards << mustache::data{"card", card_html(result)};
   data["index"] = std::to_string(index);
   data["value"] = member.value;
   data["valueHtml"] = value_html(member, constant);
@@ -120,7 +119,7 @@ mustache::data entry(const FamilyMember& member, std::size_t index, const std::v
 }
 
 void check_sets(const std::vector<FamilyMember>& members) {
-  const auto same = [](const Result& a, const Result& b) { return a.set == b.set; };
+  const auto same = [](const result::Result& a, const result::Result& b) { return a.set == b.set; };
   for (const FamilyMember& member : members) {
     const auto& first = members.front().results;
     if (!std::equal(first.begin(), first.end(), member.results.begin(), member.results.end(), same))
@@ -143,7 +142,7 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
     entries << entry(members[m], m, columns, options.constant);
     values += (m > 0 ? ", " : "") + value_html(members[m], options.constant);
     for (std::size_t s = 0; s < members[m].results.size(); ++s) {
-      const Result& result = members[m].results[s];
+      const result::Result& result = members[m].results[s];
       mustache::data payload;
       payload["id"] = family_set_id(m, result.set);
       payload["boxes"] = box_payload(result, plane_variables(result, options.axes));
@@ -153,7 +152,7 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
       complete = complete && result.cover.complete();
     }
   }
-  for (const Result& result : first.results) {
+  for (const result::Result& result : first.results) {
     mustache::data set;
     set["name"] = result.set;
     set["title"] = set_title(result.set);
@@ -163,7 +162,7 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
   const FamilyWords words = family_words(members, options);
 
   mustache::data page;
-  page["version"] = version();
+  page["version"] = result::version();
   page["model"] = mechanism.name();
   page["constant"] = options.constant;
   page["constantName"] = symbolic::html_name(options.constant);

@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "corank/report/result.h"
+#include "corank/result/result.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
 
 struct FamilyMember {
-  std::string value;               ///< of the constant, in the model language
-  symbolic::Mechanism mechanism;   ///< with that value
-  std::vector<Result> results;     ///< of the same sets in the same order for every member
-  std::vector<std::string> files;  ///< of the results; shown and linked
+  std::string value;                    ///< of the constant, in the model language
+  symbolic::Mechanism mechanism;        ///< with that value
+  std::vector<result::Result> results;  ///< of the same sets in the same order for every member
+  std::vector<std::string> files;       ///< of the results; shown and linked
 };
 
 struct FamilyOptions {

@@ -10,8 +10,6 @@
 namespace corank::report {
 namespace {
 
-using certify::Verdict;
-
 struct Totals {
   std::size_t covers = 0, complete = 0, boxes = 0, proven = 0, border = 0, partial = 0, undecided = 0, pending = 0;
   double finest = HUGE_VAL, coarsest = 0;
@@ -20,8 +18,8 @@ struct Totals {
 Totals totals_of(const std::vector<FamilyMember>& members) {
   Totals t;
   for (const FamilyMember& member : members) {
-    for (const Result& result : member.results) {
-      const certify::Cover& cover = result.cover;
+    for (const result::Result& result : member.results) {
+      const Cover& cover = result.cover;
       ++t.covers;
       t.complete += cover.complete() ? 1 : 0;
       t.boxes += cover.boxes.size();
@@ -39,7 +37,7 @@ Totals totals_of(const std::vector<FamilyMember>& members) {
 
 bool has_surface(const FamilyMember& member) {
   return std::any_of(member.results.begin(), member.results.end(),
-                     [](const Result& r) { return r.set == "cspace" && r.cover.dimension > 1; });
+                     [](const result::Result& r) { return r.set == "cspace" && r.cover.dimension > 1; });
 }
 
 }  // namespace

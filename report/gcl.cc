@@ -57,7 +57,7 @@ std::string identifier(std::string text) {
 }  // namespace
 
 std::string to_gcl(const Picture& picture, const GclOptions& options) {
-  if (is_empty(picture)) throw ResultFileError("there are no boxes to draw; expected at least one");
+  if (is_empty(picture)) throw result::ResultFileError("there are no boxes to draw; expected at least one");
   const bool flat = picture.axes.size() == 2;
   std::string out =
       fmt::format("# Boxes in {} coordinates, for Geomview\n# {}\n", picture.axes.size(), plain(options.comment));

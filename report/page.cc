@@ -24,7 +24,7 @@ mustache::data truth(bool value) {
   return mustache::data{value ? mustache::data::type::bool_true : mustache::data::type::bool_false};
 }
 
-mustache::data set_entry(const Result& result) {
+mustache::data set_entry(const result::Result& result) {
   mustache::data entry;
   entry["name"] = result.set;
   entry["title"] = set_title(result.set);
@@ -32,8 +32,8 @@ mustache::data set_entry(const Result& result) {
   return entry;
 }
 
-mustache::data run_row(const Result& result, const std::string& file) {
-  const certify::Statistics& s = result.cover.statistics;
+mustache::data run_row(const result::Result& result, const std::string& file) {
+  const Statistics& s = result.cover.statistics;
   mustache::data row;
   row["title"] = set_title(result.set);
   row["sigma"] = fmt::format("{:g}", result.cover.sigma.largest());
@@ -49,7 +49,7 @@ mustache::data run_row(const Result& result, const std::string& file) {
   return row;
 }
 
-mustache::data payload(const Result& result) {
+mustache::data payload(const result::Result& result) {
   mustache::data data;
   data["name"] = result.set;
   data["boxes"] = box_payload(result);
@@ -74,11 +74,11 @@ std::string chosen_html(const std::vector<std::string>& names, std::size_t ties)
 }
 
 /// Ranges that the model leaves out: "<i>x</i> in [−0.41, 1.76]".
-std::string found_html(const std::vector<Result>& results) {
+std::string found_html(const std::vector<result::Result>& results) {
   std::string html;
   if (results.empty()) return html;
   for (const int j : results.front().domain.found) {
-    const ResultVariable& v = results.front().variables[static_cast<std::size_t>(j)];
+    const result::ResultVariable& v = results.front().variables[static_cast<std::size_t>(j)];
     html += fmt::format("{}{} in {}", html.empty() ? "" : ", ", symbolic::html_name(v.name),
                         with_minus(fmt::format("[{:.6g}, {:.6g}]", v.domain.lo(), v.domain.hi())));
   }
@@ -86,17 +86,17 @@ std::string found_html(const std::vector<Result>& results) {
 }
 
 /// The constants that were given with -D.
-std::string overridden_html(const std::vector<Result>& results) {
+std::string overridden_html(const std::vector<result::Result>& results) {
   std::string html;
   if (results.empty()) return html;
-  for (const ConstantOverride& c : results.front().options.constants)
+  for (const result::ConstantOverride& c : results.front().options.constants)
     html += (html.empty() ? "" : ", ") + constant_html(c.name, symbolic::parse_expression(c.expression, "-D " + c.name));
   return html;
 }
 
 }  // namespace
 
-std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<Result>& results,
+std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results,
                         const PageOptions& options) {
   if (mechanism.is_plain_system()) {
     throw symbolic::ModelError({mechanism.name(), 0, 0}, "the model names no inputs and outputs",
@@ -140,7 +140,7 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page.set("runs", runs);
   page.set("payloads", payloads);
   page["command"] = options.command;
-  page["version"] = version();
+  page["version"] = result::version();
   page["modelText"] = mechanism.source_text();
   page.set("incomplete", truth(!complete));
   mustache::data figures{mustache::data::type::list};

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/report/result.h"
+#include "corank/result/result.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
@@ -18,7 +18,7 @@ struct PageOptions {
 
 /// Throws ResultFileError where a result is none of this mechanism's sets, ModelError where the mechanism has no singularities to
 /// speak of (a plain system).
-std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<Result>& results,
+std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results,
                         const PageOptions& options = {});
 
 }  // namespace corank::report

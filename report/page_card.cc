@@ -21,7 +21,7 @@ mustache::data sentences(const std::vector<std::string>& list) {
 
 }  // namespace
 
-std::string card_html(const Result& result) {
+std::string card_html(const result::Result& result) {
   const SetWords words = set_words(result, components(result));
   mustache::data card;
   card["name"] = result.set;

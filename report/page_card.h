@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "corank/report/result.h"
+#include "corank/result/result.h"
 
 namespace corank::report {
 
 /// An HTML fragment.
-std::string card_html(const Result& result);
+std::string card_html(const result::Result& result);
 
 }  // namespace corank::report

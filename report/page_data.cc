@@ -9,7 +9,7 @@
 
 #include "corank/report/components.h"
 #include "corank/report/drawing_tree.h"
-#include "corank/report/hdf5_file.h"
+#include "corank/result/hdf5_file.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/singularity_system.h"
@@ -29,20 +29,20 @@ std::string_view role(const symbolic::Mechanism& mechanism, const symbolic::Coor
   return has(mechanism.inputs()) ? "input" : has(mechanism.outputs()) ? "output" : c.auxiliary ? "auxiliary" : "passive";
 }
 
-Json coordinates(const symbolic::Mechanism& mechanism, const certify::System& system) {
+Json coordinates(const symbolic::Mechanism& mechanism, const System& system) {
   Json list = Json::array();
   for (const symbolic::Coordinate& c : mechanism.coordinates()) {
     const symbolic::DisplayName shown = symbolic::display_name(c.name);
     Json entry = {{"name", c.name}, {"label", {shown.base, shown.subscript}}, {"role", role(mechanism, c)}};
     if (c.kind == symbolic::CoordinateKind::angle) {
-      const auto angle = std::find_if(system.angles.begin(), system.angles.end(),
-                                      [&](const certify::Angle& a) { return a.name == c.name; });
+      const auto angle =
+          std::find_if(system.angles.begin(), system.angles.end(), [&](const Angle& a) { return a.name == c.name; });
       entry["cosine"] = angle->cosine;
       entry["sine"] = angle->sine;
       entry["range"] = {angle->range.lo(), angle->range.hi()};
     } else {
       const int i = system.find(c.name);
-      const certify::Interval& domain = system.variables[static_cast<std::size_t>(i)].domain;
+      const Interval& domain = system.variables[static_cast<std::size_t>(i)].domain;
       entry["index"] = i;
       entry["range"] = {domain.lo(), domain.hi()};
     }
@@ -70,13 +70,13 @@ Json drawing(const symbolic::Mechanism& mechanism) {
 }
 
 /// Each monomial: [coefficient, variable, power, function, variable, power, function …], function 0 x, 1 sin x, 2 cos x.
-Json polynomials(const std::vector<certify::Polynomial>& list) {
+Json polynomials(const std::vector<Polynomial>& list) {
   Json json = Json::array();
-  for (const certify::Polynomial& polynomial : list) {
+  for (const Polynomial& polynomial : list) {
     Json monomials = Json::array();
-    for (const certify::Monomial& m : polynomial.monomials) {
+    for (const Monomial& m : polynomial.monomials) {
       Json entry = {m.coefficient.enclose().mid()};
-      for (const certify::Factor& f : m.factors) {
+      for (const Factor& f : m.factors) {
         entry.push_back(f.variable);
         entry.push_back(f.power);
         entry.push_back(static_cast<int>(f.function));
@@ -88,35 +88,36 @@ Json polynomials(const std::vector<certify::Polynomial>& list) {
   return json;
 }
 
-certify::System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
+System solved_system(const symbolic::Mechanism& mechanism, const result::Result& result) {
   const std::optional<SingularitySet> set = symbolic::singularity_set_from_string(result.set);
-  if (!set) throw ResultFileError("the result's set '" + result.set + "' is no set of a mechanism");
-  certify::System system;
+  if (!set) throw result::ResultFileError("the result's set '" + result.set + "' is no set of a mechanism");
+  System system;
   try {
     system = algebrize(singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
                                           result.options.kernel_scales));
   } catch (const symbolic::ModelError& error) {  // scales that are none of this model
-    throw ResultFileError(std::string("the result's system: ") + error.what());
+    throw result::ResultFileError(std::string("the result's system: ") + error.what());
   }
-  const auto same = [](const certify::Variable& a, const ResultVariable& b) { return a.name == b.name; };
+  const auto same = [](const Variable& a, const result::ResultVariable& b) { return a.name == b.name; };
   if (!std::equal(system.variables.begin(), system.variables.end(), result.variables.begin(), result.variables.end(), same))
-    throw ResultFileError("the result of the set '" + result.set + "' has other variables than the model " +
-                          mechanism.name());
+    throw result::ResultFileError("the result of the set '" + result.set + "' has other variables than the model " +
+                                  mechanism.name());
   return system;
 }
 
 /// What each component of ξ is multiplied by to be a rate.
-Json kernel_scales(const Result& result, std::size_t columns) {
+Json kernel_scales(const result::Result& result, std::size_t columns) {
   Json scales = Json::array();
   for (std::size_t k = 0; k < columns; ++k)
     scales.push_back(k < result.options.kernel_scales.size()
-                         ? certify::ExactNumber::rational(result.options.kernel_scales[k]).enclose().mid()
+                         ? ExactNumber::rational(result.options.kernel_scales[k]).enclose().mid()
                          : 1.0);
   return scales;
 }
 
 /// The coordinates that the components of ξ belong to, where ξ is a velocity (M ξ = 0).
-Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const Result& result) {
+Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
+                    const result::Result& result) {
   Json columns = Json::array();
   if (result.options.kernel != "right") return columns;
   const symbolic::ExpressionMatrix& matrix = result.set == "forward" ? derivation.l_y : derivation.l_z;
@@ -124,20 +125,20 @@ Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Deriva
   return columns;
 }
 
-Json points(const Result& result) {
+Json points(const result::Result& result) {
   Json list = Json::array();
-  for (const certify::CoverBox& point : result.cover.points) {
+  for (const CoverBox& point : result.cover.points) {
     Json bounds = Json::array();
-    for (const certify::Interval& side : point.box) bounds.push_back({side.lo(), side.hi()});
+    for (const Interval& side : point.box) bounds.push_back({side.lo(), side.hi()});
     list.push_back({{"verdict", to_string(point.verdict)}, {"bounds", bounds}});
   }
   return list;
 }
 
-Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const Result& result) {
-  const certify::System system = system_of(mechanism, result);
+Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const result::Result& result) {
+  const System system = solved_system(mechanism, result);
   Json names = Json::array(), domains = Json::array();
-  for (const ResultVariable& v : result.variables) {
+  for (const result::ResultVariable& v : result.variables) {
     names.push_back(v.name);
     domains.push_back({v.domain.lo(), v.domain.hi()});
   }
@@ -178,18 +179,18 @@ float float_below(double x) {
 
 float float_above(double x) { return -float_below(-x); }
 
-std::string box_payload(const Result& result) {
+std::string box_payload(const result::Result& result) {
   std::vector<int> all(result.variables.size());
   std::iota(all.begin(), all.end(), 0);
   return box_payload(result, all);
 }
 
-std::string box_payload(const Result& result, std::span<const int> variables) {
+std::string box_payload(const result::Result& result, std::span<const int> variables) {
   std::vector<float> numbers;
   numbers.reserve(result.cover.boxes.size() * variables.size() * 2);
-  for (const certify::CoverBox& b : result.cover.boxes) {
+  for (const CoverBox& b : result.cover.boxes) {
     for (const int v : variables) {
-      const certify::Interval& side = b.box[static_cast<std::size_t>(v)];
+      const Interval& side = b.box[static_cast<std::size_t>(v)];
       numbers.push_back(float_below(side.lo()));
       numbers.push_back(float_above(side.hi()));
     }
@@ -202,18 +203,18 @@ std::string script_safe(std::string text) {
   return text;
 }
 
-std::string verdict_payload(const Result& result) {
+std::string verdict_payload(const result::Result& result) {
   std::vector<std::uint8_t> bytes;
-  for (const certify::CoverBox& b : result.cover.boxes) bytes.push_back(static_cast<std::uint8_t>(b.verdict));
+  for (const CoverBox& b : result.cover.boxes) bytes.push_back(static_cast<std::uint8_t>(b.verdict));
   return base64(bytes);
 }
 
-std::string page_model(const symbolic::Mechanism& mechanism, const std::vector<Result>& results) {
-  const certify::System cspace = algebrize(singularity_system(mechanism, SingularitySet::cspace));
+std::string page_model(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results) {
+  const System cspace = algebrize(singularity_system(mechanism, SingularitySet::cspace));
   const symbolic::Derivation derivation = derive(mechanism);
   Json verdicts = Json::array(), sets = Json::array();
-  for (int v = 0; v < certify::kVerdicts; ++v) verdicts.push_back(to_string(static_cast<certify::Verdict>(v)));
-  for (const Result& result : results) sets.push_back(set_of(mechanism, derivation, result));
+  for (int v = 0; v < kVerdicts; ++v) verdicts.push_back(to_string(static_cast<Verdict>(v)));
+  for (const result::Result& result : results) sets.push_back(set_of(mechanism, derivation, result));
   const Json model = {{"model", mechanism.name()},
                       {"verdicts", verdicts},
                       {"coordinates", coordinates(mechanism, cspace)},

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/report/result.h"
+#include "corank/result/result.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
@@ -24,14 +24,14 @@ float float_below(double x);
 float float_above(double x);
 
 /// Little-endian floats, box after box: lower and upper bound of each variable in turn.
-std::string box_payload(const Result& result);
+std::string box_payload(const result::Result& result);
 /// The same of these variables only.
-std::string box_payload(const Result& result, std::span<const int> variables);
-/// A byte for each box: the index of its verdict in certify::Verdict.
-std::string verdict_payload(const Result& result);
+std::string box_payload(const result::Result& result, std::span<const int> variables);
+/// A byte for each box: the index of its verdict in Verdict.
+std::string verdict_payload(const result::Result& result);
 
 /// The coordinates, the drawing and, for each result, its set with variables, equations and points: one JSON object. Throws
 /// ResultFileError where a result is none of this mechanism: its variables differ from those of the mechanism's set.
-std::string page_model(const symbolic::Mechanism& mechanism, const std::vector<Result>& results);
+std::string page_model(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results);
 
 }  // namespace corank::report

@@ -37,7 +37,7 @@ std::string matrix_html(const std::string& base, const std::string& subscript, c
       columns.empty() ? "none" : columns, math(symbol(base, subscript) + "<mo>=</mo>" + mathml(matrix)));
 }
 
-std::string system_html(const symbolic::Mechanism& mechanism, const Result& result) {
+std::string system_html(const symbolic::Mechanism& mechanism, const result::Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
   const symbolic::TrigonometricSystem system = singularity_system(
       mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel), result.options.kernel_scales);
@@ -56,7 +56,7 @@ std::string system_html(const symbolic::Mechanism& mechanism, const Result& resu
 
 }  // namespace
 
-std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vector<Result>& results) {
+std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results) {
   const symbolic::Derivation derivation = derive(mechanism);
   std::string html = "<h3>Assembly constraints " +
                      math("<mi mathvariant=\"normal\">Φ</mi><mo>(</mo><mi>q</mi><mo>)</mo><mo>=</mo><mn>0</mn>") + "</h3>";
@@ -69,7 +69,7 @@ std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vec
   html +=
       "<h3>Systems solved</h3><p>Cosines and sines of angles are variables of their own in the search, with their circle as "
       "an equation.</p>";
-  for (const Result& result : results) html += system_html(mechanism, result);
+  for (const result::Result& result : results) html += system_html(mechanism, result);
   return html;
 }
 

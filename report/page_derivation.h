@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "corank/report/result.h"
+#include "corank/result/result.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
 
 /// An HTML fragment; the systems of the results' sets, each folded away.
-std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vector<Result>& results);
+std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results);
 
 }  // namespace corank::report

@@ -5,15 +5,13 @@
 #include <algorithm>
 
 #include "corank/certify/angle.h"
-#include "corank/report/exact_angle.h"
 #include "corank/report/page_words.h"
+#include "corank/result/exact_angle.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 
 namespace corank::report {
 namespace {
-
-using certify::Interval;
 
 /// A coordinate of the model: a variable, or an angle with its cosine and sine.
 struct Column {
@@ -22,11 +20,11 @@ struct Column {
   Interval range{};
 };
 
-std::vector<Column> columns(const Result& result) {
+std::vector<Column> columns(const result::Result& result) {
   std::vector<Column> list;
   for (int i = 0; i < result.configuration_size; ++i) {
     const auto angle = std::find_if(result.angles.begin(), result.angles.end(),
-                                    [i](const certify::Angle& a) { return a.cosine == i || a.sine == i; });
+                                    [i](const Angle& a) { return a.cosine == i || a.sine == i; });
     if (angle == result.angles.end()) {
       list.push_back({result.variables[static_cast<std::size_t>(i)].name, i});
     } else if (i == std::min(angle->cosine, angle->sine)) {
@@ -37,15 +35,15 @@ std::vector<Column> columns(const Result& result) {
 }
 
 /// "−3/5" or "√3/2" typeset; nothing where there is no short text.
-std::string exact_html(const certify::ExactPoint& point, int variable) {
-  const auto text = exact_coordinate(point, variable);
+std::string exact_html(const ExactPoint& point, int variable) {
+  const auto text = result::exact_coordinate(point, variable);
   return text ? symbolic::math(symbolic::mathml(symbolic::Expression(*text))) : "";
 }
 
 /// "3π/4", or "cos: 3/5, sin: 4/5" behind the digits of the angle.
-std::string exact_angle_html(const certify::ExactPoint& point, const Column& column, const Interval& angle) {
-  const certify::Angle as{column.name, column.variable, column.sine, column.range};
-  if (const auto text = multiple_of_pi(point, as, angle))
+std::string exact_angle_html(const ExactPoint& point, const Column& column, const Interval& angle) {
+  const Angle as{column.name, column.variable, column.sine, column.range};
+  if (const auto text = result::multiple_of_pi(point, as, angle))
     return symbolic::math(symbolic::mathml(symbolic::Expression(*text)));
   const std::string cosine = exact_html(point, column.variable), sine = exact_html(point, column.sine);
   if (cosine.empty() || sine.empty()) return digits_text(angle);
@@ -53,9 +51,9 @@ std::string exact_angle_html(const certify::ExactPoint& point, const Column& col
 }
 
 /// The coordinate of a point as well as it is known: exactly, in decimals, or between bounds.
-std::string cell(const Result& result, const Column& column, std::size_t number) {
-  const certify::Cover& cover = result.cover;
-  const certify::CoverBox& point = cover.points[number];
+std::string cell(const result::Result& result, const Column& column, std::size_t number) {
+  const Cover& cover = result.cover;
+  const CoverBox& point = cover.points[number];
   const auto at = [&point](int v) { return point.box[static_cast<std::size_t>(v)]; };
   if (column.sine >= 0) {
     const Interval angle = certify::angle_enclosure(at(column.variable), at(column.sine), column.range);
@@ -72,7 +70,7 @@ std::string cell(const Result& result, const Column& column, std::size_t number)
   return is_decimal ? exact : exact + " <small>" + value + "</small>";  // an integer needs no decimals
 }
 
-std::string exact_cell(const Column& column, const certify::ExactPoint& point) {
+std::string exact_cell(const Column& column, const ExactPoint& point) {
   const auto text = [&point](int v) {
     const std::string html = exact_html(point, v);
     return html.empty() ? fmt::format("a number of degree {}", point.polynomial.size() - 1) : html;
@@ -82,10 +80,10 @@ std::string exact_cell(const Column& column, const certify::ExactPoint& point) {
 }
 
 /// Points where the kernel has dimension 2 or more.
-std::string kernel_points_html(const Result& result, const std::vector<Column>& shown) {
+std::string kernel_points_html(const result::Result& result, const std::vector<Column>& shown) {
   std::string rows;
   int number = 0;
-  for (const certify::ExactPoint& point : result.cover.exact_points) {
+  for (const ExactPoint& point : result.cover.exact_points) {
     if (point.corank < 2) continue;
     rows += fmt::format("<tr><td>{}</td>", ++number);
     for (const Column& column : shown) rows += "<td>" + exact_cell(column, point) + "</td>";
@@ -101,7 +99,7 @@ std::string kernel_points_html(const Result& result, const std::vector<Column>& 
       head, rows);
 }
 
-std::string table_html(const Result& result) {
+std::string table_html(const result::Result& result) {
   const std::vector<Column> shown = columns(result);
   std::string html = fmt::format("<section class=\"points\" data-set=\"{}\"><h3>{}</h3>", symbolic::html_text(result.set),
                                  set_title(result.set));
@@ -110,7 +108,7 @@ std::string table_html(const Result& result) {
     for (const Column& column : shown) html += "<th>" + symbolic::html_name(column.name) + "</th>";
     html += "<th>verdict</th></tr></thead><tbody>";
     std::size_t number = 0;
-    for (const certify::CoverBox& point : result.cover.points) {
+    for (const CoverBox& point : result.cover.points) {
       html += fmt::format("<tr data-point=\"{}\"><td><button type=\"button\" class=\"show-point\">{}</button></td>", number,
                           number + 1);
       for (const Column& column : shown) html += "<td>" + cell(result, column, number) + "</td>";
@@ -124,12 +122,12 @@ std::string table_html(const Result& result) {
 
 }  // namespace
 
-std::string points_html(const std::vector<Result>& results) {
+std::string points_html(const std::vector<result::Result>& results) {
   std::string html;
-  for (const Result& result : results) {
+  for (const result::Result& result : results) {
     const bool isolated = result.cover.dimension == 0 && !result.cover.points.empty();
     const bool kernels = std::any_of(result.cover.exact_points.begin(), result.cover.exact_points.end(),
-                                     [](const certify::ExactPoint& point) { return point.corank > 1; });
+                                     [](const ExactPoint& point) { return point.corank > 1; });
     if (isolated || kernels) html += table_html(result);
   }
   return html.empty() ? "<p>None: no set of this mechanism consists of isolated points.</p>" : html;

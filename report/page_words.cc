@@ -4,14 +4,12 @@
 
 #include <algorithm>
 
-#include "corank/report/summary.h"
+#include "corank/result/summary.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 
 namespace corank::report {
 namespace {
-
-using certify::Verdict;
 
 std::string counted(std::size_t n, const std::string& one, const std::string& many) {
   return grouped(n) + " " + (n == 1 ? one : many);
@@ -35,13 +33,13 @@ std::string shape(int dimension) {
   }
 }
 
-std::size_t count_points(const certify::Cover& cover, Verdict verdict) {
-  return static_cast<std::size_t>(std::count_if(cover.points.begin(), cover.points.end(),
-                                                [=](const certify::CoverBox& p) { return p.verdict == verdict; }));
+std::size_t count_points(const Cover& cover, Verdict verdict) {
+  return static_cast<std::size_t>(
+      std::count_if(cover.points.begin(), cover.points.end(), [=](const CoverBox& p) { return p.verdict == verdict; }));
 }
 
-void say_points(const Result& result, SetWords& words) {
-  const certify::Cover& cover = result.cover;
+void say_points(const result::Result& result, SetWords& words) {
+  const Cover& cover = result.cover;
   const std::size_t isolated = count_points(cover, Verdict::isolated), exact = count_points(cover, Verdict::exact),
                     border = count_points(cover, Verdict::boundary),
                     others = cover.points.size() - isolated - exact - border;
@@ -68,10 +66,10 @@ void say_points(const Result& result, SetWords& words) {
 }
 
 /// Ranges that cut the set, and what keeps boxes at the border.
-void say_domain(const DomainNotes& notes, SetWords& words) {
+void say_domain(const result::DomainNotes& notes, SetWords& words) {
   for (const bool reached : {true, false}) {
     std::string names;
-    for (const DomainNotes::End& end : notes.ends)
+    for (const result::DomainNotes::End& end : notes.ends)
       if (end.reached == reached) names += (names.empty() ? "" : ", ") + end.coordinate;
     if (names.empty()) continue;
     words.unproven.push_back(
@@ -80,13 +78,13 @@ void say_domain(const DomainNotes& notes, SetWords& words) {
   }
   if (notes.boundary.empty()) return;
   std::string reasons;
-  for (const DomainNotes::Reason& reason : notes.boundary)
+  for (const result::DomainNotes::Reason& reason : notes.boundary)
     reasons += fmt::format("{}{} ({})", reasons.empty() ? "" : ", ", reason.text, boxes_text(reason.boxes));
   words.unproven.push_back("Boxes at the border are not shown to lie inside of: " + reasons + ".");
 }
 
 /// Where the kernel's dimension is known.
-void say_kernel(const certify::Cover& cover, SetWords& words) {
+void say_kernel(const Cover& cover, SetWords& words) {
   const auto count = [&cover](auto&& test) {
     return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), test));
   };
@@ -103,8 +101,8 @@ void say_kernel(const certify::Cover& cover, SetWords& words) {
   }
 }
 
-void say_pieces(const Result& result, const Components& found, SetWords& words) {
-  const certify::Cover& cover = result.cover;
+void say_pieces(const result::Result& result, const Components& found, SetWords& words) {
+  const Cover& cover = result.cover;
   words.finding = fmt::format("{}: {} in {} as boxes touch", shape(cover.dimension), boxes_text(cover.boxes.size()),
                               counted(static_cast<std::size_t>(found.count), "component", "components"));
   const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
@@ -197,14 +195,14 @@ std::string constants_html(const symbolic::Mechanism& mechanism, const std::stri
   return html.empty() ? "none" : html;
 }
 
-std::string digits_text(const certify::Interval& x) { return with_minus(outward_text(x, 9)); }
+std::string digits_text(const Interval& x) { return with_minus(result::outward_text(x, 9)); }
 
-SetWords set_words(const Result& result, const Components& found) {
-  const certify::Cover& cover = result.cover;
+SetWords set_words(const result::Result& result, const Components& found) {
+  const Cover& cover = result.cover;
   SetWords words;
   words.title = set_title(result.set);
   words.meaning = meaning(result.set);
-  for (int v = 0; v < certify::kVerdicts; ++v) {
+  for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
     if (const std::size_t n = cover.count(verdict); n > 0)
       words.shares.push_back({verdict, n, static_cast<double>(n) / static_cast<double>(cover.boxes.size())});

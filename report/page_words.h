@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "corank/report/components.h"
-#include "corank/report/result.h"
+#include "corank/result/result.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
 
 struct VerdictShare {
-  certify::Verdict verdict;
+  Verdict verdict;
   std::size_t count = 0;
   double share = 0;  ///< of all boxes, 0 … 1
 };
@@ -39,8 +39,8 @@ std::string constant_html(const std::string& name, const symbolic::Expression& v
 /// "l = 9/10, d = 1.18", likewise, without the constant `except`; "none" where there is no other.
 std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except = "");
 /// One cell of a table for each coordinate: bounds with the digits that are proven, the rest in brackets.
-std::string digits_text(const certify::Interval& x);
+std::string digits_text(const Interval& x);
 
-SetWords set_words(const Result& result, const Components& components);
+SetWords set_words(const result::Result& result, const Components& components);
 
 }  // namespace corank::report

@@ -14,10 +14,6 @@
 namespace corank::report {
 namespace {
 
-using certify::Angle;
-using certify::Interval;
-using certify::Verdict;
-
 constexpr double kTurn = 2 * std::numbers::pi;
 const Interval kCircle(-std::numbers::pi, std::numbers::pi);
 constexpr Color kNotSearched{0.93, 0.83, 0.45};
@@ -28,7 +24,7 @@ struct Coordinate {
   std::optional<Angle> angle;
 
   // The one piece, or the pieces, of a box.
-  std::vector<Interval> values(const certify::Box& box, double size) const {
+  std::vector<Interval> values(const Box& box, double size) const {
     const auto side = [&](int v) { return box.at(static_cast<std::size_t>(v)); };
     Interval x = angle ? certify::angle_enclosure(side(angle->cosine), side(angle->sine), angle->range) : side(variable);
     if (size > 0) x = Interval(x.mid() - size / 2, x.mid() + size / 2);
@@ -123,7 +119,7 @@ void add_layers(const PictureSource& source, const SetStyle& style, const std::v
   if (options.color != ColorScheme::verdict) layers.push_back(layer_of(source, style, options.color, std::nullopt));
   std::map<std::optional<Verdict>, std::size_t> index;
   for (std::size_t k = 0; k < source.boxes.boxes.size(); ++k) {
-    const SolBox& from = source.boxes.boxes[k];
+    const result::SolBox& from = source.boxes.boxes[k];
     const bool own =
         options.color == ColorScheme::verdict || (options.color == ColorScheme::set && from.verdict == Verdict::pending);
     const auto [at, is_new] = index.try_emplace(from.verdict, own ? layers.size() : begin);
@@ -146,11 +142,11 @@ void add_layers(const PictureSource& source, const SetStyle& style, const std::v
 
 }  // namespace
 
-PictureSource picture_source(const Result& result, const std::string& file) {
+PictureSource picture_source(const result::Result& result, const std::string& file) {
   return {file, result.set, boxes_of(result), result.angles, result.cover.dimension};
 }
 
-PictureSource picture_source(const SolFile& boxes, const std::string& file) {
+PictureSource picture_source(const result::SolFile& boxes, const std::string& file) {
   PictureSource source{file, "", boxes, {}, 2};
   const auto& names = boxes.variables;
   for (std::size_t c = 0; c < names.size(); ++c) {

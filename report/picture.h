@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "corank/report/cuik_sol.h"
-#include "corank/report/result.h"
+#include "corank/result/cuik_sol.h"
+#include "corank/result/result.h"
 
 namespace corank::report {
 
@@ -21,7 +21,7 @@ struct Color {
   friend bool operator==(const Color&, const Color&) = default;
 };
 /// Of a verdict; blue where there is none.
-Color verdict_color(std::optional<certify::Verdict> verdict);
+Color verdict_color(std::optional<Verdict> verdict);
 /// "cspace": grey, "forward": red, "inverse": blue, "cspace-singular": violet; any other set grey-blue.
 Color set_color(const std::string& set);
 
@@ -29,18 +29,18 @@ Color set_color(const std::string& set);
 struct PictureSource {
   std::string file;  ///< for messages, and for the legend where the set is unknown
   std::string set;   ///< "forward" …, empty where unknown
-  SolFile boxes;
-  std::vector<certify::Angle> angles;
+  result::SolFile boxes;
+  std::vector<Angle> angles;
   int dimension = 2;  ///< of the set, where known
 };
-PictureSource picture_source(const Result& result, const std::string& file);
+PictureSource picture_source(const result::Result& result, const std::string& file);
 /// A solution file says nothing about angles: c_NAME and s_NAME are taken for the cosine and sine of the angle NAME in [−π, π].
-PictureSource picture_source(const SolFile& boxes, const std::string& file);
+PictureSource picture_source(const result::SolFile& boxes, const std::string& file);
 
 struct PictureBox {
   /// With two axes the third side is [0, 0].
-  std::array<certify::Interval, 3> sides;
-  std::optional<certify::Verdict> verdict;
+  std::array<Interval, 3> sides;
+  std::optional<Verdict> verdict;
   int number = 0;  ///< of the box in its result, from 0; the pieces of a box share it
 };
 
@@ -58,7 +58,7 @@ struct PictureAxis {
   std::string function;  ///< "cos", "sin" where the variable is that of the angle `name`
   bool angle = false;    ///< in radians
   /// Of an angle: its range, of one turn at most.
-  std::optional<certify::Interval> range;
+  std::optional<Interval> range;
 };
 
 struct Picture {

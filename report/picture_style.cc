@@ -9,8 +9,6 @@
 namespace corank::report {
 namespace {
 
-using certify::Verdict;
-
 SetStyle set_style(const PictureSource& source) {
   static const std::map<std::string, std::string> kLabels{{"cspace", "C-space"},
                                                           {"forward", "forward locus"},

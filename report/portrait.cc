@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "corank/report/drawing_svg.h"
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 
 namespace corank::report {
 namespace {
@@ -20,7 +20,7 @@ using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 void check(cairo_status_t status, const std::string& what) {
-  if (status != CAIRO_STATUS_SUCCESS) throw ResultFileError(what + ": " + cairo_status_to_string(status));
+  if (status != CAIRO_STATUS_SUCCESS) throw result::ResultFileError(what + ": " + cairo_status_to_string(status));
 }
 
 cairo_status_t append(void* text, const unsigned char* data, unsigned int size) {
@@ -129,7 +129,7 @@ std::string to_pdf(const Drawing& drawing, const std::string& title, const std::
   const Surface surface(cairo_pdf_surface_create_for_stream(append, &bytes, drawing.width, drawing.height),
                         cairo_surface_destroy);
   if (!title.empty()) cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
-  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, ("corank " + version()).c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, ("corank " + result::version()).c_str());
   {
     const Context c(cairo_create(surface.get()), cairo_destroy);
     draw(c.get(), drawing);
@@ -173,9 +173,9 @@ void write_portrait(const std::filesystem::path& path, const Picture& picture, c
   if (!options.ranges && is_empty(picture)) throw std::invalid_argument(path.string() + ": there are no boxes to draw");
   const Drawing drawing = laid_out(picture, options);
   const std::string extension = path.extension().string();
-  write_text(path, extension == ".svg"   ? to_svg(drawing, options.title)
-                   : extension == ".pdf" ? to_pdf(drawing, options.title, path.string())
-                                         : to_png(drawing, options.dots_per_inch, path.string()));
+  result::write_text(path, extension == ".svg"   ? to_svg(drawing, options.title)
+                           : extension == ".pdf" ? to_pdf(drawing, options.title, path.string())
+                                                 : to_png(drawing, options.dots_per_inch, path.string()));
 }
 
 std::vector<std::string> write_small_multiples(const std::filesystem::path& folder, const std::vector<Picture>& pictures,
@@ -204,7 +204,7 @@ std::vector<std::string> write_small_multiples(const std::filesystem::path& fold
                    return lay_out_legend(pictures.front(), width, text_width);
                  })});
   files.push_back("family.svg");
-  write_text(folder / files.back(), to_svg(all, "small multiples"));
+  result::write_text(folder / files.back(), to_svg(all, "small multiples"));
   return files;
 }
 

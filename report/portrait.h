@@ -23,7 +23,7 @@ struct PortraitOptions {
   /// In points (1/72 inch): the width of the line about a shape, and the radius of the disc on what is smaller than the disc. 0: none.
   double outline = 0.5, mark = 1.5;
   /// Of the axes, for pictures that are to be compared; nothing: what the boxes need.
-  std::optional<std::array<certify::Interval, 2>> ranges;
+  std::optional<std::array<Interval, 2>> ranges;
 };
 
 /// True for the names that write_portrait knows: .svg, .pdf, .png.

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "corank/certify/check.h"
+#include "corank/core/check.h"
 
 namespace corank::report {
 namespace {
@@ -116,7 +116,7 @@ std::string to_vtp(const Picture& picture) {
     sets.push_back(picture.layers[k].label);
     for (const PictureBox& box : picture.layers[k].boxes) mesh.add(box, picture.axes.size() == 2, k);
   }
-  for (int v = 0; v < certify::kVerdicts; ++v) verdicts.emplace_back(to_string(static_cast<certify::Verdict>(v)));
+  for (int v = 0; v < kVerdicts; ++v) verdicts.emplace_back(to_string(static_cast<Verdict>(v)));
   for (const PictureAxis& axis : picture.axes)
     axes.push_back(axis.function.empty() ? axis.name : axis.function + " " + axis.name);
 

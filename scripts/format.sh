@@ -7,4 +7,4 @@ case "${1:-}" in
   --check) mode=(--dry-run -Werror) ;;
   *) echo "usage: scripts/format.sh [--check]" >&2; exit 2 ;;
 esac
-find app bench certify report solve symbolic tests \( -name '*.h' -o -name '*.cc' \) -print0 | xargs -0 clang-format "${mode[@]}"
+find $(grep -o '^[a-z]*:' cmake/folders.txt | tr -d ':') tests \( -name '*.h' -o -name '*.cc' \) -print0 | xargs -0 clang-format "${mode[@]}"

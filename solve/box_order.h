@@ -3,15 +3,15 @@
 
 #include <tuple>
 
-#include "corank/certify/cover.h"
+#include "corank/core/cover.h"
 
 namespace corank::solve {
 
 /// The sides of these variables, one after the other, are compared by their lower ends, then by their upper ends.
 template <class Variables>
-bool before(const certify::CoverBox& a, const certify::CoverBox& b, const Variables& variables) {
+bool before(const CoverBox& a, const CoverBox& b, const Variables& variables) {
   for (const auto v : variables) {
-    const certify::Interval &x = a.box[static_cast<std::size_t>(v)], &y = b.box[static_cast<std::size_t>(v)];
+    const Interval &x = a.box[static_cast<std::size_t>(v)], &y = b.box[static_cast<std::size_t>(v)];
     if (x.lo() != y.lo()) return x.lo() < y.lo();
     if (x.hi() != y.hi()) return x.hi() < y.hi();
   }

@@ -4,14 +4,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "corank/certify/check.h"
+#include "corank/core/check.h"
 #include "corank/solve/chart.h"
 
 namespace corank::solve {
 namespace {
-
-using certify::Interval;
-using certify::Verdict;
 
 // Measured on Dextar's sets, see bench/HISTORY.md.
 constexpr double kNewtonGain = 0.3;  // repeat Newton while some variable loses this share
@@ -230,7 +227,7 @@ BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double share)
   }
   // At its final size: where equations may be redundant, the box gets its one chance of such a proof here, where its rank shows.
   if (problem_.redundant.applies() && certify(x, Proof::partial)) return Outcome::done;
-  give_up(x, certify::Reason::tolerance);
+  give_up(x, Reason::tolerance);
   return Outcome::done;
 }
 

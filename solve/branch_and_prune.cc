@@ -17,8 +17,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "corank/certify/check.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/degeneracy.h"
 #include "corank/solve/distinct_solutions.h"
@@ -32,10 +32,6 @@
 
 namespace corank::solve {
 namespace {
-
-using certify::Cover;
-using certify::Interval;
-using certify::Verdict;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kPointGap = 1e-6;  // of the typical sizes: closer undecided boxes are of one point
@@ -44,7 +40,7 @@ constexpr double kFirstShare = 1.0 / 20, kNextShare = 1.0 / 4;
 
 class Search {
  public:
-  Search(const certify::System& system, const certify::Reduction& reduction, const Options& options)
+  Search(const System& system, const certify::Reduction& reduction, const Options& options)
       : options_(options),
         control_(*options.control),
         problem_(system, reduction,
@@ -103,7 +99,7 @@ class Search {
     if (!whole) ended_ = false;
     execute([&] {
       const auto cut_one = [&](std::size_t i) {
-        const certify::UpwardRounding rounding;
+        const UpwardRounding rounding;
         Worker& worker = workers_.local();
         worker.processor.cut(*all[i], whole);
         count_found(worker);
@@ -129,7 +125,7 @@ class Search {
     return all;
   }
   // The script; `found` are the boxes as the cover has them.
-  std::shared_ptr<const certify::Proof> proof(const std::vector<Found*>& found) {
+  std::shared_ptr<const Proof> proof(const std::vector<Found*>& found) {
     std::map<LeafId, int> place;
     for (std::size_t i = 0; i < found.size(); ++i)
       for (const LeafId leaf : found[i]->leaves) place[leaf] = static_cast<int>(i);
@@ -138,15 +134,15 @@ class Search {
       if (w.recorder) recorders.push_back(w.recorder.get());
     std::vector<NodeId> nodes(roots_.size());
     std::iota(nodes.begin(), nodes.end(), NodeId{0});
-    return std::make_shared<const certify::Proof>(Recorder::assemble(recorders, roots_, nodes, place));
+    return std::make_shared<const Proof>(Recorder::assemble(recorders, roots_, nodes, place));
   }
   void merge(std::vector<Found*>& found) const {
     merge_regular(problem_, found, [this] { return control_.ended(); });
   }
-  certify::Statistics statistics() {
-    certify::Statistics sum;
+  Statistics statistics() {
+    Statistics sum;
     for (Worker& w : workers_) {
-      const certify::Statistics& s = w.processor.statistics();
+      const Statistics& s = w.processor.statistics();
       sum.processed += s.processed;
       sum.newton_steps += s.newton_steps;
       sum.proofs_tried += s.proofs_tried;
@@ -165,9 +161,9 @@ class Search {
     p.processed = processed_;
     p.waiting = waiting_;
     p.excluded = done_share_.load();
-    for (int v = 0; v < certify::kVerdicts; ++v) p.verdicts[v] = verdicts_[v];
+    for (int v = 0; v < kVerdicts; ++v) p.verdicts[v] = verdicts_[v];
     p.seconds = now;
-    const certify::NearestRounding nearest;  // the callback is not ours
+    const NearestRounding nearest;  // the callback is not ours
     options_.progress(p);
   }
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -183,13 +179,13 @@ class Search {
   };
 
   // The boxes to search, in the variables that are kept, within the domain.
-  std::vector<certify::Box> roots_of(const certify::Reduction& reduction) const {
-    certify::Box domain;
+  std::vector<Box> roots_of(const certify::Reduction& reduction) const {
+    Box domain;
     for (const auto& v : reduction.system.variables) domain.push_back(v.domain);
     if (options_.roots.empty()) return {domain};
-    std::vector<certify::Box> roots;
-    for (const certify::Box& given : options_.roots) {
-      certify::Box root = domain;
+    std::vector<Box> roots;
+    for (const Box& given : options_.roots) {
+      Box root = domain;
       bool empty = false;
       for (std::size_t j = 0; j < root.size(); ++j)
         empty = empty || !root[j].intersect(given.at(static_cast<std::size_t>(reduction.kept[j])));
@@ -211,7 +207,7 @@ class Search {
   }
 
   // What is to be searched further of the boxes that were postponed; the others are given up.
-  WorkList divide_postponed(const certify::System& system) {
+  WorkList divide_postponed(const System& system) {
     std::vector<Postponed> all;
     for (Worker& w : workers_) {
       std::move(w.processor.postponed().begin(), w.processor.postponed().end(), std::back_inserter(all));
@@ -223,10 +219,10 @@ class Search {
       });
     });
     WorkList list(static_cast<std::size_t>(problem_.compiled.variables()));
-    const certify::UpwardRounding rounding;
+    const UpwardRounding rounding;
     Worker& worker = workers_.local();
-    std::vector<certify::Reason> reasons = motions_.prove(problem_, system, all, share_);
-    if (limit_reached()) std::replace(reasons.begin(), reasons.end(), certify::Reason::none, certify::Reason::limit);
+    std::vector<Reason> reasons = motions_.prove(problem_, system, all, share_);
+    if (limit_reached()) std::replace(reasons.begin(), reasons.end(), Reason::none, Reason::limit);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Postponed& box = all[i];
       if (all[i].proof.proven) {
@@ -235,7 +231,7 @@ class Search {
         count_found(worker);
         continue;
       }
-      if (reasons[i] == certify::Reason::none) {
+      if (reasons[i] == Reason::none) {
         list.push(box.x, box.share, box.node);
         continue;
       }
@@ -338,7 +334,7 @@ class Search {
   }
 
   void work(WorkList list) {
-    const certify::UpwardRounding rounding;
+    const UpwardRounding rounding;
     Worker& worker = workers_.local();
     BoxProcessor& processor = worker.processor;
     std::vector<Interval> x(problem_.compiled.variables());
@@ -395,14 +391,14 @@ class Search {
   tbb::global_control allow_;
   tbb::task_arena arena_;
   tbb::task_group group_;
-  std::vector<certify::Box> roots_;
+  std::vector<Box> roots_;
   SelfMotions motions_;
   double share_ = kFirstShare;  // of the typical sizes: how small boxes are that may be postponed
   std::atomic<int> busy_{0}, recorders_{0};
   std::atomic<bool> ended_{false}, cutting_{false};
   std::atomic<std::uint64_t> processed_{0}, waiting_{0}, found_{0}, sheets_{0}, cut_{0};
   std::atomic<double> done_share_{0};
-  std::array<std::atomic<std::uint64_t>, certify::kVerdicts> verdicts_{};
+  std::array<std::atomic<std::uint64_t>, kVerdicts> verdicts_{};
   std::mutex solutions_mutex_;
   DistinctSolutions isolated_;
   std::uint64_t pieces_ = 0;  // proven boxes with free variables
@@ -411,7 +407,7 @@ class Search {
   Clock::time_point start_ = Clock::now();
 };
 
-certify::Reduction reduced(const certify::System& system, Control& control) {
+certify::Reduction reduced(const System& system, Control& control) {
   const InStage stage(control, Stage::reduction);
   return certify::reduce(system, [&control] { return control.ended(); });
 }
@@ -428,12 +424,12 @@ Control::Limits limits_of(const Options& options) {
   return {.time = options.time_limit, .boxes = options.max_boxes, .memory = options.memory_limit, .stop = options.stop};
 }
 
-double printed_tolerance(const certify::System& system) {
+double printed_tolerance(const System& system) {
   constexpr double kPrintedDecimals = 1e-6;
   return system.equations.size() > system.variables.size() ? kPrintedDecimals : 0;
 }
 
-Sigma smallest_sigma(const certify::System& system) {
+Sigma smallest_sigma(const System& system) {
   Sigma largest;
   for (const auto& v : system.variables) {
     const SigmaClass kind = sigma_class(v);
@@ -455,7 +451,7 @@ void check_sigma(const char* name, const std::optional<double>& sigma, double le
 }
 
 // The σ that is asked for, the others by default from the hull of a set.
-Sigma chosen_sigma(const certify::System& system, const Options& options, const certify::Box& hull, int dimension) {
+Sigma chosen_sigma(const System& system, const Options& options, const Box& hull, int dimension) {
   const Sigma by_default = default_sigma(system, hull, dimension);
   const auto coarser = [&](double sigma) { return dimension == 0 ? sigma : sigma * options.coarser; };
   return {options.sigma_length.value_or(coarser(by_default.length)),
@@ -463,14 +459,14 @@ Sigma chosen_sigma(const certify::System& system, const Options& options, const 
 }
 
 // The hull of what has been found, in all variables; the domain where there is nothing.
-certify::Box hull_of(const certify::System& system, const certify::Reduction& reduction, Search& search) {
-  const certify::UpwardRounding rounding;
-  certify::Box hull;
+Box hull_of(const System& system, const certify::Reduction& reduction, Search& search) {
+  const UpwardRounding rounding;
+  Box hull;
   for (const Proven* proven : search.sheets()) {
-    certify::Box sides = proven->sheet.image;
+    Box sides = proven->sheet.image;
     for (std::size_t j = 0; j < sides.size(); ++j) sides[j].intersect(proven->x[j]);
     search.problem().append_values(sides);
-    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = certify::Interval::hull(hull[j], sides[j]);
+    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], sides[j]);
     if (hull.empty()) hull = std::move(sides);
   }
   if (!hull.empty()) return reduction.lift(hull);
@@ -487,7 +483,7 @@ int largest_dimension(int dimension, Search& search) {
 
 }  // namespace
 
-Cover solve(const certify::System& system, const Options& given) {
+Cover solve(const System& system, const Options& given) {
   if (!given.control) {
     Control control(limits_of(given));
     Options options = given;
@@ -509,12 +505,12 @@ Cover solve(const certify::System& system, const Options& given) {
   check_sigma("sigma of lengths", options.sigma_length, least.length);
   check_sigma("sigma of angles", options.sigma_angle, least.angle);
 
-  const certify::Ended overdue = [&control] { return control.overdue(); };
+  const Ended overdue = [&control] { return control.overdue(); };
   Search search(system, reduction, options);
   Cover cover;
   cover.dimension = reduction.system.dimension();
   // What the tolerance of coefficients moves is no reason for narrower boxes, and such systems are searched by σ.
-  certify::Box domain;
+  Box domain;
   for (const auto& v : system.variables) domain.push_back(v.domain);
   const bool any_dimension = search.problem().tolerant && system.equations.size() > system.variables.size();
   cover.sigma = chosen_sigma(system, options, domain, any_dimension ? 1 : cover.dimension);
@@ -537,10 +533,9 @@ Cover solve(const certify::System& system, const Options& given) {
     some_partial = true;
     cover.dimension = std::max(cover.dimension, static_cast<int>(f->box.free.size()));
   }
-  if (reduction.tolerant || some_partial)
-    cover.tolerance = reduction.system.coefficient_tolerance * certify::kPartialTolerance;
+  if (reduction.tolerant || some_partial) cover.tolerance = reduction.system.coefficient_tolerance * kPartialTolerance;
   search.execute([&] {
-    const certify::UpwardRounding rounding;  // and subnormal numbers stay
+    const UpwardRounding rounding;  // and subnormal numbers stay
     sort(found);
     if (cover.dimension == 0) {
       const InStage stage(control, Stage::points);
@@ -559,7 +554,7 @@ Cover solve(const certify::System& system, const Options& given) {
     const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial && search.motions().none();
     if (options.proof && replayable) cover.proof = search.proof(found);
     cover.self_motions = search.motions().records(reduction);
-    for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
+    for (CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
     cover.boxes = lifted(system, reduction, found);
   });
   cover.statistics.seconds_total = search.seconds();

@@ -10,10 +10,6 @@ namespace {
 
 constexpr double kLeastSmear = 1e-6;  // a variable that no equation holds has its turn, too
 
-using certify::Function;
-using certify::Polynomial;
-using certify::System;
-
 // The variable x_j of a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine and at least one of them there; −1 for another
 // equation.
 int value_of_functions(const Polynomial& f) {
@@ -62,14 +58,14 @@ BranchingRule::BranchingRule(const System& system) : weight_(system.variables.si
     std::fill(weight_.begin(), weight_.end(), 1.0);
 }
 
-std::optional<double> split_point(const certify::Interval& side) {
+std::optional<double> split_point(const Interval& side) {
   const double at = (1 - kBisectionPoint) * side.lo() + kBisectionPoint * side.hi();
   return at > side.lo() && at < side.hi() ? std::optional(at) : std::nullopt;
 }
 
-std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, std::span<const certify::Interval> x) const {
+std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, std::span<const Interval> x) const {
   std::vector<double> result(weight_.size(), 0.0), part(weight_.size());
-  std::vector<certify::Interval> jacobian(static_cast<std::size_t>(system.entries()));
+  std::vector<Interval> jacobian(static_cast<std::size_t>(system.entries()));
   system.jacobian(x, jacobian);
   for (int row = 0; row < system.equations(); ++row) {
     const int begin = system.row_begin(row), end = system.row_begin(row + 1);
@@ -87,7 +83,7 @@ std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, 
   return result;
 }
 
-int BranchingRule::choose(const certify::CompiledSystem& system, std::span<const certify::Interval> x,
+int BranchingRule::choose(const certify::CompiledSystem& system, std::span<const Interval> x,
                           const std::vector<double>& limits) const {
   const std::vector<double> smears = smear(system, x);
   int best = -1, widest = -1;

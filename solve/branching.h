@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 
 namespace corank::solve {
 
@@ -14,24 +14,23 @@ namespace corank::solve {
 inline constexpr double kBisectionPoint = 0.47;
 
 /// Where to bisect a side; nothing where it is too narrow for doubles to divide.
-std::optional<double> split_point(const certify::Interval& side);
+std::optional<double> split_point(const Interval& side);
 
 class BranchingRule {
  public:
-  explicit BranchingRule(const certify::System& system);
+  explicit BranchingRule(const System& system);
 
   /// The variable to bisect for an unproven box: the one of largest s⁴ · width / typical size (certify::CompiledSystem::scales) among those
   /// wider than their limit; −1 where there is none that can be divided. s is the sum over the equations i of √(|J_ij| w_j / Σ_k |J_ik|
   /// w_k), the variable's share in what makes each uncertain: relative smear (key Trombettoni2011), where the root favours a variable of many
   /// equations; root and power are measured, see bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until
   /// all others are narrow.
-  int choose(const certify::CompiledSystem& system, std::span<const certify::Interval> x,
-             const std::vector<double>& limits) const;
+  int choose(const certify::CompiledSystem& system, std::span<const Interval> x, const std::vector<double>& limits) const;
 
   const std::vector<double>& weights() const { return weight_; }
 
  private:
-  std::vector<double> smear(const certify::CompiledSystem& system, std::span<const certify::Interval> x) const;
+  std::vector<double> smear(const certify::CompiledSystem& system, std::span<const Interval> x) const;
 
   std::vector<double> weight_;  // 0: defined by others, see branching.cc; 1: else
 };

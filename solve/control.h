@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "corank/certify/cover.h"
+#include "corank/core/cover.h"
 
 namespace corank::solve {
 
@@ -43,7 +43,7 @@ struct Ending {
 std::string to_string(const Ending& ending);
 
 /// The bytes that a cover takes, with what is made of its boxes later.
-std::uint64_t bytes_of(const certify::Cover& cover, std::uint64_t later_bytes);
+std::uint64_t bytes_of(const Cover& cover, std::uint64_t later_bytes);
 
 /// The bytes that writing takes for a side of a box, beyond those of the cover: in a result file, or on a page with its
 /// pictures as well.

@@ -8,12 +8,11 @@
 namespace corank::solve {
 namespace {
 
-double value(const certify::Polynomial& f, const std::vector<double>& x) {
+double value(const Polynomial& f, const std::vector<double>& x) {
   double sum = 0;
-  for (const certify::Monomial& m : f.monomials) {
+  for (const Monomial& m : f.monomials) {
     double product = m.enclosure.mid();
-    for (const certify::Factor& factor : m.factors)
-      product *= std::pow(x[static_cast<std::size_t>(factor.variable)], factor.power);
+    for (const Factor& factor : m.factors) product *= std::pow(x[static_cast<std::size_t>(factor.variable)], factor.power);
     sum += product;
   }
   return sum;
@@ -36,8 +35,7 @@ std::vector<double> singular_values(const certify::KernelMatrix& matrix, const s
   return result;
 }
 
-CorankSystem corank_system(const certify::System& system, const certify::KernelMatrix& matrix, const std::vector<double>& x,
-                           int c) {
+CorankSystem corank_system(const System& system, const certify::KernelMatrix& matrix, const std::vector<double>& x, int c) {
   const int k = static_cast<int>(matrix.unknowns.size());
   // Null vectors, then the combinations of them that are the unit vectors in c well-chosen entries.
   const Eigen::MatrixXd null = values(matrix, x).jacobiSvd(Eigen::ComputeFullV).matrixV().rightCols(c);
@@ -54,27 +52,26 @@ CorankSystem corank_system(const certify::System& system, const certify::KernelM
   result.system.name = system.name + ", corank " + std::to_string(c);
   std::vector<int> index(system.variables.size(), -1);
   for (int j = 0; j < system.size(); ++j) {
-    const certify::Variable& v = system.variables[static_cast<std::size_t>(j)];
-    if (v.kind == certify::VariableKind::kernel) continue;
+    const Variable& v = system.variables[static_cast<std::size_t>(j)];
+    if (v.kind == VariableKind::kernel) continue;
     index[static_cast<std::size_t>(j)] = result.system.size();
     result.configuration.push_back(j);
     result.system.variables.push_back(v);
     result.start.push_back(x[static_cast<std::size_t>(j)]);
   }
   result.system.configuration_size = result.system.size();
-  const auto renamed = [&](certify::Monomial m) {
-    for (certify::Factor& factor : m.factors) factor.variable = index[static_cast<std::size_t>(factor.variable)];
+  const auto renamed = [&](Monomial m) {
+    for (Factor& factor : m.factors) factor.variable = index[static_cast<std::size_t>(factor.variable)];
     return m;
   };
-  for (const certify::Polynomial& f : system.equations) {
-    certify::Polynomial g{{}, f.source};
-    const bool of_configuration = std::all_of(f.monomials.begin(), f.monomials.end(), [&](const certify::Monomial& m) {
-      return std::all_of(m.factors.begin(), m.factors.end(), [&](const certify::Factor& factor) {
-        return index[static_cast<std::size_t>(factor.variable)] >= 0;
-      });
+  for (const Polynomial& f : system.equations) {
+    Polynomial g{{}, f.source};
+    const bool of_configuration = std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
+      return std::all_of(m.factors.begin(), m.factors.end(),
+                         [&](const Factor& factor) { return index[static_cast<std::size_t>(factor.variable)] >= 0; });
     });
     if (!of_configuration) continue;
-    for (const certify::Monomial& m : f.monomials) g.monomials.push_back(renamed(m));
+    for (const Monomial& m : f.monomials) g.monomials.push_back(renamed(m));
     result.system.equations.push_back(std::move(g));
   }
   for (int v = 0; v < c; ++v) {
@@ -82,17 +79,17 @@ CorankSystem corank_system(const certify::System& system, const certify::KernelM
     for (int j = 0; j < k; ++j) {
       if (std::find(pivots.begin(), pivots.end(), j) != pivots.end()) continue;
       entry[static_cast<std::size_t>(j)] = result.system.size();
-      result.system.variables.emplace_back("xi" + std::to_string(v + 1) + "_" + std::to_string(j + 1),
-                                           certify::VariableKind::kernel, -1000, 1000);
+      result.system.variables.emplace_back("xi" + std::to_string(v + 1) + "_" + std::to_string(j + 1), VariableKind::kernel,
+                                           -1000, 1000);
       result.start.push_back(vectors(j, v));
     }
     for (const auto& row : matrix.rows) {
-      certify::Polynomial g{{}, "kernel"};
+      Polynomial g{{}, "kernel"};
       for (int j = 0; j < k; ++j) {
         const int variable = entry[static_cast<std::size_t>(j)];
         if (variable < 0 && pivots[static_cast<std::size_t>(v)] != j) continue;  // times 0
-        for (const certify::Monomial& m : row[static_cast<std::size_t>(j)].monomials) {
-          certify::Monomial term = renamed(m);
+        for (const Monomial& m : row[static_cast<std::size_t>(j)].monomials) {
+          Monomial term = renamed(m);
           if (variable >= 0) term.factors.push_back({variable, 1});
           g.monomials.push_back(std::move(term));
         }

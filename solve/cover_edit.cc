@@ -6,11 +6,6 @@
 
 namespace corank::solve {
 namespace {
-
-using certify::Box;
-using certify::CoverBox;
-using certify::Interval;
-using certify::Proof;
 using Step = Proof::Step;
 
 // Calls change(kind, its first integer) for every step.
@@ -62,8 +57,7 @@ void CoverEdit::mark(int i, int fate) {
 
 void CoverEdit::replace(int i, int by) { mark(i, by); }
 
-void CoverEdit::replace(const std::vector<std::size_t>& boxes, const Partition& partition, certify::Cover around,
-                        CoverBox core) {
+void CoverEdit::replace(const std::vector<std::size_t>& boxes, const Partition& partition, Cover around, CoverBox core) {
   const int first = static_cast<int>(cover_.boxes.size()), region = static_cast<int>(cover_.regions.size());
   std::move(around.regions.begin(), around.regions.end(), std::back_inserter(cover_.regions));
   for (CoverBox& box : around.boxes) {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "corank/certify/cover.h"
 #include "corank/certify/reduction.h"
+#include "corank/core/cover.h"
 
 namespace corank::solve {
 
@@ -18,20 +18,19 @@ struct Partition {
     double where;
     bool part_is_lower;
   };
-  certify::Box whole;  ///< in all variables
-  std::vector<certify::Box> parts;
+  Box whole;  ///< in all variables
+  std::vector<Box> parts;
   std::vector<Split> splits;
 };
 
 class CoverEdit {
  public:
-  CoverEdit(certify::Cover& cover, const certify::Reduction& reduction) : cover_(cover), reduction_(reduction) {}
+  CoverEdit(Cover& cover, const certify::Reduction& reduction) : cover_(cover), reduction_(reduction) {}
 
   /// Box i goes; its solutions are in box `by`.
   void replace(int i, int by);
   /// The boxes go; their solutions are in the whole, of which `around` covers the parts, searched in that order, and `core` the core.
-  void replace(const std::vector<std::size_t>& boxes, const Partition& partition, certify::Cover around,
-               certify::CoverBox core);
+  void replace(const std::vector<std::size_t>& boxes, const Partition& partition, Cover around, CoverBox core);
   /// Removes what was replaced, sorts the boxes as solve() does, and renumbers them in the proof. Ends the edit.
   void finish();
 
@@ -39,14 +38,14 @@ class CoverEdit {
   // Of each box: it stays; the box that takes its place; or kInRoot − the root of the proof that does.
   static constexpr int kStays = -1, kInRoot = -2;
   void mark(int i, int fate);
-  certify::Proof& proof();  // the edit's own copy
+  Proof& proof();  // the edit's own copy
   // Adds a root for the whole; returns its number.
-  int append(const Partition& partition, certify::Proof around, int first_box);
+  int append(const Partition& partition, Proof around, int first_box);
 
-  certify::Cover& cover_;
+  Cover& cover_;
   const certify::Reduction& reduction_;
   std::vector<int> fate_;
-  std::shared_ptr<certify::Proof> proof_;  // takes the cover's place at the end
+  std::shared_ptr<Proof> proof_;  // takes the cover's place at the end
 };
 
 }  // namespace corank::solve

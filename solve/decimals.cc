@@ -8,19 +8,11 @@ namespace corank::solve {
 
 constexpr int kMostBits = 8192;
 
-using certify::Box;
-using certify::Cover;
-using certify::CoverBox;
-using certify::ExactNumber;
-using certify::ExactPoint;
-using certify::System;
-using certify::Verdict;
-
 void prove_decimals(const System& system, int digits, Cover& cover, const Options& options) {
   std::optional<Control> own;
   Control& control = options.control ? *options.control : own.emplace(limits_of(options));
   const InStage stage(control, Stage::decimals);
-  const certify::Ended ended = [&control] { return control.ended(); };
+  const Ended ended = [&control] { return control.ended(); };
   cover.decimals.clear();
   const certify::Reduction reduction = options.reduction ? *options.reduction : certify::reduce(system, ended);
   for (const CoverBox& point : cover.points) {

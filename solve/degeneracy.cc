@@ -4,16 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/points.h"
 #include "corank/solve/preconditioner.h"
 
 namespace corank::solve {
 namespace {
-
-using certify::Box;
-using certify::Interval;
-using certify::Reason;
 
 constexpr double kPointShare = 1e-7, kOtherShare = 1.0 / 400;  // the last of the sizes
 constexpr double kSetShare = 1.0 / 60;                         // the last along a set of degenerate solutions
@@ -31,7 +27,7 @@ constexpr std::size_t kTooManyBoxes = 30'000;  // whatever they are along
 
 // Is every equation's zero, linearized, close to x? Where equations are badly scaled, small residuals say little.
 bool may_be_solution(const Problem& problem, const std::vector<double>& x) {
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   const certify::CompiledSystem& system = problem.compiled;
   std::vector<double> jacobian(static_cast<std::size_t>(system.entries()));
   system.approximate_jacobian(x.data(), jacobian.data());
@@ -118,7 +114,7 @@ bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
   return known;
 }
 
-void SelfMotions::prove_cluster(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
+void SelfMotions::prove_cluster(const Problem& problem, const System& system, std::vector<Postponed>& boxes,
                                 const std::vector<std::size_t>& cluster, double share) {
   std::mt19937 random(1);
   int attempts = 0;
@@ -137,7 +133,7 @@ void SelfMotions::prove_cluster(const Problem& problem, const certify::System& s
   }
 }
 
-std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
+std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& system, std::vector<Postponed>& boxes,
                                        double share) {
   std::vector<Reason> reasons(boxes.size(), Reason::none);
   std::vector<const Box*> sides;
@@ -166,14 +162,13 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::Sy
   return reasons;
 }
 
-std::vector<certify::SelfMotionRecord> SelfMotions::records(const certify::Reduction& reduction) const {
-  std::vector<certify::SelfMotionRecord> result;
+std::vector<SelfMotionRecord> SelfMotions::records(const certify::Reduction& reduction) const {
+  std::vector<SelfMotionRecord> result;
   for (const Known& known : known_) {
     result.push_back({known.dimension, known.motion.relations});
-    for (certify::Polynomial& f : result.back().relations)
-      for (certify::Monomial& m : f.monomials)
-        for (certify::Factor& factor : m.factors)
-          factor.variable = reduction.kept[static_cast<std::size_t>(factor.variable)];
+    for (Polynomial& f : result.back().relations)
+      for (Monomial& m : f.monomials)
+        for (Factor& factor : m.factors) factor.variable = reduction.kept[static_cast<std::size_t>(factor.variable)];
   }
   return result;
 }

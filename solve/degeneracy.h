@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "corank/certify/cover.h"
+#include "corank/core/cover.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/self_motion_search.h"
 
@@ -17,15 +17,14 @@ class SelfMotions {
   /// each other box Reason::none where it is to be divided further, else why not. Around an isolated degenerate solution a few boxes stay at
   /// each size, so those are divided on, down to a share of about 1e-7 where the set is to have dimension 0, and 0.003 else. Along a curve or a
   /// larger set of degenerate solutions their number grows without end: what is not proven there stays as it is.
-  std::vector<certify::Reason> prove(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
-                                     double share);
+  std::vector<Reason> prove(const Problem& problem, const System& system, std::vector<Postponed>& boxes, double share);
   bool none() const { return known_.empty(); }
   /// In all variables.
-  std::vector<certify::SelfMotionRecord> records(const certify::Reduction& reduction) const;
+  std::vector<SelfMotionRecord> records(const certify::Reduction& reduction) const;
 
  private:
   // Those of the cluster that lie on a known self-motion; all, where there is none yet: looks for one.
-  void prove_cluster(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
+  void prove_cluster(const Problem& problem, const System& system, std::vector<Postponed>& boxes,
                      const std::vector<std::size_t>& cluster, double share);
   // Is the box on a known one? Proves it, if it can.
   bool prove_on_known(const Problem& problem, Postponed& box);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "corank/certify/distinct.h"
-#include "corank/solve/box_tree.h"
+#include "corank/core/box_tree.h"
 
 namespace corank::solve {
 

@@ -14,10 +14,6 @@
 namespace corank::solve {
 namespace {
 
-using certify::ExactNumber;
-using certify::ExactPoint;
-using certify::RationalPolynomial;
-
 // A rational number of FLINT's; numbers pass as text, which both sides read exactly.
 class Rational {
  public:
@@ -91,7 +87,7 @@ ExactNumber floor_decimal(const ExactNumber& x, int places) {
 // The point with its coordinates as polynomials in the root of p near t.
 std::optional<ExactPoint> in_terms_of(const ExactNumber& t, const RationalPolynomial& p,
                                       const std::vector<std::optional<ExactNumber>>& coordinates, int bits,
-                                      const certify::Ended& ended) {
+                                      const Ended& ended) {
   ExactPoint point;
   point.polynomial = p;
   // The shortest decimals between which the root is alone.
@@ -108,7 +104,7 @@ std::optional<ExactPoint> in_terms_of(const ExactNumber& t, const RationalPolyno
   }
   const int degree = static_cast<int>(p.size()) - 1;
   for (const auto& x : coordinates) {
-    if (certify::is_over(ended)) return std::nullopt;
+    if (is_over(ended)) return std::nullopt;
     point.coordinates.emplace_back();
     if (!x) continue;
     if (const auto fraction = short_fraction(*x, bits)) {
@@ -127,7 +123,7 @@ std::optional<ExactPoint> in_terms_of(const ExactNumber& t, const RationalPolyno
 }  // namespace
 
 std::optional<ExactPoint> guess_exactly(const std::vector<std::optional<ExactNumber>>& coordinates, int bits, int degree,
-                                        const certify::Ended& ended) {
+                                        const Ended& ended) {
   std::vector<ExactNumber> irrational;
   for (const auto& x : coordinates)
     if (x && !short_fraction(*x, bits)) irrational.push_back(*x);
@@ -147,7 +143,7 @@ std::optional<ExactPoint> guess_exactly(const std::vector<std::optional<ExactNum
   candidates.push_back(combination);
   for (int d = 2; d <= degree; ++d)
     for (const ExactNumber& t : candidates) {
-      if (certify::is_over(ended)) return std::nullopt;
+      if (is_over(ended)) return std::nullopt;
       const auto p = integer_relation(powers(t, d), bits);
       if (!p || p->back().is_zero()) continue;
       if (auto point = in_terms_of(t, *p, coordinates, bits, ended)) return point;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "corank/certify/ended.h"
-#include "corank/certify/exact_point.h"
+#include "corank/core/ended.h"
+#include "corank/core/exact_point.h"
 
 namespace corank::solve {
 
@@ -13,7 +13,7 @@ namespace corank::solve {
 /// fractions), else polynomials in one algebraic number of at most `degree`, one of the coordinates or a small combination of them, whose integer
 /// relations come from lattice reduction (LLL; key LenstraLenstraLovasz1982). Nothing where all that fits has long numbers: such fits exist for any
 /// coordinates and mean nothing. Coordinates without a value stay unknown. Nothing where `ended` is true before.
-std::optional<certify::ExactPoint> guess_exactly(const std::vector<std::optional<certify::ExactNumber>>& coordinates,
-                                                 int bits, int degree, const certify::Ended& ended = {});
+std::optional<ExactPoint> guess_exactly(const std::vector<std::optional<ExactNumber>>& coordinates, int bits, int degree,
+                                        const Ended& ended = {});
 
 }  // namespace corank::solve

@@ -18,7 +18,7 @@
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/reduction.h"
 #include "corank/certify/refinement.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/corank_system.h"
 #include "corank/solve/cover_edit.h"
 #include "corank/solve/exact_guess.h"
@@ -27,15 +27,6 @@
 
 namespace corank::solve {
 namespace {
-
-using certify::Box;
-using certify::Cover;
-using certify::CoverBox;
-using certify::ExactNumber;
-using certify::ExactPoint;
-using certify::Interval;
-using certify::System;
-using certify::Verdict;
 
 constexpr int kBits = 512;                     // of the arithmetic of guesses
 constexpr int kGuessBits = 220;                // that are right in what it finds, also at double solutions
@@ -142,7 +133,7 @@ class Prover {
     if (!bound.applies()) return;
     const std::vector<certify::PointLocation> places(cover_.exact_points.begin(), cover_.exact_points.end());
     const auto bound_in = [&](CoverBox& box) {
-      const certify::UpwardRounding rounding;
+      const UpwardRounding rounding;
       if (box.verdict != Verdict::pending && !stopped()) box.corank = bound.at_most(box.box);
     };
     tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::this_task_arena::max_concurrency());
@@ -151,7 +142,7 @@ class Prover {
     if (!cover_.points.empty()) bound_points(bound_in);
     // Few: one after the other, since a point's number is narrowed while it is compared.
     const auto explain = [&](CoverBox& box) {
-      const certify::UpwardRounding rounding;
+      const UpwardRounding rounding;
       if (box.corank <= 1 || stopped()) return;
       for (std::size_t i = 0; i < cover_.exact_points.size() && box.point < 0; ++i)
         if (cover_.exact_points[i].corank >= box.corank && places[i].in(box.box)) box.point = static_cast<int>(i);
@@ -330,7 +321,7 @@ class Prover {
       if (cover_.proof && !around.proof) return;
       CoverBox middle{std::move(core), Verdict::undecided, {}};
       middle.point = index;
-      middle.reason = certify::Reason::degenerate_point;
+      middle.reason = Reason::degenerate_point;
       edit_.replace(cluster, partition, std::move(around), std::move(middle));
       return;
     }
@@ -338,7 +329,7 @@ class Prover {
 
   // The box with the sides of eliminated variables that those of the others imply.
   Box with_values(const Box& box) const {
-    const certify::UpwardRounding rounding;
+    const UpwardRounding rounding;
     Box sides;
     for (const int j : reduction_.kept) sides.push_back(box[static_cast<std::size_t>(j)]);
     const Box kept = sides;
@@ -375,7 +366,7 @@ class Prover {
   Cover& cover_;
   Options options_;
   Control& control_ = *options_.control;
-  const certify::Ended ended_ = [this] { return control_.ended(); };
+  const Ended ended_ = [this] { return control_.ended(); };
   const certify::Reduction& reduction_;  // what solve() searches
   CoverEdit edit_{cover_, reduction_};
 };

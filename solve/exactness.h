@@ -21,11 +21,11 @@ namespace corank::solve {
 ///
 /// What cannot be proven stays as it was, and so does what is left once the options' control, time limit or stop has ended
 /// the run. Systems with a tolerance, irrational coefficients or sines and cosines are left alone.
-void prove_exactly(const certify::System& system, const Options& options, certify::Cover& cover);
+void prove_exactly(const System& system, const Options& options, Cover& cover);
 
 /// Fills cover.decimals: for every isolated or exact point of a set of dimension 0 decimals with so many digits after the point, proven by
 /// certify::prove_zero, or from its exact coordinates. Points that are left once the options' control has ended the run have
 /// none. The other options do not matter, but for the reduction.
-void prove_decimals(const certify::System& system, int digits, certify::Cover& cover, const Options& options = {});
+void prove_decimals(const System& system, int digits, Cover& cover, const Options& options = {});
 
 }  // namespace corank::solve

@@ -11,19 +11,17 @@
 #include <utility>
 
 #include "corank/certify/domain.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/box_order.h"
 
 namespace corank::solve {
 namespace {
 
-using certify::Verdict;
-
 // f(i) for every index below `count`, on all threads.
 template <class F>
 void for_each_index(std::size_t count, F f) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const tbb::blocked_range<std::size_t>& part) {
-    const certify::UpwardRounding rounding;
+    const UpwardRounding rounding;
     for (std::size_t i = part.begin(); i < part.end(); ++i) f(i);
   });
 }
@@ -49,7 +47,7 @@ void sort(std::vector<Found*>& found) {
   std::vector<Key> keys(found.size());
   const std::size_t n = found.empty() ? 0 : found[0]->box.box.size();
   for_each_index(found.size(), [&](std::size_t i) {
-    const certify::Box& box = found[i]->box.box;
+    const Box& box = found[i]->box.box;
     keys[i].found = found[i];
     for (std::size_t j = 0; j < std::min(n, kKeySides); ++j) {
       keys[i].ends[2 * j] = box[j].lo();
@@ -66,12 +64,12 @@ void sort(std::vector<Found*>& found) {
   for (std::size_t i = 0; i < keys.size(); ++i) found[i] = keys[i].found;
 }
 
-std::vector<certify::Box> number_regions(const certify::Reduction& reduction, const std::vector<Found*>& found) {
-  std::vector<const certify::Box*> region(found.size());
+std::vector<Box> number_regions(const certify::Reduction& reduction, const std::vector<Found*>& found) {
+  std::vector<const Box*> region(found.size());
   for_each_index(found.size(), [&](std::size_t i) { region[i] = found[i]->region.get(); });
   std::vector<int> number(found.size(), -1);
-  std::unordered_map<const certify::Box*, int> numbers;
-  std::vector<certify::Box> regions;
+  std::unordered_map<const Box*, int> numbers;
+  std::vector<Box> regions;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (region[i] == nullptr) continue;
     const auto [at, is_new] = numbers.try_emplace(region[i], static_cast<int>(regions.size()));
@@ -82,16 +80,15 @@ std::vector<certify::Box> number_regions(const certify::Reduction& reduction, co
   return regions;
 }
 
-certify::CoverBox lifted(const certify::System& system, const certify::Reduction& reduction, certify::CoverBox box) {
+CoverBox lifted(const System& system, const certify::Reduction& reduction, CoverBox box) {
   box.box = reduction.lift(box.box);
   if (box.verdict == Verdict::undecided || box.verdict == Verdict::pending) certify::clip_to_domain(system, box.box);
   for (int& j : box.free) j = reduction.kept[static_cast<std::size_t>(j)];
   return box;
 }
 
-std::vector<certify::CoverBox> lifted(const certify::System& system, const certify::Reduction& reduction,
-                                      const std::vector<Found*>& found) {
-  std::vector<certify::CoverBox> boxes(found.size());
+std::vector<CoverBox> lifted(const System& system, const certify::Reduction& reduction, const std::vector<Found*>& found) {
+  std::vector<CoverBox> boxes(found.size());
   for_each_index(found.size(), [&](std::size_t i) { boxes[i] = lifted(system, reduction, std::move(found[i]->box)); });
   return boxes;
 }

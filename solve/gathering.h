@@ -15,13 +15,12 @@ namespace corank::solve {
 void sort(std::vector<Found*>& found);
 
 /// Numbers the regions of the boxes' proofs by the first box that has each, and returns them in all variables.
-std::vector<certify::Box> number_regions(const certify::Reduction& reduction, const std::vector<Found*>& found);
+std::vector<Box> number_regions(const certify::Reduction& reduction, const std::vector<Found*>& found);
 
 /// The box in all variables of the system that was reduced.
-certify::CoverBox lifted(const certify::System& system, const certify::Reduction& reduction, certify::CoverBox box);
+CoverBox lifted(const System& system, const certify::Reduction& reduction, CoverBox box);
 
 /// The same of all boxes, which are moved from.
-std::vector<certify::CoverBox> lifted(const certify::System& system, const certify::Reduction& reduction,
-                                      const std::vector<Found*>& found);
+std::vector<CoverBox> lifted(const System& system, const certify::Reduction& reduction, const std::vector<Found*>& found);
 
 }  // namespace corank::solve

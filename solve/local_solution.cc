@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 
 namespace corank::solve {
 namespace {
@@ -37,7 +37,7 @@ void linearize(const Problem& problem, const std::vector<double>& x, Matrix& a, 
 
 std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance) {
   const certify::CompiledSystem& system = problem.compiled;
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   LocalSolution result{std::move(start), 0};
   Matrix a;
   Vector b;
@@ -65,7 +65,7 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
 }
 
 std::vector<double> kernel_basis(const Problem& problem, const LocalSolution& at, double tolerance) {
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   Matrix a;
   Vector b;
   linearize(problem, at.x, a, b);

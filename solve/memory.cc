@@ -6,8 +6,6 @@
 namespace corank::solve {
 namespace {
 
-using certify::Interval;
-
 constexpr std::int64_t kBlock = 16;                            // of an allocation's own
 constexpr std::int64_t kSortedBytes = 2 * 6 * sizeof(double);  // pointers and keys, twice while they are sorted
 
@@ -23,12 +21,11 @@ MemoryEstimate::MemoryEstimate(const certify::Reduction& reduction, std::uint64_
   const auto n = static_cast<std::int64_t>(reduction.kept.size());
   const auto m = static_cast<std::int64_t>(reduction.system.equations.size());
   const std::int64_t own = bytes<Interval>(sides) + kBlock;
-  box_ = bytes<Found>(1) + bytes<certify::CoverBox>(1) + 2 * own + 2 * kBlock + kSortedBytes +
+  box_ = bytes<Found>(1) + bytes<CoverBox>(1) + 2 * own + 2 * kBlock + kSortedBytes +
          static_cast<std::int64_t>(later_bytes) * sides;
-  region_ = 2 * own + bytes<certify::Box>(2) + 3 * kBlock + static_cast<std::int64_t>(kFileBytes) * sides;
+  region_ = 2 * own + bytes<Box>(2) + 3 * kBlock + static_cast<std::int64_t>(kFileBytes) * sides;
   // Its region and image; a point of the cover beside the box.
-  sheet_ =
-      bytes<certify::Sheet>(1) + bytes<Interval>(2 * n) + bytes<int>(2 * m) + 5 * kBlock + bytes<certify::CoverBox>(1) + own;
+  sheet_ = bytes<certify::Sheet>(1) + bytes<Interval>(2 * n) + bytes<int>(2 * m) + 5 * kBlock + bytes<CoverBox>(1) + own;
   // The tableau, Y (three times) and Y·S.
   waiting_ = bytes<Interval>(n) + bytes<double>(1) + bytes<NodeId>(1);
   thread_ = bytes<double>(m * n + 3 * m * m) + bytes<Interval>(m * n);
@@ -42,11 +39,11 @@ std::int64_t MemoryEstimate::of(const Found& found, const Found* former) const {
   return sum;
 }
 
-std::uint64_t bytes_of(const certify::Cover& cover, std::uint64_t later_bytes) {
+std::uint64_t bytes_of(const Cover& cover, std::uint64_t later_bytes) {
   std::uint64_t sum = 0;
-  for (const certify::CoverBox& box : cover.boxes)
+  for (const CoverBox& box : cover.boxes)
     sum += sizeof(box) + box.box.size() * (sizeof(Interval) + later_bytes) + box.free.size() * sizeof(int) + 2 * kBlock;
-  for (const certify::Box& region : cover.regions) sum += sizeof(region) + region.size() * sizeof(Interval) + kBlock;
+  for (const Box& region : cover.regions) sum += sizeof(region) + region.size() * sizeof(Interval) + kBlock;
   if (cover.proof) {
     for (const auto& c : cover.proof->combinations)
       sum += sizeof(c) + sizeof(int) * 2 * c.equations.size() + sizeof(float) * c.y.size() + 3 * kBlock;

@@ -7,16 +7,12 @@
 namespace corank::solve {
 namespace {
 
-using certify::Box;
-using certify::Interval;
-using certify::Verdict;
-
 constexpr double kFragment = 0.85;  // of σ: a wider box is not worth an attempt
 constexpr int kTightenings = 2;
 
 class Merger {
  public:
-  Merger(const Problem& problem, std::vector<Found*>& found, const certify::Ended& ended)
+  Merger(const Problem& problem, std::vector<Found*>& found, const Ended& ended)
       : problem_(problem),
         found_(found),
         ended_(ended),
@@ -85,7 +81,7 @@ class Merger {
       auto at = std::lower_bound(cells_.begin(), cells_.end(), first, [](const Cell& c, long key) { return c.key < key; });
       for (; at != cells_.end() && at->key <= last; ++at) {
         const std::size_t j = at->index;
-        if (certify::is_over(ended_)) return false;
+        if (is_over(ended_)) return false;
         if (j == i || removed_[j] || found_[i]->box.free != found_[j]->box.free) continue;
         if (!merge(*found_[i], found_[j]->box)) continue;
         found_[i]->leaves.insert(found_[i]->leaves.end(), found_[j]->leaves.begin(), found_[j]->leaves.end());
@@ -97,8 +93,8 @@ class Merger {
   }
 
   // Puts the proven hull of both in a's place. False: there is none.
-  bool merge(Found& found, const certify::CoverBox& b) {
-    const certify::CoverBox& a = found.box;
+  bool merge(Found& found, const CoverBox& b) {
+    const CoverBox& a = found.box;
     const auto& system = problem_.compiled;
     const std::size_t n = static_cast<std::size_t>(system.variables());
     Box hull(a.box.size());
@@ -127,7 +123,7 @@ class Merger {
 
   const Problem& problem_;
   std::vector<Found*>& found_;
-  const certify::Ended& ended_;
+  const Ended& ended_;
   PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
   std::vector<bool> removed_;
@@ -137,7 +133,7 @@ class Merger {
 
 }  // namespace
 
-void merge_regular(const Problem& problem, std::vector<Found*>& found, const certify::Ended& ended) {
+void merge_regular(const Problem& problem, std::vector<Found*>& found, const Ended& ended) {
   Merger(problem, found, ended).run();
 }
 

@@ -4,13 +4,10 @@
 #include <numeric>
 
 #include "corank/certify/distinct.h"
-#include "corank/solve/box_tree.h"
+#include "corank/core/box_tree.h"
 
 namespace corank::solve {
 namespace {
-
-using certify::Interval;
-using certify::Verdict;
 
 bool is_proven(const Found& f) { return f.sheet != nullptr; }
 
@@ -22,8 +19,8 @@ std::vector<std::size_t> indices(const std::vector<Found*>& found, Choose choose
   return result;
 }
 
-std::vector<const certify::Box*> sides(const std::vector<Found*>& found) {
-  std::vector<const certify::Box*> result;
+std::vector<const Box*> sides(const std::vector<Found*>& found) {
+  std::vector<const Box*> result;
   for (const Found* f : found) result.push_back(&f->box.box);
   return result;
 }
@@ -34,7 +31,7 @@ constexpr std::size_t kBetweenChecks = 64;
 
 }  // namespace
 
-void merge_isolated(std::vector<Found*>& found, const certify::Ended& ended) {
+void merge_isolated(std::vector<Found*>& found, const Ended& ended) {
   std::vector<bool> remove(found.size(), false), unclear(found.size(), false);
   const auto absorb = [&](std::size_t i, std::size_t j) {  // box j's solutions, if it has any, are in box i
     remove[j] = true;
@@ -53,11 +50,11 @@ void merge_isolated(std::vector<Found*>& found, const certify::Ended& ended) {
     }
   };
   const auto proven = indices(found, is_proven);
-  const BoxTree tree(proven.empty() ? std::vector<const certify::Box*>{} : sides(found), sides_of(found));
+  const BoxTree tree(proven.empty() ? std::vector<const Box*>{} : sides(found), sides_of(found));
   std::vector<std::size_t> close;
   bool over = false;
   for (std::size_t k = 0; k < proven.size(); ++k) {
-    over = over || (k % kBetweenChecks == 0 && certify::is_over(ended));
+    over = over || (k % kBetweenChecks == 0 && is_over(ended));
     if (over) {  // nothing is known of the pairs of those that are left
       unclear[proven[k]] = true;
       continue;
@@ -80,10 +77,10 @@ void merge_isolated(std::vector<Found*>& found, const certify::Ended& ended) {
   found.resize(kept);
 }
 
-std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::Box*>& boxes,
-                                               const std::vector<double>& gaps, const certify::Ended& ended) {
-  std::vector<certify::Box> widened(boxes.size());
-  std::vector<const certify::Box*> sides;
+std::vector<std::vector<std::size_t>> clusters(const std::vector<const Box*>& boxes, const std::vector<double>& gaps,
+                                               const Ended& ended) {
+  std::vector<Box> widened(boxes.size());
+  std::vector<const Box*> sides;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (std::size_t j = 0; j < gaps.size(); ++j)
       widened[i].push_back((*boxes[i])[j] + Interval(-0.5 * gaps[j], 0.5 * gaps[j]));
@@ -98,30 +95,29 @@ std::vector<std::vector<std::size_t>> clusters(const std::vector<const certify::
   return result;
 }
 
-std::vector<certify::CoverBox> collect_points(const std::vector<Found*>& found, const std::vector<double>& gaps,
-                                              const certify::Ended& ended) {
+std::vector<CoverBox> collect_points(const std::vector<Found*>& found, const std::vector<double>& gaps, const Ended& ended) {
   const auto along_a_set = [](const Found& f) {
-    return !f.box.free.empty() || f.box.reason == certify::Reason::degenerate_set || f.box.verdict == Verdict::pending;
+    return !f.box.free.empty() || f.box.reason == Reason::degenerate_set || f.box.verdict == Verdict::pending;
   };
   const auto open = indices(found, [&](const Found& f) { return !is_proven(f) && !along_a_set(f); });
-  std::vector<const certify::Box*> open_sides;
+  std::vector<const Box*> open_sides;
   for (const std::size_t i : open) open_sides.push_back(&found[i]->box.box);
   std::vector<bool> joined(found.size(), false);
-  std::vector<certify::Box> hulls(found.size());  // of clusters, where their first box stands
+  std::vector<Box> hulls(found.size());  // of clusters, where their first box stands
   std::vector<std::vector<std::size_t>> groups = clusters(open_sides, gaps, ended);
-  if (certify::is_over(ended) && !open.empty()) {  // the groups are pieces of clusters: hardly a box each
+  if (is_over(ended) && !open.empty()) {  // the groups are pieces of clusters: hardly a box each
     groups.assign(1, std::vector<std::size_t>(open.size()));
     std::iota(groups[0].begin(), groups[0].end(), std::size_t{0});
   }
   for (const std::vector<std::size_t>& cluster : groups) {
-    certify::Box& hull = hulls[open[cluster[0]]];
+    Box& hull = hulls[open[cluster[0]]];
     hull = *open_sides[cluster[0]];
     for (std::size_t k = 1; k < cluster.size(); ++k) {
       joined[open[cluster[k]]] = true;
       for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], (*open_sides[cluster[k]])[j]);
     }
   }
-  std::vector<certify::CoverBox> points;
+  std::vector<CoverBox> points;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (along_a_set(*found[i]) || joined[i]) continue;
     points.push_back(found[i]->box);

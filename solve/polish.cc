@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "corank/certify/compiled_system.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 
 namespace corank::solve {
 namespace {
@@ -18,7 +18,7 @@ using Ipopt::Number;
 // ½‖F‖² with the Gauss–Newton Hessian JᵀJ, no constraints but the bounds.
 class LeastSquares : public Ipopt::TNLP {
  public:
-  LeastSquares(const certify::CompiledSystem& system, const certify::Box& box, const certify::Ended& ended)
+  LeastSquares(const certify::CompiledSystem& system, const Box& box, const Ended& ended)
       : system_(system), box_(box), ended_(ended) {}
   const std::vector<double>& solution() const { return solution_; }
 
@@ -31,7 +31,7 @@ class LeastSquares : public Ipopt::TNLP {
   }
   bool get_bounds_info(Index n, Number* lower, Number* upper, Index, Number*, Number*) override {
     for (Index j = 0; j < n; ++j) {
-      const certify::Interval& side = box_[static_cast<std::size_t>(j)];
+      const Interval& side = box_[static_cast<std::size_t>(j)];
       const double margin = 0.5 * (side.hi() - side.lo()) + 1e-12;
       lower[j] = side.lo() - margin;
       upper[j] = side.hi() + margin;
@@ -78,7 +78,7 @@ class LeastSquares : public Ipopt::TNLP {
   }
   bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number, Number, Number, Number,
                              Index, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
-    return !certify::is_over(ended_);
+    return !is_over(ended_);
   }
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*, const Number*, Index, const Number*,
                          const Number*, Number, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
@@ -96,7 +96,7 @@ class LeastSquares : public Ipopt::TNLP {
       for (int k = system_.row_begin(row); k < system_.row_begin(row + 1); ++k) visit(row, k);
   }
   std::vector<double> residual(const Number* x) const {
-    const certify::UpwardRounding rounding;
+    const UpwardRounding rounding;
     std::vector<double> f;
     for (int row = 0; row < system_.equations(); ++row) f.push_back(system_.evaluate_at(row, x).mid());
     return f;
@@ -108,17 +108,16 @@ class LeastSquares : public Ipopt::TNLP {
   }
 
   const certify::CompiledSystem& system_;
-  const certify::Box& box_;
-  const certify::Ended& ended_;
+  const Box& box_;
+  const Ended& ended_;
   std::vector<double> solution_;
 };
 
 }  // namespace
 
-std::optional<std::vector<double>> polish(const certify::System& system, const certify::Box& box,
-                                          const certify::Ended& ended) {
+std::optional<std::vector<double>> polish(const System& system, const Box& box, const Ended& ended) {
   const certify::CompiledSystem compiled(system);
-  const certify::NearestRounding nearest;
+  const NearestRounding nearest;
   const Ipopt::SmartPtr<LeastSquares> problem = new LeastSquares(compiled, box, ended);
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = IpoptApplicationFactory();
   ipopt->Options()->SetIntegerValue("print_level", 0);

@@ -5,14 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "corank/certify/cover.h"
-#include "corank/certify/ended.h"
+#include "corank/core/cover.h"
+#include "corank/core/ended.h"
 
 namespace corank::solve {
 
 /// A local minimum of ½‖F(x)‖² over the box, each side widened by half its width, from its midpoint. Nothing where Ipopt
 /// fails. Ends with the point that it has once `ended` is true.
-std::optional<std::vector<double>> polish(const certify::System& system, const certify::Box& box,
-                                          const certify::Ended& ended = {});
+std::optional<std::vector<double>> polish(const System& system, const Box& box, const Ended& ended = {});
 
 }  // namespace corank::solve

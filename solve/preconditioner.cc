@@ -16,10 +16,10 @@ constexpr int kGaussNewtonSteps = 8;
 constexpr long kLargeTableau = 20'000;  // entries: a step with it is long enough to ask whether the run has ended
 }  // namespace
 
-PreconditionerFactory::PreconditionerFactory(const certify::CompiledSystem& system, certify::Ended ended)
+PreconditionerFactory::PreconditionerFactory(const certify::CompiledSystem& system, Ended ended)
     : system_(system), ended_(std::move(ended)), m_(system.equations()), n_(system.variables()) {}
 
-const certify::Preconditioner& PreconditionerFactory::at_midpoint(std::span<const certify::Interval> x,
+const certify::Preconditioner& PreconditionerFactory::at_midpoint(std::span<const Interval> x,
                                                                   const std::vector<int>* candidates,
                                                                   const std::vector<int>* rows) {
   center_.resize(n_);
@@ -27,8 +27,7 @@ const certify::Preconditioner& PreconditionerFactory::at_midpoint(std::span<cons
   return at_center(candidates, rows, kRankTolerance);
 }
 
-const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<const certify::Interval> x,
-                                                                    double rank_tolerance) {
+const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<const Interval> x, double rank_tolerance) {
   center_.resize(n_);
   for (int j = 0; j < n_; ++j) center_[j] = x[j].mid();
   double former = HUGE_VAL;
@@ -99,7 +98,7 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
   result_.dependent.clear();
   const bool large = !candidates && static_cast<long>(m_) * n_ > kLargeTableau;
   for (int step = 0; step < std::min(m_, n_); ++step) {
-    over_ = over_ || (large && certify::is_over(ended_));
+    over_ = over_ || (large && is_over(ended_));
     if (over_) {
       result_ = {};
       return result_;

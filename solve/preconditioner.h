@@ -5,25 +5,24 @@
 #include <span>
 #include <vector>
 
-#include "corank/certify/ended.h"
 #include "corank/certify/newton.h"
+#include "corank/core/ended.h"
 
 namespace corank::solve {
 
 class PreconditionerFactory {
  public:
   /// Large eliminations are given up once `ended` is true.
-  explicit PreconditionerFactory(const certify::CompiledSystem& system, certify::Ended ended = {});
+  explicit PreconditionerFactory(const certify::CompiledSystem& system, Ended ended = {});
 
   /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x, its columns times the variables'
   /// scales: each pivot makes one variable dependent. Fewer than m rows where the Jacobian is numerically rank deficient. If given, only the `candidates` may become
   /// dependent, and only the `rows` are used.
-  const certify::Preconditioner& at_midpoint(std::span<const certify::Interval> x,
-                                             const std::vector<int>* candidates = nullptr,
+  const certify::Preconditioner& at_midpoint(std::span<const Interval> x, const std::vector<int>* candidates = nullptr,
                                              const std::vector<int>* rows = nullptr);
   /// The same at a point near the midpoint where all equations nearly hold (a few Gauss–Newton steps), so that the rank of an
   /// over-determined system shows: away from its solutions redundant equations look independent. Pivots below `rank_tolerance` count as zero.
-  const certify::Preconditioner& near_solution(std::span<const certify::Interval> x, double rank_tolerance);
+  const certify::Preconditioner& near_solution(std::span<const Interval> x, double rank_tolerance);
 
   /// An elimination was given up: its result has no rows, which is valid, too.
   bool over() const { return over_; }
@@ -41,7 +40,7 @@ class PreconditionerFactory {
                                            double rank_tolerance);
 
   const certify::CompiledSystem& system_;
-  const certify::Ended ended_;
+  const Ended ended_;
   bool over_ = false;
   int m_, n_;
   std::vector<double> center_, sparse_, tableau_, row_scale_, best_size_, allowed_;

@@ -10,15 +10,15 @@ namespace {
 constexpr double kRedundantRankTolerance = 1e-7;  // of redundant equations near their solution
 constexpr double kRoundedRankTolerance = 1e-4;    // of such with rounded coefficients
 
-std::vector<certify::Polynomial> values_of(const certify::Reduction& reduction) {
-  std::vector<certify::Polynomial> values;
+std::vector<Polynomial> values_of(const certify::Reduction& reduction) {
+  std::vector<Polynomial> values;
   for (const auto& definition : reduction.definitions) values.push_back(definition.value);
   return values;
 }
 
 }  // namespace
 
-Problem::Problem(const certify::System& system, const certify::Reduction& reduction, std::function<bool()> e)
+Problem::Problem(const System& system, const certify::Reduction& reduction, std::function<bool()> e)
     : compiled(reduction.system, values_of(reduction)),
       redundant(reduction.system),
       domain(reduction.system),
@@ -28,8 +28,8 @@ Problem::Problem(const certify::System& system, const certify::Reduction& reduct
       branching(reduction.system),
       ended(std::move(e)),
       classes_(sigma_classes(system, reduction)) {
-  certify::Box search_domain;
-  for (const certify::Variable& v : reduction.system.variables) search_domain.push_back(v.domain);
+  Box search_domain;
+  for (const Variable& v : reduction.system.variables) search_domain.push_back(v.domain);
   TypicalSizes sizes = typical_sizes(compiled, std::move(search_domain));
   compiled.set_scales(std::move(sizes.variables));
   equation_sizes = std::move(sizes.equations);
@@ -49,25 +49,25 @@ std::vector<double> Problem::limits(double share) const {
   return result;
 }
 
-double Problem::excess(const certify::Box& sides) const {
+double Problem::excess(const Box& sides) const {
   double largest = 0;
   for (std::size_t j = 0; j < sides.size(); ++j) largest = std::max(largest, sides[j].width() / sigma[j]);
   return largest;
 }
 
-double Problem::relative_width(std::span<const certify::Interval> x) const {
+double Problem::relative_width(std::span<const Interval> x) const {
   double largest = 0;
   for (std::size_t j = 0; j < compiled.scales().size(); ++j)
     largest = std::max(largest, x[j].width() / (2 * compiled.scales()[j]));
   return largest;
 }
 
-void Problem::append_values(certify::Box& sides) const {
+void Problem::append_values(Box& sides) const {
   sides.resize(static_cast<std::size_t>(compiled.variables()));
   for (int k = 0; k < compiled.values(); ++k) sides.push_back(compiled.evaluate(compiled.value_row(k), sides));
 }
 
-void Problem::append_values_at_zeros(const certify::NewtonStep& step, certify::Box& sides) const {
+void Problem::append_values_at_zeros(const certify::NewtonStep& step, Box& sides) const {
   append_values(sides);
   const std::size_t n = static_cast<std::size_t>(compiled.variables());
   for (int k = 0; k < compiled.values(); ++k)

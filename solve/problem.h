@@ -6,11 +6,11 @@
 #include <memory>
 #include <span>
 
-#include "corank/certify/cover.h"
 #include "corank/certify/domain.h"
 #include "corank/certify/newton.h"
 #include "corank/certify/partial.h"
 #include "corank/certify/reduction.h"
+#include "corank/core/cover.h"
 #include "corank/solve/branching.h"
 #include "corank/solve/sigma.h"
 
@@ -19,15 +19,15 @@ namespace corank::solve {
 /// Constant during a search.
 struct Problem {
   /// `ended` tells, from any thread, that a limit or a stop has ended the search.
-  Problem(const certify::System& system, const certify::Reduction& reduction, std::function<bool()> ended);
+  Problem(const System& system, const certify::Reduction& reduction, std::function<bool()> ended);
 
   /// To be called before pieces are cut.
   void set_sigma(const Sigma& sigma);
   /// The largest ratio of a side's width to the σ of its variable: above 1 a piece is to be cut. For the sides of the kept variables, with or
   /// without those of the eliminated ones behind them.
-  double excess(const certify::Box& sides) const;
+  double excess(const Box& sides) const;
   /// The largest ratio of a kept variable's side to its typical size.
-  double relative_width(std::span<const certify::Interval> x) const;
+  double relative_width(std::span<const Interval> x) const;
 
   /// Of each kept variable: as wide as an unproven box may be when it is given up for small; a share of twice its typical size. Where coefficients
   /// carry a tolerance, below which nothing can be proven, no more than σ.
@@ -38,9 +38,9 @@ struct Problem {
     return subset || (sheet.motion < 0 && static_cast<int>(sheet.equations.size()) < compiled.equations());
   }
   /// Appends the eliminated variables' sides over x to the n sides of x (what follows those is renewed).
-  void append_values(certify::Box& sides) const;
+  void append_values(Box& sides) const;
   /// The same of the zeros of the step's rows in the sides, a part of its box.
-  void append_values_at_zeros(const certify::NewtonStep& step, certify::Box& sides) const;
+  void append_values_at_zeros(const certify::NewtonStep& step, Box& sides) const;
 
   certify::CompiledSystem compiled;  ///< value rows: the eliminated variables
   certify::RedundantEquations
@@ -62,10 +62,9 @@ struct Problem {
 /// A box of the result and, for an isolated solution, its sheet. The sides of the eliminated variables follow those of the others, as
 /// certify::Reduction::lift takes them; the sheet and `free` know only the others.
 struct Found {
-  certify::CoverBox box;
+  CoverBox box;
   std::unique_ptr<const certify::Sheet> sheet;  ///< of an isolated solution
-  std::shared_ptr<const certify::Box>
-      region;                         ///< that of the proof, as `box` has its sides; one for all boxes cut from a sheet
+  std::shared_ptr<const Box> region;  ///< that of the proof, as `box` has its sides; one for all boxes cut from a sheet
   std::vector<std::uint64_t> leaves;  ///< of a recorded search: those whose solutions are in the box (solve/recorder.h)
 };
 

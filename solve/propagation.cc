@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "corank/certify/projection.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 
 namespace corank::solve {
 namespace {
@@ -15,7 +15,7 @@ constexpr int kDomainRuns = 8;            // of the search domain
 
 }  // namespace
 
-bool Propagator::run(const certify::CompiledSystem& system, std::span<certify::Interval> x, Recorder* recorder) {
+bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> x, Recorder* recorder) {
   changed_.resize(static_cast<std::size_t>(system.variables()));
   // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows, since
   // each return costs a variable a tenth of its width.
@@ -43,12 +43,12 @@ bool Propagator::run(const certify::CompiledSystem& system, std::span<certify::I
   return true;
 }
 
-TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<certify::Interval> domain) {
-  const certify::UpwardRounding rounding;
+TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<Interval> domain) {
+  const UpwardRounding rounding;
   const auto usable = [](double size) { return size > 0 && std::isfinite(size) ? size : 1; };
   Propagator propagator;
   for (int run = 0; run < kDomainRuns; ++run) {
-    const std::vector<certify::Interval> before = domain;
+    const std::vector<Interval> before = domain;
     if (!propagator.run(system, domain)) {  // there is nothing to search
       domain = before;
       break;
@@ -59,12 +59,12 @@ TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<ce
     if (!gained) break;
   }
   TypicalSizes sizes;
-  for (const certify::Interval& side : domain) {
+  for (const Interval& side : domain) {
     const double half = 0.5 * side.width();
     const double least = 1e-12 * side.mag();  // narrower: one value, enclosed
     sizes.variables.push_back(usable(half > least ? half : side.mag()));
   }
-  std::vector<certify::Interval> jacobian(static_cast<std::size_t>(system.entries()));
+  std::vector<Interval> jacobian(static_cast<std::size_t>(system.entries()));
   system.jacobian(domain, jacobian);
   for (int row = 0; row < system.equations(); ++row) {
     double largest = 0;

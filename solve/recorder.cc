@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corank/certify/check.h"
+#include "corank/core/check.h"
 
 namespace corank::solve {
 namespace {
-
-using certify::Interval;
-using certify::Proof;
 using Step = Proof::Step;
 
 constexpr std::uint64_t kBlock = 16;  // of an allocation's own

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "corank/certify/newton.h"
-#include "corank/certify/proof.h"
+#include "corank/core/proof.h"
 
 namespace corank::solve {
 
@@ -27,23 +27,22 @@ class Recorder {
   LeafId leaf(std::size_t found) const { return prefix_ | found; }
 
   /// What follows is done to this box, until it is split or ends in a leaf.
-  void begin(NodeId node, std::span<const certify::Interval> x, int variables);
+  void begin(NodeId node, std::span<const Interval> x, int variables);
   void row(int row);
   /// A step with p about the midpoint of x, the box as it is before. Nothing is kept of a p that floats cannot hold.
-  void newton(const certify::Preconditioner& p, std::span<const certify::Interval> x);
-  void keep(std::span<const certify::Interval> x);
+  void newton(const certify::Preconditioner& p, std::span<const Interval> x);
+  void keep(std::span<const Interval> x);
   void split(int variable, double where, NodeId lower, NodeId upper);
   /// What becomes of the box, as it is now, will be recorded under the node that is returned, by this recorder or another.
   NodeId go_on_later();
   void cut(int variable, const std::vector<double>& places);
   void leaf_box(std::size_t found);
-  void leaf_empty() { step(certify::Proof::Step::empty); }
-  void leaf_elsewhere() { step(certify::Proof::Step::elsewhere); }
+  void leaf_empty() { step(Proof::Step::empty); }
+  void leaf_elsewhere() { step(Proof::Step::elsewhere); }
 
   /// Script by script, from the roots' nodes on. `place` gives the place in the cover of each LeafId.
-  static certify::Proof assemble(const std::vector<const Recorder*>& recorders,
-                                 std::vector<std::vector<certify::Interval>> roots, const std::vector<NodeId>& nodes,
-                                 const std::map<LeafId, int>& place);
+  static Proof assemble(const std::vector<const Recorder*>& recorders, std::vector<std::vector<Interval>> roots,
+                        const std::vector<NodeId>& nodes, const std::map<LeafId, int>& place);
 
  private:
   struct Cursor {
@@ -54,15 +53,15 @@ class Recorder {
     NodeId lower = 0, upper = 0;  // where it was split; upper alone: where its script goes on
     bool is_split = false, goes_on = false;
   };
-  void step(certify::Proof::Step s);
+  void step(Proof::Step s);
   void close();
 
   std::uint64_t prefix_, next_ = 1;
-  certify::Proof script_;
+  Proof script_;
   std::uint64_t combination_bytes_ = 0;
   std::map<NodeId, Node> nodes_;
   Node* open_ = nullptr;
-  std::vector<certify::Interval> kept_;
+  std::vector<Interval> kept_;
 };
 
 /// Makes Y's entries floats, which scripts hold, where all are of a size that floats keep to 24 bits. Any Y is valid.

@@ -6,14 +6,10 @@
 #include <random>
 
 #include "corank/certify/refinement.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 
 namespace corank::solve {
 namespace {
-
-using certify::ExactNumber;
-using certify::Monomial;
-using certify::Polynomial;
 using Matrix = Eigen::MatrixXd;
 
 constexpr double kTolerance = 1e-7;  // of singular values at samples
@@ -82,7 +78,7 @@ std::vector<LocalSolution> walk(const Problem& problem, const LocalSolution& sta
 }
 
 // As many of the samples as relations take, each moved to the set.
-std::vector<LocalSolution> precise(const certify::System& system, const std::vector<LocalSolution>& samples) {
+std::vector<LocalSolution> precise(const System& system, const std::vector<LocalSolution>& samples) {
   const std::size_t wanted = std::min(samples.size(), system.variables.size() + 4);
   std::vector<LocalSolution> result;
   for (std::size_t k = 0; k < wanted; ++k) {
@@ -144,12 +140,12 @@ std::optional<Polynomial> rational_relation(const Problem& problem, const Eigen:
     if (std::fabs(row(j)) < kRelationTolerance) continue;
     const auto a = rational_near(row(j) * unit / scales[static_cast<std::size_t>(j)], largest_denominator);
     if (!a) return std::nullopt;
-    if (!a->is_zero()) f.monomials.emplace_back(*a, std::vector<certify::Factor>{{static_cast<int>(j), 1}});
+    if (!a->is_zero()) f.monomials.emplace_back(*a, std::vector<Factor>{{static_cast<int>(j), 1}});
   }
   if (std::fabs(row(n)) >= kRelationTolerance) {
     const auto b = rational_near(row(n) * unit, largest_denominator);
     if (!b) return std::nullopt;
-    f.monomials.emplace_back(*b, std::vector<certify::Factor>{});
+    f.monomials.emplace_back(*b, std::vector<Factor>{});
   }
   return f;
 }
@@ -171,8 +167,8 @@ std::vector<Polynomial> ratios(const Problem& problem, const Echelon& e, const s
       const int p = static_cast<int>(e.pivots[static_cast<std::size_t>(row)]),
                 q = static_cast<int>(e.pivots[static_cast<std::size_t>(base)]);
       Polynomial f{{}, "self-motion"};
-      f.monomials.emplace_back(1, std::vector<certify::Factor>{{p, 1}});
-      f.monomials.emplace_back(-*ratio, std::vector<certify::Factor>{{q, 1}});
+      f.monomials.emplace_back(1, std::vector<Factor>{{p, 1}});
+      f.monomials.emplace_back(-*ratio, std::vector<Factor>{{q, 1}});
       result.push_back(std::move(f));
       tied = true;
       break;
@@ -201,7 +197,7 @@ std::vector<Polynomial> rational_relations(const Problem& problem, const Echelon
 
 }  // namespace
 
-MotionCandidate find_self_motion(const Problem& problem, const certify::System& system, const LocalSolution& from) {
+MotionCandidate find_self_motion(const Problem& problem, const System& system, const LocalSolution& from) {
   MotionCandidate candidate;
   const auto start = local_solution(problem, from.x, kTolerance);
   const int n = problem.compiled.variables(), expected = std::max(0, n - problem.compiled.equations());
@@ -214,7 +210,7 @@ MotionCandidate find_self_motion(const Problem& problem, const certify::System& 
   const std::vector<LocalSolution> points = precise(system, samples);
   if (points.size() < static_cast<std::size_t>(n + 2)) return candidate;
   const Echelon e = relations_of(problem, points);
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   for (const long largest_denominator : kDenominators) {
     if (candidate.motion) break;
     candidate.motion = certify::self_motion(system, rational_relations(problem, e, largest_denominator), dimension);
@@ -224,7 +220,7 @@ MotionCandidate find_self_motion(const Problem& problem, const certify::System& 
 }
 
 bool holds_at(const certify::SelfMotion& motion, const Problem& problem, const std::vector<double>& x) {
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   for (const Polynomial& f : motion.relations) {
     double sum = 0, size = 0;
     for (const Monomial& m : f.monomials) {

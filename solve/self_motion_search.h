@@ -15,7 +15,7 @@ struct MotionCandidate {
 };
 
 /// Walks along the set from a degenerate solution and reads the relations off.
-MotionCandidate find_self_motion(const Problem& problem, const certify::System& system, const LocalSolution& start);
+MotionCandidate find_self_motion(const Problem& problem, const System& system, const LocalSolution& start);
 
 /// Do the relations hold at x, as far as doubles tell?
 bool holds_at(const certify::SelfMotion& motion, const Problem& problem, const std::vector<double>& x);

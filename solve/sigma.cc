@@ -6,8 +6,6 @@
 namespace corank::solve {
 namespace {
 
-using certify::VariableKind;
-
 double share_of_size(int dimension, double tolerance) {
   constexpr double kCoarse = 1.0 / 20;
   if (dimension > 0 && tolerance > 0) return kCoarse;
@@ -21,7 +19,7 @@ double share_of_size(int dimension, double tolerance) {
 
 }  // namespace
 
-SigmaClass sigma_class(const certify::Variable& variable) {
+SigmaClass sigma_class(const Variable& variable) {
   if (variable.auxiliary) return SigmaClass::none;
   switch (variable.kind) {
     case VariableKind::length: return SigmaClass::length;
@@ -33,7 +31,7 @@ SigmaClass sigma_class(const certify::Variable& variable) {
   return SigmaClass::none;
 }
 
-std::vector<SigmaClass> sigma_classes(const certify::System& system, const certify::Reduction& reduction) {
+std::vector<SigmaClass> sigma_classes(const System& system, const certify::Reduction& reduction) {
   std::vector<SigmaClass> classes;
   const auto add = [&](int j) { classes.push_back(sigma_class(system.variables[static_cast<std::size_t>(j)])); };
   for (const int j : reduction.kept) add(j);
@@ -41,7 +39,7 @@ std::vector<SigmaClass> sigma_classes(const certify::System& system, const certi
   return classes;
 }
 
-double sigma_of(const certify::Sigma& sigma, SigmaClass kind) {
+double sigma_of(const Sigma& sigma, SigmaClass kind) {
   switch (kind) {
     case SigmaClass::length: return sigma.length;
     case SigmaClass::angle: return sigma.angle;
@@ -50,8 +48,8 @@ double sigma_of(const certify::Sigma& sigma, SigmaClass kind) {
   return HUGE_VAL;
 }
 
-certify::Sigma default_sigma(const certify::System& system, const certify::Box& hull, int dimension) {
-  certify::Sigma size;
+Sigma default_sigma(const System& system, const Box& hull, int dimension) {
+  Sigma size;
   for (std::size_t j = 0; j < hull.size(); ++j) {
     // A constant, enclosed, has no size.
     const double width = hull[j].width() > 1e-9 * hull[j].mag() ? hull[j].width() : 0;

@@ -4,21 +4,20 @@
 
 #include <vector>
 
-#include "corank/certify/cover.h"
 #include "corank/certify/reduction.h"
-#include "corank/certify/system.h"
+#include "corank/core/cover.h"
+#include "corank/core/system.h"
 
 namespace corank::solve {
 
 /// The largest edge of a box in lengths, in the model's unit, and in the sine and the cosine of angles.
-using certify::Sigma;
 
 /// Which σ a variable has.
 enum class SigmaClass : std::uint8_t { none, length, angle };
-SigmaClass sigma_class(const certify::Variable& variable);
+SigmaClass sigma_class(const Variable& variable);
 
 /// Of the variables that are kept, then of the eliminated ones, in the order of Reduction::definitions.
-std::vector<SigmaClass> sigma_classes(const certify::System& system, const certify::Reduction& reduction);
+std::vector<SigmaClass> sigma_classes(const System& system, const certify::Reduction& reduction);
 
 /// Infinite for SigmaClass::none.
 double sigma_of(const Sigma& sigma, SigmaClass kind);
@@ -27,6 +26,6 @@ double sigma_of(const Sigma& sigma, SigmaClass kind);
 /// apart. The share is 1/200 for a curve, 1/60 for a surface, 1/20 for a larger set, and where coefficients carry a tolerance; for isolated
 /// points 1e-6, and no less than the square root of the tolerance: so far apart may two solutions be that merge for some choice of the coefficients.
 /// A set without size counts as one of size 1.
-Sigma default_sigma(const certify::System& system, const certify::Box& hull, int dimension);
+Sigma default_sigma(const System& system, const Box& hull, int dimension);
 
 }  // namespace corank::solve

@@ -9,14 +9,10 @@
 
 namespace corank::solve {
 namespace {
-
-using certify::Box;
-using certify::Interval;
 using certify::Location;
 using certify::NewtonStep;
 using certify::Preconditioner;
 using certify::Sheet;
-using certify::Verdict;
 
 // Measured on Dextar's sets, see bench/HISTORY.md.
 constexpr int kTightenings = 2;

@@ -26,18 +26,17 @@ class Slicer {
 
   /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so. Where the
   /// search ends meanwhile, the rest is added as pending boxes. `whole`: the sheet is not cut at all.
-  void slice(const certify::Sheet& sheet, std::span<const certify::Interval> x, std::vector<Found>& found,
-             bool whole = false);
+  void slice(const certify::Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole = false);
 
   /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the
   /// tolerance? Cuts the piece as finely as the bounds need, `depth` times at most. True is proven, on each of the parts.
-  bool holds_on_parts(const certify::Sheet& sheet, const std::vector<int>& free, certify::Box piece, int depth);
+  bool holds_on_parts(const certify::Sheet& sheet, const std::vector<int>& free, Box piece, int depth);
 
  private:
   // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower; how
   // far Y·S was from I in the last step, on this piece or on the one that it was cut from.
   struct Piece {
-    certify::Box sides;
+    Box sides;
     double former_width = HUGE_VAL;
     int futile_cuts = 0;
     double spread = 0;
@@ -46,16 +45,16 @@ class Slicer {
   // A part of a piece, and what becomes of it: it goes on as a piece, is added as it is, or holds nothing that is wanted here.
   struct Part {
     enum class Fate { open, found, elsewhere };
-    certify::Box sides;
+    Box sides;
     Fate fate = Fate::open;
   };
   // What is the same for all pieces of one sheet.
   struct Task {
     const certify::Sheet& sheet;
-    std::span<const certify::Interval> x;
+    std::span<const Interval> x;
     std::vector<Found>& found;
     std::vector<int> free;
-    std::shared_ptr<const certify::Box> region;
+    std::shared_ptr<const Box> region;
     bool whole = false;
     unsigned turns = 0;
     bool ended = false;
@@ -70,18 +69,18 @@ class Slicer {
                               certify::Preconditioner& own);
   // Shrinks the free sides to where the solutions may lie in x, and the others with them. False: none does. By the piece's own step,
   // renewed with the preconditioner `own`, or, without one, by the slopes of the step on the piece that it was cut from.
-  bool trim(const Task& task, certify::NewtonStep& step, const certify::Preconditioner* own, certify::Box& sides);
+  bool trim(const Task& task, certify::NewtonStep& step, const certify::Preconditioner* own, Box& sides);
   // The same, and where the solutions lie with respect to the domain. Nothing: none in x, or none in the domain.
   std::optional<certify::Location> place(const Task& task, certify::NewtonStep& step, const certify::Preconditioner* own,
-                                         certify::Box& sides);
+                                         Box& sides);
   // steepness_[a·k + f] = |∂a/∂f| on the step's piece, linearized, of each dependent, then each eliminated variable a, with respect to
   // the f-th of k free variables.
-  void measure_steepness(const certify::NewtonStep& step, const std::vector<int>& free, const certify::Box& piece);
+  void measure_steepness(const certify::NewtonStep& step, const std::vector<int>& free, const Box& piece);
   // The number of equal parts along each free side that makes all sides narrower than σ in the linearization, few in all.
-  std::vector<int> parts_of(const certify::Box& piece, const std::vector<int>& free) const;
+  std::vector<int> parts_of(const Box& piece, const std::vector<int>& free) const;
   // Where each free side is cut into so many equal parts (two parts: at shares[f] of the width, where that is not 0).
-  std::vector<std::vector<double>> places_of(const certify::Box& piece, const std::vector<int>& free,
-                                             const std::vector<int>& parts, const std::vector<double>& shares) const;
+  std::vector<std::vector<double>> places_of(const Box& piece, const std::vector<int>& free, const std::vector<int>& parts,
+                                             const std::vector<double>& shares) const;
   // Cuts the piece there, along all free sides, and goes on with each part. The parts are tightened by the piece's step first, where there is
   // one: many are small enough then, and need no step of their own.
   void cut(Task& task, const Piece& piece, const certify::Preconditioner& p, std::optional<certify::NewtonStep> step,
@@ -89,22 +88,22 @@ class Slicer {
   // Tightens a part by the step on the piece that it was cut from, and finds its fate.
   void settle(const Task& task, certify::NewtonStep& step, Part& part);
   // Widens the sides that are not free a little, where σ allows: who verifies the box has to come that close only.
-  void leave_room(const Task& task, certify::Box& piece) const;
+  void leave_room(const Task& task, Box& piece) const;
   // The search chose free variables that prove well; others may need fewer boxes of size σ: their dependents, where there are such.
-  std::optional<std::vector<int>> better_chart(const Task& task, const certify::Box& sides);
+  std::optional<std::vector<int>> better_chart(const Task& task, const Box& sides);
   // Proves the piece's solutions in x to be a sheet with these dependents, and slices that; false: that is not proven.
-  bool slice_in_chart(Task& task, certify::Box sides, const std::vector<int>& dependent);
-  void add(Task& task, certify::Box piece, certify::Location location);
+  bool slice_in_chart(Task& task, Box sides, const std::vector<int>& dependent);
+  void add(Task& task, Box piece, certify::Location location);
   // What a limit leaves, unless it is outside the domain.
-  void leave(std::vector<Found>& found, certify::Box sides);
+  void leave(std::vector<Found>& found, Box sides);
 
   const Problem& problem_;
   PreconditionerFactory& preconditioners_;
   certify::NewtonWorkspace& workspace_;
   Recorder* recorder_;
-  certify::Box met_;
+  Box met_;
   std::vector<double> steepness_, gradient_;
-  std::vector<certify::Interval> slope_;
+  std::vector<Interval> slope_;
 };
 
 }  // namespace corank::solve

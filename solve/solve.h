@@ -7,9 +7,9 @@
 #include <functional>
 #include <optional>
 
-#include "corank/certify/cover.h"
 #include "corank/certify/reduction.h"
-#include "corank/certify/system.h"
+#include "corank/core/cover.h"
+#include "corank/core/system.h"
 #include "corank/solve/control.h"
 
 namespace corank::solve {
@@ -18,7 +18,7 @@ struct Progress {
   std::uint64_t processed = 0;  ///< boxes done
   std::uint64_t waiting = 0;    ///< boxes left
   double excluded = 0;          ///< share of the domain's volume that is done with, 0 … 1
-  std::array<std::uint64_t, certify::kVerdicts> verdicts{};
+  std::array<std::uint64_t, kVerdicts> verdicts{};
   double seconds = 0;
 };
 
@@ -43,7 +43,7 @@ struct Options {
   /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a tolerance, and covers with self-motions, have none.
   bool proof = false;
   /// Where given: search these boxes, in all variables, instead of the whole domain; the cover is of their solutions.
-  std::vector<certify::Box> roots;
+  std::vector<Box> roots;
   /// Called every `progress_interval` seconds or so, from one thread at a time.
   std::function<void(const Progress&)> progress;
   double progress_interval = 0.1;
@@ -62,14 +62,14 @@ Control::Limits limits_of(const Options& options);
 /// The coefficient tolerance (System::coefficient_tolerance) to take for a system as somebody printed it: 1e-6 where it has more
 /// equations than variables, since rounded decimals make redundant equations inconsistent; else 0, exact. Not for systems
 /// that symbolic/ derives from a mechanism: their redundancy is exact.
-double printed_tolerance(const certify::System& system);
+double printed_tolerance(const System& system);
 
 /// The least σ that solve() accepts: below it the rounding of doubles would keep boxes from becoming that narrow.
-certify::Sigma smallest_sigma(const certify::System& system);
+Sigma smallest_sigma(const System& system);
 
 /// The cover of the system's solution set in its domain. Never throws for a mathematical outcome; throws std::invalid_argument
 /// where the system is not valid (System::validate) or a σ is not a positive number of at least smallest_sigma(system). The result does not depend on `threads`
 /// unless a limit or a stop ends the search.
-certify::Cover solve(const certify::System& system, const Options& options = {});
+Cover solve(const System& system, const Options& options = {});
 
 }  // namespace corank::solve

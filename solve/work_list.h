@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "corank/certify/interval.h"
+#include "corank/core/interval.h"
 #include "corank/solve/recorder.h"
 
 namespace corank::solve {
@@ -16,14 +16,14 @@ class WorkList {
   explicit WorkList(std::size_t n) : n_(n) {}
   bool empty() const { return shares_.empty(); }
   std::size_t size() const { return shares_.size(); }
-  void push(std::span<const certify::Interval> x, double share, NodeId node) {
+  void push(std::span<const Interval> x, double share, NodeId node) {
     sides_.insert(sides_.end(), x.begin(), x.begin() + n_);
     shares_.push_back(share);
     nodes_.push_back(node);
   }
   NodeId node() const { return nodes_.back(); }  // of the newest
   // Copies the newest box to x and removes it; returns its share.
-  double pop(std::span<certify::Interval> x) {
+  double pop(std::span<Interval> x) {
     nodes_.pop_back();
     std::copy(sides_.end() - static_cast<std::ptrdiff_t>(n_), sides_.end(), x.begin());
     sides_.resize(sides_.size() - n_);
@@ -46,7 +46,7 @@ class WorkList {
 
  private:
   std::size_t n_;
-  std::vector<certify::Interval> sides_;
+  std::vector<Interval> sides_;
   std::vector<double> shares_;
   std::vector<NodeId> nodes_;
 };

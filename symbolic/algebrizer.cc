@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "corank/certify/check.h"
+#include "corank/core/check.h"
 #include "corank/symbolic/angle_range.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/ginac_lock.h"
@@ -13,12 +13,6 @@
 
 namespace corank::symbolic {
 namespace {
-
-using certify::ExactNumber;
-using certify::Interval;
-using certify::Polynomial;
-using certify::Variable;
-using certify::VariableKind;
 
 bool mentions(const Relation& relation, const std::vector<std::string>& names) {
   return std::any_of(names.begin(), names.end(),
@@ -28,7 +22,7 @@ bool mentions(const Relation& relation, const std::vector<std::string>& names) {
 class Algebrizer {
  public:
   explicit Algebrizer(const TrigonometricSystem& system) : in_(system) {}
-  certify::System run();
+  System run();
 
  private:
   void add_constants();
@@ -45,7 +39,7 @@ class Algebrizer {
   std::string fresh_name(std::string name);
 
   const TrigonometricSystem& in_;
-  certify::System out_;
+  System out_;
   PolynomialExpander expander_;
   std::set<std::string> names_;
   std::vector<Polynomial> angle_equations_, chords_;
@@ -60,7 +54,7 @@ std::string equation_text(const TrigonometricSystem::Equation& equation) {
 
 // A coefficient beyond double precision's range would make every enclosure useless.
 void require_bounded(const Polynomial& polynomial, const TrigonometricSystem::Equation& equation) {
-  for (const certify::Monomial& monomial : polynomial.monomials)
+  for (const Monomial& monomial : polynomial.monomials)
     if (!monomial.enclosure.is_bounded())
       throw ModelError(equation.where,
                        "the coefficient " + in_quotes(monomial.coefficient.text()) + " of the equation " +
@@ -114,7 +108,7 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
     throw ModelError(coordinate.where, "the range of " + in_quotes(coordinate.name) + " has no use: " + error.what(),
                      "radians");
   }
-  certify::Angle angle;
+  Angle angle;
   angle.name = coordinate.name;
   angle.cosine = add_variable(fresh_name("c_" + coordinate.name), VariableKind::cosine, condition.cosine);
   angle.sine = add_variable(fresh_name("s_" + coordinate.name), VariableKind::sine, condition.sine);
@@ -188,7 +182,7 @@ void Algebrizer::add_inequality(const TrigonometricSystem::Equation& inequality)
   out_.inequalities.push_back(std::move(polynomial));
 }
 
-certify::System Algebrizer::run() {
+System Algebrizer::run() {
   out_.name = in_.name;
   for (const Constant& constant : in_.constants) names_.insert(constant.name);
   for (const Coordinate& coordinate : in_.coordinates) names_.insert(coordinate.name);
@@ -223,13 +217,13 @@ certify::System Algebrizer::run() {
 
 }  // namespace
 
-certify::System algebrize(const TrigonometricSystem& system) {
+System algebrize(const TrigonometricSystem& system) {
   const GinacLock lock;
   try {
     return Algebrizer(system).run();
   } catch (const ModelError&) {
     throw;
-  } catch (const certify::InvariantError&) {
+  } catch (const InvariantError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;

@@ -1,6 +1,6 @@
 // From sines and cosines to polynomials: every angle θ becomes two variables c_θ, s_θ with c_θ² + s_θ² = 1, sums of angles
 // and integer multiples are expanded, an angle's range becomes a linear condition on (c_θ, s_θ), and the way back is kept
-// (certify::System::angles). A length keeps its variable; its sines and cosines become terms of the equations or variables
+// (System::angles). A length keeps its variable; its sines and cosines become terms of the equations or variables
 // of their own, see length_functions.h. The result's coefficients are exact.
 //
 // Range: θ ∈ [α, β] with β − α < 2π, m = (α + β)/2, h = (β − α)/2:  θ ∈ [α, β] (mod 2π)  ⇔  cos(θ − m) ≥ cos h
@@ -9,7 +9,7 @@
 // s_θ = sin α in place of the circle, so that boxes hold them. Jacobians were made before and have the angle's column.
 #pragma once
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::symbolic {
@@ -19,6 +19,6 @@ namespace corank::symbolic {
 /// for what is no polynomial: an angle outside sin and cos, tan of an unknown, a quotient of unknowns, sin of anything that
 /// is not linear, a fractional multiple of an angle, a non-integer power of an unknown; also for an empty range and a
 /// constant equation that is inconsistent.
-certify::System algebrize(const TrigonometricSystem& system);
+System algebrize(const TrigonometricSystem& system);
 
 }  // namespace corank::symbolic

@@ -11,9 +11,6 @@
 
 namespace corank::symbolic {
 namespace {
-
-using certify::ConstantFunction;
-using certify::ExactNumber;
 using GiNaC::ex;
 using GiNaC::ex_to;
 using GiNaC::is_a;

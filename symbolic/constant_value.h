@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "corank/certify/exact_number.h"
+#include "corank/core/exact_number.h"
 
 namespace corank::symbolic {
 
@@ -39,7 +39,7 @@ class ConstantValue {
   /// With cos² replaced by 1 − sin²: recognizes more zeros, but is longer to read.
   ConstantValue without_squared_cosines() const;
 
-  certify::ExactNumber exact() const;
+  ExactNumber exact() const;
 
  private:
   explicit ConstantValue(GiNaC::ex value);

@@ -109,13 +109,13 @@ ExpandedPolynomial pow(const ExpandedPolynomial& x, int n) {
   return result;
 }
 
-certify::Polynomial ExpandedPolynomial::compile(const std::string& source) const {
-  certify::Polynomial result;
+Polynomial ExpandedPolynomial::compile(const std::string& source) const {
+  Polynomial result;
   result.source = source;
   for (const auto& [key, coefficient] : terms_) {
     if (!coefficient.is_rational() && !coefficient.exact().sign(256) && coefficient.without_squared_cosines().is_zero())
       continue;
-    std::vector<certify::Factor> factors;
+    std::vector<Factor> factors;
     for (const auto& [variable_index, power] : key) factors.push_back({variable_index, power});
     result.monomials.emplace_back(coefficient.exact(), std::move(factors));
   }

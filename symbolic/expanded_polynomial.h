@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 #include "corank/symbolic/constant_value.h"
 
 namespace corank::symbolic {
@@ -39,7 +39,7 @@ class ExpandedPolynomial {
   friend ExpandedPolynomial pow(const ExpandedPolynomial& x, int n);
 
   /// Exact coefficients; drops those that only sin² + cos² = 1 shows to be zero.
-  certify::Polynomial compile(const std::string& source) const;
+  Polynomial compile(const std::string& source) const;
 
  private:
   void add(const Key& key, const ConstantValue& coefficient);

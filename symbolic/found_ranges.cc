@@ -12,8 +12,6 @@
 namespace corank::symbolic {
 namespace {
 
-using certify::Interval;
-
 constexpr int kDigits = 3;
 constexpr int kLargestExponent = 290;  // of ten: beyond it doubles end
 
@@ -50,11 +48,11 @@ void find_ranges(TrigonometricSystem& system) {
   if (std::none_of(system.coordinates.begin(), system.coordinates.end(), lacks_range)) return;
   for (Coordinate& c : system.coordinates)
     if (!c.has_range) c.lower = -1, c.upper = 1;  // nobody looks at them before they are found
-  const certify::System polynomials = algebrize(system);
+  const System polynomials = algebrize(system);
 
   std::vector<Interval> x;
-  for (const certify::Variable& v : polynomials.variables)
-    x.push_back(v.kind == certify::VariableKind::auxiliary ? Interval::whole() : v.domain);
+  for (const Variable& v : polynomials.variables)
+    x.push_back(v.kind == VariableKind::auxiliary ? Interval::whole() : v.domain);
   const auto side = [&](const Coordinate& c) -> Interval& { return x[static_cast<std::size_t>(polynomials.find(c.name))]; };
   for (const Coordinate& c : system.coordinates)
     if (!c.has_range) side(c) = Interval::whole();

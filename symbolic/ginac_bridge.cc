@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "corank/certify/exact_number.h"
+#include "corank/core/exact_number.h"
 
 namespace corank::symbolic {
 namespace {
@@ -27,7 +27,7 @@ Expression integer_text(const numeric& n) { return Expression::number(to_string(
 
 // |q| for q ≠ 0: a decimal where it is short, else p/q.
 Expression positive_rational(const numeric& q) {
-  const auto decimal = certify::ExactNumber::rational(to_string(q)).decimal();
+  const auto decimal = ExactNumber::rational(to_string(q)).decimal();
   if (decimal && decimal->size() <= 8 && decimal->find('e') == std::string::npos) return Expression::number(*decimal);
   if (q.is_integer()) return integer_text(q);
   return Expression::node(Expression::Kind::quotient, {integer_text(q.numer()), integer_text(q.denom())});
@@ -59,7 +59,7 @@ ex guarded_power(const ex& base, const ex& exponent) {
   return GiNaC::pow(base, exponent);
 }
 
-numeric exact_decimal(const std::string& decimal) { return numeric(certify::ExactNumber::rational(decimal).text().c_str()); }
+numeric exact_decimal(const std::string& decimal) { return numeric(ExactNumber::rational(decimal).text().c_str()); }
 
 ex apply_function(const std::string& name, const ex& x) {
   if (name == "sin") return GiNaC::sin(x);

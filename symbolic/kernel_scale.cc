@@ -7,13 +7,11 @@
 
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/projection.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/symbolic/algebrizer.h"
 
 namespace corank::symbolic {
 namespace {
-
-using certify::Interval;
 
 constexpr int kSweeps = 12;
 constexpr int kLargestExponent = 40;
@@ -25,10 +23,10 @@ struct Configurations {
   std::vector<Interval> box;
 };
 
-Configurations configurations(const certify::System& system) {
-  const certify::UpwardRounding rounding;
+Configurations configurations(const System& system) {
+  const UpwardRounding rounding;
   Configurations result{certify::CompiledSystem(system), {}};
-  for (const certify::Variable& v : system.variables) result.box.push_back(v.domain);
+  for (const Variable& v : system.variables) result.box.push_back(v.domain);
   std::vector<std::uint8_t> changed(result.box.size());
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     const std::vector<Interval> before = result.box;
@@ -52,8 +50,7 @@ int exponent_of(double ratio) {
 std::string number(double size, int exponent) {
   const int ten = static_cast<int>(std::floor(std::log10(size))) - 1;
   const auto digits = std::lround(size / std::pow(10.0, ten));
-  const certify::ExactNumber value =
-      certify::ExactNumber(digits) * pow(certify::ExactNumber(10), ten) * pow(certify::ExactNumber(2), exponent);
+  const ExactNumber value = ExactNumber(digits) * pow(ExactNumber(10), ten) * pow(ExactNumber(2), exponent);
   return value.text();
 }
 
@@ -77,7 +74,7 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySe
   const Configurations all = configurations(algebrize(plain_system(mechanism)));
   std::vector<double> scales;  // 0: an angle's
   if (left) {
-    const certify::UpwardRounding rounding;
+    const UpwardRounding rounding;
     std::vector<Interval> entries(static_cast<std::size_t>(all.system.entries()));
     all.system.jacobian(all.box, entries);
     const std::vector<std::size_t> none;

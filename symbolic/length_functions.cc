@@ -5,14 +5,6 @@
 
 namespace corank::symbolic {
 
-using certify::ExactNumber;
-using certify::Factor;
-using certify::Function;
-using certify::Monomial;
-using certify::Polynomial;
-using certify::System;
-using certify::VariableKind;
-
 namespace {
 
 // Polynomials first, in the order of ExpandedPolynomial, then sines and cosines: an order that does not depend on stand-ins.
@@ -76,7 +68,7 @@ void LengthFunctions::add_sum(StandIn& s, System& system, const std::function<st
   std::string name = "u";
   ExactNumber lower, upper;
   for (const auto& [key, coefficient] : s.sum.terms()) {
-    const certify::Variable& v = system.variables[key.front().first];
+    const Variable& v = system.variables[key.front().first];
     name += "_" + v.name;
     const bool negative = coefficient.sign() == -1;
     lower = lower + coefficient.exact() * (negative ? v.upper : v.lower);

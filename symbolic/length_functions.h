@@ -2,7 +2,7 @@
 // replace it.
 //
 // While equations are expanded, a *stand-in* variable takes the place of cos t or sin t. Afterwards each is settled:
-//   - where it is a term of its own everywhere, it becomes what it is (certify::Function);
+//   - where it is a term of its own everywhere, it becomes what it is (Function);
 //   - where it is a factor in a product or a power, it becomes a new variable c_t or s_t in [−1, 1], with the equation
 //     c_t − cos t = 0. The relation c_t² + s_t² = 1 follows from two of these, and is not added.
 // An argument that is no single length, such as x + y or 2t, becomes a new variable itself, with the equation u − x − y = 0:
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 #include "corank/symbolic/expanded_polynomial.h"
 
 namespace corank::symbolic {
@@ -31,21 +31,21 @@ class LengthFunctions {
 
   /// Settles the stand-ins in the system's equations and inequalities; new variables and their equations go to the end.
   /// `fresh_name` lengthens a name until it is free.
-  void settle(certify::System& system, const std::function<std::string(std::string)>& fresh_name);
+  void settle(System& system, const std::function<std::string(std::string)>& fresh_name);
 
  private:
   struct StandIn {
-    certify::Function function;  ///< identity: of a linear combination
-    int argument;                ///< of a sine or cosine: a length, or a stand-in, after settle() its variable
+    Function function;  ///< identity: of a linear combination
+    int argument;       ///< of a sine or cosine: a length, or a stand-in, after settle() its variable
     ExpandedPolynomial sum;
     bool used = false, multiplied = false;
     int variable = -1;  ///< after settle(), where it has become one
   };
 
-  bool is_sum(const StandIn& s) const { return s.function == certify::Function::identity; }
-  void mark(const std::vector<certify::Polynomial>& polynomials);
-  void replace(std::vector<certify::Polynomial>& polynomials) const;
-  void add_sum(StandIn& s, certify::System& system, const std::function<std::string(std::string)>& fresh_name) const;
+  bool is_sum(const StandIn& s) const { return s.function == Function::identity; }
+  void mark(const std::vector<Polynomial>& polynomials);
+  void replace(std::vector<Polynomial>& polynomials) const;
+  void add_sum(StandIn& s, System& system, const std::function<std::string(std::string)>& fresh_name) const;
 
   int first_ = 0;
   std::vector<StandIn> stand_ins_;

@@ -9,8 +9,6 @@
 namespace corank::symbolic {
 namespace {
 
-using certify::ExactNumber;
-
 // ---- text
 // -------------------------------------------------------------------------------------------------------------------------
 
@@ -117,7 +115,7 @@ void print_latex_lines(std::ostream& out, const std::vector<std::string>& lines)
 
 std::string constant_text(const ExactNumber& x) { return x.decimal().value_or(x.text()); }
 
-std::string monomial_text(const certify::Monomial& monomial, const certify::System& system, bool first) {
+std::string monomial_text(const Monomial& monomial, const System& system, bool first) {
   // The sign goes before the term; a coefficient that is a sum needs parentheses unless it stands alone.
   std::string coefficient = constant_text(monomial.coefficient);
   bool negative = false;
@@ -127,13 +125,13 @@ std::string monomial_text(const certify::Monomial& monomial, const certify::Syst
     coefficient.erase(0, 1);
   }
   std::string factors;
-  for (const certify::Factor& factor : monomial.factors) {
+  for (const Factor& factor : monomial.factors) {
     const std::string& name = system.variables[static_cast<std::size_t>(factor.variable)].name;
     if (!factors.empty()) factors += "*";
     switch (factor.function) {
-      case certify::Function::identity: factors += name; break;
-      case certify::Function::sine: factors += "sin(" + name + ")"; break;
-      case certify::Function::cosine: factors += "cos(" + name + ")"; break;
+      case Function::identity: factors += name; break;
+      case Function::sine: factors += "sin(" + name + ")"; break;
+      case Function::cosine: factors += "cos(" + name + ")"; break;
     }
     if (factor.power > 1) factors += "^" + std::to_string(factor.power);
   }
@@ -149,9 +147,9 @@ std::string monomial_text(const certify::Monomial& monomial, const certify::Syst
   return (negative ? " - " : " + ") + body;
 }
 
-std::string polynomial_text(const certify::Polynomial& polynomial, const certify::System& system) {
+std::string polynomial_text(const Polynomial& polynomial, const System& system) {
   std::string out;
-  for (const certify::Monomial& monomial : polynomial.monomials) out += monomial_text(monomial, system, out.empty());
+  for (const Monomial& monomial : polynomial.monomials) out += monomial_text(monomial, system, out.empty());
   return out.empty() ? "0" : out;
 }
 
@@ -162,9 +160,9 @@ std::string one_line(std::string text) {
   return text;
 }
 
-void print_cuik_polynomials(std::ostream& out, const std::vector<certify::Polynomial>& polynomials, const char* relation,
-                            const certify::System& system) {
-  for (const certify::Polynomial& polynomial : polynomials) {
+void print_cuik_polynomials(std::ostream& out, const std::vector<Polynomial>& polynomials, const char* relation,
+                            const System& system) {
+  for (const Polynomial& polynomial : polynomials) {
     if (!polynomial.source.empty()) out << "% " << one_line(polynomial.source) << "\n";
     out << polynomial_text(polynomial, system) << relation << ";\n";
   }
@@ -213,22 +211,22 @@ std::string to_latex(const Derivation& derivation, const TrigonometricSystem& sy
   return out.str();
 }
 
-std::string to_cuik(const certify::System& system) {
+std::string to_cuik(const System& system) {
   std::ostringstream out;
   out << "% " << one_line(system.name) << ": polynomial equations\n";
-  for (const certify::Angle& angle : system.angles) {
+  for (const Angle& angle : system.angles) {
     out << "% " << system.variables[static_cast<std::size_t>(angle.cosine)].name << " = cos(" << angle.name << "), "
         << system.variables[static_cast<std::size_t>(angle.sine)].name << " = sin(" << angle.name << "), " << angle.name
         << " in [" << angle.range.lo() << ", " << angle.range.hi() << "] rad\n";
   }
   out << "\n[SYSTEM VARS]\n";
   std::size_t width = 0;
-  for (const certify::Variable& variable : system.variables) width = std::max(width, variable.name.size());
+  for (const Variable& variable : system.variables) width = std::max(width, variable.name.size());
   for (std::size_t i = 0; i < system.variables.size(); ++i) {
-    const certify::Variable& variable = system.variables[i];
+    const Variable& variable = system.variables[i];
     const bool first = i == 0 || system.variables[i - 1].kind != variable.kind;
-    if (first && variable.kind == certify::VariableKind::kernel) out << "% the kernel vector\n";
-    if (first && variable.kind == certify::VariableKind::auxiliary) out << "\n[DUMMY VARS]\n";
+    if (first && variable.kind == VariableKind::kernel) out << "% the kernel vector\n";
+    if (first && variable.kind == VariableKind::auxiliary) out << "\n[DUMMY VARS]\n";
     out << padded(variable.name, width) << " : [" << constant_text(variable.lower) << ", " << constant_text(variable.upper)
         << "]\n";
   }

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::symbolic {
@@ -14,6 +14,6 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
 std::string to_latex(const Derivation& derivation, const TrigonometricSystem& system);
 /// A compiled system as a .cuik file of polynomial equations that read_model accepts; every coefficient is exact (a finite
 /// decimal, or a quotient or an expression where there is none).
-std::string to_cuik(const certify::System& system);
+std::string to_cuik(const System& system);
 
 }  // namespace corank::symbolic

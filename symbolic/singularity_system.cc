@@ -4,7 +4,7 @@
 #include <array>
 #include <filesystem>
 
-#include "corank/certify/exact_number.h"
+#include "corank/core/exact_number.h"
 #include "corank/symbolic/found_ranges.h"
 #include "corank/symbolic/ginac_bridge.h"
 #include "corank/symbolic/ginac_lock.h"
@@ -150,7 +150,7 @@ Expression times(const Expression& entry, const Expression& unknown) {
 Expression positive_number(const std::string& text, const std::string& unknown) {
   bool positive = false;
   try {
-    positive = certify::ExactNumber::rational(text).sign() == 1;
+    positive = ExactNumber::rational(text).sign() == 1;
   } catch (const std::exception&) {  // no number
   }
   if (!positive) throw ModelError({"scale of " + unknown, 0, 0}, "'" + text + "' is no scale", "a positive rational number");

@@ -6,17 +6,17 @@
 #include <utility>
 #include <vector>
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 
 namespace corank::test {
 
 class SystemBuilder {
  public:
-  using Term = std::pair<std::string, std::vector<certify::Factor>>;
+  using Term = std::pair<std::string, std::vector<Factor>>;
 
   int variable(const std::string& name, const std::string& lower, const std::string& upper,
-               certify::VariableKind kind = certify::VariableKind::length) {
-    system_.variables.emplace_back(name, kind, certify::ExactNumber::rational(lower), certify::ExactNumber::rational(upper));
+               VariableKind kind = VariableKind::length) {
+    system_.variables.emplace_back(name, kind, ExactNumber::rational(lower), ExactNumber::rational(upper));
     system_.configuration_size = system_.size();
     return system_.size() - 1;
   }
@@ -28,19 +28,19 @@ class SystemBuilder {
     system_.inequalities.push_back(polynomial(terms));
     return *this;
   }
-  const certify::System& system() const { return system_; }
+  const System& system() const { return system_; }
 
-  static certify::Polynomial polynomial(const std::vector<Term>& terms) {
-    certify::Polynomial p;
+  static Polynomial polynomial(const std::vector<Term>& terms) {
+    Polynomial p;
     for (auto [coefficient, factors] : terms) {
       std::sort(factors.begin(), factors.end(), [](auto& a, auto& b) { return a.variable < b.variable; });
-      p.monomials.emplace_back(certify::ExactNumber::rational(coefficient), factors);
+      p.monomials.emplace_back(ExactNumber::rational(coefficient), factors);
     }
     return p;
   }
 
  private:
-  certify::System system_;
+  System system_;
 };
 
 }  // namespace corank::test

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corank/report/page_data.h"
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 #include "corank/tests/app/program.h"
 #include "corank/tests/report/page_text.h"
 
@@ -23,7 +23,7 @@ void expect_page_of_results(const std::string& page, const std::string& folder) 
   const json model = json::parse(script_text(page, "model"));
   ASSERT_EQ(model["sets"].size(), kSets.size());
   for (std::size_t i = 0; i < kSets.size(); ++i) {
-    const report::Result result = report::read_result(folder + "/" + kSets[i] + ".h5");
+    const result::Result result = result::read_result(folder + "/" + kSets[i] + ".h5");
     EXPECT_EQ(model["sets"][i]["name"], kSets[i]);
     EXPECT_EQ(model["sets"][i]["count"], result.cover.boxes.size());
     EXPECT_EQ(script_text(page, "boxes-" + kSets[i]), report::box_payload(result));
@@ -92,7 +92,7 @@ TEST(Report, TakesConstantsAndSigmas) {
   const Outcome outcome = run_corank({"report", model("three_slider"), "--sets", "cspace,forward", "--cspace-sigma", "0.1",
                                       "-D", "L2=1", "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(report::read_result(folder.file("r/cspace.h5")).cover.sigma, (certify::Sigma{0.1, 0.1}));
+  EXPECT_EQ(result::read_result(folder.file("r/cspace.h5")).cover.sigma, (Sigma{0.1, 0.1}));
   EXPECT_FALSE(std::filesystem::exists(folder.file("r/inverse.h5")));
   EXPECT_NE(read_text(folder.file("r/index.html")).find("L2 = 1"), std::string::npos);
 }
@@ -113,7 +113,7 @@ TEST(Report, HasOneProgressLineOverAllSetsAndEndsWithWhatItHasAfterAnInterrupt) 
   const Outcome outcome = program.finish();
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.err, HasSubstr("corank: cspace: stopped by an interrupt, in the stage "));
-  EXPECT_FALSE(report::read_result(folder.file("r/inverse.h5")).cover.complete());
+  EXPECT_FALSE(result::read_result(folder.file("r/inverse.h5")).cover.complete());
   EXPECT_NE(read_text(folder.file("r/index.html")).find("A search ended before its end"), std::string::npos);
 }
 

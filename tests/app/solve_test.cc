@@ -5,7 +5,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {
@@ -74,17 +74,17 @@ TEST(Solve, WritesAResultThatSaysHowItWasMade) {
                   "--threads",   "2",    "--max-boxes", "1000000", "--max-solutions", "20000", "--time-limit", "1e6",
                   "--tolerance", "1e-9", "-o",          path});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const report::Result result = report::read_result(path);
+  const result::Result result = result::read_result(path);
   EXPECT_EQ(result.model, "three_slider");
   EXPECT_EQ(result.set, "cspace");
   EXPECT_EQ(result.model_text, read_text(slider));
-  EXPECT_EQ(result.options, (report::RunOptions{"", {0.25, 0.25}, {}, 1e-9, 2, 1000000, 20000, 1e6, {{"L2", "1/2"}}}));
-  EXPECT_EQ(result.version, report::version());
+  EXPECT_EQ(result.options, (result::RunOptions{"", {0.25, 0.25}, {}, 1e-9, 2, 1000000, 20000, 1e6, {{"L2", "1/2"}}}));
+  EXPECT_EQ(result.version, result::version());
   EXPECT_EQ(result.cover.dimension, 1);
   EXPECT_TRUE(result.cover.complete());
   EXPECT_GT(result.cover.boxes.size(), 4u);
   std::vector<std::string> names;
-  for (const report::ResultVariable& v : result.variables) names.push_back(v.name);
+  for (const result::ResultVariable& v : result.variables) names.push_back(v.name);
   EXPECT_THAT(names, ElementsAre("y_A", "y_B", "x_C"));
   EXPECT_THAT(result.system_text, HasSubstr("x_C"));
 }
@@ -129,10 +129,10 @@ TEST(Solve, ShowsNoVariablesButTheModelsOwnInItsTable) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("3 variables, 3 equations"));
   EXPECT_THAT(outcome.out, testing::ContainsRegex("\n  point  E +verdict\n"));
-  const report::Result result = report::read_result(folder.file("r.h5"));
-  std::vector<certify::VariableKind> kinds;
-  for (const report::ResultVariable& v : result.variables) kinds.push_back(v.kind);
-  using enum certify::VariableKind;
+  const result::Result result = result::read_result(folder.file("r.h5"));
+  std::vector<VariableKind> kinds;
+  for (const result::ResultVariable& v : result.variables) kinds.push_back(v.kind);
+  using enum VariableKind;
   EXPECT_THAT(kinds, ElementsAre(length, auxiliary, auxiliary));
   EXPECT_THAT(result.system_text, HasSubstr("s_u_E - sin(u_E) = 0;"));
 }
@@ -148,7 +148,7 @@ TEST(Solve, EndsAtABoxLimitWithAnIncompleteResult) {
   EXPECT_GT(summary["boxes"]["pending"], 0);
   EXPECT_LE(summary["boxes"]["processed"], 60);
   EXPECT_TRUE(summary["points"].is_null());
-  EXPECT_FALSE(report::read_result(path).cover.complete());
+  EXPECT_FALSE(result::read_result(path).cover.complete());
   EXPECT_THAT(outcome.err, HasSubstr("incomplete"));
 }
 
@@ -194,10 +194,10 @@ TEST(Solve, TakesTheDecimalsOfAnOverDeterminedSystemWithinTheToleranceAskedFor) 
   const Outcome wide = run_corank({"solve", file, "--tolerance", "1e-4", "-o", path});
   EXPECT_EQ(wide.status, 0) << wide.err;
   EXPECT_THAT(wide.out, HasSubstr("within a relative tolerance of 0.0001"));
-  const report::Result result = report::read_result(path);
+  const result::Result result = result::read_result(path);
   EXPECT_EQ(result.options.tolerance, 1e-4);
-  EXPECT_EQ(result.cover.tolerance, 1e-4 * certify::kPartialTolerance);
-  EXPECT_EQ(result.cover.count(certify::Verdict::partial), 1u);
+  EXPECT_EQ(result.cover.tolerance, 1e-4 * kPartialTolerance);
+  EXPECT_EQ(result.cover.count(Verdict::partial), 1u);
 }
 
 TEST(Solve, TakesTheLengthsOfAMechanismWithinTheToleranceAskedFor) {
@@ -243,9 +243,9 @@ TEST(Interrupt, EndsTheSearchWithAReadableIncompleteResult) {
     EXPECT_THAT(outcome.err, HasSubstr("corank: stopped by an interrupt, in the stage search; the result is incomplete"));
     const json summary = json::parse(outcome.out);
     EXPECT_EQ(summary["complete"], false);
-    const report::Result result = report::read_result(folder.file("r.h5"));
+    const result::Result result = result::read_result(folder.file("r.h5"));
     EXPECT_FALSE(result.cover.complete());
-    EXPECT_EQ(summary["boxes"]["pending"], result.cover.count(certify::Verdict::pending));
+    EXPECT_EQ(summary["boxes"]["pending"], result.cover.count(Verdict::pending));
     EXPECT_EQ(summary["boxes"]["processed"], result.cover.statistics.processed);
   }
 }

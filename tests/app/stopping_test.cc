@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corank/app/figures.h"
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
@@ -42,7 +42,7 @@ TEST(Limits, AreNamedByTheTableTheSummaryTheFileAndTheMessage) {
     EXPECT_EQ(table.status, 3);
     EXPECT_EQ(table.err, "corank: stopped by " + limited.stopped + "; the result is incomplete\n");
     EXPECT_THAT(table.out, HasSubstr("\nstopped by " + limited.stopped + "\n"));
-    const report::Result result = report::read_result(file);
+    const result::Result result = result::read_result(file);
     EXPECT_EQ(result.stopped, limited.stopped);
     EXPECT_FALSE(result.cover.complete());
     args.push_back("--json");
@@ -80,11 +80,10 @@ TEST(Limits, OfAReportAreInItsHelp) {
 TEST(Figures, AreLeftOutAfterAnInterrupt) {
   const TemporaryFolder folder;
   const symbolic::Mechanism mechanism = symbolic::read_model(model("three_slider"));
-  report::Result result;
+  result::Result result;
   result.set = "cspace";
-  report::describe_system(algebrize(singularity_system(mechanism, symbolic::SingularitySet::cspace)), result);
-  result.cover.boxes.push_back(
-      {certify::Box(result.variables.size(), certify::Interval(0, 1)), certify::Verdict::pending, {}});
+  result::describe_system(algebrize(singularity_system(mechanism, symbolic::SingularitySet::cspace)), result);
+  result.cover.boxes.push_back({Box(result.variables.size(), Interval(0, 1)), Verdict::pending, {}});
   std::atomic<bool> stop{false};
   const Figures all = write_figures(folder.file(""), mechanism, {result}, stop);
   EXPECT_FALSE(all.stopped);

@@ -10,18 +10,15 @@
 
 #include "corank/report/components.h"
 #include "corank/report/page_data.h"
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 #include "corank/tests/app/program.h"
 #include "corank/tests/report/page_text.h"
 
 namespace corank::app {
 namespace {
-
-using certify::Interval;
-using certify::Verdict;
 using nlohmann::json;
-using report::Result;
 using report::script_text;
+using result::Result;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -122,7 +119,7 @@ class DextarFamily : public testing::Test {
   static std::string file(int member, const std::string& set) {
     return "member-" + std::to_string(member + 1) + "-" + set + ".h5";
   }
-  static Result result(int member, const std::string& set) { return report::read_result(path(file(member, set))); }
+  static Result result(int member, const std::string& set) { return result::read_result(path(file(member, set))); }
   static double l2(int member) { return 1.6 - 0.35 * member; }
   static double hole(int member) { return l2(member) - kLink; }
 
@@ -134,7 +131,7 @@ Outcome* DextarFamily::outcome_ = nullptr;
 const std::array<std::string, 3> DextarFamily::kSets{"cspace", "forward", "inverse"};
 
 /// The distances from (x, 0) that the points of a box of J3 have.
-std::pair<double, double> distances(const certify::Box& box, double x) {
+std::pair<double, double> distances(const Box& box, double x) {
   const auto near = [](const Interval& side, double at) { return std::max({side.lo() - at, at - side.hi(), 0.0}); };
   const auto far = [](const Interval& side, double at) { return std::max(at - side.lo(), side.hi() - at); };
   return {std::hypot(near(box[0], x), near(box[1], 0)), std::hypot(far(box[0], x), far(box[1], 0))};
@@ -148,9 +145,9 @@ TEST_F(DextarFamily, IsSolvedWhole) {
       const Result r = result(m, set);
       EXPECT_TRUE(r.cover.complete());
       const double sigma = set == "cspace" ? 0.2 : 0.05;
-      EXPECT_EQ(r.cover.sigma, (certify::Sigma{sigma, sigma}));
+      EXPECT_EQ(r.cover.sigma, (Sigma{sigma, sigma}));
       ASSERT_EQ(r.options.constants.size(), 1u);
-      EXPECT_EQ(r.options.constants[0], (report::ConstantOverride{"l2", std::array{"1.6", "1.25", "0.9"}[m]}));
+      EXPECT_EQ(r.options.constants[0], (result::ConstantOverride{"l2", std::array{"1.6", "1.25", "0.9"}[m]}));
       EXPECT_EQ(r.variables[0].name, "J3x");
       EXPECT_EQ(r.variables[1].name, "J3y");
     }
@@ -195,7 +192,7 @@ TEST_F(DextarFamily, HasTheCountsOfItsResultsInTheTable) {
       const Result own = result(rows, set);
       expected.push_back(static_cast<std::size_t>(report::components(own).count));
       expected.push_back(own.cover.boxes.size());
-      for (int v = 0; v < certify::kVerdicts; ++v) {
+      for (int v = 0; v < kVerdicts; ++v) {
         const auto verdict = static_cast<Verdict>(v);
         bool occurs = false;
         for (int m = 0; m < kMembers; ++m) occurs = occurs || result(m, set).cover.count(verdict) > 0;
@@ -210,7 +207,7 @@ TEST_F(DextarFamily, HasTheCountsOfItsResultsInTheTable) {
 TEST_F(DextarFamily, LeavesTheDiscAboutJ1EmptyThatTheLinksDoNotReach) {
   for (int m = 0; m < kMembers; ++m) {
     for (const std::string& set : kSets) {
-      for (const certify::CoverBox& b : result(m, set).cover.boxes)
+      for (const CoverBox& b : result(m, set).cover.boxes)
         EXPECT_GE(distances(b.box, kBase).second, hole(m) - kTiny) << set << " of member " << m;
     }
   }
@@ -218,7 +215,7 @@ TEST_F(DextarFamily, LeavesTheDiscAboutJ1EmptyThatTheLinksDoNotReach) {
 
 TEST_F(DextarFamily, HasTheInverseLocusOnItsCirclesAndNowhereElse) {
   for (int m = 0; m < kMembers; ++m) {
-    for (const certify::CoverBox& b : result(m, "inverse").cover.boxes) {
+    for (const CoverBox& b : result(m, "inverse").cover.boxes) {
       if (b.verdict != Verdict::regular) continue;
       const auto holds = [&](double centre, double radius) {
         const auto [near, far] = distances(b.box, centre);
@@ -291,7 +288,7 @@ TEST(Sweep, LeavesWhatIsDoneWhenInterrupted) {
   EXPECT_NE(read_text(folder.file("f/index.html"))
                 .find("The sweep ended early: " + std::to_string(done) + " of 200 mechanisms are here."),
             std::string::npos);
-  EXPECT_TRUE(report::read_result(folder.file("f/member-001-inverse.h5")).cover.complete());
+  EXPECT_TRUE(result::read_result(folder.file("f/member-001-inverse.h5")).cover.complete());
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "corank/report/result.h"
+#include "corank/result/result.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {
@@ -45,7 +45,7 @@ TEST(Help, OfSolveNamesEveryOption) {
 TEST(Version, IsPrintedToStandardOutput) {
   const Outcome outcome = run_corank({"--version"});
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_EQ(outcome.out, "corank " + report::version() + "\n");
+  EXPECT_EQ(outcome.out, "corank " + result::version() + "\n");
 }
 
 struct Case {

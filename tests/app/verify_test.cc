@@ -5,7 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {
@@ -26,10 +26,10 @@ class Verify : public testing::Test {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
   std::string path() const { return folder_.file("r.h5"); }
-  void change(const std::function<void(report::Result&)>& how) {
-    report::Result result = report::read_result(path());
+  void change(const std::function<void(result::Result&)>& how) {
+    result::Result result = result::read_result(path());
     how(result);
-    report::write_result(path(), result);
+    result::write_result(path(), result);
   }
 
  private:
@@ -58,7 +58,7 @@ TEST_F(Verify, PrintsJson) {
 }
 
 TEST_F(Verify, NamesTheBoxThatFails) {
-  change([](report::Result& r) { r.cover.boxes[2].box[3] = {0.25, 0.5}; });
+  change([](result::Result& r) { r.cover.boxes[2].box[3] = {0.25, 0.5}; });
   const Outcome outcome = run_corank({"verify", path()});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.out, HasSubstr("box 3: it is not inside the region of its proof\n"));
@@ -66,7 +66,7 @@ TEST_F(Verify, NamesTheBoxThatFails) {
 }
 
 TEST_F(Verify, NamesWhatIsNotTheModels) {
-  change([](report::Result& r) {
+  change([](result::Result& r) {
     r.variables[0].domain = {-3.0, 1.0};
     r.options.constants[0].expression = "0.74";
   });
@@ -77,7 +77,7 @@ TEST_F(Verify, NamesWhatIsNotTheModels) {
 }
 
 TEST_F(Verify, SaysWhereAModelHasNoSuchSet) {
-  change([](report::Result& r) { r.set = "system"; });
+  change([](result::Result& r) { r.set = "system"; });
   const Outcome outcome = run_corank({"verify", path()});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("the result's model has no set 'system'"));
@@ -102,7 +102,7 @@ TEST_F(Verify, ReplaysAProofWhereEveryVariableWasEliminated) {
 TEST_F(Verify, RejectsDecimalsOutsideTheirBox) {
   solve({"--digits", "20", "--proof"});
   ASSERT_EQ(run_corank({"verify", path()}).status, 0);
-  change([](report::Result& r) {
+  change([](result::Result& r) {
     for (char& c : r.cover.decimals[2][0])
       if (c >= '0' && c <= '9') c = static_cast<char>('9' - (c - '0'));
   });
@@ -157,7 +157,7 @@ TEST_F(Verify, EndsAtItsTimeLimitWithAStatement) {
 }
 
 TEST_F(Verify, PrintsNoControlCharactersOfAFile) {
-  change([](report::Result& r) {
+  change([](result::Result& r) {
     r.model =
         "a\x1b]0;owned\x07\xc2\x9b"
         "31m";
@@ -166,7 +166,7 @@ TEST_F(Verify, PrintsNoControlCharactersOfAFile) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.out, StartsWith("a\\x1b]0;owned\\x07\\u009b31m, forward: checked"));
   EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos);
-  change([](report::Result& r) { r.set = "\x1b[2J"; });
+  change([](result::Result& r) { r.set = "\x1b[2J"; });
   EXPECT_THAT(run_corank({"verify", path()}).err, HasSubstr("no set '\\x1b[2J'"));
 }
 

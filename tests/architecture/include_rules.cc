@@ -1,28 +1,45 @@
 #include "corank/tests/architecture/include_rules.h"
 
+#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 namespace corank::architecture {
 namespace {
 
-// A folder may include itself and these. There is no cycle: every folder names only folders above it.
-const std::map<std::string, std::set<std::string>> kArrows{
-    {"certify", {}},
-    {"certify/checker", {"certify"}},
-    {"symbolic", {"certify"}},
-    {"solve", {"certify"}},
-    {"report", {"certify", "certify/checker", "symbolic", "solve"}},
-    {"app", {"certify", "certify/checker", "symbolic", "solve", "report"}},
-    {"bench", {"certify", "symbolic", "solve", "report"}},
-};
+using Arrows = std::map<std::string, std::set<std::string>>;
 
-// What the checker may know of certify/: plain values, nothing that proves.
-const std::set<std::string> kPlainValues{"check.h",       "cover.h",    "reduction_step.h", "exact_number.h",
-                                         "exact_point.h", "interval.h", "proof.h",          "system.h"};
-constexpr const char* kChecker = "certify/checker";
+Arrows read_arrows() {
+  std::ifstream list(CORANK_SOURCE_DIR "/cmake/folders.txt");
+  Arrows arrows;
+  static const std::regex entry("^([a-z]+):(.*)$");
+  for (std::string line; std::getline(list, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, entry)) continue;
+    std::istringstream names(match[2].str());
+    std::set<std::string>& used = arrows[match[1]];
+    for (std::string name; names >> name;) {
+      // Those above it only: no cycle.
+      if (!arrows.contains(name))
+        throw std::runtime_error("cmake/folders.txt: " + match[1].str() + " names " + name + " before it stands there");
+      used.insert(name);
+    }
+  }
+  return arrows;
+}
+
+// A folder may include itself and these.
+const Arrows& arrows_of_house() {
+  static const Arrows arrows = read_arrows();
+  return arrows;
+}
+
+// Of core/, what the checker does in its own way.
+const std::set<std::string> kNotForTheChecker{"core/rounding.h", "core/box_tree.h"};
+constexpr const char* kChecker = "check";
 
 // Headers of a library, by the beginning of their names, and the only folders that may include them. A folder's tests may do
 // what the folder may.
@@ -36,22 +53,20 @@ const std::vector<LibraryRule>& library_rules() {
       {std::regex("^(ginac|cln)/"), {"symbolic"}, false},
       {std::regex("^(mpfr|mpfi|gmp|mpf2mpfr|mpfi_io)(xx)?\\.h|^boost/multiprecision/"
                   "(mpfr|mpfi|gmp|eigen)|^(arb|acb|arf|mag|arblib)"),
-       {"certify", kChecker},
+       {"core", "certify", kChecker},
        true},
       {std::regex("^flint/|^coin/"), {"solve"}, true},  // guesses, no proofs
-      {std::regex("^hdf5|^H5"), {"report"}, false},
+      {std::regex("^hdf5|^H5"), {"result"}, false},
       {std::regex("^(cairo|pugi|zlib)"), {"report"}, true},
       {std::regex("^CLI/"), {"app"}, false},
       {std::regex("^tao/"), {"symbolic"}, false},
-      {std::regex("^nlohmann/"), {"report", "bench"}, true},
+      {std::regex("^nlohmann/"), {"result", "report", "bench"}, true},
       {std::regex("^kainjow/"), {"report"}, false},
   };
   return rules;
 }
 
-std::string first_folder(const std::string& path) {
-  return path.starts_with("certify/checker/") ? kChecker : path.substr(0, path.find('/'));
-}
+std::string first_folder(const std::string& path) { return path.substr(0, path.find('/')); }
 
 template <typename Visit>
 void for_each_line(const std::string& text, const Visit& visit) {
@@ -84,12 +99,12 @@ class Findings {
 
 // target_link_libraries follows the same arrows as the includes.
 void check_links(const std::string& folder, const std::string& text, Findings& findings) {
-  const auto arrows = kArrows.find(folder);
-  if (arrows == kArrows.end()) return;
+  const auto arrows = arrows_of_house().find(folder);
+  if (arrows == arrows_of_house().end()) return;
   static const std::regex target("corank::([a-z]+)");
   for_each_line(text, [&](const std::string& line, int number) {
     for (std::sregex_iterator it(line.begin(), line.end(), target), end; it != end; ++it) {
-      const std::string linked = (*it)[1] == "checker" ? kChecker : (*it)[1].str();
+      const std::string linked = (*it)[1];
       if (!arrows->second.contains(linked)) findings.add(number, folder + " may not link corank::" + (*it)[1].str());
     }
   });
@@ -97,25 +112,47 @@ void check_links(const std::string& folder, const std::string& text, Findings& f
 
 }  // namespace
 
+std::vector<std::string> folders() {
+  std::vector<std::string> names;
+  for (const auto& [folder, used] : arrows_of_house()) names.push_back(folder);
+  return names;
+}
+
+std::set<std::pair<std::string, std::string>> arrows() {
+  std::set<std::pair<std::string, std::string>> all;
+  for (const auto& [folder, used] : arrows_of_house())
+    for (const std::string& target : used) all.emplace(folder, target);
+  return all;
+}
+
+std::set<std::string> included_folders(const std::string& text) {
+  std::set<std::string> included;
+  for_each_include(text, [&](const std::string& header, bool, int) {
+    if (header.starts_with("corank/")) included.insert(first_folder(header.substr(7)));
+  });
+  return included;
+}
+
 std::vector<std::string> violations(const std::string& path, const std::string& text) {
   Findings findings(path);
   std::string folder = first_folder(path);
   const bool is_test = folder == "tests";
+  if (!is_test && !arrows_of_house().contains(folder)) findings.add(1, folder + " is not in cmake/folders.txt");
   if (ends_with(path, "CMakeLists.txt")) {
     check_links(folder, text, findings);
     return findings.take();
   }
   const std::string tested = is_test ? first_folder(path.substr(path.find('/') + 1)) : "";
-  const auto arrows = kArrows.find(folder);
+  const auto arrows = arrows_of_house().find(folder);
   for_each_include(text, [&](const std::string& header, bool quoted, int line) {
     if (quoted && !header.starts_with("corank/")) {
       findings.add(line, "\"" + header + "\": headers of this repository are included as \"corank/<folder>/<file>.h\"");
     }
     if (header.starts_with("corank/")) {
       const std::string target = first_folder(header.substr(7));
-      if (arrows != kArrows.end() && target != folder && !arrows->second.contains(target)) {
+      if (arrows != arrows_of_house().end() && target != folder && !arrows->second.contains(target)) {
         findings.add(line, folder + " may not include " + target);
-      } else if (folder == kChecker && target == "certify" && !kPlainValues.contains(header.substr(15))) {
+      } else if (folder == kChecker && kNotForTheChecker.contains(header.substr(7))) {
         findings.add(line, folder + " may include plain values only, not " + header);
       }
       return;

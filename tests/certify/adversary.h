@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify::adversary {
 

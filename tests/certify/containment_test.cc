@@ -1,7 +1,7 @@
 // Interval operations and panels on hard inputs, against Arb: whatever numbers the operands hold, the result holds the number that comes
 // of them. RC_PARAMS=max_success=100000 ./certify_test --gtest_filter='*Contain*' looks further.
-#include "corank/certify/interval.h"
 #include "corank/certify/panel.h"
+#include "corank/core/interval.h"
 #include "corank/tests/certify/adversary.h"
 #include "corank/tests/system_builder.h"
 
@@ -47,7 +47,7 @@ RC_GTEST_PROP(IntervalContainment, OfSquareRootsAndRoots, ()) {
     RC_LOG() << "sqrt " << shown(x) << " = " << shown(kept) << " at " << a << '\n';
     RC_ASSERT(kept && Ball::unary(arb_sqrt, a).in(*kept));
   }
-  const auto kept = upward([&] { return certify::root(x, p, within); });
+  const auto kept = upward([&] { return corank::root(x, p, within); });
   RC_LOG() << "root " << p << " of " << shown(x) << " within " << shown(within) << " = " << shown(kept) << " at " << a
            << '\n';
   RC_ASSERT(!kept || within.contains(*kept));

@@ -1,5 +1,5 @@
 // Oracles: GMP rationals for rational numbers, MPFI at 700 bits for the others.
-#include "corank/certify/exact_number.h"
+#include "corank/core/exact_number.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -8,7 +8,7 @@
 #include "corank/certify/exact_verification.h"
 #include "corank/certify/isolation.h"
 #include "corank/certify/refinement.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::certify {

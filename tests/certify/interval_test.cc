@@ -1,5 +1,5 @@
 // Containment of every interval operation, against MPFR at a precision where sums and products of doubles are exact.
-#include "corank/certify/interval.h"
+#include "corank/core/interval.h"
 
 #include <gtest/gtest.h>
 #include <mpfr.h>
@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "corank/certify/distinct.h"
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::certify {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::certify {

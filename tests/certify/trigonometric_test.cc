@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {

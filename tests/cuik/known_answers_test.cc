@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "corank/report/cuik_param.h"
-#include "corank/report/result_file.h"
+#include "corank/result/cuik_param.h"
+#include "corank/result/result_file.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_error.h"
@@ -21,11 +21,6 @@ namespace corank::cuik {
 namespace {
 
 namespace fs = std::filesystem;
-using certify::Cover;
-using certify::CoverBox;
-using certify::Interval;
-using certify::System;
-using certify::Verdict;
 using ::testing::HasSubstr;
 
 const std::vector<std::string> kPoints{"Welding0D", "Serial6RRX60"};
@@ -44,7 +39,7 @@ Problem read_problem(const fs::path& model) {
   System system = symbolic::algebrize(symbolic::plain_system(mechanism));
   system.coefficient_tolerance = solve::printed_tolerance(system);
   solve::Options options;
-  options.set_sigma(report::sigma_for(report::read_param(fs::path(model).replace_extension(".param")), system));
+  options.set_sigma(result::sigma_for(result::read_param(fs::path(model).replace_extension(".param")), system));
   options.threads = 0;
   return {std::move(mechanism), std::move(system), std::move(options)};
 }
@@ -189,9 +184,9 @@ TEST(KnownAnswers, TheProgramWritesAnIncompleteResultOfALargeProblem) {
   const Outcome run = folder.run("corank solve a.cuik --param a.param --time-limit 0.5 -o a.h5");
   EXPECT_EQ(run.status, 3) << run.err;
   EXPECT_THAT(run.out, HasSubstr("INCOMPLETE"));
-  const report::Result result = report::read_result(folder.file("a.h5"));
+  const result::Result result = result::read_result(folder.file("a.h5"));
   expect_valid_incomplete(p.system, result.cover);
-  EXPECT_EQ(result.options.sigma, (certify::Sigma{0.1, 0.1}));
+  EXPECT_EQ(result.options.sigma, (Sigma{0.1, 0.1}));
   EXPECT_EQ(result.options.time_limit, 0.5);
 }
 
@@ -224,7 +219,7 @@ TEST_P(Dextar, HasTheSameConfigurationsInTheTutorialsFilesAndFromItsModel) {
   const System derived = symbolic::algebrize(symbolic::singularity_system(model, set));
   const Cover theirs = solve::solve(printed.system, printed.options), ours = solve::solve(derived, printed.options);
   EXPECT_TRUE(theirs.complete() && ours.complete());
-  EXPECT_EQ(theirs.sigma, (certify::Sigma{0.1, 0.1}));
+  EXPECT_EQ(theirs.sigma, (Sigma{0.1, 0.1}));
   EXPECT_EQ(theirs.sigma, ours.sigma);
 
   // ct2 is the model's c_theta2; DextarConfiguration has the model's order.

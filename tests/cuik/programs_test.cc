@@ -2,13 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "corank/report/cuik_sol.h"
+#include "corank/result/cuik_sol.h"
 #include "corank/tests/cuik/shell.h"
 
 namespace corank::cuik {
 namespace {
 
-using report::SolFile;
+using result::SolFile;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -21,8 +21,8 @@ constexpr double kPi = 3.14159265358979323846;
 
 double widest(const SolFile& file) {
   double width = 0;
-  for (const report::SolBox& box : file.boxes) {
-    for (const certify::Interval& x : box.box) width = std::max(width, x.hi() - x.lo());
+  for (const result::SolBox& box : file.boxes) {
+    for (const Interval& x : box.box) width = std::max(width, x.hi() - x.lo());
   }
   return width;
 }
@@ -35,13 +35,13 @@ TEST(Cuik, SolvesWithTheParameterFileBesideTheModel) {
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("circle.param: without effect here: RHO\n"));
   EXPECT_THAT(run.out, HasSubstr("sigma 0.05"));
-  const SolFile file = report::read_sol(folder.file("circle.sol"));
+  const SolFile file = result::read_sol(folder.file("circle.sol"));
   EXPECT_THAT(file.variables, ElementsAre("c", "s"));  // no dummy variables, as in the suite
   EXPECT_GT(file.boxes.size(), 100u);
   EXPECT_LE(widest(file), 0.051);
   for (int degree = 0; degree < 360; ++degree) {
     const double t = degree * kPi / 180;
-    EXPECT_TRUE(std::any_of(file.boxes.begin(), file.boxes.end(), [&](const report::SolBox& b) {
+    EXPECT_TRUE(std::any_of(file.boxes.begin(), file.boxes.end(), [&](const result::SolBox& b) {
       return b.box[0].contains(std::cos(t)) && b.box[1].contains(std::sin(t));
     })) << degree;
   }
@@ -51,11 +51,11 @@ TEST(Cuik, LeavesItsOwnVariablesForSinesOfLengthsOut) {
   const Folder folder;
   folder.write("wave.cuik", "[SYSTEM VARS]\ny : [1, 2]\nt : [0, 9]\n[SYSTEM EQS]\ny*sin(t) = 1;\n");
   ASSERT_EQ(folder.run("cuik wave").status, 0);
-  const SolFile file = report::read_sol(folder.file("wave.sol"));
+  const SolFile file = result::read_sol(folder.file("wave.sol"));
   EXPECT_THAT(file.variables, ElementsAre("y", "t"));
   for (int k = 0; k <= 50; ++k) {
     const double t = 7 + k / 50.0, y = 1 / std::sin(t);
-    EXPECT_TRUE(std::any_of(file.boxes.begin(), file.boxes.end(), [&](const report::SolBox& b) {
+    EXPECT_TRUE(std::any_of(file.boxes.begin(), file.boxes.end(), [&](const result::SolBox& b) {
       return b.box[0].lo() <= y + 1e-12 && y - 1e-12 <= b.box[0].hi() && b.box[1].contains(t);
     })) << t;
   }
@@ -65,7 +65,7 @@ TEST(Cuik, TakesNamesWithExtensionAndInFoldersAndRunsWithoutParameters) {
   const Folder folder;
   folder.write("circle.cuik", kCircle);
   EXPECT_EQ(folder.run("mkdir sub && mv circle.cuik sub && cuik sub/circle.cuik").status, 0);
-  EXPECT_GT(report::read_sol(folder.file("sub/circle.sol")).boxes.size(), 50u);
+  EXPECT_GT(result::read_sol(folder.file("sub/circle.sol")).boxes.size(), 50u);
 }
 
 TEST(Cuik, HasTheExitStatusesOfCorankSolve) {
@@ -104,9 +104,9 @@ TEST(Cuik, EndsAfterAsManySolutionsAsTheParametersAskFor) {
   EXPECT_EQ(run.err, "corank: stopped by the solution limit, in the stage search; the result is incomplete\n");
   EXPECT_THAT(folder.read("circle.sol"), HasSubstr("   SIGMA = 0.01\n   N_SOLUTIONS = 30\n"));
   const auto regular = [&] {
-    const SolFile file = report::read_sol(folder.file("circle.sol"));
+    const SolFile file = result::read_sol(folder.file("circle.sol"));
     return std::count_if(file.boxes.begin(), file.boxes.end(),
-                         [](const report::SolBox& b) { return b.verdict == certify::Verdict::regular; });
+                         [](const result::SolBox& b) { return b.verdict == Verdict::regular; });
   };
   EXPECT_GE(regular(), 30);
   EXPECT_LE(regular(), 50);
@@ -162,15 +162,15 @@ TEST(Cuikatan2, EnclosesAnglesAcrossMinusPi) {
   const Folder folder;
   folder.write("a.sol", "{ 3  s[-0.1,0.1] x[5,6] c[-1,-0.9] } % regular, free s\n");
   EXPECT_EQ(folder.run("cuikatan2 a 1 3 b").status, 0);
-  const SolFile file = report::read_sol(folder.file("b.sol"));
+  const SolFile file = result::read_sol(folder.file("b.sol"));
   EXPECT_THAT(file.variables, ElementsAre("x", "atan2_s_c"));
-  const certify::Interval angle = file.boxes.at(0).box.at(1);
+  const Interval angle = file.boxes.at(0).box.at(1);
   const double half = std::atan(0.1 / 0.9);
   EXPECT_NEAR(angle.lo(), kPi - half, 1e-12);
   EXPECT_NEAR(angle.hi(), kPi + half, 1e-12);
   EXPECT_LE(angle.lo(), 3.0309 + 1e-4);
   EXPECT_GE(angle.hi(), 3.2523 - 1e-4);
-  EXPECT_EQ(file.boxes[0].box[0], certify::Interval(5, 6));
+  EXPECT_EQ(file.boxes[0].box[0], Interval(5, 6));
   EXPECT_FALSE(file.boxes[0].verdict.has_value());  // regular speaks of the sines and cosines
 }
 
@@ -178,11 +178,11 @@ TEST(Cuikatan2, EnclosesAtAnyWidth) {
   const Folder folder;
   folder.write("a.sol", "{ 4  [-1,1] [-1,1] [0.5,1] [-0.8,0.8] }\n");
   EXPECT_EQ(folder.run("cuikatan2 a 1 2 3 4 b").status, 0);
-  const SolFile file = report::read_sol(folder.file("b.sol"));
-  const certify::Box box = file.boxes.at(0).box;
+  const SolFile file = result::read_sol(folder.file("b.sol"));
+  const Box box = file.boxes.at(0).box;
   ASSERT_EQ(box.size(), 2u);
-  EXPECT_TRUE(box[0].contains(certify::Interval(-3.1415926535, 3.1415926535)));
-  EXPECT_TRUE(box[1].contains(certify::Interval(std::atan2(0.5, 0.8), std::atan2(0.5, -0.8))));
+  EXPECT_TRUE(box[0].contains(Interval(-3.1415926535, 3.1415926535)));
+  EXPECT_TRUE(box[1].contains(Interval(std::atan2(0.5, 0.8), std::atan2(0.5, -0.8))));
 }
 
 TEST(Cuikatan2, RefusesPairsThatMakeNoSense) {

@@ -6,8 +6,8 @@
 
 #include <array>
 
-#include "corank/report/cuik_param.h"
-#include "corank/report/cuik_sol.h"
+#include "corank/result/cuik_param.h"
+#include "corank/result/cuik_sol.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
@@ -17,8 +17,7 @@ namespace corank::cuik {
 namespace {
 
 namespace fs = std::filesystem;
-using certify::Interval;
-using report::SolFile;
+using result::SolFile;
 
 std::vector<fs::path> files_with(const std::string& extension) {
   std::vector<fs::path> files;
@@ -34,7 +33,7 @@ TEST(SuiteFiles, EveryParameterFileIsRead) {
   const std::vector<fs::path> files = files_with(".param");
   EXPECT_GE(files.size(), 14u);
   std::size_t with_sigma = 0;  // those of planners have none
-  for (const fs::path& path : files) EXPECT_NO_THROW(with_sigma += report::read_param(path).sigma.has_value()) << path;
+  for (const fs::path& path : files) EXPECT_NO_THROW(with_sigma += result::read_param(path).sigma.has_value()) << path;
   EXPECT_GE(with_sigma, 14u);
 }
 
@@ -44,7 +43,7 @@ TEST(SuiteFiles, EveryParameterThatASolutionFileNamesIsKnown) {
     const std::string text = read_text(path);
     const std::size_t begin = text.find("% PARAMETERS:");
     if (begin == std::string::npos) continue;  // written by cuikatan2
-    EXPECT_NO_THROW(report::parse_param(text.substr(begin, text.find("\n\n", begin) - begin), path.string()));
+    EXPECT_NO_THROW(result::parse_param(text.substr(begin, text.find("\n\n", begin) - begin), path.string()));
   }
 }
 
@@ -64,7 +63,7 @@ TEST(SuiteFiles, EverySolutionFileIsReadWithAllItsBoxes) {
       {"3RPR_sing", 2881}, {"FourBars_extraeq", 522}, {"Serial6RRX60", 8}, {"Welding0D", 2}, {"Welding1D", 126},
       {"fwd", 340},        {"fwd_angles", 340},       {"inv", 660}};
   for (const auto& [name, count] : counts) {
-    const SolFile file = report::read_sol(suite_folder() / "solutions" / (name + ".sol"));
+    const SolFile file = result::read_sol(suite_folder() / "solutions" / (name + ".sol"));
     EXPECT_EQ(file.boxes.size(), count) << name;
     EXPECT_EQ(file.variables.empty(), name == "fwd_angles");
   }
@@ -81,12 +80,12 @@ TEST(SuiteFiles, AnglesEncloseTheSuitesOwn) {
   const Folder folder;
   fs::copy_file(suite_folder() / "solutions/fwd.sol", folder.file("fwd.sol"));
   ASSERT_EQ(folder.run("cuikatan2 fwd 4 3 10 9 fwd_angles").status, 0);
-  const SolFile ours = report::read_sol(folder.file("fwd_angles.sol"));
-  const SolFile theirs = report::read_sol(suite_folder() / "solutions/fwd_angles.sol");
+  const SolFile ours = result::read_sol(folder.file("fwd_angles.sol"));
+  const SolFile theirs = result::read_sol(suite_folder() / "solutions/fwd_angles.sol");
   ASSERT_EQ(ours.boxes.size(), theirs.boxes.size());
   int crossing = 0;
   for (std::size_t i = 0; i < ours.boxes.size(); ++i) {
-    const certify::Box &a = ours.boxes[i].box, &b = theirs.boxes[i].box;
+    const Box &a = ours.boxes[i].box, &b = theirs.boxes[i].box;
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t j = 0; j < a.size(); ++j) {
       if (j + 2 >= a.size() && a[j].hi() > 3.1415926) {
@@ -107,18 +106,18 @@ TEST(SuiteFiles, TheCurvesOfSimpleSingAreCovered) {
   SKIP_WITHOUT_SUITE_FILES();
   const fs::path model = suite_folder() / "problems/simple_sing.cuik";
   if (!fs::exists(model)) GTEST_SKIP() << model << " is not there";
-  const certify::System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
+  const System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
   solve::Options options;
-  options.set_sigma(report::read_param(fs::path(model).replace_extension(".param")).sigma);
-  const certify::Cover cover = solve::solve(system, options);
+  options.set_sigma(result::read_param(fs::path(model).replace_extension(".param")).sigma);
+  const Cover cover = solve::solve(system, options);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.dimension, 1);
-  EXPECT_GT(cover.count(certify::Verdict::regular), 5000u);
-  EXPECT_LT(cover.count(certify::Verdict::undecided), 100u) << "17 crossings";
+  EXPECT_GT(cover.count(Verdict::regular), 5000u);
+  EXPECT_LT(cover.count(Verdict::undecided), 100u) << "17 crossings";
   const std::array<int, 4> order{system.find("q1"), system.find("q2"), system.find("q3"), system.find("ts")};
   const auto expect_covered = [&](const std::array<double, 4>& point) {
     EXPECT_TRUE(std::any_of(cover.boxes.begin(), cover.boxes.end(),
-                            [&](const certify::CoverBox& b) {
+                            [&](const CoverBox& b) {
                               for (std::size_t j = 0; j < 4; ++j) {
                                 const Interval& side = b.box[static_cast<std::size_t>(order[j])];
                                 if (point[j] < side.lo() - 1e-11 || point[j] > side.hi() + 1e-11) return false;
@@ -149,13 +148,13 @@ class Coverage : public ::testing::TestWithParam<Problem> {};
 TEST_P(Coverage, NoBoxOfTheSuiteIsMissed) {
   SKIP_WITHOUT_SUITE_FILES();
   const auto& [folder, name] = GetParam();
-  const SolFile theirs = report::read_sol(suite_folder() / "solutions" / (name + ".sol"));
+  const SolFile theirs = result::read_sol(suite_folder() / "solutions" / (name + ".sol"));
   const fs::path model = suite_folder() / folder / (name + ".cuik");
-  const certify::System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
+  const System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
   solve::Options options;
-  options.set_sigma(report::read_param(fs::path(model).replace_extension(".param")).sigma);
+  options.set_sigma(result::read_param(fs::path(model).replace_extension(".param")).sigma);
   options.threads = 0;
-  const certify::Cover cover = solve::solve(system, options);
+  const Cover cover = solve::solve(system, options);
   EXPECT_TRUE(cover.complete());
   std::vector<std::pair<std::size_t, std::size_t>> common;
   for (std::size_t i = 0; i < theirs.variables.size(); ++i) {
@@ -165,7 +164,7 @@ TEST_P(Coverage, NoBoxOfTheSuiteIsMissed) {
   }
   int missed = 0;
   for (std::size_t k = 0; k < theirs.boxes.size(); ++k) {
-    const auto meets = [&](const certify::CoverBox& ours) {
+    const auto meets = [&](const CoverBox& ours) {
       return std::all_of(common.begin(), common.end(),
                          [&](const auto& pair) { return ours.box[pair.second].overlaps(theirs.boxes[k].box[pair.first]); });
     };

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "corank/report/cuik_param.h"
+#include "corank/result/cuik_param.h"
 
 namespace {
 
@@ -18,10 +18,10 @@ void require(bool condition, const char* what) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  corank::report::CuikParameters parameters;
+  corank::result::CuikParameters parameters;
   try {
-    parameters = corank::report::parse_param(text, "fuzzed.param");
-  } catch (const corank::report::CuikFileError& error) {
+    parameters = corank::result::parse_param(text, "fuzzed.param");
+  } catch (const corank::result::CuikFileError& error) {
     const std::string_view message = error.what();
     require(message.starts_with("fuzzed.param:") && error.line() >= 1, "an error without its place");
     require(message.find('\n') == std::string_view::npos, "a message of more than one line");

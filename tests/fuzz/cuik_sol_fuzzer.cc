@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "corank/report/cuik_sol.h"
+#include "corank/result/cuik_sol.h"
 
 namespace {
 
@@ -15,13 +15,13 @@ void require(bool condition, const char* what) {
   if (!condition) throw std::logic_error(what);
 }
 
-void check(const corank::report::SolFile& file) {
+void check(const corank::result::SolFile& file) {
   const std::set<std::string> names(file.variables.begin(), file.variables.end());
   require(names.size() == file.variables.size(), "a name stands twice");
-  for (const corank::report::SolBox& box : file.boxes) {
+  for (const corank::result::SolBox& box : file.boxes) {
     require(static_cast<int>(box.box.size()) == file.size() && file.size() > 0, "boxes of different size");
     require(file.variables.empty() || file.variables.size() == box.box.size(), "more or fewer names than sides");
-    for (const corank::certify::Interval& x : box.box) {
+    for (const corank::Interval& x : box.box) {
       require(std::isfinite(x.lo()) && std::isfinite(x.hi()) && x.lo() <= x.hi(), "no interval");
     }
     for (const std::string& name : box.free) require(names.contains(name), "a free variable of no name");
@@ -32,10 +32,10 @@ void check(const corank::report::SolFile& file) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  corank::report::SolFile file;
+  corank::result::SolFile file;
   try {
-    file = corank::report::parse_sol(text, "fuzzed.sol");
-  } catch (const corank::report::CuikFileError& error) {
+    file = corank::result::parse_sol(text, "fuzzed.sol");
+  } catch (const corank::result::CuikFileError& error) {
     const std::string_view message = error.what();
     require(message.starts_with("fuzzed.sol:") && error.line() >= 1, "an error without its place");
     require(message.find('\n') == std::string_view::npos, "a message of more than one line");

@@ -11,12 +11,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "corank/report/printable.h"
-#include "corank/report/result_file.h"
+#include "corank/result/printable.h"
+#include "corank/result/result_file.h"
 
 namespace {
 
-using corank::report::Result;
+using corank::result::Result;
 
 void require(bool condition, const char* what) {
   if (!condition) throw std::logic_error(what);
@@ -27,7 +27,7 @@ Result read_as_file(std::span<const std::uint8_t> bytes) {
   require(file >= 0 && write(file, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()), "no file to read");
   const std::string path = "/proc/self/fd/" + std::to_string(file);
   try {
-    Result result = corank::report::read_result(path);
+    Result result = corank::result::read_result(path);
     close(file);
     return result;
   } catch (...) {
@@ -36,7 +36,7 @@ Result read_as_file(std::span<const std::uint8_t> bytes) {
   }
 }
 
-void check_box(const Result& result, const corank::certify::CoverBox& box) {
+void check_box(const Result& result, const corank::CoverBox& box) {
   const auto below = [](int index, std::size_t size) { return index >= -1 && index < static_cast<std::int64_t>(size); };
   require(box.box.size() == result.variables.size(), "a box of another size");
   for (const auto& side : box.box) require(side.lo() <= side.hi(), "no interval");
@@ -49,7 +49,7 @@ void check(const Result& result) {
   const std::size_t n = result.variables.size();
   require(result.configuration_size >= 0 && static_cast<std::size_t>(result.configuration_size) <= n,
           "more coordinates than variables");
-  require(corank::report::printable_line(result.model) == result.model, "a name that is not printable");
+  require(corank::result::printable_line(result.model) == result.model, "a name that is not printable");
   for (const auto& angle : result.angles)
     require(angle.cosine >= 0 && angle.sine >= 0 && static_cast<std::size_t>(std::max(angle.cosine, angle.sine)) < n,
             "an angle of no variable");
@@ -69,9 +69,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::span bytes(data, size);
   const bool is_hdf5 = size > 4 && data[0] == 0x89 && data[1] == 'H' && data[2] == 'D' && data[3] == 'F';
   try {
-    check(is_hdf5 ? read_as_file(bytes) : corank::report::read_result("fuzzed.h5", std::as_bytes(bytes)));
-  } catch (const corank::report::ResultFileError& error) {
-    require(corank::report::printable_line(error.what()) == error.what(), "a message that is not printable");
+    check(is_hdf5 ? read_as_file(bytes) : corank::result::read_result("fuzzed.h5", std::as_bytes(bytes)));
+  } catch (const corank::result::ResultFileError& error) {
+    require(corank::result::printable_line(error.what()) == error.what(), "a message that is not printable");
   }
   return 0;
 }

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "corank/certify/cover.h"
+#include "corank/core/cover.h"
 
 namespace corank::test {
 
 /// Finds points by the first coordinates of boxes, the boxes sorted by their lower end along the first.
 class CoverLookup {
  public:
-  explicit CoverLookup(const certify::Cover& cover) {
+  explicit CoverLookup(const Cover& cover) {
     for (const auto& b : cover.boxes) boxes_.push_back(&b.box);
     std::sort(boxes_.begin(), boxes_.end(), [](auto* a, auto* b) { return (*a)[0].lo() < (*b)[0].lo(); });
     for (const auto* b : boxes_) widest_ = std::max(widest_, (*b)[0].width());
@@ -32,15 +32,15 @@ class CoverLookup {
   }
 
  private:
-  std::vector<const certify::Box*> boxes_;
+  std::vector<const Box*> boxes_;
   double widest_ = 0;
 };
 
 // Of the configuration's first `coordinates` variables in proven boxes, which σ is about.
-inline double widest_edge(const certify::Cover& cover, int coordinates) {
+inline double widest_edge(const Cover& cover, int coordinates) {
   double width = 0;
   for (const auto& b : cover.boxes)
-    for (int j = 0; j < coordinates && b.verdict != certify::Verdict::undecided; ++j)
+    for (int j = 0; j < coordinates && b.verdict != Verdict::undecided; ++j)
       width = std::max(width, b.box[static_cast<std::size_t>(j)].width());
   return width;
 }

@@ -1,7 +1,7 @@
 // Dextar's sets against their closed forms: every box lies where the geometry says, and no sample of the loci is lost.
 #include <gtest/gtest.h>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
@@ -11,10 +11,6 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::Interval;
-using certify::Verdict;
 using symbolic::KernelSide;
 using symbolic::SingularitySet;
 
@@ -22,12 +18,12 @@ using symbolic::SingularitySet;
 constexpr double kSampleTolerance = 1e-7;
 constexpr int kSamples = 2000;
 
-certify::System dextar(SingularitySet set, std::optional<KernelSide> side = std::nullopt) {
+System dextar(SingularitySet set, std::optional<KernelSide> side = std::nullopt) {
   static const auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
   return symbolic::algebrize(symbolic::singularity_system(model, set, side));
 }
 
-Cover solve_at(const certify::System& system, double sigma) {
+Cover solve_at(const System& system, double sigma) {
   solve::Options options;
   options.set_sigma(sigma);
   options.threads = 0;
@@ -44,7 +40,7 @@ void expect_holds_all(const Cover& cover, const Samples& samples) {
 }
 
 // sin(θ_b − θ_a) over a box, from the indices of c_a (then s_a, c_b, s_b).
-Interval sine_of_difference(const certify::Box& q, int ca, int cb) { return q[cb + 1] * q[ca] - q[cb] * q[ca + 1]; }
+Interval sine_of_difference(const Box& q, int ca, int cb) { return q[cb + 1] * q[ca] - q[cb] * q[ca + 1]; }
 
 constexpr int kC2 = 2, kC3 = 4, kC4 = 6, kC5 = 8;
 
@@ -63,7 +59,7 @@ TEST_P(DextarLocus, IsCoveredWhereTheGeometrySays) {
   const Cover cover = solve_at(dextar(set), sigma);
   EXPECT_TRUE(cover.complete());
   EXPECT_LE(test::widest_edge(cover, 10), sigma);
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   for (const auto& b : cover.boxes) {
     const auto& q = b.box;
     if (set == SingularitySet::forward) {

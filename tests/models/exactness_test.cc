@@ -14,20 +14,17 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::Verdict;
 using symbolic::KernelSide;
 using symbolic::SingularitySet;
 
-certify::System system_of(const std::string& model_file, SingularitySet set, const std::string& constant = "",
-                          const std::string& value = "", std::optional<KernelSide> side = std::nullopt) {
+System system_of(const std::string& model_file, SingularitySet set, const std::string& constant = "",
+                 const std::string& value = "", std::optional<KernelSide> side = std::nullopt) {
   auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/" + model_file);
   if (!constant.empty()) model.set_constant(constant, symbolic::Expression(value.c_str()));
   return symbolic::algebrize(symbolic::singularity_system(model, set, side));
 }
 
-Cover proven(const certify::System& system, std::optional<double> sigma = std::nullopt) {
+Cover proven(const System& system, std::optional<double> sigma = std::nullopt) {
   solve::Options options;
   options.set_sigma(sigma);
   Cover cover = solve::solve(system, options);
@@ -35,7 +32,7 @@ Cover proven(const certify::System& system, std::optional<double> sigma = std::n
   return cover;
 }
 
-std::string text(const certify::ExactPoint& point, std::size_t variable) {
+std::string text(const ExactPoint& point, std::size_t variable) {
   return certify::text({point.polynomial, point.lower, point.upper}, point.coordinates[variable]).value_or("?");
 }
 
@@ -55,7 +52,7 @@ class ExactThreeSlider : public testing::TestWithParam<std::tuple<SingularitySet
 // Reference answers: DESIGN's, from Bohigas2017.
 TEST_P(ExactThreeSlider, WithEqualRodsHasSixProvenPoints) {
   const auto [set, side] = GetParam();
-  const certify::System system = system_of("three_slider.cuik", set, "L2", "1", side);
+  const System system = system_of("three_slider.cuik", set, "L2", "1", side);
   const Cover cover = proven(system);
   EXPECT_EQ(cover.boxes.size(), 6u);
   EXPECT_EQ(cover.count(Verdict::isolated), 4u);
@@ -71,7 +68,7 @@ TEST_P(ExactThreeSlider, WithEqualRodsHasSixProvenPoints) {
     // The box of a degenerate point lies where the blow-up has shown it alone.
     if (box.verdict == Verdict::exact) {
       EXPECT_GT(point.sole_within, 0);
-      EXPECT_EQ((certify::reach(point, box.box) - certify::ExactNumber::dyadic(point.sole_within)).sign(), -1);
+      EXPECT_EQ((certify::reach(point, box.box) - ExactNumber::dyadic(point.sole_within)).sign(), -1);
     }
   }
 }
@@ -100,7 +97,7 @@ class ExactDextar : public testing::TestWithParam<double> {};
 
 // Both arms stretched: J3 at distance 1.8 from the ground joints, which are 1.18 apart; so J3x = 0.59, J3y² = 1.8² − 0.59² = 2.8919.
 TEST_P(ExactDextar, HasNoUndecidedBoxThatNoPointExplains) {
-  const certify::System system = system_of("dextar.cuik", SingularitySet::inverse);
+  const System system = system_of("dextar.cuik", SingularitySet::inverse);
   const Cover cover = proven(system, GetParam());
   EXPECT_TRUE(cover.complete());
   std::set<std::string> points;
@@ -202,7 +199,7 @@ struct TwiceZero {
   TwiceZero() {
     const int x = builder.variable("x", "-1", "1");
     builder.equation({{"1", {{x, 2}}}});
-    for (const certify::Interval& side : {certify::Interval(-1e-7, 1e-7), certify::Interval(0, 2e-7)})
+    for (const Interval& side : {Interval(-1e-7, 1e-7), Interval(0, 2e-7)})
       cover.boxes.push_back({{side}, Verdict::undecided, {}});
     cover.points = cover.boxes;
     cover.sigma = {1e-6, 1e-6};
@@ -237,9 +234,8 @@ TEST(ProveDecimals, AreRightToTheLastDigit) {
   ASSERT_EQ(cover.decimals.size(), 1u);
   ASSERT_EQ(cover.decimals[0].size(), 1u);
   // f changes its sign between one unit less and one more.
-  const auto value = [](const certify::ExactNumber& t) { return *(pow(t, 5) - t - certify::ExactNumber(1)).sign(); };
-  const certify::ExactNumber printed = certify::ExactNumber::rational(cover.decimals[0][0]),
-                             unit = pow(certify::ExactNumber(10), -60);
+  const auto value = [](const ExactNumber& t) { return *(pow(t, 5) - t - ExactNumber(1)).sign(); };
+  const ExactNumber printed = ExactNumber::rational(cover.decimals[0][0]), unit = pow(ExactNumber(10), -60);
   EXPECT_EQ(cover.decimals[0][0].size(), 62u);
   EXPECT_EQ(value(printed - unit), -1);
   EXPECT_EQ(value(printed + unit), 1);

@@ -13,16 +13,13 @@
 namespace corank {
 namespace {
 
-using certify::Cover;
-using certify::Verdict;
-
 constexpr double kPi = std::numbers::pi;
 
-certify::System system_of(const std::string& model) {
+System system_of(const std::string& model) {
   return symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(model, "m.cuik")));
 }
 
-Cover solve_with(const certify::System& system, double sigma) {
+Cover solve_with(const System& system, double sigma) {
   solve::Options options;
   options.set_sigma(sigma);
   return solve::solve(system, options);

@@ -22,9 +22,6 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::Verdict;
 using symbolic::SingularitySet;
 using test::Point;
 
@@ -166,13 +163,13 @@ void expect_holds_all(const Cover& cover, const std::vector<Values>& samples) {
   EXPECT_EQ(lost, 0u) << "of " << samples.size() << " samples";
 }
 
-certify::System forward(const char* model, const char* phi0 = nullptr) {
+System forward(const char* model, const char* phi0 = nullptr) {
   auto mechanism = symbolic::read_model(std::string(CORANK_SOURCE_DIR "/models/") + model + ".cuik");
   if (phi0) mechanism.set_constant("phi0", symbolic::Expression(phi0));
   return symbolic::algebrize(symbolic::singularity_system(mechanism, SingularitySet::forward));
 }
 
-Cover solve_at(const certify::System& system, double sigma, std::uint64_t max_boxes = 0) {
+Cover solve_at(const System& system, double sigma, std::uint64_t max_boxes = 0) {
   solve::Options options;
   options.set_sigma(sigma);
   options.threads = max_boxes > 0 ? 1 : 0;
@@ -180,9 +177,9 @@ Cover solve_at(const certify::System& system, double sigma, std::uint64_t max_bo
   return solve::solve(system, options);
 }
 
-bool is_proven(const certify::CoverBox& b) { return b.verdict == Verdict::regular || b.verdict == Verdict::boundary; }
+bool is_proven(const CoverBox& b) { return b.verdict == Verdict::regular || b.verdict == Verdict::boundary; }
 
-Point middle(const certify::Box& box, std::size_t first) { return {box[first].mid(), box[first + 1].mid()}; }
+Point middle(const Box& box, std::size_t first) { return {box[first].mid(), box[first + 1].mid()}; }
 
 TEST(Planar3Rrr, HasTheVariablesThatTheGeometryAssumes) {
   for (const char* model : {"3rrr", "3rrr_fixed_orientation"}) {

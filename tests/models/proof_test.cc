@@ -1,15 +1,13 @@
 // Proofs of completeness: what solve() records, edited by prove_exactly(), is accepted by the independent checker.
 #include <gtest/gtest.h>
 
-#include "corank/certify/checker/checker.h"
+#include "corank/check/checker.h"
 #include "corank/solve/exactness.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank {
 namespace {
-
-using certify::Verdict;
 using symbolic::SingularitySet;
 
 struct Case {
@@ -21,18 +19,18 @@ struct Case {
   }
 };
 
-certify::System system_of(const Case& c) {
+System system_of(const Case& c) {
   auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/" + c.model + ".cuik");
   if (!c.constant.empty()) model.set_constant(c.constant, symbolic::Expression(c.value.c_str()));
   return symbolic::algebrize(symbolic::singularity_system(model, c.set));
 }
 
-certify::Cover proven(const certify::System& system, double sigma, int threads) {
+Cover proven(const System& system, double sigma, int threads) {
   solve::Options options;
   options.set_sigma(sigma);
   options.threads = threads;
   options.proof = true;
-  certify::Cover cover = solve::solve(system, options);
+  Cover cover = solve::solve(system, options);
   solve::prove_exactly(system, options, cover);
   return cover;
 }
@@ -40,11 +38,11 @@ certify::Cover proven(const certify::System& system, double sigma, int threads) 
 class RecordedProof : public testing::TestWithParam<Case> {};
 
 TEST_P(RecordedProof, IsAcceptedByTheChecker) {
-  const certify::System system = system_of(GetParam());
+  const System system = system_of(GetParam());
   for (const int threads : {1, 2}) {
-    const certify::Cover cover = proven(system, GetParam().sigma, threads);
+    const Cover cover = proven(system, GetParam().sigma, threads);
     ASSERT_TRUE(cover.proof);
-    const auto report = certify::checker::check(system, cover);
+    const auto report = check::check(system, cover);
     for (std::size_t i = 0; i < report.failures.size() && i < 3; ++i)
       ADD_FAILURE() << report.failures[i].index << ": " << report.failures[i].reason;
     EXPECT_TRUE(report.proof.verified);
@@ -61,24 +59,24 @@ INSTANTIATE_TEST_SUITE_P(Models, RecordedProof,
 
 // The search around the two configurations with a kernel of dimension 2 is part of the proof.
 TEST(RecordedProof, OfDextarsInverseLocusIsAccepted) {
-  const certify::System system = system_of({"dextar", "", "", SingularitySet::inverse, 0.1});
-  const certify::Cover cover = proven(system, 0.1, 2);
+  const System system = system_of({"dextar", "", "", SingularitySet::inverse, 0.1});
+  const Cover cover = proven(system, 0.1, 2);
   ASSERT_TRUE(cover.proof);
   EXPECT_GT(cover.proof->roots.size(), 1u);
-  certify::checker::Options options;
+  check::Options options;
   options.threads = 2;
-  const auto report = certify::checker::check(system, cover, options);
+  const auto report = check::check(system, cover, options);
   EXPECT_TRUE(report.proof.verified);
   EXPECT_TRUE(report.verified());
 }
 
 TEST(RecordedProof, LeavesTheCoverAsItIs) {
-  const certify::System system = system_of({"dextar", "", "", SingularitySet::inverse, 0.1});
+  const System system = system_of({"dextar", "", "", SingularitySet::inverse, 0.1});
   solve::Options options;
   options.set_sigma(0.1);
-  certify::Cover plain = solve::solve(system, options);
+  Cover plain = solve::solve(system, options);
   solve::prove_exactly(system, options, plain);
-  const certify::Cover recorded = proven(system, 0.1, 1);
+  const Cover recorded = proven(system, 0.1, 1);
   ASSERT_EQ(plain.boxes.size(), recorded.boxes.size());
   for (std::size_t i = 0; i < plain.boxes.size(); ++i) {
     EXPECT_EQ(plain.boxes[i].box, recorded.boxes[i].box);
@@ -88,11 +86,11 @@ TEST(RecordedProof, LeavesTheCoverAsItIs) {
 }
 
 TEST(RecordedProof, ShowsABoxThatWasTakenAway) {
-  const certify::System system = system_of({"three_slider", "L2", "4/5", SingularitySet::cspace, 0.1});
-  certify::Cover cover = proven(system, 0.1, 1);
+  const System system = system_of({"three_slider", "L2", "4/5", SingularitySet::cspace, 0.1});
+  Cover cover = proven(system, 0.1, 1);
   // Another box's region and sides in the place of one: the leaf that names it no longer ends in it.
   cover.boxes[cover.boxes.size() / 2] = cover.boxes[cover.boxes.size() / 2 + 3];
-  EXPECT_FALSE(certify::checker::check(system, cover).proof.verified);
+  EXPECT_FALSE(check::check(system, cover).proof.verified);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
@@ -16,10 +16,6 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::Interval;
-using certify::Verdict;
 using symbolic::SingularitySet;
 template <class T>
 using Vector = std::array<T, 3>;
@@ -38,7 +34,7 @@ R_yy*cos(t2) + R_zy*sin(t2) = 1/3;
 [OUTPUTS] R
 )";
 
-certify::System system_of(SingularitySet set) {
+System system_of(SingularitySet set) {
   return symbolic::algebrize(symbolic::singularity_system(symbolic::parse_model(kModel, "platform.cuik"), set));
 }
 
@@ -136,7 +132,7 @@ void expect_holds_all(const Cover& cover, const std::vector<Configuration>& samp
 
 struct Axes {
   Vector<Interval> a, b, p1, p2;
-  explicit Axes(const certify::Box& x)
+  explicit Axes(const Box& x)
       : a{x[0], x[3], x[6]}, b{x[1], x[4], x[7]}, p1{x[9], Interval(), x[10]}, p2{Interval(), x[11], x[12]} {}
 };
 
@@ -146,7 +142,7 @@ TEST(RotationOutput, HasTheInverseSingularitiesOfItsClosedForm) {
   EXPECT_EQ(cover.dimension, 1);
   EXPECT_EQ(cover.count(Verdict::regular), cover.boxes.size()) << "that |R_ij| <= 1 is implied";
   expect_holds_all(cover, inverse_samples());
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   for (const auto& box : cover.boxes) {
     const Axes x(box.box);
     ASSERT_TRUE((x.a[2] * x.p1[0] - x.a[0] * x.p1[2]).contains_zero());
@@ -159,7 +155,7 @@ TEST(RotationOutput, HasTheForwardSingularitiesOfItsDeterminant) {
   EXPECT_EQ(cover.dimension, 1);
   EXPECT_EQ(cover.count(Verdict::undecided), 0u);
   expect_holds_all(cover, forward_samples());
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   for (const auto& box : cover.boxes) {
     const Axes x(box.box);
     ASSERT_TRUE(forward_determinant(x.a, x.b, x.p1, x.p2).contains_zero());

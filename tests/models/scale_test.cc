@@ -14,10 +14,6 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::Reason;
-using certify::Verdict;
 using symbolic::SingularitySet;
 
 std::string text_of(const std::filesystem::path& file) {
@@ -68,7 +64,7 @@ void expect_same(const Cover& cover, const Cover& base) {
     EXPECT_NEAR(static_cast<double>(cover.count(v)), count, 0.02 * count) << to_string(v);
   }
   EXPECT_NEAR(static_cast<double>(cover.count(Verdict::undecided)), static_cast<double>(base.count(Verdict::undecided)), 4);
-  for (const certify::CoverBox& box : cover.boxes)
+  for (const CoverBox& box : cover.boxes)
     if (box.verdict == Verdict::undecided) {
       EXPECT_NE(box.reason, Reason::none);
       EXPECT_NE(box.reason, Reason::limit);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "corank/certify/checker/checker.h"
+#include "corank/check/checker.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
@@ -14,14 +14,10 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::CoverBox;
-using certify::Verdict;
 using symbolic::SingularitySet;
 
 // All four bars of one length, in the given unit: r cos t1 + r cos t2 = r + r cos t3, r sin t1 + r sin t2 = r sin t3.
-certify::System rhombus(SingularitySet set, const std::string& length) {
+System rhombus(SingularitySet set, const std::string& length) {
   const auto model =
       symbolic::parse_model("[CONSTANTS]\nr := " + length +
                                 "\n[SYSTEM VARS]\nt1 ~ [-pi, pi]\nt2 ~ [-pi, pi]\nt3 ~ [-pi, pi]\n[SYSTEM EQS]\n"
@@ -31,7 +27,7 @@ certify::System rhombus(SingularitySet set, const std::string& length) {
   return symbolic::algebrize(symbolic::singularity_system(model, set));
 }
 
-Cover solved(const certify::System& system) {
+Cover solved(const System& system) {
   Cover cover = solve::solve(system);
   solve::prove_exactly(system, {}, cover);
   return cover;
@@ -46,7 +42,7 @@ bool holds(const CoverBox& box, const std::vector<double>& q) {
 // Closed form: with t1 = 0 locked, t3 = t2 and t2 is any angle; else t1 = ±pi, t2 = 0, t3 = ±pi.
 TEST(SelfMotion, OfTheRhombusIsProvenWithItsDimensionAndItsRelations) {
   for (const char* length : {"1", "1000", "1/1000"}) {
-    const certify::System system = rhombus(SingularitySet::forward, length);
+    const System system = rhombus(SingularitySet::forward, length);
     const Cover cover = solved(system);
     EXPECT_TRUE(cover.complete());
     EXPECT_EQ(cover.dimension, 0);
@@ -69,30 +65,30 @@ TEST(SelfMotion, OfTheRhombusIsProvenWithItsDimensionAndItsRelations) {
       const std::vector<double> q{1, 0, std::cos(t), std::sin(t), std::cos(t), std::sin(t)};
       EXPECT_TRUE(std::any_of(cover.boxes.begin(), cover.boxes.end(), [&](const CoverBox& b) { return holds(b, q); })) << t;
     }
-    const auto report = certify::checker::check(system, cover);
+    const auto report = check::check(system, cover);
     EXPECT_TRUE(report.consistent()) << (report.failures.empty() ? "" : report.failures[0].reason);
     EXPECT_EQ(report.boxes[static_cast<int>(Verdict::regular)].verified, on_it);
   }
 }
 
 TEST(SelfMotion, IsNotVerifiedWithARelationThatDoesNotHold) {
-  const certify::System system = rhombus(SingularitySet::inverse, "1");
+  const System system = rhombus(SingularitySet::inverse, "1");
   const Cover good = solved(system);
   ASSERT_EQ(good.self_motions.size(), 1u);
-  EXPECT_TRUE(certify::checker::check(system, good).consistent());
+  EXPECT_TRUE(check::check(system, good).consistent());
   for (std::size_t k = 0; k < good.self_motions[0].relations.size(); ++k) {
     Cover changed = good;
-    certify::Polynomial& f = changed.self_motions[0].relations[k];
-    f.monomials[0].coefficient = f.monomials[0].coefficient * certify::ExactNumber(2);
-    if (f.monomials.size() == 1) f.monomials.emplace_back(certify::ExactNumber(1), std::vector<certify::Factor>{});
-    EXPECT_FALSE(certify::checker::check(system, changed).consistent()) << k;
+    Polynomial& f = changed.self_motions[0].relations[k];
+    f.monomials[0].coefficient = f.monomials[0].coefficient * ExactNumber(2);
+    if (f.monomials.size() == 1) f.monomials.emplace_back(ExactNumber(1), std::vector<Factor>{});
+    EXPECT_FALSE(check::check(system, changed).consistent()) << k;
     changed = good;
     changed.self_motions[0].relations.erase(changed.self_motions[0].relations.begin() + static_cast<std::ptrdiff_t>(k));
-    EXPECT_FALSE(certify::checker::check(system, changed).consistent()) << k;
+    EXPECT_FALSE(check::check(system, changed).consistent()) << k;
   }
   Cover larger = good;
   larger.self_motions[0].dimension = 2;
-  EXPECT_FALSE(certify::checker::check(system, larger).consistent());
+  EXPECT_FALSE(check::check(system, larger).consistent());
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
@@ -15,10 +15,6 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::Interval;
-using certify::Verdict;
 using symbolic::KernelSide;
 using symbolic::SingularitySet;
 
@@ -51,7 +47,7 @@ struct Robot {
   double alpha, delta;
   std::array<int, 7> columns;  ///< of c1, s1, c2, s2, w among the model's variables
 
-  certify::System system(SingularitySet set, std::optional<KernelSide> side = std::nullopt) const {
+  System system(SingularitySet set, std::optional<KernelSide> side = std::nullopt) const {
     return symbolic::algebrize(symbolic::singularity_system(symbolic::read_model(file), set, side));
   }
 
@@ -130,7 +126,7 @@ std::vector<Configuration> Robot::forward_samples() const {
 }
 
 // Which of the determinants may vanish in a box: forward, leg 1, leg 2.
-std::array<bool, 3> may_vanish(const Robot& robot, const certify::Box& box) {
+std::array<bool, 3> may_vanish(const Robot& robot, const Box& box) {
   std::array<Interval, 7> q;
   for (std::size_t i = 0; i < q.size(); ++i) q[i] = box[static_cast<std::size_t>(robot.columns[i])];
   const auto [e1, e2] = robot.ends(q);
@@ -154,7 +150,7 @@ void expect_closed_forms(const Robot& robot, std::optional<KernelSide> side) {
     std::size_t lost = 0;
     for (const Configuration& q : samples) lost += !lookup.holds(q, kSampleTolerance);
     EXPECT_EQ(lost, 0u) << "of " << samples.size() << " samples of " << to_string(set);
-    const certify::UpwardRounding rounding;
+    const UpwardRounding rounding;
     for (const auto& b : cover.boxes) {
       const auto [forward, leg1, leg2] = may_vanish(robot, b.box);
       ASSERT_TRUE(set == SingularitySet::forward ? forward : leg1 || leg2) << "nothing is singular in this box";
@@ -197,7 +193,7 @@ TEST(SphericalFiveBar, WithTwoOfThreeCosinesHasThatChoicesSingularities) {
   const Cover cover = solve::solve(
       symbolic::algebrize(symbolic::singularity_system(symbolic::parse_model(text, "chart.cuik"), SingularitySet::inverse)),
       options);
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   std::size_t own = 0, of_the_choice = 0;
   for (const auto& b : cover.boxes) {
     const auto [forward, leg1, leg2] = may_vanish(robot, b.box);

@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "corank/certify/checker/checker.h"
+#include "corank/check/checker.h"
 #include "corank/solve/exactness.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
@@ -13,9 +13,6 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::Verdict;
 using solve::Control;
 using solve::Ending;
 using solve::Limit;
@@ -52,7 +49,7 @@ struct Question {
 const Question kPoints{"three_slider.cuik", SingularitySet::forward, "1", 1e-6};
 const Question kCurves{"dextar.cuik", SingularitySet::inverse, nullptr, 0.2};
 
-certify::System system_of(const Question& question) {
+System system_of(const Question& question) {
   auto model = symbolic::read_model(std::string(CORANK_SOURCE_DIR "/models/") + question.model);
   if (question.constant) model.set_constant("L2", symbolic::Expression(question.constant));
   return symbolic::algebrize(symbolic::singularity_system(model, question.set));
@@ -64,7 +61,7 @@ struct Outcome {
   int questions = 0;  // asked in the stage
 };
 
-void solve_all(const certify::System& system, const Question& question, solve::Options options, Cover& cover) {
+void solve_all(const System& system, const Question& question, solve::Options options, Cover& cover) {
   certify::Reduction reduction;
   {
     const solve::InStage in(*options.control, Stage::reduction);
@@ -79,7 +76,7 @@ void solve_all(const certify::System& system, const Question& question, solve::O
 
 // All that `corank solve --digits 20 --proof` does (no proof of curves: to check it takes long), with k answers of "not yet"
 // in the stage.
-Outcome run(const certify::System& system, const Question& question, Stage stage, int k, int threads) {
+Outcome run(const System& system, const Question& question, Stage stage, int k, int threads) {
   FakeClock clock(stage, k);
   Control control({.time = 1, .clock = [&clock] { return clock(); }});
   clock.watch(control);
@@ -94,8 +91,8 @@ Outcome run(const certify::System& system, const Question& question, Stage stage
   return result;
 }
 
-void expect_honest(const Question& question, const certify::System& system, const Cover& cover) {
-  const certify::checker::Report report = certify::checker::check(system, cover);
+void expect_honest(const Question& question, const System& system, const Cover& cover) {
+  const check::Report report = check::check(system, cover);
   for (const auto& failure : report.failures) ADD_FAILURE() << failure.index << ": " << failure.reason;
   const test::CoverLookup lookup(cover);
   constexpr double kRounding = 1e-7;
@@ -114,7 +111,7 @@ class Stopping : public testing::TestWithParam<std::tuple<Question, Stage, int>>
 
 TEST_P(Stopping, EndsTheStageWithAnHonestCover) {
   const auto [question, stage, threads] = GetParam();
-  const certify::System system = system_of(question);
+  const System system = system_of(question);
   const int all = run(system, question, stage, 1'000'000'000, threads).questions;
   ASSERT_GT(all, 0) << "the stage never asks whether it is to end";
   // How often two threads ask differs from run to run.
@@ -154,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(OfCurves, Stopping,
 class Interrupted : public testing::TestWithParam<Stage> {};
 
 TEST_P(Interrupted, EndsTheStageInWhichItIs) {
-  const certify::System system = system_of(kPoints);
+  const System system = system_of(kPoints);
   std::atomic<bool> stop{false};
   Control control({.stop = &stop});
   control.progress = [&stop](const Control::Progress& p) {
@@ -179,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(InEachStage, Interrupted,
                          });
 
 TEST(BoxLimit, HoldsForTheSearchesOfTheExactStage) {
-  const certify::System system = system_of(kPoints);
+  const System system = system_of(kPoints);
   const auto exact_within = [&](std::uint64_t boxes, std::optional<Ending> expected) {
     Control control({.boxes = boxes});
     solve::Options options;

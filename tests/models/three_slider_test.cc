@@ -9,14 +9,11 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::Verdict;
 using symbolic::KernelSide;
 using symbolic::SingularitySet;
 using Points = std::vector<std::array<double, 3>>;  // (y_A, y_B, x_C)
 
-certify::System three_slider(SingularitySet set, const char* l2, std::optional<KernelSide> side = std::nullopt) {
+System three_slider(SingularitySet set, const char* l2, std::optional<KernelSide> side = std::nullopt) {
   auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik");
   model.set_constant("L2", symbolic::Expression(l2));
   return symbolic::algebrize(symbolic::singularity_system(model, set, side));

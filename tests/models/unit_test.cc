@@ -11,14 +11,11 @@
 
 namespace corank {
 namespace {
-
-using certify::Cover;
-using certify::Verdict;
 using symbolic::SingularitySet;
 
 // A planar 3-RPR platform with its first leg's length as input, the others fixed: x, y of its first corner, in `unit` per metre; the
 // declared ranges are `generous` times as wide as needed. Our own lengths.
-certify::System platform(const std::string& unit, int generous, SingularitySet set) {
+System platform(const std::string& unit, int generous, SingularitySet set) {
   const std::string n = std::to_string(generous);
   const auto model = symbolic::parse_model(
       "[CONSTANTS]\nu := " + unit + "\na := 9/10*u\nb := 2/5*u\nh := 7/10*u\nr2 := 4/5*u\n[SYSTEM VARS]\n" + "x : [-" + n +
@@ -49,7 +46,7 @@ TEST(Unit, OfLengthChangesNeitherBoxesNorVerdicts) {
 }
 
 TEST(Sigma, DoesNotSteerTheSearch) {
-  const certify::System system = platform("1000", 1, SingularitySet::forward);
+  const System system = platform("1000", 1, SingularitySet::forward);
   std::uint64_t processed = 0;
   for (const double sigma : {1000.0, 100.0, 10.0, 1.0}) {
     solve::Options options;

@@ -7,9 +7,9 @@
 #include <random>
 
 #include "corank/report/page.h"
-#include "corank/report/result_file.h"
-#include "corank/report/summary.h"
-#include "corank/report/verification.h"
+#include "corank/result/result_file.h"
+#include "corank/result/summary.h"
+#include "corank/result/verification.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/model_error.h"
@@ -20,28 +20,24 @@
 namespace corank::report {
 namespace {
 
-using certify::Box;
-using certify::CoverBox;
-using certify::Verdict;
-
 struct Kind {
   std::string model, set, constant;
   double sigma;
   bool proof;
 };
 
-Result solved(const Kind& kind, double sigma) {
+result::Result solved(const Kind& kind, double sigma) {
   const symbolic::Mechanism mechanism =
       symbolic::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + kind.model + ".cuik");
-  Result result;
+  result::Result result;
   result.model = mechanism.name();
   result.model_text = mechanism.source_text();
   result.set = kind.set;
   result.options.kernel = kind.set == "cspace" ? "" : "right";
   if (!kind.constant.empty()) result.options.constants = {{"L2", kind.constant}};
-  const certify::System system = system_of(result);
+  const System system = system_of(result);
   result.system_text = symbolic::to_cuik(system);
-  describe_system(system, result);
+  result::describe_system(system, result);
   solve::Options options;
   options.set_sigma(sigma);
   options.proof = kind.proof;
@@ -67,7 +63,8 @@ std::vector<Box> known_solutions(const Kind& kind) {
 }
 
 // Claims of a verified file that cannot be true, since they contradict what is known of the set.
-void expect_true(const Verification& verification, const Result& result, const Kind& kind, const std::vector<Box>& known) {
+void expect_true(const result::Verification& verification, const result::Result& result, const Kind& kind,
+                 const std::vector<Box>& known) {
   EXPECT_EQ(result.set, kind.set);
   for (const CoverBox& b : result.cover.boxes) {
     if (b.verdict != Verdict::isolated && b.verdict != Verdict::exact) continue;
@@ -82,11 +79,11 @@ void expect_true(const Verification& verification, const Result& result, const K
 }
 
 // Tables, pictures and pages of whatever could be read. What cannot be shown is refused in words.
-void show(const Result& result, const Verification& verification) {
-  to_table(verification, result);
-  to_json(verification);
-  to_table(result);
-  to_json(result);
+void show(const result::Result& result, const result::Verification& verification) {
+  result::to_table(verification, result);
+  result::to_json(verification);
+  result::to_table(result);
+  result::to_json(result);
   try {
     make_picture({picture_source(result, "r.h5")}, {{"1", "2"}, ColorScheme::verdict, 0});
   } catch (const std::invalid_argument&) {  // such as no variables
@@ -109,7 +106,7 @@ TEST_P(ByteChanges, NeitherCrashNorHangNorPassWithAFalseClaim) {
   const Kind& kind = GetParam();
   const PictureFolder folder;
   const auto path = folder.file("r.h5");
-  write_result(path, solved(kind, kind.sigma));
+  result::write_result(path, solved(kind, kind.sigma));
   const std::string bytes = bytes_of(path);
   const std::vector<Box> known = known_solutions(kind);
   ASSERT_FALSE(known.empty());
@@ -124,12 +121,12 @@ TEST_P(ByteChanges, NeitherCrashNorHangNorPassWithAFalseClaim) {
     }
     std::ofstream(path, std::ios::binary).write(changed.data(), static_cast<std::streamsize>(changed.size()));
     try {
-      const Result result = read_result(path);
-      const Verification verification = verify(result);
+      const result::Result result = result::read_result(path);
+      const result::Verification verification = result::verify(result);
       ++outcomes[verification.verified() ? 3 : 2];
       if (verification.verified()) expect_true(verification, result, kind, known);
       show(result, verification);
-    } catch (const ResultFileError& error) {
+    } catch (const result::ResultFileError& error) {
       ++outcomes[0];
       EXPECT_EQ(std::string(error.what()).find_first_of("\n\x1b"), std::string::npos);
     } catch (const symbolic::ModelError&) {

@@ -8,17 +8,14 @@
 
 namespace corank::report {
 namespace {
-
-using certify::Interval;
-using certify::Verdict;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
 /// Boxes in the plane; a third variable is no part of the configuration.
-Result boxes(const std::vector<std::pair<certify::Box, Verdict>>& list) {
-  Result result;
+result::Result boxes(const std::vector<std::pair<Box, Verdict>>& list) {
+  result::Result result;
   result.set = "forward";
   result.variables.resize(3);
   result.configuration_size = 2;
@@ -29,11 +26,11 @@ Result boxes(const std::vector<std::pair<certify::Box, Verdict>>& list) {
 }
 
 TEST(Components, JoinBoxesThatShareACornerAndPartThoseThatDoNot) {
-  const Result result = boxes({{{{0, 1}, {0, 1}, 0.5}, Verdict::regular},
-                               {{{3, 4}, {0, 1}, 0.5}, Verdict::undecided},
-                               {{{1, 2}, {1, 2}, -0.5}, Verdict::regular},
-                               {{{2, 3}, {2, 2.5}, 0.5}, Verdict::boundary},
-                               {{{4.0625, 5}, {0, 1}, 0.5}, Verdict::boundary}});
+  const result::Result result = boxes({{{{0, 1}, {0, 1}, 0.5}, Verdict::regular},
+                                       {{{3, 4}, {0, 1}, 0.5}, Verdict::undecided},
+                                       {{{1, 2}, {1, 2}, -0.5}, Verdict::regular},
+                                       {{{2, 3}, {2, 2.5}, 0.5}, Verdict::boundary},
+                                       {{{4.0625, 5}, {0, 1}, 0.5}, Verdict::boundary}});
   const Components found = components(result);
   EXPECT_EQ(found.count, 3);
   EXPECT_THAT(found.of_box, ElementsAre(0, 1, 0, 0, 2));
@@ -41,7 +38,7 @@ TEST(Components, JoinBoxesThatShareACornerAndPartThoseThatDoNot) {
 }
 
 TEST(Components, OfALongChainAreOne) {
-  std::vector<std::pair<certify::Box, Verdict>> chain;
+  std::vector<std::pair<Box, Verdict>> chain;
   for (int i = 0; i < 500; ++i) {
     const double x = (i * 37) % 500;  // each touches the next, in no order
     chain.push_back({{{x, x + 1}, {-x, 1 - x}, 0.5}, Verdict::regular});
@@ -55,7 +52,7 @@ TEST(Components, OfPointsAreThePoints) {
 }
 
 TEST(SetWords, ClaimSeparatenessOnlyOfACompleteCover) {
-  Result result = boxes({{{{0, 1}, {0, 1}, 0.5}, Verdict::regular}, {{{3, 4}, {0, 1}, 0.5}, Verdict::regular}});
+  result::Result result = boxes({{{{0, 1}, {0, 1}, 0.5}, Verdict::regular}, {{{3, 4}, {0, 1}, 0.5}, Verdict::regular}});
   EXPECT_THAT(set_words(result, components(result)).proven, Contains(HasSubstr("No two of the 2 components are connected")));
   result.cover.boxes.push_back({{{8, 9}, {0, 1}, 0.5}, Verdict::pending, {}});
   const SetWords words = set_words(result, components(result));
@@ -66,7 +63,7 @@ TEST(SetWords, ClaimSeparatenessOnlyOfACompleteCover) {
 }
 
 TEST(SetWords, CountUndecidedPlacesApartFromPoints) {
-  Result result = boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{0.75, 0.5, 0.5}, Verdict::undecided}});
+  result::Result result = boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{0.75, 0.5, 0.5}, Verdict::undecided}});
   result.cover.dimension = 0;
   result.cover.points = result.cover.boxes;
   const SetWords words = set_words(result, components(result));
@@ -75,7 +72,7 @@ TEST(SetWords, CountUndecidedPlacesApartFromPoints) {
 }
 
 TEST(SetWords, TellPointsAtTheBorderOfTheDomainApart) {
-  Result result = boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{1.0, 0.5, 0.5}, Verdict::boundary}});
+  result::Result result = boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{1.0, 0.5, 0.5}, Verdict::boundary}});
   result.cover.dimension = 0;
   result.cover.points = result.cover.boxes;
   const SetWords words = set_words(result, components(result));

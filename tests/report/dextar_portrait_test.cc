@@ -17,15 +17,15 @@ constexpr double kReach = 1.8, kBase = 1.18;
 // > 0 inside the lens: the distance to its outline where that is an arc.
 double depth(double x, double y) { return kReach - std::max(std::hypot(x, y), std::hypot(x - kBase, y)); }
 
-Result solved(SingularitySet set, const std::string& name, double sigma) {
+result::Result solved(SingularitySet set, const std::string& name, double sigma) {
   static const auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
-  const certify::System system = symbolic::algebrize(symbolic::singularity_system(model, set, std::nullopt));
+  const System system = symbolic::algebrize(symbolic::singularity_system(model, set, std::nullopt));
   solve::Options options;
   options.set_sigma(sigma);
-  Result result;
+  result::Result result;
   result.set = name;
   result.cover = solve::solve(system, options);
-  describe_system(system, result);
+  result::describe_system(system, result);
   return result;
 }
 

@@ -10,20 +10,18 @@
 
 namespace corank::report {
 namespace {
-
-using certify::Verdict;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-SolFile two_boxes() {
-  SolFile file;
+result::SolFile two_boxes() {
+  result::SolFile file;
   file.variables = {"x", "y", "z", "w"};
   file.boxes = {{{{0, 1}, {2, 3}, {4, 6}, {7, 8}}, Verdict::regular, {}},
                 {{{-1, -0.5}, {0, 0.25}, {0, 2}, {0, 0}}, Verdict::undecided, {}}};
   return file;
 }
 
-std::string gcl(const SolFile& file, const PictureOptions& options, const GclOptions& names = {}) {
+std::string gcl(const result::SolFile& file, const PictureOptions& options, const GclOptions& names = {}) {
   return to_gcl(make_picture({picture_source(file, "boxes.sol")}, options), names);
 }
 PictureOptions axes(std::vector<std::string> names, ColorScheme color = ColorScheme::plain) {
@@ -31,7 +29,7 @@ PictureOptions axes(std::vector<std::string> names, ColorScheme color = ColorSch
 }
 
 TEST(Gcl, DrawsABoxByItsEightCornersAndSixFaces) {
-  SolFile file = two_boxes();
+  result::SolFile file = two_boxes();
   file.boxes.pop_back();
   const std::string text = gcl(file, axes({"1", "2", "4"}));
   EXPECT_THAT(text, HasSubstr("OFF 8 6 1\n0 2 7\n0 3 7\n1 3 7\n1 2 7\n0 2 8\n0 3 8\n1 3 8\n1 2 8\n4 3 2 1 0\n"));
@@ -67,7 +65,7 @@ TEST(Gcl, KeepsStrangeNamesOutOfGeomviewsLanguage) {
   EXPECT_THAT(text, Not(HasSubstr("\n(exit)")));
 }
 
-TEST(Gcl, RefusesToDrawNothing) { EXPECT_THROW(to_gcl(Picture{}, {}), ResultFileError); }
+TEST(Gcl, RefusesToDrawNothing) { EXPECT_THROW(to_gcl(Picture{}, {}), result::ResultFileError); }
 
 struct Snapshot {
   int width = 0, height = 0;
@@ -104,7 +102,7 @@ TEST(Gcl, GeomviewShowsTheBoxesInTheirColours) {
   std::string pattern = (std::filesystem::temp_directory_path() / "corank-gcl-XXXXXX").string();
   ASSERT_NE(mkdtemp(pattern.data()), nullptr);
   const std::filesystem::path folder = pattern;
-  SolFile file;
+  result::SolFile file;
   for (int i = 0; i < 40; ++i) {
     const double x = 0.5 * i, y = i < 20 ? x : 20 - x;
     file.boxes.push_back({{{x, x + 1}, {y, y + 1}, {0, 1}}, i < 20 ? Verdict::regular : Verdict::undecided, {}});

@@ -8,19 +8,17 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "corank/report/hdf5_file.h"
 #include "corank/report/page_data.h"
 #include "corank/report/page_points.h"
+#include "corank/result/hdf5_file.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/tests/report/page_text.h"
-#include "corank/tests/report/sample_result.h"
+#include "corank/tests/result/sample_result.h"
 
 namespace corank::report {
 namespace {
-
-using certify::Verdict;
 using nlohmann::json;
 using symbolic::Mechanism;
 using symbolic::SingularitySet;
@@ -29,14 +27,14 @@ using testing::HasSubstr;
 // y_A² + x_C² = 1, y_B² + x_C² = 16/25: eight forward singularities (Bohigas2017).
 Mechanism slider() { return symbolic::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik"); }
 
-Result solved(const Mechanism& mechanism, SingularitySet set) {
-  const certify::System system = algebrize(singularity_system(mechanism, set));
-  Result result;
+result::Result solved(const Mechanism& mechanism, SingularitySet set) {
+  const System system = algebrize(singularity_system(mechanism, set));
+  result::Result result;
   result.model = mechanism.name();
   result.model_text = mechanism.source_text();
   result.set = to_string(set);
   result.cover = solve::solve(system);
-  describe_system(system, result);
+  result::describe_system(system, result);
   result.options.kernel = set == SingularitySet::cspace ? "" : "right";
   return result;
 }
@@ -57,12 +55,12 @@ TEST(Base64, KnowsTheVectorsOfRfc4648) {
 }
 
 TEST(PageBoxes, EncloseTheResultsBoxesWithinOneFloatOnEachSide) {
-  const Result result = sample_result();
+  const result::Result result = result::sample_result();
   const std::vector<float> numbers = decoded_floats(box_payload(result));
   ASSERT_EQ(numbers.size(), result.cover.boxes.size() * result.variables.size() * 2);
   std::size_t k = 0;
-  for (const certify::CoverBox& b : result.cover.boxes) {
-    for (const certify::Interval& side : b.box) {
+  for (const CoverBox& b : result.cover.boxes) {
+    for (const Interval& side : b.box) {
       const float lower = numbers[k++], upper = numbers[k++];
       EXPECT_LE(static_cast<double>(lower), side.lo());
       EXPECT_GE(static_cast<double>(upper), side.hi());
@@ -73,7 +71,7 @@ TEST(PageBoxes, EncloseTheResultsBoxesWithinOneFloatOnEachSide) {
 }
 
 TEST(PageBoxes, CarryTheirVerdictsInOrder) {
-  const Result result = sample_result();
+  const result::Result result = result::sample_result();
   const std::vector<std::uint8_t> bytes = decoded(verdict_payload(result));
   ASSERT_EQ(bytes.size(), result.cover.boxes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) EXPECT_EQ(static_cast<Verdict>(bytes[i]), result.cover.boxes[i].verdict);
@@ -100,18 +98,18 @@ TEST(PageModel, NamesCoordinatesVariablesAndVelocities) {
 }
 
 TEST(PageModel, RefusesAResultOfAnotherMechanism) {
-  EXPECT_THROW(page_model(slider(), {sample_result()}), ResultFileError);
-  Result plain = solved(slider(), SingularitySet::cspace);
+  EXPECT_THROW(page_model(slider(), {result::sample_result()}), result::ResultFileError);
+  result::Result plain = solved(slider(), SingularitySet::cspace);
   plain.set = "system";
-  EXPECT_THROW(page_model(slider(), {plain}), ResultFileError);
+  EXPECT_THROW(page_model(slider(), {plain}), result::ResultFileError);
 }
 
 TEST(Page, HoldsTheResultsAndLoadsNothing) {
   const Mechanism mechanism = slider();
-  const std::vector<Result> results = {solved(mechanism, SingularitySet::cspace),
-                                       solved(mechanism, SingularitySet::forward)};
+  const std::vector<result::Result> results = {solved(mechanism, SingularitySet::cspace),
+                                               solved(mechanism, SingularitySet::forward)};
   const std::string page = report_page(mechanism, results, {"corank report x.cuik", {}, {"cspace.h5", "forward.h5"}});
-  for (const Result& result : results) {
+  for (const result::Result& result : results) {
     EXPECT_EQ(script_text(page, "boxes-" + result.set), box_payload(result));
     EXPECT_EQ(script_text(page, "verdicts-" + result.set), verdict_payload(result));
   }
@@ -120,7 +118,7 @@ TEST(Page, HoldsTheResultsAndLoadsNothing) {
   EXPECT_FALSE(std::regex_search(before_scripts, std::regex("(src|href)=\"(https?:)?//"))) << "the page loads something";
   EXPECT_FALSE(holds(page, "<link rel=\"stylesheet\""));
   EXPECT_FALSE(holds(page, "\nimport "));
-  EXPECT_TRUE(holds(page, "corank verify forward.h5"));
+  EXPECT_TRUE(holds(page, "corank result::verify forward.h5"));
   EXPECT_TRUE(holds(page, "8 points"));
   EXPECT_TRUE(holds(page, "<td>[−0.6"));
 }
@@ -136,7 +134,7 @@ TEST(Page, EscapesWhatAModelMaySay) {
 
 TEST(Page, HoldsNoMarkupOfAResultsNames) {
   const Mechanism mechanism = symbolic::parse_model(slider().source_text(), "z<!--<script>.cuik");
-  Result result = solved(mechanism, SingularitySet::forward);
+  result::Result result = solved(mechanism, SingularitySet::forward);
   result.options.kernel = "right";
   result.version = "<script>alert(1)</script>";
   result.options.constants = {{"<img src=x onerror=alert(2)>", "1"}};
@@ -150,7 +148,7 @@ TEST(Page, HoldsNoMarkupOfAResultsNames) {
 
 TEST(Page, SaysWhereASearchEndedEarly) {
   const Mechanism mechanism = slider();
-  Result result = solved(mechanism, SingularitySet::forward);
+  result::Result result = solved(mechanism, SingularitySet::forward);
   EXPECT_FALSE(holds(report_page(mechanism, {result}), "ended before its end"));
   result.cover.boxes.front().verdict = Verdict::pending;
   const std::string page = report_page(mechanism, {result});
@@ -164,13 +162,13 @@ TEST(Page, RefusesAPlainSystem) {
 }
 
 TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
-  Result result = sample_result();
+  result::Result result = result::sample_result();
   result.cover.dimension = 0;
-  certify::ExactPoint point;  // t² = 1/2, t > 0: x = 3/5, the angle's cosine and sine t
-  point.polynomial = {certify::ExactNumber::rational("-1/2"), 0, 1};
+  ExactPoint point;  // t² = 1/2, t > 0: x = 3/5, the angle's cosine and sine t
+  point.polynomial = {ExactNumber::rational("-1/2"), 0, 1};
   point.lower = 0;
   point.upper = 1;
-  point.coordinates = {{certify::ExactNumber::rational("3/5")}, {0, 1}, {0, 1}, {}};
+  point.coordinates = {{ExactNumber::rational("3/5")}, {0, 1}, {0, 1}, {}};
   point.corank = 2;
   result.cover.exact_points = {point};
   result.cover.decimals = {{"-0.60", "0.71", "0.71", "0.00"}, {}};

@@ -11,22 +11,18 @@
 
 namespace corank::report {
 namespace {
-
-using certify::Interval;
-using certify::Verdict;
 using std::numbers::pi;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 // The box of cosine and sine about angle ± half.
-certify::Box about(double angle, double half, Interval length = {0, 1}) {
+Box about(double angle, double half, Interval length = {0, 1}) {
   const auto over = [&](double a, double b) { return Interval(std::min(a, b) - 1e-12, std::max(a, b) + 1e-12); };
   return {length, over(std::cos(angle - half), std::cos(angle + half)),
           over(std::sin(angle - half), std::sin(angle + half))};
 }
 
-PictureSource source(const std::vector<certify::Box>& boxes, const std::string& set = "forward",
-                     Interval range = {-pi, pi}) {
+PictureSource source(const std::vector<Box>& boxes, const std::string& set = "forward", Interval range = {-pi, pi}) {
   PictureSource s{"a.h5", set, {}, {{"theta", 1, 2, range}}, 2};
   s.boxes.variables = {"x", "c_theta", "s_theta"};
   for (const auto& b : boxes) s.boxes.boxes.push_back({b, Verdict::regular, {}});
@@ -85,7 +81,7 @@ TEST(Picture, DrawsAnglesInTheirDeclaredRange) {
 }
 
 TEST(Picture, FindsTheAnglesOfASolutionFileByTheNamesOfTheirCosinesAndSines) {
-  SolFile file;
+  result::SolFile file;
   file.variables = {"s_a", "c_a"};
   file.boxes = {{{{0.99, 1}, {-0.01, 0.01}}, std::nullopt, {}}};
   const Picture p = make_picture({picture_source(file, "dir/mine.sol")}, axes({"a", "1"}));

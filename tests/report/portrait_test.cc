@@ -12,9 +12,6 @@
 
 namespace corank::report {
 namespace {
-
-using certify::Interval;
-using certify::Verdict;
 using ::testing::HasSubstr;
 
 PictureSource boxes_about_a_circle(const std::string& set, double radius, int count, double half) {
@@ -95,7 +92,7 @@ TEST(Svg, DrawsTheUnionOfTheBoxesRoundedOutwardByLessThanACell) {
     ASSERT_EQ(svg.layers.size(), 1u);
     const double unit_x = (svg.x_hi - svg.x_lo) / svg.columns, unit_y = (svg.y_hi - svg.y_lo) / svg.rows;
     std::vector<bool> must(svg.layers[0].cells.size()), may(must);
-    for (const SolBox& b : source.boxes.boxes) {
+    for (const result::SolBox& b : source.boxes.boxes) {
       const double left = (b.box[0].lo() - svg.x_lo) / unit_x, right = (b.box[0].hi() - svg.x_lo) / unit_x;
       const double top = (svg.y_hi - b.box[1].hi()) / unit_y, bottom = (svg.y_hi - b.box[1].lo()) / unit_y;
       for (int r = 0; r < svg.rows; ++r)
@@ -120,7 +117,7 @@ TEST(Svg, DrawsTheUnionOfTheBoxesRoundedOutwardByLessThanACell) {
     EXPECT_EQ(missing, 0u) << "cells with a part of a box, seed " << seed;
     EXPECT_EQ(excess, 0u) << "cells without one, seed " << seed;
     EXPECT_GT(drawn, 1000u);
-    for (const SolBox& b : source.boxes.boxes)  // also points
+    for (const result::SolBox& b : source.boxes.boxes)  // also points
       ASSERT_TRUE(svg.holds(0, b.box[0].mid(), b.box[1].mid())) << b.box[0] << b.box[1];
   }
 }
@@ -271,7 +268,7 @@ TEST(Portrait, RefusesWhatItCannotDraw) {
                std::invalid_argument);
   EXPECT_THROW(write("a.svg", picture({boxes_about_a_circle("forward", 1, 0, 0.1)})), std::invalid_argument);
   EXPECT_THROW(write("a.svg", flat, bare(5)), std::invalid_argument);
-  EXPECT_THROW(write("no/such/folder/a.svg", flat), ResultFileError);
+  EXPECT_THROW(write("no/such/folder/a.svg", flat), result::ResultFileError);
   EXPECT_TRUE(std::filesystem::is_empty(folder.file("")));
 }
 

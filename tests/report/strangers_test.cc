@@ -6,9 +6,9 @@
 
 #include <functional>
 
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 #include "corank/tests/report/portrait_reader.h"
-#include "corank/tests/report/sample_result.h"
+#include "corank/tests/result/sample_result.h"
 
 namespace corank::report {
 namespace {
@@ -19,7 +19,7 @@ class Stranger : public testing::Test {
  protected:
   // Why a good result is refused after the change; nothing where it is read.
   std::string refusal(const std::function<void(hid_t)>& change) const {
-    write_result(path(), sample_result());
+    result::write_result(path(), result::sample_result());
     const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     change(file);
     EXPECT_GE(H5Fclose(file), 0);
@@ -27,8 +27,8 @@ class Stranger : public testing::Test {
   }
   std::string refusal() const {
     try {
-      read_result(path());
-    } catch (const ResultFileError& error) {
+      result::read_result(path());
+    } catch (const result::ResultFileError& error) {
       return error.what();
     }
     return "";
@@ -181,31 +181,31 @@ TEST_F(Stranger, MayNotPutAnAttributeOfSeveralValues) {
 }
 
 TEST_F(Stranger, CannotSteerATerminalWithANameOrAMessage) {
-  Result result = sample_result();
+  result::Result result = result::sample_result();
   result.model = "a\x1b]0;owned\x07";
   result.variables[0].name = "x\x1b[31m";
-  write_result(path(), result);
-  EXPECT_EQ(read_result(path()).model, "a\\x1b]0;owned\\x07");
-  EXPECT_EQ(read_result(path()).variables[0].name, "x\\x1b[31m");
+  result::write_result(path(), result);
+  EXPECT_EQ(result::read_result(path()).model, "a\\x1b]0;owned\\x07");
+  EXPECT_EQ(result::read_result(path()).variables[0].name, "x\\x1b[31m");
   EXPECT_THAT(refusal([](hid_t f) { H5Lcreate_soft("/", f, "/a\x1b[31m", H5P_DEFAULT, H5P_DEFAULT); }),
               HasSubstr("/a\\x1b[31m is a link"));
-  result = sample_result();
+  result = result::sample_result();
   result.options.kernel = "<b>\x1b";
-  write_result(path(), result);
+  result::write_result(path(), result);
   EXPECT_THAT(refusal(), HasSubstr("neither right nor left: '<b>\\x1b'"));
 }
 
 TEST_F(Stranger, CannotBringMarkupInADecimal) {
-  Result result = sample_result();
+  result::Result result = result::sample_result();
   result.cover.decimals = {{"0.5", "<script>", "1", "2"}, {}};
-  write_result(path(), result);
+  result::write_result(path(), result);
   EXPECT_THAT(refusal(), HasSubstr("decimals holds what is no number"));
 }
 
 TEST_F(Stranger, CannotNameMoreCoordinatesThanVariables) {
-  Result result = sample_result();
+  result::Result result = result::sample_result();
   result.configuration_size = 1'000'000;
-  write_result(path(), result);
+  result::write_result(path(), result);
   EXPECT_THAT(refusal(), HasSubstr("configuration_size is above the number of variables"));
 }
 

@@ -10,9 +10,6 @@
 namespace corank::report {
 namespace {
 
-using certify::Interval;
-using certify::Verdict;
-
 std::string from_base64(const std::string& text) {
   static const std::string kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;

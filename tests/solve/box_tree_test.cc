@@ -1,5 +1,5 @@
 // Which boxes overlap, and which hang together: compared with every pair.
-#include "corank/solve/box_tree.h"
+#include "corank/core/box_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,6 @@
 
 namespace corank::solve {
 namespace {
-
-using certify::Box;
-using certify::Interval;
 
 std::vector<Box> random_boxes(std::size_t count, std::size_t sides, double widest, std::mt19937& random) {
   std::uniform_real_distribution<double> place(-1, 1), width(0, widest);
@@ -120,7 +117,7 @@ std::vector<Found> isolated(const std::vector<Box>& boxes) {
     sheet.dependent = {0};
     sheet.region = sheet.image = boxes[i];
     found[i].box.box = boxes[i];
-    found[i].box.verdict = certify::Verdict::isolated;
+    found[i].box.verdict = Verdict::isolated;
     found[i].sheet = std::make_unique<const certify::Sheet>(std::move(sheet));
   }
   return found;
@@ -133,10 +130,10 @@ TEST(MergeIsolated, LeavesUndecidedWhatItDidNotCompare) {
   stopped = all;
   merge_isolated(all);
   ASSERT_EQ(all.size(), 2u) << "the second is the first's solution";
-  EXPECT_EQ(all[0]->box.verdict, certify::Verdict::isolated);
+  EXPECT_EQ(all[0]->box.verdict, Verdict::isolated);
   merge_isolated(stopped, [] { return true; });
   ASSERT_EQ(stopped.size(), 3u);
-  for (const Found* f : stopped) EXPECT_EQ(f->box.verdict, certify::Verdict::undecided);
+  for (const Found* f : stopped) EXPECT_EQ(f->box.verdict, Verdict::undecided);
 }
 
 TEST(CollectPoints, MakesOneOfWhatItDidNotCluster) {
@@ -150,7 +147,7 @@ TEST(CollectPoints, MakesOneOfWhatItDidNotCluster) {
   const auto points = collect_points(all, {0.1}, [] { return true; });
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(points[0].box[0], Interval(0, 21));
-  EXPECT_EQ(points[0].verdict, certify::Verdict::undecided);
+  EXPECT_EQ(points[0].verdict, Verdict::undecided);
 }
 
 }  // namespace

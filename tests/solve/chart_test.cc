@@ -11,10 +11,6 @@
 
 namespace corank::solve {
 namespace {
-
-using certify::Cover;
-using certify::CoverBox;
-using certify::Verdict;
 using test::SystemBuilder;
 
 double largest(const Chart& chart) {

@@ -8,11 +8,6 @@
 #include "corank/tests/system_builder.h"
 
 namespace corank::solve {
-
-using certify::Cover;
-using certify::Interval;
-using certify::System;
-using certify::Verdict;
 using test::SystemBuilder;
 
 inline bool covers(const Cover& cover, const std::vector<double>& point) {

@@ -10,9 +10,6 @@
 
 namespace corank::solve {
 namespace {
-
-using certify::CoverBox;
-using certify::ExactNumber;
 using Point = std::vector<double>;
 
 // Is the point, known to `slack` only, in a box?
@@ -152,10 +149,9 @@ TEST(Degenerate, AClusterOfRootsIsNeverTakenForOne) {
   SystemBuilder b;
   b.variable("x", "-1", "1");
   System system = b.system();
-  certify::Polynomial p;
+  Polynomial p;
   for (std::size_t i = 0; i < c.size(); ++i)
-    p.monomials.emplace_back(
-        c[i], i == 0 ? std::vector<certify::Factor>{} : std::vector<certify::Factor>{{0, static_cast<int>(i)}});
+    p.monomials.emplace_back(c[i], i == 0 ? std::vector<Factor>{} : std::vector<Factor>{{0, static_cast<int>(i)}});
   system.equations.push_back(p);
   for (const double sigma : {0.01, 1e-5, 1e-6}) {
     const Cover cover = solve_with(system, sigma);

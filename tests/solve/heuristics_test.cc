@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "corank/certify/rounding.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/branching.h"
 #include "corank/solve/preconditioner.h"
 
@@ -16,9 +16,8 @@ namespace {
 TEST(Branching, BisectsArgumentsRatherThanTheirSines) {
   SystemBuilder b;
   const int y = b.variable("y", "-2", "2"), t = b.variable("t", "0", "30"), s = b.variable("s", "-1", "1");
-  b.equation({{"1", {{s, 1}}}, {"-1", {{t, 1, certify::Function::sine}}}})
-      .equation({{"1", {{y, 1}, {s, 1}}}, {"-1", {{t, 1}}}});
-  const certify::UpwardRounding rounding;
+  b.equation({{"1", {{s, 1}}}, {"-1", {{t, 1, Function::sine}}}}).equation({{"1", {{y, 1}, {s, 1}}}, {"-1", {{t, 1}}}});
+  const UpwardRounding rounding;
   const BranchingRule rule(b.system());
   const certify::CompiledSystem compiled(b.system());
   EXPECT_EQ(rule.weights()[s], 0);
@@ -31,7 +30,7 @@ TEST(Branching, BisectsArgumentsRatherThanTheirSines) {
 }
 
 TEST(Preconditioner, InvertsTheDependentColumns) {
-  const certify::UpwardRounding rounding;
+  const UpwardRounding rounding;
   const System system = circle_and_diagonal().system();
   const certify::CompiledSystem compiled(system);
   PreconditionerFactory factory(compiled);

@@ -103,22 +103,21 @@ TEST(Solve, MakesNoFalseClaimOnGriewankAndOsborne) {
 
 TEST(Solve, SeparatesTheRootsOfAWilkinsonPolynomial) {
   // Π_{k=1}^{8} (x − k/10), expanded in exact arithmetic.
-  std::vector<certify::ExactNumber> c{1};
+  std::vector<ExactNumber> c{1};
   for (int k = 1; k <= 8; ++k) {
-    std::vector<certify::ExactNumber> next(c.size() + 1);
+    std::vector<ExactNumber> next(c.size() + 1);
     for (std::size_t i = 0; i < c.size(); ++i) {
       next[i + 1] = next[i + 1] + c[i];
-      next[i] = next[i] - c[i] * certify::ExactNumber(k) / certify::ExactNumber(10);
+      next[i] = next[i] - c[i] * ExactNumber(k) / ExactNumber(10);
     }
     c = next;
   }
   SystemBuilder b;
   b.variable("x", "-3", "3");
   System system = b.system();
-  certify::Polynomial p;
+  Polynomial p;
   for (std::size_t i = 0; i < c.size(); ++i)
-    p.monomials.emplace_back(
-        c[i], i == 0 ? std::vector<certify::Factor>{} : std::vector<certify::Factor>{{0, static_cast<int>(i)}});
+    p.monomials.emplace_back(c[i], i == 0 ? std::vector<Factor>{} : std::vector<Factor>{{0, static_cast<int>(i)}});
   system.equations.push_back(p);
   const Cover cover = solve_with(system, 1e-6);
   EXPECT_TRUE(cover.complete());
@@ -247,7 +246,7 @@ TEST(Solve, ProvesWhatTheReductionAloneSolves) {
 }
 
 TEST(Solve, ASystemWithoutVariablesHasOneSolution) {
-  const Cover cover = solve(certify::System{});
+  const Cover cover = solve(System{});
   ASSERT_EQ(cover.boxes.size(), 1u);
   EXPECT_EQ(cover.boxes[0].verdict, Verdict::isolated);
 }
@@ -317,29 +316,29 @@ TEST(Solve, NeverLosesAPlantedSolution) {
   for (int trial = 0; trial < 100; ++trial) {
     SystemBuilder b;
     std::vector<double> root;
-    std::vector<certify::ExactNumber> exact;
+    std::vector<ExactNumber> exact;
     for (int j = 0; j < 3; ++j) {
       b.variable("x" + std::to_string(j), "-1", "1");
       const int n = integer(-16, 16);
       root.push_back(n / 16.0);
-      exact.push_back(certify::ExactNumber(n) / certify::ExactNumber(16));
+      exact.push_back(ExactNumber(n) / ExactNumber(16));
     }
     System system = b.system();
     for (int e = 0; e < 3; ++e) {
-      certify::Polynomial p;
-      certify::ExactNumber sum;
+      Polynomial p;
+      ExactNumber sum;
       for (int i = 0; i < 3; ++i)
         for (int j = i; j <= 3; ++j) {
-          const certify::ExactNumber c(integer(-3, 3));
+          const ExactNumber c(integer(-3, 3));
           if (c.is_zero()) continue;
-          std::vector<certify::Factor> factors{{i, 1}};
+          std::vector<Factor> factors{{i, 1}};
           if (j == i) factors[0].power = 2;
           if (j > i && j < 3) factors.push_back({j, 1});
           p.monomials.emplace_back(c, factors);
-          sum = sum + c * exact[i] * (j == 3 ? certify::ExactNumber(1) : exact[j]);
+          sum = sum + c * exact[i] * (j == 3 ? ExactNumber(1) : exact[j]);
         }
       if (p.monomials.empty()) continue;
-      p.monomials.emplace_back(-sum, std::vector<certify::Factor>{});
+      p.monomials.emplace_back(-sum, std::vector<Factor>{});
       system.equations.push_back(p);
     }
     Options options;

@@ -16,17 +16,6 @@
 
 namespace corank::solve {
 namespace {
-
-using certify::ConstantFunction;
-using certify::Cover;
-using certify::CoverBox;
-using certify::ExactNumber;
-using certify::Factor;
-using certify::Function;
-using certify::Monomial;
-using certify::Polynomial;
-using certify::System;
-using certify::Verdict;
 using Point = std::vector<double>;
 
 // A choice of the coefficients as doubles.
@@ -176,7 +165,7 @@ class Generator {
       if (chance(8)) lower = exact.back();
       if (chance(8)) upper = exact.back();
       if (chance(10)) lower = -1, upper = 1;
-      s.variables.emplace_back("x" + std::to_string(j), certify::VariableKind::length, lower, upper);
+      s.variables.emplace_back("x" + std::to_string(j), VariableKind::length, lower, upper);
     }
     const int m = std::max(1, n - upto(2));
     for (int i = 0; i < m; ++i) add_equation(s, n);
@@ -284,7 +273,7 @@ std::string text(const System& s) {
 std::string text(const CoverBox& b) {
   std::ostringstream t;
   t.precision(17);
-  t << certify::to_string(b.verdict) << " free";
+  t << to_string(b.verdict) << " free";
   for (int f : b.free) t << ' ' << f;
   for (const auto& s : b.box) t << ' ' << s;
   return t.str();
@@ -301,7 +290,7 @@ std::string text(const Point& x) {
 std::string refuted(const System& system, const Cover& cover, const Doubles& f, std::mt19937& random) {
   constexpr double kSlack = 1e-7, kMultipleRoot = 1e-5, kDeep = 1e-4;
   std::uniform_real_distribution<double> unit(0, 1);
-  const auto within = [&](const certify::Interval& side) { return side.lo() + unit(random) * (side.hi() - side.lo()); };
+  const auto within = [&](const Interval& side) { return side.lo() + unit(random) * (side.hi() - side.lo()); };
   std::vector<int> all;
   for (int j = 0; j < system.size(); ++j) all.push_back(j);
   for (int k = 0; k < 60; ++k) {

@@ -63,7 +63,7 @@ TEST(Solve, ATolerancedSystemIsProvenForEveryChoiceOfItsCoefficients) {
   const Cover one = solve_with(curve, 0.05), zero = solve(points);
   EXPECT_GT(one.count(Verdict::regular), 50u);
   EXPECT_EQ(one.count(Verdict::regular), one.boxes.size());
-  EXPECT_EQ(one.tolerance, 1e-3 * certify::kPartialTolerance);
+  EXPECT_EQ(one.tolerance, 1e-3 * kPartialTolerance);
   EXPECT_EQ(zero.count(Verdict::isolated), 2u);
   ASSERT_EQ(zero.points.size(), 2u);
   EXPECT_GT(zero.sigma.length, std::sqrt(1e-3)) << "so far apart may two solutions be that merge for some choice";

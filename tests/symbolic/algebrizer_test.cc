@@ -118,7 +118,7 @@ TEST(Algebrizer, AgreesWithDirectEvaluationOnRandomMechanisms) {
         const double direct = static_cast<double>(residual(trigonometric.equations[j].relation, values));
         long double size = 1;  // of the terms that cancel
         for (const auto& monomial : system.equations[j].monomials)
-          size += std::fabs(evaluate(certify::Polynomial{{monomial}, ""}, x));
+          size += std::fabs(evaluate(Polynomial{{monomial}, ""}, x));
         ASSERT_NEAR(static_cast<double>(evaluate(system.equations[j], x)), direct, 1e-14 * static_cast<double>(size))
             << "seed " << kSeed << ": " << trigonometric.equations[j].relation;
       }
@@ -135,13 +135,13 @@ TEST(Algebrizer, AgreesWithDirectEvaluationOnSingularitySystems) {
     Values values = generator.point(mechanism);
     for (const std::string& xi : trigonometric.kernel_unknowns) values[xi] = generator.uniform(-1, 1);
     const std::vector<long double> x = compiled_point(system, values);
-    std::map<std::string, const certify::Polynomial*> by_source;
+    std::map<std::string, const Polynomial*> by_source;
     for (const auto& polynomial : system.equations) by_source[polynomial.source] = &polynomial;
     for (const auto& equation : trigonometric.equations) {
       ASSERT_TRUE(by_source.contains(equation.source)) << equation.source;
-      const certify::Polynomial& polynomial = *by_source[equation.source];
+      const Polynomial& polynomial = *by_source[equation.source];
       long double size = 1;
-      for (const auto& monomial : polynomial.monomials) size += std::fabs(evaluate(certify::Polynomial{{monomial}, ""}, x));
+      for (const auto& monomial : polynomial.monomials) size += std::fabs(evaluate(Polynomial{{monomial}, ""}, x));
       ASSERT_NEAR(static_cast<double>(evaluate(polynomial, x)), static_cast<double>(residual(equation.relation, values)),
                   1e-13 * static_cast<double>(size))
           << "seed " << kSeed + 1 << ": " << equation.relation;

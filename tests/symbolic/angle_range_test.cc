@@ -93,7 +93,7 @@ TEST(AngleRange, OfOneValueLeavesTheAngleItsColumn) {
   const System fixed = system("[3/5, 3/5]"), free = system("[-pi, pi]");
   ASSERT_EQ(names(fixed), names(free));
   EXPECT_EQ(fixed.configuration_size, free.configuration_size);
-  std::map<std::string, const certify::Polynomial*> by_source;
+  std::map<std::string, const Polynomial*> by_source;
   for (const auto& polynomial : fixed.equations) by_source[polynomial.source] = &polynomial;
   RandomMechanism random(kSeed + 2);
   for (int k = 0; k < 10; ++k) {

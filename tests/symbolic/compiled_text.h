@@ -10,11 +10,6 @@
 
 namespace corank::symbolic {
 
-using certify::ExactNumber;
-using certify::Interval;
-using certify::System;
-using certify::VariableKind;
-
 inline constexpr unsigned kSeed = 314159;
 
 inline System compile(const std::string& text) { return algebrize(plain_system(parse_model(text, "m.cuik"))); }

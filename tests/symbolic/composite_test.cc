@@ -130,10 +130,10 @@ TEST(RotationMatrix, CanBeBuiltInCpp) {
 }
 
 TEST(Composite, PrintsAsAFileThatReadsBack) {
-  const certify::System s = algebrize(plain_system(model("R @ rotation\nw @ unit", "R_xx + R_yy = w_x;")));
+  const System s = algebrize(plain_system(model("R @ rotation\nw @ unit", "R_xx + R_yy = w_x;")));
   const std::string text = to_cuik(s);
   EXPECT_THAT(text, HasSubstr("% m.cuik:2 (R @ rotation)\n"));
-  const certify::System again = algebrize(plain_system(parse_model(text, "m.cuik")));
+  const System again = algebrize(plain_system(parse_model(text, "m.cuik")));
   ASSERT_EQ(again.equations.size(), s.equations.size());
   for (std::size_t i = 0; i < s.equations.size(); ++i)
     EXPECT_EQ(again.equations[i].monomials.size(), s.equations[i].monomials.size());

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/certify/system.h"
+#include "corank/core/system.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::symbolic {
@@ -56,17 +56,17 @@ inline Values constant_values(const std::vector<Constant>& constants) {
   return values;
 }
 
-inline long double evaluate(const certify::Polynomial& polynomial, const std::vector<long double>& x) {
+inline long double evaluate(const Polynomial& polynomial, const std::vector<long double>& x) {
   long double sum = 0;
-  for (const certify::Monomial& monomial : polynomial.monomials) {
+  for (const Monomial& monomial : polynomial.monomials) {
     // The middle of an enclosure of width ≤ 2 ulp: good to 10^-16.
     long double term = (static_cast<long double>(monomial.enclosure.lo()) + monomial.enclosure.hi()) / 2;
-    for (const certify::Factor& factor : monomial.factors) {
+    for (const Factor& factor : monomial.factors) {
       const long double at = x[static_cast<std::size_t>(factor.variable)];
       switch (factor.function) {
-        case certify::Function::identity: term *= std::pow(at, static_cast<long double>(factor.power)); break;
-        case certify::Function::sine: term *= std::sin(at); break;
-        case certify::Function::cosine: term *= std::cos(at); break;
+        case Function::identity: term *= std::pow(at, static_cast<long double>(factor.power)); break;
+        case Function::sine: term *= std::sin(at); break;
+        case Function::cosine: term *= std::cos(at); break;
       }
     }
     sum += term;
@@ -75,40 +75,40 @@ inline long double evaluate(const certify::Polynomial& polynomial, const std::ve
 }
 
 /// The point of the compiled system's variables that belongs to the coordinates and kernel unknowns in `values`.
-inline std::vector<long double> compiled_point(const certify::System& system, const Values& values) {
+inline std::vector<long double> compiled_point(const System& system, const Values& values) {
   std::vector<long double> x;
-  for (const certify::Variable& variable : system.variables)
+  for (const Variable& variable : system.variables)
     x.push_back(values.contains(variable.name) ? values.at(variable.name) : 0);
-  for (const certify::Angle& angle : system.angles) {
+  for (const Angle& angle : system.angles) {
     x[static_cast<std::size_t>(angle.cosine)] = std::cos(values.at(angle.name));
     x[static_cast<std::size_t>(angle.sine)] = std::sin(values.at(angle.name));
   }
   for (std::size_t i = 0; i < x.size(); ++i)
-    for (const certify::Polynomial& equation : system.equations)  // 1·x_i − … = 0, with variables known by now
+    for (const Polynomial& equation : system.equations)  // 1·x_i − … = 0, with variables known by now
       if (equation.source == "definition of " + system.variables[i].name) x[i] = -evaluate(equation, x);
   return x;
 }
 
 /// Polynomials with their coefficients' texts, for comparison: "3/4·x0^2·x3 + …".
-inline std::string canonical(const certify::Polynomial& polynomial) {
+inline std::string canonical(const Polynomial& polynomial) {
   std::string out;
-  for (const certify::Monomial& monomial : polynomial.monomials) {
+  for (const Monomial& monomial : polynomial.monomials) {
     out += " + " + monomial.coefficient.text();
-    for (const certify::Factor& factor : monomial.factors) {
+    for (const Factor& factor : monomial.factors) {
       const std::string name = "x" + std::to_string(factor.variable);
       switch (factor.function) {
-        case certify::Function::identity: out += "·" + name + "^" + std::to_string(factor.power); break;
-        case certify::Function::sine: out += "·sin(" + name + ")"; break;
-        case certify::Function::cosine: out += "·cos(" + name + ")"; break;
+        case Function::identity: out += "·" + name + "^" + std::to_string(factor.power); break;
+        case Function::sine: out += "·sin(" + name + ")"; break;
+        case Function::cosine: out += "·cos(" + name + ")"; break;
       }
     }
   }
   return out;
 }
 
-inline std::vector<std::string> canonical(const std::vector<certify::Polynomial>& polynomials) {
+inline std::vector<std::string> canonical(const std::vector<Polynomial>& polynomials) {
   std::vector<std::string> out;
-  for (const certify::Polynomial& polynomial : polynomials) out.push_back(canonical(polynomial));
+  for (const Polynomial& polynomial : polynomials) out.push_back(canonical(polynomial));
   return out;
 }
 

@@ -13,8 +13,6 @@
 
 namespace corank::symbolic {
 namespace {
-
-using certify::System;
 using ::testing::HasSubstr;
 
 constexpr unsigned kSeed = 161803;

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "corank/report/cuik_sol.h"
+#include "corank/result/cuik_sol.h"
 #include "corank/tests/cuik/shell.h"
 
 namespace corank::cuik {
 namespace {
 
-using report::SolFile;
+using result::SolFile;
 using ::testing::HasSubstr;
 
 // The sh blocks of the tutorial, one after the other.
@@ -29,7 +29,7 @@ std::string commands() {
 }
 
 bool covers(const SolFile& file, const std::vector<std::pair<std::string, double>>& point) {
-  return std::any_of(file.boxes.begin(), file.boxes.end(), [&](const report::SolBox& box) {
+  return std::any_of(file.boxes.begin(), file.boxes.end(), [&](const result::SolBox& box) {
     return std::all_of(point.begin(), point.end(), [&](const auto& value) {
       return box.box.at(static_cast<std::size_t>(file.find(value.first))).contains(value.second);
     });
@@ -58,7 +58,7 @@ TEST(Tutorial, RunsWordForWordAndShowsWhatItPromises) {
   }
 
   // Inverse: the arcs of radius 2l about both motors, and J3 on a motor, the folded arm in any direction.
-  const SolFile inv = report::read_sol(folder.file("inv.sol"));
+  const SolFile inv = result::read_sol(folder.file("inv.sol"));
   for (int i = 0; i <= 20; ++i) {
     const double t = std::acos(kD / 2 / (2 * kL)) * (i / 10.0 - 1);  // on the arc about the origin inside the other circle
     const double x = 2 * kL * std::cos(t), y = 2 * kL * std::sin(t);
@@ -71,15 +71,15 @@ TEST(Tutorial, RunsWordForWordAndShowsWhatItPromises) {
     EXPECT_TRUE(covers(inv, {{"J3x", 0.0}, {"J3y", 0.0}, {"ct5", std::cos(turn)}, {"st5", std::sin(turn)}})) << i;
   }
   // Forward: J2, J3, J4 on a line. θ3 = θ4 = 0 with θ2 = π − θ5 by symmetry: d + 2 l cosθ2 + 2 l = 0.
-  const SolFile fwd = report::read_sol(folder.file("fwd.sol"));
+  const SolFile fwd = result::read_sol(folder.file("fwd.sol"));
   const double c2 = -(kD + 2 * kL) / (2 * kL), reach = -(kD - 2 * kL) / (2 * kL);
   EXPECT_LT(c2, -1);  // too far apart; so the links 3 and 4 point back, θ3 = θ4 = π
   const double s2 = std::sqrt(1 - reach * reach);
   EXPECT_TRUE(covers(fwd, {{"ct2", reach}, {"st2", s2}, {"ct3", -1.0}, {"st3", 0.0}, {"ct5", -reach}, {"st5", s2}}));
   // What is derived by corank covers the same, in its own names.
-  const SolFile forward = report::read_sol(folder.file("forward.sol"));
+  const SolFile forward = result::read_sol(folder.file("forward.sol"));
   EXPECT_TRUE(covers(forward, {{"c_theta2", reach}, {"s_theta2", s2}, {"c_theta3", -1.0}, {"s_theta3", 0.0}}));
-  EXPECT_TRUE(covers(report::read_sol(folder.file("inverse.sol")), {{"J3x", 0.0}, {"J3y", 0.0}}));
+  EXPECT_TRUE(covers(result::read_sol(folder.file("inverse.sol")), {{"J3x", 0.0}, {"J3y", 0.0}}));
 }
 
 TEST(Tutorial, TheInputPortraitHoldsTheAnglesOfTheOutputPortrait) {
@@ -90,7 +90,7 @@ TEST(Tutorial, TheInputPortraitHoldsTheAnglesOfTheOutputPortrait) {
   ASSERT_NE(end, std::string::npos);
   const Outcome run = folder.run(all.substr(0, end) + "cuikatan2 cspace 4 3 10 9 cspace_angles\n");
   ASSERT_EQ(run.status, 0) << run.err;
-  const SolFile file = report::read_sol(folder.file("cspace_angles.sol"));
+  const SolFile file = result::read_sol(folder.file("cspace_angles.sol"));
   ASSERT_EQ(file.size(), 8);
   const double x = kD / 2, y = 1.0, r = std::hypot(x, y), base = std::atan2(y, x), knee = std::acos(r / (2 * kL));
   const double theta5 = base + knee, theta2 = std::numbers::pi - theta5;

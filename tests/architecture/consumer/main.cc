@@ -1,7 +1,7 @@
 // The three-slider mechanism, built in C++ and read from the installed model: 8 forward and 4 inverse singularities.
 #include <iostream>
 
-#include "corank/report/result_file.h"
+#include "corank/result/result_file.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/mechanism.h"
@@ -11,14 +11,14 @@
 using namespace corank;
 
 void print_singularities(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set) {
-  const certify::System system = symbolic::algebrize(symbolic::singularity_system(mechanism, set));
-  report::Result result;
+  const System system = symbolic::algebrize(symbolic::singularity_system(mechanism, set));
+  result::Result result;
   result.cover = solve::solve(system);
-  report::describe_system(system, result);
-  report::write_result("result.h5", result);
+  result::describe_system(system, result);
+  result::write_result("result.h5", result);
   int isolated = 0;
-  for (const certify::CoverBox& point : report::read_result("result.h5").cover.points) {
-    isolated += point.verdict == certify::Verdict::isolated;
+  for (const CoverBox& point : result::read_result("result.h5").cover.points) {
+    isolated += point.verdict == Verdict::isolated;
   }
   std::cout << isolated << " isolated, " << (result.cover.complete() ? "complete" : "incomplete") << "\n";
 }

@@ -1,0 +1,422 @@
+#include "corank/check/checker.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+
+#include "corank/check/distinct.h"
+#include "corank/check/exact.h"
+#include "corank/check/isolation.h"
+#include "corank/check/kernel.h"
+#include "corank/check/replay.h"
+#include "corank/check/self_motion.h"
+#include "corank/check/sheets.h"
+
+namespace corank::check {
+namespace {
+
+using Place = Failure::Place;
+
+bool bounded(const Box& box) {
+  return std::all_of(box.begin(), box.end(), [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); });
+}
+
+bool contains(const Box& outer, const Box& inner) {
+  for (std::size_t j = 0; j < outer.size(); ++j)
+    if (!outer[j].contains(inner[j])) return false;
+  return true;
+}
+
+bool same(const CoverBox& a, const CoverBox& b) {
+  return a.box == b.box && a.verdict == b.verdict && a.free == b.free && a.region == b.region && a.point == b.point &&
+         a.corank == b.corank;
+}
+
+class Checker {
+ public:
+  Checker(const System& system, const Cover& cover, const Options& options)
+      : system_(system),
+        cover_(cover),
+        options_(options),
+        stop_(options.stop),
+        threads_(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()),
+        allow_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
+        arena_(threads_) {}
+
+  Report run() {
+    const NearestRounding nearest;
+    try {
+      check_all();
+    } catch (const Stopped&) {
+      report_.interrupted = true;
+    }
+    if (report_.interrupted) report_.stage = stage_;
+    std::stable_sort(report_.failures.begin(), report_.failures.end(), [](const Failure& a, const Failure& b) {
+      return a.place != b.place ? a.place < b.place : a.index < b.index;
+    });
+    return std::move(report_);
+  }
+
+ private:
+  void check_all() {
+    try {
+      kernel_ = std::make_unique<const KernelCheck>(system_, stop_);
+      problem_.emplace(system_, cover_.reduction, stop_);
+    } catch (const std::invalid_argument& error) {
+      system_.validate();  // that is for the caller
+      fail(Place::cover, 0, error.what());
+    } catch (const std::domain_error& error) {  // coefficients that sums have made too long
+      fail(Place::cover, 0, std::string("the reduction: ") + error.what());
+    }
+    check_shapes();
+    if (!problem_ || !report_.failures.empty()) return;  // nothing below has a meaning
+    try {
+      for (const SelfMotionRecord& record : cover_.self_motions)
+        motions_.push_back(std::make_unique<const MotionCheck>(*problem_, record));
+    } catch (const std::domain_error& error) {  // numbers of too many bits
+      return fail(Place::cover, 0, std::string("a self-motion: ") + error.what());
+    }
+    check_order();
+    enter("the exact points");
+    check_exact_points();
+    enter("the boxes");
+    check_boxes();
+    enter("the points");
+    check_points();
+    check_distinct();
+    if (!cover_.proof) return;
+    enter("the proof of completeness");
+    check_proof();
+  }
+
+  void enter(const char* stage) {
+    stage_ = stage;
+    stop_.poll();
+  }
+
+  void fail(Place place, std::size_t index, const std::string& reason) {
+    report_.failures.push_back({place, index, reason});
+  }
+
+  // What every later step relies on.
+  void check_shapes() {
+    const std::size_t n = system_.variables.size();
+    if (!(cover_.sigma.length > 0 && cover_.sigma.angle > 0)) fail(Place::cover, 0, "sigma is no positive number");
+    const auto valid = [&](const CoverBox& b) {
+      return b.box.size() == n && bounded(b.box) && b.region >= -1 && b.region < static_cast<int>(cover_.regions.size()) &&
+             b.point >= -1 && b.point < static_cast<int>(cover_.exact_points.size()) && b.motion >= -1 &&
+             b.motion < static_cast<int>(cover_.self_motions.size()) && b.corank >= -1 && b.corank <= static_cast<int>(n);
+    };
+    const std::string fault =
+        "it has not one bounded side for each variable, or names a region or a point that does not exist";
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
+      if (!valid(cover_.boxes[i])) fail(Place::box, i, fault);
+    for (std::size_t i = 0; i < cover_.points.size(); ++i)
+      if (!valid(cover_.points[i])) fail(Place::point, i, fault);
+    for (const Box& region : cover_.regions)
+      if (region.size() != n || !bounded(region))
+        fail(Place::cover, 0, "a region has not one bounded side for each variable");
+  }
+
+  void check_order() {
+    for (std::size_t i = 1; i < cover_.boxes.size(); ++i)
+      if (out_of_order(cover_.boxes[i - 1].box, cover_.boxes[i].box))
+        fail(Place::box, i, "it is not in the order of the sides");
+    std::vector<unsigned char> used(cover_.regions.size(), 0);
+    for (const CoverBox& b : cover_.boxes)
+      if (b.region >= 0) used[static_cast<std::size_t>(b.region)] = 1;
+    if (std::find(used.begin(), used.end(), 0) != used.end()) fail(Place::cover, 0, "a region belongs to no box");
+    if (!cover_.regions.empty() && problem_->contradiction()) fail(Place::cover, 0, "the equations contradict each other");
+    if (problem_->contradiction()) return;
+    const int dimension = std::max(0, problem_->size() - static_cast<int>(problem_->equations().size()));
+    if (cover_.count(Verdict::partial) == 0 && cover_.dimension != dimension)
+      fail(Place::cover, 0,
+           "the set has dimension " + std::to_string(dimension) + ", not " + std::to_string(cover_.dimension));
+  }
+
+  bool out_of_order(const Box& a, const Box& b) const {
+    for (const int j : problem_->kept()) {
+      const auto v = static_cast<std::size_t>(j);
+      if (a[v].lo() != b[v].lo()) return a[v].lo() > b[v].lo();
+      if (a[v].hi() != b[v].hi()) return a[v].hi() > b[v].hi();
+    }
+    return false;
+  }
+
+  void check_exact_points() {
+    for (std::size_t i = 0; i < cover_.exact_points.size(); ++i) {
+      const ExactPoint& point = cover_.exact_points[i];
+      std::string reason;
+      try {
+        exact_.emplace_back(std::make_unique<ExactCheck>(system_, point, stop_));
+        reason = exact_.back()->fault();
+        if (reason.empty()) reason = exact_.back()->holds();
+        if (reason.empty()) reason = exact_.back()->kernel();
+        if (reason.empty() && !(point.sole_within >= 0 && std::isfinite(point.sole_within)))
+          reason = "a radius is no number";
+        if (reason.empty() && point.sole_within > 0) reason = check_sole(system_, *exact_.back(), point.sole_within);
+      } catch (const std::domain_error& error) {  // numbers of too many bits
+        reason = error.what();
+      } catch (const std::invalid_argument& error) {  // a face whose coefficients or powers are too large
+        reason = error.what();
+      }
+      exact_.resize(i + 1);
+      exact_reasons_.push_back(reason);
+      if (!reason.empty()) fail(Place::exact_point, i, reason);
+      ++(reason.empty() ? report_.exact_points.verified : report_.exact_points.failed);
+    }
+  }
+
+  // What could not be shown of the box; nothing where all was, or where there is nothing to check (`checkable`).
+  std::string check_box(const CoverBox& box, bool& checkable) const {
+    std::string reason = check_verdict(box, checkable);
+    if (reason.empty() && box.corank >= 0 && !kernel_->is_at_most(box.corank, box.box))
+      reason = "a kernel of a dimension above " + std::to_string(box.corank) + " is not excluded";
+    checkable = checkable || !reason.empty();
+    return reason;
+  }
+
+  // A piece of a self-motion: one zero of its relations and what they leave, and no other of the equations themselves.
+  std::string check_on_motion(const MotionCheck& motion, const CoverBox& box, const Box& region) const {
+    if (!motion.fault().empty()) return "its self-motion is none: " + motion.fault();
+    std::string reason = check_sheet(*problem_, motion.rows(), box, region);
+    return reason.empty() ? motion.unique(box, region) : reason;
+  }
+
+  std::string check_verdict(const CoverBox& box, bool& checkable) const {
+    checkable = true;
+    switch (box.verdict) {
+      case Verdict::regular:
+      case Verdict::isolated:
+      case Verdict::boundary: {
+        // Of an over-determined system with a tolerance the checker knows the written coefficients only.
+        if (cover_.tolerance > 0 && system_.equations.size() > system_.variables.size()) {
+          checkable = false;
+          return {};
+        }
+        if (box.region < 0) return "the file has no region for it";
+        const Box& region = cover_.regions[static_cast<std::size_t>(box.region)];
+        std::string reason = box.motion < 0 ? check_sheet(*problem_, problem_->equations(), box, region)
+                                            : check_on_motion(*motions_[static_cast<std::size_t>(box.motion)], box, region);
+        // A solution, or a configuration in the box whose kernel is larger.
+        if (reason.empty() && box.point >= 0) reason = check_point_in(box, box.verdict != Verdict::isolated);
+        return reason;
+      }
+      case Verdict::exact: return check_point_in(box, false);
+      case Verdict::undecided:
+        if (box.region >= 0) return "it names a region";
+        if (box.point >= 0) return check_point_in(box, true);
+        checkable = false;
+        return {};
+      case Verdict::partial:
+      case Verdict::pending: checkable = false; return {};
+    }
+    return {};
+  }
+
+  // The box holds its exact point: a solution, or a configuration that explains it, with a kernel of dimension ≥ 2.
+  std::string check_point_in(const CoverBox& box, bool explained) const {
+    if (box.point < 0) return "the file has no exact point for it";
+    const auto p = static_cast<std::size_t>(box.point);
+    if (!exact_reasons_[p].empty()) return "its exact point is not one: " + exact_reasons_[p];
+    for (int j = 0; j < system_.size(); ++j) {
+      const Variable& v = system_.variables[static_cast<std::size_t>(j)];
+      if (!exact_[p]->knows(j) && !(explained && v.kind == VariableKind::kernel))
+        return "its exact point says nothing of " + v.name;
+    }
+    if (explained && cover_.exact_points[p].corank < 2) return "its exact point has no kernel of dimension 2 or more";
+    if (std::string reason = exact_[p]->inside(box.box); !reason.empty()) return reason;
+    return box.verdict == Verdict::exact ? exact_[p]->within(cover_.exact_points[p].sole_within, box.box) : "";
+  }
+
+  void check_boxes() {
+    const std::size_t n = cover_.boxes.size();
+    std::vector<std::string> reasons(n);
+    std::vector<unsigned char> checkable(n, 0), done(n, 0);
+    std::atomic<std::uint64_t> count{0};
+    std::atomic<bool> stopped{false};
+    arena_.execute([&] {
+      tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+        if (stopped || stop_.is_set()) {
+          stopped = true;
+          return;
+        }
+        const NearestRounding nearest;
+        bool can = false;
+        try {
+          reasons[i] = check_box(cover_.boxes[i], can);
+        } catch (const Stopped&) {
+          stopped = true;
+          return;
+        }
+        checkable[i] = can;
+        done[i] = 1;
+        const std::uint64_t so_far = ++count;
+        if (so_far % 32 == 0) progress(so_far, 0);
+      });
+    });
+    tally_boxes(reasons, checkable, done);
+    if (stopped) throw Stopped{};
+  }
+
+  void tally_boxes(const std::vector<std::string>& reasons, const std::vector<unsigned char>& checkable,
+                   const std::vector<unsigned char>& done) {
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i) {
+      Tally& tally = report_.boxes[static_cast<std::size_t>(cover_.boxes[i].verdict)];
+      if (!done[i] || !checkable[i]) {
+        ++tally.unchecked;
+      } else if (reasons[i].empty()) {
+        ++tally.verified;
+      } else {
+        ++tally.failed;
+        fail(Place::box, i, reasons[i]);
+      }
+    }
+  }
+
+  // For sets of dimension 0: every proven box is a point and every proven point a box; every other box is inside a point.
+  void check_points() {
+    if (cover_.dimension != 0) {
+      for (std::size_t i = 0; i < cover_.points.size(); ++i) fail(Place::point, i, "the set has more than points");
+      return;
+    }
+    const auto by_box = [](const CoverBox& b) { return b.verdict != Verdict::undecided && b.verdict != Verdict::pending; };
+    std::vector<unsigned char> claimed(cover_.points.size(), 0);
+    std::size_t next = 0;  // points have the order of the boxes: look there first
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i) {
+      const CoverBox& box = cover_.boxes[i];
+      if (box.verdict == Verdict::pending) continue;
+      // Pieces of self-motions are no points, and what lies along a set claims nothing.
+      if (box.motion >= 0 || (box.verdict == Verdict::undecided && box.reason == Reason::degenerate_set)) continue;
+      stop_.poll();
+      bool found = false;
+      for (std::size_t turn = 0; turn < cover_.points.size() && !found; ++turn) {
+        const std::size_t k = (next + turn) % cover_.points.size();
+        const CoverBox& point = cover_.points[k];
+        found =
+            by_box(box) && by_box(point) ? !claimed[k] && same(box, point) : !by_box(box) && contains(point.box, box.box);
+        found = found || (box.verdict == Verdict::exact && point.verdict == Verdict::exact && box.point == point.point);
+        if (found) claimed[k] = 1, next = k + 1;
+      }
+      if (!found) fail(Place::box, i, "no entry of the list of points stands for it");
+    }
+    for (std::size_t k = 0; k < cover_.points.size(); ++k) {
+      const CoverBox& point = cover_.points[k];
+      std::string reason;
+      if (!claimed[k]) reason = "no box stands for it";
+      if (reason.empty() && point.verdict == Verdict::pending) reason = "a point cannot be pending";
+      // An exact or undecided entry is not always one of the boxes, which have been checked.
+      if (bool can = false; reason.empty() && (point.verdict == Verdict::exact || point.verdict == Verdict::undecided))
+        reason = check_box(point, can);
+      if (!reason.empty()) fail(Place::point, k, reason);
+      const bool open = point.verdict == Verdict::undecided && point.point < 0;
+      if (open && reason.empty()) ++report_.points_without_claim;
+      ++(!reason.empty()                             ? report_.points.failed
+         : open || point.verdict == Verdict::partial ? report_.points.unchecked
+                                                     : report_.points.verified);
+    }
+  }
+
+  // Each of the isolated and exact points is counted once.
+  void check_distinct() {
+    constexpr std::size_t kMostFailures = 100;
+    std::vector<const Box*> boxes;
+    std::vector<std::size_t> indices;
+    for (std::size_t k = 0; k < cover_.points.size(); ++k) {
+      const Verdict verdict = cover_.points[k].verdict;
+      if (verdict != Verdict::isolated && verdict != Verdict::exact && verdict != Verdict::boundary) continue;
+      boxes.push_back(&cover_.points[k].box);
+      indices.push_back(k);
+    }
+    const auto apart = [&](std::size_t a, std::size_t b) {
+      stop_.poll();
+      return told_apart(cover_.points[indices[a]], cover_.points[indices[b]]);
+    };
+    for (const auto& [a, b] : meeting_pairs(boxes, apart, kMostFailures)) {
+      fail(Place::point, indices[b], "it may be the same solution as point " + std::to_string(indices[a] + 1));
+    }
+  }
+
+  // Different exact points, or one outside the other's box.
+  bool told_apart(const CoverBox& a, const CoverBox& b) const {
+    for (const CoverBox* point : {&a, &b})
+      if (point->verdict == Verdict::exact &&
+          (point->point < 0 || !exact_reasons_[static_cast<std::size_t>(point->point)].empty()))
+        return false;
+    if (a.verdict != Verdict::exact) return b.verdict == Verdict::exact && told_apart(b, a);
+    const ExactCheck& x = *exact_[static_cast<std::size_t>(a.point)];
+    for (int j = 0; j < system_.size(); ++j) {
+      if (!x.knows(j)) continue;
+      if (b.verdict != Verdict::exact) {
+        if (!x.coordinate(j).overlaps(b.box[static_cast<std::size_t>(j)])) return true;
+      } else if (const ExactCheck& y = *exact_[static_cast<std::size_t>(b.point)]; y.knows(j)) {
+        if (!x.coordinate(j).overlaps(y.coordinate(j))) return true;
+      }
+    }
+    return false;
+  }
+
+  void check_proof() {
+    const auto step = [this](std::uint64_t number) {
+      progress(cover_.boxes.size(), number);
+      return stop_.is_set();
+    };
+    Replayed result = arena_.execute([&] { return replay(*problem_, cover_, step); });
+    report_.proof = result.tally;
+    report_.interrupted = report_.interrupted || result.interrupted;
+    report_.failures.insert(report_.failures.end(), result.failures.begin(), result.failures.end());
+  }
+
+  void progress(std::uint64_t boxes, std::uint64_t steps) {
+    if (!options_.progress) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (lock.owns_lock())
+      options_.progress({boxes, cover_.boxes.size(), steps, cover_.proof ? cover_.proof->steps.size() : 0});
+  }
+
+  const System& system_;
+  const Cover& cover_;
+  const Options& options_;
+  StopFlag stop_;
+  const char* stage_ = "the reduction";
+  int threads_;
+  tbb::global_control allow_;
+  tbb::task_arena arena_;
+  std::unique_ptr<const KernelCheck> kernel_;
+  std::optional<Problem> problem_;
+  std::vector<std::unique_ptr<const MotionCheck>> motions_;
+  std::vector<std::unique_ptr<ExactCheck>> exact_;
+  std::vector<std::string> exact_reasons_;
+  std::mutex mutex_;
+  Report report_;
+};
+
+}  // namespace
+
+bool Report::verified() const {
+  if (!consistent() || (proof.present && !proof.verified) || points.unchecked > points_without_claim) return false;
+  for (int v = 0; v < kVerdicts; ++v) {
+    const auto verdict = static_cast<Verdict>(v);
+    const bool claims = verdict != Verdict::undecided && verdict != Verdict::pending;
+    if (const Tally& t = boxes[static_cast<std::size_t>(v)]; t.failed > 0 || (claims && t.unchecked > 0)) return false;
+  }
+  return true;
+}
+
+bool Report::complete() const {
+  const Tally& pending = boxes[static_cast<std::size_t>(Verdict::pending)];
+  return verified() && proof.present && proof.verified && pending == Tally{};
+}
+
+Report check(const System& system, const Cover& cover, const Options& options) {
+  return Checker(system, cover, options).run();
+}
+
+}  // namespace corank::check

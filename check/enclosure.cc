@@ -1,0 +1,274 @@
+#include "corank/check/enclosure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "corank/core/check.h"
+
+namespace corank::check {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Rational {
+ public:
+  explicit Rational(const ExactNumber& x) {
+    mpq_init(q_);
+    CORANK_CHECK(x.is_rational() && mpq_set_str(q_, x.text().c_str(), 10) == 0);
+    mpq_canonicalize(q_);
+  }
+  ~Rational() { mpq_clear(q_); }
+  Rational(const Rational&) = delete;
+  Rational& operator=(const Rational&) = delete;
+  operator mpq_srcptr() const { return q_; }
+
+ private:
+  mpq_t q_;
+};
+
+}  // namespace
+
+Enclosure::Enclosure(double point) {
+  mpfi_init2(x_, kBits);
+  mpfi_set_d(x_, point);
+}
+
+Enclosure::Enclosure(double lo, double hi) {
+  CORANK_CHECK(lo <= hi);
+  mpfi_init2(x_, kBits);
+  mpfi_interv_d(x_, lo, hi);
+}
+
+Enclosure::Enclosure(const ExactNumber& x) {
+  const auto [lower, upper] = x.bounds(kBits + 16);
+  mpfi_init2(x_, kBits);
+  mpfi_interv_q(x_, const_cast<mpq_ptr>(static_cast<mpq_srcptr>(Rational(lower))),
+                const_cast<mpq_ptr>(static_cast<mpq_srcptr>(Rational(upper))));
+}
+
+Enclosure Enclosure::whole() { return {-kInfinity, kInfinity}; }
+
+Enclosure Enclosure::pi() {
+  Enclosure x;
+  mpfi_const_pi(x.x_);
+  return x;
+}
+
+Enclosure::Enclosure(const Enclosure& x) {
+  mpfi_init2(x_, kBits);
+  mpfi_set(x_, x.x_);
+}
+Enclosure::Enclosure(Enclosure&& x) noexcept {
+  mpfi_init2(x_, kBits);
+  mpfi_swap(x_, x.x_);
+}
+Enclosure& Enclosure::operator=(const Enclosure& x) {
+  if (this != &x) mpfi_set(x_, x.x_);
+  return *this;
+}
+Enclosure& Enclosure::operator=(Enclosure&& x) noexcept {
+  mpfi_swap(x_, x.x_);
+  return *this;
+}
+
+Enclosure& Enclosure::operator+=(const Enclosure& x) {
+  mpfi_add(x_, x_, x.x_);
+  return *this;
+}
+Enclosure& Enclosure::operator-=(const Enclosure& x) {
+  mpfi_sub(x_, x_, x.x_);
+  return *this;
+}
+Enclosure& Enclosure::operator*=(const Enclosure& x) {
+  mpfi_mul(x_, x_, x.x_);
+  return *this;
+}
+
+void Enclosure::add_product(const Enclosure& a, const Enclosure& x) {
+  thread_local Enclosure product;
+  mpfi_mul(product.x_, a.x_, x.x_);
+  mpfi_add(x_, x_, product.x_);
+}
+
+void Enclosure::add_product(double a, const Enclosure& x) {
+  thread_local Enclosure product;
+  mpfi_mul_d(product.x_, x.x_, a);
+  mpfi_add(x_, x_, product.x_);
+}
+
+double Enclosure::mid() const {
+  // Halves first: the sum of two large doubles may overflow.
+  const double m = 0.5 * mpfr_get_d(&x_->left, MPFR_RNDN) + 0.5 * mpfr_get_d(&x_->right, MPFR_RNDN);
+  return std::isfinite(m) ? m : 0;
+}
+
+double Enclosure::width() const {
+  Enclosure w = upper_end();
+  w -= lower_end();
+  return w.hi();
+}
+
+double Enclosure::mag() const { return std::max(std::fabs(lo()), std::fabs(hi())); }
+double Enclosure::mig() const { return has_zero() ? 0 : std::min(std::fabs(lo()), std::fabs(hi())); }
+
+bool Enclosure::inside(const Enclosure& x) const { return mpfi_is_inside(x_, x.x_) > 0; }
+bool Enclosure::strictly_inside(const Enclosure& x) const {
+  return mpfr_less_p(&x.x_->left, &x_->left) != 0 && mpfr_less_p(&x_->right, &x.x_->right) != 0;
+}
+bool Enclosure::inside(const Interval& x) const {
+  return mpfr_cmp_d(&x_->left, x.lo()) >= 0 && mpfr_cmp_d(&x_->right, x.hi()) <= 0;
+}
+bool Enclosure::overlaps(const Enclosure& x) const {
+  return mpfr_lessequal_p(&x_->left, &x.x_->right) != 0 && mpfr_lessequal_p(&x.x_->left, &x_->right) != 0;
+}
+bool Enclosure::overlaps(const Interval& x) const {
+  return mpfr_cmp_d(&x_->left, x.hi()) <= 0 && mpfr_cmp_d(&x_->right, x.lo()) >= 0;
+}
+
+bool Enclosure::intersect(const Enclosure& x) {
+  if (!overlaps(x)) return false;
+  mpfi_intersect(x_, x_, x.x_);
+  return true;
+}
+
+Enclosure Enclosure::hull(const Enclosure& x, const Enclosure& y) {
+  Enclosure result;
+  mpfi_union(result.x_, x.x_, y.x_);
+  return result;
+}
+
+Enclosure Enclosure::lower_end() const {
+  Enclosure end;
+  mpfi_set_fr(end.x_, &x_->left);
+  return end;
+}
+Enclosure Enclosure::upper_end() const {
+  Enclosure end;
+  mpfi_set_fr(end.x_, &x_->right);
+  return end;
+}
+
+Enclosure power(const Enclosure& x, int p) {
+  CORANK_CHECK(p >= 0);
+  if (p == 1) return x;
+  Enclosure result;
+  if (p == 2) {
+    mpfi_sqr(result.x_, x.x_);
+    return result;
+  }
+  // Of an even power the range is that of the square's power, of an odd one that of the ends: monotone.
+  if (p % 2 == 0) {
+    const Enclosure square = power(x, 2);
+    Enclosure product(1.0);
+    for (int k = 0; k < p / 2; ++k) product *= square;
+    return product;
+  }
+  const auto at = [p](const Enclosure& end) {
+    Enclosure product(1.0);
+    for (int k = 0; k < p; ++k) product *= end;
+    return product;
+  };
+  return Enclosure::hull(at(x.lower_end()), at(x.upper_end()));
+}
+
+namespace {
+// Beyond this a sine needs very many digits of pi; [−1, 1] is true as well.
+constexpr double kLargestArgument = 1e15;
+}  // namespace
+
+Enclosure sine(const Enclosure& x) {
+  if (!(x.mag() <= kLargestArgument)) return {-1, 1};
+  Enclosure result;
+  mpfi_sin(result.x_, x.x_);
+  return result;
+}
+Enclosure cosine(const Enclosure& x) {
+  if (!(x.mag() <= kLargestArgument)) return {-1, 1};
+  Enclosure result;
+  mpfi_cos(result.x_, x.x_);
+  return result;
+}
+
+Enclosure quotient(const Enclosure& x, const Enclosure& y) {
+  CORANK_CHECK(!y.has_zero());
+  Enclosure result;
+  mpfi_div(result.x_, x.x_, y.x_);
+  return result;
+}
+
+Enclosure square_root(const Enclosure& x) {
+  CORANK_CHECK(x.may_be_nonnegative());
+  Enclosure part = x, result;
+  part.intersect(Enclosure(0, kInfinity));
+  mpfi_sqrt(result.x_, part.x_);
+  return result;
+}
+
+Enclosure arc_cosine(const Enclosure& x) {
+  CORANK_CHECK(x.inside(Enclosure(-1, 1)));
+  Enclosure result;
+  mpfi_acos(result.x_, x.x_);
+  return result;
+}
+
+std::optional<Enclosure> divide(const Enclosure& num, const Enclosure& den, const Enclosure& within) {
+  Enclosure result = within;
+  if (!den.has_zero()) return result.intersect(quotient(num, den)) ? std::optional(result) : std::nullopt;
+  if (num.has_zero()) return within;  // 0·x = 0 holds for every x
+  if (num.is_negative()) return divide(-num, -den, within);
+  // num > 0, den ∋ 0: x ≥ num.lower/den.upper or x ≤ num.lower/den.lower.
+  const Enclosure least = num.lower_end();
+  Enclosure positive = within, negative = within;
+  bool has_positive = false, has_negative = false;
+  if (const Enclosure end = den.upper_end(); end.is_positive())
+    has_positive = positive.intersect(Enclosure::hull(quotient(least, end), Enclosure(kInfinity)));
+  if (const Enclosure end = den.lower_end(); end.is_negative())
+    has_negative = negative.intersect(Enclosure::hull(quotient(least, end), Enclosure(-kInfinity)));
+  if (has_positive && has_negative) return Enclosure::hull(positive, negative);
+  if (has_positive) return positive;
+  if (has_negative) return negative;
+  return std::nullopt;
+}
+
+std::optional<Enclosure> root(const Enclosure& y, int p, const Enclosure& within) {
+  CORANK_CHECK(p >= 1);
+  Enclosure result = within;
+  if (p == 1) return result.intersect(y) ? std::optional(result) : std::nullopt;
+  if (p != 2) return within;  // rare: no information
+  if (!y.may_be_nonnegative()) return std::nullopt;
+  const Enclosure size = square_root(y);
+  Enclosure positive = within, negative = within;
+  const bool has_positive = positive.intersect(size), has_negative = negative.intersect(-size);
+  if (has_positive && has_negative) return Enclosure::hull(positive, negative);
+  if (has_positive) return positive;
+  if (has_negative) return negative;
+  return std::nullopt;
+}
+
+std::optional<Enclosure> inverse_cosine(const Enclosure& y, const Enclosure& within) {
+  constexpr double kMostTurns = 32;
+  Enclosure cosines(-1, 1);
+  if (!cosines.intersect(y)) return std::nullopt;
+  const double turn = 6.28;  // a little less: more branches than needed
+  if (!(within.mag() <= kMostTurns * turn)) return within;
+  const Enclosure arc = arc_cosine(cosines), two_pi = Enclosure(2.0) * Enclosure::pi();
+  std::optional<Enclosure> hull;
+  for (double k = std::floor(within.lo() / turn) - 1; k <= std::ceil(within.hi() / turn) + 1; ++k)
+    for (const Enclosure& branch : {two_pi * Enclosure(k) - arc, two_pi * Enclosure(k) + arc}) {
+      Enclosure part = within;
+      if (part.intersect(branch)) hull = hull ? Enclosure::hull(*hull, part) : part;
+    }
+  return hull;
+}
+
+std::optional<Enclosure> inverse_sine(const Enclosure& y, const Enclosure& within) {
+  const Enclosure quarter = Enclosure(0.5) * Enclosure::pi();  // sin x = cos(x − π/2)
+  const auto shifted = inverse_cosine(y, within - quarter);
+  Enclosure result = within;
+  return shifted && result.intersect(*shifted + quarter) ? std::optional(result) : std::nullopt;
+}
+
+}  // namespace corank::check

@@ -1,0 +1,115 @@
+// The checker's intervals: MPFI at kBits bits, which rounds every operation outward (Revol, Rouillier 2005). Nothing here is shared with
+// certify/interval.h but doubles, and no rounding mode of the processor matters.
+//
+// The empty set is no Enclosure: what may yield it returns false or nothing.
+#pragma once
+
+#include <mpfi.h>
+
+#include <cfenv>
+#include <optional>
+
+#include "corank/core/exact_number.h"
+#include "corank/core/interval.h"
+
+namespace corank::check {
+
+/// MPFR's own computations in doubles expect rounding to nearest, whatever the caller computes with. One for each thread that computes.
+class NearestRounding {
+ public:
+  NearestRounding() : former_(std::fegetround()) { std::fesetround(FE_TONEAREST); }
+  ~NearestRounding() { std::fesetround(former_); }
+  NearestRounding(const NearestRounding&) = delete;
+  NearestRounding& operator=(const NearestRounding&) = delete;
+
+ private:
+  int former_;
+};
+
+class Enclosure {
+ public:
+  static constexpr int kBits = 160;
+
+  Enclosure() : Enclosure(0.0) {}
+  /*implicit*/ Enclosure(double point);
+  Enclosure(double lo, double hi);
+  explicit Enclosure(const Interval& x) : Enclosure(x.lo(), x.hi()) {}
+  /// Contains the number.
+  explicit Enclosure(const ExactNumber& x);
+  static Enclosure whole();
+  static Enclosure pi();
+
+  Enclosure(const Enclosure& x);
+  Enclosure(Enclosure&& x) noexcept;
+  Enclosure& operator=(const Enclosure& x);
+  Enclosure& operator=(Enclosure&& x) noexcept;
+  ~Enclosure() { mpfi_clear(x_); }
+
+  Enclosure& operator+=(const Enclosure& x);
+  Enclosure& operator-=(const Enclosure& x);
+  Enclosure& operator*=(const Enclosure& x);
+  friend Enclosure operator+(Enclosure x, const Enclosure& y) { return x += y; }
+  friend Enclosure operator-(Enclosure x, const Enclosure& y) { return x -= y; }
+  friend Enclosure operator*(Enclosure x, const Enclosure& y) { return x *= y; }
+  friend Enclosure operator-(const Enclosure& x) { return Enclosure(0.0) -= x; }
+  /// this += a·x, this += a·x with a point a.
+  void add_product(const Enclosure& a, const Enclosure& x);
+  void add_product(double a, const Enclosure& x);
+
+  double lo() const { return mpfr_get_d(&x_->left, MPFR_RNDD); }   ///< at most the lower end
+  double hi() const { return mpfr_get_d(&x_->right, MPFR_RNDU); }  ///< at least the upper end
+  double mid() const;                                              ///< a double near the middle
+  double width() const;                                            ///< at least the upper end − the lower end
+  double mag() const;                                              ///< at least max |x|
+  double mig() const;                                              ///< at most min |x|
+  bool is_bounded() const { return mpfi_bounded_p(x_) != 0; }
+  bool is_zero() const { return mpfi_is_zero(x_) > 0; }  ///< [0, 0]
+  bool has_zero() const { return mpfi_has_zero(x_) > 0; }
+  bool is_nonnegative() const { return mpfr_sgn(&x_->left) >= 0; }
+  bool is_positive() const { return mpfr_sgn(&x_->left) > 0; }
+  bool is_negative() const { return mpfr_sgn(&x_->right) < 0; }
+  bool may_be_nonnegative() const { return mpfr_sgn(&x_->right) >= 0; }
+  bool inside(const Enclosure& x) const;           ///< a subset of x
+  bool strictly_inside(const Enclosure& x) const;  ///< of the interior of x
+  bool inside(const Interval& x) const;
+  bool overlaps(const Enclosure& x) const;
+  bool overlaps(const Interval& x) const;
+  /// Is every number of this ≤ (<) every one of x?
+  bool at_most(const Enclosure& x) const { return mpfr_lessequal_p(&x_->right, &x.x_->left) != 0; }
+  bool below(const Enclosure& x) const { return mpfr_less_p(&x_->right, &x.x_->left) != 0; }
+
+  /// this := this ∩ x; false, and unchanged, where that is empty.
+  bool intersect(const Enclosure& x);
+  bool intersect(const std::optional<Enclosure>& x) { return x && intersect(*x); }
+  static Enclosure hull(const Enclosure& x, const Enclosure& y);
+  /// The smallest and the greatest number.
+  Enclosure lower_end() const;
+  Enclosure upper_end() const;
+
+  friend Enclosure power(const Enclosure& x, int p);
+  friend Enclosure sine(const Enclosure& x);
+  friend Enclosure cosine(const Enclosure& x);
+  friend Enclosure quotient(const Enclosure& x, const Enclosure& y);  ///< y has no 0
+  friend Enclosure square_root(const Enclosure& x);                   ///< of the nonnegative part, which is not empty
+  friend Enclosure arc_cosine(const Enclosure& x);                    ///< x within [−1, 1]
+
+ private:
+  mpfi_t x_;
+};
+
+Enclosure power(const Enclosure& x, int p);
+Enclosure sine(const Enclosure& x);
+Enclosure cosine(const Enclosure& x);
+Enclosure quotient(const Enclosure& x, const Enclosure& y);
+Enclosure square_root(const Enclosure& x);
+Enclosure arc_cosine(const Enclosure& x);
+
+/// hull{x ∈ within : d·x = n for some n ∈ num, d ∈ den}; nothing where that is empty.
+std::optional<Enclosure> divide(const Enclosure& num, const Enclosure& den, const Enclosure& within);
+/// hull{x ∈ within : xᵖ ∈ y}, p ≥ 1.
+std::optional<Enclosure> root(const Enclosure& y, int p, const Enclosure& within);
+/// hull{x ∈ within : cos x ∈ y}, hull{x ∈ within : sin x ∈ y}: cos x ∈ y ⇔ x ∈ ∪ₖ (2πk − A) ∪ (2πk + A), A = acos(y ∩ [−1, 1]).
+std::optional<Enclosure> inverse_cosine(const Enclosure& y, const Enclosure& within);
+std::optional<Enclosure> inverse_sine(const Enclosure& y, const Enclosure& within);
+
+}  // namespace corank::check

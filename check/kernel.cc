@@ -1,0 +1,120 @@
+#include "corank/check/kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "corank/check/krawczyk.h"
+
+namespace corank::check {
+namespace {
+
+constexpr int kMostParts = 2000;
+
+}  // namespace
+
+KernelCheck::KernelCheck(const System& system, const StopFlag& stop) : stop_(stop) {
+  std::vector<int> column(system.variables.size(), -1), identity(system.variables.size());
+  std::iota(identity.begin(), identity.end(), 0);
+  for (int j = 0; j < system.size(); ++j)
+    if (system.variables[static_cast<std::size_t>(j)].kind == VariableKind::kernel)
+      column[static_cast<std::size_t>(j)] = columns_++;
+  for (const Polynomial& f : system.equations) {
+    std::vector<Polynomial> entries(static_cast<std::size_t>(columns_));
+    bool linear = !f.monomials.empty();
+    for (const Monomial& m : f.monomials) {
+      const auto is_kernel = [&](const Factor& x) { return column[static_cast<std::size_t>(x.variable)] >= 0; };
+      linear = linear && std::count_if(m.factors.begin(), m.factors.end(), is_kernel) == 1;
+      if (!linear) break;
+      const auto unknown = std::find_if(m.factors.begin(), m.factors.end(), is_kernel);
+      linear = unknown->power == 1 && unknown->function == Function::identity;
+      if (!linear) break;
+      Monomial rest = m;
+      rest.factors.erase(rest.factors.begin() + (unknown - m.factors.begin()));
+      for (const Factor& x : rest.factors) arguments_.push_back(x.variable);
+      entries[static_cast<std::size_t>(column[static_cast<std::size_t>(unknown->variable)])].monomials.push_back(
+          std::move(rest));
+    }
+    if (!linear) continue;
+    rows_.emplace_back();
+    for (const Polynomial& entry : entries) rows_.back().emplace_back(Terms(entry, system.coefficient_tolerance), identity);
+  }
+  std::sort(arguments_.begin(), arguments_.end());
+  arguments_.erase(std::unique(arguments_.begin(), arguments_.end()), arguments_.end());
+}
+
+bool KernelCheck::has_rank(std::size_t s, const Sides& x) const {
+  const std::size_t m = rows_.size(), k = static_cast<std::size_t>(columns_);
+  if (s == 0) return true;
+  if (s > std::min(m, k)) return false;
+  std::vector<double> middle;
+  for (const Enclosure& side : x) middle.push_back(side.mid());
+  std::vector<double> matrix(m * k);
+  for (std::size_t i = 0; i < m; ++i)
+    for (std::size_t j = 0; j < k; ++j) matrix[i * k + j] = rows_[i][j].approximate(middle);
+  // Complete pivoting picks the submatrix.
+  std::vector<double> t = matrix;
+  std::vector<std::size_t> rows, columns;
+  for (std::size_t step = 0; step < s; ++step) {
+    std::size_t row = m, column = k;
+    double best = 0;
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t j = 0; j < k; ++j) {
+        if (std::find(rows.begin(), rows.end(), i) != rows.end()) continue;
+        if (std::find(columns.begin(), columns.end(), j) != columns.end()) continue;
+        if (std::fabs(t[i * k + j]) > best) best = std::fabs(t[i * k + j]), row = i, column = j;
+      }
+    if (row == m) return false;
+    for (std::size_t i = 0; i < m; ++i) {
+      const double factor = t[i * k + column] / t[row * k + column];
+      if (i == row || std::find(rows.begin(), rows.end(), i) != rows.end()) continue;
+      for (std::size_t j = 0; j < k; ++j) t[i * k + j] -= factor * t[row * k + j];
+    }
+    rows.push_back(row);
+    columns.push_back(column);
+  }
+  std::vector<double> minor;
+  for (const std::size_t i : rows)
+    for (const std::size_t j : columns) minor.push_back(matrix[i * k + j]);
+  const std::vector<double> y = inverse(minor, s);
+  if (y.size() != s * s) return false;
+  std::vector<Sides> entries(s);
+  for (std::size_t b = 0; b < s; ++b)
+    for (const std::size_t j : columns) entries[b].push_back(rows_[rows[b]][j].value(x));
+  std::vector<double> excess;
+  for (std::size_t a = 0; a < s; ++a)
+    for (std::size_t j = 0; j < s; ++j) {
+      Enclosure entry(a == j ? -1.0 : 0.0);
+      for (std::size_t b = 0; b < s; ++b) entry.add_product(y[a * s + b], entries[b][j]);
+      excess.push_back(entry.mag());
+    }
+  return is_contraction(excess, s);
+}
+
+bool KernelCheck::is_at_most(int most, const Box& box) const {
+  if (most >= columns_) return true;
+  Sides whole;
+  for (const Interval& side : box) whole.emplace_back(side);
+  std::vector<Sides> open{std::move(whole)};
+  for (int parts = 0; !open.empty(); ++parts) {
+    stop_.poll();
+    Sides x = std::move(open.back());
+    open.pop_back();
+    if (has_rank(static_cast<std::size_t>(columns_ - std::max(most, 0)), x)) continue;
+    std::size_t widest = x.size();
+    double width = 0;
+    for (const int j : arguments_)
+      if (const Enclosure& side = x[static_cast<std::size_t>(j)];
+          side.width() > width && side.lo() < side.mid() && side.mid() < side.hi())
+        width = side.width(), widest = static_cast<std::size_t>(j);
+    if (widest == x.size() || parts > kMostParts) return false;
+    const double from = x[widest].lo(), middle = x[widest].mid(), to = x[widest].hi();
+    open.push_back(x);
+    open.back()[widest] = Enclosure(middle, to);
+    open.push_back(std::move(x));
+    open.back()[widest] = Enclosure(from, middle);
+  }
+  return true;
+}
+
+}  // namespace corank::check

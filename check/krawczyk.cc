@@ -1,0 +1,215 @@
+#include "corank/check/krawczyk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corank::check {
+std::vector<double> inverse(std::vector<double> a, std::size_t r) {
+  std::vector<double> b(r * r, 0.0);
+  for (std::size_t i = 0; i < r; ++i) b[i * r + i] = 1;
+  for (std::size_t k = 0; k < r; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < r; ++i)
+      if (std::fabs(a[i * r + k]) > std::fabs(a[pivot * r + k])) pivot = i;
+    if (!(std::fabs(a[pivot * r + k]) > 0)) return {};
+    for (std::size_t j = 0; j < r; ++j) {
+      std::swap(a[k * r + j], a[pivot * r + j]);
+      std::swap(b[k * r + j], b[pivot * r + j]);
+    }
+    const double scale = 1 / a[k * r + k];
+    for (std::size_t j = 0; j < r; ++j) a[k * r + j] *= scale, b[k * r + j] *= scale;
+    for (std::size_t i = 0; i < r; ++i) {
+      const double factor = a[i * r + k];
+      if (i == k || factor == 0) continue;
+      for (std::size_t j = 0; j < r; ++j) a[i * r + j] -= factor * a[k * r + j], b[i * r + j] -= factor * b[k * r + j];
+    }
+  }
+  const bool finite = std::all_of(b.begin(), b.end(), [](double x) { return std::isfinite(x); });
+  return finite ? b : std::vector<double>();
+}
+
+bool is_contraction(const std::vector<double>& e, std::size_t r) {
+  constexpr int kCandidates = 8;
+  std::vector<double> radius(r, 1.0), next(r);
+  for (int candidate = 0; candidate < kCandidates; ++candidate) {
+    bool passes = true;
+    double largest = 0;
+    for (std::size_t a = 0; a < r; ++a) {
+      Enclosure sum;
+      for (std::size_t k = 0; k < r; ++k) sum.add_product(radius[k], Enclosure(e[a * r + k]));
+      if (!sum.is_bounded()) return false;
+      passes = passes && sum.below(Enclosure(radius[a]));
+      next[a] = sum.hi();
+      largest = std::max(largest, next[a]);
+    }
+    if (passes) return true;
+    for (std::size_t a = 0; a < r; ++a) radius[a] = next[a] / largest + 0.05;
+  }
+  return false;
+}
+
+void drop_noise(std::vector<double>& y, std::size_t r) {
+  constexpr double kNoise = 1e-13;
+  for (std::size_t a = 0; a < r; ++a) {
+    double most = 0;
+    for (std::size_t b = 0; b < r; ++b) most = std::max(most, std::fabs(y[a * r + b]));
+    for (std::size_t b = 0; b < r; ++b)
+      if (std::fabs(y[a * r + b]) <= kNoise * most) y[a * r + b] = 0;
+  }
+}
+
+Krawczyk::Krawczyk(const std::vector<Row>& equations, int variables)
+    : equations_(equations), n_(variables), entries_(equations.size()) {}
+
+bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, Center around) {
+  constexpr int kSteps = 4;
+  const std::size_t r = equations_.size();
+  if (dependent.size() != r) return false;
+  dependent_ = dependent;
+  center_.resize(static_cast<std::size_t>(n_));
+  for (std::size_t j = 0; j < center_.size(); ++j) center_[j] = x[j].mid();
+  const auto inverted = [&] { return around == Center::refined ? invert_refined() : invert(); };
+  if (!inverted()) return false;
+  std::vector<double> values(r);
+  for (int step = 0; around != Center::middle && step < kSteps; ++step) {
+    const Sides at(center_.begin(), center_.end());
+    for (std::size_t b = 0; b < r; ++b)
+      values[b] = around == Center::refined ? equations_[b].value(at).mid() : equations_[b].approximate(center_);
+    polish(x, values);
+    if (!inverted()) return false;
+  }
+  center_sides_.assign(center_.begin(), center_.end());
+  Sides at_center;
+  for (const Row& f : equations_) at_center.push_back(f.value(center_sides_));
+  residual_.assign(r, Enclosure());
+  for (std::size_t a = 0; a < r; ++a)
+    for (std::size_t b = 0; b < r; ++b) residual_[a].add_product(y_[a * r + b], at_center[b]);
+  return true;
+}
+
+void Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
+  const std::size_t r = equations_.size();
+  for (std::size_t a = 0; a < r; ++a) {
+    const auto d = static_cast<std::size_t>(dependent_[a]);
+    double shift = 0;
+    for (std::size_t b = 0; b < r; ++b) shift += y_[a * r + b] * values[b];
+    if (std::isfinite(shift)) center_[d] = std::clamp(center_[d] - shift, x[d].lo(), x[d].hi());
+  }
+}
+
+bool Krawczyk::invert() {
+  const std::size_t r = equations_.size();
+  std::vector<int> row_of(center_.size(), -1);
+  for (std::size_t a = 0; a < r; ++a) row_of[static_cast<std::size_t>(dependent_[a])] = static_cast<int>(a);
+  std::vector<double> matrix(r * r, 0.0), entries;
+  for (std::size_t b = 0; b < r; ++b) {
+    equations_[b].approximate(center_, entries);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      if (const int a = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; a >= 0)
+        matrix[b * r + static_cast<std::size_t>(a)] = entries[k];
+  }
+  y_ = inverse(matrix, r);
+  if (y_.size() != r * r) return false;
+  drop_noise(y_, r);
+  return true;
+}
+
+bool Krawczyk::invert_refined() {
+  const std::size_t r = equations_.size();
+  const Sides center(center_.begin(), center_.end());
+  std::vector<int> row_of(center_.size(), -1);
+  for (std::size_t a = 0; a < r; ++a) row_of[static_cast<std::size_t>(dependent_[a])] = static_cast<int>(a);
+  Sides entries;
+  std::vector<Sides> t(r, Sides(2 * r));  // J_D | I
+  for (std::size_t b = 0; b < r; ++b) {
+    equations_[b].derivatives(center, entries);
+    t[b][r + b] = Enclosure(1.0);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      if (const int a = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; a >= 0)
+        t[b][static_cast<std::size_t>(a)] = entries[k];
+  }
+  for (std::size_t k = 0; k < r; ++k) {
+    const auto pivot = std::max_element(t.begin() + static_cast<std::ptrdiff_t>(k), t.end(),
+                                        [k](const Sides& a, const Sides& b) { return a[k].mig() < b[k].mig(); });
+    if (!((*pivot)[k].mig() > 0)) return false;
+    std::iter_swap(t.begin() + static_cast<std::ptrdiff_t>(k), pivot);
+    const Enclosure own = t[k][k];
+    for (Enclosure& entry : t[k]) entry = quotient(entry, own);
+    for (std::size_t i = 0; i < r; ++i) {
+      if (i == k || t[i][k].is_zero()) continue;
+      const Enclosure factor = -t[i][k];
+      for (std::size_t j = 0; j < 2 * r; ++j) t[i][j].add_product(factor, t[k][j]);
+    }
+  }
+  y_.assign(r * r, 0.0);
+  for (std::size_t a = 0; a < r; ++a)
+    for (std::size_t b = 0; b < r; ++b) y_[a * r + b] = t[a][r + b].mid();
+  return std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); });
+}
+
+void Krawczyk::multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const {
+  const std::size_t r = equations_.size();
+  product.assign(r, Sides(static_cast<std::size_t>(n_)));
+  for (std::size_t a = 0; a < r; ++a)
+    for (std::size_t b = 0; b < r; ++b) {
+      const double y = y_[a * r + b];
+      if (y == 0) continue;
+      for (std::size_t k = 0; k < rows[b].size(); ++k)
+        product[a][static_cast<std::size_t>(equations_[b].columns()[k])].add_product(y, rows[b][k]);
+    }
+}
+
+Sides Krawczyk::image(const Sides& x) {
+  for (std::size_t b = 0; b < equations_.size(); ++b) equations_[b].slopes(x, center_sides_, entries_[b]);
+  multiply(entries_, product_);
+  Sides image;
+  for (std::size_t a = 0; a < dependent_.size(); ++a) {
+    Enclosure sum = residual_[a];
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      const bool own = static_cast<int>(j) == dependent_[a];
+      if (!own && product_[a][j].is_zero()) continue;
+      sum.add_product(own ? product_[a][j] - Enclosure(1.0) : product_[a][j], x[j] - center_sides_[j]);
+    }
+    image.push_back(center_sides_[static_cast<std::size_t>(dependent_[a])] - sum);
+  }
+  return image;
+}
+
+bool Krawczyk::is_injective(const Sides& x) {
+  const std::size_t r = dependent_.size();
+  for (std::size_t b = 0; b < r; ++b) equations_[b].derivatives(x, entries_[b]);
+  multiply(entries_, derivatives_);
+  std::vector<double> excess(r * r);  // ≥ |I − Y·J_D|
+  for (std::size_t a = 0; a < r; ++a)
+    for (std::size_t k = 0; k < r; ++k) {
+      const Enclosure& entry = derivatives_[a][static_cast<std::size_t>(dependent_[k])];
+      excess[a * r + k] = (Enclosure(a == k ? 1.0 : 0.0) - entry).mag();
+    }
+  return is_contraction(excess, r);
+}
+
+bool Krawczyk::center_solves(const Sides& x) const {
+  Sides there = x;
+  for (const int d : dependent_) there[static_cast<std::size_t>(d)] = center_sides_[static_cast<std::size_t>(d)];
+  return std::all_of(equations_.begin(), equations_.end(), [&](const Row& f) { return f.value(there).is_zero(); });
+}
+
+Enclosure Krawczyk::value_at_zeros(const Row& row, const Sides& x) const {
+  // With R = Y·F and any real λ: R(c) + Y·S (z − c) ∋ 0 at a zero z, so row(z) ∈ row(c) − λ·R(c) + (S_row − λ·Y·S)(x − c).
+  Sides slopes, gradient(x.size());
+  row.slopes(x, center_sides_, slopes);
+  for (std::size_t k = 0; k < slopes.size(); ++k) gradient[static_cast<std::size_t>(row.columns()[k])] = slopes[k];
+  Enclosure value = row.value(center_sides_);
+  for (std::size_t a = 0; a < dependent_.size(); ++a) {
+    const double lambda = gradient[static_cast<std::size_t>(dependent_[a])].mid();
+    if (lambda == 0) continue;
+    value.add_product(-lambda, residual_[a]);
+    for (std::size_t j = 0; j < x.size(); ++j)
+      if (!product_[a][j].is_zero()) gradient[j].add_product(-lambda, product_[a][j]);
+  }
+  for (std::size_t j = 0; j < x.size(); ++j)
+    if (!gradient[j].is_zero()) value.add_product(gradient[j], x[j] - center_sides_[j]);
+  return value;
+}
+
+}  // namespace corank::check

@@ -1,0 +1,61 @@
+// What the checker knows of a system after the reduction: rows over the kept variables, and what its equations imply about its domain.
+#pragma once
+
+#include <vector>
+
+#include "corank/check/implied.h"
+#include "corank/check/rows.h"
+#include "corank/core/cover.h"
+
+namespace corank::check {
+
+/// One side of a variable's domain as a condition: row(x) ≥ 0 at every point of the set.
+struct Condition {
+  Row row;
+  bool implied = false;  ///< it holds at every solution of the equations
+  int variable = -1;     ///< whose domain it is; −1: an inequality of the system
+};
+
+class Problem {
+ public:
+  /// Throws std::invalid_argument where a step of the reduction is not legal.
+  Problem(const System& system, const std::vector<ReductionStep>& reduction, const StopFlag& stop = {});
+
+  const System& system() const { return system_; }
+  const StopFlag& stop() const { return stop_; }
+  int size() const { return static_cast<int>(kept_.size()); }
+  const std::vector<int>& kept() const { return kept_; }
+  int place(int variable) const { return place_[static_cast<std::size_t>(variable)]; }  ///< among the kept, −1: eliminated
+  const std::vector<int>& places() const { return place_; }
+  const std::vector<Row>& equations() const { return equations_; }
+  const std::vector<Terms>& terms() const { return terms_; }  ///< of the equations, by the variables' own indices
+  bool contradiction() const { return contradiction_; }
+  /// Eliminated variables' values.
+  struct Value {
+    int variable;
+    Row row;
+  };
+  const std::vector<Value>& values() const { return values_; }
+  /// Both sides of every domain, then the inequalities.
+  const std::vector<Condition>& conditions() const { return conditions_; }
+  /// Intersects with the domains that the equations imply: no solution is lost. False: that is empty.
+  bool clip_to_implied(Sides& x) const;
+  /// The domain of the kept variables, enclosed.
+  Sides domain() const;
+
+ private:
+  void add_domain(int variable, const std::optional<Terms>& value, int sign);
+
+  System system_;
+  StopFlag stop_;
+  Implied implied_;  // by the equations before and after the reduction
+  std::vector<int> kept_, place_;
+  std::vector<Row> equations_;
+  std::vector<Terms> terms_;
+  std::vector<Value> values_;
+  std::vector<Condition> conditions_;
+  std::vector<unsigned char> implied_lower_, implied_upper_;  // of the kept
+  bool contradiction_ = false;
+};
+
+}  // namespace corank::check

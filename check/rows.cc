@@ -1,0 +1,190 @@
+#include "corank/check/rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace corank::check {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// (sin x − sin c)/(x − c) = cos((x + c)/2)·sin(h)/h with h = (x − c)/2, and 1 − h²/6 ≤ sin(h)/h ≤ 1; besides, a derivative at a point
+// between x and c.
+Enclosure wave_slope(const Enclosure& at_middle, const Enclosure& over_hull, const Enclosure& h) {
+  const Enclosure least = Enclosure(1.0) - quotient(power(h, 2), Enclosure(6.0));
+  Enclosure slope = at_middle * Enclosure::hull(least, Enclosure(1.0));
+  slope.intersect(over_hull);
+  return slope;
+}
+
+}  // namespace
+
+Row::Row(const Terms& f, const std::vector<int>& place) {
+  for (const auto& [factors, c] : f.list())
+    for (const Factor& factor : factors) columns_.push_back(place[static_cast<std::size_t>(factor.variable)]);
+  std::sort(columns_.begin(), columns_.end());
+  columns_.erase(std::unique(columns_.begin(), columns_.end()), columns_.end());
+  for (const auto& [factors, c] : f.list()) {
+    Term t{c.range, c.range.mid(), {}};
+    for (const Factor& factor : factors) {
+      const int variable = place[static_cast<std::size_t>(factor.variable)];
+      const auto column = std::lower_bound(columns_.begin(), columns_.end(), variable) - columns_.begin();
+      t.parts.push_back({variable, factor.power, static_cast<int>(column), factor.function});
+    }
+    terms_.push_back(std::move(t));
+  }
+}
+
+Enclosure Row::value(const Part& p, const Enclosure& x) {
+  if (p.function == Function::sine) return sine(x);
+  if (p.function == Function::cosine) return cosine(x);
+  return power(x, p.power);
+}
+
+Enclosure Row::derivative(const Part& p, const Enclosure& x) {
+  if (p.function == Function::sine) return cosine(x);
+  if (p.function == Function::cosine) return -sine(x);
+  return p.power == 1 ? Enclosure(1.0) : Enclosure(static_cast<double>(p.power)) * power(x, p.power - 1);
+}
+
+Enclosure Row::slope(const Part& p, const Enclosure& x, const Enclosure& c) {
+  if (p.function != Function::identity) {
+    const Enclosure half(0.5), middle = half * (x + c), hull = Enclosure::hull(x, c), h = half * (x - c);
+    if (p.function == Function::sine) return wave_slope(cosine(middle), cosine(hull), h);
+    return wave_slope(-sine(middle), -sine(hull), h);
+  }
+  if (p.power == 1) return 1.0;
+  if (p.power == 2) return x + c;
+  Enclosure sum;  // xᵖ − cᵖ = (x − c) Σ xᵏ c^{p−1−k}
+  for (int k = 0; k < p.power; ++k) sum.add_product(power(x, k), power(c, p.power - 1 - k));
+  sum.intersect(derivative(p, Enclosure::hull(x, c)));
+  return sum;
+}
+
+Enclosure Row::value(const Term& t, const Sides& x) {
+  Enclosure product = t.c;
+  for (const Part& p : t.parts) {
+    const Enclosure& side = x[static_cast<std::size_t>(p.variable)];
+    if (p.power == 1 && p.function == Function::identity) {
+      product *= side;
+    } else {
+      product *= value(p, side);
+    }
+  }
+  return product;
+}
+
+Enclosure Row::value(const Sides& x) const {
+  Enclosure sum;
+  for (const Term& t : terms_) sum += value(t, x);
+  return sum;
+}
+
+void Row::slopes(const Sides& x, const Sides& c, Sides& s) const {
+  s.assign(columns_.size(), Enclosure());
+  for (const Term& t : terms_) {
+    const std::size_t n = t.parts.size();
+    if (n == 2 && t.parts[0].power == 1 && t.parts[1].power == 1) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        const auto other = static_cast<std::size_t>(t.parts[1 - i].variable);
+        s[static_cast<std::size_t>(t.parts[i].column)].add_product(t.c, Enclosure(0.5) * (x[other] + c[other]));
+      }
+      continue;
+    }
+    // Π fᵢ(xᵢ) − Π fᵢ(cᵢ) = Σᵢ Π_{j<i} fⱼ(cⱼ) · (fᵢ(xᵢ) − fᵢ(cᵢ)) · Π_{j>i} fⱼ(xⱼ)
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto own = static_cast<std::size_t>(t.parts[i].variable);
+      Enclosure product = t.c * slope(t.parts[i], x[own], c[own]);
+      for (std::size_t j = 0; j < n; ++j) {
+        if (j == i) continue;
+        const auto v = static_cast<std::size_t>(t.parts[j].variable);
+        product *= value(t.parts[j], j < i ? c[v] : x[v]);
+      }
+      s[static_cast<std::size_t>(t.parts[i].column)] += product;
+    }
+  }
+}
+
+void Row::derivatives(const Sides& x, Sides& s) const {
+  s.assign(columns_.size(), Enclosure());
+  for (const Term& t : terms_)
+    for (const Part& p : t.parts) {
+      Enclosure product = t.c * derivative(p, x[static_cast<std::size_t>(p.variable)]);
+      for (const Part& q : t.parts)
+        if (&q != &p) product *= value(q, x[static_cast<std::size_t>(q.variable)]);
+      s[static_cast<std::size_t>(p.column)] += product;
+    }
+}
+
+double Row::approximate(const Part& p, double x) {
+  if (p.function == Function::sine) return std::sin(x);
+  if (p.function == Function::cosine) return std::cos(x);
+  return p.power == 1 ? x : p.power == 2 ? x * x : std::pow(x, p.power);
+}
+
+double Row::approximate_derivative(const Part& p, double x) {
+  if (p.function == Function::sine) return std::cos(x);
+  if (p.function == Function::cosine) return -std::sin(x);
+  return p.power == 1 ? 1 : p.power == 2 ? 2 * x : p.power * std::pow(x, p.power - 1);
+}
+
+double Row::approximate(const std::vector<double>& x) const {
+  double sum = 0;
+  for (const Term& t : terms_) {
+    double product = t.approximate;
+    for (const Part& p : t.parts) product *= approximate(p, x[static_cast<std::size_t>(p.variable)]);
+    sum += product;
+  }
+  return sum;
+}
+
+void Row::approximate(const std::vector<double>& x, std::vector<double>& s) const {
+  s.assign(columns_.size(), 0.0);
+  for (const Term& t : terms_)
+    for (const Part& p : t.parts) {
+      double product = t.approximate * approximate_derivative(p, x[static_cast<std::size_t>(p.variable)]);
+      for (const Part& q : t.parts)
+        if (&q != &p) product *= approximate(q, x[static_cast<std::size_t>(q.variable)]);
+      s[static_cast<std::size_t>(p.column)] += product;
+    }
+}
+
+bool Row::invert(const Term& t, const Enclosure& image, Sides& x) {
+  for (const Part& p : t.parts) {
+    Enclosure& side = x[static_cast<std::size_t>(p.variable)];
+    Enclosure others = t.c;
+    for (const Part& q : t.parts)
+      if (&q != &p) others *= value(q, x[static_cast<std::size_t>(q.variable)]);
+    if (others.is_zero()) continue;
+    const auto values = divide(image, others, value(p, side));
+    if (!values) return false;
+    const auto shrunk = p.function == Function::sine     ? inverse_sine(*values, side)
+                        : p.function == Function::cosine ? inverse_cosine(*values, side)
+                                                         : root(*values, p.power, side);
+    if (!shrunk) return false;
+    side = *shrunk;
+  }
+  return true;
+}
+
+bool Row::project(Sides& x, bool equation) const {
+  const std::size_t n = terms_.size();
+  Sides values, suffix(n + 1);  // suffix[k] = Σ_{j ≥ k} Tⱼ
+  values.reserve(n);
+  for (const Term& t : terms_) values.push_back(value(t, x));
+  for (std::size_t k = n; k-- > 0;) suffix[k] = values[k] + suffix[k + 1];
+  if (equation ? !suffix[0].has_zero() : suffix[0].is_negative()) return false;
+  if (!equation && suffix[0].is_nonnegative()) return true;
+  Enclosure prefix;
+  for (std::size_t k = 0; k < n; ++k) {
+    Enclosure image = -(prefix + suffix[k + 1]);
+    if (!equation) image = Enclosure::hull(image, Enclosure(kInfinity));
+    prefix += values[k];
+    if (values[k].inside(image)) continue;  // no information
+    if (!invert(terms_[k], image, x)) return false;
+  }
+  return true;
+}
+
+}  // namespace corank::check

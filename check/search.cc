@@ -1,0 +1,205 @@
+#include "corank/check/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "corank/check/krawczyk.h"
+
+namespace corank::check {
+namespace {
+
+constexpr int kPasses = 6;
+constexpr double kGain = 0.2;
+constexpr double kRankTolerance = 1e-9;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double total_width(const Sides& x) {
+  double sum = 0;
+  for (const Enclosure& side : x) sum += std::log(side.width() + 1e-300);
+  return sum;
+}
+
+}  // namespace
+
+bool Search::project(Sides& x, int row) const {
+  const auto m = static_cast<int>(problem_.equations().size());
+  if (row < m) return problem_.equations()[static_cast<std::size_t>(row)].project(x, true);
+  return std::all_of(problem_.conditions().begin(), problem_.conditions().end(),
+                     [&](const Condition& c) { return c.row.project(x, false); });
+}
+
+bool Search::newton(Sides& x, const LinearCombination& p, const std::vector<double>& center) {
+  const std::size_t r = p.dependent.size(), n = x.size();
+  const Sides c(center.begin(), center.end());
+  std::vector<Sides> slopes(r);
+  Sides residual(r), at_center;
+  for (std::size_t b = 0; b < r; ++b) {
+    const Row& f = problem_.equations()[static_cast<std::size_t>(p.equations[b])];
+    f.slopes(x, c, slopes[b]);
+    at_center.push_back(f.value(c));
+  }
+  std::vector<Sides> products;
+  Sides sums;  // Y·F(c)
+  for (std::size_t a = 0; a < r; ++a) {
+    Sides product(n);
+    Enclosure sum;
+    for (std::size_t b = 0; b < r; ++b) {
+      const double y = p.y[a * r + b];
+      if (y == 0) continue;
+      sum.add_product(y, at_center[b]);
+      const auto& columns = problem_.equations()[static_cast<std::size_t>(p.equations[b])].columns();
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        product[static_cast<std::size_t>(columns[k])].add_product(y, slopes[b][k]);
+    }
+    products.push_back(std::move(product));
+    sums.push_back(std::move(sum));
+  }
+  // Row a, solved for x_v. False: it has no solution.
+  const auto solve_for = [&](std::size_t a, std::size_t v) {
+    Enclosure sum = sums[a];
+    for (std::size_t j = 0; j < n; ++j)
+      if (j != v && !products[a][j].is_zero()) sum.add_product(products[a][j], x[j] - c[j]);
+    const auto shift = divide(-sum, products[a][v], x[v] - c[v]);
+    return shift && x[v].intersect(c[v] + *shift);
+  };
+  std::vector<bool> is_free(n, true);
+  for (std::size_t a = 0; a < r; ++a) {
+    const auto d = static_cast<std::size_t>(p.dependent[a]);
+    is_free[d] = false;
+    if (!solve_for(a, d)) return false;
+  }
+  for (std::size_t v = 0; v < n; ++v)
+    for (std::size_t a = 0; a < r && is_free[v]; ++a)
+      if (!products[a][v].is_zero() && !solve_for(a, v)) return false;
+  return true;
+}
+
+bool Search::own_combination(const Sides& x, LinearCombination& p, std::vector<double>& center) {
+  const std::size_t m = problem_.equations().size(), n = x.size();
+  center.resize(n);
+  for (std::size_t j = 0; j < n; ++j) center[j] = x[j].mid();
+  std::vector<double> t(m * n, 0.0), entries, scale(m, 0.0);
+  for (std::size_t i = 0; i < m; ++i) {
+    const Row& f = problem_.equations()[i];
+    f.approximate(center, entries);
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      t[i * n + static_cast<std::size_t>(f.columns()[k])] = entries[k];
+      scale[i] = std::max(scale[i], std::fabs(entries[k]));
+    }
+  }
+  // Exchange steps: afterwards the dependent columns hold the inverse, column dependent[b] that of equation equations[b].
+  std::vector<unsigned char> row_done(m, 0), column_done(n, 0);
+  p = {};
+  for (std::size_t step = 0; step < std::min(m, n); ++step) {
+    std::size_t row = m, column = n;
+    double best = kRankTolerance;
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t j = 0; j < n && !row_done[i]; ++j)
+        if (const double size = std::fabs(t[i * n + j]) / (scale[i] + 1e-300); !column_done[j] && size > best)
+          best = size, row = i, column = j;
+    if (row == m) break;
+    const double inverse = 1 / t[row * n + column];
+    for (std::size_t j = 0; j < n; ++j) t[row * n + j] *= inverse;
+    t[row * n + column] = inverse;
+    row_done[row] = column_done[column] = 1;
+    for (std::size_t i = 0; i < m; ++i) {
+      const double factor = t[i * n + column];
+      if (i == row || factor == 0) continue;
+      t[i * n + column] = 0;
+      for (std::size_t j = 0; j < n; ++j) t[i * n + j] -= factor * t[row * n + j];
+    }
+    p.equations.push_back(static_cast<int>(row));
+    p.dependent.push_back(static_cast<int>(column));
+  }
+  const std::size_t r = p.dependent.size();
+  for (std::size_t a = 0; a < r; ++a)
+    for (std::size_t b = 0; b < r; ++b) {
+      const double y = t[static_cast<std::size_t>(p.equations[a]) * n + static_cast<std::size_t>(p.dependent[b])];
+      if (!std::isfinite(y)) return false;
+      p.y.push_back(y);
+    }
+  drop_noise(p.y, r);
+  return r > 0;
+}
+
+bool Search::contract(Sides& x) {
+  LinearCombination p;
+  std::vector<double> center;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    problem_.stop().poll();
+    const double before = total_width(x);
+    for (int row = 0; row <= static_cast<int>(problem_.equations().size()); ++row)
+      if (!project(x, row)) return false;
+    if (own_combination(x, p, center) && !newton(x, p, center)) return false;
+    if (total_width(x) > before - kGain) break;
+  }
+  return true;
+}
+
+int Search::widest(const Sides& x) const {
+  std::vector<double> weight(x.size(), 0.0);
+  Sides entries;
+  for (const Row& f : problem_.equations()) {
+    f.derivatives(x, entries);
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      double& w = weight[static_cast<std::size_t>(f.columns()[k])];
+      w = std::max(w, entries[k].mag());
+    }
+  }
+  int best = -1;
+  double most = 0;
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    const double width = x[j].width(), middle = x[j].mid();
+    if (!(x[j].lo() < middle && middle < x[j].hi())) continue;
+    if (const double size = width * std::max(weight[j], 1e-6); size > most) most = size, best = static_cast<int>(j);
+  }
+  return best;
+}
+
+bool Search::is_empty(Sides first, std::size_t most_parts) {
+  std::vector<Sides> open{std::move(first)};
+  std::size_t parts = 0;
+  while (!open.empty()) {
+    Sides x = std::move(open.back());
+    open.pop_back();
+    if (!contract(x)) continue;
+    const int j = widest(x);
+    if (j < 0 || ++parts > most_parts) return false;
+    if (parts == 1) ++searched_;
+    const auto v = static_cast<std::size_t>(j);
+    const Enclosure side = x[v];
+    const double middle = side.lo() + 0.47 * (side.hi() - side.lo());
+    Enclosure lower = side, upper = side;
+    if (!lower.intersect(Enclosure(-kInfinity, middle)) || !upper.intersect(Enclosure(middle, kInfinity))) return false;
+    open.push_back(x);
+    open.back()[v] = upper;
+    open.push_back(std::move(x));
+    open.back()[v] = lower;
+  }
+  return true;
+}
+
+bool Search::confine(Sides& x, const std::vector<Interval>& bounds, bool& empty) {
+  empty = false;
+  const auto within = [&] {
+    for (std::size_t j = 0; j < x.size(); ++j)
+      if (!x[j].inside(bounds[j])) return false;
+    return true;
+  };
+  if (within()) return true;
+  if (!contract(x)) return empty = true;
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    if (x[j].inside(bounds[j])) continue;
+    for (const Enclosure& beyond : {Enclosure(-kInfinity, bounds[j].lo()), Enclosure(bounds[j].hi(), kInfinity)}) {
+      Sides slab = x;
+      // What lies on the bound lies between the bounds.
+      if (!slab[j].intersect(beyond) || slab[j].inside(bounds[j])) continue;
+      if (!is_empty(std::move(slab))) return false;
+    }
+    if (!x[j].intersect(Enclosure(bounds[j]))) return empty = true;
+  }
+  return true;
+}
+
+}  // namespace corank::check

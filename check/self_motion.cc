@@ -1,0 +1,138 @@
+#include "corank/check/self_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corank/check/krawczyk.h"
+
+namespace corank::check {
+namespace {
+
+constexpr int kMostParts = 1024;
+
+bool is_linear_and_rational(const Polynomial& f) {
+  return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
+    return m.coefficient.is_rational() && m.degree() <= 1 && !m.is_trigonometric();
+  });
+}
+
+// As many equations as there are dependent variables, by elimination with the largest pivots at a point; fewer where it finds no more.
+std::vector<Row> independent(const std::vector<Row>& equations, const std::vector<int>& dependent,
+                             const std::vector<double>& at) {
+  std::vector<std::vector<double>> rows;
+  for (const Row& f : equations) {
+    std::vector<double> entries, row(at.size(), 0.0);
+    f.approximate(at, entries);
+    for (std::size_t k = 0; k < f.columns().size(); ++k) row[static_cast<std::size_t>(f.columns()[k])] = entries[k];
+    rows.push_back(std::move(row));
+  }
+  std::vector<bool> taken(equations.size(), false), done(at.size(), false);
+  std::vector<Row> result;
+  for (std::size_t step = 0; step < dependent.size(); ++step) {
+    double best = 0;
+    std::size_t row = 0, column = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (const int d : dependent) {
+        const double size = std::fabs(rows[i][static_cast<std::size_t>(d)]);
+        if (!taken[i] && !done[static_cast<std::size_t>(d)] && size > best)
+          best = size, row = i, column = static_cast<std::size_t>(d);
+      }
+    if (best == 0) break;
+    taken[row] = done[column] = true;
+    result.push_back(equations[row]);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double factor = rows[i][column] / rows[row][column];
+      if (taken[i] || factor == 0) continue;
+      for (std::size_t j = 0; j < at.size(); ++j) rows[i][j] -= factor * rows[row][j];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+MotionCheck::MotionCheck(const Problem& problem, const SelfMotionRecord& record) : problem_(problem) {
+  const int n = problem.system().size();
+  std::vector<Terms> rest = problem.terms(), relations;
+  for (const Polynomial& f : record.relations) {
+    for (const Monomial& m : f.monomials)
+      for (const Factor& x : m.factors)
+        if (x.variable < 0 || x.variable >= n || problem.place(x.variable) < 0)
+          fault_ = "a relation is not one of variables that were kept";
+    if (!is_linear_and_rational(f)) fault_ = "a relation is not linear, with rational coefficients";
+    if (!fault_.empty()) return;
+    relations.emplace_back(f, 0);
+  }
+  for (std::size_t i = 0; i < relations.size(); ++i) {
+    int own = -1;  // a variable that no other relation mentions
+    for (int v = 0; v < n && own < 0; ++v) {
+      bool alone = relations[i].mentions(v);
+      for (std::size_t k = 0; k < relations.size(); ++k) alone = alone && (k == i || !relations[k].mentions(v));
+      if (alone) own = v;
+    }
+    const auto value = own < 0 ? std::nullopt : relations[i].solved_for(own);
+    if (!value) {
+      fault_ = "a relation defines no variable of its own";
+      return;
+    }
+    for (Terms& f : rest) {
+      auto substituted = f.substituted(own, *value);
+      if (!substituted) {
+        fault_ = "a relation is about the argument of a sine or cosine";
+        return;
+      }
+      f = std::move(*substituted);
+    }
+    rows_.emplace_back(relations[i], problem.places());
+  }
+  std::vector<std::size_t> classes;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (!rest[i].is_exact()) fault_ = "an equation has a tolerance";
+    if (rest[i].list().empty()) continue;
+    if (std::any_of(classes.begin(), classes.end(), [&](std::size_t g) { return rest[i].is_multiple_of(rest[g]); }))
+      continue;
+    classes.push_back(i);
+    rows_.push_back(problem.equations()[i]);
+  }
+  if (problem.size() - static_cast<int>(rows_.size()) != record.dimension)
+    fault_ = "its relations leave " + std::to_string(classes.size()) + " equations, which make no set of dimension " +
+             std::to_string(record.dimension);
+}
+
+std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
+  std::vector<unsigned char> is_free(problem_.system().variables.size(), 0);
+  for (const int j : box.free) is_free[static_cast<std::size_t>(j)] = 1;
+  std::vector<int> dependent, free;
+  Sides all;
+  std::vector<double> middle;
+  for (std::size_t k = 0; k < problem_.kept().size(); ++k) {
+    const auto v = static_cast<std::size_t>(problem_.kept()[k]);
+    (is_free[v] ? free : dependent).push_back(static_cast<int>(k));
+    all.emplace_back(is_free[v] ? box.box[v] : region[v]);
+    middle.push_back(box.box[v].mid());
+  }
+  const std::vector<Row> chosen = independent(problem_.equations(), dependent, middle);
+  if (chosen.size() != dependent.size()) return "too few of the equations are independent in its dependent variables";
+  Krawczyk newton(chosen, problem_.size());
+  std::vector<Sides> open{all};
+  for (int parts = 0; !open.empty(); ++parts) {
+    problem_.stop().poll();
+    if (parts == kMostParts) return "uniqueness along its self-motion is not shown";
+    const Sides x = std::move(open.back());
+    open.pop_back();
+    if (newton.set(dependent, x, Krawczyk::Center::polished) && newton.is_injective(x)) continue;
+    std::size_t widest = x.size();
+    for (const int f : free)
+      if (widest == x.size() || x[static_cast<std::size_t>(f)].width() > x[widest].width())
+        widest = static_cast<std::size_t>(f);
+    if (widest == x.size()) return "uniqueness along its self-motion is not shown";
+    for (const bool upper : {false, true}) {
+      Sides part = x;
+      part[widest] = upper ? Enclosure(x[widest].mid(), x[widest].hi()) : Enclosure(x[widest].lo(), x[widest].mid());
+      open.push_back(std::move(part));
+    }
+  }
+  return {};
+}
+
+}  // namespace corank::check

@@ -1,0 +1,288 @@
+#include "corank/check/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace corank::check {
+namespace {
+
+using Center = Krawczyk::Center;
+
+constexpr int kMostParts = 4096;
+constexpr int kProofSteps = 12;
+constexpr int kTightenings = 2, kPointTightenings = 30;
+
+class SheetCheck {
+ public:
+  SheetCheck(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region)
+      : problem_(problem), equations_(equations), box_(box), region_(region), newton_(equations, problem.size()) {}
+
+  std::string run() {
+    if (std::string fault = check_shape(); !fault.empty()) return fault;
+    Sides x;
+    for (const int j : problem_.kept()) {
+      const auto v = static_cast<std::size_t>(j);
+      x.push_back(Enclosure(is_free_[v] ? box_.box[v] : region_[v]));
+    }
+    examine(x, false);
+    return reason_;
+  }
+
+ private:
+  std::string check_shape() {
+    const std::size_t n = problem_.system().variables.size();
+    if (box_.box.size() != n || region_.size() != n) return "it has not one side for each variable";
+    is_free_.assign(n, 0);
+    for (const int j : box_.free) {
+      if (j < 0 || j >= static_cast<int>(n) || problem_.place(j) < 0 || is_free_[static_cast<std::size_t>(j)])
+        return "its free variables are not distinct variables that were kept";
+      is_free_[static_cast<std::size_t>(j)] = 1;
+    }
+    for (std::size_t k = 0; k < problem_.kept().size(); ++k)
+      if (!is_free_[static_cast<std::size_t>(problem_.kept()[k])]) dependent_.push_back(static_cast<int>(k));
+    if (dependent_.size() != equations_.size())
+      return "the equations that remain are not as many as the dependent variables";
+    if ((box_.verdict == Verdict::isolated && !box_.free.empty()) || (box_.verdict == Verdict::regular && box_.free.empty()))
+      return "its free variables contradict its verdict";
+    for (std::size_t v = 0; v < n; ++v)
+      if (!region_[v].contains(box_.box[v])) return "it is not inside the region of its proof";
+    return {};
+  }
+
+  bool fail(const std::string& reason) {
+    if (reason_.empty()) reason_ = reason;
+    return false;
+  }
+
+  // x: a part of the box's free sides, dependent sides that hold every solution of the region over them. `proven`: there is
+  // exactly one for every value. False: stop.
+  bool examine(Sides x, bool proven) {
+    problem_.stop().poll();
+    if (++parts_ > kMostParts) return fail(pending_reason_.empty() ? "too many parts" : pending_reason_);
+    if (!proven) {
+      const bool shown = prove(x);
+      if (!reason_.empty()) return false;
+      if (!shown) return bisect(x, false);
+    } else if (!newton_.set(dependent_, x, Center::polished)) {
+      pending_reason_ = "the Jacobian is singular";
+      return bisect(x, true);
+    }
+    const int steps = box_.free.empty() ? kPointTightenings : kTightenings;
+    for (int step = 0;; ++step) {
+      if ((step > 0 || proven) && !shrink(x, newton_.image(x))) return fail("a part of it has no solution");
+      if (settled(x)) return true;
+      if (!reason_.empty()) return false;
+      // The region's one solution, for each value of the free variables.
+      if ((box_.free.empty() || step == steps) && newton_.center_solves(x) && center_in_region()) {
+        for (const int k : dependent_)
+          x[static_cast<std::size_t>(k)] = Enclosure(newton_.center()[static_cast<std::size_t>(k)]);
+        if (settled(x)) return true;
+        break;
+      }
+      if (step == steps) {
+        // A bound that a solution touches: where one equation alone gives it exactly, no combination may.
+        for (const Row& f : equations_)
+          if (!f.project(x, true)) return fail("a part of it has no solution");
+        if (settled(x)) return true;
+        break;
+      }
+      if ((box_.free.empty() || step == 0) &&
+          !newton_.set(dependent_, x, box_.free.empty() ? point_center_ : Center::polished))
+        break;
+    }
+    return bisect(x, true);
+  }
+
+  // Existence and uniqueness over x; shrinks its dependent sides to what holds the solutions. False: not shown.
+  bool prove(Sides& x) {
+    pending_reason_ = "the Jacobian is singular";
+    // About the middle of x; about a solution; about the middle of the region, as the search may have done it. Each time
+    // from x as it is: a side that was shrunk to an image has no interior left for the next.
+    Sides region;
+    for (const int j : problem_.kept()) region.emplace_back(region_[static_cast<std::size_t>(j)]);
+    for (const auto& [around, center] : {std::pair(&x, Center::middle), {&x, Center::polished}, {&region, Center::middle}}) {
+      Sides part = x;
+      if (newton_.set(dependent_, *around, center) && prove_about_center(part)) {
+        x = std::move(part);
+        return true;
+      }
+      if (!reason_.empty()) return false;
+    }
+    if (prove_near_box(x)) return true;
+    if (!reason_.empty() || !box_.free.empty()) return false;
+    // A point near a double one.
+    if (!newton_.set(dependent_, x, Center::refined) || !prove_about_center(x)) return false;
+    point_center_ = Center::refined;
+    return true;
+  }
+
+  bool prove_about_center(Sides& x) {
+    bool exists = false;
+    for (int step = 0; step < kProofSteps; ++step) {
+      problem_.stop().poll();
+      const Sides image = newton_.image(x);
+      bool within = true;
+      for (std::size_t a = 0; a < image.size() && within; ++a) within = image[a].strictly_inside(x[place(a)]);
+      exists = exists || within;  // K ⊂ int Z: a fixed point for every value of the free variables
+      if (exists && newton_.is_injective(x))
+        return shrink(x, image) || fail("existence and emptiness contradict each other");
+      double former = 0, now = 0;
+      for (std::size_t a = 0; a < image.size(); ++a) former = std::max(former, x[place(a)].width());
+      if (!shrink(x, image)) return fail("a part of it has no solution in its region");
+      for (std::size_t a = 0; a < image.size(); ++a) now = std::max(now, x[place(a)].width());
+      if (now > 0.9 * former) break;
+    }
+    pending_reason_ = exists ? "uniqueness in its region is not shown" : "existence in its region is not shown";
+    return false;
+  }
+
+  // The box may fill its region so nearly that K about another centre than the solver's leaves it. Then: existence in a Z
+  // that ε-inflation of the box's sides finds, wherever it leads; at most one solution in the hull of Z and x. That one is
+  // all that the region may hold, and x becomes what holds it: whether it lies in the box is still to be shown.
+  bool prove_near_box(Sides& x) {
+    constexpr int kInflations = 10;
+    Sides z = x;
+    for (std::size_t a = 0; a < dependent_.size(); ++a)
+      z[place(a)] = Enclosure(box_.box[static_cast<std::size_t>(problem_.kept()[place(a)])]);
+    if (!newton_.set(dependent_, z, Center::polished)) return false;
+    for (int step = 0; step < kInflations; ++step) {
+      problem_.stop().poll();
+      const Sides image = newton_.image(z);
+      bool inside = true;
+      for (std::size_t a = 0; a < image.size(); ++a) {
+        inside = inside && image[a].strictly_inside(z[place(a)]);
+        if (!image[a].is_bounded()) return false;
+      }
+      if (inside) {
+        Sides both = z;
+        for (std::size_t a = 0; a < image.size(); ++a) both[place(a)] = Enclosure::hull(z[place(a)], x[place(a)]);
+        if (!newton_.is_injective(both)) return false;
+        for (std::size_t a = 0; a < image.size(); ++a) x[place(a)] = image[a];
+        return true;
+      }
+      for (std::size_t a = 0; a < image.size(); ++a) {
+        const double margin = 0.1 * image[a].width() + 1e-15 * image[a].mag() + 1e-300;
+        z[place(a)] = Enclosure(image[a].lo() - margin, image[a].hi() + margin);
+      }
+    }
+    return false;
+  }
+
+  bool center_in_region() const {
+    for (std::size_t k = 0; k < problem_.kept().size(); ++k)
+      if (!region_[static_cast<std::size_t>(problem_.kept()[k])].contains(newton_.center()[k])) return false;
+    return true;
+  }
+
+  std::size_t place(std::size_t a) const { return static_cast<std::size_t>(dependent_[a]); }
+
+  bool shrink(Sides& x, const Sides& image) {
+    for (std::size_t a = 0; a < image.size(); ++a)
+      if (!x[place(a)].intersect(image[a])) return false;
+    return true;
+  }
+
+  // After image(x0), x ⊂ x0 holding the solutions over x's free sides: do they lie in the box, and where asked in the domain?
+  bool settled(const Sides& x) {
+    wide_ = -1;
+    for (std::size_t a = 0; a < dependent_.size(); ++a) {
+      const int v = problem_.kept()[place(a)];
+      if (inside(x[place(a)], v)) continue;
+      wide_ = static_cast<int>(a);
+      return false;
+    }
+    Sides clipped = x;
+    if (!problem_.clip_to_implied(clipped)) return fail("a part of it lies outside a domain that the equations imply");
+    for (const Problem::Value& v : problem_.values()) {
+      Enclosure value = v.row.value(clipped);
+      if (value.inside(box_.box[static_cast<std::size_t>(v.variable)])) continue;
+      value.intersect(newton_.value_at_zeros(v.row, x));
+      if (!inside(value, v.variable)) return false;
+    }
+    if (box_.verdict == Verdict::boundary) return true;
+    for (const Condition& condition : problem_.conditions()) {
+      if (condition.implied || is_end_of_free(condition)) continue;
+      Enclosure value = condition.row.value(clipped);
+      if (!value.is_nonnegative()) value.intersect(newton_.value_at_zeros(condition.row, x));
+      if (value.is_nonnegative()) continue;
+      const std::string what =
+          condition.variable < 0
+              ? "an inequality"
+              : "the domain of " + problem_.system().variables[static_cast<std::size_t>(condition.variable)].name;
+      if (value.is_negative()) return fail("a part of it violates " + what);
+      pending_reason_ = "it may violate " + what;
+      return false;
+    }
+    return true;
+  }
+
+  // Of a free variable whose side reaches no farther than its domain's ends, rounded outward: the claim is about values in the domain.
+  bool is_end_of_free(const Condition& condition) const {
+    if (condition.variable < 0 || std::find(box_.free.begin(), box_.free.end(), condition.variable) == box_.free.end())
+      return false;
+    const auto j = static_cast<std::size_t>(condition.variable);
+    return problem_.system().variables[j].domain.contains(box_.box[j]);
+  }
+
+  bool inside(const Enclosure& side, int variable) {
+    const Interval& bound = box_.box[static_cast<std::size_t>(variable)];
+    if (side.inside(bound)) return true;
+    const std::string& name = problem_.system().variables[static_cast<std::size_t>(variable)].name;
+    if (!side.overlaps(bound)) return fail("a solution of its region lies outside it (" + name + ")");
+    pending_reason_ = "a solution of its region may lie outside it (" + name + ")";
+    return false;
+  }
+
+  // The free variable, by its place among the kept, whose halves narrow most: the side that was too wide if it alone is
+  // `meant`, else any; −1: none.
+  int choose(const Sides& x, bool proven, int meant) const {
+    int along = -1;
+    double most = 0;
+    for (const int j : box_.free) {
+      const int k = problem_.place(j);
+      double share = meant >= 0 ? newton_.steepness(static_cast<std::size_t>(meant), k) : 1;
+      for (std::size_t a = 0; proven && meant < 0 && a < dependent_.size(); ++a)
+        share = std::max(share, newton_.steepness(a, k));
+      const Enclosure& side = x[static_cast<std::size_t>(k)];
+      const double width = side.width(), middle = side.mid();
+      if (share * width > most && side.lo() < middle && middle < side.hi()) most = share * width, along = k;
+    }
+    return along;
+  }
+
+  bool bisect(const Sides& x, bool proven) {
+    int along = proven && wide_ >= 0 ? choose(x, proven, wide_) : -1;
+    if (along < 0) along = choose(x, proven, -1);
+    if (along < 0) return fail(pending_reason_);
+    const auto k = static_cast<std::size_t>(along);
+    const double middle = x[k].mid();
+    for (const auto& half : {Enclosure(x[k].lo(), middle), Enclosure(middle, x[k].hi())}) {
+      Sides part = x;
+      part[k] = half;
+      if (!examine(std::move(part), proven)) return false;
+    }
+    return true;
+  }
+
+  const Problem& problem_;
+  const std::vector<Row>& equations_;
+  const CoverBox& box_;
+  const Box& region_;
+  Krawczyk newton_;
+  Center point_center_ = Center::middle;  // of a point's box, once its solution has been shown
+  std::vector<unsigned char> is_free_;
+  std::vector<int> dependent_;
+  int parts_ = 0;
+  int wide_ =
+      -1;  // the first dependent whose solutions were not shown to lie in the box, when they were looked at last; −1: none
+  std::string reason_, pending_reason_;
+};
+
+}  // namespace
+
+std::string check_sheet(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region) {
+  return SheetCheck(problem, equations, box, region).run();
+}
+
+}  // namespace corank::check

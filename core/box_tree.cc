@@ -1,0 +1,121 @@
+#include "corank/core/box_tree.h"
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace corank {
+namespace {
+
+constexpr std::size_t kLeaf = 8;
+constexpr std::size_t kBetweenChecks = 256;
+
+}  // namespace
+
+BoxTree::BoxTree(std::vector<const Box*> boxes, std::size_t sides)
+    : boxes_(std::move(boxes)), sides_(sides), order_(boxes_.size()) {
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  if (!boxes_.empty()) build(0, boxes_.size());
+}
+
+std::size_t BoxTree::build(std::size_t begin, std::size_t end) {
+  const std::size_t node = nodes_.size();
+  nodes_.push_back({begin, end});
+  bounds_.resize(bounds_.size() + sides_);
+  Interval* const hull = bounds_.data() + node * sides_;
+  for (std::size_t j = 0; j < sides_; ++j) {
+    hull[j] = (*boxes_[order_[begin]])[j];
+    for (std::size_t k = begin + 1; k < end; ++k) hull[j] = Interval::hull(hull[j], (*boxes_[order_[k]])[j]);
+  }
+  if (end - begin <= kLeaf) return node;
+  // Halves by the midpoints along the side in which they spread most.
+  std::size_t along = 0;
+  double most = -1;
+  for (std::size_t j = 0; j < sides_; ++j) {
+    double least = HUGE_VAL, greatest = -HUGE_VAL;
+    for (std::size_t k = begin; k < end; ++k) {
+      const double middle = (*boxes_[order_[k]])[j].mid();
+      least = std::min(least, middle);
+      greatest = std::max(greatest, middle);
+    }
+    if (greatest - least > most) most = greatest - least, along = j;
+  }
+  const auto place = [](std::size_t k) { return static_cast<std::ptrdiff_t>(k); };
+  const std::size_t middle = begin + (end - begin) / 2;
+  std::nth_element(order_.begin() + place(begin), order_.begin() + place(middle), order_.begin() + place(end),
+                   [&](std::size_t a, std::size_t b) { return (*boxes_[a])[along].mid() < (*boxes_[b])[along].mid(); });
+  build(begin, middle);
+  const std::size_t right = build(middle, end);
+  nodes_[node].right = right;
+  return node;
+}
+
+// A node all of whose boxes are one group stays so, and need not be entered for a box of that group: boxes that all overlap
+// each other cost no more than others.
+class BoxTree::Grouping {
+ public:
+  Grouping(const BoxTree& tree, double gap) : tree_(tree), gap_(gap), sets_(tree.size()), is_one_(tree.nodes_.size(), 0) {}
+
+  void join(std::size_t i) { walk(0, i, *tree_.boxes_[i]); }
+  std::size_t of(std::size_t i) { return sets_.find_set(i); }
+
+ private:
+  void walk(std::size_t node, std::size_t i, const Box& x) {
+    if (!tree_.overlap(tree_.bounds(node), x, gap_)) return;
+    const Node& n = tree_.nodes_[node];
+    if (is_one_[node] && of(tree_.order_[n.begin]) == of(i)) return;
+    if (n.right == 0) {
+      for (std::size_t k = n.begin; k < n.end; ++k)
+        if (const std::size_t other = tree_.order_[k];
+            of(other) != of(i) && tree_.overlap(tree_.boxes_[other]->data(), x, gap_))
+          sets_.union_set(other, i);
+    } else {
+      walk(node + 1, i, x);
+      walk(n.right, i, x);
+    }
+    if (is_one_[node]) return;
+    const std::size_t first = of(tree_.order_[n.begin]);
+    bool one = n.right == 0 || (is_one_[node + 1] && is_one_[n.right]);
+    for (std::size_t k = n.begin; n.right == 0 && k < n.end && one; ++k) one = of(tree_.order_[k]) == first;
+    is_one_[node] = one && (n.right == 0 || of(tree_.order_[tree_.nodes_[n.right].begin]) == first);
+  }
+
+  const BoxTree& tree_;
+  const double gap_;
+  boost::disjoint_sets_with_storage<> sets_;
+  std::vector<std::uint8_t> is_one_;
+};
+
+std::vector<std::size_t> BoxTree::groups(double gap, const Ended& ended) const {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  Grouping grouping(*this, gap);
+  for (std::size_t k = 0; k < order_.size(); ++k) {  // neighbours follow each other
+    if (k % kBetweenChecks == 0 && is_over(ended)) break;
+    grouping.join(order_[k]);
+  }
+  std::vector<std::size_t> numbers(size(), kNone), result(size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    std::size_t& number = numbers[grouping.of(i)];
+    if (number == kNone) number = next++;
+    result[i] = number;
+  }
+  return result;
+}
+
+void GrowingBoxTree::add(const Box& box) {
+  std::vector<const Box*> boxes{&box};
+  std::size_t first = size_++;
+  while (!parts_.empty() && parts_.back().boxes.size() <= boxes.size()) {
+    std::vector<const Box*>& older = parts_.back().boxes;
+    older.insert(older.end(), boxes.begin(), boxes.end());
+    boxes = std::move(older);
+    first = parts_.back().first;
+    parts_.pop_back();
+  }
+  parts_.push_back({first, boxes, BoxTree(boxes, sides_)});
+}
+
+}  // namespace corank

@@ -1,0 +1,223 @@
+#include "corank/core/exact_number.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <ostream>
+#include <stdexcept>
+#include <utility>
+
+#include "corank/core/exact_number_node.h"
+
+namespace corank {
+
+namespace {
+
+using Node = ExactNumber::Node;
+using Kind = Node::Kind;
+using NodePtr = std::shared_ptr<const Node>;
+
+constexpr std::size_t kMaxBits = 100'000;  // of a rational's numerator or denominator
+
+std::size_t bits(const mpq_class& q) {
+  return std::max(mpz_sizeinbase(q.get_num_mpz_t(), 2), mpz_sizeinbase(q.get_den_mpz_t(), 2));
+}
+
+[[noreturn]] void too_long() { throw std::domain_error("a number of more than 100000 bits"); }
+
+NodePtr make_rational(mpq_class q) {
+  if (bits(q) > kMaxBits) too_long();
+  Node node;
+  node.value = std::move(q);
+  return std::make_shared<const Node>(std::move(node));
+}
+
+bool is_rational(const NodePtr& x) { return x->kind == Kind::rational; }
+
+NodePtr make_sum(const NodePtr& x, const NodePtr& y) {
+  Node sum;
+  sum.kind = Kind::sum;
+  for (const NodePtr& part : {x, y}) {
+    if (part->kind == Kind::rational) {
+      sum.value += part->value;
+    } else if (part->kind == Kind::sum) {
+      sum.value += part->value;
+      sum.operands.insert(sum.operands.end(), part->operands.begin(), part->operands.end());
+    } else {
+      sum.operands.push_back(part);
+    }
+  }
+  if (sum.operands.empty()) return make_rational(sum.value);
+  if (sum.operands.size() == 1 && sum.value == 0) return sum.operands[0];
+  if (bits(sum.value) > kMaxBits) too_long();
+  return std::make_shared<const Node>(std::move(sum));
+}
+
+NodePtr make_product(const NodePtr& x, const NodePtr& y) {
+  Node product;
+  product.kind = Kind::product;
+  product.value = 1;
+  for (const NodePtr& part : {x, y}) {
+    if (part->kind == Kind::rational) {
+      product.value *= part->value;
+    } else if (part->kind == Kind::product) {
+      product.value *= part->value;
+      product.operands.insert(product.operands.end(), part->operands.begin(), part->operands.end());
+    } else {
+      product.operands.push_back(part);
+    }
+  }
+  if (product.value == 0 || product.operands.empty()) return make_rational(product.value);
+  if (product.operands.size() == 1 && product.value == 1) return product.operands[0];
+  if (bits(product.value) > kMaxBits) too_long();
+  std::stable_partition(product.operands.begin(), product.operands.end(),
+                        [](const NodePtr& f) { return f->kind != Kind::power || f->exponent > 0; });
+  return std::make_shared<const Node>(std::move(product));
+}
+
+NodePtr make_power(const NodePtr& x, int n) {
+  if (is_rational(x)) {
+    if (n < 0 && x->value == 0) throw std::domain_error("division by zero");
+    if (x->value == 1 || x->value == 0 || x->value == -1) {
+      if (n == 0 || x->value == 1) return make_rational(1);
+      return make_rational(x->value == 0 ? mpq_class(0) : mpq_class(n % 2 == 0 ? 1 : -1));
+    }
+    const auto count = static_cast<unsigned long>(std::labs(static_cast<long>(n)));
+    // bits − 1 ≤ log2 of the numerator or denominator, so the result has more than (bits − 1)·n bits.
+    if (count > kMaxBits || (bits(x->value) - 1) * count > kMaxBits) too_long();
+    mpz_class num, den;
+    mpz_pow_ui(num.get_mpz_t(), x->value.get_num_mpz_t(), count);
+    mpz_pow_ui(den.get_mpz_t(), x->value.get_den_mpz_t(), count);
+    mpq_class q = n < 0 ? mpq_class(den, num) : mpq_class(num, den);
+    q.canonicalize();
+    return make_rational(std::move(q));
+  }
+  if (n == 0) return make_rational(1);
+  if (n == 1) return x;
+  if (x->kind == Kind::power && x->exponent > 0 && n > 0 && x->exponent <= std::numeric_limits<int>::max() / n)
+    return make_power(x->operands[0], x->exponent * n);
+  Node power;
+  power.kind = Kind::power;
+  power.exponent = n;
+  power.operands = {x};
+  return std::make_shared<const Node>(std::move(power));
+}
+
+bool same(const NodePtr& x, const NodePtr& y) {
+  if (x == y) return true;
+  if (x->kind != y->kind || x->operands.size() != y->operands.size()) return false;
+  if (x->value != y->value || x->exponent != y->exponent || x->function != y->function) return false;
+  for (std::size_t i = 0; i < x->operands.size(); ++i)
+    if (!same(x->operands[i], y->operands[i])) return false;
+  return true;
+}
+
+// Digits with an optional sign, a point and an exponent; nothing where the text is none of these.
+std::optional<mpq_class> parse_decimal(const std::string& text) {
+  std::size_t i = 0;
+  const auto digit = [&] { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  bool negative = false;
+  if (i < text.size() && (text[i] == '-' || text[i] == '+')) negative = text[i++] == '-';
+  std::string digits;
+  while (digit()) digits += text[i++];
+  long exponent = 0;
+  if (i < text.size() && text[i] == '.') {
+    ++i;
+    while (digit()) digits += text[i++], --exponent;
+  }
+  if (digits.empty()) return std::nullopt;
+  if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+    ++i;
+    bool down = false;
+    if (i < text.size() && (text[i] == '-' || text[i] == '+')) down = text[i++] == '-';
+    if (!digit()) return std::nullopt;
+    long e = 0;
+    while (digit()) e = std::min(e * 10 + (text[i++] - '0'), 1'000'000'000L);
+    exponent += down ? -e : e;
+  }
+  if (i != text.size()) return std::nullopt;
+  if (digits.size() > 40'000) too_long();
+  const mpz_class mantissa(digits, 10);
+  if (mantissa == 0) return mpq_class(0);
+  if (std::labs(exponent) > 40'000) too_long();
+  mpz_class scale;
+  mpz_ui_pow_ui(scale.get_mpz_t(), 10, static_cast<unsigned long>(std::labs(exponent)));
+  mpq_class q = exponent < 0 ? mpq_class(mantissa, scale) : mpq_class(mantissa * scale);
+  q.canonicalize();
+  if (negative) q = -q;
+  return q;
+}
+
+}  // namespace
+
+ExactNumber::ExactNumber() : ExactNumber(0L) {}
+ExactNumber ExactNumber::Node::number(mpq_class q) { return ExactNumber(make_rational(std::move(q))); }
+
+ExactNumber ExactNumber::dyadic(double x) {
+  if (!std::isfinite(x)) throw std::invalid_argument("no rational number is infinite");
+  return Node::number(mpq_class(x));
+}
+
+ExactNumber::ExactNumber(long n) : node_(make_rational(mpq_class(n))) {}
+
+ExactNumber ExactNumber::rational(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  std::optional<mpq_class> q = parse_decimal(text.substr(0, slash));
+  if (slash != std::string::npos && q) {
+    const std::string below = text.substr(slash + 1);
+    const bool integers = text.find_first_of(".eE") == std::string::npos && below.find_first_of("+-") == std::string::npos;
+    const std::optional<mpq_class> d = integers ? parse_decimal(below) : std::nullopt;
+    if (!d) {
+      q.reset();
+    } else {
+      if (*d == 0) throw std::domain_error("division by zero in " + text);
+      *q /= *d;
+    }
+  }
+  if (!q) throw std::invalid_argument("`" + text + "` is no number such as 12, -3/4, 0.90 or 1e-6");
+  return ExactNumber(make_rational(*q));
+}
+
+ExactNumber ExactNumber::pi() {
+  Node node;
+  node.kind = Kind::pi;
+  return ExactNumber(std::make_shared<const Node>(std::move(node)));
+}
+
+ExactNumber ExactNumber::apply(ConstantFunction f, const ExactNumber& x) {
+  if (x.is_rational()) {
+    const mpq_class& q = x.node_->value;
+    if (f == ConstantFunction::abs) return ExactNumber(make_rational(abs(q)));
+    if (f == ConstantFunction::sqrt && q >= 0 && mpz_perfect_square_p(q.get_num_mpz_t()) &&
+        mpz_perfect_square_p(q.get_den_mpz_t()))
+      return ExactNumber(make_rational(mpq_class(sqrt(q.get_num()), sqrt(q.get_den()))));
+    if (q == 0 && (f == ConstantFunction::cos || f == ConstantFunction::exp)) return 1;
+    if (q == 0 && (f == ConstantFunction::sin || f == ConstantFunction::tan || f == ConstantFunction::asin ||
+                   f == ConstantFunction::atan))
+      return 0;
+    if (q == 1 && f == ConstantFunction::log) return 0;
+  }
+  Node node;
+  node.kind = Kind::function;
+  node.function = f;
+  node.operands = {x.node_};
+  return ExactNumber(std::make_shared<const Node>(std::move(node)));
+}
+
+ExactNumber operator+(const ExactNumber& x, const ExactNumber& y) { return ExactNumber(make_sum(x.node_, y.node_)); }
+ExactNumber operator-(const ExactNumber& x) { return ExactNumber(make_product(make_rational(-1), x.node_)); }
+ExactNumber operator-(const ExactNumber& x, const ExactNumber& y) { return x + (-y); }
+ExactNumber operator*(const ExactNumber& x, const ExactNumber& y) { return ExactNumber(make_product(x.node_, y.node_)); }
+ExactNumber operator/(const ExactNumber& x, const ExactNumber& y) {
+  return ExactNumber(make_product(x.node_, make_power(y.node_, -1)));
+}
+ExactNumber pow(const ExactNumber& x, int n) { return ExactNumber(make_power(x.node_, n)); }
+bool operator==(const ExactNumber& x, const ExactNumber& y) { return same(x.node_, y.node_); }
+
+bool ExactNumber::is_rational() const { return node_->kind == Kind::rational; }
+bool ExactNumber::is_zero() const { return is_rational() && node_->value == 0; }
+
+std::ostream& operator<<(std::ostream& out, const ExactNumber& x) { return out << x.text(); }
+
+}  // namespace corank

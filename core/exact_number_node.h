@@ -1,0 +1,31 @@
+// What an ExactNumber is inside. For exact_number*.cc only.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <memory>
+#include <vector>
+
+#include "corank/core/exact_number.h"
+
+namespace corank {
+
+// Canonical form, kept by the constructors below:
+//   sum      value + Σ operands (none a sum or a rational; at least one, at least two where value = 0)
+//   product  value · Π operands (none a product or a rational; value ≠ 0, negative powers last; at least two where value =
+//   1) power    operands[0]^exponent, exponent ∉ {0, 1}, the base no rational
+struct ExactNumber::Node {
+  enum class Kind { rational, pi, sum, product, power, function };
+  Kind kind = Kind::rational;
+  mpq_class value;
+  ConstantFunction function = ConstantFunction::sqrt;
+  int exponent = 1;
+  std::vector<std::shared_ptr<const Node>> operands;
+
+  static ExactNumber number(mpq_class q);  ///< canonical
+};
+
+/// "sqrt", "sin" … as in the model language.
+const char* function_name(ConstantFunction f);
+
+}  // namespace corank

@@ -1,0 +1,104 @@
+// A compiled system of equations and inequalities over a box: the plain value that symbolic/ makes, solve/ encloses and
+// certify/ proves things about. It knows no GiNaC and may be shared by threads.
+//
+//   F(x) = 0 (m equations),   G(x) ≥ 0 (inequalities),   x ∈ D (n intervals)
+//
+// Each of F and G is a polynomial plus multiples of sines and cosines of single variables.
+// Coefficients are exact numbers with interval enclosures; every proof uses the enclosure, so it holds for the exact system.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "corank/core/exact_number.h"
+#include "corank/core/interval.h"
+
+namespace corank {
+
+/// What a variable stands for; auxiliary: a sine, a cosine or a sum of lengths, defined by an equation of its own. Only for
+/// reports and heuristics: no proof depends on it.
+enum class VariableKind : std::uint8_t { length, cosine, sine, kernel, auxiliary };
+
+struct Variable {
+  std::string name;
+  VariableKind kind = VariableKind::length;
+  ExactNumber lower, upper;                           ///< the search domain, exact
+  Interval domain;                                    ///< encloses [lower, upper]
+  bool lower_implied = false, upper_implied = false;  ///< the equations imply this side of the domain: it is no boundary
+  bool auxiliary = false;  ///< of no interest by itself, as in [DUMMY VARS]: a box may be wide in it, whatever σ
+
+  Variable() = default;
+  Variable(std::string name, VariableKind kind, ExactNumber lower, ExactNumber upper);
+};
+
+/// What a factor takes of its variable.
+enum class Function : std::uint8_t { identity, sine, cosine };
+
+/// variable^power, power ≥ 1; or the sine or cosine of the variable: then it is its monomial's only factor, and power = 1.
+struct Factor {
+  int variable = 0;
+  int power = 1;
+  Function function = Function::identity;
+  friend bool operator==(const Factor&, const Factor&) = default;
+};
+
+/// coefficient · Π factors; the factors are sorted by variable, each variable once; none for a constant.
+struct Monomial {
+  ExactNumber coefficient;
+  Interval enclosure;  ///< of the coefficient; widened where it carries a tolerance
+  std::vector<Factor> factors;
+
+  Monomial() = default;
+  Monomial(ExactNumber coefficient, std::vector<Factor> factors);
+  /// c·sin x or c·cos x.
+  bool is_trigonometric() const { return factors.size() == 1 && factors[0].function != Function::identity; }
+  int degree() const;  ///< a sine or cosine counts as its variable
+};
+
+/// A sparse polynomial and multiples of sines and cosines: monomials with distinct factors.
+struct Polynomial {
+  std::vector<Monomial> monomials;
+  std::string source;  ///< where it comes from, for messages and reports ("dextar.cuik:17", "norm of xi" …)
+
+  int degree() const;
+};
+
+/// Widens the enclosure of every coefficient c that is no integer to c·[1 − tolerance, 1 + tolerance] at least, in any rounding mode.
+void widen(Polynomial& f, double tolerance);
+
+/// How an angle of the model is represented: cos θ and sin θ are the variables `cosine` and `sine`.
+struct Angle {
+  std::string name;
+  int cosine = 0;
+  int sine = 0;
+  Interval range;  ///< the declared range in radians; an angle is given back within it where possible
+};
+
+inline constexpr double kCoefficientToleranceLimit = 0.1;
+
+struct System {
+  std::string name;                      ///< e.g. "dextar forward"
+  std::vector<Variable> variables;       ///< n
+  std::vector<Polynomial> equations;     ///< m, each = 0
+  std::vector<Polynomial> inequalities;  ///< each ≥ 0
+  std::vector<Angle> angles;
+  /// Relative tolerance τ of the coefficients that are no integers, in [0, kCoefficientToleranceLimit); certify::reduce() puts it
+  /// into their enclosures. Every exclusion and every proof then holds for every choice of coefficients within τ, each on its own.
+  /// Where there are more equations than variables, it is for decimals that were rounded and are inconsistent as exact numbers, and
+  /// used only where that makes a difference. 0 (default): every coefficient is exact.
+  double coefficient_tolerance = 0;
+  /// Number of leading variables that describe the configuration q; the others (kernel vector, auxiliaries) follow.
+  int configuration_size = 0;
+
+  int size() const { return static_cast<int>(variables.size()); }
+  /// max(0, n − m): the dimension of the solution set where the equations are independent.
+  int dimension() const;
+  /// Index of the variable, or −1.
+  int find(const std::string& variable_name) const;
+  /// Throws std::invalid_argument where an index is out of range, a domain is empty or unbounded, a factor list unsorted, or a
+  /// sine or cosine is raised to a power or multiplied by a variable.
+  void validate() const;
+};
+
+}  // namespace corank

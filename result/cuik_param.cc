@@ -1,0 +1,371 @@
+#include "corank/result/cuik_param.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+namespace corank::result {
+namespace {
+
+using Use = CuikParameterUse;
+
+// Values that are words; each has a number there, and none here.
+const std::set<std::string_view>& value_words() {
+  static const std::set<std::string_view> words{
+      "LINKS", "DOF",   "FLINKS",           "QLINKS",          "JOINTS",          "SOLID",       "VCOLLIDE",         "PQP",
+      "FCL",   "C_FCL", "BULLET",           "C_BULLET",        "RIGIDCLL",        "NONE",        "TANGENT_SAMPLING", "EULER",
+      "RK4",   "X",     "AMBIENT_SAMPLING", "KDTREE_SAMPLING", "LOCAL_TRAPEZOID", "LOCAL_EULER", "LOCAL_RK4",        "Y",
+      "Z"};
+  return words;
+}
+
+// Edits that turn a into b.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t above = row[j + 1];
+      row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+std::string upper(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return name;
+}
+
+std::string nearest(std::string name) {
+  name = upper(std::move(name));
+  const auto closer = [&](const CuikParameter& a, const CuikParameter& b) {
+    return distance(name, a.name) < distance(name, b.name);
+  };
+  return std::string(std::min_element(cuik_parameters().begin(), cuik_parameters().end(), closer)->name);
+}
+
+struct Token {
+  enum class Kind { name, number, sign, end } kind = Kind::end;
+  std::string text;
+  double number = 0;
+  int line = 1;
+};
+
+class ParamParser {
+ public:
+  ParamParser(std::string_view text, const std::string& file) : text_(text), file_(file) { next(); }
+
+  CuikParameters parse() {
+    while (token_.kind != Token::Kind::end) parameter();
+    return std::move(out_);
+  }
+
+ private:
+  [[noreturn]] void fail(int line, const std::string& problem, const std::string& expectation) const {
+    throw CuikFileError(file_, line, problem, expectation);
+  }
+  [[noreturn]] void found(const std::string& expectation) const {
+    fail(token_.line, token_.kind == Token::Kind::end ? "found the end of the file" : "found '" + token_.text + "'",
+         expectation);
+  }
+
+  bool at(std::string_view start) const { return text_.substr(at_).starts_with(start); }
+  void skip_gap() {
+    for (; at_ < text_.size(); ++at_) {
+      if (at("%") || at("#") || at("//")) at_ = std::min(text_.find('\n', at_), text_.size());
+      if (at("/*")) {
+        const std::size_t end = text_.find("*/", at_ + 2);
+        if (end == std::string_view::npos) fail(line_, "a comment that begins with /* has no end", "*/");
+        line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                             text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+        at_ = end + 1;
+        continue;
+      }
+      if (at_ >= text_.size() || std::isspace(static_cast<unsigned char>(text_[at_])) == 0) return;
+      if (text_[at_] == '\n') ++line_;
+    }
+  }
+
+  void next() {
+    skip_gap();
+    token_ = {};
+    token_.line = line_;
+    if (at_ >= text_.size()) return;
+    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    const char c = text_[at_];
+    std::size_t end = at_;
+    if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') {
+      const auto [stop, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), token_.number);
+      if (error != std::errc{})
+        fail(line_, error == std::errc::result_out_of_range ? "a number is out of range" : "found '.'", "a number");
+      end = static_cast<std::size_t>(stop - text_.data());
+      if (end < text_.size() && (is_word(text_[end]) || text_[end] == '.'))
+        fail(line_, "found a letter right behind a number", "a blank");
+      token_.kind = Token::Kind::number;
+    } else if (is_word(c)) {
+      while (end < text_.size() && is_word(text_[end])) ++end;
+      token_.kind = Token::Kind::name;
+    } else {
+      if (std::string_view("+-*/^()=?:<>").find(c) == std::string_view::npos) {
+        const bool printable = c > 0x20 && c < 0x7F;
+        fail(line_, printable ? std::string("found '") + c + "'" : "found a character that has no place here",
+             "NAME = value, with +, -, *, /, ^, <, >, ? : and parentheses in the value");
+      }
+      end = at_ + 1;
+      token_.kind = Token::Kind::sign;
+    }
+    constexpr std::size_t kLongestName = 60;
+    token_.text = std::string(text_.substr(at_, std::min(end - at_, kLongestName)));
+    at_ = end;
+  }
+  bool take(char sign) {
+    if (token_.kind != Token::Kind::sign || token_.text[0] != sign) return false;
+    next();
+    return true;
+  }
+  void need(char sign) {
+    if (!take(sign)) found(std::string("'") + sign + "'");
+  }
+
+  void parameter() {
+    if (token_.kind != Token::Kind::name) found("a parameter, NAME = value");
+    const Token name = token_;
+    const auto& all = cuik_parameters();
+    const auto known =
+        std::find_if(all.begin(), all.end(), [&](const CuikParameter& p) { return p.name == upper(name.text); });
+    if (known == all.end()) {
+      fail(name.line, "the parameter '" + name.text + "' is unknown",
+           "a parameter of the CUIK suite; did you mean " + nearest(name.text) + "?");
+    }
+    next();
+    need('=');
+    const std::optional<double> value = this->value();
+    if (value) values_[std::string(known->name)] = *value;
+    apply(*known, name, value);
+  }
+
+  std::optional<double> value() {
+    // -Z, of G_AXIS: a sign and a word.
+    const bool sign = token_.kind == Token::Kind::sign && (token_.text == "-" || token_.text == "+");
+    const std::size_t at = at_;
+    const int line = line_;
+    const Token token = token_;
+    if (sign) next();
+    if (token_.kind == Token::Kind::name && value_words().contains(upper(token_.text))) {
+      next();
+      return std::nullopt;
+    }
+    at_ = at;
+    line_ = line;
+    token_ = token;
+    return choice(0);
+  }
+
+  void apply(const CuikParameter& parameter, const Token& name, std::optional<double> value) {
+    const auto positive = [&] {
+      if (!value || !std::isfinite(*value) || *value <= 0)
+        fail(name.line, name.text + " has no use like that", "a positive number");
+      return *value;
+    };
+    switch (parameter.use) {
+      case Use::sigma: out_.sigma = positive(); return;
+      case Use::small_sigma: out_.small_sigma = positive(); return;
+      case Use::n_solutions:
+        if (!value || !(*value >= 0 && *value <= std::numeric_limits<int>::max()) || *value != std::floor(*value)) {
+          fail(name.line, name.text + " has no use like that", "a number of boxes, or 0 for all");
+        }
+        out_.n_solutions = static_cast<int>(*value);
+        return;
+      case Use::none:
+        if (std::find(out_.ignored.begin(), out_.ignored.end(), name.text) == out_.ignored.end())
+          out_.ignored.push_back(name.text);
+    }
+  }
+
+  // condition ? a : b
+  double choice(int depth) {
+    double x = sum(depth);
+    if (take('>')) {
+      x = x > sum(depth);
+    } else if (take('<')) {
+      x = x < sum(depth);
+    }
+    if (!take('?')) return x;
+    const double a = choice(depth + 1);
+    need(':');
+    const double b = choice(depth + 1);
+    return x != 0 ? a : b;
+  }
+  double sum(int depth) {
+    double x = product(depth);
+    for (;;) {
+      if (take('+')) {
+        x += product(depth);
+      } else if (take('-')) {
+        x -= product(depth);
+      } else {
+        return x;
+      }
+    }
+  }
+  double product(int depth) {
+    double x = power(depth);
+    for (;;) {
+      if (take('*')) {
+        x *= power(depth);
+      } else if (take('/')) {
+        x /= power(depth);
+      } else {
+        return x;
+      }
+    }
+  }
+  // From left to right, and a sign binds closer, as in the CUIK suite: -2^2 is 4, 2^3^2 is 64.
+  double power(int depth) {
+    double x = operand(depth);
+    while (take('^')) x = std::pow(x, operand(depth));
+    return x;
+  }
+  double operand(int depth) {
+    constexpr int kDeepest = 100;
+    if (depth > kDeepest) fail(token_.line, "a value is nested too deeply", "a number");
+    if (take('-')) return -operand(depth + 1);
+    if (take('+')) return operand(depth + 1);
+    if (take('(')) {
+      const double x = choice(depth + 1);
+      need(')');
+      return x;
+    }
+    const Token token = token_;
+    if (token.kind == Token::Kind::number) {
+      next();
+      return token.number;
+    }
+    if (token.kind != Token::Kind::name) found("a value");
+    next();
+    if (const auto f = functions().find(upper(token.text)); f != functions().end()) {
+      need('(');
+      const double x = choice(depth + 1);
+      need(')');
+      return f->second(x);
+    }
+    if (const auto c = constants().find(token.text); c != constants().end()) return c->second;
+    if (const auto v = values_.find(token.text); v != values_.end()) return v->second;
+    fail(token.line, "'" + token.text + "' has no value",
+         "a number, a constant such as PI or TRUE, or a parameter given before");
+  }
+
+  static const std::map<std::string, double (*)(double), std::less<>>& functions() {
+    static const std::map<std::string, double (*)(double), std::less<>> all{
+        {"COS", [](double x) { return std::cos(x); }}, {"SIN", [](double x) { return std::sin(x); }},
+        {"TAN", [](double x) { return std::tan(x); }}, {"EXP", [](double x) { return std::exp(x); }},
+        {"LOG", [](double x) { return std::log(x); }}, {"SQRT", [](double x) { return std::sqrt(x); }}};
+    return all;
+  }
+  static const std::map<std::string, double, std::less<>>& constants() {
+    static const std::map<std::string, double, std::less<>> all{{"PI", std::numbers::pi},
+                                                                {"INF", std::numeric_limits<double>::infinity()},
+                                                                {"TRUE", 1},
+                                                                {"FALSE", 0},
+                                                                {"ON", 1},
+                                                                {"OFF", 0}};
+    return all;
+  }
+
+  const std::string_view text_;
+  const std::string& file_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  Token token_;
+  std::map<std::string, double, std::less<>> values_;
+  CuikParameters out_;
+};
+
+}  // namespace
+
+const std::vector<CuikParameter>& cuik_parameters() {
+  // SAVE_SIMPLEX is what the suite prints for SAFE_SIMPLEX; ERROR_SPLIT is its older name for SPLIT_TYPE.
+  static const std::vector<CuikParameter> all{
+      {"SIGMA", Use::sigma},
+      {"SMALL_SIGMA", Use::small_sigma},
+      {"N_SOLUTIONS", Use::n_solutions},
+      {"EPSILON", Use::none},
+      {"REPRESENTATION", Use::none},
+      {"RHO", Use::none},
+      {"STATE_PERIOD", Use::none},
+      {"DUMMIFY", Use::none},
+      {"SPLIT_TYPE", Use::none},
+      {"ERROR_SPLIT", Use::none},
+      {"SAFE_SIMPLEX", Use::none},
+      {"SAVE_SIMPLEX", Use::none},
+      {"SIMPLIFICATION_LEVEL", Use::none},
+      {"LR2TM_Q", Use::none},
+      {"LR2TM_S", Use::none},
+      {"MAX_NEWTON_ITERATIONS", Use::none},
+      {"N_DOF", Use::none},
+      {"E", Use::none},
+      {"CE", Use::none},
+      {"R", Use::none},
+      {"SR", Use::none},
+      {"DELTA", Use::none},
+      {"BETA", Use::none},
+      {"GAMMA", Use::none},
+      {"MAX_CHARTS", Use::none},
+      {"DETECT_BIFURCATIONS", Use::none},
+      {"SAMPLING", Use::none},
+      {"MAX_PLANNING_TIME", Use::none},
+      {"MAX_PLANNING_ITERATIONS", Use::none},
+      {"MAX_NODES_RRT", Use::none},
+      {"BI_RRT", Use::none},
+      {"RRT_GRAPH", Use::none},
+      {"DYNAMIC_DOMAIN", Use::none},
+      {"COEF_TEMP", Use::none},
+      {"NFAIL_MAX", Use::none},
+      {"CD_ENGINE", Use::none},
+      {"DYNAMICS", Use::none},
+      {"INTEGRATION_TIME", Use::none},
+      {"DEFAULT_MAX_VELOCITY", Use::none},
+      {"N_DYNAMIC_ACTIONS", Use::none},
+      {"DYNAMIC_GOAL_ERROR", Use::none},
+      {"G_COMPENSATION", Use::none},
+      {"G_AXIS", Use::none},
+      {"NEG_LM", Use::none},
+      {"TAU", Use::none},
+      {"LQR_PLANNING_TIME", Use::none},
+      {"PRETENSION", Use::none},
+      {"VDW_RATIO", Use::none},
+      {"CUT_X", Use::none},
+      {"CUT_Y", Use::none},
+      {"CUT_Z", Use::none},
+      {"DYNAMIC_PROBLEM", Use::none},
+      {"N_CACHED_DYNAMIC_ACTIONS", Use::none},
+      {"N_SAMPLES", Use::none},
+      {"REACHABILITY", Use::none},
+  };
+  return all;
+}
+
+std::optional<double> sigma_for(const CuikParameters& parameters, const System& system) {
+  if (system.equations.size() != system.variables.size()) return parameters.sigma;
+  constexpr double kDefaultSmallSigma = 1e-4;
+  if (parameters.small_sigma) return parameters.small_sigma;
+  return parameters.sigma ? std::optional(std::min(*parameters.sigma, kDefaultSmallSigma)) : std::nullopt;
+}
+
+CuikParameters parse_param(std::string_view text, const std::string& file) { return ParamParser(text, file).parse(); }
+
+CuikParameters read_param(const std::filesystem::path& path) {
+  return parse_param(read_cuik_text(path, ".param"), path.string());
+}
+
+}  // namespace corank::result

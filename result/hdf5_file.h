@@ -1,0 +1,109 @@
+// HDF5 as far as corank needs it: named arrays, texts and attributes, written and read exactly. Paths are "/group/name"; groups
+// are made on the way. Every failure is a ResultFileError that names the file and the item.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "corank/result/guarded_process.h"
+#include "corank/result/plain_items.h"
+
+namespace corank::result {
+
+/// A result file that cannot be written or read, or that holds something else. what() is one line.
+class ResultFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class Hdf5Writer {
+ public:
+  /// Creates or truncates the file.
+  explicit Hdf5Writer(const std::string& path);
+  ~Hdf5Writer();
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+
+  void group(const std::string& name);
+  /// rows × columns doubles, row-major, bit for bit; columns = 0: a vector of `rows`.
+  void doubles(const std::string& name, std::span<const double> data, std::size_t rows, std::size_t columns);
+  void bytes(const std::string& name, std::span<const std::uint8_t> data, std::size_t rows, std::size_t columns);
+  void integers(const std::string& name, std::span<const std::int64_t> data);
+  /// Values that index `words`, stored as an enumeration of these words.
+  void enumeration(const std::string& name, std::span<const std::uint8_t> data, const std::vector<std::string>& words);
+  /// Vectors of any length, compressed (deflate).
+  void packed(const std::string& name, std::span<const std::uint8_t> data);
+  void packed(const std::string& name, std::span<const std::int32_t> data);
+  void packed(const std::string& name, std::span<const float> data);
+  void packed(const std::string& name, std::span<const double> data);
+  void text(const std::string& name, const std::string& text);
+  void texts(const std::string& name, const std::vector<std::string>& texts);
+
+  void attribute(const std::string& object, const std::string& name, double value);
+  void attribute(const std::string& object, const std::string& name, std::int64_t value);
+  void attribute(const std::string& object, const std::string& name, std::uint64_t value);
+  void attribute(const std::string& object, const std::string& name, const std::string& value);
+
+  /// Writes everything out; a writer that is destroyed without it leaves a file of no worth.
+  void close();
+
+ private:
+  std::string path_;
+  std::int64_t file_ = -1;
+};
+
+/// Reads what a stranger may have written: the HDF5 library works in a child process with limits of memory and time, after
+/// a check of the file's structure (report/hdf5_contents.h); what comes back is plain.
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::string& path);
+  /// Items that are in memory already, as report/plain_items.h lays them out; `path` is for messages. The bytes have to
+  /// outlive the reader.
+  Hdf5Reader(std::string path, std::span<const std::byte> items);
+
+  /// Each throws where the item is missing, or has another shape or type.
+  std::vector<double> doubles(const std::string& name, std::size_t rows, std::size_t columns) const;
+  std::vector<std::uint8_t> bytes(const std::string& name, std::size_t rows, std::size_t columns) const;
+  std::vector<std::int64_t> integers(const std::string& name) const;
+  /// Vectors of any length.
+  void read(const std::string& name, std::vector<std::uint8_t>& data) const;
+  void read(const std::string& name, std::vector<std::int32_t>& data) const;
+  void read(const std::string& name, std::vector<float>& data) const;
+  void read(const std::string& name, std::vector<double>& data) const;
+  /// Indices into `words`, matched by word, not by number.
+  std::vector<std::uint8_t> enumeration(const std::string& name, const std::vector<std::string>& words) const;
+  std::string text(const std::string& name) const;
+  std::vector<std::string> texts(const std::string& name) const;
+
+  bool has(const std::string& name) const;  ///< a group or an array
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  double double_attribute(const std::string& object, const std::string& name) const;
+  std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+  std::uint64_t unsigned_attribute(const std::string& object, const std::string& name) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+
+  /// For messages, which are printable.
+  const std::string& path() const { return path_; }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+  void parse(std::span<const std::byte> bytes);
+  const Item& array(const std::string& name) const;
+  const Item& array(const std::string& name, ItemType type, const std::string& expected) const;
+  const Item& shaped(const std::string& name, ItemType type, std::size_t rows, std::size_t columns,
+                     const std::string& expected) const;
+  const Item& attribute(const std::string& object, const std::string& name) const;
+  template <class T>
+  void read_vector(const std::string& name, ItemType type, std::vector<T>& data) const;
+
+  std::string path_;
+  std::optional<SharedBytes> bytes_;
+  std::map<std::string, Item> items_;
+};
+
+}  // namespace corank::result

@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+
+#include "corank/result/hdf5_contents.h"
+#include "corank/result/hdf5_file.h"
+#include "corank/result/printable.h"
+
+namespace corank::result {
+namespace {
+
+// What the child needs beside the contents, which it passes on in blocks.
+constexpr std::uint64_t kMemory = std::uint64_t{256} << 20;
+constexpr std::uint64_t kSeconds = 4, kBytesPerSecond = std::uint64_t{10} << 20;
+
+SharedBytes read_guarded(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw ResultFileError(printable_line(path) + ": cannot read this: " + (error ? error.message() : "it is no file"));
+  const std::uint64_t size = std::filesystem::file_size(path, error);
+  if (error) throw ResultFileError(printable_line(path) + ": cannot read this: " + error.message());
+  try {
+    return run_guarded({kMemory + size, kSeconds + size / kBytesPerSecond},
+                       [&path](ByteSink& sink) { copy_contents(path, sink); });
+  } catch (const GuardedWorkError& problem) {
+    throw ResultFileError(printable_line(path + ": " + problem.what()));
+  }
+}
+
+template <class T>
+std::vector<T> copied(const Item& item) {
+  std::vector<T> data(item.data.size() / sizeof(T));
+  if (!data.empty()) std::memcpy(data.data(), item.data.data(), item.data.size());
+  return data;
+}
+
+template <class T>
+T single(const Item& item) {
+  T value;
+  std::memcpy(&value, item.data.data(), sizeof(T));
+  return value;
+}
+
+std::string unpadded(std::span<const std::byte> data) {
+  std::size_t length = data.size();
+  while (length > 0 && data[length - 1] == std::byte{0}) --length;
+  return {reinterpret_cast<const char*>(data.data()), length};
+}
+
+}  // namespace
+
+Hdf5Reader::Hdf5Reader(const std::string& path) : path_(printable_line(path)), bytes_(read_guarded(path)) {
+  parse(bytes_->bytes());
+}
+
+Hdf5Reader::Hdf5Reader(std::string path, std::span<const std::byte> items) : path_(std::move(path)) { parse(items); }
+
+void Hdf5Reader::parse(std::span<const std::byte> bytes) {
+  try {
+    items_ = parse_items(bytes);
+  } catch (const PlainItemsError& error) {
+    fail(std::string("damaged: ") + error.what());
+  }
+}
+
+void Hdf5Reader::fail(const std::string& what) const { throw ResultFileError(printable_line(path_ + ": " + what)); }
+
+const Item& Hdf5Reader::array(const std::string& name) const {
+  const auto found = items_.find(name);
+  if (found == items_.end()) fail("no corank result: " + name + " is missing");
+  return found->second;
+}
+
+const Item& Hdf5Reader::array(const std::string& name, ItemType type, const std::string& expected) const {
+  const Item& item = array(name);
+  if (item.type != type) fail(name + " holds no " + expected);
+  return item;
+}
+
+const Item& Hdf5Reader::shaped(const std::string& name, ItemType type, std::size_t rows, std::size_t columns,
+                               const std::string& expected) const {
+  const Item& item = array(name, type, expected);
+  const int rank = columns == 0 ? 1 : 2;
+  if (item.rank != rank || item.sizes[0] != rows || (rank == 2 && item.sizes[1] != columns))
+    fail(name + " has another shape than the rest of the file; expected " + std::to_string(rows) +
+         (rank == 2 ? " x " + std::to_string(columns) : ""));
+  return item;
+}
+
+const Item& Hdf5Reader::attribute(const std::string& object, const std::string& name) const {
+  const auto found = items_.find(object + "@" + name);
+  if (found == items_.end()) fail("no corank result: the attribute " + name + " of " + object + " is missing");
+  if (found->second.elements() != 1) fail("the attribute " + name + " of " + object + " is not one value");
+  return found->second;
+}
+
+std::vector<double> Hdf5Reader::doubles(const std::string& name, std::size_t rows, std::size_t columns) const {
+  return copied<double>(shaped(name, ItemType::float64, rows, columns, "floating-point numbers"));
+}
+
+std::vector<std::uint8_t> Hdf5Reader::bytes(const std::string& name, std::size_t rows, std::size_t columns) const {
+  return copied<std::uint8_t>(shaped(name, ItemType::uint8, rows, columns, "integers of one byte"));
+}
+
+std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name) const {
+  std::vector<std::int64_t> data;
+  read_vector(name, ItemType::int64, data);
+  return data;
+}
+
+template <class T>
+void Hdf5Reader::read_vector(const std::string& name, ItemType type, std::vector<T>& data) const {
+  const Item& item = array(name, type, "numbers of its kind");
+  if (item.rank != 1) fail(name + " is no vector");
+  data = copied<T>(item);
+}
+
+void Hdf5Reader::read(const std::string& name, std::vector<std::uint8_t>& data) const {
+  read_vector(name, ItemType::uint8, data);
+}
+void Hdf5Reader::read(const std::string& name, std::vector<std::int32_t>& data) const {
+  read_vector(name, ItemType::int32, data);
+}
+void Hdf5Reader::read(const std::string& name, std::vector<float>& data) const {
+  read_vector(name, ItemType::float32, data);
+}
+void Hdf5Reader::read(const std::string& name, std::vector<double>& data) const {
+  read_vector(name, ItemType::float64, data);
+}
+
+std::vector<std::uint8_t> Hdf5Reader::enumeration(const std::string& name, const std::vector<std::string>& words) const {
+  const Item& item = array(name, ItemType::word, "enumeration");
+  if (item.rank != 1) fail(name + " is no vector");
+  std::array<int, 256> meaning, place;
+  meaning.fill(-1);
+  place.fill(-1);
+  for (std::size_t k = 0; k < item.words.size(); ++k) {
+    const auto& [value, word] = item.words[k];
+    if (place[value] >= 0) fail(name + " is a damaged enumeration");
+    place[value] = static_cast<int>(k);
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found != words.end()) meaning[value] = static_cast<int>(found - words.begin());
+  }
+  std::vector<std::uint8_t> data = copied<std::uint8_t>(item);
+  for (std::uint8_t& value : data) {
+    if (place[value] < 0) fail(name + " holds a number without a word");
+    if (meaning[value] < 0)
+      fail(name + " holds the unknown word " + item.words[static_cast<std::size_t>(place[value])].second);
+    value = static_cast<std::uint8_t>(meaning[value]);
+  }
+  return data;
+}
+
+std::string Hdf5Reader::text(const std::string& name) const {
+  const Item& item = array(name, ItemType::text, "text");
+  if (item.elements() != 1) fail(name + " is no text");
+  return unpadded(item.data);
+}
+
+std::vector<std::string> Hdf5Reader::texts(const std::string& name) const {
+  const Item& item = array(name, ItemType::text, "texts");
+  if (item.rank != 1) fail(name + " is no list of texts");
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < item.elements(); ++i) texts.push_back(unpadded(item.data.subspan(i * item.width, item.width)));
+  return texts;
+}
+
+bool Hdf5Reader::has(const std::string& name) const { return items_.contains(name) || items_.contains(name + "/"); }
+
+bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
+  return items_.contains(object + "@" + name);
+}
+
+double Hdf5Reader::double_attribute(const std::string& object, const std::string& name) const {
+  const Item& item = attribute(object, name);
+  if (item.type != ItemType::float64) fail("the attribute " + name + " of " + object + " is no floating-point number");
+  return single<double>(item);
+}
+
+std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) const {
+  const Item& item = attribute(object, name);
+  if (item.type != ItemType::int64) fail("the attribute " + name + " of " + object + " is no integer of its kind");
+  return single<std::int64_t>(item);
+}
+
+std::uint64_t Hdf5Reader::unsigned_attribute(const std::string& object, const std::string& name) const {
+  const Item& item = attribute(object, name);
+  if (item.type != ItemType::uint64) fail("the attribute " + name + " of " + object + " is no integer of its kind");
+  return single<std::uint64_t>(item);
+}
+
+std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
+  const Item& item = attribute(object, name);
+  if (item.type != ItemType::text) fail("the attribute " + name + " of " + object + " is no text");
+  return unpadded(item.data);
+}
+
+}  // namespace corank::result

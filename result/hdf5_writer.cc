@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "corank/result/hdf5_file.h"
+#include "corank/result/hdf5_handle.h"
+
+namespace corank::result {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) { throw ResultFileError(path + ": " + what); }
+
+// A handle whose failure is one of the file.
+struct OwnHandle : Handle {
+  OwnHandle(hid_t id, herr_t (*close)(hid_t), const std::string& path, const std::string& problem)
+      : Handle(id, close, id < 0 ? path + ": " + problem : problem) {}
+};
+
+// A text of fixed length, padded with zeros: HDF5 has no strings of length 0, and variable-length ones end at a zero byte.
+struct TextType : OwnHandle {
+  TextType(std::size_t length, const std::string& path)
+      : OwnHandle(H5Tcopy(H5T_C_S1), H5Tclose, path, "cannot describe a text") {
+    H5Tset_size(*this, std::max<std::size_t>(length, 1));
+    H5Tset_strpad(*this, H5T_STR_NULLPAD);
+    H5Tset_cset(*this, H5T_CSET_UTF8);
+  }
+};
+
+struct WordsType : OwnHandle {
+  WordsType(const std::vector<std::string>& words, const std::string& path)
+      : OwnHandle(H5Tenum_create(H5T_NATIVE_UINT8), H5Tclose, path, "cannot describe an enumeration") {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const auto value = static_cast<std::uint8_t>(i);
+      if (H5Tenum_insert(*this, words[i].c_str(), &value) < 0) fail(path, "cannot describe the word " + words[i]);
+    }
+  }
+};
+
+// columns = 0: a vector.
+struct Shape : OwnHandle {
+  Shape(std::size_t rows, std::size_t columns, const std::string& path)
+      : Shape(std::array<hsize_t, 2>{rows, columns}, columns == 0 ? 1 : 2, path) {}
+
+ private:
+  Shape(const std::array<hsize_t, 2>& sizes, int rank, const std::string& path)
+      : OwnHandle(H5Screate_simple(rank, sizes.data(), nullptr), H5Sclose, path, "cannot describe an array") {}
+};
+
+struct Scalar : OwnHandle {
+  explicit Scalar(const std::string& path) : OwnHandle(H5Screate(H5S_SCALAR), H5Sclose, path, "cannot describe a value") {}
+};
+
+void write_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space, const void* data,
+                   hid_t properties = H5P_DEFAULT) {
+  const QuietErrors quiet;
+  const OwnHandle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path, "cannot write " + name);
+  H5Pset_create_intermediate_group(links, 1);
+  const OwnHandle set(H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT), H5Dclose, path,
+                      "cannot write " + name);
+  if (H5Sget_simple_extent_npoints(space) == 0) return;
+  if (H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail(path, "cannot write " + name + " (disk full?)");
+}
+
+void write_packed(hid_t file, const std::string& path, const std::string& name, hid_t type, std::size_t size,
+                  const void* data) {
+  constexpr hsize_t kChunk = 1 << 16;
+  constexpr unsigned kLevel = 6;
+  const OwnHandle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path, "cannot write " + name);
+  const hsize_t chunk = std::clamp<hsize_t>(size, 1, kChunk);
+  if (H5Pset_chunk(properties, 1, &chunk) < 0 || H5Pset_shuffle(properties) < 0 || H5Pset_deflate(properties, kLevel) < 0)
+    fail(path, "cannot compress " + name);
+  write_dataset(file, path, name, type, Shape(size, 0, path), data, properties);
+}
+
+void write_attribute(hid_t file, const std::string& path, const std::string& object, const std::string& name, hid_t type,
+                     const void* data) {
+  const QuietErrors quiet;
+  const OwnHandle at(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose, path, "cannot write to " + object);
+  const Scalar space(path);
+  const OwnHandle attribute(H5Acreate2(at, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path,
+                            "cannot write the attribute " + name + " of " + object);
+  if (H5Awrite(attribute, type, data) < 0) fail(path, "cannot write the attribute " + name + " of " + object);
+}
+
+}  // namespace
+
+Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
+  const QuietErrors quiet;
+  file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (file_ < 0) fail(path, "cannot create this file");
+}
+
+Hdf5Writer::~Hdf5Writer() {
+  const QuietErrors quiet;
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5Writer::close() {
+  const QuietErrors quiet;
+  const bool flushed = H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
+  const bool closed = H5Fclose(std::exchange(file_, -1)) >= 0;
+  if (!flushed || !closed) fail(path_, "cannot finish this file (disk full?)");
+}
+
+void Hdf5Writer::group(const std::string& name) {
+  const QuietErrors quiet;
+  const OwnHandle created(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_,
+                          "cannot make the group " + name);
+}
+
+void Hdf5Writer::doubles(const std::string& name, std::span<const double> data, std::size_t rows, std::size_t columns) {
+  write_dataset(file_, path_, name, H5T_NATIVE_DOUBLE, Shape(rows, columns, path_), data.data());
+}
+
+void Hdf5Writer::bytes(const std::string& name, std::span<const std::uint8_t> data, std::size_t rows, std::size_t columns) {
+  write_dataset(file_, path_, name, H5T_NATIVE_UINT8, Shape(rows, columns, path_), data.data());
+}
+
+void Hdf5Writer::integers(const std::string& name, std::span<const std::int64_t> data) {
+  write_dataset(file_, path_, name, H5T_NATIVE_INT64, Shape(data.size(), 0, path_), data.data());
+}
+
+void Hdf5Writer::packed(const std::string& name, std::span<const std::uint8_t> data) {
+  write_packed(file_, path_, name, H5T_NATIVE_UINT8, data.size(), data.data());
+}
+void Hdf5Writer::packed(const std::string& name, std::span<const std::int32_t> data) {
+  write_packed(file_, path_, name, H5T_NATIVE_INT32, data.size(), data.data());
+}
+void Hdf5Writer::packed(const std::string& name, std::span<const float> data) {
+  write_packed(file_, path_, name, H5T_NATIVE_FLOAT, data.size(), data.data());
+}
+void Hdf5Writer::packed(const std::string& name, std::span<const double> data) {
+  write_packed(file_, path_, name, H5T_NATIVE_DOUBLE, data.size(), data.data());
+}
+
+void Hdf5Writer::enumeration(const std::string& name, std::span<const std::uint8_t> data,
+                             const std::vector<std::string>& words) {
+  write_dataset(file_, path_, name, WordsType(words, path_), Shape(data.size(), 0, path_), data.data());
+}
+
+void Hdf5Writer::text(const std::string& name, const std::string& text) {
+  write_dataset(file_, path_, name, TextType(text.size(), path_), Scalar(path_), text.c_str());
+}
+
+void Hdf5Writer::texts(const std::string& name, const std::vector<std::string>& texts) {
+  std::size_t length = 1;
+  for (const std::string& t : texts) length = std::max(length, t.size());
+  std::string data(length * texts.size(), '\0');
+  for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(data.data() + i * length, length);
+  write_dataset(file_, path_, name, TextType(length, path_), Shape(texts.size(), 0, path_), data.data());
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
+  write_attribute(file_, path_, object, name, H5T_NATIVE_DOUBLE, &value);
+}
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
+  write_attribute(file_, path_, object, name, H5T_NATIVE_INT64, &value);
+}
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::uint64_t value) {
+  write_attribute(file_, path_, object, name, H5T_NATIVE_UINT64, &value);
+}
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  write_attribute(file_, path_, object, name, TextType(value.size(), path_), value.c_str());
+}
+
+}  // namespace corank::result

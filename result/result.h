@@ -1,0 +1,83 @@
+// The result of one run: the model, the question, the options and the cover that answers it. What a result file holds and a
+// summary shows; a regular value.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "corank/core/cover.h"
+#include "corank/core/system.h"
+
+namespace corank::result {
+
+/// corank's version, "0.1.0".
+std::string version();
+
+/// A variable of the solved system, without its exact domain.
+struct ResultVariable {
+  std::string name;
+  VariableKind kind = VariableKind::length;
+  Interval domain;  ///< search domain, enclosed
+  /// Declared in [DUMMY VARS] or [CARTESIAN VARS], or of that kind: .sol files leave it out; .h5 files keep the kind only.
+  bool auxiliary = false;
+};
+
+/// `-D NAME=EXPRESSION`.
+struct ConstantOverride {
+  std::string name, expression;
+  friend bool operator==(const ConstantOverride&, const ConstantOverride&) = default;
+};
+
+/// The options of the run, as given.
+struct RunOptions {
+  std::string kernel;  ///< "right", "left"; empty where the set has no kernel
+  Sigma sigma;         ///< the one used, also where it was the default
+  std::vector<std::string>
+      kernel_scales;                ///< of each kernel unknown, an exact number (symbolic::kernel_scales); none: all are 1
+  double tolerance = 0;             ///< of the coefficients, likewise; relative, 0: exact
+  int threads = 1;                  ///< 0: one for each core
+  std::uint64_t max_boxes = 0;      ///< 0: no limit
+  std::uint64_t max_solutions = 0;  ///< 0: all
+  double time_limit = 0;            ///< seconds; 0: no limit
+  std::vector<ConstantOverride> constants;
+  friend bool operator==(const RunOptions&, const RunOptions&) = default;
+};
+
+/// What the ranges of the model's coordinates did to the search (report/domain_notes.h).
+struct DomainNotes {
+  struct End {
+    std::string coordinate;
+    bool reached = false;  ///< proven: the set has a point on an end of the range; else boxes touch one
+  };
+  struct Reason {
+    std::string text;       ///< "upper end of x", "range of theta", "m.cuik:9", "half-space of xi"
+    std::size_t boxes = 0;  ///< `boundary` boxes that are not shown to be inside of it
+  };
+  std::vector<int> found;  ///< variables without a declared range: their domain was found from the equations
+  std::vector<End> ends;   ///< declared ranges of lengths and limited angles beyond which the set may go on
+  std::vector<Reason> boundary;
+};
+
+struct Result {
+  std::string version = result::version();  ///< of the corank that made it
+  std::string model;                        ///< the mechanism's name, "dextar"
+  std::string model_text;                   ///< the model file as read
+  std::string set;                          ///< "cspace", "forward" …; "system" for a plain system
+  std::string system_text;                  ///< the solved polynomial system in the model language, constants put in
+  RunOptions options;
+  std::vector<ResultVariable> variables;  ///< n, the order of the boxes' components
+  std::vector<Angle> angles;
+  int configuration_size = 0;  ///< the first so many variables describe the configuration
+  int equations = 0, inequalities = 0;
+  /// What ended the run early, and where: "the time limit, in the stage exact points"; empty where it ran to its end. A
+  /// cover may be complete all the same: then less is proven of it than could be.
+  std::string stopped;
+  Cover cover;
+  DomainNotes domain;  ///< computed from the others by describe_domain(): result files do not hold it
+};
+
+/// Copies what a result keeps of a system: variables, angles, sizes, and its dimension to the cover.
+void describe_system(const System& system, Result& result);
+
+}  // namespace corank::result

@@ -1,0 +1,339 @@
+#include "corank/result/result_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "corank/core/check.h"
+#include "corank/result/certificate_file.h"
+#include "corank/result/output_file.h"
+#include "corank/result/printable.h"
+
+namespace corank::result {
+namespace {
+
+constexpr const char* kFormat = "corank result";
+constexpr int kFirstWithCertificates = 2;
+constexpr int kFirstWithScales = 4;  // and two sigmas, and reasons
+
+std::vector<std::string> verdict_words() {
+  std::vector<std::string> words;
+  for (int i = 0; i < kVerdicts; ++i) words.push_back(to_string(static_cast<Verdict>(i)));
+  return words;
+}
+
+std::vector<std::string> reason_words() {
+  std::vector<std::string> words;
+  for (int i = 0; i < kReasons; ++i) words.push_back(to_string(static_cast<Reason>(i)));
+  return words;
+}
+
+const std::vector<std::string>& kind_words() {
+  static const std::vector<std::string> words{"length", "cosine", "sine", "kernel", "auxiliary"};
+  return words;
+}
+
+void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, std::size_t n) {
+  std::vector<double> lower(boxes.size() * n), upper(lower.size());
+  std::vector<std::uint8_t> verdict(boxes.size()), reason(boxes.size()), free(lower.size(), 0);
+  for (std::size_t i = 0, first = 0; i < boxes.size(); ++i, first += n) {
+    const CoverBox& b = boxes[i];
+    CORANK_CHECK(b.box.size() == n);
+    for (std::size_t j = 0; j < n; ++j) {
+      lower[first + j] = b.box[j].lo();
+      upper[first + j] = b.box[j].hi();
+    }
+    verdict[i] = static_cast<std::uint8_t>(b.verdict);
+    reason[i] = static_cast<std::uint8_t>(b.reason);
+    for (const int v : b.free) free.at(first + static_cast<std::size_t>(v)) = 1;
+  }
+  file.doubles(group + "/lower", lower, boxes.size(), n);
+  file.doubles(group + "/upper", upper, boxes.size(), n);
+  file.enumeration(group + "/verdict", verdict, verdict_words());
+  file.bytes(group + "/free", free, boxes.size(), n);
+  file.enumeration(group + "/reason", reason, reason_words());
+}
+
+void write_counts(Hdf5Writer& file, const Cover& cover) {
+  const auto counts = cover.counts();
+  for (std::size_t v = 0; v < counts.size(); ++v)
+    file.attribute("/boxes", to_string(static_cast<Verdict>(v)), std::uint64_t{counts[v]});
+  file.attribute("/boxes", "wider_than_sigma", std::uint64_t{cover.wider_than_sigma});
+}
+
+void write_variables(Hdf5Writer& file, const Result& result) {
+  std::vector<std::string> names;
+  std::vector<std::uint8_t> kinds;
+  std::vector<double> domain;
+  for (const ResultVariable& v : result.variables) {
+    names.push_back(v.name);
+    kinds.push_back(static_cast<std::uint8_t>(v.kind));
+    domain.insert(domain.end(), {v.domain.lo(), v.domain.hi()});
+  }
+  file.texts("/variables/names", names);
+  file.enumeration("/variables/kinds", kinds, kind_words());
+  file.doubles("/variables/domain", domain, names.size(), 2);
+}
+
+void write_angles(Hdf5Writer& file, const Result& result) {
+  std::vector<std::string> names;
+  std::vector<std::int64_t> cosines, sines;
+  std::vector<double> range;
+  for (const Angle& a : result.angles) {
+    names.push_back(a.name);
+    cosines.push_back(a.cosine);
+    sines.push_back(a.sine);
+    range.insert(range.end(), {a.range.lo(), a.range.hi()});
+  }
+  file.texts("/angles/names", names);
+  file.integers("/angles/cosine", cosines);
+  file.integers("/angles/sine", sines);
+  file.doubles("/angles/range", range, names.size(), 2);
+}
+
+void write_options(Hdf5Writer& file, const RunOptions& options) {
+  std::vector<std::string> names, expressions;
+  for (const ConstantOverride& c : options.constants) {
+    names.push_back(c.name);
+    expressions.push_back(c.expression);
+  }
+  file.texts("/options/constants/names", names);
+  file.texts("/options/constants/expressions", expressions);
+  file.attribute("/options", "kernel", options.kernel);
+  file.attribute("/options", "sigma_length", options.sigma.length);
+  file.attribute("/options", "sigma_angle", options.sigma.angle);
+  file.texts("/options/kernel_scales", options.kernel_scales);
+  file.attribute("/options", "tolerance", options.tolerance);
+  file.attribute("/options", "threads", std::int64_t{options.threads});
+  file.attribute("/options", "max_boxes", options.max_boxes);
+  file.attribute("/options", "max_solutions", options.max_solutions);
+  file.attribute("/options", "time_limit", options.time_limit);
+}
+
+void write_statistics(Hdf5Writer& file, const Statistics& statistics) {
+  file.group("/statistics");
+  file.attribute("/statistics", "processed", statistics.processed);
+  file.attribute("/statistics", "newton_steps", statistics.newton_steps);
+  file.attribute("/statistics", "proofs_tried", statistics.proofs_tried);
+  file.attribute("/statistics", "seconds_total", statistics.seconds_total);
+  file.attribute("/statistics", "seconds_search", statistics.seconds_search);
+  file.attribute("/statistics", "seconds_certify", statistics.seconds_certify);
+}
+
+// --- reading ---
+
+class ResultReader {
+ public:
+  explicit ResultReader(Hdf5Reader file) : file_(std::move(file)) {
+    if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != kFormat) {
+      refuse("this is no corank result");
+    }
+    format_ = file_.integer_attribute("/", "format_version");
+    if (format_ < 1 || format_ > kFormatVersion) {
+      refuse("format version " + std::to_string(format_) + "; this corank reads up to " + std::to_string(kFormatVersion));
+    }
+  }
+
+  Result read() {
+    Result result;
+    result.version = word("/", "version");
+    result.model = word("/", "model");
+    result.set = word("/", "set");
+    result.model_text = file_.text("/model/text");
+    result.system_text = file_.text("/model/system");
+    read_variables(result);
+    read_angles(result);
+    result.configuration_size = count("configuration_size");
+    result.equations = count("equations");
+    result.inequalities = count("inequalities");
+    if (result.configuration_size > static_cast<int>(result.variables.size()))
+      refuse("the attribute configuration_size is above the number of variables");
+    read_options(result.options);
+    if (file_.has_attribute("/", "stopped")) result.stopped = file_.text_attribute("/", "stopped");
+    result.cover.dimension = count("dimension");
+    result.cover.sigma = sigma("/");
+    result.cover.tolerance = file_.double_attribute("/", "tolerance");
+    result.cover.boxes = boxes("/boxes", result.variables.size());
+    result.cover.points = boxes("/points", result.variables.size());
+    read_statistics(result.cover.statistics);
+    if ((file_.integer_attribute("/", "complete") != 0) != result.cover.complete()) {
+      refuse("the attribute complete contradicts the boxes");
+    }
+    if (format_ >= kFirstWithCertificates) {
+      check_counts(result.cover);
+      result.cover.wider_than_sigma = file_.unsigned_attribute("/boxes", "wider_than_sigma");
+      read_certificates(file_, result.cover, result.variables.size());
+    }
+    return result;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& problem) const {
+    throw ResultFileError(printable_line(file_.path() + ": " + problem));
+  }
+
+  // Names go to terminals and pages: what could steer those is made visible.
+  std::string word(const std::string& object, const std::string& name) const {
+    return printable_line(file_.text_attribute(object, name));
+  }
+  std::vector<std::string> words(const std::string& name) const {
+    std::vector<std::string> list = file_.texts(name);
+    for (std::string& text : list) text = printable_line(text);
+    return list;
+  }
+
+  int count(const std::string& name) const {
+    const std::int64_t value = file_.integer_attribute("/", name);
+    if (value < 0 || value > 1'000'000'000) refuse("the attribute " + name + " is out of range");
+    return static_cast<int>(value);
+  }
+
+  Interval interval(double lower, double upper, const std::string& where) const {
+    if (!(lower <= upper)) refuse(where + " holds an empty interval");
+    return {lower, upper};
+  }
+
+  void check_counts(const Cover& cover) const {
+    const auto check = [&](const std::string& name, std::size_t boxes) {
+      if (file_.unsigned_attribute("/boxes", name) != boxes)
+        refuse("the attribute " + name + " of /boxes contradicts the boxes");
+    };
+    const auto counts = cover.counts();
+    for (std::size_t v = 0; v < counts.size(); ++v) check(to_string(static_cast<Verdict>(v)), counts[v]);
+  }
+
+  void read_variables(Result& result) const {
+    const std::vector<std::string> names = words("/variables/names");
+    const std::vector<std::uint8_t> kinds = file_.enumeration("/variables/kinds", kind_words());
+    const std::vector<double> domain = file_.doubles("/variables/domain", names.size(), 2);
+    if (kinds.size() != names.size()) refuse("/variables/kinds and names differ in length");
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      result.variables.push_back(
+          {names[i], static_cast<VariableKind>(kinds[i]), interval(domain[2 * i], domain[2 * i + 1], "/variables/domain")});
+    }
+  }
+
+  void read_angles(Result& result) const {
+    const std::vector<std::string> names = words("/angles/names");
+    const std::vector<std::int64_t> cosines = file_.integers("/angles/cosine"), sines = file_.integers("/angles/sine");
+    const std::vector<double> range = file_.doubles("/angles/range", names.size(), 2);
+    if (cosines.size() != names.size() || sines.size() != names.size()) refuse("/angles differ in length");
+    const auto n = static_cast<std::int64_t>(result.variables.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (std::min(cosines[i], sines[i]) < 0 || std::max(cosines[i], sines[i]) >= n) refuse("/angles name no variable");
+      result.angles.push_back({names[i], static_cast<int>(cosines[i]), static_cast<int>(sines[i]),
+                               interval(range[2 * i], range[2 * i + 1], "/angles/range")});
+    }
+  }
+
+  Sigma sigma(const std::string& group) const {
+    if (format_ < kFirstWithScales) {
+      const double both = file_.double_attribute(group, "sigma");
+      return {both, both};
+    }
+    return {file_.double_attribute(group, "sigma_length"), file_.double_attribute(group, "sigma_angle")};
+  }
+
+  void read_options(RunOptions& options) const {
+    const std::vector<std::string> names = words("/options/constants/names");
+    const std::vector<std::string> expressions = words("/options/constants/expressions");
+    if (names.size() != expressions.size()) refuse("/options/constants differ in length");
+    for (std::size_t i = 0; i < names.size(); ++i) options.constants.push_back({names[i], expressions[i]});
+    options.kernel = word("/options", "kernel");
+    if (!options.kernel.empty() && options.kernel != "right" && options.kernel != "left")
+      refuse("the attribute kernel of /options is neither right nor left: '" + options.kernel + "'");
+    options.sigma = sigma("/options");
+    if (format_ >= kFirstWithScales) options.kernel_scales = words("/options/kernel_scales");
+    const std::int64_t threads = file_.integer_attribute("/options", "threads");
+    if (threads < 0 || threads > 1'000'000) refuse("the attribute threads of /options is out of range");
+    options.threads = static_cast<int>(threads);
+    options.tolerance = file_.double_attribute("/options", "tolerance");
+    options.max_boxes = file_.unsigned_attribute("/options", "max_boxes");
+    options.max_solutions = file_.unsigned_attribute("/options", "max_solutions");
+    options.time_limit = file_.double_attribute("/options", "time_limit");
+  }
+
+  void read_statistics(Statistics& statistics) const {
+    statistics.processed = file_.unsigned_attribute("/statistics", "processed");
+    statistics.newton_steps = file_.unsigned_attribute("/statistics", "newton_steps");
+    statistics.proofs_tried = file_.unsigned_attribute("/statistics", "proofs_tried");
+    statistics.seconds_total = file_.double_attribute("/statistics", "seconds_total");
+    statistics.seconds_search = file_.double_attribute("/statistics", "seconds_search");
+    statistics.seconds_certify = file_.double_attribute("/statistics", "seconds_certify");
+  }
+
+  std::vector<CoverBox> boxes(const std::string& group, std::size_t n) const {
+    const std::vector<std::uint8_t> verdict = file_.enumeration(group + "/verdict", verdict_words());
+    const std::vector<double> lower = file_.doubles(group + "/lower", verdict.size(), n);
+    const std::vector<double> upper = file_.doubles(group + "/upper", verdict.size(), n);
+    const std::vector<std::uint8_t> free = file_.bytes(group + "/free", verdict.size(), n);
+    std::vector<std::uint8_t> reason(verdict.size(), 0);
+    if (format_ >= kFirstWithScales) reason = file_.enumeration(group + "/reason", reason_words());
+    if (reason.size() != verdict.size()) refuse(group + "/reason has another length than the verdicts");
+    std::vector<CoverBox> boxes(verdict.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      boxes[i].verdict = static_cast<Verdict>(verdict[i]);
+      boxes[i].reason = static_cast<Reason>(reason[i]);
+      for (std::size_t v = 0; v < n; ++v) {
+        boxes[i].box.push_back(interval(lower[i * n + v], upper[i * n + v], group));
+        if (free[i * n + v] != 0) boxes[i].free.push_back(static_cast<int>(v));
+      }
+    }
+    return boxes;
+  }
+
+  Hdf5Reader file_;
+  std::int64_t format_ = 0;
+};
+
+}  // namespace
+
+void check_writable(const std::filesystem::path& path) { const OutputFile created_and_removed(path); }
+
+void write_result(const std::filesystem::path& path, const Result& result) {
+  const OutputFile target(path);
+  Hdf5Writer file(target.part().string());
+  file.attribute("/", "format", std::string(kFormat));
+  file.attribute("/", "format_version", std::int64_t{kFormatVersion});
+  file.attribute("/", "version", result.version);
+  file.attribute("/", "model", result.model);
+  file.attribute("/", "set", result.set);
+  file.attribute("/", "stopped", result.stopped);
+  file.attribute("/", "complete", std::int64_t{result.cover.complete()});
+  file.attribute("/", "dimension", std::int64_t{result.cover.dimension});
+  file.attribute("/", "sigma_length", result.cover.sigma.length);
+  file.attribute("/", "sigma_angle", result.cover.sigma.angle);
+  file.attribute("/", "tolerance", result.cover.tolerance);
+  file.attribute("/", "configuration_size", std::int64_t{result.configuration_size});
+  file.attribute("/", "equations", std::int64_t{result.equations});
+  file.attribute("/", "inequalities", std::int64_t{result.inequalities});
+  file.text("/model/text", result.model_text);
+  file.text("/model/system", result.system_text);
+  write_variables(file, result);
+  write_angles(file, result);
+  write_options(file, result.options);
+  write_boxes(file, "/boxes", result.cover.boxes, result.variables.size());
+  write_counts(file, result.cover);
+  write_boxes(file, "/points", result.cover.points, result.variables.size());
+  write_statistics(file, result.cover.statistics);
+  write_certificates(file, result.cover, result.variables.size());
+  file.close();
+  target.finish();
+}
+
+Result read_result(const std::filesystem::path& path) { return ResultReader(Hdf5Reader(path.string())).read(); }
+
+Result read_result(const std::string& name, std::span<const std::byte> items) {
+  return ResultReader(Hdf5Reader(name, items)).read();
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  const OutputFile target(path);
+  std::ofstream file(target.part(), std::ios::binary);
+  file << text << std::flush;
+  file.close();
+  if (!file) throw ResultFileError(path.string() + ": cannot write here (disk full?)");
+  target.finish();
+}
+
+}  // namespace corank::result

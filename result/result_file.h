@@ -1,0 +1,42 @@
+// Result files, RESULT.h5: a result in HDF5, every double bit for bit:
+//
+//   /                   attributes format = "corank result", format_version, version, model, set, complete, stopped, sigma_length …
+//   /model/text         the model file as read            /model/system       the solved system in the model language
+//   /variables/…        names, kinds, domain (n×2)        /angles/…           names, cosine, sine (indices), range (k×2)
+//   /boxes/…            lower, upper (N×n), verdict, reason (enumerations), free (N×n mask)         /points/… likewise
+//   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes
+//   /certificates/…     what `corank verify` needs, see report/certificate_file.h
+//   /options, /statistics   attributes; /options/constants/… names, expressions
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "corank/result/hdf5_file.h"
+#include "corank/result/result.h"
+
+namespace corank::result {
+
+/// The layout that write_result writes; read_result refuses a newer one. Version 1 had no certificates and no counts,
+/// version 2 eliminations in place of the reduction, version 3 one
+/// sigma for all variables, kernel vectors of unscaled norm and no reasons.
+inline constexpr int kFormatVersion = 4;
+
+/// Throws ResultFileError where no file can be written at `path` (report/output_file.h): to be asked before a long computation.
+void check_writable(const std::filesystem::path& path);
+
+/// Writes a new file beside `path` and renames it, so that `path` never holds half a result. Throws ResultFileError.
+void write_result(const std::filesystem::path& path, const Result& result);
+
+/// The result that write_result was given, bit for bit (free variables in ascending order; control characters in names made
+/// visible). The file may be a stranger's: throws ResultFileError, a printable line, for one that is missing, foreign, cut
+/// short, damaged or inconsistent, or that takes another file's contents for its own.
+Result read_result(const std::filesystem::path& path);
+/// The same from items in memory (report/plain_items.h); `name` is for messages.
+Result read_result(const std::string& name, std::span<const std::byte> items);
+
+/// Writes a text in the same way. Throws ResultFileError.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace corank::result

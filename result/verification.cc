@@ -1,0 +1,226 @@
+#include "corank/result/verification.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "corank/result/hdf5_file.h"
+#include "corank/result/printable.h"
+#include "corank/result/summary.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/printer.h"
+
+namespace corank::result {
+namespace {
+using check::Failure;
+using check::Report;
+using check::Tally;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kShownFailures = 10;
+
+std::string without_comments(const std::string& text) {
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(std::min(line.find('%'), line.size()));
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    if (!line.empty()) result += line + "\n";
+  }
+  return result;
+}
+
+const char* word(Failure::Place place) {
+  switch (place) {
+    case Failure::Place::cover: return "cover";
+    case Failure::Place::box: return "box";
+    case Failure::Place::point: return "point";
+    case Failure::Place::exact_point: return "exact point";
+    case Failure::Place::step: return "step of the proof";
+  }
+  return "?";
+}
+
+bool any(const Tally& t) { return t.verified + t.failed + t.unchecked > 0; }
+
+std::string row(const std::string& name, const Tally& t) {
+  return any(t) ? fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", name, t.verified, t.failed, t.unchecked) : "";
+}
+
+std::string completeness(const Report& report, bool complete) {
+  const check::ProofTally& proof = report.proof;
+  if (!proof.present && report.interrupted) return "";
+  if (!proof.present) return "completeness: no proof in the file\n";
+  std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched anew\n",
+                                 proof.verified       ? "replayed"
+                                 : report.interrupted ? "not shown yet"
+                                                      : "NOT SHOWN",
+                                 proof.steps, proof.leaves, proof.searched);
+  if (proof.verified && !complete) text += "  but for the pending boxes: the search ended early\n";
+  return text;
+}
+
+// Decimals are not proven anew; but those of a point have to be in its box, up to a unit of their last digit.
+std::vector<std::string> misplaced_decimals(const Result& result) {
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < std::min(result.cover.decimals.size(), result.cover.points.size()); ++i) {
+    const std::vector<std::string>& decimals = result.cover.decimals[i];
+    for (std::size_t v = 0; v < std::min(decimals.size(), result.cover.points[i].box.size()); ++v) {
+      if (decimals[v].empty()) continue;  // nothing is said of it
+      const std::size_t point = std::min(decimals[v].find('.'), decimals[v].size() - 1);
+      const double value = std::strtod(decimals[v].c_str(), nullptr), size = std::fabs(value),
+                   unit = std::pow(10.0, -static_cast<double>(decimals[v].size() - 1 - point)),
+                   room = unit + 4 * std::numeric_limits<double>::epsilon() * size;
+      const Interval& side = result.cover.points[i].box[v];
+      if (value + room >= side.lo() && value - room <= side.hi()) continue;
+      list.push_back(fmt::format("the decimals of point {} are not in its box", i + 1));
+      break;
+    }
+  }
+  return list;
+}
+
+// Of boxes that claim nothing, and what ends the table.
+std::string conclusion(const Verification& verification, const Result& result) {
+  const Report& report = verification.report;
+  std::string text;
+  const std::size_t open = report.boxes[static_cast<std::size_t>(Verdict::undecided)].unchecked,
+                    pending = report.boxes[static_cast<std::size_t>(Verdict::pending)].unchecked;
+  if (report.interrupted) {
+    std::size_t checked = 0;
+    for (const Tally& t : report.boxes) checked += t.verified + t.failed;
+    return fmt::format("interrupted in {}: {} of {} boxes were checked{}; nothing is said of the rest\n", report.stage,
+                       checked, result.cover.boxes.size(), report.failures.empty() ? "" : ", NOT VERIFIED");
+  }
+  if (open > 0) text += fmt::format("{} undecided box{} nothing\n", open, open == 1 ? " claims" : "es claim");
+  if (pending > 0) text += fmt::format("{} pending box{} not searched\n", pending, pending == 1 ? " was" : "es were");
+  return text + (verification.complete()   ? "verified\n"
+                 : verification.verified() ? "verified, but not its completeness\n"
+                                           : "NOT VERIFIED\n");
+}
+
+Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.failed}, {"not_checkable", t.unchecked}}; }
+
+}  // namespace
+
+System system_of(const Result& result) {
+  symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
+  for (const auto& [name, expression] : result.options.constants)
+    mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (mechanism.is_plain_system() ? result.set != "system" : !set)
+    throw ResultFileError("the result's model has no set '" + result.set + "'");
+  System system = symbolic::algebrize(
+      set ? symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
+                                         result.options.kernel_scales)
+          : symbolic::plain_system(mechanism));
+  system.coefficient_tolerance = result.options.tolerance;
+  try {
+    system.validate();
+  } catch (const std::invalid_argument& error) {
+    throw ResultFileError(std::string("the result's system: ") + error.what());
+  }
+  return system;
+}
+
+Verification verify(const Result& result, const check::Options& options) {
+  return verify(result, system_of(result), options);
+}
+
+Verification verify(const Result& result, const System& system, const check::Options& options) {
+  Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
+  // Boxes of another system are not worth a check.
+  if (verification.contradictions.empty()) verification.report = check::check(system, result.cover, options);
+  return verification;
+}
+
+std::vector<std::string> contradictions(const Result& result, const System& system, const std::string& system_text) {
+  std::vector<std::string> list;
+  const auto check = [&list](bool good, const std::string& what) {
+    if (!good) list.push_back(what + " not that of the model");
+  };
+  Result expected;
+  describe_system(system, expected);
+  bool variables = result.variables.size() == expected.variables.size();
+  for (std::size_t i = 0; variables && i < expected.variables.size(); ++i) {
+    const ResultVariable &a = result.variables[i], &b = expected.variables[i];
+    variables = a.name == b.name && a.kind == b.kind;
+    check(!variables || a.domain == b.domain, "the domain of " + b.name + " is");
+  }
+  check(variables, "the list of variables is");
+  bool angles = result.angles.size() == expected.angles.size();
+  for (std::size_t i = 0; angles && i < expected.angles.size(); ++i) {
+    const Angle &a = result.angles[i], &b = expected.angles[i];
+    angles = a.name == b.name && a.cosine == b.cosine && a.sine == b.sine && a.range == b.range;
+  }
+  check(angles, "the list of angles is");
+  check(result.configuration_size == expected.configuration_size, "the number of configuration variables is");
+  check(result.equations == expected.equations, "the number of equations is");
+  check(result.inequalities == expected.inequalities, "the number of inequalities is");
+  check(without_comments(result.system_text) == without_comments(system_text), "the system is");
+  if (result.options.sigma != result.cover.sigma) list.emplace_back("two different values of sigma");
+  const double tolerance = kPartialTolerance * system.coefficient_tolerance;
+  const bool square = system.equations.size() <= system.variables.size();
+  if (!(result.cover.tolerance == tolerance || (!square && result.cover.tolerance == 0)))
+    list.emplace_back("the tolerance is not that of the options");
+  for (const std::string& misplaced : misplaced_decimals(result)) list.push_back(misplaced);
+  return list;
+}
+
+std::string to_table(const Verification& verification, const Result& result) {
+  const Report& report = verification.report;
+  std::string text = fmt::format("{}, {}: checked against its model with intervals of 160 bits and exact numbers\n\n",
+                                 result.model, result.set);
+  for (const std::string& c : verification.contradictions) text += "file: " + c + "\n";
+  if (!verification.contradictions.empty()) return printable(text + "NOT VERIFIED: nothing else was checked\n");
+  text += fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", "verdict", "verified", "failed", "not checkable");
+  for (int v = 0; v < kVerdicts; ++v)
+    text += row(to_string(static_cast<Verdict>(v)), report.boxes[static_cast<std::size_t>(v)]);
+  text += row("points", report.points) + row("exact points", report.exact_points);
+  text += "\n" + completeness(report, result.cover.complete());
+  if (!result.cover.decimals.empty()) text += "decimals: in their boxes, but not proven anew\n";
+  for (std::size_t i = 0; i < std::min(report.failures.size(), kShownFailures); ++i) {
+    const Failure& f = report.failures[i];
+    text += f.place == Failure::Place::cover ? fmt::format("cover: {}\n", f.reason)
+                                             : fmt::format("{} {}: {}\n", word(f.place), f.index + 1, f.reason);
+  }
+  if (report.failures.size() > kShownFailures)
+    text += fmt::format("… and {} more\n", report.failures.size() - kShownFailures);
+  return printable(text + conclusion(verification, result));
+}
+
+std::string to_json(const Verification& verification) {
+  const Report& report = verification.report;
+  Json json;
+  json["verified"] = verification.verified();
+  json["complete"] = verification.complete();
+  json["interrupted"] = report.interrupted;
+  if (report.interrupted) json["stage"] = report.stage;
+  for (int v = 0; v < kVerdicts; ++v)
+    json["verdicts"][to_string(static_cast<Verdict>(v))] = to_json(report.boxes[static_cast<std::size_t>(v)]);
+  json["points"] = to_json(report.points);
+  json["exact_points"] = to_json(report.exact_points);
+  const check::ProofTally& proof = report.proof;
+  json["completeness"] = {{"proof", proof.present},
+                          {"verified", proof.verified},
+                          {"steps", proof.steps},
+                          {"leaves", proof.leaves},
+                          {"searched", proof.searched}};
+  json["contradictions"] = verification.contradictions;
+  json["failures"] = Json::array();
+  for (const Failure& f : report.failures)
+    json["failures"].push_back({{"what", word(f.place)}, {"number", f.index + 1}, {"reason", f.reason}});
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string ended_early_json(const std::string& stage) {
+  return Json{{"verified", false}, {"complete", false}, {"interrupted", true}, {"stage", stage}}.dump(2);
+}
+
+}  // namespace corank::result

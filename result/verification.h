@@ -1,0 +1,44 @@
+// What the independent checker found about a result, for people and for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corank/check/checker.h"
+#include "corank/result/result.h"
+
+namespace corank::result {
+
+struct Verification {
+  /// Where the file contradicts the model that it holds: variables, domains, equations, options.
+  std::vector<std::string> contradictions;
+  check::Report report;
+
+  /// No contradiction, and every claim is confirmed.
+  bool verified() const { return contradictions.empty() && report.verified(); }
+  /// verified(), and that the boxes hold all solutions in the search domain is proven, too.
+  bool complete() const { return contradictions.empty() && report.complete(); }
+};
+
+/// The system that a result's model and options give. Throws ModelError where the model is none, ResultFileError where it has no such set.
+System system_of(const Result& result);
+
+/// Checks a result against its model: contradictions, check::check. `system` is system_of(result).
+Verification verify(const Result& result, const System& system, const check::Options& options = {});
+Verification verify(const Result& result, const check::Options& options = {});
+
+/// Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the polynomials'
+/// text (comments aside) and the options.
+std::vector<std::string> contradictions(const Result& result, const System& system, const std::string& system_text);
+
+/// A table of counts per verdict, the completeness proof, the first failures.
+std::string to_table(const Verification& verification, const Result& result);
+
+/// {"verified", "complete", "interrupted", "stage" (where it ended early), "verdicts": {"regular": {"verified", "failed",
+/// "not_checkable"} …}, "points", "exact_points", "completeness": {"proof", "verified", "steps", "leaves", "searched"},
+/// "contradictions", "failures": [{"what", "number", "reason"}]}; numbers count from 1.
+std::string to_json(const Verification& verification);
+/// The same of a check that had no report when it was ended, in the stage: {"verified", "complete", "interrupted", "stage"}.
+std::string ended_early_json(const std::string& stage);
+
+}  // namespace corank::result
