@@ -101,6 +101,9 @@ struct Cover {
   std::vector<Box> regions;
   std::vector<ExactPoint> exact_points;
   std::vector<SelfMotionRecord> self_motions;
+  /// The largest dimension, as samples show, of sets along which boxes stayed undecided (Reason::degenerate_set); 0: none is known to be larger than
+  /// expected. No claim.
+  int observed_dimension = 0;
   /// Of each point and variable a decimal that is wrong by less than a unit of its last digit; no decimals where nothing is proven.
   /// Empty where nobody asked.
   std::vector<std::vector<std::string>> decimals;

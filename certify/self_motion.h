@@ -34,6 +34,9 @@ struct SelfMotion {
 /// a set of that dimension asks for. Requires UpwardRounding::active().
 std::optional<SelfMotion> self_motion(const System& system, std::vector<Polynomial> relations, int dimension);
 
+/// Do the relations of one follow from those of the other, and the other way round? Requires UpwardRounding::active().
+bool same_relations(const SelfMotion& a, const SelfMotion& b);
+
 /// The theorem above: e chooses E and its dependent variables, r the rows `sufficient` with the same dependents; any Y are valid. Every zero of F in x lies in
 /// the sheet's image, and the sheet's claim (certify/newton.h) is about all of F. Not proven where one of the hypotheses is not shown.
 Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, const Preconditioner& e,

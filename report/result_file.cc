@@ -59,6 +59,7 @@ void write_counts(Hdf5Writer& file, const certify::Cover& cover) {
   for (std::size_t v = 0; v < counts.size(); ++v)
     file.attribute("/boxes", to_string(static_cast<certify::Verdict>(v)), std::uint64_t{counts[v]});
   file.attribute("/boxes", "wider_than_sigma", std::uint64_t{cover.wider_than_sigma});
+  if (cover.observed_dimension > 0) file.attribute("/boxes", "observed_dimension", std::int64_t{cover.observed_dimension});
 }
 
 void write_variables(Hdf5Writer& file, const Result& result) {
@@ -162,6 +163,12 @@ class ResultReader {
     if (format_ >= kFirstWithCertificates) {
       check_counts(result.cover);
       result.cover.wider_than_sigma = file_.unsigned_attribute("/boxes", "wider_than_sigma");
+      if (file_.has_attribute("/boxes", "observed_dimension")) {
+        const std::int64_t observed = file_.integer_attribute("/boxes", "observed_dimension");
+        if (observed < 1 || observed > static_cast<std::int64_t>(result.variables.size()))
+          refuse("the attribute observed_dimension of /boxes is out of range");
+        result.cover.observed_dimension = static_cast<int>(observed);
+      }
       read_certificates(file_, result.cover, result.variables.size());
     }
     return result;

@@ -239,12 +239,21 @@ std::string sigma_text(const certify::Sigma& sigma) {
   return fmt::format("sigma {:g} in lengths, {:g} in sines and cosines", sigma.length, sigma.angle);
 }
 
-std::string in_words(certify::Reason reason) {
+// Along sets that are not proven; of larger ones also why not.
+std::string along_set_text(const certify::Cover& cover) {
+  if (cover.observed_dimension <= cover.dimension) return "along a curve, or a larger set, of degenerate solutions";
+  return fmt::format("along a set of dimension {}, as samples show, larger than expected; not proven: {}",
+                     cover.observed_dimension,
+                     cover.self_motions.empty() ? "no linear relations were found on it that make its equations dependent"
+                                                : "the linear relations that were found do not prove it there");
+}
+
+std::string in_words(certify::Reason reason, const certify::Cover& cover) {
   using enum certify::Reason;
   switch (reason) {
     case none: break;
     case degenerate_point: return "next to a degenerate solution, where the Jacobian has not its full rank";
-    case degenerate_set: return "along a curve, or a larger set, of degenerate solutions";
+    case degenerate_set: return along_set_text(cover);
     case tolerance: return "the coefficients' tolerance moves the solutions too far";
     case precision: return "doubles divide them no further";
     case limit: return "a limit ended the search before they were divided further";
@@ -292,7 +301,8 @@ std::string motions_text(const Result& result) {
 
 std::string reasons_text(const certify::Cover& cover) {
   std::string text;
-  for (const auto& [reason, n] : undecided_reasons(cover)) text += fmt::format("  undecided, {}: {}\n", n, in_words(reason));
+  for (const auto& [reason, n] : undecided_reasons(cover))
+    text += fmt::format("  undecided, {}: {}\n", n, in_words(reason, cover));
   return text;
 }
 
@@ -415,6 +425,7 @@ std::string to_json(const Result& result) {
     json["boxes"][to_string(verdict)] = counts[static_cast<std::size_t>(verdict)];
   json["undecided_reasons"] = Json::object();
   for (const auto& [reason, n] : undecided_reasons(cover)) json["undecided_reasons"][to_string(reason)] = n;
+  json["observed_dimension"] = cover.observed_dimension > 0 ? Json(cover.observed_dimension) : Json();
   json["self_motions"] = Json::array();
   for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
     Json relations = Json::array();

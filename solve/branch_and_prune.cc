@@ -35,6 +35,7 @@ namespace {
 
 using certify::Cover;
 using certify::Interval;
+using certify::Reason;
 using certify::Verdict;
 using Clock = std::chrono::steady_clock;
 
@@ -559,6 +560,8 @@ Cover solve(const certify::System& system, const Options& given) {
     const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial && search.motions().none();
     if (options.proof && replayable) cover.proof = search.proof(found);
     cover.self_motions = search.motions().records(reduction);
+    if (std::any_of(found.begin(), found.end(), [](const Found* f) { return f->box.reason == Reason::degenerate_set; }))
+      cover.observed_dimension = search.motions().observed_dimension();
     for (certify::CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
     cover.boxes = lifted(system, reduction, found);
   });

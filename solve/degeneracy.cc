@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/rounding.h"
 #include "corank/solve/points.h"
 #include "corank/solve/preconditioner.h"
@@ -92,30 +93,55 @@ bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes,
   return 2 * along >= probes;
 }
 
+// The rows with a derivative that vanishes nowhere in the box. Of a row like s (a − b) = 0 where s = 0 and a = b nothing follows there, though it is
+// as good as any other a step away.
+std::vector<int> steady_rows(const certify::CompiledSystem& system, const Box& x) {
+  const certify::UpwardRounding rounding;
+  std::vector<Interval> jacobian(static_cast<std::size_t>(system.entries()));
+  system.jacobian(x, jacobian);
+  std::vector<int> result;
+  for (int row = 0; row < system.equations(); ++row)
+    for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
+      if (jacobian[static_cast<std::size_t>(k)].mig() > 0) {
+        result.push_back(row);
+        break;
+      }
+  return result;
+}
+
+// Does no relation exclude the box?
+bool may_hold_in(const certify::SelfMotion& motion, const Box& x) {
+  const certify::UpwardRounding rounding;
+  return std::all_of(motion.relations.begin(), motion.relations.end(),
+                     [&](const certify::Polynomial& f) { return certify::evaluate(f, x).contains(0.0); });
+}
+
 }  // namespace
 
-bool SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed& box) {
+void SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed& box) {
   const certify::SelfMotion& motion = known_[index].motion;
   certify::NewtonWorkspace workspace;
   PreconditionerFactory of_system(problem.compiled), of_motion(motion.compiled);
-  const certify::Preconditioner e = of_system.near_solution(box.x, kMotionRankTolerance);
-  if (e.rank() != static_cast<int>(motion.sufficient.size())) return false;
-  const certify::Preconditioner r = of_motion.at_midpoint(box.x, &e.dependent, &motion.sufficient);
-  if (r.rank() != e.rank()) return false;
-  box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.x, workspace);
-  box.proof.motion = static_cast<int>(index);
-  box.step = e;
-  return box.proof.proven;
+  const std::vector<int> steady = steady_rows(problem.compiled, box.x);
+  for (const std::vector<int>* rows : {static_cast<const std::vector<int>*>(nullptr), &steady}) {
+    const certify::Preconditioner e = of_system.near_solution(box.x, kMotionRankTolerance, rows);
+    if (e.rank() != static_cast<int>(motion.sufficient.size())) continue;
+    const certify::Preconditioner r = of_motion.at_midpoint(box.x, &e.dependent, &motion.sufficient);
+    if (r.rank() != e.rank()) continue;
+    box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.x, workspace);
+    box.proof.motion = static_cast<int>(index);
+    box.step = e;
+    if (box.proof.proven) return;
+  }
 }
 
 bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
   bool known = false;
   for (std::size_t k = 0; k < known_.size() && !box.proof.proven; ++k) {
-    if (!holds_at(known_[k].motion, problem, box.near.x)) continue;
-    known = true;
-    prove_on(k, problem, box);
+    known = known || holds_at(known_[k].motion, problem, box.near.x);
+    if (may_hold_in(known_[k].motion, box.x)) prove_on(k, problem, box);
   }
-  return known;
+  return known || box.proof.proven;
 }
 
 void SelfMotions::prove_cluster(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
@@ -130,7 +156,13 @@ void SelfMotions::prove_cluster(const Problem& problem, const certify::System& s
       continue;
     ++attempts;
     MotionCandidate candidate = find_self_motion(problem, system, box.near);
+    const int expected = std::max(0, problem.compiled.variables() - problem.compiled.equations());
+    if (candidate.dimension > expected) observed_ = std::max(observed_, candidate.dimension);
     if (!candidate.motion) continue;
+    const auto same = std::find_if(known_.begin(), known_.end(), [&](const Known& known) {
+      return certify::same_relations(known.motion, *candidate.motion);
+    });
+    if (same != known_.end()) continue;
     known_.push_back({std::move(*candidate.motion), candidate.dimension});
     attempts = 0;
     prove_on(known_.size() - 1, problem, box);
@@ -158,9 +190,10 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::Sy
       if (share < (along ? kSetShare : last) || (open > many && 2 * open > cluster.size())) reason = Reason::degenerate_set;
     }
     for (const std::size_t i : cluster) {
-      if (!boxes[i].proof.proven) prove_on_known(problem, boxes[i]);
+      const bool on_known = !boxes[i].proof.proven && prove_on_known(problem, boxes[i]);
       const bool at_doubles_end = problem.relative_width(boxes[i].x) < kDoublesEnd || boxes[i].noisy;
       reasons[i] = reason == Reason::none && at_doubles_end ? Reason::precision : reason;
+      if (reasons[i] != Reason::none && on_known) reasons[i] = Reason::degenerate_set;  // it is no point
     }
   }
   return reasons;

@@ -20,6 +20,8 @@ class SelfMotions {
   std::vector<certify::Reason> prove(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
                                      double share);
   bool none() const { return known_.empty(); }
+  /// The largest dimension of a set that was met, as its samples show; 0: none is larger than expected. No claim.
+  int observed_dimension() const { return observed_; }
   /// In all variables.
   std::vector<certify::SelfMotionRecord> records(const certify::Reduction& reduction) const;
 
@@ -27,15 +29,16 @@ class SelfMotions {
   // Those of the cluster that lie on a known self-motion; all, where there is none yet: looks for one.
   void prove_cluster(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
                      const std::vector<std::size_t>& cluster, double share);
-  // Is the box on a known one? Proves it, if it can.
+  // Is the box on a known one, as far as doubles tell? Proves it, if it can.
   bool prove_on_known(const Problem& problem, Postponed& box);
-  bool prove_on(std::size_t motion, const Problem& problem, Postponed& box);
+  void prove_on(std::size_t motion, const Problem& problem, Postponed& box);
 
   struct Known {
     certify::SelfMotion motion;
     int dimension = 0;
   };
   std::vector<Known> known_;
+  int observed_ = 0;
 };
 
 }  // namespace corank::solve

@@ -28,12 +28,12 @@ const certify::Preconditioner& PreconditionerFactory::at_midpoint(std::span<cons
 }
 
 const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<const certify::Interval> x,
-                                                                    double rank_tolerance) {
+                                                                    double rank_tolerance, const std::vector<int>* rows) {
   center_.resize(n_);
   for (int j = 0; j < n_; ++j) center_[j] = x[j].mid();
   double former = HUGE_VAL;
   for (int step = 0; step < kGaussNewtonSteps; ++step) {
-    at_center(nullptr, nullptr, rank_tolerance);
+    at_center(nullptr, rows, rank_tolerance);
     const std::vector<double> start = center_;
     double moved = 0;
     for (int a = 0; a < result_.rank(); ++a) {
@@ -51,7 +51,7 @@ const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<co
     former = moved;
     if (moved < 1e-9) break;
   }
-  return at_center(nullptr, nullptr, rank_tolerance);
+  return at_center(nullptr, rows, rank_tolerance);
 }
 
 const certify::Preconditioner& PreconditionerFactory::at_center(const std::vector<int>* candidates,

@@ -23,7 +23,9 @@ class PreconditionerFactory {
                                              const std::vector<int>* rows = nullptr);
   /// The same at a point near the midpoint where all equations nearly hold (a few Gauss–Newton steps), so that the rank of an
   /// over-determined system shows: away from its solutions redundant equations look independent. Pivots below `rank_tolerance` count as zero.
-  const certify::Preconditioner& near_solution(std::span<const certify::Interval> x, double rank_tolerance);
+  /// If given, only the `rows` are used.
+  const certify::Preconditioner& near_solution(std::span<const certify::Interval> x, double rank_tolerance,
+                                               const std::vector<int>* rows = nullptr);
 
   /// An elimination was given up: its result has no rows, which is valid, too.
   bool over() const { return over_; }

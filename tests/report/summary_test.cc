@@ -26,8 +26,8 @@ std::vector<std::string> keys(const ordered_json& object) {
 TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   const ordered_json json = ordered_json::parse(to_json(sample_result()));
   EXPECT_THAT(keys(json), ElementsAre("model", "set", "system", "options", "complete", "stopped", "boxes",
-                                      "undecided_reasons", "self_motions", "boundary_reasons", "range_ends", "ranges_found",
-                                      "points", "kernel", "seconds", "version"));
+                                      "undecided_reasons", "observed_dimension", "self_motions", "boundary_reasons",
+                                      "range_ends", "ranges_found", "points", "kernel", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]),
               ElementsAre("kernel", "sigma", "sigma_length", "sigma_angle", "kernel_scales", "tolerance", "threads",
