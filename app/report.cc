@@ -15,6 +15,7 @@
 #include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/domain_notes.h"
+#include "corank/report/motion_words.h"
 #include "corank/report/page.h"
 #include "corank/report/page_words.h"
 #include "corank/report/printable.h"
@@ -118,7 +119,11 @@ ExitStatus write_report(ReportCommand command) {
   std::vector<report::Result> results;
   if (!command.results.empty()) results = read_all(command.results);
   const symbolic::Mechanism mechanism = results.empty() ? load(command.question) : mechanism_of(results.front());
-  for (report::Result& result : results) report::describe_domain(mechanism, report::system_of(result), result);
+  for (report::Result& result : results) {
+    const certify::System system = report::system_of(result);
+    report::describe_domain(mechanism, system, result);
+    report::describe_motions(mechanism, system, result);
+  }
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
   make_folder(folder / "figures");

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "corank/report/domain_notes.h"
+#include "corank/report/motion_words.h"
 #include "corank/solve/exactness.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/symbolic/printer.h"
@@ -65,6 +66,7 @@ report::Result solve_set(const Question& question, const symbolic::Mechanism& me
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   report::describe_system(system, result);
   report::describe_domain(mechanism, system, result);
+  report::describe_motions(mechanism, system, result);
   mark_auxiliary(mechanism, result);
   result.options = {kernel_of(question, set),     result.cover.sigma, kernel_scales,
                     system.coefficient_tolerance, options.threads,    options.max_boxes,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "corank/report/motion_words.h"
 #include "corank/report/summary.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
@@ -40,12 +41,46 @@ std::size_t count_points(const certify::Cover& cover, Verdict verdict) {
                                                 [=](const certify::CoverBox& p) { return p.verdict == verdict; }));
 }
 
+std::string escaped(const std::string& text) {
+  std::string html;
+  for (const char c : text) html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return html;
+}
+
+/// Sets of larger dimension than expected, proven or not.
+void say_larger_sets(const Result& result, SetWords& words) {
+  const certify::Cover& cover = result.cover;
+  const auto count = [&cover](auto&& test) {
+    return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), test));
+  };
+  for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
+    const std::size_t boxes = count([k](const auto& b) { return b.motion == static_cast<int>(k); });
+    const std::string sentence = motion_sentence(result, k);
+    const std::size_t colon = sentence.find(':');
+    words.proven.push_back(fmt::format("In {} there is a set of larger dimension than expected, {}.", boxes_text(boxes),
+                                       escaped(sentence.substr(0, colon) + with_minus(sentence.substr(colon)))));
+  }
+  const std::size_t along =
+      count([](const auto& b) { return b.verdict == Verdict::undecided && b.reason == certify::Reason::degenerate_set; });
+  if (along > 0)
+    words.unproven.push_back(
+        fmt::format("{} undecided {}.", along == 1 ? "One box is" : grouped(along) + " boxes are", along_set_text(cover)));
+}
+
 void say_points(const Result& result, SetWords& words) {
   const certify::Cover& cover = result.cover;
   const std::size_t isolated = count_points(cover, Verdict::isolated), exact = count_points(cover, Verdict::exact),
                     border = count_points(cover, Verdict::boundary),
                     others = cover.points.size() - isolated - exact - border;
   words.finding = isolated + exact == 0 ? "None proven to exist" : counted(isolated + exact, "point", "points");
+  if (const auto on_sets = static_cast<std::size_t>(
+          std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) { return b.motion >= 0; }));
+      on_sets > 0) {
+    const std::string points = isolated + exact == 0 ? "" : " and " + words.finding;
+    words.finding = counted(cover.self_motions.size(), "set of larger dimension than expected",
+                            "sets of larger dimension than expected") +
+                    ", in " + boxes_text(on_sets) + points;
+  }
   if (border > 0) words.finding += fmt::format(", {} at the border of the search domain", border);
   if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place", "undecided places"));
   if (isolated > 0) {
@@ -233,6 +268,7 @@ SetWords set_words(const Result& result, const Components& found) {
   } else {
     say_pieces(result, found, words);
   }
+  say_larger_sets(result, words);
   say_domain(result.domain, words);
   if (!cover.complete()) words.finding += ", incomplete";
   return words;

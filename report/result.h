@@ -74,7 +74,8 @@ struct Result {
   /// cover may be complete all the same: then less is proven of it than could be.
   std::string stopped;
   certify::Cover cover;
-  DomainNotes domain;  ///< computed from the others by describe_domain(): result files do not hold it
+  DomainNotes domain;                ///< computed from the others by describe_domain(): result files do not hold it
+  std::vector<std::string> motions;  ///< each self-motion in words, computed by describe_motions(), likewise
 };
 
 /// Copies what a result keeps of a system: variables, angles, sizes, and its dimension to the cover.

@@ -13,6 +13,7 @@
 #include "corank/certify/angle.h"
 #include "corank/report/domain_notes.h"
 #include "corank/report/exact_angle.h"
+#include "corank/report/motion_words.h"
 
 namespace corank::report {
 namespace {
@@ -239,7 +240,8 @@ std::string sigma_text(const certify::Sigma& sigma) {
   return fmt::format("sigma {:g} in lengths, {:g} in sines and cosines", sigma.length, sigma.angle);
 }
 
-// Along sets that are not proven; of larger ones also why not.
+}  // namespace
+
 std::string along_set_text(const certify::Cover& cover) {
   if (cover.observed_dimension <= cover.dimension) return "along a curve, or a larger set, of degenerate solutions";
   return fmt::format("along a set of dimension {}, as samples show, larger than expected; not proven: {}",
@@ -247,6 +249,8 @@ std::string along_set_text(const certify::Cover& cover) {
                      cover.self_motions.empty() ? "no linear relations were found on it that make its equations dependent"
                                                 : "the linear relations that were found do not prove it there");
 }
+
+namespace {
 
 std::string in_words(certify::Reason reason, const certify::Cover& cover) {
   using enum certify::Reason;
@@ -261,41 +265,17 @@ std::string in_words(certify::Reason reason, const certify::Cover& cover) {
   return "reason unknown";
 }
 
-// "c_t3 = c_t2": the relation solved for the first variable that has the coefficient 1 or −1, or the first.
-std::string relation_text(const Result& result, const certify::Polynomial& f) {
-  using certify::ExactNumber;
-  std::size_t own = 0;
-  const auto is_unit = [](const certify::Monomial& m) { return !m.factors.empty() && m.coefficient.text() == "1"; };
-  for (std::size_t k = f.monomials.size(); k-- > 0;)
-    if (is_unit(f.monomials[k])) own = k;
-  const auto name = [&](const certify::Monomial& m) {
-    return result.variables[static_cast<std::size_t>(m.factors[0].variable)].name;
-  };
-  std::string text;
-  for (std::size_t k = 0; k < f.monomials.size(); ++k) {
-    const certify::Monomial& m = f.monomials[k];
-    if (k == own) continue;
-    ExactNumber c = -(m.coefficient / f.monomials[own].coefficient);
-    const bool negative = c.sign() == -1;
-    if (negative) c = -c;
-    const std::string factor = m.factors.empty() ? c.text() : (c.text() == "1" ? "" : c.text() + "*") + name(m);
-    text += text.empty() ? (negative ? "-" : "") + factor : (negative ? " - " : " + ") + factor;
-  }
-  return name(f.monomials[own]) + " = " + (text.empty() ? "0" : text);
+std::size_t boxes_on(const certify::Cover& cover, std::size_t motion) {
+  return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [motion](const CoverBox& box) {
+    return box.motion == static_cast<int>(motion);
+  }));
 }
 
 std::string motions_text(const Result& result) {
   std::string text;
-  const certify::Cover& cover = result.cover;
-  for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
-    const auto on_it = [k](const CoverBox& box) { return box.motion == static_cast<int>(k); };
-    std::string relations;
-    for (const certify::Polynomial& f : cover.self_motions[k].relations)
-      relations += (relations.empty() ? "" : ", ") + relation_text(result, f);
-    text += fmt::format(
-        "a set of dimension {}, larger than expected (a self-motion), in {}: {}\n", cover.self_motions[k].dimension,
-        plural(static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), on_it)), "box"), relations);
-  }
+  for (std::size_t k = 0; k < result.cover.self_motions.size(); ++k)
+    text += fmt::format("larger than expected, in {}: {}\n", plural(boxes_on(result.cover, k), "box"),
+                        motion_sentence(result, k));
   return text;
 }
 
@@ -430,10 +410,10 @@ std::string to_json(const Result& result) {
   for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
     Json relations = Json::array();
     for (const certify::Polynomial& f : cover.self_motions[k].relations) relations.push_back(relation_text(result, f));
-    const auto on_it = [k](const CoverBox& box) { return box.motion == static_cast<int>(k); };
     json["self_motions"].push_back({{"dimension", cover.self_motions[k].dimension},
-                                    {"boxes", std::count_if(cover.boxes.begin(), cover.boxes.end(), on_it)},
-                                    {"relations", relations}});
+                                    {"boxes", boxes_on(cover, k)},
+                                    {"relations", relations},
+                                    {"text", motion_sentence(result, k)}});
   }
   json["boundary_reasons"] = Json::array();
   for (const DomainNotes::Reason& reason : result.domain.boundary)

@@ -15,13 +15,16 @@ std::string outward_text(const certify::Interval& x, int digits);
 /// How many undecided boxes there are with each reason.
 std::map<certify::Reason, std::size_t> undecided_reasons(const certify::Cover& cover);
 
+/// Along what boxes with Reason::degenerate_set lie; where that is larger than expected, of which dimension, and why it is not proven.
+std::string along_set_text(const certify::Cover& cover);
+
 /// A few lines for a terminal: the set, its verdicts, and the points of a set of dimension 0 (configuration only, angles in
 /// radians, bounds rounded outward).
 std::string to_table(const Result& result);
 
 /// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, stopped (null, or by
 /// what and in which stage), boxes{processed, regular, isolated, exact, boundary, partial, undecided, pending},
-/// undecided_reasons{reason: boxes}, observed_dimension, self_motions[{dimension, boxes, relations}], boundary_reasons,
+/// undecided_reasons{reason: boxes}, observed_dimension, self_motions[{dimension, boxes, relations, text}], boundary_reasons,
 /// range_ends, ranges_found, points, kernel, seconds{total, search, certify}, version.
 /// `observed_dimension` is null, or that of a set along which boxes stayed undecided, as samples show, where it is larger than expected: no claim.
 /// `boundary_reasons` is a list of {reason, boxes}: what `boundary` boxes are not shown to be inside
