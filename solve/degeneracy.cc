@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/rounding.h"
 #include "corank/solve/points.h"
 #include "corank/solve/preconditioner.h"
@@ -118,6 +119,21 @@ bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
   return known;
 }
 
+// Samples that are not precise may miss a known one.
+std::size_t SelfMotions::number_of(Known motion) {
+  const auto same = [&](const Known& other) {
+    const auto& a = motion.motion.relations;
+    const auto& b = other.motion.relations;
+    return a.size() == b.size() && std::all_of(a.begin(), a.end(), [&](const certify::Polynomial& f) {
+             return std::any_of(b.begin(), b.end(), [&](const auto& g) { return certify::proportional(f, g).has_value(); });
+           });
+  };
+  const auto known = std::find_if(known_.begin(), known_.end(), same);
+  if (known != known_.end()) return static_cast<std::size_t>(known - known_.begin());
+  known_.push_back(std::move(motion));
+  return known_.size() - 1;
+}
+
 void SelfMotions::prove_cluster(const Problem& problem, const certify::System& system, std::vector<Postponed>& boxes,
                                 const std::vector<std::size_t>& cluster, double share) {
   std::mt19937 random(1);
@@ -131,9 +147,8 @@ void SelfMotions::prove_cluster(const Problem& problem, const certify::System& s
     ++attempts;
     MotionCandidate candidate = find_self_motion(problem, system, box.near);
     if (!candidate.motion) continue;
-    known_.push_back({std::move(*candidate.motion), candidate.dimension});
     attempts = 0;
-    prove_on(known_.size() - 1, problem, box);
+    prove_on(number_of({std::move(*candidate.motion), candidate.dimension}), problem, box);
   }
 }
 

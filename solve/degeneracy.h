@@ -35,6 +35,8 @@ class SelfMotions {
     certify::SelfMotion motion;
     int dimension = 0;
   };
+  // That of the motion with the same relations; it becomes a known one where there is none.
+  std::size_t number_of(Known motion);
   std::vector<Known> known_;
 };
 
