@@ -111,8 +111,12 @@ bool SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed&
 
 bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
   bool known = false;
+  std::optional<LocalSolution> precise;  // where `near` is not
   for (std::size_t k = 0; k < known_.size() && !box.proof.proven; ++k) {
-    if (!holds_at(known_[k].motion, problem, box.near.x)) continue;
+    if (!holds_at(known_[k].motion, problem, box.near.x)) {
+      if (!precise) precise = local_solution(problem, box.near.x, kTolerance);
+      if (!precise || !holds_at(known_[k].motion, problem, precise->x)) continue;
+    }
     known = true;
     prove_on(k, problem, box);
   }
@@ -147,8 +151,9 @@ void SelfMotions::prove_cluster(const Problem& problem, const certify::System& s
     ++attempts;
     MotionCandidate candidate = find_self_motion(problem, system, box.near);
     if (!candidate.motion) continue;
-    attempts = 0;
+    const std::size_t before = known_.size();
     prove_on(number_of({std::move(*candidate.motion), candidate.dimension}), problem, box);
+    if (known_.size() > before) attempts = 0;
   }
 }
 
@@ -170,7 +175,12 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::Sy
       // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around a few places may
       // be divided on.
       const std::size_t many = along ? kManyBoxes : kTooManyBoxes;
-      if (share < (along ? kSetShare : last) || (open > many && 2 * open > cluster.size())) reason = Reason::degenerate_set;
+      // Around a surface these places are curves, where each size has twice as many boxes, and the surface is proven in four times as many.
+      const bool surface = std::any_of(cluster.begin(), cluster.end(), [&](std::size_t i) {
+        return boxes[i].proof.proven && known_[static_cast<std::size_t>(boxes[i].proof.motion)].dimension > 1;
+      });
+      if (share < (along ? kSetShare : last) || (open > many && (surface || 2 * open > cluster.size())))
+        reason = Reason::degenerate_set;
     }
     for (const std::size_t i : cluster) {
       if (!boxes[i].proof.proven) prove_on_known(problem, boxes[i]);

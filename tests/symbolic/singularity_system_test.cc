@@ -174,8 +174,8 @@ TEST(SingularitySystem, AsksOfCorankTwoForTwoOrthonormalVectorsAndOneChoiceOfThe
               ElementsAre("y_A^2 + x_C^2 = L1^2", "y_B^2 + x_C^2 = L2^2",                                       //
                           "2*y_A*(2*xi1_1) = 0", "2*x_C*(2*xi1_1) + 2*x_C*xi1_2 = 0",                           //
                           "2*y_A*(2*xi2_1) = 0", "2*x_C*(2*xi2_1) + 2*x_C*xi2_2 = 0", "xi1_1^2 + xi1_2^2 = 1",  //
-                          "xi1_1*xi2_1 + xi1_2*xi2_2 = 0", "0.7326*xi2_1 + 0.4652*xi2_2 = 0", "xi2_1^2 + xi2_2^2 = 1"));
-  EXPECT_THAT(texts(s.inequalities), ElementsAre("0.7326*xi1_1 + 0.4652*xi1_2 >= 0", "0.5899*xi2_1 + 0.8799*xi2_2 >= 0"));
+                          "xi1_1*xi2_1 + xi1_2*xi2_2 = 0", "0.04*xi2_1 + 0.52*xi2_2 = 0", "xi2_1^2 + xi2_2^2 = 1"));
+  EXPECT_THAT(texts(s.inequalities), ElementsAre("0.04*xi1_1 + 0.52*xi1_2 >= 0", "0.58*xi2_1 + 0.75*xi2_2 >= 0"));
   EXPECT_EQ(s.equations[4].source, "row 1 of L_z^T xi2 = 0");
   EXPECT_EQ(s.equations[8].source, "choice of xi2");
 }
