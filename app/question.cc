@@ -17,7 +17,17 @@ void Question::add_options(CLI::App& command) {
                   "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
                   "default: right where the matrix M is square, else left")
       ->check(CLI::IsMember({"right", "left"}));
+  add_corank(command);
   add_definitions(command);
+}
+
+void Question::add_corank(CLI::App& command) {
+  command
+      .add_option("--corank", corank,
+                  "The configurations where the kernel of M has at least this dimension, as a set of its own;\n"
+                  "default: 1, all singularities")
+      ->type_name("C")
+      ->check(CLI::PositiveNumber);
 }
 
 void Question::add_definitions(CLI::App& command) {
@@ -50,6 +60,7 @@ symbolic::Mechanism load(const Question& question) {
 
 std::optional<symbolic::SingularitySet> chosen_set(const Question& question, const symbolic::Mechanism& mechanism) {
   if (mechanism.is_plain_system()) {
+    if (question.corank != 1) throw UsageError(fmt::format("{}: a plain system has no --corank", question.file));
     if (question.set.empty()) return std::nullopt;
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no --set", question.file));
   }
@@ -65,9 +76,9 @@ symbolic::TrigonometricSystem system_of(const Question& question, const symbolic
   if (!set) return symbolic::plain_system(mechanism);
   const auto side = symbolic::kernel_side_from_string(question.kernel);
   // Without scales first: it checks what is asked for.
-  symbolic::TrigonometricSystem system = symbolic::singularity_system(mechanism, *set, side);
+  symbolic::TrigonometricSystem system = symbolic::singularity_system(mechanism, *set, side, {}, question.corank);
   const std::vector<std::string> scales = symbolic::kernel_scales(mechanism, *set, side);
-  return scales.empty() ? system : symbolic::singularity_system(mechanism, *set, side, scales);
+  return scales.empty() ? system : symbolic::singularity_system(mechanism, *set, side, scales, question.corank);
 }
 
 }  // namespace corank::app

@@ -18,9 +18,11 @@ inline const std::vector<std::string> kSets = {"cspace", "forward", "inverse", "
 struct Question {
   std::string file, set, kernel;
   std::vector<std::string> definitions;  ///< each "NAME=EXPR"
+  int corank = 1;                        ///< of the sets with a kernel
 
-  /// FILE, --set, --kernel and -D.
+  /// FILE, --set, --kernel, --corank and -D.
   void add_options(CLI::App& command);
+  void add_corank(CLI::App& command);
   /// -D alone.
   void add_definitions(CLI::App& command);
 };

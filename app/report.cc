@@ -51,14 +51,16 @@ report::Result solve_one(const ReportCommand& command, const symbolic::Mechanism
   command.search.limits.apply(limits);
   solve::Control control(command.search.limits_beside(limits, taken));
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
+  Question question = command.question;
+  if (set == symbolic::SingularitySet::cspace) question.corank = 1;  // it has no kernel
+  const symbolic::TrigonometricSystem trigonometric = system_of(question, mechanism, set);
   const certify::System system = algebrize(trigonometric);
   control.ended();  // notes the stage
   stage.reset();
   solve::Options options = command.search.options(system, set);
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
   line.follow(options, control);
-  return solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, control, kDigits);
+  return solve_set(question, mechanism, set, system, trigonometric.kernel_scales, options, control, kDigits);
 }
 
 std::vector<report::Result> solve_all(const ReportCommand& command, const symbolic::Mechanism& mechanism) {
@@ -155,7 +157,7 @@ ExitStatus write_report(ReportCommand command) {
   bool complete = !figures.stopped;
   for (const report::Result& result : results) {
     complete = complete && result.cover.complete() && result.stopped.empty();
-    fmt::print("{}: {}\n", report::set_title(result.set), report::set_words(result, report::components(result)).finding);
+    fmt::print("{}: {}\n", report::set_title(result), report::set_words(result, report::components(result)).finding);
   }
   fmt::print("{}\n", report::printable_line((folder / "index.html").string()));
   if (complete) return kDone;
@@ -174,6 +176,7 @@ void add_report(CLI::App& program, Action& action) {
   const auto command = std::make_shared<ReportCommand>();
   sub->add_option("FILE", command->question.file, "The model file (.cuik) of a mechanism");
   command->search.add_sets(*sub);
+  command->question.add_corank(*sub);
   command->question.add_definitions(*sub);
   command->search.add_limits(*sub);
   sub->add_flag("--proof", command->search.proof,

@@ -51,6 +51,7 @@ std::string SetSearch::command_line(const std::string& subcommand, const Questio
   std::string text = "corank " + subcommand + " " + std::filesystem::path(question.file).filename().string();
   if (sigma) text += fmt::format(" --sigma {:g}", *sigma);
   if (cspace_sigma) text += fmt::format(" --cspace-sigma {:g}", *cspace_sigma);
+  if (question.corank != 1) text += fmt::format(" --corank {}", question.corank);
   for (const std::string& definition : question.definitions) text += " -D '" + definition + "'";
   return text;
 }

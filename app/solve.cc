@@ -179,7 +179,8 @@ void add_solve(CLI::App& program, Action& action) {
   sub->footer(
       "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --sigma 0.01 -o forward.h5\n"
-      "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50");
+      "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50\n"
+      "  corank solve models/dextar.cuik --set inverse --corank 2    # both arms stretched at once");
   sub->callback([command, json, &action] {
     if (json->count() > 0 && !command->json_path) command->json_path = "";
     action = [command] { return solve_model(*command); };

@@ -71,6 +71,8 @@ report::Result solve_set(const Question& question, const symbolic::Mechanism& me
   result.options = {kernel_of(question, set),     result.cover.sigma, kernel_scales,
                     system.coefficient_tolerance, options.threads,    options.max_boxes,
                     options.max_solutions,        options.time_limit, overrides(question)};
+  result.options.corank = system.kernel_vectors;
+  report::describe_corank(system, result);
   return result;
 }
 

@@ -126,7 +126,7 @@ ExitStatus write_sweep(SweepCommand command) {
       if (!result.stopped.empty())
         fmt::print(stderr, "corank: {} = {}, {}: {}\n", family.constant, member.value, result.set, stopped_words(result));
       complete = complete && result.cover.complete() && result.stopped.empty();
-      fmt::print("{} = {}, {}: {}\n", family.constant, member.value, report::set_title(result.set),
+      fmt::print("{} = {}, {}: {}\n", family.constant, member.value, report::set_title(result),
                  report::set_words(result, report::components(result)).finding);
     }
   }

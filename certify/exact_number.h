@@ -44,7 +44,8 @@ class ExactNumber {
   friend ExactNumber operator/(const ExactNumber& x, const ExactNumber& y);
   friend ExactNumber pow(const ExactNumber& x, int n);
 
-  /// Rational arithmetic is folded, so a number built from rationals by + − · / and integer powers always is one.
+  /// Rational arithmetic is folded, so a number built from rationals by + − · / and integer powers always is one; and so are sums of rational
+  /// multiples of one expression: 2·√3 − √3 − √3 is 0.
   bool is_rational() const;
   bool is_zero() const;  ///< is the rational number 0 (false says nothing about other expressions)
 

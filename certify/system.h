@@ -90,6 +90,9 @@ struct System {
   double coefficient_tolerance = 0;
   /// Number of leading variables that describe the configuration q; the others (kernel vector, auxiliaries) follow.
   int configuration_size = 0;
+  /// c, where the equations ask for c independent kernel vectors: M(q) ξ¹ = … = M(q) ξᶜ = 0. The variables of kind `kernel` are those of ξ¹, then
+  /// those of ξ² …; they are equally many of each.
+  int kernel_vectors = 1;
 
   int size() const { return static_cast<int>(variables.size()); }
   /// max(0, n − m): the dimension of the solution set where the equations are independent.

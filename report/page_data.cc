@@ -94,7 +94,7 @@ certify::System system_of(const symbolic::Mechanism& mechanism, const Result& re
   certify::System system;
   try {
     system = algebrize(singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
-                                          result.options.kernel_scales));
+                                          result.options.kernel_scales, result.options.corank));
   } catch (const symbolic::ModelError& error) {  // scales that are none of this model
     throw ResultFileError(std::string("the result's system: ") + error.what());
   }

@@ -19,7 +19,12 @@ std::string counted(std::size_t n, const std::string& one, const std::string& ma
 }
 std::string boxes_text(std::size_t n) { return counted(n, "box", "boxes"); }
 
-std::string meaning(const std::string& set) {
+std::string meaning(const std::string& set, int corank) {
+  if (corank > 1 && set == "cspace-singular")
+    return fmt::format("the constraints’ Jacobian loses at least {} of its ranks", corank);
+  if (corank > 1)
+    return fmt::format("with the {} locked the mechanism can still move, to first order, in at least {} independent ways",
+                       set == "forward" ? "actuators" : "output", corank);
   if (set == "cspace") return "every way to assemble the mechanism";
   if (set == "forward") return "with the actuators locked the mechanism can still move, to first order";
   if (set == "inverse") return "with the output locked the mechanism can still move, to first order";
@@ -190,11 +195,13 @@ std::string percentage(std::size_t part, std::size_t whole) {
   return share > 99.9 ? "over 99.9 %" : fmt::format("{:.1f} %", share);
 }
 
-std::string set_title(const std::string& set) {
+std::string set_title(const Result& result) {
+  const std::string& set = result.set;
+  const std::string corank = result.options.corank == 1 ? "" : fmt::format(" of corank {}", result.options.corank);
   if (set == "cspace") return "C-space";
-  if (set == "forward") return "Forward singularities";
-  if (set == "inverse") return "Inverse singularities";
-  if (set == "cspace-singular") return "C-space singularities";
+  if (set == "forward") return "Forward singularities" + corank;
+  if (set == "inverse") return "Inverse singularities" + corank;
+  if (set == "cspace-singular") return "C-space singularities" + corank;
   return "Solutions";
 }
 
@@ -237,8 +244,8 @@ std::string digits_text(const certify::Interval& x) { return with_minus(outward_
 SetWords set_words(const Result& result, const Components& found) {
   const certify::Cover& cover = result.cover;
   SetWords words;
-  words.title = set_title(result.set);
-  words.meaning = meaning(result.set);
+  words.title = set_title(result);
+  words.meaning = meaning(result.set, result.options.corank);
   for (int v = 0; v < certify::kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
     if (const std::size_t n = cover.count(verdict); n > 0)
@@ -247,7 +254,7 @@ SetWords set_words(const Result& result, const Components& found) {
   if (cover.boxes.empty()) {
     words.finding = "None";
     words.proven.push_back(result.set == "cspace" ? "The mechanism cannot be assembled within the search domain."
-                           : result.set == "cspace-singular"
+                           : result.set == "cspace-singular" && result.options.corank == 1
                                ? "There is none in the search domain, so C-space is smooth there."
                                : "There is none in the search domain.");
     return words;

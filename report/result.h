@@ -41,6 +41,7 @@ struct RunOptions {
   std::uint64_t max_solutions = 0;  ///< 0: all
   double time_limit = 0;            ///< seconds; 0: no limit
   std::vector<ConstantOverride> constants;
+  int corank = 1;  ///< the set is that of kernels of this dimension at least; the number of kernel vectors
   friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };
 
@@ -74,11 +75,16 @@ struct Result {
   /// cover may be complete all the same: then less is proven of it than could be.
   std::string stopped;
   certify::Cover cover;
+  /// Where boxes are undecided along a set of degenerate solutions: the dimension of the kernel that the singular values in most of them
+  /// suggest, where that is above options.corank; 0: nothing. Computed from the others by describe_corank(): a hint.
+  int seems_of_corank = 0;
   DomainNotes domain;                ///< computed from the others by describe_domain(): result files do not hold it
   std::vector<std::string> motions;  ///< each self-motion in words, computed by describe_motions(), likewise
 };
 
 /// Copies what a result keeps of a system: variables, angles, sizes, and its dimension to the cover.
 void describe_system(const certify::System& system, Result& result);
+/// Result::seems_of_corank: the number of singular values of M at the boxes' midpoints that are small beside the largest. Heuristic.
+void describe_corank(const certify::System& system, Result& result);
 
 }  // namespace corank::report

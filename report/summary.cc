@@ -14,6 +14,7 @@
 #include "corank/report/domain_notes.h"
 #include "corank/report/exact_angle.h"
 #include "corank/report/motion_words.h"
+#include "corank/symbolic/singularity_system.h"
 
 namespace corank::report {
 namespace {
@@ -136,8 +137,9 @@ std::string decimals_text(const Result& result) {
 // Boxes by the bound of the kernel's dimension; without the undecided boxes that may hold no solution.
 struct KernelTally {
   std::map<int, std::size_t> at_most;
-  std::size_t larger = 0;     // with a bound above 1
+  std::size_t larger = 0;     // with a bound above the corank that was asked for
   std::size_t explained = 0;  // of these, with a point where the dimension is known to be above 1
+  std::size_t known = 0;      // of the others, likewise: the corank asked for was above 1
 };
 
 KernelTally kernel_tally(const Result& result) {
@@ -146,27 +148,29 @@ KernelTally kernel_tally(const Result& result) {
     const certify::ExactPoint* point = exact_point(result, box);
     if (box.corank < 0 || (box.verdict == Verdict::undecided && !point)) continue;
     ++tally.at_most[box.corank];
-    if (box.corank <= 1) continue;
-    ++tally.larger;
-    if (point && point->corank > 1) ++tally.explained;
+    const bool larger = box.corank > result.options.corank;
+    tally.larger += larger;
+    if (point && point->corank > 1) ++(larger ? tally.explained : tally.known);
   }
   return tally;
 }
 
 // What is known of the kernel's dimension, and the points where it is 2 or more.
 std::string kernel_text(const Result& result) {
-  const auto [at_most, larger, explained] = kernel_tally(result);
+  const auto [at_most, larger, explained, known] = kernel_tally(result);
+  const int least = result.options.corank;
   if (at_most.empty()) return "";
   std::string text = "\nkernel:";
   const char* between = "";
   for (const auto& [bound, n] : at_most) {
-    text += bound <= 1 ? fmt::format(" dimension 1 in {}", plural(n, "box"))
-                       : fmt::format("{} at most {} in {}", between, bound, n);
+    text += bound <= least ? fmt::format(" dimension {} in {}", least, plural(n, "box"))
+                           : fmt::format("{} at most {} in {}", between, bound, n);
     between = ",";
   }
   text += "\n";
   const auto points = std::count_if(result.cover.exact_points.begin(), result.cover.exact_points.end(),
                                     [](const certify::ExactPoint& p) { return p.corank > 1; });
+  if (known > 0) text += fmt::format("  a configuration where this is proven lies in {} of them:\n", known);
   if (explained > 0)
     text +=
         fmt::format("  {} of these hold {} where it is proven:\n", explained == larger ? "all" : std::to_string(explained),
@@ -185,8 +189,8 @@ std::string kernel_text(const Result& result) {
     text += "\n";
   }
   if (larger > explained)
-    text +=
-        fmt::format("  whether it is larger than 1 anywhere in {} is not known\n", plural(larger - explained, "other box"));
+    text += fmt::format("  whether it is larger than {} anywhere in {} is not known\n", least,
+                        plural(larger - explained, "other box"));
   return text;
 }
 
@@ -290,10 +294,10 @@ std::string reasons_text(const certify::Cover& cover) {
 
 std::string to_table(const Result& result) {
   const certify::Cover& cover = result.cover;
-  std::string text = fmt::format("{}, {}: {}, {}, {}; dimension {}\n", result.model, result.set,
-                                 plural(result.variables.size(), "variable"),
-                                 plural(static_cast<std::size_t>(result.equations), "equation"),
-                                 plural(static_cast<std::size_t>(result.inequalities), "inequality"), cover.dimension);
+  std::string text = fmt::format(
+      "{}, {}: {}, {}, {}; dimension {}\n", result.model, symbolic::set_with_corank(result.set, result.options.corank),
+      plural(result.variables.size(), "variable"), plural(static_cast<std::size_t>(result.equations), "equation"),
+      plural(static_cast<std::size_t>(result.inequalities), "inequality"), cover.dimension);
   text += fmt::format("{}{}{}\n", sigma_text(cover.sigma), result.options.kernel.empty() ? "" : ", kernel ",
                       result.options.kernel);
   if (!result.domain.found.empty()) text += found_ranges_text(result);
@@ -313,6 +317,8 @@ std::string to_table(const Result& result) {
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
   text += reasons_text(cover);
+  if (result.seems_of_corank > result.options.corank)
+    text += fmt::format("    the kernel there seems to have dimension {0}: try --corank {0}\n", result.seems_of_corank);
   text += motions_text(result);
   if (!result.domain.boundary.empty()) text += boundary_text(result.domain);
   if (const std::size_t wide = cover.wider_than_sigma; wide > 0) {
@@ -380,6 +386,7 @@ std::string to_json(const Result& result) {
   Json json;
   json["model"] = result.model;
   json["set"] = result.set;
+  json["corank"] = result.options.kernel.empty() ? Json() : Json(result.options.corank);
   json["system"] = {{"variables", result.variables.size()},
                     {"equations", result.equations},
                     {"inequalities", result.inequalities},
@@ -406,6 +413,7 @@ std::string to_json(const Result& result) {
   json["undecided_reasons"] = Json::object();
   for (const auto& [reason, n] : undecided_reasons(cover)) json["undecided_reasons"][to_string(reason)] = n;
   json["observed_dimension"] = cover.observed_dimension > 0 ? Json(cover.observed_dimension) : Json();
+  json["seems_of_corank"] = result.seems_of_corank > 0 ? Json(result.seems_of_corank) : Json();
   json["self_motions"] = Json::array();
   for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
     Json relations = Json::array();

@@ -121,7 +121,7 @@ certify::System system_of(const Result& result) {
     throw ResultFileError("the result's model has no set '" + result.set + "'");
   certify::System system = symbolic::algebrize(
       set ? symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
-                                         result.options.kernel_scales)
+                                         result.options.kernel_scales, result.options.corank)
           : symbolic::plain_system(mechanism));
   system.coefficient_tolerance = result.options.tolerance;
   try {
@@ -180,7 +180,7 @@ std::vector<std::string> contradictions(const Result& result, const certify::Sys
 std::string to_table(const Verification& verification, const Result& result) {
   const Report& report = verification.report;
   std::string text = fmt::format("{}, {}: checked against its model with intervals of 160 bits and exact numbers\n\n",
-                                 result.model, result.set);
+                                 result.model, symbolic::set_with_corank(result.set, result.options.corank));
   for (const std::string& c : verification.contradictions) text += "file: " + c + "\n";
   if (!verification.contradictions.empty()) return printable(text + "NOT VERIFIED: nothing else was checked\n");
   text += fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", "verdict", "verified", "failed", "not checkable");

@@ -19,6 +19,7 @@ using certify::Reason;
 constexpr double kPointShare = 1e-7, kOtherShare = 1.0 / 400;  // the last of the sizes
 constexpr double kSetShare = 1.0 / 60;                         // the last along a set of degenerate solutions
 constexpr double kIsolatedHull = 8;                            // in box sizes: boxes around one point hardly reach farther
+constexpr double kWideExtent = 0.25;                           // of the typical sizes: reaches no cluster around one point
 constexpr std::size_t kProbes = 8;                             // of a cluster
 constexpr int kDirections = 3;
 constexpr double kProbeStep = 0.5;     // in box sizes of the first level
@@ -75,16 +76,19 @@ bool goes_on(const Problem& problem, const LocalSolution& start, double step, st
   return false;
 }
 
-bool is_isolated(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster,
-                 double share) {
+// Of the typical sizes: how far the cluster reaches.
+double extent(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster) {
   Box hull = boxes[cluster[0]].x;
   for (const std::size_t i : cluster)
     for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], boxes[i].x[j]);
-  return problem.relative_width(hull) <= kIsolatedHull * share;
+  return problem.relative_width(hull);
 }
 
 bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster,
                     double share) {
+  // Surfaces meet each other and themselves along curves, curves do so at points. Around a point small boxes reach about √share.
+  const bool surface = problem.compiled.variables() > problem.compiled.equations() + 1;
+  if (surface && share < kSetShare && extent(problem, boxes, cluster) > kWideExtent) return true;
   std::mt19937 random(1);
   const std::size_t probes = std::min(kProbes, cluster.size());
   std::size_t along = 0;
@@ -137,9 +141,13 @@ void SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed&
 
 bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
   bool known = false;
+  std::optional<LocalSolution> precise;  // where `near` is not
   for (std::size_t k = 0; k < known_.size() && !box.proof.proven; ++k) {
-    known = known || holds_at(known_[k].motion, problem, box.near.x);
-    if (may_hold_in(known_[k].motion, box.x)) prove_on(k, problem, box);
+    const auto& motion = known_[k].motion;
+    if (!known && !holds_at(motion, problem, box.near.x) && !precise)
+      precise = local_solution(problem, box.near.x, kTolerance);
+    known = known || holds_at(motion, problem, box.near.x) || (precise && holds_at(motion, problem, precise->x));
+    if (may_hold_in(motion, box.x)) prove_on(k, problem, box);
   }
   return known || box.proof.proven;
 }
@@ -159,13 +167,15 @@ void SelfMotions::prove_cluster(const Problem& problem, const certify::System& s
     const int expected = std::max(0, problem.compiled.variables() - problem.compiled.equations());
     if (candidate.dimension > expected) observed_ = std::max(observed_, candidate.dimension);
     if (!candidate.motion) continue;
-    const auto same = std::find_if(known_.begin(), known_.end(), [&](const Known& known) {
-      return certify::same_relations(known.motion, *candidate.motion);
+    const auto same = std::find_if(known_.begin(), known_.end(), [&](const Known& other) {
+      return certify::same_relations(other.motion, *candidate.motion);
     });
-    if (same != known_.end()) continue;
-    known_.push_back({std::move(*candidate.motion), candidate.dimension});
-    attempts = 0;
-    prove_on(known_.size() - 1, problem, box);
+    const auto index = static_cast<std::size_t>(same - known_.begin());
+    if (same == known_.end()) {
+      known_.push_back({std::move(*candidate.motion), candidate.dimension});
+      attempts = 0;
+    }
+    prove_on(index, problem, box);
   }
 }
 
@@ -178,7 +188,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::Sy
   for (const std::vector<std::size_t>& cluster : clusters(sides, problem.limits(1e-3 * share), problem.ended)) {
     if (problem.ended()) break;  // the search takes what is left back
     Reason reason = share < last ? Reason::degenerate_point : Reason::none;
-    if (!is_isolated(problem, boxes, cluster, share)) {
+    if (extent(problem, boxes, cluster) > kIsolatedHull * share) {  // more than one point
       reason = Reason::none;
       const bool along = is_along_a_set(problem, boxes, cluster, share);
       if (along) prove_cluster(problem, system, boxes, cluster, share);
@@ -187,7 +197,12 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const certify::Sy
       // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around a few places may
       // be divided on.
       const std::size_t many = along ? kManyBoxes : kTooManyBoxes;
-      if (share < (along ? kSetShare : last) || (open > many && 2 * open > cluster.size())) reason = Reason::degenerate_set;
+      // Around a surface these places are curves, where each size has twice as many boxes, and the surface is proven in four times as many.
+      const bool surface = std::any_of(cluster.begin(), cluster.end(), [&](std::size_t i) {
+        return boxes[i].proof.proven && known_[static_cast<std::size_t>(boxes[i].proof.motion)].dimension > 1;
+      });
+      if (share < (along ? kSetShare : last) || (open > many && (surface || 2 * open > cluster.size())))
+        reason = Reason::degenerate_set;
     }
     for (const std::size_t i : cluster) {
       const bool on_known = !boxes[i].proof.proven && prove_on_known(problem, boxes[i]);

@@ -27,13 +27,17 @@ class Slicer {
   /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so. Where the
   /// search ends meanwhile, the rest is added as pending boxes. `whole`: the sheet is not cut at all.
   void slice(const certify::Sheet& sheet, std::span<const certify::Interval> x, std::vector<Found>& found,
-             bool whole = false);
+             bool whole = false) {
+    slice(sheet, x, found, whole, true);
+  }
 
   /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the
   /// tolerance? Cuts the piece as finely as the bounds need, `depth` times at most. True is proven, on each of the parts.
   bool holds_on_parts(const certify::Sheet& sheet, const std::vector<int>& free, certify::Box piece, int depth);
 
  private:
+  void slice(const certify::Sheet& sheet, std::span<const certify::Interval> x, std::vector<Found>& found, bool whole,
+             bool rechartable);
   // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower; how
   // far Y·S was from I in the last step, on this piece or on the one that it was cut from.
   struct Piece {
@@ -57,6 +61,7 @@ class Slicer {
     std::vector<int> free;
     std::shared_ptr<const certify::Box> region;
     bool whole = false;
+    bool rechartable = true;  // not yet in a chart that was chosen for σ: pieces of one never change it again
     unsigned turns = 0;
     bool ended = false;
   };

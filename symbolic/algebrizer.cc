@@ -201,6 +201,7 @@ certify::System Algebrizer::run() {
     for (auto v = first; v < out_.variables.size(); ++v) out_.variables[v].auxiliary = coordinate.auxiliary;
   }
   out_.configuration_size = out_.size();
+  out_.kernel_vectors = in_.corank;
   add_kernel_unknowns();
   expander_.length_functions().start(out_.size());
 

@@ -8,6 +8,7 @@
 
 #include "corank/certify/angle.h"
 #include "corank/tests/report/sample_result.h"
+#include "corank/tests/system_builder.h"
 
 namespace corank::report {
 namespace {
@@ -25,9 +26,10 @@ std::vector<std::string> keys(const ordered_json& object) {
 
 TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   const ordered_json json = ordered_json::parse(to_json(sample_result()));
-  EXPECT_THAT(keys(json), ElementsAre("model", "set", "system", "options", "complete", "stopped", "boxes",
-                                      "undecided_reasons", "observed_dimension", "self_motions", "boundary_reasons",
-                                      "range_ends", "ranges_found", "points", "kernel", "seconds", "version"));
+  EXPECT_THAT(keys(json),
+              ElementsAre("model", "set", "corank", "system", "options", "complete", "stopped", "boxes", "undecided_reasons",
+                          "observed_dimension", "seems_of_corank", "self_motions", "boundary_reasons", "range_ends",
+                          "ranges_found", "points", "kernel", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]),
               ElementsAre("kernel", "sigma", "sigma_length", "sigma_angle", "kernel_scales", "tolerance", "threads",
@@ -80,6 +82,46 @@ TEST(JsonSummary, TellsAPlainSystemFromOneWithAKernel) {
   Result result = sample_result();
   result.options.kernel.clear();
   EXPECT_TRUE(ordered_json::parse(to_json(result))["options"]["kernel"].is_null());
+  EXPECT_TRUE(ordered_json::parse(to_json(result))["corank"].is_null());
+}
+
+TEST(Summary, SaysWhichCorankWasAskedFor) {
+  Result result = sample_result();
+  EXPECT_EQ(ordered_json::parse(to_json(result))["corank"], 1);
+  result.options.corank = 2;
+  result.cover.boxes[3].corank = 2;
+  result.cover.boxes[4].corank = 2;
+  EXPECT_EQ(ordered_json::parse(to_json(result))["corank"], 2);
+  EXPECT_THAT(to_table(result), testing::StartsWith("sample, forward singularities of corank 2: "));
+  EXPECT_THAT(to_table(result),
+              HasSubstr("kernel: dimension 2 in 2 boxes\n  a configuration where this is proven lies in 1 of them:\n"));
+}
+
+// M(x, y) = diag(x, y), ξ in its kernel: of dimension 2 at the origin.
+TEST(Summary, NamesALargerCorankOnlyWhereSingularValuesShowIt) {
+  test::SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  const int xi1 = b.variable("xi1", "-1", "1", certify::VariableKind::kernel),
+            xi2 = b.variable("xi2", "-1", "1", certify::VariableKind::kernel),
+            xi3 = b.variable("xi3", "-1", "1", certify::VariableKind::kernel);
+  b.equation({{"1", {{x, 1}, {xi1, 1}}}}).equation({{"1", {{y, 1}, {xi2, 1}}}}).equation({{"1", {{xi3, 1}}}});
+  Result result = sample_result();
+  result.options.corank = 1;
+  const auto hint_at = [&](double at_x, double at_y, certify::Reason reason) {
+    certify::CoverBox box = sample_box({at_x, at_y, 0.5, 0.5, 0.0}, certify::Verdict::undecided, {});
+    box.reason = reason;
+    result.cover.boxes = {box, box};
+    result.cover.points.clear();
+    describe_corank(b.system(), result);
+    return result.seems_of_corank;
+  };
+  using certify::Reason;
+  EXPECT_EQ(hint_at(0.001, 0.002, Reason::degenerate_set), 2);
+  EXPECT_THAT(to_table(sample_result()), Not(HasSubstr("--corank")));
+  EXPECT_EQ(hint_at(0.001, 0.5, Reason::degenerate_set), 0);
+  EXPECT_EQ(hint_at(0.001, 0.002, Reason::degenerate_point), 0);
+  result.options.corank = 2;
+  EXPECT_EQ(hint_at(0.001, 0.002, Reason::degenerate_set), 0) << "that is what was asked for";
 }
 
 TEST(Summary, LeavesUndecidedBoxesOutOfTheKernelUnlessTheyHoldAKnownPoint) {
