@@ -38,8 +38,8 @@ std::string angle_name(const result::SolFile& boxes, const Pair& pair) {
   return text;
 }
 
-// A regular or isolated box makes a claim about the solutions with these sines and cosines, and none about the angles' whole intervals:
-// its verdict does not pass over. The lack of a claim does.
+// A regular or isolated box makes a claim about the solutions with these sines and cosines, and none about the angles' whole
+// intervals: its verdict does not pass over. The lack of a claim does.
 std::optional<Verdict> verdict_in_angles(const std::optional<Verdict>& verdict) {
   const bool claims_nothing = verdict == Verdict::undecided || verdict == Verdict::pending;
   return claims_nothing ? verdict : std::nullopt;

@@ -1,4 +1,5 @@
-// cuik, as in the CUIK suite: solves NAME.cuik with the parameters of NAME.param and writes NAME.sol. A face of `corank solve`.
+// cuik, as in the CUIK suite: solves NAME.cuik with the parameters of NAME.param and writes NAME.sol. A face of `corank
+// solve`.
 #include <algorithm>
 #include <filesystem>
 

@@ -1,4 +1,5 @@
-// cuikatan2, as in the CUIK suite: replaces sines and cosines by angles in the boxes of a solution file. A face of `corank angles`.
+// cuikatan2, as in the CUIK suite: replaces sines and cosines by angles in the boxes of a solution file. A face of `corank
+// angles`.
 #include "corank/app/run.h"
 
 int main(int argc, char** argv) {

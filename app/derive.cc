@@ -12,14 +12,15 @@
 namespace corank::app {
 namespace {
 
-ExitStatus derive(Question question, const std::string& format) {
-  const symbolic::Mechanism mechanism = load(question);
-  if (question.set.empty() && !mechanism.is_plain_system()) question.set = "cspace";
-  const symbolic::TrigonometricSystem system = system_of(question, mechanism, chosen_set(question, mechanism));
+ExitStatus derive(QuestionOptions options, const std::string& format) {
+  study::Question question = load(options);
+  if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
+  question.set = chosen_set(options, question.model);
+  const symbolic::TrigonometricSystem system = study::equations(question);
   if (format == "cuik") {
     fmt::print("{}", result::printable(symbolic::to_cuik(symbolic::algebrize(system))));
   } else {
-    const symbolic::Derivation derivation = symbolic::derive(mechanism);
+    const symbolic::Derivation derivation = symbolic::derive(question.model);
     fmt::print("{}", result::printable(format == "latex" ? symbolic::to_latex(derivation, system)
                                                          : symbolic::to_text(derivation, system)));
   }
@@ -30,7 +31,7 @@ ExitStatus derive(Question question, const std::string& format) {
 
 void add_derive(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("derive", "Print the constraints, their Jacobian blocks and a system");
-  const auto question = std::make_shared<Question>();
+  const auto question = std::make_shared<QuestionOptions>();
   const auto format = std::make_shared<std::string>("text");
   question->add_options(*command);
   command

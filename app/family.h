@@ -1,7 +1,7 @@
 // A family of mechanisms: one constant runs through equally spaced values, `-D NAME=FROM:TO:COUNT`.
 //
-// Value k of COUNT is FROM + k/(COUNT − 1)·(TO − FROM), exactly: as a rational number where FROM and TO are rational, else as that
-// expression. The ends are FROM and TO themselves.
+// Value k of COUNT is FROM + k/(COUNT − 1)·(TO − FROM), exactly: as a rational number where FROM and TO are rational, else
+// as that expression. The ends are FROM and TO themselves.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@ struct Family {
   static constexpr int kMost = 200;  ///< members
 };
 
-/// The family that the definitions -D ask for: one of them is NAME=FROM:TO:COUNT. Throws UsageError where none or several are, or where
-/// COUNT is no number from 2 to kMost, or FROM equals TO; ModelError where an end is no expression.
+/// The family that the definitions -D ask for: one of them is NAME=FROM:TO:COUNT. Throws UsageError where none or several
+/// are, or where COUNT is no number from 2 to kMost, or FROM equals TO; ModelError where an end is no expression.
 Family family_of(const std::vector<std::string>& definitions);
 
 /// The definitions of member k: those given, with the swept one at its value.

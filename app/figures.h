@@ -15,8 +15,8 @@ namespace corank::app {
 /// Makes the folder and those above it. Throws ResultFileError.
 void make_folder(const std::filesystem::path& folder);
 
-/// The two coordinates of a portrait: the first inputs or outputs, those of one value aside; then other coordinates. Fewer where the
-/// mechanism has no two.
+/// The two coordinates of a portrait: the first inputs or outputs, those of one value aside; then other coordinates. Fewer
+/// where the mechanism has no two.
 std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first);
 
 /// The names of the files; `stopped`: an interrupt has left some out.

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include "corank/app/exit_status.h"
-#include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::app {
 
-void Question::add_options(CLI::App& command) {
+void QuestionOptions::add_options(CLI::App& command) {
   command.add_option("FILE", file, "The model file (.cuik)");
   command.add_option("--set", set, "The set of a mechanism: cspace, forward, inverse or cspace-singular")
       ->check(CLI::IsMember(kSets));
@@ -17,16 +16,29 @@ void Question::add_options(CLI::App& command) {
                   "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
                   "default: right where the matrix M is square, else left")
       ->check(CLI::IsMember({"right", "left"}));
+  add_corank(command);
   add_definitions(command);
 }
 
-void Question::add_definitions(CLI::App& command) {
+void QuestionOptions::add_corank(CLI::App& command) {
+  command
+      .add_option("--corank", corank,
+                  "The configurations where the kernel of M has at least this dimension, as a set of its own;\n"
+                  "default: 1, all singularities")
+      ->type_name("C")
+      ->check(CLI::PositiveNumber);
+}
+
+void QuestionOptions::add_definitions(CLI::App& command) {
   command.add_option("-D", definitions, "Give a constant of the model another value; may be repeated")
       ->type_name("NAME=EXPR")
       ->allow_extra_args(false);
 }
 
-std::vector<result::ConstantOverride> overrides(const Question& question) {
+namespace {
+
+// "NAME=EXPR" → name and expression.
+std::vector<result::ConstantOverride> overrides(const QuestionOptions& question) {
   std::vector<result::ConstantOverride> list;
   for (const std::string& text : question.definitions) {
     const std::size_t equals = text.find('=');
@@ -38,18 +50,22 @@ std::vector<result::ConstantOverride> overrides(const Question& question) {
   return list;
 }
 
-symbolic::Mechanism load(const Question& question) {
-  if (question.file.empty()) throw UsageError("FILE is required; corank --help tells more");
-  const std::vector<result::ConstantOverride> constants = overrides(question);
-  symbolic::Mechanism mechanism = symbolic::read_model(question.file);
-  for (const auto& [name, expression] : constants) {
-    mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
-  }
-  return mechanism;
+}  // namespace
+
+study::Question load(const QuestionOptions& options) {
+  if (options.file.empty()) throw UsageError("FILE is required; corank --help tells more");
+  std::vector<result::ConstantOverride> constants = overrides(options);
+  symbolic::Mechanism model = symbolic::read_model(options.file);
+  result::put_in(constants, model);
+  return {.model = std::move(model),
+          .kernel = symbolic::kernel_side_from_string(options.kernel),
+          .corank = options.corank,
+          .constants = std::move(constants)};
 }
 
-std::optional<symbolic::SingularitySet> chosen_set(const Question& question, const symbolic::Mechanism& mechanism) {
+std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& question, const symbolic::Mechanism& mechanism) {
   if (mechanism.is_plain_system()) {
+    if (question.corank != 1) throw UsageError(fmt::format("{}: a plain system has no --corank", question.file));
     if (question.set.empty()) return std::nullopt;
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no --set", question.file));
   }
@@ -58,16 +74,6 @@ std::optional<symbolic::SingularitySet> chosen_set(const Question& question, con
         fmt::format("{} is a mechanism: --set is required (cspace, forward, inverse or cspace-singular)", question.file));
   }
   return symbolic::singularity_set_from_string(question.set);
-}
-
-symbolic::TrigonometricSystem system_of(const Question& question, const symbolic::Mechanism& mechanism,
-                                        std::optional<symbolic::SingularitySet> set) {
-  if (!set) return symbolic::plain_system(mechanism);
-  const auto side = symbolic::kernel_side_from_string(question.kernel);
-  // Without scales first: it checks what is asked for.
-  symbolic::TrigonometricSystem system = symbolic::singularity_system(mechanism, *set, side);
-  const std::vector<std::string> scales = symbolic::kernel_scales(mechanism, *set, side);
-  return scales.empty() ? system : symbolic::singularity_system(mechanism, *set, side, scales);
 }
 
 }  // namespace corank::app

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/result/result.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/study/question.h"
 
 namespace corank::app {
 
@@ -15,28 +14,23 @@ namespace corank::app {
 inline const std::vector<std::string> kSets = {"cspace", "forward", "inverse", "cspace-singular"};
 
 /// What the options say, not yet checked.
-struct Question {
+struct QuestionOptions {
   std::string file, set, kernel;
   std::vector<std::string> definitions;  ///< each "NAME=EXPR"
+  int corank = 1;                        ///< of the sets with a kernel
 
-  /// FILE, --set, --kernel and -D.
+  /// FILE, --set, --kernel, --corank and -D.
   void add_options(CLI::App& command);
+  void add_corank(CLI::App& command);
   /// -D alone.
   void add_definitions(CLI::App& command);
 };
 
-/// "NAME=EXPR" → name and expression. Throws UsageError.
-std::vector<result::ConstantOverride> overrides(const Question& question);
+/// Reads the model and puts the constants of the options in: the question, but for its set. Throws ModelError, UsageError.
+study::Question load(const QuestionOptions& options);
 
-/// Reads the model and puts the overridden constants in. Throws ModelError, UsageError.
-symbolic::Mechanism load(const Question& question);
-
-/// The set that is asked for: nothing for a plain system. Throws UsageError where a mechanism is given and no set, or a set of a
-/// plain system is asked for.
-std::optional<symbolic::SingularitySet> chosen_set(const Question& question, const symbolic::Mechanism& mechanism);
-
-/// The system of that set, its kernel vector scaled (symbolic/kernel_scale.h). Throws ModelError.
-symbolic::TrigonometricSystem system_of(const Question& question, const symbolic::Mechanism& mechanism,
-                                        std::optional<symbolic::SingularitySet> set);
+/// The set that is asked for: nothing for a plain system. Throws UsageError where a mechanism is given and no set, or a set
+/// of a plain system is asked for.
+std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& options, const symbolic::Mechanism& mechanism);
 
 }  // namespace corank::app

@@ -12,14 +12,15 @@
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/set_search.h"
-#include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/page.h"
 #include "corank/report/page_words.h"
 #include "corank/result/domain_notes.h"
+#include "corank/result/motion_words.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 #include "corank/result/verification.h"
+#include "corank/study/answer.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
@@ -36,36 +37,35 @@ constexpr double kDefaultTimeLimit = 8;
 constexpr std::uint64_t kDefaultMaxFound = 200'000;
 
 struct ReportCommand {
-  Question question;
+  QuestionOptions question;
   SetSearch search{1, kSets, {}, {}, {.max_found = kDefaultMaxFound, .time_limit = kDefaultTimeLimit}};
   std::vector<std::string> results;
   std::string folder;
 };
 
-result::Result solve_one(const ReportCommand& command, const symbolic::Mechanism& mechanism, std::size_t index,
-                         std::uint64_t taken) {
+result::Result solve_one(const ReportCommand& command, study::Question question, std::size_t index, std::uint64_t taken) {
   const std::vector<std::string>& sets = command.search.sets;
-  const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(sets[index]);
+  question.set = symbolic::singularity_set_from_string(sets[index]);
+  if (question.set == symbolic::SingularitySet::cspace) question.corank = 1;  // it has no kernel
   solve::Options limits;
   command.search.limits.apply(limits);
   solve::Control control(command.search.limits_beside(limits, taken));
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
-  const System system = algebrize(trigonometric);
+  const System system = study::system(question);
   control.ended();  // notes the stage
   stage.reset();
-  solve::Options options = command.search.options(system, set);
+  study::Options options{command.search.options(system, *question.set), kDigits};
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
-  line.follow(options, control);
-  return solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, control, kDigits);
+  line.follow(options.search, control);
+  return study::answer(question, system, options, control);
 }
 
-std::vector<result::Result> solve_all(const ReportCommand& command, const symbolic::Mechanism& mechanism) {
+std::vector<result::Result> solve_all(const ReportCommand& command, const study::Question& question) {
   std::vector<result::Result> results;
   std::uint64_t taken = 0;
   // After an interrupt the searches left end at once, with all of their domain pending.
   for (std::size_t i = 0; i < command.search.sets.size(); ++i) {
-    results.push_back(solve_one(command, mechanism, i, taken));
+    results.push_back(solve_one(command, question, i, taken));
     taken += solve::bytes_of(results.back().cover, solve::kPageBytes);
   }
   return results;
@@ -104,21 +104,19 @@ std::vector<result::Result> read_all(std::vector<std::string>& paths) {
   return results;
 }
 
-/// The mechanism as the results had it: their own copy of its text, with the constants that were put in.
-symbolic::Mechanism mechanism_of(const result::Result& result) {
-  symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
-  for (const auto& [name, expression] : result.options.constants)
-    mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
-  return mechanism;
-}
-
 ExitStatus write_report(ReportCommand command) {
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results take the place of FILE: their model is in them");
   std::vector<result::Result> results;
   if (!command.results.empty()) results = read_all(command.results);
-  const symbolic::Mechanism mechanism = results.empty() ? load(command.question) : mechanism_of(results.front());
-  for (result::Result& result : results) result::describe_domain(mechanism, result::system_of(result), result);
+  const study::Question question =
+      results.empty() ? load(command.question) : study::Question{.model = result::model_of(results.front())};
+  const symbolic::Mechanism& mechanism = question.model;
+  for (result::Result& result : results) {
+    const System system = result::system_of(result);
+    result::describe_domain(mechanism, system, result);
+    result::describe_motions(mechanism, system, result);
+  }
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
   make_folder(folder / "figures");
@@ -127,7 +125,7 @@ ExitStatus write_report(ReportCommand command) {
   const Interrupt interrupt;
   report::PageOptions options;
   if (results.empty()) {
-    results = solve_all(command, mechanism);
+    results = solve_all(command, question);
     options.command = command.search.command_line("report", command.question);
     ProgressLine line;
     for (const result::Result& result : results) {
@@ -150,13 +148,13 @@ ExitStatus write_report(ReportCommand command) {
   bool complete = !figures.stopped;
   for (const result::Result& result : results) {
     complete = complete && result.cover.complete() && result.stopped.empty();
-    fmt::print("{}: {}\n", report::set_title(result.set), report::set_words(result, report::components(result)).finding);
+    fmt::print("{}: {}\n", report::set_title(result), report::set_words(result, report::components(result)).finding);
   }
   fmt::print("{}\n", result::printable_line((folder / "index.html").string()));
   if (complete) return kDone;
   for (const result::Result& result : results)
     if (!result.cover.complete() || !result.stopped.empty())
-      fmt::print(stderr, "corank: {}: {}\n", result.set, stopped_words(result));
+      fmt::print(stderr, "corank: {}: {}\n", result.set, study::stopped_words(result));
   if (figures.stopped) fmt::print(stderr, "corank: stopped by an interrupt, in the stage figures\n");
   fmt::print(stderr, "corank: the report is incomplete, and says so\n");
   return kIncomplete;
@@ -169,6 +167,7 @@ void add_report(CLI::App& program, Action& action) {
   const auto command = std::make_shared<ReportCommand>();
   sub->add_option("FILE", command->question.file, "The model file (.cuik) of a mechanism");
   command->search.add_sets(*sub);
+  command->question.add_corank(*sub);
   command->question.add_definitions(*sub);
   command->search.add_limits(*sub);
   sub->add_flag("--proof", command->search.proof,

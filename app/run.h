@@ -10,8 +10,8 @@ namespace corank::app {
 /// Runs `corank ARGS`; messages to the user begin with the name `program`.
 int run(const std::string& program, const std::vector<std::string>& args);
 
-/// For the programs of the CUIK suite: prints `usage` and returns the exit status where the first word is -h or --help, or where there
-/// are fewer than `fewest` words.
+/// For the programs of the CUIK suite: prints `usage` and returns the exit status where the first word is -h or --help, or
+/// where there are fewer than `fewest` words.
 std::optional<int> usage_status(const std::string& usage, const std::vector<std::string>& args, std::size_t fewest);
 
 /// The CUIK suite's file names: the extension may be left out ("cspace" is "cspace.sol" where a .sol is asked for).

@@ -47,10 +47,11 @@ void check_sigma(const std::string& option, const std::optional<double>& sigma, 
     throw UsageError(fmt::format("{}: {} is below {}, what boxes of doubles resolve here", option, *sigma, least));
 }
 
-std::string SetSearch::command_line(const std::string& subcommand, const Question& question) const {
+std::string SetSearch::command_line(const std::string& subcommand, const QuestionOptions& question) const {
   std::string text = "corank " + subcommand + " " + std::filesystem::path(question.file).filename().string();
   if (sigma) text += fmt::format(" --sigma {:g}", *sigma);
   if (cspace_sigma) text += fmt::format(" --cspace-sigma {:g}", *cspace_sigma);
+  if (question.corank != 1) text += fmt::format(" --corank {}", question.corank);
   for (const std::string& definition : question.definitions) text += " -D '" + definition + "'";
   return text;
 }

@@ -25,7 +25,7 @@ struct SetSearch {
   solve::Control::Limits limits_beside(const solve::Options& options, std::uint64_t taken) const;
 
   /// What a user types for sets of this size: "corank report dextar.cuik --sigma 0.1 -D 'l2=1'".
-  std::string command_line(const std::string& subcommand, const Question& question) const;
+  std::string command_line(const std::string& subcommand, const QuestionOptions& question) const;
 };
 
 /// Throws UsageError where sigma is smaller than boxes of doubles resolve.

@@ -12,19 +12,18 @@
 #include "corank/app/question.h"
 #include "corank/app/search_limits.h"
 #include "corank/app/set_search.h"
-#include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/cuik_param.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 #include "corank/result/summary.h"
-#include "corank/symbolic/algebrizer.h"
+#include "corank/study/answer.h"
 
 namespace corank::app {
 namespace {
 
 struct SolveCommand {
-  Question question;
+  QuestionOptions question;
   std::optional<double> sigma, sigma_length, sigma_angle, tolerance;
   SearchLimits limits{.threads = 1};
   std::optional<std::uint64_t> max_solutions;
@@ -66,10 +65,8 @@ void write_file(const std::string& path, const result::Result& result) {
 }
 
 // The system of the set, and what else the options have to say about it.
-System system_to_solve(SolveCommand& command, const symbolic::TrigonometricSystem& trigonometric,
-                       std::optional<symbolic::SingularitySet> set) {
-  System system = symbolic::algebrize(trigonometric);
-  system.coefficient_tolerance = command.tolerance.value_or(set ? 0 : solve::printed_tolerance(system));
+System system_to_solve(SolveCommand& command, const study::Question& question) {
+  System system = study::system(question);
   apply_parameters(command, system);
   check_sigma("--sigma", command.sigma, system);
   check_sigma("--sigma-length", command.sigma_length, system);
@@ -92,7 +89,7 @@ ExitStatus say(const SolveCommand& command, const result::Result& result) {
   }
   if (!command.json_path || !command.json_path->empty()) fmt::print("{}", result::printable(result::to_table(result)));
   if (result.cover.complete() && result.stopped.empty()) return kDone;
-  fmt::print(stderr, "corank: {}; {}\n", stopped_words(result),
+  fmt::print(stderr, "corank: {}; {}\n", study::stopped_words(result),
              result.cover.complete() ? "the cover is complete, but less is proven of it than could be"
                                      : "the result is incomplete");
   return kIncomplete;
@@ -105,21 +102,20 @@ ExitStatus solve_model(SolveCommand command) {
   }
   solve::Control control(limits_of(options_of(command)));  // reading the model takes its time, too
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  const symbolic::Mechanism mechanism = load(command.question);
-  const std::optional<symbolic::SingularitySet> set = chosen_set(command.question, mechanism);
-  const symbolic::TrigonometricSystem trigonometric = system_of(command.question, mechanism, set);
-  const System system = system_to_solve(command, trigonometric, set);
+  study::Question question = load(command.question);
+  question.set = chosen_set(command.question, question.model);
+  question.tolerance = command.tolerance;
+  const System system = system_to_solve(command, question);
   check_output(command.result_path);
   check_output(command.json_path.value_or(""));
   control.ended();  // notes the stage
 
-  solve::Options options = options_of(command);
+  study::Options options{options_of(command), command.digits};
   const Interrupt interrupt;
   ProgressLine line;
-  line.follow(options, control);
+  line.follow(options.search, control);
   stage.reset();
-  const result::Result result =
-      solve_set(command.question, mechanism, set, system, trigonometric.kernel_scales, options, control, command.digits);
+  const result::Result result = study::answer(question, system, options, control);
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result);
   line.clear();
@@ -179,7 +175,8 @@ void add_solve(CLI::App& program, Action& action) {
   sub->footer(
       "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --sigma 0.01 -o forward.h5\n"
-      "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50");
+      "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50\n"
+      "  corank solve models/dextar.cuik --set inverse --corank 2    # both arms stretched at once");
   sub->callback([command, json, &action] {
     if (json->count() > 0 && !command->json_path) command->json_path = "";
     action = [command] { return solve_model(*command); };

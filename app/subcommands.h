@@ -1,4 +1,5 @@
-// The subcommands: each adds its options to the command line and, where it was chosen, leaves what is to be done in `action`.
+// The subcommands: each adds its options to the command line and, where it was chosen, leaves what is to be done in
+// `action`.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
-// corank sweep: solves the sets of a family of mechanisms that differ in one constant and writes one HTML page about them, with the
-// result files and small multiples for a paper beside it.
+// corank sweep: solves the sets of a family of mechanisms that differ in one constant and writes one HTML page about them,
+// with the result files and small multiples for a paper beside it.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -10,11 +10,11 @@
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/set_search.h"
-#include "corank/app/solve_set.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/family_page.h"
 #include "corank/report/page_words.h"
 #include "corank/result/result_file.h"
+#include "corank/study/answer.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_error.h"
 
@@ -25,28 +25,25 @@ namespace {
 constexpr double kCoarser = 2;  // than corank solve
 
 struct SweepCommand {
-  Question question;
+  QuestionOptions question;
   SetSearch search{kCoarser, {"cspace", "forward", "inverse"}};
   std::string folder;
 };
 
 /// A member before it is solved.
 struct Plan {
-  Question question;
   std::string value;
-  symbolic::Mechanism mechanism;
+  study::Question question;
   std::vector<System> systems;  ///< of the sets
-  std::vector<std::vector<std::string>> kernel_scales;
 };
 
 Plan plan(const SweepCommand& command, const Family& family, std::size_t k) {
-  Plan p{command.question, family.values[k], symbolic::Mechanism(), {}, {}};
-  p.question.definitions = definitions_of(family, k, command.question.definitions);
-  p.mechanism = load(p.question);
+  QuestionOptions options = command.question;
+  options.definitions = definitions_of(family, k, command.question.definitions);
+  Plan p{family.values[k], load(options), {}};
   for (const std::string& name : command.search.sets) {
-    const auto trigonometric = system_of(p.question, p.mechanism, symbolic::singularity_set_from_string(name));
-    p.systems.push_back(algebrize(trigonometric));
-    p.kernel_scales.push_back(trigonometric.kernel_scales);
+    p.question.set = symbolic::singularity_set_from_string(name);
+    p.systems.push_back(study::system(p.question));
   }
   return p;
 }
@@ -60,14 +57,15 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
 
 result::Result solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task,
                          std::uint64_t taken) {
-  const symbolic::SingularitySet set = *symbolic::singularity_set_from_string(command.search.sets[set_index]);
+  study::Question question = plan.question;
+  question.set = symbolic::singularity_set_from_string(command.search.sets[set_index]);
   const System& system = plan.systems[set_index];
-  solve::Options options = command.search.options(system, set);
+  study::Options options{command.search.options(system, *question.set)};
   ProgressLine line(task);
   line.show(task);  // searches may be too short to tell more
-  solve::Control control(command.search.limits_beside(options, taken));
-  line.follow(options, control);
-  return solve_set(plan.question, plan.mechanism, set, system, plan.kernel_scales[set_index], options, control);
+  solve::Control control(command.search.limits_beside(options.search, taken));
+  line.follow(options.search, control);
+  return study::answer(question, system, options, control);
 }
 
 /// "member-03-forward.h5": members from 1, with as many digits as the last one needs.
@@ -75,14 +73,14 @@ std::string file_name(std::size_t member, std::size_t members, const std::string
   return fmt::format("member-{:0{}}{}", member + 1, std::to_string(members).size(), rest);
 }
 
-/// Solves member after member and writes each result at once. An interrupt ends the search that is on, with what it left pending; the
-/// member's sets behind it are all pending, and the members behind it are left out.
+/// Solves member after member and writes each result at once. An interrupt ends the search that is on, with what it left
+/// pending; the member's sets behind it are all pending, and the members behind it are left out.
 std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const std::vector<Plan>& plans,
                                             const std::string& constant) {
   std::vector<report::FamilyMember> members;
   std::uint64_t taken = 0;
   for (std::size_t k = 0; k < plans.size() && !Interrupt::stop(); ++k) {
-    report::FamilyMember member{plans[k].value, plans[k].mechanism, {}, {}};
+    report::FamilyMember member{plans[k].value, plans[k].question.model, {}, {}};
     for (std::size_t s = 0; s < command.search.sets.size(); ++s) {
       member.results.push_back(solve_one(
           command, plans[k], s,
@@ -100,7 +98,7 @@ std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const s
 ExitStatus write_sweep(SweepCommand command) {
   const Family family = family_of(command.question.definitions);
   const std::vector<Plan> plans = plan_all(command, family);
-  const symbolic::Mechanism& first = plans.front().mechanism;
+  const symbolic::Mechanism& first = plans.front().question.model;
   const std::vector<std::string> axes = portrait_axes(first, first.outputs());
   if (axes.size() < 2) throw UsageError(fmt::format("{} has no two coordinates to draw a portrait over", first.name()));
   if (command.folder.empty()) command.folder = first.name() + "-sweep";
@@ -115,7 +113,9 @@ ExitStatus write_sweep(SweepCommand command) {
   options.axes = {axes[0], axes[1]};
   options.asked = plans.size();
   options.command = command.search.command_line("sweep", command.question);
-  options.report_command = command.search.command_line("report", plans.front().question);
+  QuestionOptions first_member = command.question;
+  first_member.definitions = definitions_of(family, 0, command.question.definitions);
+  options.report_command = command.search.command_line("report", first_member);
   const Figures figures = write_family_figures(folder / "figures", members, options, Interrupt::stop());
   for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
   result::write_text(folder / "index.html", family_page(members, options));
@@ -124,9 +124,10 @@ ExitStatus write_sweep(SweepCommand command) {
   for (const report::FamilyMember& member : members) {
     for (const result::Result& result : member.results) {
       if (!result.stopped.empty())
-        fmt::print(stderr, "corank: {} = {}, {}: {}\n", family.constant, member.value, result.set, stopped_words(result));
+        fmt::print(stderr, "corank: {} = {}, {}: {}\n", family.constant, member.value, result.set,
+                   study::stopped_words(result));
       complete = complete && result.cover.complete() && result.stopped.empty();
-      fmt::print("{} = {}, {}: {}\n", family.constant, member.value, report::set_title(result.set),
+      fmt::print("{} = {}, {}: {}\n", family.constant, member.value, report::set_title(result),
                  report::set_words(result, report::components(result)).finding);
     }
   }

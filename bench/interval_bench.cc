@@ -1,4 +1,5 @@
-// corank's interval type against CGAL's Interval_nt<false>, which has the same representation: same operands, same rounding mode.
+// corank's interval type against CGAL's Interval_nt<false>, which has the same representation: same operands, same rounding
+// mode.
 #include <CGAL/Interval_nt.h>
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 // Runs the benchmark suite and prints a line for each problem, with times also in units of one 14×14 LU measured just before
-// and after. Usage: corank_bench [--threads N] [WORD]: only the lines that contain WORD, with N threads (default 1; 0: one for
-// each core). Lines of minutes run only where WORD has their model's name in it, and end after kLongTimeLimit seconds.
+// and after. Usage: corank_bench [--threads N] [WORD]: only the lines that contain WORD, with N threads (default 1; 0: one
+// for each core). Lines of minutes run only where WORD has their model's name in it, and end after kLongTimeLimit seconds.
 //
 // The first lines are sets of corank's models. The others are files of the CUIK suite, solved as `corank solve FILE --param
 // FILE.param` does, but for at most kTimeLimit seconds; they are no part of the repository and are looked for in
@@ -8,7 +8,8 @@
 //
 //   n, m        variables and equations
 //   kLU         elapsed time in thousands of LU units
-//   overhead    elapsed time ÷ (returned boxes × mean time of one certified test): what all of the search costs, in proofs of
+//   overhead    elapsed time ÷ (returned boxes × mean time of one certified test): what all of the search costs, in proofs
+//   of
 //               each box that it returns. One certified test is the choice of Y at a box's middle for the box's own free
 //               variables (solve/preconditioner.h) and certify::newton_prove. Its mean time is measured here, on the reduced
 //               system and up to kSamples of its proven boxes, evenly spaced in the sorted result, kRepeats times each.

@@ -33,8 +33,8 @@ RationalPolynomial remainder(RationalPolynomial f, const RationalPolynomial& p) 
   return f;
 }
 
-// Sturm's theorem: the number of distinct real roots in (a, b], p(a) ≠ 0 ≠ p(b), is the number of sign changes of the Sturm sequence
-// p, p', −rem(p, p') … at a less that at b.
+// Sturm's theorem: the number of distinct real roots in (a, b], p(a) ≠ 0 ≠ p(b), is the number of sign changes of the Sturm
+// sequence p, p', −rem(p, p') … at a less that at b.
 int roots_between(const RationalPolynomial& p, const ExactNumber& a, const ExactNumber& b) {
   std::vector<RationalPolynomial> sequence{p, {}};
   for (std::size_t k = 1; k < p.size(); ++k) sequence[1].push_back(p[k] * ExactNumber(static_cast<long>(k)));

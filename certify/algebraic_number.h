@@ -1,7 +1,8 @@
-// Exact arithmetic with polynomials in one real algebraic number t: the ring Q[t]/(p) and the real number that each of its elements is.
+// Exact arithmetic with polynomials in one real algebraic number t: the ring Q[t]/(p) and the real number that each of its
+// elements is.
 //
-// t is given by a rational polynomial p and an interval (l, u) with rational ends that holds exactly one of its roots (Sturm's theorem; key
-// BasuPollackRoy2006, ch. 2). p need not be irreducible: what is 0 modulo p is 0 at every root of p.
+// t is given by a rational polynomial p and an interval (l, u) with rational ends that holds exactly one of its roots
+// (Sturm's theorem; key BasuPollackRoy2006, ch. 2). p need not be irreducible: what is 0 modulo p is 0 at every root of p.
 #pragma once
 
 #include <optional>
@@ -14,8 +15,8 @@ namespace corank::certify {
 
 class AlgebraicNumber {
  public:
-  /// Throws std::invalid_argument where a coefficient or an end is not rational, or (lower, upper) does not hold exactly one root of p, where p
-  /// changes its sign.
+  /// Throws std::invalid_argument where a coefficient or an end is not rational, or (lower, upper) does not hold exactly one
+  /// root of p, where p changes its sign.
   AlgebraicNumber(RationalPolynomial p, ExactNumber lower, ExactNumber upper);
 
   const RationalPolynomial& polynomial() const { return p_; }

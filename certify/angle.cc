@@ -44,8 +44,9 @@ struct Corner {
   long turns = 0;
 };
 
-// Where the smallest and the largest angle are taken. By dθ = (c ds − s dc)/(c² + s²) the angle decreases with c where s > 0 and increases
-// where s < 0; it increases with s where c > 0 and decreases where c < 0. So over a box without the origin the extremes are at corners.
+// Where the smallest and the largest angle are taken. By dθ = (c ds − s dc)/(c² + s²) the angle decreases with c where s > 0
+// and increases where s < 0; it increases with s where c > 0 and decreases where c < 0. So over a box without the origin the
+// extremes are at corners.
 struct Extremes {
   Corner low, high;
 };
@@ -56,8 +57,8 @@ Extremes extremes(const Interval& c, const Interval& s) {
   if (c.contains_zero() && s.contains_zero()) return {{-1.0, -0.0}, {-1.0, 0.0}};  // [−π, π]
   if (sl >= 0) return {{ch, ch > 0 ? sl : sh}, {cl, cl > 0 ? sh : sl}};
   if (ch < 0 && sh >= 0) {
-    // Across the cut: the part above it is [low, π], the part below is one turn later, [π, high]. A box that only touches the
-    // cut from below keeps to the lower side, [−π, high].
+    // Across the cut: the part above it is [low, π], the part below is one turn later, [π, high]. A box that only touches
+    // the cut from below keeps to the lower side, [−π, high].
     const long turn = sh == 0 ? 0 : 1;
     return {{turn == 0 ? cl : ch, turn == 0 ? -0.0 : sh}, {ch, sl, turn}};
   }

@@ -1,9 +1,9 @@
 // A System in the form that evaluates fast: flat terms with interval coefficients, one sparsity pattern for all Jacobians.
 //
-// Rows 0 … m−1 are the equations (= 0), rows m … m+p−1 the inequalities (≥ 0); value rows, any further polynomials whose values are
-// asked for, follow. Every interval function requires
-// UpwardRounding::active() and, but for evaluate(), bounded arguments. Derivatives are stored sparsely: entry k of row i, row_begin(i) ≤ k <
-// row_begin(i+1), belongs to variable column(k).
+// Rows 0 … m−1 are the equations (= 0), rows m … m+p−1 the inequalities (≥ 0); value rows, any further polynomials whose
+// values are asked for, follow. Every interval function requires
+// UpwardRounding::active() and, but for evaluate(), bounded arguments. Derivatives are stored sparsely: entry k of row i,
+// row_begin(i) ≤ k < row_begin(i+1), belongs to variable column(k).
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ class CompiledSystem {
   /// Throws std::invalid_argument where System::validate does.
   explicit CompiledSystem(const System& system, std::span<const Polynomial> values = {});
 
-  /// Typical sizes of the variables, positive, at first 1: so that choices (which vector r to try in a proof, when a proof is near, what
-  /// to solve for) do not depend on the units of the model. No statement rests on them.
+  /// Typical sizes of the variables, positive, at first 1: so that choices (which vector r to try in a proof, when a proof
+  /// is near, what to solve for) do not depend on the units of the model. No statement rests on them.
   const std::vector<double>& scales() const { return scales_; }
   void set_scales(std::vector<double> scales);
 

@@ -11,13 +11,14 @@
 
 namespace corank::certify {
 
-/// Intersects each side of x with its domain: no solution of the system, which lies in the domain, is lost. Sides that do not meet stay
-/// as they are. Not for proven pieces, whose claim is about the whole box.
+/// Intersects each side of x with its domain: no solution of the system, which lies in the domain, is lost. Sides that do
+/// not meet stay as they are. Not for proven pieces, whose claim is about the whole box.
 void clip_to_domain(const System& system, std::vector<Interval>& x);
 
 enum class Location { inside, outside, across };
 
-/// Is every point of x in the domain (implied sides need no check) and does it satisfy every inequality (inside), does no point
+/// Is every point of x in the domain (implied sides need no check) and does it satisfy every inequality (inside), does no
+/// point
 /// (outside), or is neither proven (across)?
 class DomainTest {
  public:
@@ -27,9 +28,9 @@ class DomainTest {
   /// With a tolerance > 0 (verdict `partial`) a piece counts as inside where it leaves the domain by no more than
   /// tolerance · max(1, |domain|), and an inequality by no more than the tolerance.
   Location locate(const CompiledSystem& compiled, std::span<const Interval> x, double tolerance = 0) const;
-  /// The same of the zeros of the step's rows in x, a part of its box, whose free values are in the domain: an inequality that the box does
-  /// not decide may be decided there (NewtonStep::value_at_zeros). So a free side may reach as far beyond an end as that end is rounded to
-  /// become a double: the values there are not in the domain.
+  /// The same of the zeros of the step's rows in x, a part of its box, whose free values are in the domain: an inequality
+  /// that the box does not decide may be decided there (NewtonStep::value_at_zeros). So a free side may reach as far beyond
+  /// an end as that end is rounded to become a double: the values there are not in the domain.
   Location locate_zeros(const NewtonStep& step, std::span<const Interval> x, double tolerance = 0) const;
 
  private:

@@ -28,8 +28,8 @@ RationalPolynomial value_of(const Polynomial& f, const ExactPoint& point, const 
 
 using ExactMatrix = std::vector<std::vector<RationalPolynomial>>;
 
-// Elimination without division: a row a is replaced by pivot · a − a_column · (pivot row), so its rank counts as the pivot is not 0 at t.
-// Nothing where an entry's sign cannot be decided, or where `ended` is true before.
+// Elimination without division: a row a is replaced by pivot · a − a_column · (pivot row), so its rank counts as the pivot
+// is not 0 at t. Nothing where an entry's sign cannot be decided, or where `ended` is true before.
 std::optional<int> rank(ExactMatrix rows, const AlgebraicNumber& t, const Ended& ended) {
   int rank = 0;
   std::vector<bool> used(rows.empty() ? 0 : rows[0].size(), false);
@@ -66,6 +66,8 @@ KernelMatrix kernel_matrix(const System& system) {
   KernelMatrix matrix;
   for (int j = 0; j < system.size(); ++j)
     if (is_kernel(system, j)) matrix.unknowns.push_back(j);
+  matrix.unknowns.resize(matrix.unknowns.size() / static_cast<std::size_t>(system.kernel_vectors));  // ξ¹
+  if (matrix.unknowns.empty()) return matrix;
   for (std::size_t i = 0; i < system.equations.size(); ++i) {
     const Polynomial& f = system.equations[i];
     std::vector<Polynomial> row(matrix.unknowns.size());
@@ -77,7 +79,7 @@ KernelMatrix kernel_matrix(const System& system) {
         if (unknown >= 0 || x.power != 1 || x.function != Function::identity) return false;
         unknown = x.variable;
       }
-      if (unknown < 0) return false;
+      if (unknown < 0 || unknown > matrix.unknowns.back()) return false;
       std::erase_if(entry.factors, [&](const Factor& x) { return x.variable == unknown; });
       const auto column = std::find(matrix.unknowns.begin(), matrix.unknowns.end(), unknown) - matrix.unknowns.begin();
       row[static_cast<std::size_t>(column)].monomials.push_back(std::move(entry));
@@ -135,6 +137,7 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point, 
     if (!r) return fails("the rank of the kernel matrix cannot be decided");
     result.corank = static_cast<int>(matrix.unknowns.size()) - *r;
     if (result.corank == 0) return fails("the kernel matrix is regular there");
+    if (result.corank < system.kernel_vectors) return fails("the kernel has a smaller dimension there");
     return result;
   } catch (const std::invalid_argument& error) {
     return fails(error.what());

@@ -1,8 +1,9 @@
 // Does an exactly known point solve a system, and how large is the kernel there? Decided in exact rational arithmetic.
 //
-// Kernel matrix. The equations of a system that are linear and homogeneous in its variables of kind `kernel` read M(q) ξ = 0. The
-// dimension of M's kernel at a point is its number of columns less its rank, and the rank r is proven by exact elimination: r pivots that
-// are not 0, and nothing but zeros in the rows that remain.
+// Kernel matrix. The equations of a system that are linear and homogeneous in its variables of kind `kernel` read M(q) ξ =
+// 0; of a system with several kernel vectors those in ξ¹ alone do. The
+// dimension of M's kernel at a point is its number of columns less its rank, and the rank r is proven by exact elimination:
+// r pivots that are not 0, and nothing but zeros in the rows that remain.
 #pragma once
 
 #include <string>
@@ -16,7 +17,7 @@ namespace corank::certify {
 /// M(q): rows of equations, columns of kernel variables; entries are polynomials in the other variables.
 struct KernelMatrix {
   std::vector<int> equations;  ///< of the system, one for each row
-  std::vector<int> unknowns;   ///< variables of kind kernel, one for each column
+  std::vector<int> unknowns;   ///< variables of kind kernel, of ξ¹, one for each column
   std::vector<std::vector<Polynomial>> rows;
 };
 
@@ -29,17 +30,18 @@ struct ExactVerification {
   int corank = -1;      ///< dimension of the kernel of M at the point; −1: there is no M
 };
 
-/// Proves, where it holds: the point satisfies every equation and inequality of the system and lies in its domain. Where coordinates of
-/// kernel variables are missing, this is about the equations and inequalities without those, and corank tells for how many
-/// independent ξ the kernel equations hold, too. Needs rational coefficients and no sines or cosines. Nothing is proven once
-/// `ended` is true.
+/// Proves, where it holds: the point satisfies every equation and inequality of the system and lies in its domain. Where
+/// coordinates of kernel variables are missing, this is about the equations and inequalities without those, and corank, at
+/// least System::kernel_vectors, tells for how many independent ξ the kernel equations hold, too. Needs rational
+/// coefficients and no sines or cosines. Nothing is proven once `ended` is true.
 ExactVerification verify_exactly(const System& system, const ExactPoint& point, const Ended& ended = {});
 
 /// Where a point is: asks many boxes about one point.
 class PointLocation {
  public:
   explicit PointLocation(const ExactPoint& point);
-  /// Are the coordinates that are known all in the box's sides? True is proven. By enclosures where they decide, else by exact signs.
+  /// Are the coordinates that are known all in the box's sides? True is proven. By enclosures where they decide, else by
+  /// exact signs.
   bool in(const std::vector<Interval>& box) const;
 
  private:
@@ -51,8 +53,8 @@ class PointLocation {
 /// The same for one box.
 bool lies_in(const ExactPoint& point, const std::vector<Interval>& box);
 
-/// A rational number r that no known coordinate's distance from any point of its side exceeds: the box lies in the cube of radius r about
-/// the point.
+/// A rational number r that no known coordinate's distance from any point of its side exceeds: the box lies in the cube of
+/// radius r about the point.
 ExactNumber reach(const ExactPoint& point, const std::vector<Interval>& box);
 
 }  // namespace corank::certify

@@ -81,8 +81,8 @@ class BlowUp {
     return e;
   }
 
-  // Row operations a := pivot · a − a_v · (pivot row), regular since the pivot is not 0, until a row has no linear part or a pivot of its own.
-  // False where a sign cannot be decided, or the run has ended.
+  // Row operations a := pivot · a − a_v · (pivot row), regular since the pivot is not 0, until a row has no linear part or a
+  // pivot of its own. False where a sign cannot be decided, or the run has ended.
   bool eliminate_linear_parts(std::vector<Form>& rows) const {
     for (std::size_t from = 0; from < rows.size(); ++from) {
       std::size_t row = rows.size(), v = 0;

@@ -1,8 +1,10 @@
-// How large can the kernel of M(q) be in a box? M is the kernel matrix of a system (certify/exact_verification.h), k its number of columns.
+// How large can the kernel of M(q) be in a box? M is the kernel matrix of a system (certify/exact_verification.h), k its
+// number of columns.
 //
-// Theorem: let N(q) be an s×s submatrix of M(q) and Y real. If every row sum of |I − Y·N(B)| is below 1, N(q) is regular for every q in the box B
-// (a matrix A with ‖I − Y·A‖ < 1 is regular), so M(q) has rank ≥ s and its kernel a dimension ≤ k − s. At a solution of M(q) ξ = 0, ‖ξ‖ = 1 it
-// is at least 1: where the bound is 1, the dimension is proven.
+// Theorem: let N(q) be an s×s submatrix of M(q) and Y real. If every row sum of |I − Y·N(B)| is below 1, N(q) is regular for
+// every q in the box B
+// (a matrix A with ‖I − Y·A‖ < 1 is regular), so M(q) has rank ≥ s and its kernel a dimension ≤ k − s. At a solution of M(q)
+// ξ = 0, ‖ξ‖ = 1 it is at least 1: where the bound is 1, the dimension is proven.
 #pragma once
 
 #include <vector>
@@ -19,9 +21,9 @@ class KernelBound {
 
   /// False: the system has no kernel equations.
   bool applies() const { return !matrix_.rows.empty(); }
-  /// No q in the box has a kernel of larger dimension. The largest s for which the theorem applies to the submatrix that elimination at the midpoint
-  /// picks; k where none does. Where that is above 1, the largest bound of the box's parts: its sides are halved, the widest first, `halvings`
-  /// times at most. Requires applies() and UpwardRounding::active().
+  /// No q in the box has a kernel of larger dimension. The largest s for which the theorem applies to the submatrix that
+  /// elimination at the midpoint picks; k where none does. Where that is above 1, the largest bound of the box's parts: its
+  /// sides are halved, the widest first, `halvings` times at most. Requires applies() and UpwardRounding::active().
   int at_most(const Box& box, int halvings = 0) const;
 
  private:

@@ -168,9 +168,9 @@ bool krawczyk(const CompiledSystem& system, const Preconditioner& p, std::span<c
   return bounded(w.image);
 }
 
-// Hypothesis (2): |I − Y·J_D(B)| r < r for some r > 0, which holds for some r exactly where the spectral radius is below 1. The
-// candidates for r come from power iteration, the first one is the variables' scales; the one that passes is checked with upward
-// rounding.
+// Hypothesis (2): |I − Y·J_D(B)| r < r for some r > 0, which holds for some r exactly where the spectral radius is below 1.
+// The candidates for r come from power iteration, the first one is the variables' scales; the one that passes is checked
+// with upward rounding.
 bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> b,
                          NewtonBuffers& w) {
   constexpr int kCandidates = 6;
@@ -274,8 +274,8 @@ void NewtonStep::tighten_part(std::span<Interval> x) const {
 }
 
 NewtonStep tighten_sheet(const CompiledSystem& system, const Preconditioner& p, std::span<Interval> x, NewtonWorkspace& w) {
-  // The dependents of p are the sheet's; a step touches no other variable and deletes no solution. An empty outcome would contradict the
-  // sheet's existence proof.
+  // The dependents of p are the sheet's; a step touches no other variable and deletes no solution. An empty outcome would
+  // contradict the sheet's existence proof.
   NewtonStep step(system, p, x, w);
   CORANK_CHECK(!step.outcome().empty);
   return step;

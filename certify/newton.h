@@ -22,7 +22,8 @@ struct Preconditioner {
 
 struct NewtonBuffers;  // certify/newton_buffers.h
 
-/// Memory for the steps and proofs of one thread, so that they need not allocate any: nothing in it means anything. Outlives its steps.
+/// Memory for the steps and proofs of one thread, so that they need not allocate any: nothing in it means anything. Outlives
+/// its steps.
 class NewtonWorkspace {
  public:
   NewtonWorkspace();
@@ -42,18 +43,19 @@ struct NewtonOutcome {
   bool empty = false;    ///< the box holds no solution
   bool regular = false;  ///< no diagonal entry of Y·S(X) held 0: a hint that a proof is worth trying, no claim
   double spread =
-      HUGE_VAL;  ///< largest row sum of |I − Y·S_D|, weighted by the scales, where regular: below 1 a proof may succeed; a hint
+      /// largest row sum of |I − Y·S_D|, weighted by the scales, where regular: below 1 a proof may succeed; a hint
+      HUGE_VAL;
 };
 
-/// One interval Newton step on a box X about its midpoint c: the rows Y·F(c) + Y·S(X)·(x − c) ∋ 0, which each zero x of p's equations in
-/// X satisfies. What it says about a part of X needs nothing but the step. Requires UpwardRounding::active() throughout; a box that is no
-/// part of X breaks an invariant (CORANK_CHECK).
+/// One interval Newton step on a box X about its midpoint c: the rows Y·F(c) + Y·S(X)·(x − c) ∋ 0, which each zero x of p's
+/// equations in X satisfies. What it says about a part of X needs nothing but the step. Requires UpwardRounding::active()
+/// throughout; a box that is no part of X breaks an invariant (CORANK_CHECK).
 class NewtonStep {
  public:
   /// Contracts the dependent variables of x in place.
   /// Theorem (interval Newton, Hansen–Sengupta step; key Neumaier1990, ch. 5; HansenSengupta1981): for any centre c and real
-  /// Y, a zero x of F in X satisfies Y·F(c) + Y·S(X)·(x − c) ∋ 0 row by row, so each row bounds its dependent variable by the
-  /// others. Points of X outside the contracted box are no solutions; where a row is unsatisfiable, X holds none. Proves
+  /// Y, a zero x of F in X satisfies Y·F(c) + Y·S(X)·(x − c) ∋ 0 row by row, so each row bounds its dependent variable by
+  /// the others. Points of X outside the contracted box are no solutions; where a row is unsatisfiable, X holds none. Proves
   /// nothing about existence.
   NewtonStep(const CompiledSystem& system, const Preconditioner& p, std::span<Interval> x, NewtonWorkspace& w);
   ~NewtonStep();
@@ -65,21 +67,23 @@ class NewtonStep {
   const std::vector<int>& equations() const;  ///< p's
   const std::vector<int>& dependent() const;  ///< p's
 
-  /// Contracts the free variables of a part x of X in place: the same rows, each solved for a free variable, so the same theorem. Every
-  /// zero of F in x lies in what is left. False: x holds none. Where the step has no bounded Y·S nothing happens.
+  /// Contracts the free variables of a part x of X in place: the same rows, each solved for a free variable, so the same
+  /// theorem. Every zero of F in x lies in what is left. False: x holds none. Where the step has no bounded Y·S nothing
+  /// happens.
   bool contract_free(std::span<Interval> x) const;
 
-  /// Encloses f_row at the zeros of p's rows in a part x of X, `row` any row of the system. Let R = Y·F and λ real: R(c) + Y·S (z − c) ∋ 0
-  /// at a zero z, so f_row(z) ∈ f_row(c) − λ·R(c) + (S_row − λ·Y·S)(x − c). Here λ makes the dependent variables' part vanish nearly; any
-  /// λ is valid. Where the step has no bounded Y·S: the whole line.
+  /// Encloses f_row at the zeros of p's rows in a part x of X, `row` any row of the system. Let R = Y·F and λ real: R(c) +
+  /// Y·S (z − c) ∋ 0 at a zero z, so f_row(z) ∈ f_row(c) − λ·R(c) + (S_row − λ·Y·S)(x − c). Here λ makes the dependent
+  /// variables' part vanish nearly; any λ is valid. Where the step has no bounded Y·S: the whole line.
   Interval value_at_zeros(int row, std::span<const Interval> x) const;
 
-  /// Of a step inside a proven sheet (tighten_sheet): tightens a part x of X in the same way, by the slopes over X, which hold on every part
-  /// of it. A tenth of the work of a step, and less sharp. Where the step has no bounded Y·S nothing happens.
+  /// Of a step inside a proven sheet (tighten_sheet): tightens a part x of X in the same way, by the slopes over X, which
+  /// hold on every part of it. A tenth of the work of a step, and less sharp. Where the step has no bounded Y·S nothing
+  /// happens.
   void tighten_part(std::span<Interval> x) const;
 
-  /// For heuristics, nothing is proven by them: the step's centre, ∂(dependent[a])/∂(free j) of the linearized system, and how wide rounding
-  /// makes Y·F(c) in row a. Nearly meaningless, 0, where the step has no bounded Y·S.
+  /// For heuristics, nothing is proven by them: the step's centre, ∂(dependent[a])/∂(free j) of the linearized system, and
+  /// how wide rounding makes Y·F(c) in row a. Nearly meaningless, 0, where the step has no bounded Y·S.
   std::span<const double> center() const;
   double derivative(int a, int j) const;
   double noise(int a) const;
@@ -105,13 +109,14 @@ struct Sheet {
   std::vector<Interval> image;   ///< n: free sides as given, dependent sides the Newton image, inside region's interior
 };
 
-/// Tries to prove, for X_F the sides of the free variables in x: for **every** value f ∈ X_F there is **exactly one** dependent
-/// value d with (f, d) in `region` and F(f, d) = 0, and that d lies in `image`. F stands for the
-/// rows p.equations. Besides, every zero of F in x lies in `image`.
+/// Tries to prove, for X_F the sides of the free variables in x: for **every** value f ∈ X_F there is **exactly one**
+/// dependent value d with (f, d) in `region` and F(f, d) = 0, and that d lies in `image`. F stands for the rows p.equations.
+/// Besides, every zero of F in x lies in `image`.
 ///
 /// Theorem (parametric Krawczyk; keys Krawczyk1969, Neumaier1990 ch. 5, Rump2010; proof in doc/theory.md): let Z be a box of
 /// dependent values, B = X_F × Z, c a centre and K = c_D − Y·F(c) + (I − Y·S_D(B))(Z − c_D) − Y·S_F(B)(X_F − c_F).
-///   (1) K ⊂ int Z                          ⇒ for every f ∈ X_F the map d ↦ d − Y·F(f, d) sends Z into itself and has a fixed
+///   (1) K ⊂ int Z                          ⇒ for every f ∈ X_F the map d ↦ d − Y·F(f, d) sends Z into itself and has a
+///   fixed
 ///                                            point (Brouwer), and every zero of F(f, ·) in Z lies in K;
 ///   (2) |I − Y·J_D(B)|·r < r for some r > 0 ⇒ every matrix in Y·J_D(B) is regular, so Y is regular (fixed points are zeros)
 ///                                            and F(f, ·) has at most one zero in Z (mean value theorem, row by row);
@@ -121,8 +126,9 @@ struct Sheet {
 Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x, NewtonWorkspace& w,
                    int iterations = 8);
 
-/// A step inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is known to hold the solutions, free
-/// sides within the sheet's, and p the sheet's rows and dependents. Shrinks dependent sides only, so that the sheet's claim carries over.
+/// A step inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is known to hold the
+/// solutions, free sides within the sheet's, and p the sheet's rows and dependents. Shrinks dependent sides only, so that
+/// the sheet's claim carries over.
 NewtonStep tighten_sheet(const CompiledSystem& system, const Preconditioner& p, std::span<Interval> x, NewtonWorkspace& w);
 
 }  // namespace corank::certify

@@ -1,8 +1,9 @@
-// Y·S for a real r×r matrix Y and a sparse interval matrix S, and its products with interval vectors: the inner loops of the interval
-// Newton operator.
+// Y·S for a real r×r matrix Y and a sparse interval matrix S, and its products with interval vectors: the inner loops of the
+// interval Newton operator.
 //
-// Stored by columns, lower ends negated and apart from upper ones, so that one instruction works on several rows of a column. Every sum
-// and product is rounded upward, which bounds −lo and hi from above. Functions require UpwardRounding::active().
+// Stored by columns, lower ends negated and apart from upper ones, so that one instruction works on several rows of a
+// column. Every sum and product is rounded upward, which bounds −lo and hi from above. Functions require
+// UpwardRounding::active().
 #pragma once
 
 #include <cstddef>
@@ -14,11 +15,12 @@ namespace corank::certify {
 
 class Panel {
  public:
-  /// Y, r×r row-major. False where an entry is not finite: then nothing else may be called. A matrix that is set already stays as it is.
+  /// Y, r×r row-major. False where an entry is not finite: then nothing else may be called. A matrix that is set already
+  /// stays as it is.
   bool set_matrix(const std::vector<double>& y, int r);
 
-  /// The panel becomes Y·S, r×n, S the rows `equations` of a matrix in the system's sparsity pattern. False where an entry is not
-  /// finite: then it may not be used.
+  /// The panel becomes Y·S, r×n, S the rows `equations` of a matrix in the system's sparsity pattern. False where an entry
+  /// is not finite: then it may not be used.
   bool assign_product(const CompiledSystem& system, const std::vector<int>& equations, const std::vector<Interval>& sparse);
 
   /// result[a] := Σ_b Y_ab values[b], for finite values.
@@ -28,8 +30,8 @@ class Panel {
   enum class Diagonal { zero, minus_one };  ///< 0; the entry − 1
   void accumulate(const Interval* offset, const std::vector<int>& dependent, Diagonal diagonal, std::vector<Interval>& sums);
 
-  /// The largest weighted row sum Σ_k |I − P_D|_ak w_k / w_a, D the columns dependent[0], dependent[1], …, and w_a > 0 the weight
-  /// of the variable dependent[a].
+  /// The largest weighted row sum Σ_k |I − P_D|_ak w_k / w_a, D the columns dependent[0], dependent[1], …, and w_a > 0 the
+  /// weight of the variable dependent[a].
   double distance_from_identity(const std::vector<int>& dependent, const std::vector<double>& weights);
 
   /// row[j] −= factor·P_aj for every column j, for a finite factor.

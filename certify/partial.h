@@ -18,8 +18,8 @@ class RedundantEquations {
   /// kPartialTolerance · τ, relative to the sum of an equation's |coefficients|; 0 where applies() is false.
   double tolerance() const { return tolerance_; }
 
-  /// Do all zeros of the step's rows in x, a part of its box, lie in the domain and satisfy every other equation and every inequality, each
-  /// within the tolerance? True proves it (NewtonStep::value_at_zeros); false proves nothing.
+  /// Do all zeros of the step's rows in x, a part of its box, lie in the domain and satisfy every other equation and every
+  /// inequality, each within the tolerance? True proves it (NewtonStep::value_at_zeros); false proves nothing.
   bool hold(const DomainTest& domain, const NewtonStep& step, std::span<const Interval> x) const;
 
  private:

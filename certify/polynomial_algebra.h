@@ -1,7 +1,7 @@
 // Exact arithmetic on sparse polynomials: what a rewriting of a system needs.
 //
-// Every operation acts on a monomial's exact coefficient and, rounded outward, on its enclosure, which may be wider than the exact
-// number asks for: it may carry a coefficient tolerance.
+// Every operation acts on a monomial's exact coefficient and, rounded outward, on its enclosure, which may be wider than the
+// exact number asks for: it may carry a coefficient tolerance.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace corank::certify {
 /// Is the enclosure wider than the exact coefficient asks for?
 bool carries_tolerance(const Monomial& m);
 
-/// f with the variable, which must not stand inside a sine or cosine, replaced by a polynomial, which must have no sine or cosine if f
-/// has the variable in a product or power: f(…, value, …). Monomials whose exact coefficient is the rational number 0 are dropped unless parts of
-/// it carry a tolerance: their sum is 0 for some choices only.
+/// f with the variable, which must not stand inside a sine or cosine, replaced by a polynomial, which must have no sine or
+/// cosine if f has the variable in a product or power: f(…, value, …). Monomials whose exact coefficient is the rational
+/// number 0 are dropped unless parts of it carry a tolerance: their sum is 0 for some choices only.
 /// Requires UpwardRounding::active().
 Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value);
 
@@ -23,7 +23,8 @@ Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value
 /// Requires UpwardRounding::active().
 std::optional<Polynomial> solved_for(const Polynomial& f, int variable);
 
-/// The rational number q ≠ 0 with f = q·g in exact coefficients. Those that are not rational compare by structure: nothing proves nothing.
+/// The rational number q ≠ 0 with f = q·g in exact coefficients. Those that are not rational compare by structure: nothing
+/// proves nothing.
 std::optional<ExactNumber> proportional(const Polynomial& f, const Polynomial& g);
 
 /// Is a + q·b = 0? True is proven: by rational arithmetic, or because a and −q·b are the same expression.

@@ -13,8 +13,8 @@
 
 namespace corank::certify {
 
-/// Shrinks x, whose sides may be infinite, in place. Returns false where no point of x satisfies the row: the box may be deleted. For every variable that
-/// loses more than `share` of its width, changed[variable] is set to 1.
+/// Shrinks x, whose sides may be infinite, in place. Returns false where no point of x satisfies the row: the box may be
+/// deleted. For every variable that loses more than `share` of its width, changed[variable] is set to 1.
 /// Proves: every point of the old box that satisfies the row is in the new one. Says nothing about existence.
 bool project(const CompiledSystem& system, int row, std::span<Interval> x, double share, std::uint8_t* changed);
 

@@ -9,6 +9,8 @@
 namespace corank::certify {
 namespace {
 
+constexpr int kAttempts = 3;
+
 // The first variable of a relation that no other relation mentions; −1: none.
 int own_variable(const std::vector<Polynomial>& relations, std::size_t i) {
   for (const Monomial& m : relations[i].monomials) {
@@ -64,23 +66,47 @@ std::optional<SelfMotion> self_motion(const System& system, std::vector<Polynomi
   return motion;
 }
 
+bool same_relations(const SelfMotion& a, const SelfMotion& b) {
+  // As many: those of one then follow from those of the other, too.
+  if (a.relations.size() != b.relations.size()) return false;
+  std::vector<Polynomial> rest = a.relations;
+  for (std::size_t i = 0; i < b.relations.size(); ++i) {
+    const int v = own_variable(b.relations, i);
+    const auto value = v < 0 ? std::nullopt : solved_for(b.relations[i], v);
+    if (!value) return false;
+    for (Polynomial& f : rest) f = substitute(f, v, *value);
+  }
+  return std::all_of(rest.begin(), rest.end(), [](const Polynomial& f) { return f.monomials.empty(); });
+}
+
 Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, const Preconditioner& e,
                         const Preconditioner& r, std::span<const Interval> x, NewtonWorkspace& w) {
   CORANK_CHECK(
       std::is_permutation(r.equations.begin(), r.equations.end(), motion.sufficient.begin(), motion.sufficient.end()));
   CORANK_CHECK(std::is_permutation(e.dependent.begin(), e.dependent.end(), r.dependent.begin(), r.dependent.end()));
   CORANK_CHECK(std::all_of(e.equations.begin(), e.equations.end(), [&](int row) { return row < system.equations(); }));
-  // (1): at most one zero of E in its region, which holds every zero of E in x.
-  Sheet sheet = newton_prove(system, e, x, w);
-  if (!sheet.proven) return {};
-  // (2): a zero of {R, g} for every value of the same free variables, inside that region.
-  const Sheet other = newton_prove(motion.compiled, r, sheet.image, w);
-  if (!other.proven) return {};
-  for (std::size_t j = 0; j < sheet.region.size(); ++j)
-    if (!sheet.region[j].contains(other.image[j])) return {};
-  for (const int d : sheet.dependent)  // both hold the one zero
-    CORANK_CHECK(sheet.image[static_cast<std::size_t>(d)].intersect(other.image[static_cast<std::size_t>(d)]));
-  return sheet;
+  std::vector<Interval> start(x.begin(), x.end());
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    // (1): at most one zero of E in its region, which holds every zero of E in `start`, hence in x.
+    Sheet sheet = newton_prove(system, e, start, w);
+    if (!sheet.proven) return {};
+    // (2): a zero of {R, g} for every value of the same free variables, inside that region.
+    const Sheet other = newton_prove(motion.compiled, r, sheet.image, w);
+    if (!other.proven) return {};
+    bool inside = true;
+    for (std::size_t j = 0; j < sheet.region.size(); ++j) inside = inside && sheet.region[j].contains(other.image[j]);
+    if (!inside) {  // of {R, g} less may be known than of E: a larger region is to hold it
+      for (const int d : sheet.dependent) {
+        const auto j = static_cast<std::size_t>(d);
+        start[j] = Interval::hull(start[j], Interval::hull(sheet.region[j], other.image[j]));
+      }
+      continue;
+    }
+    for (const int d : sheet.dependent)  // both hold the one zero
+      CORANK_CHECK(sheet.image[static_cast<std::size_t>(d)].intersect(other.image[static_cast<std::size_t>(d)]));
+    return sheet;
+  }
+  return {};
 }
 
 }  // namespace corank::certify

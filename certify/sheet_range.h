@@ -1,4 +1,5 @@
-// How far the solutions over a piece of a proven sheet reach: known from the faces of the piece along which they are monotone.
+// How far the solutions over a piece of a proven sheet reach: known from the faces of the piece along which they are
+// monotone.
 //
 // One interval Newton step over the whole piece overestimates the range by a share that grows with the piece's width; a
 // face that fixes a free variable has no width in it.
@@ -10,9 +11,9 @@
 
 namespace corank::certify {
 
-/// Shrinks the sides wider than their `widths` of a piece of a proven sheet. The piece: n sides, within the sheet's region, then
-/// one for each value row of the system; its dependent and value sides hold the sheet's solutions over its free ones. p:
-/// the sheet's rows and dependents, in any order. No solution is lost, so that the sheet's claim carries over. A side is
+/// Shrinks the sides wider than their `widths` of a piece of a proven sheet. The piece: n sides, within the sheet's region,
+/// then one for each value row of the system; its dependent and value sides hold the sheet's solutions over its free ones.
+/// p: the sheet's rows and dependents, in any order. No solution is lost, so that the sheet's claim carries over. A side is
 /// left as wide as its width allows: who verifies the piece without this theorem has to come that close only.
 ///
 /// Theorem: let the sheet be x_D = d(f), f ∈ X_F, and B the piece; E ≥ |I − Y·J_D(B)|, G ∋ Y·J_f(B) for a free variable f,

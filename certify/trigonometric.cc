@@ -15,7 +15,8 @@ const Interval kHalfPi(0x1.921fb54442d18p+0, 0x1.921fb54442d19p+0), kPi(0x1.921f
     kInversePi(0x1.45f306dc9c882p-2, 0x1.45f306dc9c883p-2);
 const Interval kRange(-1, 1);
 
-// The coefficients of sin(r)/r and cos(r) as series in r²; the last ones are [0, 1] times the next term's, for the remainder.
+// The coefficients of sin(r)/r and cos(r) as series in r²; the last ones are [0, 1] times the next term's, for the
+// remainder.
 struct Series {
   static constexpr int kTerms = 10;
   std::array<Interval, kTerms> sine, cosine;

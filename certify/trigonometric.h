@@ -5,8 +5,8 @@
 //   cos r = Σ_{j<n} (−1)^j r^{2j}/(2j)!     + (−1)^n θ r^{2n}/(2n)!
 // with θ = cos ξ ∈ [0, 1] for some |ξ| ≤ |r|, evaluated in interval arithmetic with π an interval.
 //
-// Over an interval: the extremes are taken at its ends and at those points (j + p/2)π, j an integer, that it holds (p = 0 for the
-// cosine, 1 for the sine), where the value is (−1)^j. A point that may be inside counts as inside.
+// Over an interval: the extremes are taken at its ends and at those points (j + p/2)π, j an integer, that it holds (p = 0
+// for the cosine, 1 for the sine), where the value is (−1)^j. A point that may be inside counts as inside.
 #pragma once
 
 #include <optional>

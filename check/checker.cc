@@ -221,7 +221,8 @@ class Checker {
     return {};
   }
 
-  // The box holds its exact point: a solution, or a configuration that explains it, with a kernel of dimension ≥ 2.
+  // The box holds its exact point: a solution, or a configuration that explains it, with a kernel of dimension ≥ 2 (≥ c,
+  // where the system asks for c kernel vectors).
   std::string check_point_in(const CoverBox& box, bool explained) const {
     if (box.point < 0) return "the file has no exact point for it";
     const auto p = static_cast<std::size_t>(box.point);
@@ -231,7 +232,8 @@ class Checker {
       if (!exact_[p]->knows(j) && !(explained && v.kind == VariableKind::kernel))
         return "its exact point says nothing of " + v.name;
     }
-    if (explained && cover_.exact_points[p].corank < 2) return "its exact point has no kernel of dimension 2 or more";
+    if (const int least = std::max(2, system_.kernel_vectors); explained && cover_.exact_points[p].corank < least)
+      return "its exact point has no kernel of dimension " + std::to_string(least) + " or more";
     if (std::string reason = exact_[p]->inside(box.box); !reason.empty()) return reason;
     return box.verdict == Verdict::exact ? exact_[p]->within(cover_.exact_points[p].sole_within, box.box) : "";
   }

@@ -1,5 +1,5 @@
-// The checker's intervals: MPFI at kBits bits, which rounds every operation outward (Revol, Rouillier 2005). Nothing here is shared with
-// certify/interval.h but doubles, and no rounding mode of the processor matters.
+// The checker's intervals: MPFI at kBits bits, which rounds every operation outward (Revol, Rouillier 2005). Nothing here is
+// shared with certify/interval.h but doubles, and no rounding mode of the processor matters.
 //
 // The empty set is no Enclosure: what may yield it returns false or nothing.
 #pragma once
@@ -14,7 +14,8 @@
 
 namespace corank::check {
 
-/// MPFR's own computations in doubles expect rounding to nearest, whatever the caller computes with. One for each thread that computes.
+/// MPFR's own computations in doubles expect rounding to nearest, whatever the caller computes with. One for each thread
+/// that computes.
 class NearestRounding {
  public:
   NearestRounding() : former_(std::fegetround()) { std::fesetround(FE_TONEAREST); }
@@ -108,7 +109,8 @@ Enclosure arc_cosine(const Enclosure& x);
 std::optional<Enclosure> divide(const Enclosure& num, const Enclosure& den, const Enclosure& within);
 /// hull{x ∈ within : xᵖ ∈ y}, p ≥ 1.
 std::optional<Enclosure> root(const Enclosure& y, int p, const Enclosure& within);
-/// hull{x ∈ within : cos x ∈ y}, hull{x ∈ within : sin x ∈ y}: cos x ∈ y ⇔ x ∈ ∪ₖ (2πk − A) ∪ (2πk + A), A = acos(y ∩ [−1, 1]).
+/// hull{x ∈ within : cos x ∈ y}, hull{x ∈ within : sin x ∈ y}: cos x ∈ y ⇔ x ∈ ∪ₖ (2πk − A) ∪ (2πk + A), A = acos(y ∩ [−1,
+/// 1]).
 std::optional<Enclosure> inverse_cosine(const Enclosure& y, const Enclosure& within);
 std::optional<Enclosure> inverse_sine(const Enclosure& y, const Enclosure& within);
 

@@ -280,8 +280,10 @@ std::string ExactCheck::holds() const {
 std::string ExactCheck::kernel() const {
   std::vector<int> column(system_.variables.size(), -1);
   int unknowns = 0;
-  for (int j = 0; j < system_.size(); ++j)
-    if (is_kernel(j)) column[static_cast<std::size_t>(j)] = unknowns++;
+  for (int j = 0; j < system_.size(); ++j) unknowns += is_kernel(j);
+  unknowns /= system_.kernel_vectors;  // those of one vector
+  for (int j = 0, k = 0; j < system_.size() && k < unknowns; ++j)
+    if (is_kernel(j)) column[static_cast<std::size_t>(j)] = k++;
   if (unknowns == 0) return point_.corank == -1 ? "" : "the system has no kernel vector";
   if (point_.corank == -1) return {};  // nothing is said
   std::vector<std::vector<RationalPolynomial>> rows;
@@ -293,7 +295,8 @@ std::string ExactCheck::kernel() const {
       linear = linear && std::count_if(m.factors.begin(), m.factors.end(), of_kernel) == 1;
       if (!linear) break;
       const auto unknown = std::find_if(m.factors.begin(), m.factors.end(), of_kernel);
-      linear = unknown->power == 1 && unknown->function == Function::identity;
+      linear = unknown->power == 1 && unknown->function == Function::identity &&
+               column[static_cast<std::size_t>(unknown->variable)] >= 0;
       if (!linear) break;
       Monomial rest = m;
       rest.factors.erase(rest.factors.begin() + (unknown - m.factors.begin()));

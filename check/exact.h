@@ -1,7 +1,8 @@
 // Solutions that are known exactly, verified in rational arithmetic (certify/exact_point.h).
 //
-// With p the polynomial that defines t: g(t) = 0 wherever p divides g, and g(t) ≠ 0 wherever an enclosure of g over an interval around t has
-// no 0. Sturm's theorem: a polynomial has as many distinct real roots in (a, b] as its Sturm chain loses changes of sign from a to b.
+// With p the polynomial that defines t: g(t) = 0 wherever p divides g, and g(t) ≠ 0 wherever an enclosure of g over an
+// interval around t has no 0. Sturm's theorem: a polynomial has as many distinct real roots in (a, b] as its Sturm chain
+// loses changes of sign from a to b.
 #pragma once
 
 #include <string>
@@ -21,8 +22,8 @@ class ExactCheck {
   /// Each of these returns what could not be shown, nothing where all was.
   /// All equations, domains and inequalities that have no variable of unknown value hold.
   std::string holds() const;
-  /// The kernel of M(q), M(q) ξ = 0 the equations that are linear in the variables of kind kernel, has the dimension that the point says: exact
-  /// elimination with pivots that are not 0 at t, until all that remains is 0 modulo p.
+  /// The kernel of M(q), M(q) ξ = 0 the equations that are linear in the variables of kind kernel, has the dimension that
+  /// the point says: exact elimination with pivots that are not 0 at t, until all that remains is 0 modulo p.
   std::string kernel() const;
   /// The known coordinates lie in the box.
   std::string inside(const Box& box) const;

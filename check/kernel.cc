@@ -16,18 +16,21 @@ constexpr int kMostParts = 2000;
 KernelCheck::KernelCheck(const System& system, const StopFlag& stop) : stop_(stop) {
   std::vector<int> column(system.variables.size(), -1), identity(system.variables.size());
   std::iota(identity.begin(), identity.end(), 0);
-  for (int j = 0; j < system.size(); ++j)
-    if (system.variables[static_cast<std::size_t>(j)].kind == VariableKind::kernel)
-      column[static_cast<std::size_t>(j)] = columns_++;
+  const auto of_kernel = [&](int j) { return system.variables[static_cast<std::size_t>(j)].kind == VariableKind::kernel; };
+  for (int j = 0; j < system.size(); ++j) columns_ += of_kernel(j);
+  columns_ /= system.kernel_vectors;
+  for (int j = 0, k = 0; j < system.size() && k < columns_; ++j)
+    if (of_kernel(j)) column[static_cast<std::size_t>(j)] = k++;
   for (const Polynomial& f : system.equations) {
     std::vector<Polynomial> entries(static_cast<std::size_t>(columns_));
     bool linear = !f.monomials.empty();
     for (const Monomial& m : f.monomials) {
-      const auto is_kernel = [&](const Factor& x) { return column[static_cast<std::size_t>(x.variable)] >= 0; };
+      const auto is_kernel = [&](const Factor& x) { return of_kernel(x.variable); };
       linear = linear && std::count_if(m.factors.begin(), m.factors.end(), is_kernel) == 1;
       if (!linear) break;
       const auto unknown = std::find_if(m.factors.begin(), m.factors.end(), is_kernel);
-      linear = unknown->power == 1 && unknown->function == Function::identity;
+      linear = unknown->power == 1 && unknown->function == Function::identity &&
+               column[static_cast<std::size_t>(unknown->variable)] >= 0;
       if (!linear) break;
       Monomial rest = m;
       rest.factors.erase(rest.factors.begin() + (unknown - m.factors.begin()));

@@ -1,7 +1,8 @@
-// How large can the kernel of M(q) be in a box? M(q) ξ = 0 are the equations that are linear in the variables of kind kernel.
+// How large can the kernel of M(q) be in a box? M(q) ξ = 0 are the equations that are linear in the variables of kind
+// kernel; of several kernel vectors those in ξ¹ alone.
 //
-// Theorem: let N(q) be an s×s submatrix of M(q) and Y real. If |I − Y·N(B)| x < x for some x > 0, N(q) is regular for every q in B, so M(q) has rank
-// ≥ s there, and its kernel a dimension ≤ k − s, k the number of columns.
+// Theorem: let N(q) be an s×s submatrix of M(q) and Y real. If |I − Y·N(B)| x < x for some x > 0, N(q) is regular for every
+// q in B, so M(q) has rank ≥ s there, and its kernel a dimension ≤ k − s, k the number of columns.
 #pragma once
 
 #include <vector>
@@ -16,7 +17,7 @@ class KernelCheck {
  public:
   explicit KernelCheck(const System& system, const StopFlag& stop = {});
 
-  /// Number of kernel variables.
+  /// Number of kernel variables of one vector.
   int columns() const { return columns_; }
   /// Is there no q in the box with a kernel of a dimension > most? Bisects the box where need be; false: not shown.
   bool is_at_most(int most, const Box& box) const;

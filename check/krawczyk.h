@@ -7,14 +7,15 @@
 
 namespace corank::check {
 
-/// Sets entries that are rounding noise beside the largest of their row to 0: where a variable is 0 on the whole set, its equations then
-/// bound it on their own, however small its side.
+/// Sets entries that are rounding noise beside the largest of their row to 0: where a variable is 0 on the whole set, its
+/// equations then bound it on their own, however small its side.
 void drop_noise(std::vector<double>& y, std::size_t r);
 
 /// The inverse of a row-major r×r matrix in doubles; empty where it is singular to that precision.
 std::vector<double> inverse(std::vector<double> a, std::size_t r);
 
-/// Is E·x < x for some x > 0? Then every matrix I − A with |A| ≤ E is regular: the spectral radius of E is below 1. E ≥ 0, row-major r×r.
+/// Is E·x < x for some x > 0? Then every matrix I − A with |A| ≤ E is regular: the spectral radius of E is below 1. E ≥ 0,
+/// row-major r×r.
 bool is_contraction(const std::vector<double>& e, std::size_t r);
 
 /// Equations F, r of them, over the kept variables.
@@ -23,16 +24,17 @@ class Krawczyk {
   explicit Krawczyk(const std::vector<Row>& equations, int variables);
 
   /// Chooses the r dependent variables, the centre c (a point) and Y, about the inverse of the dependent columns of the
-  /// Jacobian at c. Any c and Y are valid. c: the middle of x; `polished`: moved towards a zero, within x, by Newton's method
-  /// in doubles; `refined`: so with values and an inverse computed from enclosures, for solutions so close to a double one
-  /// that doubles do not tell them apart. False where the matrix is singular.
+  /// Jacobian at c. Any c and Y are valid. c: the middle of x; `polished`: moved towards a zero, within x, by Newton's
+  /// method in doubles; `refined`: so with values and an inverse computed from enclosures, for solutions so close to a
+  /// double one that doubles do not tell them apart. False where the matrix is singular.
   enum class Center { middle, polished, refined };
   bool set(const std::vector<int>& dependent, const Sides& x, Center around);
 
-  /// K = c_D − Y·F(c) + (I − Y·S_D)(Z − c_D) − Y·S_F (X_F − c_F) over x = X_F × Z, with slopes S about c: every zero of F in x has its dependent
-  /// variables in K. Entry a belongs to dependent[a].
+  /// K = c_D − Y·F(c) + (I − Y·S_D)(Z − c_D) − Y·S_F (X_F − c_F) over x = X_F × Z, with slopes S about c: every zero of F in
+  /// x has its dependent variables in K. Entry a belongs to dependent[a].
   Sides image(const Sides& x);
-  /// Is |I − Y·J_D| r < r for some r > 0, J the Jacobian over x? Then F has at most one zero in x for each value of the free variables.
+  /// Is |I − Y·J_D| r < r for some r > 0, J the Jacobian over x? Then F has at most one zero in x for each value of the free
+  /// variables.
   bool is_injective(const Sides& x);
   /// Is the centre's dependent part, with every value of the free variables in x, a zero of all equations, exactly?
   bool center_solves(const Sides& x) const;

@@ -1,4 +1,5 @@
-// What the checker knows of a system after the reduction: rows over the kept variables, and what its equations imply about its domain.
+// What the checker knows of a system after the reduction: rows over the kept variables, and what its equations imply about
+// its domain.
 #pragma once
 
 #include <vector>

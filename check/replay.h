@@ -1,4 +1,5 @@
-// Replays the script of a search (certify/proof.h) in the checker's own arithmetic: is every zero in the domain in a box of the cover?
+// Replays the script of a search (certify/proof.h) in the checker's own arithmetic: is every zero in the domain in a box of
+// the cover?
 #pragma once
 
 #include <functional>

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// (sin x − sin c)/(x − c) = cos((x + c)/2)·sin(h)/h with h = (x − c)/2, and 1 − h²/6 ≤ sin(h)/h ≤ 1; besides, a derivative at a point
-// between x and c.
+// (sin x − sin c)/(x − c) = cos((x + c)/2)·sin(h)/h with h = (x − c)/2, and 1 − h²/6 ≤ sin(h)/h ≤ 1; besides, a derivative
+// at a point between x and c.
 Enclosure wave_slope(const Enclosure& at_middle, const Enclosure& over_hull, const Enclosure& h) {
   const Enclosure least = Enclosure(1.0) - quotient(power(h, 2), Enclosure(6.0));
   Enclosure slope = at_middle * Enclosure::hull(least, Enclosure(1.0));

@@ -19,16 +19,17 @@ class Row {
 
   /// Encloses {f(x) : x ∈ X}: the natural interval extension.
   Enclosure value(const Sides& x) const;
-  /// s with f(x) − f(c) ∈ s·(x − c) for every x ∈ X and a point c; entries follow columns(). For terms of degree ≤ 2 these are the
-  /// derivatives over (X + c)/2: x² − c² = (x + c)(x − c), xy − ab = (y + b)/2 (x − a) + (x + a)/2 (y − b).
+  /// s with f(x) − f(c) ∈ s·(x − c) for every x ∈ X and a point c; entries follow columns(). For terms of degree ≤ 2 these
+  /// are the derivatives over (X + c)/2: x² − c² = (x + c)(x − c), xy − ab = (y + b)/2 (x − a) + (x + a)/2 (y − b).
   void slopes(const Sides& x, const Sides& c, Sides& s) const;
   /// Encloses ∂f/∂x over X.
   void derivatives(const Sides& x, Sides& s) const;
   /// f and ∂f/∂x at a point in plain doubles: nothing is proven by them.
   double approximate(const std::vector<double>& x) const;
   void approximate(const std::vector<double>& x, std::vector<double>& s) const;
-  /// Shrinks X to a box that holds every x ∈ X with f(x) = 0 (f(x) ≥ 0). False: there is none. Theorem: if Σ tₖ(x) = 0 then tₖ(x) ∈ −Σ_{j≠k} Tⱼ,
-  /// Tⱼ an enclosure of tⱼ over X, and each variable of tₖ lies in the inverse image of that set (Benhamou1999).
+  /// Shrinks X to a box that holds every x ∈ X with f(x) = 0 (f(x) ≥ 0). False: there is none. Theorem: if Σ tₖ(x) = 0 then
+  /// tₖ(x) ∈ −Σ_{j≠k} Tⱼ, Tⱼ an enclosure of tⱼ over X, and each variable of tₖ lies in the inverse image of that set
+  /// (Benhamou1999).
   bool project(Sides& x, bool equation) const;
 
  private:

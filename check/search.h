@@ -22,15 +22,15 @@ class Search {
 
   /// Shrinks x to a box that holds its solutions (equations, domain, inequalities). False: it has none.
   bool project(Sides& x, int row) const;  ///< an equation; from equations().size() on: all that is no equation
-  /// A Hansen–Sengupta step: a zero z of F in X satisfies Y·F(c) + Y·S·(z − c) ∋ 0 row by row, for any c and Y (HansenSengupta1981): a row may be solved for its
-  /// dependent variable, and for each free one.
+  /// A Hansen–Sengupta step: a zero z of F in X satisfies Y·F(c) + Y·S·(z − c) ∋ 0 row by row, for any c and Y
+  /// (HansenSengupta1981): a row may be solved for its dependent variable, and for each free one.
   bool newton(Sides& x, const LinearCombination& p, const std::vector<double>& center);
   bool contract(Sides& x);
 
   /// Is there no solution in x? Bisects it where need be; false: not shown within the bounds.
   bool is_empty(Sides x, std::size_t most_parts = kMostParts);
-  /// Do all solutions in x lie between the bounds? Shrinks x to a part that holds them and lies there. False: not shown; then x means nothing.
-  /// `empty`: x was found to have none.
+  /// Do all solutions in x lie between the bounds? Shrinks x to a part that holds them and lies there. False: not shown;
+  /// then x means nothing. `empty`: x was found to have none.
   bool confine(Sides& x, const std::vector<Interval>& bounds, bool& empty);
 
   std::uint64_t searched() const { return searched_; }  ///< boxes that took a bisection

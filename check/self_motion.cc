@@ -16,7 +16,8 @@ bool is_linear_and_rational(const Polynomial& f) {
   });
 }
 
-// As many equations as there are dependent variables, by elimination with the largest pivots at a point; fewer where it finds no more.
+// As many equations as there are dependent variables, by elimination with the largest pivots at a point; fewer where it
+// finds no more.
 std::vector<Row> independent(const std::vector<Row>& equations, const std::vector<int>& dependent,
                              const std::vector<double>& at) {
   std::vector<std::vector<double>> rows;

@@ -183,7 +183,8 @@ class SheetCheck {
     return true;
   }
 
-  // After image(x0), x ⊂ x0 holding the solutions over x's free sides: do they lie in the box, and where asked in the domain?
+  // After image(x0), x ⊂ x0 holding the solutions over x's free sides: do they lie in the box, and where asked in the
+  // domain?
   bool settled(const Sides& x) {
     wide_ = -1;
     for (std::size_t a = 0; a < dependent_.size(); ++a) {
@@ -217,7 +218,8 @@ class SheetCheck {
     return true;
   }
 
-  // Of a free variable whose side reaches no farther than its domain's ends, rounded outward: the claim is about values in the domain.
+  // Of a free variable whose side reaches no farther than its domain's ends, rounded outward: the claim is about values in
+  // the domain.
   bool is_end_of_free(const Condition& condition) const {
     if (condition.variable < 0 || std::find(box_.free.begin(), box_.free.end(), condition.variable) == box_.free.end())
       return false;

@@ -1,4 +1,5 @@
-// The checker's own sparse polynomials with exact coefficients, and its repetition of the reduction that came before a search.
+// The checker's own sparse polynomials with exact coefficients, and its repetition of the reduction that came before a
+// search.
 #pragma once
 
 #include <map>
@@ -72,9 +73,9 @@ struct Reduced {
   bool contradiction = false;                ///< an equation became a nonzero number = 0
 };
 
-/// Repeats the reduction. Theorem: certify/reduction.h. Each step is legal: an elimination's equation is a·x + g = 0 with a rational a ≠ 0 and x
-/// not in g, or the domain of x is one number; a sum is of two different equations that are there. Throws std::invalid_argument,
-/// with the reason, where one is not.
+/// Repeats the reduction. Theorem: certify/reduction.h. Each step is legal: an elimination's equation is a·x + g = 0 with a
+/// rational a ≠ 0 and x not in g, or the domain of x is one number; a sum is of two different equations that are there.
+/// Throws std::invalid_argument, with the reason, where one is not.
 Reduced reduce(const System& system, const std::vector<ReductionStep>& steps, const StopFlag& stop = {});
 
 }  // namespace corank::check

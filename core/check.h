@@ -1,5 +1,5 @@
-// CORANK_CHECK: a broken invariant of corank itself (never a user's mistake, never a mathematical outcome). Always on, in every
-// build, because a claim of proof must not outlive a broken invariant.
+// CORANK_CHECK: a broken invariant of corank itself (never a user's mistake, never a mathematical outcome). Always on, in
+// every build, because a claim of proof must not outlive a broken invariant.
 #pragma once
 
 #include <stdexcept>

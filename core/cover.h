@@ -26,22 +26,23 @@ enum class Verdict : std::uint8_t {
   exact,      ///< the solution is known exactly and verified in exact arithmetic
   boundary,   ///< as regular, but the piece may leave the search domain or an inequality inside the box
   undecided,  ///< not excluded, nothing proven
-  partial,  ///< over-determined systems: as regular or isolated for a maximal independent subset of the equations; along that
-            ///< piece the other equations hold within Cover::tolerance, not exactly
+  /// over-determined systems: as regular or isolated for a maximal independent subset of the equations; along that
+  partial,
+  ///< piece the other equations hold within Cover::tolerance, not exactly
   pending,  ///< not processed: the cover is incomplete
 };
 inline constexpr int kVerdicts = 7;
 
-/// The largest edge that a box of proven solutions may have: in lengths, in the model's unit, and in the sine and the cosine of
-/// angles. Kernel vectors and auxiliary variables may be as wide as their proof is.
+/// The largest edge that a box of proven solutions may have: in lengths, in the model's unit, and in the sine and the cosine
+/// of angles. Kernel vectors and auxiliary variables may be as wide as their proof is.
 struct Sigma {
   double length = 0, angle = 0;
   double largest() const { return length > angle ? length : angle; }
   friend bool operator==(const Sigma&, const Sigma&) = default;
 };
 
-/// The tolerance within which the equations outside a `partial` proof hold, in coefficient tolerances: their values combine the
-/// tolerances of several equations.
+/// The tolerance within which the equations outside a `partial` proof hold, in coefficient tolerances: their values combine
+/// the tolerances of several equations.
 inline constexpr double kPartialTolerance = 10;
 
 const char* to_string(Verdict verdict);
@@ -61,8 +62,8 @@ inline constexpr int kReasons = 6;
 
 const char* to_string(Reason reason);
 
-/// A set of larger dimension than the count of equations says: linear relations with rational coefficients that hold on it and make the others of the
-/// system's equations dependent (certify/self_motion.h).
+/// A set of larger dimension than the count of equations says: linear relations with rational coefficients that hold on it
+/// and make the others of the system's equations dependent (certify/self_motion.h).
 struct SelfMotionRecord {
   int dimension = 0;
   std::vector<Polynomial> relations;  ///< in all variables, each = 0
@@ -75,7 +76,8 @@ struct CoverBox {
   int region = -1;        ///< index in Cover::regions: the box of the proof, −1 where there is none
   /// Index in Cover::exact_points: of an `exact` box its point; of an undecided one the point that explains it. −1: none.
   int point = -1;
-  /// No solution in the box has a kernel of larger dimension (certify/kernel_bound.h); −1: the system has no kernel, or nobody asked.
+  /// No solution in the box has a kernel of larger dimension (certify/kernel_bound.h); −1: the system has no kernel, or
+  /// nobody asked.
   int corank = -1;
   int motion = -1;               ///< index in Cover::self_motions: it is `regular` with the free variables of that set
   Reason reason = Reason::none;  ///< what was found where it was given up; no claim
@@ -93,16 +95,19 @@ struct Statistics {
 struct Cover {
   /// Sorted by their sides in the variables that were kept: lower end, upper end of the first, of the second …
   std::vector<CoverBox> boxes;
-  /// For a set of dimension 0: the distinct solutions. An `isolated` one is exactly one solution, and no two entries hold the
-  /// same one; an `undecided` one is the hull of a cluster of touching boxes that may hold any number, none included.
+  /// For a set of dimension 0: the distinct solutions. An `isolated` one is exactly one solution, and no two entries hold
+  /// the same one; an `undecided` one is the hull of a cluster of touching boxes that may hold any number, none included.
   std::vector<CoverBox> points;
-  /// In all variables: a box of proof holds, for every value of its box's free variables in it, exactly one solution (regular, boundary), or
-  /// exactly one solution (isolated). Boxes that were cut from one sheet share it.
+  /// In all variables: a box of proof holds, for every value of its box's free variables in it, exactly one solution
+  /// (regular, boundary), or exactly one solution (isolated). Boxes that were cut from one sheet share it.
   std::vector<Box> regions;
   std::vector<ExactPoint> exact_points;
   std::vector<SelfMotionRecord> self_motions;
-  /// Of each point and variable a decimal that is wrong by less than a unit of its last digit; no decimals where nothing is proven.
-  /// Empty where nobody asked.
+  /// The largest dimension, as samples show, of sets along which boxes stayed undecided (Reason::degenerate_set); 0: none is
+  /// known to be larger than expected. No claim.
+  int observed_dimension = 0;
+  /// Of each point and variable a decimal that is wrong by less than a unit of its last digit; no decimals where nothing is
+  /// proven. Empty where nobody asked.
   std::vector<std::vector<std::string>> decimals;
   /// How the system was reduced before the search; the sides of a box are of all variables.
   std::vector<ReductionStep> reduction;
@@ -110,8 +115,8 @@ struct Cover {
   int dimension = 0;                   ///< of the set; for an over-determined system, the largest that a partial box shows
   Sigma sigma;
   double tolerance = 0;  ///< relative tolerance of the coefficients and of what `partial` says; 0: every equation is exact
-  /// So many proven boxes have an edge longer than σ: ill-conditioned pieces that double arithmetic or the coefficients' tolerance
-  /// keep so wide, and pieces that were still to be cut when a limit ended the search.
+  /// So many proven boxes have an edge longer than σ: ill-conditioned pieces that double arithmetic or the coefficients'
+  /// tolerance keep so wide, and pieces that were still to be cut when a limit ended the search.
   std::size_t wider_than_sigma = 0;
   Statistics statistics;
 

@@ -35,6 +35,58 @@ NodePtr make_rational(mpq_class q) {
 
 bool is_rational(const NodePtr& x) { return x->kind == Kind::rational; }
 
+bool same(const NodePtr& x, const NodePtr& y) {
+  if (x == y) return true;
+  if (x->kind != y->kind || x->operands.size() != y->operands.size()) return false;
+  if (x->value != y->value || x->exponent != y->exponent || x->function != y->function) return false;
+  for (std::size_t i = 0; i < x->operands.size(); ++i)
+    if (!same(x->operands[i], y->operands[i])) return false;
+  return true;
+}
+
+NodePtr make_product(const NodePtr& x, const NodePtr& y);
+
+// c·e with a rational c and e's factors; c = 1 and e itself where it is no product.
+const mpq_class kOne = 1;
+const mpq_class& rational_factor(const NodePtr& x) { return x->kind == Kind::product ? x->value : kOne; }
+bool same_but_for_it(const NodePtr& x, const NodePtr& y) {
+  const auto count = [](const NodePtr& z) { return z->kind == Kind::product ? z->operands.size() : std::size_t{1}; };
+  const auto part = [](const NodePtr& z, std::size_t i) { return z->kind == Kind::product ? z->operands[i] : z; };
+  if (count(x) != count(y)) return false;
+  for (std::size_t i = 0; i < count(x); ++i)
+    if (!same(part(x, i), part(y, i))) return false;
+  return true;
+}
+
+bool is_real(const NodePtr& x) {
+  try {
+    Node::of(x).enclose();
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+// Adds c·e to the operands: (b + c)·e where there is b·e. What cancels is left out if e is shown to be a real number.
+void add_operand(Node& sum, const NodePtr& x) {
+  constexpr std::size_t kMost = 64;  // operands, that sums of many cost no time
+  const auto like = sum.operands.size() > kMost ? sum.operands.end()
+                                                : std::find_if(sum.operands.begin(), sum.operands.end(),
+                                                               [&](const NodePtr& y) { return same_but_for_it(x, y); });
+  if (like == sum.operands.end()) {
+    sum.operands.push_back(x);
+    return;
+  }
+  const mpq_class factor = rational_factor(x) + rational_factor(*like);
+  if (factor != 0) {
+    *like = make_product(make_rational(factor / rational_factor(x)), x);
+  } else if (is_real(x)) {
+    sum.operands.erase(like);
+  } else {
+    sum.operands.push_back(x);
+  }
+}
+
 NodePtr make_sum(const NodePtr& x, const NodePtr& y) {
   Node sum;
   sum.kind = Kind::sum;
@@ -43,9 +95,9 @@ NodePtr make_sum(const NodePtr& x, const NodePtr& y) {
       sum.value += part->value;
     } else if (part->kind == Kind::sum) {
       sum.value += part->value;
-      sum.operands.insert(sum.operands.end(), part->operands.begin(), part->operands.end());
+      for (const NodePtr& operand : part->operands) add_operand(sum, operand);
     } else {
-      sum.operands.push_back(part);
+      add_operand(sum, part);
     }
   }
   if (sum.operands.empty()) return make_rational(sum.value);
@@ -102,15 +154,6 @@ NodePtr make_power(const NodePtr& x, int n) {
   power.exponent = n;
   power.operands = {x};
   return std::make_shared<const Node>(std::move(power));
-}
-
-bool same(const NodePtr& x, const NodePtr& y) {
-  if (x == y) return true;
-  if (x->kind != y->kind || x->operands.size() != y->operands.size()) return false;
-  if (x->value != y->value || x->exponent != y->exponent || x->function != y->function) return false;
-  for (std::size_t i = 0; i < x->operands.size(); ++i)
-    if (!same(x->operands[i], y->operands[i])) return false;
-  return true;
 }
 
 // Digits with an optional sign, a point and an exponent; nothing where the text is none of these.

@@ -44,7 +44,8 @@ class ExactNumber {
   friend ExactNumber operator/(const ExactNumber& x, const ExactNumber& y);
   friend ExactNumber pow(const ExactNumber& x, int n);
 
-  /// Rational arithmetic is folded, so a number built from rationals by + − · / and integer powers always is one.
+  /// Rational arithmetic is folded, so a number built from rationals by + − · / and integer powers always is one; and so are
+  /// sums of rational multiples of one expression: 2·√3 − √3 − √3 is 0.
   bool is_rational() const;
   bool is_zero() const;  ///< is the rational number 0 (false says nothing about other expressions)
 
@@ -57,7 +58,8 @@ class ExactNumber {
   /// std::domain_error where the expression is no real number (sqrt(-1), log(0), 1/(sqrt(2)*sqrt(2)-2) …).
   /// Independent of the current rounding mode.
   Interval enclose() const;
-  /// Rational numbers l ≤ x ≤ u, about 2^−bits |x| apart where x is not 0; both are x where it is rational. Throws like enclose().
+  /// Rational numbers l ≤ x ≤ u, about 2^−bits |x| apart where x is not 0; both are x where it is rational. Throws like
+  /// enclose().
   std::pair<ExactNumber, ExactNumber> bounds(int bits) const;
   /// The double as the rational number it is. Throws std::invalid_argument for infinity and NaN.
   static ExactNumber dyadic(double x);

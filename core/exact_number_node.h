@@ -4,6 +4,7 @@
 #include <gmpxx.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "corank/core/exact_number.h"
@@ -11,7 +12,9 @@
 namespace corank {
 
 // Canonical form, kept by the constructors below:
-//   sum      value + Σ operands (none a sum or a rational; at least one, at least two where value = 0)
+//   sum      value + Σ operands (none a sum or a rational; at least one, at least two where value = 0; of few operands no
+//   two that differ by a
+//            rational factor alone)
 //   product  value · Π operands (none a product or a rational; value ≠ 0, negative powers last; at least two where value =
 //   1) power    operands[0]^exponent, exponent ∉ {0, 1}, the base no rational
 struct ExactNumber::Node {
@@ -23,6 +26,7 @@ struct ExactNumber::Node {
   std::vector<std::shared_ptr<const Node>> operands;
 
   static ExactNumber number(mpq_class q);  ///< canonical
+  static ExactNumber of(std::shared_ptr<const Node> node) { return ExactNumber(std::move(node)); }
 };
 
 /// "sqrt", "sin" … as in the model language.

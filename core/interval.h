@@ -1,8 +1,8 @@
 // Closed intervals [lo, hi] of real numbers with double endpoints.
 //
-// Representation: the pair (−lo, hi) in one 128-bit register, so that under *upward* rounding both endpoints of a sum, a product
-// … are rounded outward by the same instruction and no rounding mode is ever switched (Goualard, "Fast and correct SIMD
-// algorithms for interval arithmetic", 2008). Precondition of every arithmetic operation: UpwardRounding::active().
+// Representation: the pair (−lo, hi) in one 128-bit register, so that under *upward* rounding both endpoints of a sum, a
+// product … are rounded outward by the same instruction and no rounding mode is ever switched (Goualard, "Fast and correct
+// SIMD algorithms for interval arithmetic", 2008). Precondition of every arithmetic operation: UpwardRounding::active().
 //
 // Fundamental theorem of interval arithmetic (Moore, Kearfott, Cloud 2009, Thm 5.1): for x ∈ X and y ∈ Y, x∘y ∈ X∘Y for each
 // operation here, whatever the overflow or underflow. The empty set is not an Interval: operations that may yield it return
@@ -88,7 +88,8 @@ class Interval {
 };
 
 namespace internal {
-/// Products of endpoints, with +∞ for the NaN of 0·∞ (minpd returns its second operand where the first is NaN): an upper bound.
+/// Products of endpoints, with +∞ for the NaN of 0·∞ (minpd returns its second operand where the first is NaN): an upper
+/// bound.
 inline __m128d bounded_product(__m128d a, __m128d b) {
   return _mm_min_pd(_mm_mul_pd(a, b), _mm_set1_pd(std::numeric_limits<double>::infinity()));
 }
@@ -96,9 +97,10 @@ inline __m128d swapped(__m128d a) { return _mm_shuffle_pd(a, a, 1); }
 }  // namespace internal
 
 inline Interval operator*(const Interval& x, const Interval& y) {
-  // hi is the largest of the four products of endpoints, −lo the largest of the four negated ones. A NaN (0·∞, which stands for
-  // 0) in p1 or p3 is dropped, since maxpd returns its second operand: by cases, one of the others is then 0, or is the +∞ that
-  // stands for a NaN in p2 or p4.
+  // hi is the largest of the four products of endpoints, −lo the largest of the four negated ones. A NaN (0·∞, which stands
+  // for
+  // 0) in p1 or p3 is dropped, since maxpd returns its second operand: by cases, one of the others is then 0, or is the +∞
+  // that stands for a NaN in p2 or p4.
   const __m128d a = x.data();                                                 // (−a, b)   for x = [a, b]
   const __m128d a_neg = _mm_xor_pd(internal::swapped(a), _mm_set1_pd(-0.0));  // (−b, a)
   const __m128d c = _mm_xor_pd(y.data(), _mm_set_pd(0.0, -0.0));              // (c, d)    for y = [c, d]

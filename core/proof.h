@@ -1,8 +1,9 @@
 // Why a cover is complete: the search tree as a script that a checker can replay, in the variables of the reduced system
 // (certify/reduction.h). A plain value; what each instruction claims is the checker's to prove, in its own arithmetic.
 //
-// The script acts on a current box, at first a root. In preorder: a `split` or `cut` is followed by the scripts of its parts, each of
-// which ends in a leaf (empty, box, elsewhere, root). Every instruction's claim is about zeros of the system in the current box.
+// The script acts on a current box, at first a root. In preorder: a `split` or `cut` is followed by the scripts of its
+// parts, each of which ends in a leaf (empty, box, elsewhere, root). Every instruction's claim is about zeros of the system
+// in the current box.
 #pragma once
 
 #include <cstdint>

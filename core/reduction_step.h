@@ -5,8 +5,8 @@
 
 namespace corank {
 
-/// Either a variable was replaced everywhere by its value, or an equation by the sum of itself and a multiple of another. Equations are named by
-/// their indices in the original system, and are meant as the steps before have left them.
+/// Either a variable was replaced everywhere by its value, or an equation by the sum of itself and a multiple of another.
+/// Equations are named by their indices in the original system, and are meant as the steps before have left them.
 struct ReductionStep {
   int variable = -1;        ///< the one that was eliminated; −1: none was, this is a sum
   int equation = -1;        ///< that defines the variable (−1: its domain is one number); of a sum: the one replaced

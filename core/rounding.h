@@ -1,11 +1,11 @@
-// Directed rounding as a scope. All interval arithmetic of certify/ assumes that the SSE unit rounds upward, keeps subnormal numbers and
-// raises no traps; a thread that computes with intervals holds one UpwardRounding for the whole computation, so that no inner loop
-// switches modes.
+// Directed rounding as a scope. All interval arithmetic of certify/ assumes that the SSE unit rounds upward, keeps subnormal
+// numbers and raises no traps; a thread that computes with intervals holds one UpwardRounding for the whole computation, so
+// that no inner loop switches modes.
 //
-// The compiler does not know that arithmetic depends on the rounding mode (gcc ignores #pragma STDC FENV_ACCESS). Three things
-// keep it honest: everything here is compiled with -frounding-math (no folding, no re-association of signs) and
-// -ffp-contract=off; the constructor and destructor are barriers for memory; and whoever creates the guard reads its operands
-// from memory and calls out-of-line functions.
+// The compiler does not know that arithmetic depends on the rounding mode (gcc ignores #pragma STDC FENV_ACCESS). Three
+// things keep it honest: everything here is compiled with -frounding-math (no folding, no re-association of signs) and
+// -ffp-contract=off; the constructor and destructor are barriers for memory; and whoever creates the guard reads its
+// operands from memory and calls out-of-line functions.
 #pragma once
 
 #ifdef __FAST_MATH__
@@ -20,8 +20,9 @@
 
 namespace corank {
 
-/// Sets upward rounding for the calling thread, with subnormals (no flush to zero, which gcc turns on in programs linked for unsafe math:
-/// 0 is no upper bound of a positive number) and all exceptions masked, and restores the former state at the end of the scope.
+/// Sets upward rounding for the calling thread, with subnormals (no flush to zero, which gcc turns on in programs linked for
+/// unsafe math: 0 is no upper bound of a positive number) and all exceptions masked, and restores the former state at the
+/// end of the scope.
 class UpwardRounding {
  public:
   UpwardRounding() : former_(_mm_getcsr()), former_mode_(std::fegetround()) {
@@ -41,15 +42,16 @@ class UpwardRounding {
   static bool active() { return (_mm_getcsr() & ~kFlags) == kState; }
 
  private:
-  // MXCSR: exception flags 0x3f, denormals are zero 0x40, exception masks 0x1f80, rounding 0x6000 (up: 0x4000), flush to zero 0x8000.
+  // MXCSR: exception flags 0x3f, denormals are zero 0x40, exception masks 0x1f80, rounding 0x6000 (up: 0x4000), flush to
+  // zero 0x8000.
   static constexpr unsigned kFlags = 0x003f, kState = 0x1f80 | 0x4000;
 
   unsigned former_;
   int former_mode_;
 };
 
-/// Rounding to nearest for a scope, whatever the caller computes with: what code expects that is not ours, MPFR's own small double
-/// computations among it.
+/// Rounding to nearest for a scope, whatever the caller computes with: what code expects that is not ours, MPFR's own small
+/// double computations among it.
 class NearestRounding {
  public:
   NearestRounding() : former_(std::fegetround()) { std::fesetround(FE_TONEAREST); }

@@ -95,6 +95,7 @@ void System::validate() const {
   }
   if (!(coefficient_tolerance >= 0 && coefficient_tolerance < kCoefficientToleranceLimit))
     throw std::invalid_argument("the coefficient tolerance must be in [0, 0.1)");
+  if (kernel_vectors < 1) throw std::invalid_argument("kernel_vectors is below 1");
   if (configuration_size < 0 || configuration_size > size())
     throw std::invalid_argument("configuration_size is out of range");
 }

@@ -64,7 +64,8 @@ struct Polynomial {
   int degree() const;
 };
 
-/// Widens the enclosure of every coefficient c that is no integer to c·[1 − tolerance, 1 + tolerance] at least, in any rounding mode.
+/// Widens the enclosure of every coefficient c that is no integer to c·[1 − tolerance, 1 + tolerance] at least, in any
+/// rounding mode.
 void widen(Polynomial& f, double tolerance);
 
 /// How an angle of the model is represented: cos θ and sin θ are the variables `cosine` and `sine`.
@@ -83,21 +84,26 @@ struct System {
   std::vector<Polynomial> equations;     ///< m, each = 0
   std::vector<Polynomial> inequalities;  ///< each ≥ 0
   std::vector<Angle> angles;
-  /// Relative tolerance τ of the coefficients that are no integers, in [0, kCoefficientToleranceLimit); certify::reduce() puts it
-  /// into their enclosures. Every exclusion and every proof then holds for every choice of coefficients within τ, each on its own.
-  /// Where there are more equations than variables, it is for decimals that were rounded and are inconsistent as exact numbers, and
-  /// used only where that makes a difference. 0 (default): every coefficient is exact.
+  /// Relative tolerance τ of the coefficients that are no integers, in [0, kCoefficientToleranceLimit); certify::reduce()
+  /// puts it into their enclosures. Every exclusion and every proof then holds for every choice of coefficients within τ,
+  /// each on its own. Where there are more equations than variables, it is for decimals that were rounded and are
+  /// inconsistent as exact numbers, and used only where that makes a difference. 0 (default): every coefficient is exact.
   double coefficient_tolerance = 0;
   /// Number of leading variables that describe the configuration q; the others (kernel vector, auxiliaries) follow.
   int configuration_size = 0;
+  /// c, where the equations ask for c independent kernel vectors: M(q) ξ¹ = … = M(q) ξᶜ = 0. The variables of kind `kernel`
+  /// are those of ξ¹, then those of ξ² …; they are equally many of each.
+  int kernel_vectors = 1;
+  /// by which number each column of M was multiplied, as exact text; none: all are 1
+  std::vector<std::string> kernel_scales;
 
   int size() const { return static_cast<int>(variables.size()); }
   /// max(0, n − m): the dimension of the solution set where the equations are independent.
   int dimension() const;
   /// Index of the variable, or −1.
   int find(const std::string& variable_name) const;
-  /// Throws std::invalid_argument where an index is out of range, a domain is empty or unbounded, a factor list unsorted, or a
-  /// sine or cosine is raised to a power or multiplied by a variable.
+  /// Throws std::invalid_argument where an index is out of range, a domain is empty or unbounded, a factor list unsorted, or
+  /// a sine or cosine is raised to a power or multiplied by a variable.
   void validate() const;
 };
 

@@ -35,9 +35,10 @@ std::uint64_t CellUnion::word(int row, std::size_t k) const {
 }
 
 std::vector<GridPolygon> CellUnion::outlines() const {
-  // A unit edge belongs to the outline where one of its two cells is in the union. About a vertex their number is even: where there are
-  // two in line, or four, edges run straight on (even-odd rule); else one horizontal and one vertical edge end there. So the ends of the
-  // horizontal runs are the corners, in pairs, and, sorted by columns, the ends of the vertical runs in pairs, too.
+  // A unit edge belongs to the outline where one of its two cells is in the union. About a vertex their number is even:
+  // where there are two in line, or four, edges run straight on (even-odd rule); else one horizontal and one vertical edge
+  // end there. So the ends of the horizontal runs are the corners, in pairs, and, sorted by columns, the ends of the
+  // vertical runs in pairs, too.
   std::vector<GridPoint> corners;
   for (int y = 0; y <= rows_; ++y) {
     std::uint64_t carry = 0;  // is the cell before the word's first one on a run?

@@ -1,5 +1,5 @@
-// The union of many rectangles on a grid of unit cells, as few polygons: how boxes that cannot be told apart at a picture's resolution
-// become one shape.
+// The union of many rectangles on a grid of unit cells, as few polygons: how boxes that cannot be told apart at a picture's
+// resolution become one shape.
 #pragma once
 
 #include <cstddef>

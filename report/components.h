@@ -9,9 +9,9 @@ namespace corank::report {
 
 /// The connected components of the union of the boxes, projected onto the configuration variables.
 ///
-/// Where the cover is complete: solutions in different components belong to different pieces of the solution set, for a connected
-/// piece lies in the union of the boxes, whose components are closed and disjoint. That the solutions in one component are one
-/// piece is not proven, nor that a component without a proven solution holds any.
+/// Where the cover is complete: solutions in different components belong to different pieces of the solution set, for a
+/// connected piece lies in the union of the boxes, whose components are closed and disjoint. That the solutions in one
+/// component are one piece is not proven, nor that a component without a proven solution holds any.
 struct Components {
   std::vector<int> of_box;  ///< component of each box, from 0, by each component's first box
   int count = 0;

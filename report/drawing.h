@@ -1,5 +1,5 @@
-// A flat picture laid out on a page: shapes, lines and words at their places, the same for every format. Lengths in points (1/72 inch)
-// from the upper left corner.
+// A flat picture laid out on a page: shapes, lines and words at their places, the same for every format. Lengths in points
+// (1/72 inch) from the upper left corner.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ struct TextRun {
 };
 using Label = std::vector<TextRun>;
 
-/// A name as mathematics sets it: theta2 → θ₂, J3x → J with the subscript 3x, phi_a → φ with the subscript a; other names as they are.
+/// A name as mathematics sets it: theta2 → θ₂, J3x → J with the subscript 3x, phi_a → φ with the subscript a; other names as
+/// they are.
 Label math_label(const std::string& name);
 /// The name of an axis, with its unit where that is known.
 Label axis_label(const PictureAxis& axis);

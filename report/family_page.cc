@@ -70,7 +70,7 @@ mustache::data heads(const std::vector<Columns>& all, const FamilyMember& member
   for (const Columns& columns : all) {
     mustache::data group, names = list();
     group["name"] = member.results[columns.set].set;
-    group["title"] = set_title(member.results[columns.set].set);
+    group["title"] = set_title(member.results[columns.set]);
     group["width"] = std::to_string(columns.verdicts.size() + 2);
     names << cell("head", "components", true) << cell("head", "boxes", false);
     for (const Verdict verdict : columns.verdicts) names << cell("head", std::string(to_string(verdict)), false);
@@ -95,7 +95,7 @@ mustache::data run_row(const FamilyMember& member, std::size_t set, const std::s
   const result::Result& result = member.results[set];
   mustache::data row;
   row["valueHtml"] = value_html(member, constant);
-  row["title"] = set_title(result.set);
+  row["title"] = set_title(result);
   row["sigma"] = fmt::format("{:g}", result.cover.sigma.largest());
   row["boxes"] = grouped(result.cover.boxes.size());
   row["processed"] = grouped(result.cover.statistics.processed);
@@ -155,7 +155,7 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
   for (const result::Result& result : first.results) {
     mustache::data set;
     set["name"] = result.set;
-    set["title"] = set_title(result.set);
+    set["title"] = set_title(result);
     sets << set;
   }
   for (const std::string& figure : options.figures) figures << mustache::data{"figure", figure};

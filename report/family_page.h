@@ -1,7 +1,9 @@
-// The page of a family of mechanisms that differ in one constant: the output portraits of all, side by side and in one frame with a
-// slider, with what is found and proven of each. One HTML file that needs no other. doc/sweep.md describes it for users.
+// The page of a family of mechanisms that differ in one constant: the output portraits of all, side by side and in one frame
+// with a slider, with what is found and proven of each. One HTML file that needs no other. doc/sweep.md describes it for
+// users.
 //
-// Of the boxes the page holds the sides in the plane of the portrait, all of them, in the order of the results, as page_data.h says.
+// Of the boxes the page holds the sides in the plane of the portrait, all of them, in the order of the results, as
+// page_data.h says.
 #pragma once
 
 #include <array>

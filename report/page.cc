@@ -27,7 +27,7 @@ mustache::data truth(bool value) {
 mustache::data set_entry(const result::Result& result) {
   mustache::data entry;
   entry["name"] = result.set;
-  entry["title"] = set_title(result.set);
+  entry["title"] = set_title(result);
   entry["card"] = card_html(result);
   return entry;
 }
@@ -35,7 +35,7 @@ mustache::data set_entry(const result::Result& result) {
 mustache::data run_row(const result::Result& result, const std::string& file) {
   const Statistics& s = result.cover.statistics;
   mustache::data row;
-  row["title"] = set_title(result.set);
+  row["title"] = set_title(result);
   row["sigma"] = fmt::format("{:g}", result.cover.sigma.largest());
   row["kernel"] = result.options.kernel.empty() ? "–" : result.options.kernel;
   row["variables"] = std::to_string(result.variables.size());

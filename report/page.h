@@ -16,8 +16,8 @@ struct PageOptions {
   std::vector<std::string> files;    ///< of the results, in their order; shown and linked. May be empty
 };
 
-/// Throws ResultFileError where a result is none of this mechanism's sets, ModelError where the mechanism has no singularities to
-/// speak of (a plain system).
+/// Throws ResultFileError where a result is none of this mechanism's sets, ModelError where the mechanism has no
+/// singularities to speak of (a plain system).
 std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results,
                         const PageOptions& options = {});
 

@@ -94,7 +94,7 @@ System solved_system(const symbolic::Mechanism& mechanism, const result::Result&
   System system;
   try {
     system = algebrize(singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
-                                          result.options.kernel_scales));
+                                          result.options.kernel_scales, result.options.corank));
   } catch (const symbolic::ModelError& error) {  // scales that are none of this model
     throw result::ResultFileError(std::string("the result's system: ") + error.what());
   }

@@ -1,7 +1,7 @@
 // What the scripts of a report's page read: the model as JSON and each result's boxes as numbers in base64.
 //
-// The boxes are those of the result, all of them, in its order. Their bounds are doubles rounded outward to floats, so a box of the
-// page holds the box of the result file and is at most one float wider on each side.
+// The boxes are those of the result, all of them, in its order. Their bounds are doubles rounded outward to floats, so a box
+// of the page holds the box of the result file and is at most one float wider on each side.
 #pragma once
 
 #include <span>
@@ -16,7 +16,8 @@ namespace corank::report {
 /// RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
 
-/// JSON that may stand inside <script>: without "<", since "</script" ends one and "<!--<script" makes the next end not count.
+/// JSON that may stand inside <script>: without "<", since "</script" ends one and "<!--<script" makes the next end not
+/// count.
 std::string script_safe(std::string json);
 
 /// The float below or equal, above or equal.

@@ -39,8 +39,9 @@ std::string matrix_html(const std::string& base, const std::string& subscript, c
 
 std::string system_html(const symbolic::Mechanism& mechanism, const result::Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
-  const symbolic::TrigonometricSystem system = singularity_system(
-      mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel), result.options.kernel_scales);
+  const symbolic::TrigonometricSystem system =
+      singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
+                         result.options.kernel_scales, result.options.corank);
   std::vector<std::string> equations, sources;
   for (const auto* list : {&system.equations, &system.inequalities}) {
     for (const auto& equation : *list) {
@@ -49,7 +50,7 @@ std::string system_html(const symbolic::Mechanism& mechanism, const result::Resu
     }
   }
   return fmt::format("<details><summary>{}: {} equation{}{}</summary><div class=\"scroll\">{}</div></details>",
-                     set_title(result.set), system.equations.size(), system.equations.size() == 1 ? "" : "s",
+                     set_title(result), system.equations.size(), system.equations.size() == 1 ? "" : "s",
                      result.options.kernel.empty() ? "" : ", " + symbolic::html_text(result.options.kernel) + " kernel",
                      numbered(equations, sources));
 }

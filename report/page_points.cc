@@ -102,7 +102,7 @@ std::string kernel_points_html(const result::Result& result, const std::vector<C
 std::string table_html(const result::Result& result) {
   const std::vector<Column> shown = columns(result);
   std::string html = fmt::format("<section class=\"points\" data-set=\"{}\"><h3>{}</h3>", symbolic::html_text(result.set),
-                                 set_title(result.set));
+                                 set_title(result));
   if (!result.cover.points.empty()) {
     html += "<div class=\"scroll\"><table><thead><tr><th>point</th>";
     for (const Column& column : shown) html += "<th>" + symbolic::html_name(column.name) + "</th>";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "corank/result/motion_words.h"
 #include "corank/result/summary.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
@@ -16,7 +17,12 @@ std::string counted(std::size_t n, const std::string& one, const std::string& ma
 }
 std::string boxes_text(std::size_t n) { return counted(n, "box", "boxes"); }
 
-std::string meaning(const std::string& set) {
+std::string meaning(const std::string& set, int corank) {
+  if (corank > 1 && set == "cspace-singular")
+    return fmt::format("the constraints’ Jacobian loses at least {} of its ranks", corank);
+  if (corank > 1)
+    return fmt::format("with the {} locked the mechanism can still move, to first order, in at least {} independent ways",
+                       set == "forward" ? "actuators" : "output", corank);
   if (set == "cspace") return "every way to assemble the mechanism";
   if (set == "forward") return "with the actuators locked the mechanism can still move, to first order";
   if (set == "inverse") return "with the output locked the mechanism can still move, to first order";
@@ -38,12 +44,46 @@ std::size_t count_points(const Cover& cover, Verdict verdict) {
       std::count_if(cover.points.begin(), cover.points.end(), [=](const CoverBox& p) { return p.verdict == verdict; }));
 }
 
+std::string escaped(const std::string& text) {
+  std::string html;
+  for (const char c : text) html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return html;
+}
+
+/// Sets of larger dimension than expected, proven or not.
+void say_larger_sets(const result::Result& result, SetWords& words) {
+  const Cover& cover = result.cover;
+  const auto count = [&cover](auto&& test) {
+    return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), test));
+  };
+  for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
+    const std::size_t boxes = count([k](const auto& b) { return b.motion == static_cast<int>(k); });
+    const std::string sentence = motion_sentence(result, k);
+    const std::size_t colon = sentence.find(':');
+    words.proven.push_back(fmt::format("In {} there is a set of larger dimension than expected, {}.", boxes_text(boxes),
+                                       escaped(sentence.substr(0, colon) + with_minus(sentence.substr(colon)))));
+  }
+  const std::size_t along =
+      count([](const auto& b) { return b.verdict == Verdict::undecided && b.reason == Reason::degenerate_set; });
+  if (along > 0)
+    words.unproven.push_back(fmt::format("{} undecided {}.", along == 1 ? "One box is" : grouped(along) + " boxes are",
+                                         result::along_set_text(cover)));
+}
+
 void say_points(const result::Result& result, SetWords& words) {
   const Cover& cover = result.cover;
   const std::size_t isolated = count_points(cover, Verdict::isolated), exact = count_points(cover, Verdict::exact),
                     border = count_points(cover, Verdict::boundary),
                     others = cover.points.size() - isolated - exact - border;
   words.finding = isolated + exact == 0 ? "None proven to exist" : counted(isolated + exact, "point", "points");
+  if (const auto on_sets = static_cast<std::size_t>(
+          std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) { return b.motion >= 0; }));
+      on_sets > 0) {
+    const std::string points = isolated + exact == 0 ? "" : " and " + words.finding;
+    words.finding = counted(cover.self_motions.size(), "set of larger dimension than expected",
+                            "sets of larger dimension than expected") +
+                    ", in " + boxes_text(on_sets) + points;
+  }
   if (border > 0) words.finding += fmt::format(", {} at the border of the search domain", border);
   if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place", "undecided places"));
   if (isolated > 0) {
@@ -153,11 +193,13 @@ std::string percentage(std::size_t part, std::size_t whole) {
   return share > 99.9 ? "over 99.9 %" : fmt::format("{:.1f} %", share);
 }
 
-std::string set_title(const std::string& set) {
+std::string set_title(const result::Result& result) {
+  const std::string& set = result.set;
+  const std::string corank = result.options.corank == 1 ? "" : fmt::format(" of corank {}", result.options.corank);
   if (set == "cspace") return "C-space";
-  if (set == "forward") return "Forward singularities";
-  if (set == "inverse") return "Inverse singularities";
-  if (set == "cspace-singular") return "C-space singularities";
+  if (set == "forward") return "Forward singularities" + corank;
+  if (set == "inverse") return "Inverse singularities" + corank;
+  if (set == "cspace-singular") return "C-space singularities" + corank;
   return "Solutions";
 }
 
@@ -200,8 +242,8 @@ std::string digits_text(const Interval& x) { return with_minus(result::outward_t
 SetWords set_words(const result::Result& result, const Components& found) {
   const Cover& cover = result.cover;
   SetWords words;
-  words.title = set_title(result.set);
-  words.meaning = meaning(result.set);
+  words.title = set_title(result);
+  words.meaning = meaning(result.set, result.options.corank);
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
     if (const std::size_t n = cover.count(verdict); n > 0)
@@ -210,7 +252,7 @@ SetWords set_words(const result::Result& result, const Components& found) {
   if (cover.boxes.empty()) {
     words.finding = "None";
     words.proven.push_back(result.set == "cspace" ? "The mechanism cannot be assembled within the search domain."
-                           : result.set == "cspace-singular"
+                           : result.set == "cspace-singular" && result.options.corank == 1
                                ? "There is none in the search domain, so C-space is smooth there."
                                : "There is none in the search domain.");
     return words;
@@ -231,6 +273,7 @@ SetWords set_words(const result::Result& result, const Components& found) {
   } else {
     say_pieces(result, found, words);
   }
+  say_larger_sets(result, words);
   say_domain(result.domain, words);
   if (!cover.complete()) words.finding += ", incomplete";
   return words;

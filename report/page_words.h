@@ -24,8 +24,8 @@ struct SetWords {
   std::vector<VerdictShare> shares;           ///< of the verdicts that occur
 };
 
-/// "C-space", "Forward singularities" …
-std::string set_title(const std::string& set);
+/// "C-space", "Forward singularities", "Forward singularities of corank 2" …
+std::string set_title(const result::Result& result);
 /// "100 %" only where it is all.
 std::string percentage(std::size_t part, std::size_t whole);
 /// "94 004" with narrow spaces.

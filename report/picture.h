@@ -1,8 +1,9 @@
-// What a picture shows: the boxes of one or several results in two or three coordinates. Here it is decided which coordinates, colours
-// and names there are; how it is drawn is the matter of portrait.h (.svg, .pdf, .png), vtp.h (ParaView) and gcl.h (Geomview).
+// What a picture shows: the boxes of one or several results in two or three coordinates. Here it is decided which
+// coordinates, colours and names there are; how it is drawn is the matter of portrait.h (.svg, .pdf, .png), vtp.h (ParaView)
+// and gcl.h (Geomview).
 //
-// A coordinate is a variable or an angle θ, whose values over a box are certify::angle_enclosure of the box's cosine and sine. A box
-// across the end of the angle's range is drawn in pieces, one at each end: every piece is the box, a turn apart.
+// A coordinate is a variable or an angle θ, whose values over a box are certify::angle_enclosure of the box's cosine and
+// sine. A box across the end of the angle's range is drawn in pieces, one at each end: every piece is the box, a turn apart.
 #pragma once
 
 #include <array>
@@ -34,7 +35,8 @@ struct PictureSource {
   int dimension = 2;  ///< of the set, where known
 };
 PictureSource picture_source(const result::Result& result, const std::string& file);
-/// A solution file says nothing about angles: c_NAME and s_NAME are taken for the cosine and sine of the angle NAME in [−π, π].
+/// A solution file says nothing about angles: c_NAME and s_NAME are taken for the cosine and sine of the angle NAME in [−π,
+/// π].
 PictureSource picture_source(const result::SolFile& boxes, const std::string& file);
 
 struct PictureBox {
@@ -75,9 +77,9 @@ struct PictureOptions {
   double size = 0;  ///< 0: boxes as they are; else cubes with this edge about their centres
 };
 
-/// A source without boxes becomes a layer without boxes. Where colours tell sets apart, several sources of one set get shades and the
-/// names of their files, and boxes that were not searched (`pending`) are a layer of their own. Throws std::invalid_argument where there
-/// are not two or three axes or a source lacks one.
+/// A source without boxes becomes a layer without boxes. Where colours tell sets apart, several sources of one set get
+/// shades and the names of their files, and boxes that were not searched (`pending`) are a layer of their own. Throws
+/// std::invalid_argument where there are not two or three axes or a source lacks one.
 Picture make_picture(const std::vector<PictureSource>& sources, const PictureOptions& options);
 
 /// True where no layer has a box.

@@ -35,7 +35,8 @@ std::string bytes_of(const T* data, std::size_t count) {
   return bytes;
 }
 
-// VTK's layout: the number of blocks, the size of a whole one, of the last one where it is smaller, and of each compressed; then the blocks.
+// VTK's layout: the number of blocks, the size of a whole one, of the last one where it is smaller, and of each compressed;
+// then the blocks.
 template <class T>
 std::string compressed(const std::vector<T>& data) {
   constexpr std::size_t kBlock = std::size_t{1} << 18;

@@ -13,8 +13,8 @@ namespace {
 
 const std::string kRule(74, '=');
 
-// glibc's printf rounds decimals in the current rounding mode (exactly, at any number of digits). 17 digits to the nearest read back
-// as the same double, but rounded outward they may lie beyond the middle to the next one; 18 never do.
+// glibc's printf rounds decimals in the current rounding mode (exactly, at any number of digits). 17 digits to the nearest
+// read back as the same double, but rounded outward they may lie beyond the middle to the next one; 18 never do.
 std::string bound_text(double x, int rounding_mode) {
   const int former = std::fegetround();
   std::array<char, 64> text;

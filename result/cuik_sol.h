@@ -2,9 +2,9 @@
 //
 //   1 : <S> { 2  x[-1,0.5] y[0,1] } % regular, free x
 //
-// statistics and an end mark. What CUIK's own reader takes from a file is every "{ n [a,b] … [a,b] }", with any text in between;
-// nothing else that we write holds a brace, so it finds our boxes and passes over our verdicts. `<S>` is its mark for a box that
-// is proven to hold a solution. doc/cuik.md describes the format for users.
+// statistics and an end mark. What CUIK's own reader takes from a file is every "{ n [a,b] … [a,b] }", with any text in
+// between; nothing else that we write holds a brace, so it finds our boxes and passes over our verdicts. `<S>` is its mark
+// for a box that is proven to hold a solution. doc/cuik.md describes the format for users.
 #pragma once
 
 #include <filesystem>
@@ -50,14 +50,14 @@ struct SolFile {
 };
 
 /// The boxes of a text, bit for bit those of the result where it comes from to_sol; bounds of other programs are taken as
-/// printed, to the nearest double. The lines "Newton [… { … }" of the CUIK suite's files are approximate points and no boxes:
-/// they are passed over. Throws CuikFileError, never anything else, whatever the text (tests/fuzz).
+/// printed, to the nearest double. The lines "Newton [… { … }" of the CUIK suite's files are approximate points and no
+/// boxes: they are passed over. Throws CuikFileError, never anything else, whatever the text (tests/fuzz).
 SolFile parse_sol(std::string_view text, const std::string& file);
 /// Throws CuikFileError, or ResultFileError where the file cannot be read.
 SolFile read_sol(const std::filesystem::path& path);
 
-/// The result in that layout. Auxiliary variables are left out, as the CUIK suite does: the others keep its numbering. Bounds have 17
-/// digits, or 18 where needed: rounded outward, and read back as the same doubles.
+/// The result in that layout. Auxiliary variables are left out, as the CUIK suite does: the others keep its numbering.
+/// Bounds have 17 digits, or 18 where needed: rounded outward, and read back as the same doubles.
 std::string to_sol(const Result& result);
 /// Boxes alone, without header, as the CUIK suite's tools write them.
 std::string to_sol(const SolFile& boxes);

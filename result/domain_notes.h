@@ -1,5 +1,5 @@
-// What the ranges of a model's coordinates did to a result: which were found from the equations, which ends the set reaches, and what keeps boxes
-// `boundary`.
+// What the ranges of a model's coordinates did to a result: which were found from the equations, which ends the set reaches,
+// and what keeps boxes `boundary`.
 #pragma once
 
 #include "corank/result/result.h"

@@ -10,8 +10,8 @@
 
 namespace corank::result {
 
-/// "-3/5", "1/2*sqrt(3)": a coordinate of an exact point, where it has a short text; nothing, too, where what a file says of the point defines no
-/// number.
+/// "-3/5", "1/2*sqrt(3)": a coordinate of an exact point, where it has a short text; nothing, too, where what a file says of
+/// the point defines no number.
 std::optional<std::string> exact_coordinate(const ExactPoint& point, int variable);
 
 /// "3*pi/4", where that is the angle, exactly, with `enclosure` to tell its turn. Nothing for other angles.

@@ -96,7 +96,8 @@ class Contents {
   }
 
  private:
-  // Calls `visit` with the names of a group's links or an object's attributes. An exception must not pass through the library.
+  // Calls `visit` with the names of a group's links or an object's attributes. An exception must not pass through the
+  // library.
   template <class Iterate>
   static std::vector<std::string> names(const Iterate& iterate, const std::string& where) {
     std::vector<std::string> list;

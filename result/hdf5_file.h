@@ -1,5 +1,5 @@
-// HDF5 as far as corank needs it: named arrays, texts and attributes, written and read exactly. Paths are "/group/name"; groups
-// are made on the way. Every failure is a ResultFileError that names the file and the item.
+// HDF5 as far as corank needs it: named arrays, texts and attributes, written and read exactly. Paths are "/group/name";
+// groups are made on the way. Every failure is a ResultFileError that names the file and the item.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,9 @@
 #include "corank/result/result.h"
 
+#include "corank/symbolic/model_file.h"
+
+#include <algorithm>
+
 namespace corank::result {
 
 std::string version() { return CORANK_VERSION; }
@@ -11,6 +15,17 @@ void describe_system(const System& system, Result& result) {
   result.configuration_size = system.configuration_size;
   result.equations = static_cast<int>(system.equations.size());
   result.inequalities = static_cast<int>(system.inequalities.size());
+}
+
+void put_in(const std::vector<ConstantOverride>& constants, symbolic::Mechanism& model) {
+  for (const auto& [name, expression] : constants)
+    model.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
+}
+
+symbolic::Mechanism model_of(const Result& result) {
+  symbolic::Mechanism model = symbolic::parse_model(result.model_text, result.model + ".cuik");
+  put_in(result.options.constants, model);
+  return model;
 }
 
 }  // namespace corank::result

@@ -8,6 +8,7 @@
 
 #include "corank/core/cover.h"
 #include "corank/core/system.h"
+#include "corank/symbolic/mechanism.h"
 
 namespace corank::result {
 
@@ -41,6 +42,7 @@ struct RunOptions {
   std::uint64_t max_solutions = 0;  ///< 0: all
   double time_limit = 0;            ///< seconds; 0: no limit
   std::vector<ConstantOverride> constants;
+  int corank = 1;  ///< the set is that of kernels of this dimension at least; the number of kernel vectors
   friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };
 
@@ -74,10 +76,23 @@ struct Result {
   /// cover may be complete all the same: then less is proven of it than could be.
   std::string stopped;
   Cover cover;
-  DomainNotes domain;  ///< computed from the others by describe_domain(): result files do not hold it
+  /// Where boxes are undecided along a set of degenerate solutions: the dimension of the kernel that the singular values in
+  /// most of them suggest, where that is above options.corank; 0: nothing. Computed from the others by
+  /// study::describe_corank(): a hint.
+  int seems_of_corank = 0;
+  DomainNotes domain;                ///< computed from the others by describe_domain(): result files do not hold it
+  std::vector<std::string> motions;  ///< each self-motion in words, computed by describe_motions(), likewise
 };
 
 /// Copies what a result keeps of a system: variables, angles, sizes, and its dimension to the cover.
 void describe_system(const System& system, Result& result);
+
+/// Puts the constants into a model. Throws symbolic::ModelError where an expression does not parse or the model has no such
+/// constant.
+void put_in(const std::vector<ConstantOverride>& constants, symbolic::Mechanism& model);
+
+/// The model as the result had it: its own copy of the text, with the constants that were put in. Throws
+/// symbolic::ModelError.
+symbolic::Mechanism model_of(const Result& result);
 
 }  // namespace corank::result

@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kFormat = "corank result";
 constexpr int kFirstWithCertificates = 2;
+constexpr int kMostCorank = 1000;
 constexpr int kFirstWithScales = 4;  // and two sigmas, and reasons
 
 std::vector<std::string> verdict_words() {
@@ -59,6 +60,7 @@ void write_counts(Hdf5Writer& file, const Cover& cover) {
   for (std::size_t v = 0; v < counts.size(); ++v)
     file.attribute("/boxes", to_string(static_cast<Verdict>(v)), std::uint64_t{counts[v]});
   file.attribute("/boxes", "wider_than_sigma", std::uint64_t{cover.wider_than_sigma});
+  if (cover.observed_dimension > 0) file.attribute("/boxes", "observed_dimension", std::int64_t{cover.observed_dimension});
 }
 
 void write_variables(Hdf5Writer& file, const Result& result) {
@@ -103,6 +105,7 @@ void write_options(Hdf5Writer& file, const RunOptions& options) {
   file.attribute("/options", "sigma_length", options.sigma.length);
   file.attribute("/options", "sigma_angle", options.sigma.angle);
   file.texts("/options/kernel_scales", options.kernel_scales);
+  file.attribute("/options", "corank", std::int64_t{options.corank});
   file.attribute("/options", "tolerance", options.tolerance);
   file.attribute("/options", "threads", std::int64_t{options.threads});
   file.attribute("/options", "max_boxes", options.max_boxes);
@@ -162,6 +165,12 @@ class ResultReader {
     if (format_ >= kFirstWithCertificates) {
       check_counts(result.cover);
       result.cover.wider_than_sigma = file_.unsigned_attribute("/boxes", "wider_than_sigma");
+      if (file_.has_attribute("/boxes", "observed_dimension")) {
+        const std::int64_t observed = file_.integer_attribute("/boxes", "observed_dimension");
+        if (observed < 1 || observed > static_cast<std::int64_t>(result.variables.size()))
+          refuse("the attribute observed_dimension of /boxes is out of range");
+        result.cover.observed_dimension = static_cast<int>(observed);
+      }
       read_certificates(file_, result.cover, result.variables.size());
     }
     return result;
@@ -242,6 +251,12 @@ class ResultReader {
     options.kernel = word("/options", "kernel");
     if (!options.kernel.empty() && options.kernel != "right" && options.kernel != "left")
       refuse("the attribute kernel of /options is neither right nor left: '" + options.kernel + "'");
+    if (file_.has_attribute("/options", "corank")) {  // older files know 1 only
+      const std::int64_t corank = file_.integer_attribute("/options", "corank");
+      if (corank < 1 || corank > static_cast<std::int64_t>(kMostCorank))
+        refuse("the attribute corank of /options is out of range");
+      options.corank = static_cast<int>(corank);
+    }
     options.sigma = sigma("/options");
     if (format_ >= kFirstWithScales) options.kernel_scales = words("/options/kernel_scales");
     const std::int64_t threads = file_.integer_attribute("/options", "threads");

@@ -1,11 +1,11 @@
 // Result files, RESULT.h5: a result in HDF5, every double bit for bit:
 //
-//   /                   attributes format = "corank result", format_version, version, model, set, complete, stopped, sigma_length …
-//   /model/text         the model file as read            /model/system       the solved system in the model language
-//   /variables/…        names, kinds, domain (n×2)        /angles/…           names, cosine, sine (indices), range (k×2)
-//   /boxes/…            lower, upper (N×n), verdict, reason (enumerations), free (N×n mask)         /points/… likewise
-//   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes
-//   /certificates/…     what `corank verify` needs, see report/certificate_file.h
+//   /                   attributes format = "corank result", format_version, version, model, set, complete, stopped,
+//   sigma_length … /model/text         the model file as read            /model/system       the solved system in the model
+//   language /variables/…        names, kinds, domain (n×2)        /angles/…           names, cosine, sine (indices), range
+//   (k×2) /boxes/…            lower, upper (N×n), verdict, reason (enumerations), free (N×n mask)         /points/… likewise
+//   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes /certificates/…     what
+//   `corank verify` needs, see report/certificate_file.h
 //   /options, /statistics   attributes; /options/constants/… names, expressions
 #pragma once
 
@@ -23,7 +23,8 @@ namespace corank::result {
 /// sigma for all variables, kernel vectors of unscaled norm and no reasons.
 inline constexpr int kFormatVersion = 4;
 
-/// Throws ResultFileError where no file can be written at `path` (report/output_file.h): to be asked before a long computation.
+/// Throws ResultFileError where no file can be written at `path` (report/output_file.h): to be asked before a long
+/// computation.
 void check_writable(const std::filesystem::path& path);
 
 /// Writes a new file beside `path` and renames it, so that `path` never holds half a result. Throws ResultFileError.

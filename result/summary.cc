@@ -13,6 +13,8 @@
 #include "corank/certify/angle.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/exact_angle.h"
+#include "corank/result/motion_words.h"
+#include "corank/symbolic/singularity_system.h"
 
 namespace corank::result {
 namespace {
@@ -131,8 +133,9 @@ std::string decimals_text(const Result& result) {
 // Boxes by the bound of the kernel's dimension; without the undecided boxes that may hold no solution.
 struct KernelTally {
   std::map<int, std::size_t> at_most;
-  std::size_t larger = 0;     // with a bound above 1
+  std::size_t larger = 0;     // with a bound above the corank that was asked for
   std::size_t explained = 0;  // of these, with a point where the dimension is known to be above 1
+  std::size_t known = 0;      // of the others, likewise: the corank asked for was above 1
 };
 
 KernelTally kernel_tally(const Result& result) {
@@ -141,27 +144,29 @@ KernelTally kernel_tally(const Result& result) {
     const ExactPoint* point = exact_point(result, box);
     if (box.corank < 0 || (box.verdict == Verdict::undecided && !point)) continue;
     ++tally.at_most[box.corank];
-    if (box.corank <= 1) continue;
-    ++tally.larger;
-    if (point && point->corank > 1) ++tally.explained;
+    const bool larger = box.corank > result.options.corank;
+    tally.larger += larger;
+    if (point && point->corank > 1) ++(larger ? tally.explained : tally.known);
   }
   return tally;
 }
 
 // What is known of the kernel's dimension, and the points where it is 2 or more.
 std::string kernel_text(const Result& result) {
-  const auto [at_most, larger, explained] = kernel_tally(result);
+  const auto [at_most, larger, explained, known] = kernel_tally(result);
+  const int least = result.options.corank;
   if (at_most.empty()) return "";
   std::string text = "\nkernel:";
   const char* between = "";
   for (const auto& [bound, n] : at_most) {
-    text += bound <= 1 ? fmt::format(" dimension 1 in {}", plural(n, "box"))
-                       : fmt::format("{} at most {} in {}", between, bound, n);
+    text += bound <= least ? fmt::format(" dimension {} in {}", least, plural(n, "box"))
+                           : fmt::format("{} at most {} in {}", between, bound, n);
     between = ",";
   }
   text += "\n";
   const auto points = std::count_if(result.cover.exact_points.begin(), result.cover.exact_points.end(),
                                     [](const ExactPoint& p) { return p.corank > 1; });
+  if (known > 0) text += fmt::format("  a configuration where this is proven lies in {} of them:\n", known);
   if (explained > 0)
     text +=
         fmt::format("  {} of these hold {} where it is proven:\n", explained == larger ? "all" : std::to_string(explained),
@@ -180,8 +185,8 @@ std::string kernel_text(const Result& result) {
     text += "\n";
   }
   if (larger > explained)
-    text +=
-        fmt::format("  whether it is larger than 1 anywhere in {} is not known\n", plural(larger - explained, "other box"));
+    text += fmt::format("  whether it is larger than {} anywhere in {} is not known\n", least,
+                        plural(larger - explained, "other box"));
   return text;
 }
 
@@ -235,12 +240,24 @@ std::string sigma_text(const Sigma& sigma) {
   return fmt::format("sigma {:g} in lengths, {:g} in sines and cosines", sigma.length, sigma.angle);
 }
 
-std::string in_words(Reason reason) {
+}  // namespace
+
+std::string along_set_text(const Cover& cover) {
+  if (cover.observed_dimension <= cover.dimension) return "along a curve, or a larger set, of degenerate solutions";
+  return fmt::format("along a set of dimension {}, as samples show, larger than expected; not proven: {}",
+                     cover.observed_dimension,
+                     cover.self_motions.empty() ? "no linear relations were found on it that make its equations dependent"
+                                                : "the linear relations that were found do not prove it there");
+}
+
+namespace {
+
+std::string in_words(Reason reason, const Cover& cover) {
   using enum Reason;
   switch (reason) {
     case none: break;
     case degenerate_point: return "next to a degenerate solution, where the Jacobian has not its full rank";
-    case degenerate_set: return "along a curve, or a larger set, of degenerate solutions";
+    case degenerate_set: return along_set_text(cover);
     case tolerance: return "the coefficients' tolerance moves the solutions too far";
     case precision: return "doubles divide them no further";
     case limit: return "a limit ended the search before they were divided further";
@@ -248,46 +265,24 @@ std::string in_words(Reason reason) {
   return "reason unknown";
 }
 
-// "c_t3 = c_t2": the relation solved for the first variable that has the coefficient 1 or −1, or the first.
-std::string relation_text(const Result& result, const Polynomial& f) {
-  std::size_t own = 0;
-  const auto is_unit = [](const Monomial& m) { return !m.factors.empty() && m.coefficient.text() == "1"; };
-  for (std::size_t k = f.monomials.size(); k-- > 0;)
-    if (is_unit(f.monomials[k])) own = k;
-  const auto name = [&](const Monomial& m) {
-    return result.variables[static_cast<std::size_t>(m.factors[0].variable)].name;
-  };
-  std::string text;
-  for (std::size_t k = 0; k < f.monomials.size(); ++k) {
-    const Monomial& m = f.monomials[k];
-    if (k == own) continue;
-    ExactNumber c = -(m.coefficient / f.monomials[own].coefficient);
-    const bool negative = c.sign() == -1;
-    if (negative) c = -c;
-    const std::string factor = m.factors.empty() ? c.text() : (c.text() == "1" ? "" : c.text() + "*") + name(m);
-    text += text.empty() ? (negative ? "-" : "") + factor : (negative ? " - " : " + ") + factor;
-  }
-  return name(f.monomials[own]) + " = " + (text.empty() ? "0" : text);
+std::size_t boxes_on(const Cover& cover, std::size_t motion) {
+  return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [motion](const CoverBox& box) {
+    return box.motion == static_cast<int>(motion);
+  }));
 }
 
 std::string motions_text(const Result& result) {
   std::string text;
-  const Cover& cover = result.cover;
-  for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
-    const auto on_it = [k](const CoverBox& box) { return box.motion == static_cast<int>(k); };
-    std::string relations;
-    for (const Polynomial& f : cover.self_motions[k].relations)
-      relations += (relations.empty() ? "" : ", ") + relation_text(result, f);
-    text += fmt::format(
-        "a set of dimension {}, larger than expected (a self-motion), in {}: {}\n", cover.self_motions[k].dimension,
-        plural(static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), on_it)), "box"), relations);
-  }
+  for (std::size_t k = 0; k < result.cover.self_motions.size(); ++k)
+    text += fmt::format("larger than expected, in {}: {}\n", plural(boxes_on(result.cover, k), "box"),
+                        motion_sentence(result, k));
   return text;
 }
 
 std::string reasons_text(const Cover& cover) {
   std::string text;
-  for (const auto& [reason, n] : undecided_reasons(cover)) text += fmt::format("  undecided, {}: {}\n", n, in_words(reason));
+  for (const auto& [reason, n] : undecided_reasons(cover))
+    text += fmt::format("  undecided, {}: {}\n", n, in_words(reason, cover));
   return text;
 }
 
@@ -295,10 +290,10 @@ std::string reasons_text(const Cover& cover) {
 
 std::string to_table(const Result& result) {
   const Cover& cover = result.cover;
-  std::string text = fmt::format("{}, {}: {}, {}, {}; dimension {}\n", result.model, result.set,
-                                 plural(result.variables.size(), "variable"),
-                                 plural(static_cast<std::size_t>(result.equations), "equation"),
-                                 plural(static_cast<std::size_t>(result.inequalities), "inequality"), cover.dimension);
+  std::string text = fmt::format(
+      "{}, {}: {}, {}, {}; dimension {}\n", result.model, symbolic::set_with_corank(result.set, result.options.corank),
+      plural(result.variables.size(), "variable"), plural(static_cast<std::size_t>(result.equations), "equation"),
+      plural(static_cast<std::size_t>(result.inequalities), "inequality"), cover.dimension);
   text += fmt::format("{}{}{}\n", sigma_text(cover.sigma), result.options.kernel.empty() ? "" : ", kernel ",
                       result.options.kernel);
   if (!result.domain.found.empty()) text += found_ranges_text(result);
@@ -318,6 +313,8 @@ std::string to_table(const Result& result) {
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
   text += reasons_text(cover);
+  if (result.seems_of_corank > result.options.corank)
+    text += fmt::format("    the kernel there seems to have dimension {0}: try --corank {0}\n", result.seems_of_corank);
   text += motions_text(result);
   if (!result.domain.boundary.empty()) text += boundary_text(result.domain);
   if (const std::size_t wide = cover.wider_than_sigma; wide > 0) {
@@ -385,6 +382,7 @@ std::string to_json(const Result& result) {
   Json json;
   json["model"] = result.model;
   json["set"] = result.set;
+  json["corank"] = result.options.kernel.empty() ? Json() : Json(result.options.corank);
   json["system"] = {{"variables", result.variables.size()},
                     {"equations", result.equations},
                     {"inequalities", result.inequalities},
@@ -410,14 +408,16 @@ std::string to_json(const Result& result) {
     json["boxes"][to_string(verdict)] = counts[static_cast<std::size_t>(verdict)];
   json["undecided_reasons"] = Json::object();
   for (const auto& [reason, n] : undecided_reasons(cover)) json["undecided_reasons"][to_string(reason)] = n;
+  json["observed_dimension"] = cover.observed_dimension > 0 ? Json(cover.observed_dimension) : Json();
+  json["seems_of_corank"] = result.seems_of_corank > 0 ? Json(result.seems_of_corank) : Json();
   json["self_motions"] = Json::array();
   for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
     Json relations = Json::array();
     for (const Polynomial& f : cover.self_motions[k].relations) relations.push_back(relation_text(result, f));
-    const auto on_it = [k](const CoverBox& box) { return box.motion == static_cast<int>(k); };
     json["self_motions"].push_back({{"dimension", cover.self_motions[k].dimension},
-                                    {"boxes", std::count_if(cover.boxes.begin(), cover.boxes.end(), on_it)},
-                                    {"relations", relations}});
+                                    {"boxes", boxes_on(cover, k)},
+                                    {"relations", relations},
+                                    {"text", motion_sentence(result, k)}});
   }
   json["boundary_reasons"] = Json::array();
   for (const DomainNotes::Reason& reason : result.domain.boundary)

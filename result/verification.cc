@@ -110,15 +110,13 @@ Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.fa
 }  // namespace
 
 System system_of(const Result& result) {
-  symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
-  for (const auto& [name, expression] : result.options.constants)
-    mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
+  const symbolic::Mechanism mechanism = model_of(result);
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (mechanism.is_plain_system() ? result.set != "system" : !set)
     throw ResultFileError("the result's model has no set '" + result.set + "'");
   System system = symbolic::algebrize(
       set ? symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
-                                         result.options.kernel_scales)
+                                         result.options.kernel_scales, result.options.corank)
           : symbolic::plain_system(mechanism));
   system.coefficient_tolerance = result.options.tolerance;
   try {
@@ -176,7 +174,7 @@ std::vector<std::string> contradictions(const Result& result, const System& syst
 std::string to_table(const Verification& verification, const Result& result) {
   const Report& report = verification.report;
   std::string text = fmt::format("{}, {}: checked against its model with intervals of 160 bits and exact numbers\n\n",
-                                 result.model, result.set);
+                                 result.model, symbolic::set_with_corank(result.set, result.options.corank));
   for (const std::string& c : verification.contradictions) text += "file: " + c + "\n";
   if (!verification.contradictions.empty()) return printable(text + "NOT VERIFIED: nothing else was checked\n");
   text += fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", "verdict", "verified", "failed", "not checkable");

@@ -20,15 +20,16 @@ struct Verification {
   bool complete() const { return contradictions.empty() && report.complete(); }
 };
 
-/// The system that a result's model and options give. Throws ModelError where the model is none, ResultFileError where it has no such set.
+/// The system that a result's model and options give. Throws ModelError where the model is none, ResultFileError where it
+/// has no such set.
 System system_of(const Result& result);
 
 /// Checks a result against its model: contradictions, check::check. `system` is system_of(result).
 Verification verify(const Result& result, const System& system, const check::Options& options = {});
 Verification verify(const Result& result, const check::Options& options = {});
 
-/// Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the polynomials'
-/// text (comments aside) and the options.
+/// Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the
+/// polynomials' text (comments aside) and the options.
 std::vector<std::string> contradictions(const Result& result, const System& system, const std::string& system_text);
 
 /// A table of counts per verdict, the completeness proof, the first failures.

@@ -1,4 +1,5 @@
-// The order of a cover's boxes: by their sides, then by what is claimed of them, so that it does not matter which thread found which box.
+// The order of a cover's boxes: by their sides, then by what is claimed of them, so that it does not matter which thread
+// found which box.
 #pragma once
 
 #include <tuple>

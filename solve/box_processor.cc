@@ -178,8 +178,8 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   const bool noisy = noisy_ && problem_.relative_width(x) < kNoisySize;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share));
   if (split < 0 && !noisy && !problem_.tolerant) {
-    // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or may be, but
-    // not for long.
+    // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
+    // may be, but not for long.
     if (!regular_) near = degenerate_solution(x, share);
     if (!near) split = branching.choose(problem_.compiled, x, problem_.limits(regular_ ? kFinestShare : kOpenShare * share));
   }
@@ -188,8 +188,8 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
     near = LocalSolution{midpoint(x), problem_.compiled.equations()};
   }
   if (!worth_proving_) return split;
-  // Where a proof is near, the solutions in x are a sheet over the free variables: cutting along those alone gives parts whose sheets do
-  // not overlap.
+  // Where a proof is near, the solutions in x are a sheet over the free variables: cutting along those alone gives parts
+  // whose sheets do not overlap.
   const int free = widest_free(x);
   const auto relative_width = [&](int j) { return x[j].width() / problem_.compiled.scales()[static_cast<std::size_t>(j)]; };
   if (free >= 0 && split >= 0 && split_point(x[free]) && relative_width(free) > kFreeCutShare * relative_width(split))
@@ -225,7 +225,8 @@ BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double share)
                           {}});
     return Outcome::postponed;
   }
-  // At its final size: where equations may be redundant, the box gets its one chance of such a proof here, where its rank shows.
+  // At its final size: where equations may be redundant, the box gets its one chance of such a proof here, where its rank
+  // shows.
   if (problem_.redundant.applies() && certify(x, Proof::partial)) return Outcome::done;
   give_up(x, Reason::tolerance);
   return Outcome::done;

@@ -1,4 +1,5 @@
-// What happens to one box of the search: contraction, proof, or bisection; and later the cutting of proven sheets to the size asked for.
+// What happens to one box of the search: contraction, proof, or bisection; and later the cutting of proven sheets to the
+// size asked for.
 //
 // All that deletes, shrinks or certifies is a call into certify/; this file only decides what to try when.
 #pragma once
@@ -44,9 +45,9 @@ class BoxProcessor {
   BoxProcessor(const BoxProcessor&) = delete;  // the slicer refers to its siblings
   BoxProcessor& operator=(const BoxProcessor&) = delete;
 
-  /// Treats the box x (changed in place). done: it is empty, or its solutions are in a sheet of proven(), or in found(). split: it has
-  /// shrunk to x and is to be bisected at split_variable(). postponed: it is the last of postponed().
-  /// `share` of the typical sizes: how small a box is before it may be postponed.
+  /// Treats the box x (changed in place). done: it is empty, or its solutions are in a sheet of proven(), or in found().
+  /// split: it has shrunk to x and is to be bisected at split_variable(). postponed: it is the last of postponed(). `share`
+  /// of the typical sizes: how small a box is before it may be postponed.
   Outcome process(std::span<Interval> x, double share);
   /// Keeps a postponed box that was proven to hold a self-motion.
   void add_proven(const Postponed& box);
@@ -71,11 +72,12 @@ class BoxProcessor {
   bool contract(std::span<Interval> x);
   // The widest side that Newton leaves free, −1 where there is none.
   int widest_free(std::span<const Interval> x);
-  // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), keeps it and returns true.
+  // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), keeps it and returns
+  // true.
   enum class Proof { full, partial };
   certify::Sheet prove(std::span<const Interval> x);
-  // Proves an independent subset and bounds the others over a box no narrower than σ: in a tiny box around a singular point any
-  // equation looks redundant.
+  // Proves an independent subset and bounds the others over a box no narrower than σ: in a tiny box around a singular point
+  // any equation looks redundant.
   certify::Sheet prove_partially(std::span<const Interval> x);
   bool certify(std::span<Interval> x, Proof proof);
   // A solution in x or next to it at which the Jacobian has not its full rank.

@@ -1,5 +1,5 @@
-// The search: depth first, so that memory grows with the depth and the results; what happens to a box does not depend on any other
-// box, so threads only share the work and the sorted result is the same for any number of them.
+// The search: depth first, so that memory grows with the depth and the results; what happens to a box does not depend on any
+// other box, so threads only share the work and the sorted result is the same for any number of them.
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -35,7 +35,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kPointGap = 1e-6;  // of the typical sizes: closer undecided boxes are of one point
-// Boxes that resist proof next to a degenerate solution wait until the others are done, first of this size, then of the next.
+// Boxes that resist proof next to a degenerate solution wait until the others are done, first of this size, then of the
+// next.
 constexpr double kFirstShare = 1.0 / 20, kNextShare = 1.0 / 4;
 
 class Search {
@@ -93,7 +94,8 @@ class Search {
   void cut() {
     const std::vector<const Proven*> all = sheets();
     cutting_ = true;
-    // A search that was long enough: what it has found is cut all the same. What another limit has ended is left uncut: proven.
+    // A search that was long enough: what it has found is cut all the same. What another limit has ended is left uncut:
+    // proven.
     const auto ending = control_.ending();
     const bool whole = ended_ && ending && ending->by != Limit::boxes && ending->by != Limit::solutions;
     if (!whole) ended_ = false;
@@ -554,6 +556,8 @@ Cover solve(const System& system, const Options& given) {
     const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial && search.motions().none();
     if (options.proof && replayable) cover.proof = search.proof(found);
     cover.self_motions = search.motions().records(reduction);
+    if (std::any_of(found.begin(), found.end(), [](const Found* f) { return f->box.reason == Reason::degenerate_set; }))
+      cover.observed_dimension = search.motions().observed_dimension();
     for (CoverBox& point : cover.points) point = lifted(system, reduction, std::move(point));
     cover.boxes = lifted(system, reduction, found);
   });

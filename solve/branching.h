@@ -20,11 +20,11 @@ class BranchingRule {
  public:
   explicit BranchingRule(const System& system);
 
-  /// The variable to bisect for an unproven box: the one of largest s⁴ · width / typical size (certify::CompiledSystem::scales) among those
-  /// wider than their limit; −1 where there is none that can be divided. s is the sum over the equations i of √(|J_ij| w_j / Σ_k |J_ik|
-  /// w_k), the variable's share in what makes each uncertain: relative smear (key Trombettoni2011), where the root favours a variable of many
-  /// equations; root and power are measured, see bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until
-  /// all others are narrow.
+  /// The variable to bisect for an unproven box: the one of largest s⁴ · width / typical size
+  /// (certify::CompiledSystem::scales) among those wider than their limit; −1 where there is none that can be divided. s is
+  /// the sum over the equations i of √(|J_ij| w_j / Σ_k |J_ik| w_k), the variable's share in what makes each uncertain:
+  /// relative smear (key Trombettoni2011), where the root favours a variable of many equations; root and power are measured,
+  /// see bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until all others are narrow.
   int choose(const certify::CompiledSystem& system, std::span<const Interval> x, const std::vector<double>& limits) const;
 
   const std::vector<double>& weights() const { return weight_; }

@@ -8,16 +8,17 @@
 
 namespace corank::solve {
 
-/// Φ(q) = 0, M(q) ξ¹ = 0 … M(q) ξᶜ = 0 with ξᵏ = 1 in its own pivot, 0 in the others' pivots: no norm and no rotation is left free. Over-determined
-/// in general. Variables: those of the system that are no kernel variables, in order, then the free entries of the vectors.
+/// Φ(q) = 0, M(q) ξ¹ = 0 … M(q) ξᶜ = 0 with ξᵏ = 1 in its own pivot, 0 in the others' pivots: no norm and no rotation is
+/// left free. Over-determined in general. Variables: those of the system that are no kernel variables, in order, then the
+/// free entries of the vectors.
 struct CorankSystem {
   System system;
   std::vector<int> configuration;  ///< index in the original system of each of the leading variables
   std::vector<double> start;       ///< near the given point
 };
 
-/// About a point x of the system near which M has c small singular values (Eigen's SVD; heuristic). Nothing can go wrong by the choice: what
-/// is found is verified.
+/// About a point x of the system near which M has c small singular values (Eigen's SVD; heuristic). Nothing can go wrong by
+/// the choice: what is found is verified.
 CorankSystem corank_system(const System& system, const certify::KernelMatrix& matrix, const std::vector<double>& x, int c);
 
 /// The singular values of M at x, descending.

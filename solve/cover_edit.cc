@@ -87,8 +87,8 @@ int CoverEdit::append(const Partition& partition, Proof around, int first_box) {
     side.intersect(reduction_.system.variables[k].domain);
     proof.roots.back().push_back(side);
   }
-  // The parts came one after the other: each split leaves one part and what goes on. Those that lie below come at once, those above after
-  // all that follows.
+  // The parts came one after the other: each split leaves one part and what goes on. Those that lie below come at once,
+  // those above after all that follows.
   std::vector<int> above;
   for (std::size_t k = 0; k < partition.splits.size(); ++k) {
     const Partition::Split& split = partition.splits[k];

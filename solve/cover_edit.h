@@ -1,5 +1,5 @@
-// Boxes of a cover taken out and others put in their place, its proof along with them. The caller sees to it that the cover stays one of the same
-// solutions; the checker of the proof does not take that on trust.
+// Boxes of a cover taken out and others put in their place, its proof along with them. The caller sees to it that the cover
+// stays one of the same solutions; the checker of the proof does not take that on trust.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace corank::solve {
 
-/// A box and its parts: each split leaves one part, which goes to a search of its own, and what goes on to the next split; the core is what
-/// remains. Splits number the variables that are kept.
+/// A box and its parts: each split leaves one part, which goes to a search of its own, and what goes on to the next split;
+/// the core is what remains. Splits number the variables that are kept.
 struct Partition {
   struct Split {
     int variable;
@@ -29,7 +29,8 @@ class CoverEdit {
 
   /// Box i goes; its solutions are in box `by`.
   void replace(int i, int by);
-  /// The boxes go; their solutions are in the whole, of which `around` covers the parts, searched in that order, and `core` the core.
+  /// The boxes go; their solutions are in the whole, of which `around` covers the parts, searched in that order, and `core`
+  /// the core.
   void replace(const std::vector<std::size_t>& boxes, const Partition& partition, Cover around, CoverBox core);
   /// Removes what was replaced, sorts the boxes as solve() does, and renumbers them in the proof. Ends the edit.
   void finish();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "corank/certify/polynomial_algebra.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/points.h"
 #include "corank/solve/preconditioner.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr double kPointShare = 1e-7, kOtherShare = 1.0 / 400;  // the last of the sizes
 constexpr double kSetShare = 1.0 / 60;                         // the last along a set of degenerate solutions
 constexpr double kIsolatedHull = 8;                            // in box sizes: boxes around one point hardly reach farther
+constexpr double kWideExtent = 0.25;                           // of the typical sizes: reaches no cluster around one point
 constexpr std::size_t kProbes = 8;                             // of a cluster
 constexpr int kDirections = 3;
 constexpr double kProbeStep = 0.5;     // in box sizes of the first level
@@ -70,16 +72,20 @@ bool goes_on(const Problem& problem, const LocalSolution& start, double step, st
   return false;
 }
 
-bool is_isolated(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster,
-                 double share) {
+// Of the typical sizes: how far the cluster reaches.
+double extent(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster) {
   Box hull = boxes[cluster[0]].x;
   for (const std::size_t i : cluster)
     for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], boxes[i].x[j]);
-  return problem.relative_width(hull) <= kIsolatedHull * share;
+  return problem.relative_width(hull);
 }
 
 bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster,
                     double share) {
+  // Surfaces meet each other and themselves along curves, curves do so at points. Around a point small boxes reach about
+  // √share.
+  const bool surface = problem.compiled.variables() > problem.compiled.equations() + 1;
+  if (surface && share < kSetShare && extent(problem, boxes, cluster) > kWideExtent) return true;
   std::mt19937 random(1);
   const std::size_t probes = std::min(kProbes, cluster.size());
   std::size_t along = 0;
@@ -88,30 +94,59 @@ bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes,
   return 2 * along >= probes;
 }
 
+// The rows with a derivative that vanishes nowhere in the box. Of a row like s (a − b) = 0 where s = 0 and a = b nothing
+// follows there, though it is as good as any other a step away.
+std::vector<int> steady_rows(const certify::CompiledSystem& system, const Box& x) {
+  const UpwardRounding rounding;
+  std::vector<Interval> jacobian(static_cast<std::size_t>(system.entries()));
+  system.jacobian(x, jacobian);
+  std::vector<int> result;
+  for (int row = 0; row < system.equations(); ++row)
+    for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
+      if (jacobian[static_cast<std::size_t>(k)].mig() > 0) {
+        result.push_back(row);
+        break;
+      }
+  return result;
+}
+
+// Does no relation exclude the box?
+bool may_hold_in(const certify::SelfMotion& motion, const Box& x) {
+  const UpwardRounding rounding;
+  return std::all_of(motion.relations.begin(), motion.relations.end(),
+                     [&](const Polynomial& f) { return certify::evaluate(f, x).contains(0.0); });
+}
+
 }  // namespace
 
-bool SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed& box) {
+void SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed& box) {
   const certify::SelfMotion& motion = known_[index].motion;
   certify::NewtonWorkspace workspace;
   PreconditionerFactory of_system(problem.compiled), of_motion(motion.compiled);
-  const certify::Preconditioner e = of_system.near_solution(box.x, kMotionRankTolerance);
-  if (e.rank() != static_cast<int>(motion.sufficient.size())) return false;
-  const certify::Preconditioner r = of_motion.at_midpoint(box.x, &e.dependent, &motion.sufficient);
-  if (r.rank() != e.rank()) return false;
-  box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.x, workspace);
-  box.proof.motion = static_cast<int>(index);
-  box.step = e;
-  return box.proof.proven;
+  const std::vector<int> steady = steady_rows(problem.compiled, box.x);
+  for (const std::vector<int>* rows : {static_cast<const std::vector<int>*>(nullptr), &steady}) {
+    const certify::Preconditioner e = of_system.near_solution(box.x, kMotionRankTolerance, rows);
+    if (e.rank() != static_cast<int>(motion.sufficient.size())) continue;
+    const certify::Preconditioner r = of_motion.at_midpoint(box.x, &e.dependent, &motion.sufficient);
+    if (r.rank() != e.rank()) continue;
+    box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.x, workspace);
+    box.proof.motion = static_cast<int>(index);
+    box.step = e;
+    if (box.proof.proven) return;
+  }
 }
 
 bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
   bool known = false;
+  std::optional<LocalSolution> precise;  // where `near` is not
   for (std::size_t k = 0; k < known_.size() && !box.proof.proven; ++k) {
-    if (!holds_at(known_[k].motion, problem, box.near.x)) continue;
-    known = true;
-    prove_on(k, problem, box);
+    const auto& motion = known_[k].motion;
+    if (!known && !holds_at(motion, problem, box.near.x) && !precise)
+      precise = local_solution(problem, box.near.x, kTolerance);
+    known = known || holds_at(motion, problem, box.near.x) || (precise && holds_at(motion, problem, precise->x));
+    if (may_hold_in(motion, box.x)) prove_on(k, problem, box);
   }
-  return known;
+  return known || box.proof.proven;
 }
 
 void SelfMotions::prove_cluster(const Problem& problem, const System& system, std::vector<Postponed>& boxes,
@@ -126,10 +161,18 @@ void SelfMotions::prove_cluster(const Problem& problem, const System& system, st
       continue;
     ++attempts;
     MotionCandidate candidate = find_self_motion(problem, system, box.near);
+    const int expected = std::max(0, problem.compiled.variables() - problem.compiled.equations());
+    if (candidate.dimension > expected) observed_ = std::max(observed_, candidate.dimension);
     if (!candidate.motion) continue;
-    known_.push_back({std::move(*candidate.motion), candidate.dimension});
-    attempts = 0;
-    prove_on(known_.size() - 1, problem, box);
+    const auto same = std::find_if(known_.begin(), known_.end(), [&](const Known& other) {
+      return certify::same_relations(other.motion, *candidate.motion);
+    });
+    const auto index = static_cast<std::size_t>(same - known_.begin());
+    if (same == known_.end()) {
+      known_.push_back({std::move(*candidate.motion), candidate.dimension});
+      attempts = 0;
+    }
+    prove_on(index, problem, box);
   }
 }
 
@@ -142,21 +185,28 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
   for (const std::vector<std::size_t>& cluster : clusters(sides, problem.limits(1e-3 * share), problem.ended)) {
     if (problem.ended()) break;  // the search takes what is left back
     Reason reason = share < last ? Reason::degenerate_point : Reason::none;
-    if (!is_isolated(problem, boxes, cluster, share)) {
+    if (extent(problem, boxes, cluster) > kIsolatedHull * share) {  // more than one point
       reason = Reason::none;
       const bool along = is_along_a_set(problem, boxes, cluster, share);
       if (along) prove_cluster(problem, system, boxes, cluster, share);
       const auto open = static_cast<std::size_t>(
           std::count_if(cluster.begin(), cluster.end(), [&](std::size_t i) { return !boxes[i].proof.proven; }));
-      // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around a few places may
-      // be divided on.
+      // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around
+      // a few places may be divided on.
       const std::size_t many = along ? kManyBoxes : kTooManyBoxes;
-      if (share < (along ? kSetShare : last) || (open > many && 2 * open > cluster.size())) reason = Reason::degenerate_set;
+      // Around a surface these places are curves, where each size has twice as many boxes, and the surface is proven in four
+      // times as many.
+      const bool surface = std::any_of(cluster.begin(), cluster.end(), [&](std::size_t i) {
+        return boxes[i].proof.proven && known_[static_cast<std::size_t>(boxes[i].proof.motion)].dimension > 1;
+      });
+      if (share < (along ? kSetShare : last) || (open > many && (surface || 2 * open > cluster.size())))
+        reason = Reason::degenerate_set;
     }
     for (const std::size_t i : cluster) {
-      if (!boxes[i].proof.proven) prove_on_known(problem, boxes[i]);
+      const bool on_known = !boxes[i].proof.proven && prove_on_known(problem, boxes[i]);
       const bool at_doubles_end = problem.relative_width(boxes[i].x) < kDoublesEnd || boxes[i].noisy;
       reasons[i] = reason == Reason::none && at_doubles_end ? Reason::precision : reason;
+      if (reasons[i] != Reason::none && on_known) reasons[i] = Reason::degenerate_set;  // it is no point
     }
   }
   return reasons;

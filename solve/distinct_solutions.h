@@ -12,8 +12,8 @@
 
 namespace corank::solve {
 
-// Which isolated solutions have been found, as certify::compare_isolated sees it: what merge_isolated will remove or doubt at
-// the end does not count.
+// Which isolated solutions have been found, as certify::compare_isolated sees it: what merge_isolated will remove or doubt
+// at the end does not count.
 class DistinctSolutions {
  public:
   void add(const certify::Sheet& sheet) {

@@ -94,6 +94,7 @@ class Prover {
     }
     cover_.points = std::move(points);
     edit_.finish();
+    if (system_.kernel_vectors > 1) configurations();
   }
 
   void coranks() {
@@ -117,7 +118,7 @@ class Prover {
       Box hull = cover_.boxes[cluster[0]].box;
       for (const std::size_t i : cluster)
         for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cover_.boxes[i].box[j]);
-      const std::optional<int> point = corank_point(matrix, hull);
+      const std::optional<int> point = corank_point(matrix, hull, system_.kernel_vectors + 1);
       if (!point) {
         ++futile;
         continue;
@@ -143,7 +144,7 @@ class Prover {
     // Few: one after the other, since a point's number is narrowed while it is compared.
     const auto explain = [&](CoverBox& box) {
       const UpwardRounding rounding;
-      if (box.corank <= 1 || stopped()) return;
+      if (box.corank <= system_.kernel_vectors || stopped()) return;
       for (std::size_t i = 0; i < cover_.exact_points.size() && box.point < 0; ++i)
         if (cover_.exact_points[i].corank >= box.corank && places[i].in(box.box)) box.point = static_cast<int>(i);
       if (box.point < 0) box.corank = bound.at_most(box.box, kKernelDepth);
@@ -153,6 +154,27 @@ class Prover {
   }
 
  private:
+  // The gauge of several kernel vectors makes their entries numbers of large degree. The configuration may be one that is
+  // found all the same: then the box is known to hold it, and that the kernel has the dimension asked for.
+  void configurations() {
+    const certify::KernelMatrix matrix = certify::kernel_matrix(system_);
+    int futile = 0;
+    std::vector<int> found;
+    for (const CoverBox& point : cover_.points) {
+      if (stopped() || futile >= kMostFutile) break;
+      if (point.verdict != Verdict::undecided || point.point >= 0) continue;
+      const std::optional<int> exact = corank_point(matrix, point.box, system_.kernel_vectors);
+      futile = exact ? 0 : futile + 1;
+      if (exact && std::find(found.begin(), found.end(), *exact) == found.end()) found.push_back(*exact);
+    }
+    for (const int index : found) {
+      const certify::PointLocation place(cover_.exact_points[static_cast<std::size_t>(index)]);
+      for (std::vector<CoverBox>* list : {&cover_.boxes, &cover_.points})
+        for (CoverBox& box : *list)
+          if (box.verdict == Verdict::undecided && box.point < 0 && place.in(box.box)) box.point = index;
+    }
+  }
+
   // Proves an undecided cluster. True: it holds nothing but the solution of another box.
   bool settle(CoverBox& cluster) {
     const std::optional<int> exact = exact_point(cluster.box);
@@ -258,12 +280,12 @@ class Prover {
     return certify::holds_nothing_else(point, box);
   }
 
-  // A verified configuration in or next to the box where the kernel has dimension 2 or more.
-  std::optional<int> corank_point(const certify::KernelMatrix& matrix, const Box& hull) {
+  // A verified configuration in or next to the box where the kernel has that dimension at least.
+  std::optional<int> corank_point(const certify::KernelMatrix& matrix, const Box& hull, int least) {
     const std::vector<double> x = midpoint(hull);
     const std::vector<double> s = singular_values(matrix, x);
     const int k = static_cast<int>(s.size());
-    for (int c = 2; c <= k && s[static_cast<std::size_t>(k - c)] < kSmallSingularValue * s[0]; ++c) {
+    for (int c = least; c <= k && s[static_cast<std::size_t>(k - c)] < kSmallSingularValue * s[0]; ++c) {
       const CorankSystem extended = corank_system(system_, matrix, x, c);
       const auto zero = certify::approximate_zero(extended.system, dyadic(extended.start), kBits, ended_);
       if (!zero) continue;
@@ -273,7 +295,7 @@ class Prover {
       auto point = guess_exactly(coordinates, kGuessBits, kDegree, ended_);
       if (!point) continue;
       const certify::ExactVerification verified = certify::verify_exactly(system_, *point, ended_);
-      if (!verified.holds || verified.corank < 2) continue;
+      if (!verified.holds || verified.corank < least) continue;
       point->corank = verified.corank;
       // Next to the boxes: no farther than they are wide together.
       const ExactNumber far = certify::reach(*point, hull);
@@ -291,8 +313,8 @@ class Prover {
     return width;
   }
 
-  // The search again, in the hull without a core about the point's known coordinates; then the core itself. Nothing changes where even large
-  // cores leave boxes undecided around them.
+  // The search again, in the hull without a core about the point's known coordinates; then the core itself. Nothing changes
+  // where even large cores leave boxes undecided around them.
   void search_around(int index, const Box& hull, const std::vector<std::size_t>& cluster) {
     const ExactPoint& point = cover_.exact_points[static_cast<std::size_t>(index)];
     double half = 0.25 * width_of(point, hull);

@@ -51,8 +51,8 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
     const Vector shift = qr.solve(-b);
     const double length = shift.size() > 0 ? shift.lpNorm<Eigen::Infinity>() : 0;
     if (!std::isfinite(length)) return std::nullopt;
-    // What a direction without rank leaves of the residual is of second order or, at solutions of higher multiplicity, not much less than the
-    // tolerance.
+    // What a direction without rank leaves of the residual is of second order or, at solutions of higher multiplicity, not
+    // much less than the tolerance.
     const double left = b.size() > 0 ? b.lpNorm<Eigen::Infinity>() : 0;
     const bool full = result.rank == std::min(a.rows(), a.cols());
     if (length < std::max(kStill, 0.1 * tolerance) &&

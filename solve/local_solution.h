@@ -1,5 +1,5 @@
-// Where a small box that resists proof lies close to the set, and of which rank the Jacobian is there. Heuristic throughout: it decides what
-// is tried next and what is said about boxes that stay undecided, never what is proven.
+// Where a small box that resists proof lies close to the set, and of which rank the Jacobian is there. Heuristic throughout:
+// it decides what is tried next and what is said about boxes that stay undecided, never what is proven.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ struct LocalSolution {
   int rank = 0;  ///< of the scaled Jacobian there: columns times the variables' scales, rows divided by their typical sizes
 };
 
-/// Gauss–Newton steps of minimal norm (in the scales) from a start, in doubles. Singular values below `tolerance` count as 0. Nothing where
-/// they do not converge.
+/// Gauss–Newton steps of minimal norm (in the scales) from a start, in doubles. Singular values below `tolerance` count as
+/// 0. Nothing where they do not converge.
 std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance);
 
 /// An orthonormal basis, in scaled variables, of the kernel of the Jacobian at x: n × (n − rank), row-major.

@@ -1,5 +1,5 @@
-// The point of a box that comes nearest to solving a system, found by Ipopt (key WaechterBiegler2006). Heuristic: a start for what
-// certify/refinement.h does with many digits.
+// The point of a box that comes nearest to solving a system, found by Ipopt (key WaechterBiegler2006). Heuristic: a start
+// for what certify/refinement.h does with many digits.
 #pragma once
 
 #include <optional>

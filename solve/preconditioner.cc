@@ -27,12 +27,13 @@ const certify::Preconditioner& PreconditionerFactory::at_midpoint(std::span<cons
   return at_center(candidates, rows, kRankTolerance);
 }
 
-const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<const Interval> x, double rank_tolerance) {
+const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<const Interval> x, double rank_tolerance,
+                                                                    const std::vector<int>* rows) {
   center_.resize(n_);
   for (int j = 0; j < n_; ++j) center_[j] = x[j].mid();
   double former = HUGE_VAL;
   for (int step = 0; step < kGaussNewtonSteps; ++step) {
-    at_center(nullptr, nullptr, rank_tolerance);
+    at_center(nullptr, rows, rank_tolerance);
     const std::vector<double> start = center_;
     double moved = 0;
     for (int a = 0; a < result_.rank(); ++a) {
@@ -50,7 +51,7 @@ const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<co
     former = moved;
     if (moved < 1e-9) break;
   }
-  return at_center(nullptr, nullptr, rank_tolerance);
+  return at_center(nullptr, rows, rank_tolerance);
 }
 
 const certify::Preconditioner& PreconditionerFactory::at_center(const std::vector<int>* candidates,
@@ -78,7 +79,8 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
     allowed_ = scales;
   }
 
-  // Each row's largest entry among the allowed columns, renewed only when an exchange step has changed the row or taken the column.
+  // Each row's largest entry among the allowed columns, renewed only when an exchange step has changed the row or taken the
+  // column.
   const auto find_best = [&](int i) {
     const double* t = tableau_.data() + static_cast<std::size_t>(i) * n_;
     double best = 0;

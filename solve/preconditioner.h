@@ -1,5 +1,5 @@
-// Chooses dependent variables and the matrix Y for interval Newton, from an approximate Jacobian. Heuristic: certify/newton.h is
-// valid for any choice.
+// Chooses dependent variables and the matrix Y for interval Newton, from an approximate Jacobian. Heuristic:
+// certify/newton.h is valid for any choice.
 #pragma once
 
 #include <span>
@@ -15,20 +15,23 @@ class PreconditionerFactory {
   /// Large eliminations are given up once `ended` is true.
   explicit PreconditionerFactory(const certify::CompiledSystem& system, Ended ended = {});
 
-  /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x, its columns times the variables'
-  /// scales: each pivot makes one variable dependent. Fewer than m rows where the Jacobian is numerically rank deficient. If given, only the `candidates` may become
-  /// dependent, and only the `rows` are used.
+  /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x, its columns times the
+  /// variables' scales: each pivot makes one variable dependent. Fewer than m rows where the Jacobian is numerically rank
+  /// deficient. If given, only the `candidates` may become dependent, and only the `rows` are used.
   const certify::Preconditioner& at_midpoint(std::span<const Interval> x, const std::vector<int>* candidates = nullptr,
                                              const std::vector<int>* rows = nullptr);
-  /// The same at a point near the midpoint where all equations nearly hold (a few Gauss–Newton steps), so that the rank of an
-  /// over-determined system shows: away from its solutions redundant equations look independent. Pivots below `rank_tolerance` count as zero.
-  const certify::Preconditioner& near_solution(std::span<const Interval> x, double rank_tolerance);
+  /// The same at a point near the midpoint where all equations nearly hold (a few Gauss–Newton steps), so that the rank of
+  /// an over-determined system shows: away from its solutions redundant equations look independent. Pivots below
+  /// `rank_tolerance` count as zero. If given, only the `rows` are used.
+  const certify::Preconditioner& near_solution(std::span<const Interval> x, double rank_tolerance,
+                                               const std::vector<int>* rows = nullptr);
 
   /// An elimination was given up: its result has no rows, which is valid, too.
   bool over() const { return over_; }
   /// The result of the last call of either.
   const certify::Preconditioner& last() const { return result_; }
-  /// The dependent variables to choose instead, sorted: those of the chart (solve/chart.h) of largest volume in units of `sizes`.
+  /// The dependent variables to choose instead, sorted: those of the chart (solve/chart.h) of largest volume in units of
+  /// `sizes`.
   std::vector<int> chart_of_last(const std::vector<double>& sizes, double gain) const;
   /// After either: ∂(dependent a)/∂(free j) of the linearized system, r×n row-major, 0 for dependent columns.
   double sensitivity(int a, int j) const {

@@ -23,14 +23,14 @@ struct Problem {
 
   /// To be called before pieces are cut.
   void set_sigma(const Sigma& sigma);
-  /// The largest ratio of a side's width to the σ of its variable: above 1 a piece is to be cut. For the sides of the kept variables, with or
-  /// without those of the eliminated ones behind them.
+  /// The largest ratio of a side's width to the σ of its variable: above 1 a piece is to be cut. For the sides of the kept
+  /// variables, with or without those of the eliminated ones behind them.
   double excess(const Box& sides) const;
   /// The largest ratio of a kept variable's side to its typical size.
   double relative_width(std::span<const Interval> x) const;
 
-  /// Of each kept variable: as wide as an unproven box may be when it is given up for small; a share of twice its typical size. Where coefficients
-  /// carry a tolerance, below which nothing can be proven, no more than σ.
+  /// Of each kept variable: as wide as an unproven box may be when it is given up for small; a share of twice its typical
+  /// size. Where coefficients carry a tolerance, below which nothing can be proven, no more than σ.
   std::vector<double> limits(double share) const;
 
   /// Are the sheet's proofs about an independent subset of the equations only?
@@ -50,7 +50,8 @@ struct Problem {
   bool tolerant;          ///< coefficients carry a tolerance, or equations may hold within one only
   double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
   BranchingRule branching;
-  /// Of the kept variables, then of the eliminated ones: the σ that applies to it; infinite where none does (kernel vectors, auxiliaries).
+  /// Of the kept variables, then of the eliminated ones: the σ that applies to it; infinite where none does (kernel vectors,
+  /// auxiliaries).
   std::vector<double> sigma;
   std::vector<double> equation_sizes;  ///< TypicalSizes::equations
   std::function<bool()> ended;
@@ -59,8 +60,8 @@ struct Problem {
   std::vector<SigmaClass> classes_;  // in the order of `sigma`
 };
 
-/// A box of the result and, for an isolated solution, its sheet. The sides of the eliminated variables follow those of the others, as
-/// certify::Reduction::lift takes them; the sheet and `free` know only the others.
+/// A box of the result and, for an isolated solution, its sheet. The sides of the eliminated variables follow those of the
+/// others, as certify::Reduction::lift takes them; the sheet and `free` know only the others.
 struct Found {
   CoverBox box;
   std::unique_ptr<const certify::Sheet> sheet;  ///< of an isolated solution
@@ -68,7 +69,8 @@ struct Found {
   std::vector<std::uint64_t> leaves;  ///< of a recorded search: those whose solutions are in the box (solve/recorder.h)
 };
 
-/// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the reverse.
+/// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the
+/// reverse.
 std::vector<int> other_variables(const std::vector<int>& given, int variables);
 
 }  // namespace corank::solve

@@ -17,8 +17,8 @@ constexpr int kDomainRuns = 8;            // of the search domain
 
 bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> x, Recorder* recorder) {
   changed_.resize(static_cast<std::size_t>(system.variables()));
-  // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows, since
-  // each return costs a variable a tenth of its width.
+  // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows,
+  // since each return costs a variable a tenth of its width.
   queue_.clear();
   for (int row = 0; row < system.rows(); ++row) queue_.push_back(row);
   pending_.assign(static_cast<std::size_t>(system.rows()), 1);

@@ -14,10 +14,15 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr double kTolerance = 1e-7;  // of singular values at samples
 constexpr double kStep = 0.15;       // between samples, in typical sizes
-// Doubles find solutions at which the rank drops to a few digits only. What is read off is verified exactly: it may be wrong.
+// Doubles find solutions at which the rank drops to a few digits only. What is read off is verified exactly: it may be
+// wrong.
 constexpr int kBits = 128;  // of the arithmetic that makes samples precise
 constexpr double kNullTolerance = 1e-10;
 constexpr double kRelationTolerance = 1e-9;
+constexpr double kShortStep = 0.03;         // for directions, in typical sizes
+constexpr double kDirectionShare = 0.15;    // of what the set's curvature and the samples' errors make of a direction
+constexpr std::size_t kDirectionsEach = 4;  // tried for each dimension of the kernel
+constexpr std::size_t kDimensionSamples = 3;
 constexpr double kPrecision = 1e-11;              // of rational numbers
 constexpr long kDenominators[] = {100, 100'000};  // at most, in turns: an irrational number is near to one with a large one
 
@@ -75,6 +80,45 @@ std::vector<LocalSolution> walk(const Problem& problem, const LocalSolution& sta
     samples.push_back(*next);
   }
   return samples;
+}
+
+// Of the set around a solution on it: how many independent directions lead to others. The Jacobian's kernel may be larger.
+int local_dimension(const Problem& problem, const LocalSolution& at) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const std::vector<double>& scales = problem.compiled.scales();
+  const std::size_t n = scales.size();
+  const std::vector<double> basis = kernel_basis(problem, at, 100 * kTolerance);
+  const std::size_t k = basis.size() / n;
+  Matrix moves(static_cast<Eigen::Index>(kDirectionsEach * k), static_cast<Eigen::Index>(n));
+  moves.setZero();
+  for (Eigen::Index trial = 0; trial < moves.rows(); ++trial) {
+    LocalSolution there = at;
+    std::vector<double> weights(k);
+    double length = 0;
+    for (double& w : weights) w = normal(random), length += w * w;
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t c = 0; c < k; ++c)
+        there.x[j] += kShortStep * weights[c] / std::sqrt(length) * basis[j * k + c] * scales[j];
+    const auto next = local_solution(problem, there.x, kTolerance);
+    if (!next) continue;
+    for (std::size_t j = 0; j < n; ++j)
+      moves(trial, static_cast<Eigen::Index>(j)) = (next->x[j] - at.x[j]) / (kShortStep * scales[j]);
+    if (const double moved = moves.row(trial).norm(); moved > 1) moves.row(trial) /= moved;
+  }
+  const Eigen::JacobiSVD<Matrix> svd(moves);
+  int dimension = 0;
+  for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i)
+    dimension += svd.singularValues()(i) > kDirectionShare * std::max(1.0, svd.singularValues()(0));
+  return dimension;
+}
+
+// The smallest around a few: where pieces cross there are more directions.
+int sampled_dimension(const Problem& problem, const std::vector<LocalSolution>& samples) {
+  int dimension = problem.compiled.variables();
+  for (std::size_t i = 0; i < kDimensionSamples; ++i)
+    dimension = std::min(dimension, local_dimension(problem, samples[i * (samples.size() - 1) / (kDimensionSamples - 1)]));
+  return dimension;
 }
 
 // As many of the samples as relations take, each moved to the set.
@@ -202,18 +246,20 @@ MotionCandidate find_self_motion(const Problem& problem, const System& system, c
   const auto start = local_solution(problem, from.x, kTolerance);
   const int n = problem.compiled.variables(), expected = std::max(0, n - problem.compiled.equations());
   if (!start) return candidate;
-  const int dimension = n - start->rank;
-  if (dimension <= expected) return candidate;
+  if (n - start->rank <= expected) return candidate;
   const std::vector<LocalSolution> samples = walk(problem, *start, static_cast<std::size_t>(3 * n + 10));
   if (samples.size() < static_cast<std::size_t>(n + 2)) return candidate;  // a point, or a set that ends too soon
-  candidate.dimension = dimension;
+  candidate.dimension = sampled_dimension(problem, samples);
+  // The theorem needs as many independent equations as the set leaves variables.
+  if (candidate.dimension <= expected || candidate.dimension != n - start->rank) return candidate;
   const std::vector<LocalSolution> points = precise(system, samples);
   if (points.size() < static_cast<std::size_t>(n + 2)) return candidate;
   const Echelon e = relations_of(problem, points);
   const UpwardRounding rounding;
   for (const long largest_denominator : kDenominators) {
     if (candidate.motion) break;
-    candidate.motion = certify::self_motion(system, rational_relations(problem, e, largest_denominator), dimension);
+    candidate.motion =
+        certify::self_motion(system, rational_relations(problem, e, largest_denominator), candidate.dimension);
   }
   if (candidate.motion) candidate.motion->compiled.set_scales(problem.compiled.scales());
   return candidate;

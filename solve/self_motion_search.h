@@ -1,5 +1,5 @@
-// Finds the linear relations that hold on a set of degenerate solutions, by samples of it. Heuristic: certify/self_motion.h proves or refuses what
-// is found.
+// Finds the linear relations that hold on a set of degenerate solutions, by samples of it. Heuristic: certify/self_motion.h
+// proves or refuses what is found.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace corank::solve {
 
 struct MotionCandidate {
   std::optional<certify::SelfMotion> motion;  ///< nothing: no linear relations that suffice
-  int dimension = 0;                          ///< of the set, as its samples show; 0: none larger than expected
+  int dimension = 0;                          ///< of the set, as its samples show; 0: too few were found
 };
 
 /// Walks along the set from a degenerate solution and reads the relations off.

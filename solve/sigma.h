@@ -1,5 +1,5 @@
-// σ: how finely proven sheets are cut. It concerns the model's own coordinates, lengths and angles apart, never kernel vectors and auxiliary
-// variables, and it steers no search.
+// σ: how finely proven sheets are cut. It concerns the model's own coordinates, lengths and angles apart, never kernel
+// vectors and auxiliary variables, and it steers no search.
 #pragma once
 
 #include <vector>
@@ -22,10 +22,10 @@ std::vector<SigmaClass> sigma_classes(const System& system, const certify::Reduc
 /// Infinite for SigmaClass::none.
 double sigma_of(const Sigma& sigma, SigmaClass kind);
 
-/// A share of the size of a set: `hull` holds it, in all variables. The size of a set is its widest side, of lengths and of sines and cosines
-/// apart. The share is 1/200 for a curve, 1/60 for a surface, 1/20 for a larger set, and where coefficients carry a tolerance; for isolated
-/// points 1e-6, and no less than the square root of the tolerance: so far apart may two solutions be that merge for some choice of the coefficients.
-/// A set without size counts as one of size 1.
+/// A share of the size of a set: `hull` holds it, in all variables. The size of a set is its widest side, of lengths and of
+/// sines and cosines apart. The share is 1/200 for a curve, 1/60 for a surface, 1/20 for a larger set, and where
+/// coefficients carry a tolerance; for isolated points 1e-6, and no less than the square root of the tolerance: so far apart
+/// may two solutions be that merge for some choice of the coefficients. A set without size counts as one of size 1.
 Sigma default_sigma(const System& system, const Box& hull, int dimension);
 
 }  // namespace corank::solve

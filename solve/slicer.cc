@@ -257,11 +257,12 @@ bool Slicer::slice_in_chart(Task& task, Box sides, const std::vector<int>& depen
   const auto& p = preconditioners_.at_midpoint(sides, &dependent, &task.sheet.equations);
   if (p.dependent.size() < dependent.size()) return false;
   const Sheet sheet = certify::newton_prove(problem_.compiled, p, sides, workspace_);
-  if (sheet.proven) slice(sheet, sides, task.found, false);
+  if (sheet.proven) slice(sheet, sides, task.found, false, false);
   return sheet.proven;
 }
 
-void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole) {
+void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole,
+                   bool rechartable) {
   if (!whole && problem_.ended()) {
     leave(found, Box(x.begin(), x.begin() + problem_.compiled.variables()));
     return;
@@ -273,7 +274,8 @@ void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, std::vector<
             found,
             other_variables(sheet.dependent, problem_.compiled.variables()),
             std::make_shared<const Box>(std::move(region)),
-            whole};
+            whole,
+            rechartable};
   const Preconditioner p = preconditioners_.at_midpoint(sheet.image, &sheet.dependent, &sheet.equations);
   descend(task, {sheet.image}, p);
 }
@@ -308,7 +310,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     measure_steepness(*step, free, sides);
     parts = parts_of(sides, free);
     const double number = std::accumulate(parts.begin(), parts.end(), 1.0, std::multiplies<>());
-    if (piece.charts_tried < kMostChartsTried && number >= kPartsForAChart) {
+    if (task.rechartable && piece.charts_tried < kMostChartsTried && number >= kPartsForAChart) {
       const auto dependent = better_chart(task, sides);
       piece.charts_tried = dependent ? piece.charts_tried + 1 : kMostChartsTried;
       if (dependent && slice_in_chart(task, sides, *dependent)) return;

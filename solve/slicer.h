@@ -24,15 +24,19 @@ class Slicer {
          Recorder* recorder = nullptr)
       : problem_(problem), preconditioners_(preconditioners), workspace_(workspace), recorder_(recorder) {}
 
-  /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so. Where the
-  /// search ends meanwhile, the rest is added as pending boxes. `whole`: the sheet is not cut at all.
-  void slice(const certify::Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole = false);
+  /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so.
+  /// Where the search ends meanwhile, the rest is added as pending boxes. `whole`: the sheet is not cut at all.
+  void slice(const certify::Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole = false) {
+    slice(sheet, x, found, whole, true);
+  }
 
   /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the
   /// tolerance? Cuts the piece as finely as the bounds need, `depth` times at most. True is proven, on each of the parts.
   bool holds_on_parts(const certify::Sheet& sheet, const std::vector<int>& free, Box piece, int depth);
 
  private:
+  void slice(const certify::Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole,
+             bool rechartable);
   // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower; how
   // far Y·S was from I in the last step, on this piece or on the one that it was cut from.
   struct Piece {
@@ -42,7 +46,8 @@ class Slicer {
     double spread = 0;
     int charts_tried = 0;
   };
-  // A part of a piece, and what becomes of it: it goes on as a piece, is added as it is, or holds nothing that is wanted here.
+  // A part of a piece, and what becomes of it: it goes on as a piece, is added as it is, or holds nothing that is wanted
+  // here.
   struct Part {
     enum class Fate { open, found, elsewhere };
     Box sides;
@@ -56,6 +61,7 @@ class Slicer {
     std::vector<int> free;
     std::shared_ptr<const Box> region;
     bool whole = false;
+    bool rechartable = true;  // not yet in a chart that was chosen for σ: pieces of one never change it again
     unsigned turns = 0;
     bool ended = false;
   };
@@ -63,33 +69,35 @@ class Slicer {
   // Tightens the piece, adds it where it is small enough, else cuts it and goes on with the parts. `inherited` is the
   // preconditioner of the piece that this one was cut from.
   void descend(Task& task, Piece piece, const certify::Preconditioner& inherited);
-  // Shrinks a piece, renews the eliminated variables' sides behind its own, and its spread. Returns the last step; p becomes its
-  // preconditioner: the inherited one that it is, or `own`, made for the piece where the sheet has turned too much.
+  // Shrinks a piece, renews the eliminated variables' sides behind its own, and its spread. Returns the last step; p becomes
+  // its preconditioner: the inherited one that it is, or `own`, made for the piece where the sheet has turned too much.
   certify::NewtonStep tighten(const Task& task, Piece& piece, const certify::Preconditioner*& p,
                               certify::Preconditioner& own);
-  // Shrinks the free sides to where the solutions may lie in x, and the others with them. False: none does. By the piece's own step,
-  // renewed with the preconditioner `own`, or, without one, by the slopes of the step on the piece that it was cut from.
+  // Shrinks the free sides to where the solutions may lie in x, and the others with them. False: none does. By the piece's
+  // own step, renewed with the preconditioner `own`, or, without one, by the slopes of the step on the piece that it was cut
+  // from.
   bool trim(const Task& task, certify::NewtonStep& step, const certify::Preconditioner* own, Box& sides);
   // The same, and where the solutions lie with respect to the domain. Nothing: none in x, or none in the domain.
   std::optional<certify::Location> place(const Task& task, certify::NewtonStep& step, const certify::Preconditioner* own,
                                          Box& sides);
-  // steepness_[a·k + f] = |∂a/∂f| on the step's piece, linearized, of each dependent, then each eliminated variable a, with respect to
-  // the f-th of k free variables.
+  // steepness_[a·k + f] = |∂a/∂f| on the step's piece, linearized, of each dependent, then each eliminated variable a, with
+  // respect to the f-th of k free variables.
   void measure_steepness(const certify::NewtonStep& step, const std::vector<int>& free, const Box& piece);
   // The number of equal parts along each free side that makes all sides narrower than σ in the linearization, few in all.
   std::vector<int> parts_of(const Box& piece, const std::vector<int>& free) const;
   // Where each free side is cut into so many equal parts (two parts: at shares[f] of the width, where that is not 0).
   std::vector<std::vector<double>> places_of(const Box& piece, const std::vector<int>& free, const std::vector<int>& parts,
                                              const std::vector<double>& shares) const;
-  // Cuts the piece there, along all free sides, and goes on with each part. The parts are tightened by the piece's step first, where there is
-  // one: many are small enough then, and need no step of their own.
+  // Cuts the piece there, along all free sides, and goes on with each part. The parts are tightened by the piece's step
+  // first, where there is one: many are small enough then, and need no step of their own.
   void cut(Task& task, const Piece& piece, const certify::Preconditioner& p, std::optional<certify::NewtonStep> step,
            const std::vector<std::vector<double>>& places);
   // Tightens a part by the step on the piece that it was cut from, and finds its fate.
   void settle(const Task& task, certify::NewtonStep& step, Part& part);
   // Widens the sides that are not free a little, where σ allows: who verifies the box has to come that close only.
   void leave_room(const Task& task, Box& piece) const;
-  // The search chose free variables that prove well; others may need fewer boxes of size σ: their dependents, where there are such.
+  // The search chose free variables that prove well; others may need fewer boxes of size σ: their dependents, where there
+  // are such.
   std::optional<std::vector<int>> better_chart(const Task& task, const Box& sides);
   // Proves the piece's solutions in x to be a sheet with these dependents, and slices that; false: that is not proven.
   bool slice_in_chart(Task& task, Box sides, const std::vector<int>& dependent);

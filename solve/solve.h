@@ -23,9 +23,10 @@ struct Progress {
 };
 
 struct Options {
-  /// Largest edge that a proven box may have, in lengths and in the sines and cosines of angles; kernel vectors and auxiliary variables may be
-  /// wider. Default: a share of the size of the set that is found (solve/sigma.h). σ says how finely proven sheets are cut, it does not steer
-  /// the search, unless coefficients carry a tolerance. Boxes that stay wider are counted in Cover::wider_than_sigma.
+  /// Largest edge that a proven box may have, in lengths and in the sines and cosines of angles; kernel vectors and
+  /// auxiliary variables may be wider. Default: a share of the size of the set that is found (solve/sigma.h). σ says how
+  /// finely proven sheets are cut, it does not steer the search, unless coefficients carry a tolerance. Boxes that stay
+  /// wider are counted in Cover::wider_than_sigma.
   std::optional<double> sigma_length, sigma_angle;
   void set_sigma(std::optional<double> both) { sigma_length = sigma_angle = both; }
   /// The default of σ, multiplied.
@@ -40,7 +41,8 @@ struct Options {
   double time_limit = 0;  ///< seconds; 0: no limit
   std::uint64_t memory_limit =
       0;  ///< stop when the boxes found, and what is to be made of them, take more bytes; 0: no limit
-  /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a tolerance, and covers with self-motions, have none.
+  /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a
+  /// tolerance, and covers with self-motions, have none.
   bool proof = false;
   /// Where given: search these boxes, in all variables, instead of the whole domain; the cover is of their solutions.
   std::vector<Box> roots;
@@ -59,17 +61,17 @@ struct Options {
 /// What the options say of when to end.
 Control::Limits limits_of(const Options& options);
 
-/// The coefficient tolerance (System::coefficient_tolerance) to take for a system as somebody printed it: 1e-6 where it has more
-/// equations than variables, since rounded decimals make redundant equations inconsistent; else 0, exact. Not for systems
-/// that symbolic/ derives from a mechanism: their redundancy is exact.
+/// The coefficient tolerance (System::coefficient_tolerance) to take for a system as somebody printed it: 1e-6 where it has
+/// more equations than variables, since rounded decimals make redundant equations inconsistent; else 0, exact. Not for
+/// systems that symbolic/ derives from a mechanism: their redundancy is exact.
 double printed_tolerance(const System& system);
 
 /// The least σ that solve() accepts: below it the rounding of doubles would keep boxes from becoming that narrow.
 Sigma smallest_sigma(const System& system);
 
-/// The cover of the system's solution set in its domain. Never throws for a mathematical outcome; throws std::invalid_argument
-/// where the system is not valid (System::validate) or a σ is not a positive number of at least smallest_sigma(system). The result does not depend on `threads`
-/// unless a limit or a stop ends the search.
+/// The cover of the system's solution set in its domain. Never throws for a mathematical outcome; throws
+/// std::invalid_argument where the system is not valid (System::validate) or a σ is not a positive number of at least
+/// smallest_sigma(system). The result does not depend on `threads` unless a limit or a stop ends the search.
 Cover solve(const System& system, const Options& options = {});
 
 }  // namespace corank::solve

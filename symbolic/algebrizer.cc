@@ -195,6 +195,8 @@ System Algebrizer::run() {
     for (auto v = first; v < out_.variables.size(); ++v) out_.variables[v].auxiliary = coordinate.auxiliary;
   }
   out_.configuration_size = out_.size();
+  out_.kernel_vectors = in_.corank;
+  out_.kernel_scales = in_.kernel_scales;
   add_kernel_unknowns();
   expander_.length_functions().start(out_.size());
 

@@ -5,8 +5,8 @@
 //
 // Range: θ ∈ [α, β] with β − α < 2π, m = (α + β)/2, h = (β − α)/2:  θ ∈ [α, β] (mod 2π)  ⇔  cos(θ − m) ≥ cos h
 //        ⇔  cos(m) c_θ + sin(m) s_θ ≥ cos(h),   for any h ∈ (0, π).
-// A range of one value, α = β: in the equations the angle is the constant α. Its variables have the equations c_θ = cos α and
-// s_θ = sin α in place of the circle, so that boxes hold them. Jacobians were made before and have the angle's column.
+// A range of one value, α = β: in the equations the angle is the constant α. Its variables have the equations c_θ = cos α
+// and s_θ = sin α in place of the circle, so that boxes hold them. Jacobians were made before and have the angle's column.
 #pragma once
 
 #include "corank/core/system.h"

@@ -44,8 +44,8 @@ struct Drawing {
   int dimension() const { return points.empty() ? 2 : static_cast<int>(points.front().coordinates.size()); }
   /// Index of a point, −1 where there is none.
   int find(const std::string& point) const;
-  /// Throws ModelError, with the place, for: a point named twice, with one or more than three coordinates, or with another number
-  /// of them than the first; a part with an unknown point, a point twice, or too few.
+  /// Throws ModelError, with the place, for: a point named twice, with one or more than three coordinates, or with another
+  /// number of them than the first; a part with an unknown point, a point twice, or too few.
   void validate() const;
 };
 

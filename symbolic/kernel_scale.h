@@ -1,8 +1,8 @@
 // In which units a kernel vector counts, so that neither the model's unit of length nor generous ranges steer a search.
 //
-// A velocity mixes lengths and angles: ẋ in mm/s is a thousand times ẋ in m/s, the angular rate beside it stays. In the kernel equations
-// column j of the matrix M is therefore multiplied by a fixed positive number s_j, M diag(s) ξ = 0 with ‖ξ‖ = 1, so that s_j ξ_j is the rate itself.
-// M diag(s) has the rank of M: the configurations are the same for every s.
+// A velocity mixes lengths and angles: ẋ in mm/s is a thousand times ẋ in m/s, the angular rate beside it stays. In the
+// kernel equations column j of the matrix M is therefore multiplied by a fixed positive number s_j, M diag(s) ξ = 0 with ‖ξ‖
+// = 1, so that s_j ξ_j is the rate itself. M diag(s) has the rank of M: the configurations are the same for every s.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,11 @@
 
 namespace corank::symbolic {
 
-/// s of each kernel unknown, as texts of rational numbers; none where all are 1. A length's is its typical size: half its range, as the
-/// constraints leave it, is rounded to a power of two times the largest; beside angles, whose scale is 1, four times the largest is rounded to two digits (so that a
-/// model in other units has the same system but for this number). Where the kernel holds no angle, the largest is 1. Of the left kernel, whose unknowns
-/// belong to equations: 1/max_j |∂Φ_i/∂q_j| s_j over those ranges, relative to the smallest and rounded to powers of two.
+/// s of each kernel unknown, as texts of rational numbers; none where all are 1. A length's is its typical size: half its
+/// range, as the constraints leave it, is rounded to a power of two times the largest; beside angles, whose scale is 1, four
+/// times the largest is rounded to two digits (so that a model in other units has the same system but for this number).
+/// Where the kernel holds no angle, the largest is 1. Of the left kernel, whose unknowns belong to equations: 1/max_j
+/// |∂Φ_i/∂q_j| s_j over those ranges, relative to the smallest and rounded to powers of two.
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt);
 

@@ -24,7 +24,8 @@ class LengthFunctions {
   /// Variables from `first` on are stand-ins, until settle().
   void start(int first) { first_ = first; }
 
-  /// The variable of a linear combination of lengths, each with a coefficient whose sign is known: the one length's, or a stand-in.
+  /// The variable of a linear combination of lengths, each with a coefficient whose sign is known: the one length's, or a
+  /// stand-in.
   int argument(const ExpandedPolynomial& lengths);
   /// The stand-ins for the cosine and the sine of an argument().
   std::pair<ExpandedPolynomial, ExpandedPolynomial> cosine_and_sine(int argument);

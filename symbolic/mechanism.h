@@ -40,9 +40,10 @@ bool is_fixed(const Coordinate& coordinate);
 
 /// Coordinates declared together, with the equations that tie them:
 ///   unit      w_x, w_y, w_z with w_x² + w_y² + w_z² = 1;
-///   rotation  R_xx, R_xy … R_zz, row by row, the columns a = (R_xx, R_yx, R_zx), b, c being the axes of the moving frame in the fixed one:
-///             |a|² = 1, |b|² = 1, a·b = 0, c = a × b. These are as many independent equations as 9 − dim SO(3) = 6, at every rotation;
-///             reflections do not satisfy them.
+///   rotation  R_xx, R_xy … R_zz, row by row, the columns a = (R_xx, R_yx, R_zx), b, c being the axes of the moving frame in
+///   the fixed one:
+///             |a|² = 1, |b|² = 1, a·b = 0, c = a × b. These are as many independent equations as 9 − dim SO(3) = 6, at
+///             every rotation; reflections do not satisfy them.
 struct Composite {
   enum class Kind { unit, rotation };
   Kind kind;
@@ -77,8 +78,8 @@ class Mechanism {
   void mark_auxiliary(std::size_t coordinates = 1);
   /// Adds lhs = rhs (an assembly constraint) or an inequality.
   void constrain(const Relation& relation, const SourceLocation& where = {}, const std::string& note = {});
-  /// Each argument is a coordinate's symbol, or a Composite's for all of its coordinates. Throws ModelError for anything else, a
-  /// repetition, or a coordinate that is already an output (input). Repeated calls add.
+  /// Each argument is a coordinate's symbol, or a Composite's for all of its coordinates. Throws ModelError for anything
+  /// else, a repetition, or a coordinate that is already an output (input). Repeated calls add.
   void inputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
   void outputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
   void drawing(Drawing drawing) { drawing_ = std::move(drawing); }

@@ -89,7 +89,8 @@ std::string wanted_text(const Chosen& chosen, std::size_t wanted) {
          chosen.noun + "s alone that " + (more == 1 ? "ties" : "tie") + " them (w @ unit and R @ rotation have theirs)";
 }
 
-// Mobility must equal the number of inputs (of outputs) less their ties: otherwise L_y (L_z) is not square, and the mechanism is redundant.
+// Mobility must equal the number of inputs (of outputs) less their ties: otherwise L_y (L_z) is not square, and the
+// mechanism is redundant.
 void check_mobility(const Mechanism& mechanism, std::size_t equations, const Chosen& chosen) {
   const SourceLocation where = chosen.where.line > 0 ? chosen.where : model_place(mechanism);
   if (chosen.names.size() == mechanism.coordinates().size() && equations > 0)
@@ -124,20 +125,18 @@ void check_chosen(const Mechanism& mechanism, const Derivation& derivation, Sing
     check_mobility(mechanism, equations, {mechanism.outputs(), derivation.output_ties, "output", mechanism.outputs_where()});
 }
 
-std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n) {
-  std::string prefix = "xi";
-  const auto taken = [&](std::size_t i) {
-    const std::string name = prefix + std::to_string(i + 1);
-    return mechanism.has_constant(name) || mechanism.find_coordinate(name) >= 0;
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!taken(i)) continue;
-    prefix += "_";
-    i = static_cast<std::size_t>(-1);  // all names again, with the new prefix
+// Of one vector with n components, or of several.
+std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n, std::size_t vectors) {
+  for (std::string prefix = "xi";; prefix += "_") {
+    std::vector<std::string> names;
+    for (std::size_t v = 0; v < vectors; ++v)
+      for (std::size_t i = 0; i < n; ++i)
+        names.push_back(prefix + (vectors > 1 ? std::to_string(v + 1) + "_" : "") + std::to_string(i + 1));
+    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
+          return mechanism.has_constant(name) || mechanism.find_coordinate(name) >= 0;
+        }))
+      return names;
   }
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < n; ++i) names.push_back(prefix + std::to_string(i + 1));
-  return names;
 }
 
 Expression times(const Expression& entry, const Expression& unknown) {
@@ -177,47 +176,111 @@ std::optional<Expression> kernel_row(const std::vector<Expression>& entries, con
   return Expression::node(Kind::sum, terms);
 }
 
-// Component i of the fixed generic vector a: 0.3 + 0.7·frac((i + 1)·golden ratio) to four digits, so that no mechanism's
-// symmetry makes a·ξ = 0 on a whole piece of a singularity set.
+// Component i of the fixed generic vector a of one kernel vector: 0.3 + 0.7·frac((i + 1)·golden ratio) to four digits, so
+// that no mechanism's symmetry makes a·ξ = 0 on a whole piece of a singularity set.
 Expression generic_component(std::size_t i) {
   const unsigned long fraction = (i + 1) * 618'034UL % 1'000'000UL;
   const std::string digits = std::to_string(3000 + 7 * fraction / 1000);  // in 3000 … 9999
   return Expression::number("0." + digits);
 }
 
-void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const ExpressionMatrix& matrix,
-                const std::string& matrix_name, KernelSide side, const std::vector<std::string>& scales) {
-  const std::size_t rows = matrix.rows.size(), columns = matrix.columns.size();
-  const bool right = side == KernelSide::right;
-  system.kernel_unknowns = kernel_names(mechanism, right ? columns : rows);
-  system.kernel_scales = scales;
-  if (!scales.empty() && scales.size() != system.kernel_unknowns.size()) {
-    throw ModelError(model_place(mechanism), std::to_string(scales.size()) + " scales of the kernel vector",
-                     std::to_string(system.kernel_unknowns.size()));
+// Component i of a_j, of several vectors: 3/100 more than the inverse of i + 29 j + 1 modulo 97, in hundredths. The sequence
+// above would not do: its differences repeat, and a_1 and a_2 were orthogonal to the same kernels. Few digits keep the
+// numbers small in which exact points are sought.
+Expression generic_component(std::size_t j, std::size_t i) {
+  constexpr unsigned long kPrime = 97;
+  const unsigned long k = (i + 29 * j) % (kPrime - 1) + 1;
+  unsigned long inverse = 1;
+  while (inverse * k % kPrime != 1) ++inverse;
+  const std::string digits = std::to_string(100 + 3 + inverse).substr(1);
+  return Expression::number("0." + digits);
+}
+
+// Σ terms_i, term by term.
+Expression sum_of(const std::vector<Expression>& terms) { return Expression::node(Kind::sum, terms); }
+
+/// What add_kernel is about.
+struct KernelQuestion {
+  const ExpressionMatrix& matrix;
+  std::string name;  ///< of the matrix
+  KernelSide side;
+  const std::vector<std::string>& scales;
+  int corank;
+};
+
+// The unknowns of each vector; fills in what the system says of them.
+std::vector<std::vector<Expression>> add_unknowns(TrigonometricSystem& system, const Mechanism& mechanism,
+                                                  const KernelQuestion& kernel) {
+  const std::size_t n = kernel.side == KernelSide::right ? kernel.matrix.columns.size() : kernel.matrix.rows.size();
+  if (kernel.corank < 1 || static_cast<std::size_t>(kernel.corank) > n) {
+    throw ModelError(model_place(mechanism),
+                     "a corank of " + std::to_string(kernel.corank) + ", but a kernel vector of " + kernel.name + " has " +
+                         count(n, "component"),
+                     "a corank from 1 to " + std::to_string(n));
   }
-  const std::vector<Expression> rates = scaled(system.kernel_unknowns, scales);
-  const std::vector<const Constraint*> constraints = assembly_constraints(mechanism);
-  for (std::size_t i = 0; i < (right ? rows : columns); ++i) {
-    std::vector<Expression> entries;
-    if (right) {
-      entries = matrix.rows[i];
-    } else {
-      for (const auto& row : matrix.rows) entries.push_back(row[i]);
+  const auto vectors = static_cast<std::size_t>(kernel.corank);
+  system.corank = kernel.corank;
+  system.kernel_unknowns = kernel_names(mechanism, n, vectors);
+  system.kernel_scales = kernel.scales;
+  if (!kernel.scales.empty() && kernel.scales.size() != n) {
+    throw ModelError(model_place(mechanism), std::to_string(kernel.scales.size()) + " scales of the kernel vector",
+                     std::to_string(n));
+  }
+  std::vector<std::vector<Expression>> xi(vectors);
+  for (std::size_t i = 0; i < vectors * n; ++i) xi[i / n].push_back(Expression::symbol(system.kernel_unknowns[i]));
+  return xi;
+}
+
+// ξⁱ·ξʲ = δ_ij, a_i·ξʲ = 0 for i < j and a_j·ξʲ ≥ 0; every set of c-dimensional kernels' configurations is whole
+// (singularity_system.h).
+void add_normalization(TrigonometricSystem& system, const SourceLocation& where,
+                       const std::vector<std::vector<Expression>>& xi) {
+  const auto name = [&](std::size_t j) { return xi.size() == 1 ? std::string("xi") : "xi" + std::to_string(j + 1); };
+  const auto dot_generic = [&](std::size_t i, std::size_t j) {  // a_i·ξʲ
+    std::vector<Expression> terms;
+    for (std::size_t k = 0; k < xi[j].size(); ++k)
+      terms.push_back((xi.size() == 1 ? generic_component(k) : generic_component(i, k)) * xi[j][k]);
+    return sum_of(terms);
+  };
+  for (std::size_t j = 0; j < xi.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      std::vector<Expression> products;
+      for (std::size_t k = 0; k < xi[j].size(); ++k) products.push_back(xi[i][k] * xi[j][k]);
+      system.equations.push_back({sum_of(products) == Expression(0), name(i) + " orthogonal to " + name(j), where});
+      system.equations.push_back({dot_generic(i, j) == Expression(0), "choice of " + name(j), where});
     }
-    const std::string source = "row " + std::to_string(i + 1) + " of " + matrix_name + (right ? "" : "^T") + " xi = 0";
-    // A row of zeros says nothing about xi.
-    if (const auto lhs = kernel_row(entries, rates))
-      system.equations.push_back({*lhs == Expression(0), source, right ? constraints[i]->where : model_place(mechanism)});
+    std::vector<Expression> squares;
+    for (const Expression& x : xi[j]) squares.push_back(pow(x, 2));
+    system.equations.push_back({sum_of(squares) == Expression(1), "norm of " + name(j), where});
+    system.inequalities.push_back({dot_generic(j, j) >= Expression(0), "half-space of " + name(j), where});
   }
-  std::vector<Expression> squares, weighted;
-  for (std::size_t i = 0; i < system.kernel_unknowns.size(); ++i) {
-    const Expression xi = Expression::symbol(system.kernel_unknowns[i]);
-    squares.push_back(pow(xi, 2));
-    weighted.push_back(generic_component(i) * xi);
+}
+
+void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const KernelQuestion& kernel) {
+  const ExpressionMatrix& matrix = kernel.matrix;
+  const bool right = kernel.side == KernelSide::right;
+  const std::vector<std::vector<Expression>> xi = add_unknowns(system, mechanism, kernel);
+  const std::size_t rows = matrix.rows.size(), columns = matrix.columns.size(), n = xi[0].size();
+  const std::vector<const Constraint*> constraints = assembly_constraints(mechanism);
+  for (std::size_t v = 0; v < xi.size(); ++v) {
+    const auto first = system.kernel_unknowns.begin() + static_cast<std::ptrdiff_t>(v * n);
+    const std::vector<Expression> rates = scaled({first, first + static_cast<std::ptrdiff_t>(n)}, kernel.scales);
+    const std::string vector = xi.size() == 1 ? "xi" : "xi" + std::to_string(v + 1);
+    for (std::size_t i = 0; i < (right ? rows : columns); ++i) {
+      std::vector<Expression> entries;
+      if (right) {
+        entries = matrix.rows[i];
+      } else {
+        for (const auto& row : matrix.rows) entries.push_back(row[i]);
+      }
+      const std::string source =
+          "row " + std::to_string(i + 1) + " of " + kernel.name + (right ? "" : "^T") + " " + vector + " = 0";
+      // A row of zeros says nothing about xi.
+      if (const auto lhs = kernel_row(entries, rates))
+        system.equations.push_back({*lhs == Expression(0), source, right ? constraints[i]->where : model_place(mechanism)});
+    }
   }
-  system.equations.push_back({Expression::node(Kind::sum, squares) == Expression(1), "norm of xi", model_place(mechanism)});
-  system.inequalities.push_back(
-      {Expression::node(Kind::sum, weighted) >= Expression(0), "half-space of xi", model_place(mechanism)});
+  add_normalization(system, model_place(mechanism), xi);
 }
 
 template <typename Word, std::size_t N>
@@ -240,6 +303,10 @@ const char* to_string(SingularitySet set) {
 }
 
 const char* to_string(KernelSide side) { return side == KernelSide::right ? "right" : "left"; }
+
+std::string set_with_corank(const std::string& set, int corank) {
+  return corank == 1 ? set : set + " singularities of corank " + std::to_string(corank);
+}
 
 std::optional<SingularitySet> singularity_set_from_string(const std::string& text) {
   using enum SingularitySet;
@@ -318,10 +385,14 @@ TrigonometricSystem plain_system(const Mechanism& mechanism) {
 }
 
 TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side,
-                                       const std::vector<std::string>& scales) {
+                                       const std::vector<std::string>& scales, int corank) {
   TrigonometricSystem system = plain_system(mechanism);
-  system.name += std::string(" ") + to_string(set);
-  if (set == SingularitySet::cspace) return system;
+  system.name += std::string(" ") + to_string(set) + (corank > 1 ? " corank " + std::to_string(corank) : "");
+  if (set == SingularitySet::cspace) {
+    if (corank != 1)
+      throw ModelError(model_place(mechanism), "C-space has no kernel, so no corank", "forward, inverse or cspace-singular");
+    return system;
+  }
   const Derivation derivation = derive(mechanism);
   const std::size_t equations = derivation.phi.size(), coordinates = mechanism.coordinates().size();
   if (set == SingularitySet::cspace_singular) {
@@ -337,7 +408,7 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySe
                            ", so every configuration has a right kernel",
                        "the left kernel");
     }
-    add_kernel(system, mechanism, derivation.phi_q, "Phi_q", side.value_or(KernelSide::left), scales);
+    add_kernel(system, mechanism, {derivation.phi_q, "Phi_q", side.value_or(KernelSide::left), scales, corank});
     return system;
   }
   check_chosen(mechanism, derivation, set);
@@ -345,9 +416,9 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySe
   const ExpressionMatrix& matrix = forward ? derivation.l_y : derivation.l_z;
   // A right kernel passes rows of zeros over; a left one would have an unknown that nothing is asked of.
   const bool left = side == KernelSide::left;
-  add_kernel(system, mechanism,
-             left ? without_rows(matrix, forward ? derivation.input_ties : derivation.output_ties) : matrix,
-             forward ? "L_y" : "L_z", side.value_or(KernelSide::right), scales);
+  const ExpressionMatrix kept =
+      left ? without_rows(matrix, forward ? derivation.input_ties : derivation.output_ties) : matrix;
+  add_kernel(system, mechanism, {kept, forward ? "L_y" : "L_z", side.value_or(KernelSide::right), scales, corank});
   return system;
 }
 

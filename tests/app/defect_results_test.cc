@@ -1,5 +1,5 @@
-// Result files that made an earlier version crash, hang, leak or say something wrong. Small ones of the same kinds are made by
-// tests/report/strangers_test.cc.
+// Result files that made an earlier version crash, hang, leak or say something wrong. Small ones of the same kinds are made
+// by tests/report/strangers_test.cc.
 #include "corank/tests/app/defect_files.h"
 
 #include <gmock/gmock.h>

@@ -20,6 +20,13 @@ TEST(Derive, PrintsConstraintsBlocksAndSystemAsText) {
   for (const char* part : {"L_y", "L_z", "cos(theta2)", "xi1"}) EXPECT_THAT(outcome.out, HasSubstr(part));
 }
 
+TEST(Derive, PrintsTheSystemOfACorank) {
+  const Outcome outcome = run_corank({"derive", model("dextar"), "--set", "inverse", "--corank", "2"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* part : {"row 4 of L_z xi2 = 0", "xi1 orthogonal to xi2", "choice of xi2", "half-space of xi2"})
+    EXPECT_THAT(outcome.out, HasSubstr(part));
+}
+
 TEST(Derive, PrintsLatex) {
   const Outcome outcome = run_corank({"derive", model("dextar"), "--set", "forward", "--format", "latex"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -97,6 +97,21 @@ TEST(Report, TakesConstantsAndSigmas) {
   EXPECT_NE(read_text(folder.file("r/index.html")).find("L2 = 1"), std::string::npos);
 }
 
+TEST(Report, OfACorankNamesItAndLeavesCSpaceAsItIs) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_corank({"report", model("dextar"), "--sets", "cspace,inverse", "--corank", "2",
+                                      "--cspace-sigma", "0.5", "-o", folder.file("r")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(result::read_result(folder.file("r/cspace.h5")).options.corank, 1);
+  EXPECT_EQ(result::read_result(folder.file("r/inverse.h5")).options.corank, 2);
+  const std::string page = read_text(folder.file("r/index.html"));
+  EXPECT_NE(page.find("Inverse singularities of corank 2"), std::string::npos);
+  EXPECT_NE(page.find("--corank 2"), std::string::npos);
+  const Outcome again = run_corank({"report", "--results", folder.file("r/inverse.h5"), "-o", folder.file("again")});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("Inverse singularities of corank 2: "));
+}
+
 TEST(Report, OfALimitedSearchSaysSoAndHasStatus3) {
   const TemporaryFolder folder;
   const Outcome outcome = run_corank({"report", model("dextar"), "--max-boxes", "20", "-o", folder.file("r")});

@@ -57,6 +57,36 @@ TEST(Solve, WritesJsonToAFileBesideTheTable) {
   EXPECT_EQ(summary["points"].size(), 8u);
 }
 
+TEST(Solve, EnclosesASetOfCorankTwoThatVerifyAccepts) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_corank({"solve", model("dextar"), "--set", "inverse", "--corank", "2", "--proof", "-o",
+                                      folder.file("r.h5"), "--json", folder.file("r.json")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, StartsWith("dextar, inverse singularities of corank 2: 18 variables, 20 equations"));
+  EXPECT_THAT(outcome.out, HasSubstr("kernel: dimension 2 in 2 boxes"));
+  const json summary = json::parse(read_text(folder.file("r.json")));
+  EXPECT_EQ(summary["set"], "inverse");
+  EXPECT_EQ(summary["corank"], 2);
+  EXPECT_EQ(summary["points"].size(), 2u);
+  const Outcome verified = run_corank({"verify", folder.file("r.h5")});
+  EXPECT_EQ(verified.status, 0) << verified.out;
+  EXPECT_THAT(verified.out, StartsWith("dextar, inverse singularities of corank 2: checked"));
+  result::Result result = result::read_result(folder.file("r.h5"));
+  EXPECT_EQ(result.options.corank, 2);
+  result.options.corank = 1;  // another question than the boxes answer
+  result::write_result(folder.file("r.h5"), result);
+  EXPECT_EQ(run_corank({"verify", folder.file("r.h5")}).status, 1);
+}
+
+TEST(Solve, RefusesACorankWhereThereIsNone) {
+  for (const auto& [set, corank] : {std::pair{"cspace", "2"}, {"forward", "5"}}) {
+    const Outcome outcome = run_corank({"solve", model("dextar"), "--set", set, "--corank", corank});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("corank"));
+  }
+  EXPECT_EQ(run_corank({"solve", model("dextar"), "--set", "forward", "--corank", "0"}).status, 2);
+}
+
 TEST(Solve, PutsOverriddenConstantsIn) {
   const Outcome outcome =
       run_corank({"solve", "-D", "L2=1", "-D", "L1=2/2", model("three_slider"), "--set", "forward", "--json"});

@@ -1,4 +1,5 @@
-// corank sweep: its members are exact, its page shows what its result files hold, and Dextar's family agrees with closed forms.
+// corank sweep: its members are exact, its page shows what its result files hold, and Dextar's family agrees with closed
+// forms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

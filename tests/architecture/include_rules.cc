@@ -56,7 +56,7 @@ const std::vector<LibraryRule>& library_rules() {
        {"core", "certify", kChecker},
        true},
       {std::regex("^flint/|^coin/"), {"solve"}, true},  // guesses, no proofs
-      {std::regex("^hdf5|^H5"), {"result"}, false},
+      {std::regex("^hdf5|^H5"), {"result"}, true},
       {std::regex("^(cairo|pugi|zlib)"), {"report"}, true},
       {std::regex("^CLI/"), {"app"}, false},
       {std::regex("^tao/"), {"symbolic"}, false},

@@ -1,5 +1,5 @@
-// Hard inputs, from bit patterns, and an oracle that shares no code with certify/: Arb's balls, at a precision where sums and products of
-// doubles are exact.
+// Hard inputs, from bit patterns, and an oracle that shares no code with certify/: Arb's balls, at a precision where sums
+// and products of doubles are exact.
 #pragma once
 
 #include <arb.h>
@@ -105,7 +105,8 @@ inline double moved(double x, int ulps) {
   return x;
 }
 
-/// Finite doubles: ±0, subnormal, smallest and largest ones, any bit pattern, neighbours of integers, of powers of two, of multiples of π/2.
+/// Finite doubles: ±0, subnormal, smallest and largest ones, any bit pattern, neighbours of integers, of powers of two, of
+/// multiples of π/2.
 inline double finite_double() {
   using std::numbers::pi;
   using Limits = std::numeric_limits<double>;

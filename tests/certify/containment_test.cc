@@ -1,5 +1,5 @@
-// Interval operations and panels on hard inputs, against Arb: whatever numbers the operands hold, the result holds the number that comes
-// of them. RC_PARAMS=max_success=100000 ./certify_test --gtest_filter='*Contain*' looks further.
+// Interval operations and panels on hard inputs, against Arb: whatever numbers the operands hold, the result holds the
+// number that comes of them. RC_PARAMS=max_success=100000 ./certify_test --gtest_filter='*Contain*' looks further.
 #include "corank/certify/panel.h"
 #include "corank/core/interval.h"
 #include "corank/tests/certify/adversary.h"

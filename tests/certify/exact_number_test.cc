@@ -97,6 +97,20 @@ TEST(ExactNumber, FoldsRationalArithmetic) {
   EXPECT_THROW(pow(ExactNumber(0), -1), std::domain_error);
 }
 
+TEST(ExactNumber, FoldsMultiplesOfOneExpression) {
+  const ExactNumber third = ExactNumber::rational("1/3"), e = root(3) * ExactNumber::pi();
+  EXPECT_EQ((third * e + e).text(), (ExactNumber::rational("4/3") * e).text());
+  EXPECT_EQ((1 + root(2) + 2 * root(2)).text(), "1 + 3*sqrt(2)");
+  EXPECT_TRUE((3 * e - e - 2 * e).is_zero());
+  EXPECT_EQ((root(2) + root(3) - root(2)).text(), "sqrt(3)");
+  EXPECT_EQ((5 + root(2) - root(2)), ExactNumber(5));
+  EXPECT_FALSE((root(2) - root(3)).is_zero());
+  EXPECT_THROW((root(-1) - root(-1)).enclose(), std::domain_error) << "what is no number does not cancel";
+  ExactNumber many = 0;  // longer sums stay as they are, and keep their value
+  for (int i = 1; i <= 100; ++i) many = many + root(ExactNumber(4 * i * i + 1));
+  EXPECT_TRUE((many - many).enclose().contains(0));
+}
+
 TEST(ExactNumber, PrintsInTheModelLanguage) {
   const ExactNumber pi = ExactNumber::pi(), two = 2;
   EXPECT_EQ((two * apply(ConstantFunction::cos, pi / 5)).text(), "2*cos(1/5*pi)");

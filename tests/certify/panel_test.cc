@@ -97,7 +97,8 @@ TEST_F(PanelTest, RoundsOutward) {
     Panel panel;
     panel.set_matrix(c.y, c.r);
     ASSERT_TRUE(panel.assign_product(system, c.equations, c.sparse));
-    // Products of doubles by interval operations that are tested against MPFR: the panel may be no narrower than what one corner needs.
+    // Products of doubles by interval operations that are tested against MPFR: the panel may be no narrower than what one
+    // corner needs.
     for (int a = 0; a < c.r; ++a)
       for (int j = 0; j < c.n; ++j) {
         Interval corner;

@@ -145,7 +145,8 @@ TEST(Reduction, DropsEquationsThatFollow) {
   EXPECT_EQ(r.system.dimension(), 1);
 }
 
-// The rows of a kernel condition of two dyads, the second one as in a loop equation: u x + v y = 0 and u x + v y + w z = t² stand for w z = t².
+// The rows of a kernel condition of two dyads, the second one as in a loop equation: u x + v y = 0 and u x + v y + w z = t²
+// stand for w z = t².
 SystemBuilder kernel_rows() {
   SystemBuilder b;
   for (const char* name : {"t", "u", "v", "w", "x", "y", "z"}) b.variable(name, "-2", "2");

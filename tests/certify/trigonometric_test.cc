@@ -17,7 +17,8 @@ namespace {
 constexpr double kPi = std::numbers::pi, kTiny = std::numeric_limits<double>::denorm_min();
 constexpr std::uint64_t kSeed = 20261122;
 
-// A real number to enough bits for 1 − cos of any subnormal double, where that matters, and for the sine of any other double.
+// A real number to enough bits for 1 − cos of any subnormal double, where that matters, and for the sine of any other
+// double.
 class Real {
  public:
   explicit Real(double x) : Real(mpfr_prec_t{x != 0 && std::fabs(x) < 0x1p-300 ? 4800 : 1400}) {

@@ -1,5 +1,5 @@
-// A small search that records why a cover is complete, for tests of the replay: contraction by every row and a Newton step, then a leaf
-// where that suffices, else a split.
+// A small search that records why a cover is complete, for tests of the replay: contraction by every row and a Newton step,
+// then a leaf where that suffices, else a split.
 #pragma once
 
 #include <algorithm>
@@ -63,7 +63,8 @@ class Recorder {
       }
   }
 
-  // A box of the cover whose proof speaks of all of x; −1: none. Where a box's free side ends within x, `variable` and `place` say where.
+  // A box of the cover whose proof speaks of all of x; −1: none. Where a box's free side ends within x, `variable` and
+  // `place` say where.
   int box_of(const std::vector<Interval>& x, int& variable, double& place) const {
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i) {
       const CoverBox& box = cover_.boxes[i];

@@ -1,4 +1,5 @@
-// The replay of a proof of completeness: scripts by hand and by a small recorder are accepted, and none that leaves a solution out.
+// The replay of a proof of completeness: scripts by hand and by a small recorder are accepted, and none that leaves a
+// solution out.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

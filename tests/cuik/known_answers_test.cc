@@ -190,8 +190,8 @@ TEST(KnownAnswers, TheProgramWritesAnIncompleteResultOfALargeProblem) {
   EXPECT_EQ(result.options.time_limit, 0.5);
 }
 
-// The tutorial's printed systems of Dextar and those that corank derives from its model: the same configurations, whatever the
-// kernel vectors.
+// The tutorial's printed systems of Dextar and those that corank derives from its model: the same configurations, whatever
+// the kernel vectors.
 class Dextar : public ::testing::TestWithParam<std::pair<std::string, symbolic::SingularitySet>> {
  protected:
   static constexpr int kConfiguration = 10;

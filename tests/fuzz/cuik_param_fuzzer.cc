@@ -1,4 +1,5 @@
-// Any bytes may come as a .param file: parse_param either returns values that have a use or throws CuikFileError with a line.
+// Any bytes may come as a .param file: parse_param either returns values that have a use or throws CuikFileError with a
+// line.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

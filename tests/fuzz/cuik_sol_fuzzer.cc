@@ -1,5 +1,5 @@
-// Any bytes may come as a .sol file: parse_sol either returns boxes or throws CuikFileError with a line. What it returns is as
-// cuik_sol.h promises.
+// Any bytes may come as a .sol file: parse_sol either returns boxes or throws CuikFileError with a line. What it returns is
+// as cuik_sol.h promises.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

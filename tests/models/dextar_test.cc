@@ -104,8 +104,8 @@ TEST_P(DextarCspace, IsCoveredAndNothingIsLost) {
 
 INSTANTIATE_TEST_SUITE_P(Sigmas, DextarCspace, testing::Values(0.2, 0.1, 0.05));
 
-// Both kernels, and the algebrized file, enclose the same configurations: each cover's proven boxes hold a configuration that the
-// other must hold too. Middles of boxes are compared up to σ.
+// Both kernels, and the algebrized file, enclose the same configurations: each cover's proven boxes hold a configuration
+// that the other must hold too. Middles of boxes are compared up to σ.
 void expect_same_projection(const Cover& a, const Cover& b, double sigma) {
   for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     const test::CoverLookup lookup(*to);

@@ -1,4 +1,5 @@
-// What only exact arithmetic proves: the three-slider's degenerate points, Dextar's configurations with a kernel of dimension 2.
+// What only exact arithmetic proves: the three-slider's degenerate points, Dextar's configurations with a kernel of
+// dimension 2.
 #include "corank/solve/exactness.h"
 
 #include <gtest/gtest.h>
@@ -95,7 +96,8 @@ TEST(ExactThreeSlider, WithIrrationalPointsHasSquareRoots) {
 
 class ExactDextar : public testing::TestWithParam<double> {};
 
-// Both arms stretched: J3 at distance 1.8 from the ground joints, which are 1.18 apart; so J3x = 0.59, J3y² = 1.8² − 0.59² = 2.8919.
+// Both arms stretched: J3 at distance 1.8 from the ground joints, which are 1.18 apart; so J3x = 0.59, J3y² = 1.8² − 0.59² =
+// 2.8919.
 TEST_P(ExactDextar, HasNoUndecidedBoxThatNoPointExplains) {
   const System system = system_of("dextar.cuik", SingularitySet::inverse);
   const Cover cover = proven(system, GetParam());

@@ -1,5 +1,5 @@
-// The planar 3-RRR against its geometry: a configuration is a forward singularity exactly where the lines B_i C_i of the three
-// links at the platform meet in one point or are parallel (Bonev2003).
+// The planar 3-RRR against its geometry: a configuration is a forward singularity exactly where the lines B_i C_i of the
+// three links at the platform meet in one point or are parallel (Bonev2003).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -124,8 +124,8 @@ Values values(const Configuration& q) {
   return x;
 }
 
-// Singular configurations with orientation phi and C_1 on the segment from a to b, in all eight working modes: the sign changes
-// of the determinant between `steps` equidistant points, bisected.
+// Singular configurations with orientation phi and C_1 on the segment from a to b, in all eight working modes: the sign
+// changes of the determinant between `steps` equidistant points, bisected.
 void add_samples(Point a, Point b, double phi, int steps, std::vector<Values>& samples) {
   for (int mode = 0; mode < 8; ++mode) {
     const auto at = [&](double t) { return Configuration::at(a + t * (b - a), phi, mode); };
@@ -217,8 +217,8 @@ TEST_P(FixedOrientation, HasItsForwardSingularitiesWhereThreeLinesMeet) {
   EXPECT_GT(samples.size(), 1000u);
   expect_holds_all(cover, samples);
 
-  // A proven box has a solution at most σ/2 away in each coordinate. The determinant is multilinear in rows of length ≤ √1.25,
-  // each off by at most √1.25·σ/√2.
+  // A proven box has a solution at most σ/2 away in each coordinate. The determinant is multilinear in rows of length ≤
+  // √1.25, each off by at most √1.25·σ/√2.
   const double most = 3 * std::pow(1.25, 1.5) * std::sqrt(0.5) * sigma * (1 + sigma);
   std::size_t turning = 0;
   for (const auto& b : cover.boxes) {

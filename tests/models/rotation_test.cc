@@ -1,6 +1,6 @@
-// A robot whose output is a rotation matrix R, all nine entries tied by seven equations: a platform on a universal joint (its y axis b stays
-// at a right angle to the fixed x axis), tilted by two legs that see its axes a and b. With p1 = (cos t1, 0, sin t1) and
-// p2 = (0, cos t2, sin t2): b_x = 0, a·p1 = 1/2, b·p2 = 1/3.
+// A robot whose output is a rotation matrix R, all nine entries tied by seven equations: a platform on a universal joint
+// (its y axis b stays at a right angle to the fixed x axis), tilted by two legs that see its axes a and b. With p1 = (cos
+// t1, 0, sin t1) and p2 = (0, cos t2, sin t2): b_x = 0, a·p1 = 1/2, b·p2 = 1/3.
 //   inverse: a·p1' = 0 or b·p2' = 0; since b is a unit vector in the plane of p2, the second is never
 //   forward: an angular velocity ω ≠ 0 with ω·(b × e_x) = ω·(a × p1) = ω·(b × p2) = 0, so their determinant is 0
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Sets of larger dimension than the count of equations says: the rhombus four-bar, whose coupler turns freely where its crank is folded.
+// Sets of larger dimension than the count of equations says: the rhombus four-bar, whose coupler turns freely where its
+// crank is folded.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

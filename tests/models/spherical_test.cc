@@ -1,5 +1,6 @@
-// Spherical five-bars, whose outputs are three direction cosines tied by one equation, against their determinants in closed form:
-// with a crank's end e1, e2 on each motor's axis n1 = z, n2 = x, forward det(e1, e2, w) = 0, inverse det(n1, e1, w)·det(n2, e2, w) = 0.
+// Spherical five-bars, whose outputs are three direction cosines tied by one equation, against their determinants in closed
+// form: with a crank's end e1, e2 on each motor's axis n1 = z, n2 = x, forward det(e1, e2, w) = 0, inverse det(n1, e1,
+// w)·det(n2, e2, w) = 0.
 #include <gtest/gtest.h>
 
 #include <array>

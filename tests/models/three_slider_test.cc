@@ -1,4 +1,5 @@
-// The three-slider mechanism: counts, places and verdicts of its singularities (see models/three_slider.cuik for the answers).
+// The three-slider mechanism: counts, places and verdicts of its singularities (see models/three_slider.cuik for the
+// answers).
 #include <gtest/gtest.h>
 
 #include "corank/solve/solve.h"

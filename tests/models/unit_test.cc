@@ -13,8 +13,8 @@ namespace corank {
 namespace {
 using symbolic::SingularitySet;
 
-// A planar 3-RPR platform with its first leg's length as input, the others fixed: x, y of its first corner, in `unit` per metre; the
-// declared ranges are `generous` times as wide as needed. Our own lengths.
+// A planar 3-RPR platform with its first leg's length as input, the others fixed: x, y of its first corner, in `unit` per
+// metre; the declared ranges are `generous` times as wide as needed. Our own lengths.
 System platform(const std::string& unit, int generous, SingularitySet set) {
   const std::string n = std::to_string(generous);
   const auto model = symbolic::parse_model(

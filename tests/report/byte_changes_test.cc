@@ -35,7 +35,7 @@ result::Result solved(const Kind& kind, double sigma) {
   result.set = kind.set;
   result.options.kernel = kind.set == "cspace" ? "" : "right";
   if (!kind.constant.empty()) result.options.constants = {{"L2", kind.constant}};
-  const System system = system_of(result);
+  const System system = result::system_of(result);
   result.system_text = symbolic::to_cuik(system);
   result::describe_system(system, result);
   solve::Options options;

@@ -1,5 +1,6 @@
-// Dextar's output portrait against closed forms. With all four links l: J3 reaches the lens of the discs of radius 2l about J5 = (0, 0) and
-// J1 = (d, 0), and no other point; the inverse locus is the lens's outline (an arm stretched) with the points J5 and J1 (an arm folded).
+// Dextar's output portrait against closed forms. With all four links l: J3 reaches the lens of the discs of radius 2l about
+// J5 = (0, 0) and J1 = (d, 0), and no other point; the inverse locus is the lens's outline (an arm stretched) with the
+// points J5 and J1 (an arm folded).
 #include <gtest/gtest.h>
 
 #include "corank/solve/solve.h"

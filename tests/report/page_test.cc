@@ -118,7 +118,7 @@ TEST(Page, HoldsTheResultsAndLoadsNothing) {
   EXPECT_FALSE(std::regex_search(before_scripts, std::regex("(src|href)=\"(https?:)?//"))) << "the page loads something";
   EXPECT_FALSE(holds(page, "<link rel=\"stylesheet\""));
   EXPECT_FALSE(holds(page, "\nimport "));
-  EXPECT_TRUE(holds(page, "corank result::verify forward.h5"));
+  EXPECT_TRUE(holds(page, "corank verify forward.h5"));
   EXPECT_TRUE(holds(page, "8 points"));
   EXPECT_TRUE(holds(page, "<td>[−0.6"));
 }

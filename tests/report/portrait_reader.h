@@ -67,7 +67,8 @@ struct SvgPortrait {
   }
 };
 
-/// The cells inside the path by the even-odd rule. Its polygons begin with a horizontal edge: the one that closes them is vertical.
+/// The cells inside the path by the even-odd rule. Its polygons begin with a horizontal edge: the one that closes them is
+/// vertical.
 inline std::vector<bool> cells_of_path(const std::string& data, int columns, int rows) {
   std::vector<bool> cells(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), false);
   std::istringstream in(data);

@@ -101,6 +101,7 @@ void expect_same(const Result& a, const Result& b) {
   EXPECT_TRUE(same_bits(a.cover.sigma.length, b.cover.sigma.length));
   EXPECT_TRUE(same_bits(a.cover.sigma.angle, b.cover.sigma.angle));
   EXPECT_EQ(a.cover.wider_than_sigma, b.cover.wider_than_sigma);
+  EXPECT_EQ(a.cover.observed_dimension, b.cover.observed_dimension);
   EXPECT_TRUE(same_bits(a.cover.tolerance, b.cover.tolerance));
   expect_same_boxes(a.cover.boxes, b.cover.boxes);
   expect_same_boxes(a.cover.points, b.cover.points);

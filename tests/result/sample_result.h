@@ -34,6 +34,7 @@ inline Result sample_result() {
   r.inequalities = 1;
   r.cover.sigma = {0.1, 0.25};
   r.cover.wider_than_sigma = 1;
+  r.cover.observed_dimension = 2;
   r.cover.tolerance = 1e-5;
   r.cover.statistics = {123, 45, 6, 1.5, 1.25, 0.1};
   r.cover.boxes = {sample_box({{-0.0, 0.0}, {0.0, kTiny}, {-kTiny, -0.0}, {-kHuge, kHuge}}, Verdict::regular, {0, 3}),

@@ -8,6 +8,7 @@
 
 #include "corank/certify/angle.h"
 #include "corank/tests/result/sample_result.h"
+#include "corank/tests/system_builder.h"
 
 namespace corank::result {
 namespace {
@@ -25,9 +26,10 @@ std::vector<std::string> keys(const ordered_json& object) {
 
 TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   const ordered_json json = ordered_json::parse(to_json(sample_result()));
-  EXPECT_THAT(keys(json), ElementsAre("model", "set", "system", "options", "complete", "stopped", "boxes",
-                                      "undecided_reasons", "self_motions", "boundary_reasons", "range_ends", "ranges_found",
-                                      "points", "kernel", "seconds", "version"));
+  EXPECT_THAT(keys(json),
+              ElementsAre("model", "set", "corank", "system", "options", "complete", "stopped", "boxes", "undecided_reasons",
+                          "observed_dimension", "seems_of_corank", "self_motions", "boundary_reasons", "range_ends",
+                          "ranges_found", "points", "kernel", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]),
               ElementsAre("kernel", "sigma", "sigma_length", "sigma_angle", "kernel_scales", "tolerance", "threads",
@@ -79,6 +81,19 @@ TEST(JsonSummary, TellsAPlainSystemFromOneWithAKernel) {
   Result result = sample_result();
   result.options.kernel.clear();
   EXPECT_TRUE(ordered_json::parse(to_json(result))["options"]["kernel"].is_null());
+  EXPECT_TRUE(ordered_json::parse(to_json(result))["corank"].is_null());
+}
+
+TEST(Summary, SaysWhichCorankWasAskedFor) {
+  Result result = sample_result();
+  EXPECT_EQ(ordered_json::parse(to_json(result))["corank"], 1);
+  result.options.corank = 2;
+  result.cover.boxes[3].corank = 2;
+  result.cover.boxes[4].corank = 2;
+  EXPECT_EQ(ordered_json::parse(to_json(result))["corank"], 2);
+  EXPECT_THAT(to_table(result), testing::StartsWith("sample, forward singularities of corank 2: "));
+  EXPECT_THAT(to_table(result),
+              HasSubstr("kernel: dimension 2 in 2 boxes\n  a configuration where this is proven lies in 1 of them:\n"));
 }
 
 TEST(Summary, LeavesUndecidedBoxesOutOfTheKernelUnlessTheyHoldAKnownPoint) {

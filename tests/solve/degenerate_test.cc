@@ -1,5 +1,5 @@
-// Classic degenerate systems: singular points, multiple roots, touching and crossing sets. Their solutions are known in closed form, so
-// every claim can be held against them; nothing may be lost, and what is singular must stay undecided.
+// Classic degenerate systems: singular points, multiple roots, touching and crossing sets. Their solutions are known in
+// closed form, so every claim can be held against them; nothing may be lost, and what is singular must stay undecided.
 #include "corank/tests/solve/cover_questions.h"
 
 #include <gtest/gtest.h>
@@ -260,7 +260,8 @@ TEST(Degenerate, SpheresThatTouchAreUndecidedAtTheirPointAndAtNoOther) {
 }
 
 TEST(Degenerate, TwoSpheresAndTheirRadicalPlaneAreOneCircle) {
-  // |p|² = 1, |p − (1, 0, 0)|² = 1 and x = 1/2, which follows: a circle of radius √3/2 from three equations, none of them independent.
+  // |p|² = 1, |p − (1, 0, 0)|² = 1 and x = 1/2, which follows: a circle of radius √3/2 from three equations, none of them
+  // independent.
   SystemBuilder b;
   const int x = b.variable("x", "-3", "3"), y = b.variable("y", "-3", "3"), z = b.variable("z", "-3", "3");
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-1", {}}});

@@ -26,7 +26,8 @@ TEST(Solve, ProvesARoundedOverDeterminedPointPartially) {
 }
 
 TEST(Solve, ProvesARedundantCurvePartiallyAndNeverAContradiction) {
-  // The unit circle, (x² + y²)² = 1 in rounded decimals, z = x + y twice; then radius⁴ 1.001 instead, which no point of the circle has.
+  // The unit circle, (x² + y²)² = 1 in rounded decimals, z = x + y twice; then radius⁴ 1.001 instead, which no point of the
+  // circle has.
   for (const char* radius : {"-0.333333", "-0.333666"}) {
     SystemBuilder b;
     const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-3", "3");

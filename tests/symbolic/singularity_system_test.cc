@@ -164,6 +164,31 @@ TEST(SingularitySystem, TakesTheLeftKernelOfTheWideJacobian) {
   EXPECT_THAT(message, HasSubstr("expected the left kernel"));
 }
 
+TEST(SingularitySystem, AsksOfCorankTwoForTwoOrthonormalVectorsAndOneChoiceOfThem) {
+  const TrigonometricSystem s =
+      singularity_system(reference("three_slider"), SingularitySet::inverse, KernelSide::left, {"2", "1"}, 2);
+  EXPECT_EQ(s.name, "three_slider inverse corank 2");
+  EXPECT_EQ(s.corank, 2);
+  EXPECT_THAT(s.kernel_unknowns, ElementsAre("xi1_1", "xi1_2", "xi2_1", "xi2_2"));
+  EXPECT_THAT(texts(s.equations),
+              ElementsAre("y_A^2 + x_C^2 = L1^2", "y_B^2 + x_C^2 = L2^2",                                       //
+                          "2*y_A*(2*xi1_1) = 0", "2*x_C*(2*xi1_1) + 2*x_C*xi1_2 = 0",                           //
+                          "2*y_A*(2*xi2_1) = 0", "2*x_C*(2*xi2_1) + 2*x_C*xi2_2 = 0", "xi1_1^2 + xi1_2^2 = 1",  //
+                          "xi1_1*xi2_1 + xi1_2*xi2_2 = 0", "0.04*xi2_1 + 0.52*xi2_2 = 0", "xi2_1^2 + xi2_2^2 = 1"));
+  EXPECT_THAT(texts(s.inequalities), ElementsAre("0.04*xi1_1 + 0.52*xi1_2 >= 0", "0.58*xi2_1 + 0.75*xi2_2 >= 0"));
+  EXPECT_EQ(s.equations[4].source, "row 1 of L_z^T xi2 = 0");
+  EXPECT_EQ(s.equations[8].source, "choice of xi2");
+}
+
+TEST(SingularitySystem, RefusesACorankThatNoKernelHas) {
+  const auto of = [](SingularitySet set, int corank) {
+    return error_of([=] { singularity_system(reference("three_slider"), set, std::nullopt, {}, corank); }).second;
+  };
+  EXPECT_THAT(of(SingularitySet::inverse, 3), HasSubstr("expected a corank from 1 to 2"));
+  EXPECT_THAT(of(SingularitySet::inverse, 0), HasSubstr("expected a corank from 1 to 2"));
+  EXPECT_THAT(of(SingularitySet::cspace, 2), HasSubstr("no corank"));
+}
+
 TEST(SingularitySystem, LeavesTheConfigurationSpaceAsItIs) {
   const TrigonometricSystem s = singularity_system(reference("three_slider"), SingularitySet::cspace);
   EXPECT_THAT(texts(s.equations), ElementsAre("y_A^2 + x_C^2 = L1^2", "y_B^2 + x_C^2 = L2^2"));

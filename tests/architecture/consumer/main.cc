@@ -2,25 +2,17 @@
 #include <iostream>
 
 #include "corank/result/result_file.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/mechanism.h"
+#include "corank/study/answer.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
 
 using namespace corank;
 
-void print_singularities(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set) {
-  const System system = symbolic::algebrize(symbolic::singularity_system(mechanism, set));
-  result::Result result;
-  result.cover = solve::solve(system);
-  result::describe_system(system, result);
-  result::write_result("result.h5", result);
+void print_singularities(const study::Question& question) {
+  result::write_result("result.h5", study::answer(question));
+  const Cover cover = result::read_result("result.h5").cover;
   int isolated = 0;
-  for (const CoverBox& point : result::read_result("result.h5").cover.points) {
-    isolated += point.verdict == Verdict::isolated;
-  }
-  std::cout << isolated << " isolated, " << (result.cover.complete() ? "complete" : "incomplete") << "\n";
+  for (const CoverBox& point : cover.points) isolated += point.verdict == Verdict::isolated;
+  std::cout << isolated << " isolated, " << (cover.complete() ? "complete" : "incomplete") << "\n";
 }
 
 int main() {
@@ -31,6 +23,6 @@ int main() {
   m.constrain(pow(y_b, 2) + pow(x_c, 2) == pow(l2, 2));
   m.inputs({y_a});
   m.outputs({y_b});
-  print_singularities(m, symbolic::SingularitySet::forward);
-  print_singularities(symbolic::read_model(MODELS "/three_slider.cuik"), symbolic::SingularitySet::inverse);
+  print_singularities({m, symbolic::SingularitySet::forward});
+  print_singularities({symbolic::read_model(MODELS "/three_slider.cuik"), symbolic::SingularitySet::inverse});
 }

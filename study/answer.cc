@@ -1,0 +1,109 @@
+#include "corank/study/answer.h"
+
+#include <algorithm>
+#include <set>
+
+#include "corank/certify/kernel_bound.h"
+#include "corank/certify/reduction.h"
+#include "corank/result/domain_notes.h"
+#include "corank/result/motion_words.h"
+#include "corank/solve/corank_system.h"
+#include "corank/solve/exactness.h"
+#include "corank/symbolic/printer.h"
+
+namespace corank::study {
+namespace {
+
+std::string kernel_of(const Question& question) {
+  using symbolic::SingularitySet;
+  if (!question.set || *question.set == SingularitySet::cspace) return "";
+  if (question.kernel) return to_string(*question.kernel);
+  return to_string(*question.set == SingularitySet::cspace_singular ? symbolic::KernelSide::left
+                                                                    : symbolic::KernelSide::right);
+}
+
+void mark_auxiliary(const symbolic::Mechanism& mechanism, result::Result& result) {
+  std::set<std::string> names;
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
+    if (c.auxiliary) names.insert(c.name);
+  }
+  for (result::ResultVariable& v : result.variables)
+    v.auxiliary = names.contains(v.name) || v.kind == VariableKind::auxiliary;
+  for (const Angle& a : result.angles) {
+    for (const int v : {a.cosine, a.sine})
+      result.variables.at(static_cast<std::size_t>(v)).auxiliary = names.contains(a.name);
+  }
+}
+
+certify::Reduction reduced(const System& system, solve::Control& control) {
+  const solve::InStage stage(control, solve::Stage::reduction);
+  return certify::reduce(system, [&control] { return control.ended(); });
+}
+
+}  // namespace
+
+void describe_corank(const System& system, result::Result& result) {
+  constexpr double kSmall = 0.02;              // relative to the largest: boxes are a few hundredths of typical sizes wide
+  constexpr std::size_t kMostLookedAt = 1000;  // more say the same
+  result.seems_of_corank = 0;
+  std::vector<const CoverBox*> boxes;
+  for (const CoverBox& box : result.cover.boxes)
+    if (box.verdict == Verdict::undecided && box.reason == Reason::degenerate_set) boxes.push_back(&box);
+  const certify::KernelMatrix matrix = certify::kernel_matrix(system);
+  if (boxes.empty() || matrix.rows.empty()) return;
+  const std::size_t n = std::min(boxes.size(), kMostLookedAt);
+  std::vector<std::size_t> of_corank(matrix.unknowns.size() + 1, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<double> x;
+    for (const Interval& side : boxes[i * boxes.size() / n]->box) x.push_back(side.mid());
+    const std::vector<double> s = solve::singular_values(matrix, x);
+    for (std::size_t c = 0; c < s.size() && s[s.size() - 1 - c] < kSmall * s[0]; ++c) ++of_corank[c + 1];
+  }
+  for (std::size_t c = 1; c < of_corank.size(); ++c)
+    if (2 * of_corank[c] > n && static_cast<int>(c) > result.options.corank) result.seems_of_corank = static_cast<int>(c);
+}
+
+std::string stopped_words(const result::Result& result) {
+  return "stopped by " + (result.stopped.empty() ? "a limit" : result.stopped);
+}
+
+result::Result answer(const Question& question, const Options& options) {
+  solve::Control control(solve::limits_of(options.search));
+  std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
+  const System system = study::system(question);
+  control.ended();  // notes the stage
+  stage.reset();
+  return answer(question, system, options, control);
+}
+
+result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control) {
+  const certify::Reduction reduction = reduced(system, control);
+  solve::Options governed = options.search;
+  governed.control = &control;
+  governed.reduction = &reduction;
+  governed.max_boxes = 0;  // the control's
+  result::Result result;
+  result.model = question.model.name();
+  result.model_text = question.model.source_text();
+  result.set = question.set ? to_string(*question.set) : "system";
+  result.system_text = symbolic::to_cuik(system);
+  result.cover = solve::solve(system, governed);
+  control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
+  solve::prove_exactly(system, governed, result.cover);
+  if (options.digits > 0 && result.cover.dimension == 0)
+    solve::prove_decimals(system, options.digits, result.cover, governed);
+  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
+  result::describe_system(system, result);
+  result::describe_domain(question.model, system, result);
+  result::describe_motions(question.model, system, result);
+  mark_auxiliary(question.model, result);
+  const solve::Options& search = options.search;
+  result.options = {kernel_of(question),          result.cover.sigma, system.kernel_scales,
+                    system.coefficient_tolerance, search.threads,     search.max_boxes,
+                    search.max_solutions,         search.time_limit,  question.constants};
+  result.options.corank = system.kernel_vectors;
+  describe_corank(system, result);
+  return result;
+}
+
+}  // namespace corank::study

@@ -1,0 +1,32 @@
+// From a question to a certified result: solve, prove exactly what can be, describe. What the command line calls, and what
+// C++ users do.
+#pragma once
+
+#include "corank/result/result.h"
+#include "corank/solve/solve.h"
+#include "corank/study/question.h"
+
+namespace corank::study {
+
+struct Options {
+  solve::Options search;  ///< σ, limits, threads, progress
+  int digits = 0;         ///< isolated points get so many proven digits after the point; 0: none
+};
+
+/// All that a result file holds (result::write_result). What a limit left undone is pending or undecided, and
+/// Result::stopped says so.
+/// Throws symbolic::ModelError where the model does not answer such a question, std::invalid_argument where solve::solve
+/// does.
+result::Result answer(const Question& question, const Options& options = {});
+
+/// The same of system(question), made before; `control` takes the place of the options' limits.
+result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control);
+
+/// "stopped by the time limit, in the stage search".
+std::string stopped_words(const result::Result& result);
+
+/// Sets Result::seems_of_corank, a hint, from the singular values in boxes that are undecided along a set of degenerate
+/// solutions.
+void describe_corank(const System& system, result::Result& result);
+
+}  // namespace corank::study

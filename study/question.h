@@ -1,0 +1,29 @@
+// A question about a mechanism as a plain value: which set of which model; and the system whose solutions answer it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "corank/core/system.h"
+#include "corank/result/result.h"
+#include "corank/symbolic/singularity_system.h"
+
+namespace corank::study {
+
+struct Question {
+  symbolic::Mechanism model;                          ///< with its constants put in (result::put_in)
+  std::optional<symbolic::SingularitySet> set{};      ///< nothing: the equations of the model themselves
+  std::optional<symbolic::KernelSide> kernel{};       ///< nothing: the default of symbolic::singularity_system
+  int corank = 1;                                     ///< the kernel's dimension, at least, of the configurations asked for
+  std::vector<result::ConstantOverride> constants{};  ///< those that were put in, for the record
+  std::optional<double> tolerance{};  ///< of coefficients, relative; nothing: printed_tolerance() of a plain system, else 0
+};
+
+/// The equations of the set, its kernel vectors scaled (symbolic/kernel_scale.h). Throws symbolic::ModelError.
+symbolic::TrigonometricSystem equations(const Question& question);
+
+/// The same as polynomials, the system that is solved. Throws symbolic::ModelError.
+System system(const Question& question);
+System system(const Question& question, const symbolic::TrigonometricSystem& equations);
+
+}  // namespace corank::study
