@@ -87,7 +87,7 @@ std::string family_model(const std::vector<FamilyMember>& members, const FamilyO
                       {"coordinates", coordinates(first, options.axes)},
                       {"drawing", {{"unit", first.drawing().unit}}},
                       {"members", list}};
-  return script_safe(model.dump());
+  return script_safe(model.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace corank::report

@@ -221,7 +221,7 @@ std::string page_model(const symbolic::Mechanism& mechanism, const std::vector<r
                       {"drawing", drawing(mechanism)},
                       {"constraints", polynomials(cspace.equations)},
                       {"sets", sets}};
-  return script_safe(model.dump());
+  return script_safe(model.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace corank::report

@@ -451,7 +451,7 @@ std::string to_json(const Result& result) {
                      {"search", cover.statistics.seconds_search},
                      {"certify", cover.statistics.seconds_certify}};
   json["version"] = result.version;
-  return json.dump(2);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace corank::result

@@ -301,6 +301,43 @@ TEST_F(Newton, ComparesIsolatedSolutions) {
   EXPECT_FALSE(holds_nothing_else(right, {&outside, 1}));
 }
 
+// Images that overlap, each reaching beyond the other's region: two solutions, or one.
+TEST_F(Newton, DoesNotKnowWhetherProofsThatOverlapAreOfOneSolution) {
+  const auto sheet = [](Interval region, Interval image) {
+    return Sheet{.proven = true, .equations = {0}, .dependent = {0}, .region = {region}, .image = {image}};
+  };
+  const Sheet a = sheet({0.2, 0.65}, {0.3, 0.6}), b = sheet({0.45, 0.9}, {0.5, 0.8});
+  EXPECT_EQ(compare_isolated(a, b), Identity::unknown);
+  EXPECT_EQ(compare_isolated(a, sheet({0.29, 0.9}, {0.5, 0.8})), Identity::same) << "a's image is in its region";
+  EXPECT_EQ(compare_isolated(a, sheet({0.45, 0.9}, {0.61, 0.8})), Identity::different);
+}
+
+// x² + a·x over [−1, 1], preconditioned by y: (1) asks for |1 − y·[a − 1, a + 1]| < 1, (2) for |1 − y·[a − 2, a + 2]| < 1.
+TEST_F(Newton, TheProofOfUniquenessEndsWhereTheJacobiansRadiusReachesOne) {
+  const auto is_proven = [&](const char* a, double y) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-2", "2");
+    b.equation({{"1", {{x, 2}}}, {a, {{x, 1}}}});
+    const std::vector<Interval> box{Interval(-1, 1)};
+    return newton_prove(CompiledSystem(b.system()), {{0}, {x}, {y}}, box, workspace_).proven;
+  };
+  EXPECT_TRUE(is_proven("21/10", 0.4)) << "radius 0.96";
+  EXPECT_FALSE(is_proven("19/10", 0.5)) << "radius 1.05, though the image is [-0.55, 0.55]";
+  EXPECT_FALSE(is_proven("2", 0.45)) << "radius 1: the derivative vanishes at an end";
+}
+
+// x = 0 over [0, 1] with y = 1/2: the first image is [0, 1/2], exactly, which touches the box's end; so the region has to grow.
+TEST_F(Newton, TheImageLiesInTheRegionsInterior) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2");
+  b.equation({{"1", {{x, 1}}}});
+  const std::vector<Interval> box{Interval(0, 1)};
+  const Sheet sheet = newton_prove(CompiledSystem(b.system()), {{0}, {x}, {0.5}}, box, workspace_);
+  ASSERT_TRUE(sheet.proven);
+  EXPECT_TRUE(sheet.region[0].strictly_contains(sheet.image[0]));
+  EXPECT_TRUE(sheet.region[0].strictly_contains(Interval(0.0)));
+}
+
 // On the unit circle, (x² + y²)² − 1 vanishes and x⁴ + y⁴ − 1 + 2x²y² does; x² + y² + x/1000 − 1 does not.
 TEST_F(Newton, EnclosesTheValueOfADependentEquationAtZeros) {
   SystemBuilder b;

@@ -211,6 +211,15 @@ TEST(Summary, ShowsTheFirstThousandOfVeryManyPoints) {
   EXPECT_EQ(nlohmann::json::parse(to_json(result))["points"].size(), 1521u);
 }
 
+// Names come from files of others.
+TEST(JsonSummary, ReplacesWhatIsNoUtf8) {
+  Result result = sample_result();
+  result.model = "\xC0robot";
+  result.variables[0].name = "x\xFF";
+  const ordered_json json = ordered_json::parse(to_json(result));
+  EXPECT_EQ(json["model"], "\uFFFDrobot");
+}
+
 TEST(Summary, SaysWhatStoppedTheRun) {
   Result result = sample_result();
   EXPECT_EQ(to_table(result).find("stopped by"), std::string::npos);
