@@ -326,7 +326,8 @@ TEST_F(Newton, TheProofOfUniquenessEndsWhereTheJacobiansRadiusReachesOne) {
   EXPECT_FALSE(is_proven("2", 0.45)) << "radius 1: the derivative vanishes at an end";
 }
 
-// x = 0 over [0, 1] with y = 1/2: the first image is [0, 1/2], exactly, which touches the box's end; so the region has to grow.
+// x = 0 over [0, 1] with y = 1/2: the first image is [0, 1/2], exactly, which touches the box's end; so the region has
+// to grow.
 TEST_F(Newton, TheImageLiesInTheRegionsInterior) {
   SystemBuilder b;
   const int x = b.variable("x", "-2", "2");
