@@ -21,16 +21,12 @@
 #include "corank/result/result_file.h"
 #include "corank/result/verification.h"
 #include "corank/study/answer.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
 
 namespace corank::app {
 namespace {
 
 constexpr int kDigits = 12;  ///< of isolated points
-
-/// Finer than corank solve's, where that is cheap: pictures want it.
 
 /// A page of all sets is to be there within a minute, and to open in a browser.
 constexpr double kDefaultTimeLimit = 8;

@@ -6,26 +6,13 @@
 
 #include <mpfi.h>
 
-#include <cfenv>
 #include <optional>
 
 #include "corank/core/exact_number.h"
 #include "corank/core/interval.h"
+#include "corank/core/nearest_rounding.h"
 
 namespace corank::check {
-
-/// MPFR's own computations in doubles expect rounding to nearest, whatever the caller computes with. One for each thread
-/// that computes.
-class NearestRounding {
- public:
-  NearestRounding() : former_(std::fegetround()) { std::fesetround(FE_TONEAREST); }
-  ~NearestRounding() { std::fesetround(former_); }
-  NearestRounding(const NearestRounding&) = delete;
-  NearestRounding& operator=(const NearestRounding&) = delete;
-
- private:
-  int former_;
-};
 
 class Enclosure {
  public:

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "corank/core/exact_number_node.h"
-#include "corank/core/rounding.h"
+#include "corank/core/nearest_rounding.h"
 
 namespace corank {
 namespace {

@@ -10,6 +10,7 @@
 #include "corank/report/components.h"
 #include "corank/report/drawing_tree.h"
 #include "corank/result/hdf5_file.h"
+#include "corank/result/verification.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/singularity_system.h"
@@ -89,12 +90,11 @@ Json polynomials(const std::vector<Polynomial>& list) {
 }
 
 System solved_system(const symbolic::Mechanism& mechanism, const result::Result& result) {
-  const std::optional<SingularitySet> set = symbolic::singularity_set_from_string(result.set);
-  if (!set) throw result::ResultFileError("the result's set '" + result.set + "' is no set of a mechanism");
+  if (!symbolic::singularity_set_from_string(result.set))
+    throw result::ResultFileError("the result's set '" + result.set + "' is no set of a mechanism");
   System system;
   try {
-    system = algebrize(singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
-                                          result.options.kernel_scales, result.options.corank));
+    system = result::system_of(mechanism, result);
   } catch (const symbolic::ModelError& error) {  // scales that are none of this model
     throw result::ResultFileError(std::string("the result's system: ") + error.what());
   }

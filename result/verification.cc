@@ -109,8 +109,9 @@ Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.fa
 
 }  // namespace
 
-System system_of(const Result& result) {
-  const symbolic::Mechanism mechanism = model_of(result);
+System system_of(const Result& result) { return system_of(model_of(result), result); }
+
+System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (mechanism.is_plain_system() ? result.set != "system" : !set)
     throw ResultFileError("the result's model has no set '" + result.set + "'");

@@ -23,6 +23,8 @@ struct Verification {
 /// The system that a result's model and options give. Throws ModelError where the model is none, ResultFileError where it
 /// has no such set.
 System system_of(const Result& result);
+/// The same for its model, model_of(result), made before.
+System system_of(const symbolic::Mechanism& model, const Result& result);
 
 /// Checks a result against its model: contradictions, check::check. `system` is system_of(result).
 Verification verify(const Result& result, const System& system, const check::Options& options = {});

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "corank/core/check.h"
+#include "corank/core/nearest_rounding.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/degeneracy.h"
@@ -409,11 +410,6 @@ class Search {
   Clock::time_point start_ = Clock::now();
 };
 
-certify::Reduction reduced(const System& system, Control& control) {
-  const InStage stage(control, Stage::reduction);
-  return certify::reduce(system, [&control] { return control.ended(); });
-}
-
 std::string format(double x) {
   std::ostringstream text;
   text << x;
@@ -421,6 +417,11 @@ std::string format(double x) {
 }
 
 }  // namespace
+
+certify::Reduction reduced(const System& system, Control& control) {
+  const InStage stage(control, Stage::reduction);
+  return certify::reduce(system, [&control] { return control.ended(); });
+}
 
 Control::Limits limits_of(const Options& options) {
   return {.time = options.time_limit, .boxes = options.max_boxes, .memory = options.memory_limit, .stop = options.stop};

@@ -141,9 +141,9 @@ bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
   std::optional<LocalSolution> precise;  // where `near` is not
   for (std::size_t k = 0; k < known_.size() && !box.proof.proven; ++k) {
     const auto& motion = known_[k].motion;
-    if (!known && !holds_at(motion, problem, box.near.x) && !precise)
-      precise = local_solution(problem, box.near.x, kTolerance);
-    known = known || holds_at(motion, problem, box.near.x) || (precise && holds_at(motion, problem, precise->x));
+    known = known || holds_at(motion, problem, box.near.x);
+    if (!known && !precise) precise = local_solution(problem, box.near.x, kTolerance);
+    known = known || (precise && holds_at(motion, problem, precise->x));
     if (may_hold_in(motion, box.x)) prove_on(k, problem, box);
   }
   return known || box.proof.proven;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "corank/certify/compiled_system.h"
+#include "corank/core/nearest_rounding.h"
 #include "corank/core/rounding.h"
 
 namespace corank::solve {

@@ -58,6 +58,9 @@ struct Options {
   const certify::Reduction* reduction = nullptr;
 };
 
+/// certify::reduce(system), as long as the control lets it.
+certify::Reduction reduced(const System& system, Control& control);
+
 /// What the options say of when to end.
 Control::Limits limits_of(const Options& options);
 

@@ -35,11 +35,6 @@ void mark_auxiliary(const symbolic::Mechanism& mechanism, result::Result& result
   }
 }
 
-certify::Reduction reduced(const System& system, solve::Control& control) {
-  const solve::InStage stage(control, solve::Stage::reduction);
-  return certify::reduce(system, [&control] { return control.ended(); });
-}
-
 }  // namespace
 
 void describe_corank(const System& system, result::Result& result) {
@@ -77,7 +72,7 @@ result::Result answer(const Question& question, const Options& options) {
 }
 
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control) {
-  const certify::Reduction reduction = reduced(system, control);
+  const certify::Reduction reduction = solve::reduced(system, control);
   solve::Options governed = options.search;
   governed.control = &control;
   governed.reduction = &reduction;

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <sstream>
 
@@ -15,12 +14,6 @@
 namespace corank {
 namespace {
 using symbolic::SingularitySet;
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 // The model with each length x replaced by x/k wherever it stands in an equation, and its range multiplied by k.
 std::string scaled(const std::string& model, const std::string& k) {
@@ -78,11 +71,12 @@ TEST_P(LengthsTimes, AnyFactorGiveTheSameCounts) {
   const std::filesystem::path users = CORANK_SOURCE_DIR "/../shared/models/" + GetParam() + ".cuik";
   const std::filesystem::path file = std::filesystem::exists(own) ? own : users;
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  const std::string text = symbolic::read_model(file).source_text();
   for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse, SingularitySet::cspace}) {
-    const Cover base = cover_of(text_of(file), set);
+    const Cover base = cover_of(text, set);
     for (const char* k : {"(1/1000)", "1000", "1000000"}) {
       SCOPED_TRACE(std::string(k) + ", set " + std::to_string(static_cast<int>(set)));
-      expect_same(cover_of(scaled(text_of(file), k), set), base);
+      expect_same(cover_of(scaled(text, k), set), base);
     }
   }
 }
