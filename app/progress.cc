@@ -20,9 +20,9 @@ std::size_t terminal_width() {
 
 ProgressLine::ProgressLine(std::string task) : task_(std::move(task)), visible_(isatty(STDERR_FILENO) != 0) {}
 
-void ProgressLine::follow(solve::Options& options, solve::Control& control) {
+void ProgressLine::follow(solve::Control& control) {
   if (!visible_) return;
-  options.progress = [this](const solve::Progress& progress) { show(progress); };
+  control.search_progress = [this](const solve::SearchProgress& progress) { show(progress); };
   control.progress = [this](const solve::Control::Progress& progress) { show(progress); };
 }
 
@@ -36,7 +36,7 @@ void ProgressLine::show(const solve::Control::Progress& progress) {
   show(line);
 }
 
-void ProgressLine::show(const solve::Progress& progress) {
+void ProgressLine::show(const solve::SearchProgress& progress) {
   if (!visible_) return;
   std::string line = task_.empty() ? "" : task_ + ": ";
   line += fmt::format("search: {} done, {} left, {:.1f} % excluded", progress.processed, progress.waiting,

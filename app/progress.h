@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/control.h"
 
 namespace corank::app {
 
@@ -18,9 +18,9 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   bool visible() const { return visible_; }
-  /// Shows how far the run with these options and this control is; the line has to outlive it.
-  void follow(solve::Options& options, solve::Control& control);
-  void show(const solve::Progress& progress);
+  /// Shows how far the run under this control is; the line has to outlive it.
+  void follow(solve::Control& control);
+  void show(const solve::SearchProgress& progress);
   void show(const solve::Control::Progress& progress);
   void show(const std::string& text);
   void clear();

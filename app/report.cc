@@ -52,7 +52,7 @@ result::Result solve_one(const ReportCommand& command, study::Question question,
   stage.reset();
   study::Options options{command.search.options(system, *question.set), kDigits};
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
-  line.follow(options.search, control);
+  line.follow(control);
   return study::answer(question, system, options, control);
 }
 
@@ -103,6 +103,7 @@ std::vector<result::Result> read_all(std::vector<std::string>& paths) {
 ExitStatus write_report(ReportCommand command) {
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results take the place of FILE: their model is in them");
+  command.search.validate();
   std::vector<result::Result> results;
   if (!command.results.empty()) results = read_all(command.results);
   const study::Question question =

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 
@@ -9,6 +10,7 @@
 #include "corank/core/check.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/solve/options.h"
 #include "corank/symbolic/model_error.h"
 
 namespace corank::app {
@@ -46,6 +48,10 @@ int run(const std::string& name, const std::vector<std::string>& args) {
     return say(kUsage, std::string(error.what()) + "; corank --help tells more");
   } catch (const UsageError& error) {
     return say(kUsage, error.what());
+  } catch (const solve::OptionError& error) {
+    std::string option = error.option();
+    std::replace(option.begin(), option.end(), '_', '-');
+    return say(kUsage, fmt::format("--{}: {}; corank --help tells more", option, error.reason()));
   } catch (const symbolic::ModelError& error) {
     return say(kBadInput, error.what());
   } catch (const result::ResultFileError& error) {

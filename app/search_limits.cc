@@ -2,34 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
-#include "corank/app/interrupt.h"
 #include "corank/solve/machine_memory.h"
 
 namespace corank::app {
-namespace {
-
-CLI::Validator finite_number(bool zero_allowed) {
-  const auto check = [zero_allowed](const std::string& text) -> std::string {
-    double value = 0;
-    const bool good =
-        CLI::detail::lexical_cast(text, value) && std::isfinite(value) && (value > 0 || (zero_allowed && value == 0));
-    return good ? "" : fmt::format("{} is not a {} number", text, zero_allowed ? "non-negative" : "positive");
-  };
-  return {check, ""};
-}
-
-}  // namespace
-
-CLI::Validator positive_number() { return finite_number(false); }
-CLI::Validator non_negative_number() { return finite_number(true); }
 
 void SearchLimits::add_options(CLI::App& command, const std::string& search) {
   const auto default_text = [](double value) { return value > 0 ? fmt::format("{:g}", value) : std::string("none"); };
-  command.add_option("--threads", threads, "Threads; 0: one for each core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  command.add_option("--threads", threads, "Threads; 0: one for each core")->capture_default_str();
   command
       .add_option("--max-boxes", max_boxes,
                   fmt::format("End {} after so many processed boxes; 0: no limit; default: {}", search,
@@ -45,8 +24,7 @@ void SearchLimits::add_options(CLI::App& command, const std::string& search) {
       .add_option("--time-limit", time_limit,
                   fmt::format("End {}, and what follows it, after so many seconds; 0: no limit; default: {}", search,
                               default_text(time_limit)))
-      ->type_name("SECONDS")
-      ->check(non_negative_number());
+      ->type_name("SECONDS");
   command
       .add_option("--memory-limit", memory_limit,
                   fmt::format("End {} when its boxes take so much memory, such as 800M or 8G; 0: no limit;\n"
@@ -62,7 +40,6 @@ void SearchLimits::apply(solve::Options& options) const {
   options.max_found = max_found;
   options.time_limit = time_limit;
   options.memory_limit = memory_limit.value_or(solve::machine_memory() / 4 * 3);
-  options.stop = &Interrupt::stop();
 }
 
 }  // namespace corank::app

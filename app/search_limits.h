@@ -1,12 +1,12 @@
-// What ends a search, as options of the command line, and the checks of numbers there: the same for every subcommand that
-// has them.
+// What ends a search, as options of the command line: the same for every subcommand that has them. Which numbers make sense
+// is said by solve::Options::validate().
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/options.h"
 
 namespace corank::app {
 
@@ -18,12 +18,8 @@ struct SearchLimits {
 
   /// --threads, --max-boxes, --max-found, --time-limit, --memory-limit. `search`: "the search" or "each search".
   void add_options(CLI::App& command, const std::string& search);
-  /// Puts them and the interrupt's flag into the options.
+  /// Puts them into the options, which are not validated.
   void apply(solve::Options& options) const;
 };
-
-/// Finite numbers only: "inf" and "nan" are numbers to the parser of options.
-CLI::Validator positive_number();
-CLI::Validator non_negative_number();
 
 }  // namespace corank::app

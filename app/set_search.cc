@@ -4,10 +4,24 @@
 
 #include <filesystem>
 
-#include "corank/app/exit_status.h"
+#include "corank/app/interrupt.h"
 
 namespace corank::app {
 using symbolic::SingularitySet;
+namespace {
+
+// Errors of σ by the name that it has on the command line.
+template <class F>
+void name_errors(SingularitySet set, F validate) {
+  try {
+    validate();
+  } catch (const solve::OptionError& error) {
+    if (set == SingularitySet::cspace && error.option() == "sigma") throw solve::OptionError("cspace_sigma", error.reason());
+    throw;
+  }
+}
+
+}  // namespace
 
 void SetSearch::add_sets(CLI::App& command) {
   command.add_option("--sets", sets, "The sets, with commas")
@@ -15,36 +29,38 @@ void SetSearch::add_sets(CLI::App& command) {
       ->delimiter(',')
       ->check(CLI::IsMember(kSets))
       ->capture_default_str();
-  command
-      .add_option("--sigma", sigma,
-                  "Largest edge of a box in the sets of singularities; default: a share of the size of the set found")
-      ->check(positive_number());
-  command.add_option("--cspace-sigma", cspace_sigma, "The same in C-space")->check(positive_number());
+  command.add_option("--sigma", sigma,
+                     "Largest edge of a box in the sets of singularities; default: a share of the size of the set found");
+  command.add_option("--cspace-sigma", cspace_sigma, "The same in C-space");
 }
 
 void SetSearch::add_limits(CLI::App& command) { limits.add_options(command, "each search"); }
 
 solve::Control::Limits SetSearch::limits_beside(const solve::Options& options, std::uint64_t taken) const {
-  solve::Control::Limits result = limits_of(options);
+  solve::Control::Limits result = limits_of(options, &Interrupt::stop());
   result.later_bytes = solve::kPageBytes;
   if (result.memory > 0) result.memory = result.memory > taken ? result.memory - taken : 1;
   return result;
 }
 
-solve::Options SetSearch::options(const System& system, SingularitySet set) const {
+solve::Options SetSearch::options_of(SingularitySet set) const {
   solve::Options options;
-  const std::optional<double>& asked = set == SingularitySet::cspace ? cspace_sigma : sigma;
-  check_sigma("--sigma", asked, system);
-  options.set_sigma(asked);
+  options.sigma = set == SingularitySet::cspace ? cspace_sigma : sigma;
   options.coarser = coarser;
   limits.apply(options);
   options.proof = proof;
   return options;
 }
 
-void check_sigma(const std::string& option, const std::optional<double>& sigma, const System& system) {
-  if (const double least = solve::smallest_sigma(system).largest(); sigma && *sigma < least)
-    throw UsageError(fmt::format("{}: {} is below {}, what boxes of doubles resolve here", option, *sigma, least));
+void SetSearch::validate() const {
+  options_of(SingularitySet::forward).validate();
+  name_errors(SingularitySet::cspace, [this] { options_of(SingularitySet::cspace).validate(); });
+}
+
+solve::Options SetSearch::options(const System& system, SingularitySet set) const {
+  const solve::Options options = options_of(set);
+  name_errors(set, [&] { options.validate(system); });
+  return options;
 }
 
 std::string SetSearch::command_line(const std::string& subcommand, const QuestionOptions& question) const {

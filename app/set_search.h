@@ -19,16 +19,18 @@ struct SetSearch {
   /// Those of SearchLimits.
   void add_limits(CLI::App& command);
 
-  /// For the system of a set, without progress. Throws UsageError where sigma is smaller than boxes of doubles resolve.
+  /// Throws solve::OptionError where a number is out of its range, whatever the system.
+  void validate() const;
+  /// For the system of a set. Throws solve::OptionError.
   solve::Options options(const System& system, symbolic::SingularitySet set) const;
   /// What is to end the search of one more set whose boxes come on a page, where others take so many bytes.
   solve::Control::Limits limits_beside(const solve::Options& options, std::uint64_t taken) const;
 
   /// What a user types for sets of this size: "corank report dextar.cuik --sigma 0.1 -D 'l2=1'".
   std::string command_line(const std::string& subcommand, const QuestionOptions& question) const;
-};
 
-/// Throws UsageError where sigma is smaller than boxes of doubles resolve.
-void check_sigma(const std::string& option, const std::optional<double>& sigma, const System& system);
+ private:
+  solve::Options options_of(symbolic::SingularitySet set) const;
+};
 
 }  // namespace corank::app

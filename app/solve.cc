@@ -11,7 +11,6 @@
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/search_limits.h"
-#include "corank/app/set_search.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/cuik_param.h"
 #include "corank/result/printable.h"
@@ -35,8 +34,9 @@ struct SolveCommand {
 
 solve::Options options_of(const SolveCommand& command) {
   solve::Options options;
-  options.sigma_length = command.sigma_length ? command.sigma_length : command.sigma;
-  options.sigma_angle = command.sigma_angle ? command.sigma_angle : command.sigma;
+  options.sigma = command.sigma;
+  options.sigma_length = command.sigma_length;
+  options.sigma_angle = command.sigma_angle;
   command.limits.apply(options);
   options.max_solutions = command.max_solutions.value_or(0);
   options.proof = command.proof;
@@ -68,9 +68,7 @@ void write_file(const std::string& path, const result::Result& result) {
 System system_to_solve(SolveCommand& command, const study::Question& question) {
   System system = study::system(question);
   apply_parameters(command, system);
-  check_sigma("--sigma", command.sigma, system);
-  check_sigma("--sigma-length", command.sigma_length, system);
-  check_sigma("--sigma-angle", command.sigma_angle, system);
+  options_of(command).validate(system);
   if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
     throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
   if (command.proof && system.coefficient_tolerance > 0)
@@ -100,7 +98,8 @@ ExitStatus solve_model(SolveCommand command) {
   if (command.question.file.empty() && command.json_path && !command.json_path->empty()) {
     command.question.file.swap(*command.json_path);
   }
-  solve::Control control(limits_of(options_of(command)));  // reading the model takes its time, too
+  options_of(command).validate();
+  solve::Control control(limits_of(options_of(command), &Interrupt::stop()));  // reading the model takes its time, too
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
   study::Question question = load(command.question);
   question.set = chosen_set(command.question, question.model);
@@ -113,7 +112,7 @@ ExitStatus solve_model(SolveCommand command) {
   study::Options options{options_of(command), command.digits};
   const Interrupt interrupt;
   ProgressLine line;
-  line.follow(options.search, control);
+  line.follow(control);
   stage.reset();
   const result::Result result = study::answer(question, system, options, control);
   stage.emplace(control, solve::Stage::writing);
@@ -139,12 +138,9 @@ void add_solve(CLI::App& program, Action& action) {
   command->question.add_options(*sub);
   sub->add_option("--sigma", command->sigma,
                   "Largest edge that a box may have, in lengths and in the sines and cosines of angles;\n"
-                  "default: 1/200 of the size of the set found for a curve, 1/60 for a surface, 1/20 for more")
-      ->check(positive_number());
-  sub->add_option("--sigma-length", command->sigma_length, "The same for lengths alone, in the model's unit")
-      ->check(positive_number());
-  sub->add_option("--sigma-angle", command->sigma_angle, "The same for the sines and cosines of angles alone")
-      ->check(positive_number());
+                  "default: 1/200 of the size of the set found for a curve, 1/60 for a surface, 1/20 for more");
+  sub->add_option("--sigma-length", command->sigma_length, "The same for lengths alone, in the model's unit");
+  sub->add_option("--sigma-angle", command->sigma_angle, "The same for the sines and cosines of angles alone");
   sub->add_option("--tolerance", command->tolerance,
                   "Take the coefficients that are no integers within so much of their size, each on its own; 0: exact;\n"
                   "default: 1e-6 for a plain system with more equations than variables, else 0")

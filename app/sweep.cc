@@ -64,7 +64,7 @@ result::Result solve_one(const SweepCommand& command, const Plan& plan, std::siz
   ProgressLine line(task);
   line.show(task);  // searches may be too short to tell more
   solve::Control control(command.search.limits_beside(options.search, taken));
-  line.follow(options.search, control);
+  line.follow(control);
   return study::answer(question, system, options, control);
 }
 
@@ -96,6 +96,7 @@ std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const s
 }
 
 ExitStatus write_sweep(SweepCommand command) {
+  command.search.validate();
   const Family family = family_of(command.question.definitions);
   const std::vector<Plan> plans = plan_all(command, family);
   const symbolic::Mechanism& first = plans.front().question.model;

@@ -185,7 +185,7 @@ void run_models(const std::string& only, int threads) {
     if (line.is_long && only.find(line.model) == std::string::npos) continue;
     const auto model = symbolic::read_model(std::string(CORANK_SOURCE_DIR "/models/") + line.model + ".cuik");
     solve::Options options;
-    options.set_sigma(line.sigma);
+    options.sigma = line.sigma;
     options.threads = threads;
     if (line.is_long) options.time_limit = kLongTimeLimit;
     const auto scales = symbolic::kernel_scales(model, line.set);
@@ -210,10 +210,10 @@ void run_cuik_files(const std::string& only, int threads) {
       System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
       system.coefficient_tolerance = solve::printed_tolerance(system);
       solve::Options options;
-      options.set_sigma(result::sigma_for(result::read_param(fs::path(model).replace_extension(".param")), system));
+      options.sigma = result::sigma_for(result::read_param(fs::path(model).replace_extension(".param")), system);
       options.threads = threads;
       options.time_limit = kTimeLimit;
-      run(fmt::format("{} {}", line.name, options.sigma_length.value_or(0)), system, options, 0, line.cuik);
+      run(fmt::format("{} {}", line.name, options.sigma.value_or(0)), system, options, 0, line.cuik);
     } catch (const symbolic::ModelError& error) {
       fmt::print("{:<35}  refused: {}\n", line.name, error.what());
     }

@@ -2,7 +2,9 @@
 // found which box.
 #pragma once
 
+#include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "corank/core/cover.h"
 
@@ -17,6 +19,13 @@ bool before(const CoverBox& a, const CoverBox& b, const Variables& variables) {
     if (x.hi() != y.hi()) return x.hi() < y.hi();
   }
   return std::tie(a.verdict, a.free) < std::tie(b.verdict, b.free);
+}
+
+/// Of boxes alone.
+inline bool before(const Box& a, const Box& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return std::pair(x.lo(), x.hi()) < std::pair(y.lo(), y.hi());
+  });
 }
 
 }  // namespace corank::solve

@@ -25,11 +25,12 @@ constexpr double kFreeCutShare = 0.1;   // cut a free side unless it is already 
 
 }  // namespace
 
-BoxProcessor::BoxProcessor(const Problem& problem, Recorder* recorder)
+BoxProcessor::BoxProcessor(const Problem& problem, Shard& shard)
     : problem_(problem),
-      recorder_(recorder),
+      shard_(shard),
+      recorder_(shard.script ? &*shard.script : nullptr),
       preconditioners_(problem.compiled, problem.ended),
-      slicer_(problem, preconditioners_, workspace_, recorder) {}
+      slicer_(problem, preconditioners_, workspace_, recorder_) {}
 
 bool BoxProcessor::contract(std::span<Interval> x) {
   worth_proving_ = regular_ = noisy_ = false;
@@ -42,7 +43,7 @@ bool BoxProcessor::contract(std::span<Interval> x) {
     if (recorder_) recorder_->newton(p, x);
     const certify::NewtonStep step(problem_.compiled, p, x, workspace_);
     const certify::NewtonOutcome& newton = step.outcome();
-    ++statistics_.newton_steps;
+    ++shard_.statistics.newton_steps;
     if (newton.empty || !step.contract_free(x)) return false;
     regular_ = newton.regular && p.rank() == problem_.compiled.equations();
     noisy_ = is_noisy(step, x);
@@ -98,32 +99,33 @@ certify::Sheet BoxProcessor::prove_partially(std::span<const Interval> x) {
 
 bool BoxProcessor::certify(std::span<Interval> x, Proof proof) {
   const auto start = std::chrono::steady_clock::now();
-  ++statistics_.proofs_tried;
+  ++shard_.statistics.proofs_tried;
   const certify::Sheet sheet = proof == Proof::full ? prove(x) : prove_partially(x);
   if (sheet.proven) {
     if (recorder_) {
       recorder_->newton(preconditioners_.last(), x);
       recorder_->keep(x);
     }
-    proven_.push_back(
-        {{x.begin(), x.begin() + problem_.compiled.variables()}, sheet, recorder_ ? recorder_->go_on_later() : 0});
+    shard_.sheets.push_back({copy_of(x), sheet, go_on_later()});
   }
-  statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  shard_.statistics.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sheet.proven;
 }
 
-void BoxProcessor::add_unproven(std::span<const Interval> x, Verdict verdict) {
+void BoxProcessor::add_unproven(std::span<const Interval> x, Verdict verdict, Reason reason) {
   Found found;
-  found.box.box.assign(x.begin(), x.begin() + problem_.compiled.variables());
+  found.box.box = copy_of(x);
   problem_.append_values(found.box.box);
   found.box.verdict = verdict;
-  if (recorder_) recorder_->leaf_box(found_.size());
-  found_.push_back(std::move(found));
+  found.box.reason = reason;
+  if (recorder_) recorder_->leaf_box(shard_.found.size());
+  shard_.found.push_back(std::move(found));
 }
 
-void BoxProcessor::leave(std::span<const Interval> x) {
-  if (problem_.domain.locate(problem_.compiled, x) != certify::Location::outside) {
-    add_unproven(x, Verdict::pending);
+void BoxProcessor::leave(const Waiting& box) {
+  if (recorder_) recorder_->begin(box.node, box.x, problem_.compiled.variables());
+  if (problem_.domain.locate(problem_.compiled, box.x) != certify::Location::outside) {
+    add_unproven(box.x, Verdict::pending);
   } else if (recorder_) {
     recorder_->leaf_empty();
   }
@@ -138,21 +140,20 @@ int BoxProcessor::widest_free(std::span<const Interval> x) {
   return widest;
 }
 
-void BoxProcessor::add_proven(const Postponed& box) {
-  NodeId node = 0;
+void BoxProcessor::add_proven(const Postponed& postponed) {
+  const Box& x = postponed.box.x;
   if (recorder_) {
-    recorder_->begin(box.node, box.x, problem_.compiled.variables());
-    recorder_->newton(box.step, box.x);
-    node = recorder_->go_on_later();
+    recorder_->begin(postponed.box.node, x, problem_.compiled.variables());
+    recorder_->newton(postponed.step, x);
   }
-  proven_.push_back({box.x, box.proof, node});
+  shard_.sheets.push_back({x, postponed.proof, go_on_later()});
 }
 
 void BoxProcessor::cut(const Proven& proven, bool whole) {
   const auto start = std::chrono::steady_clock::now();
   if (recorder_) recorder_->begin(proven.node, proven.x, problem_.compiled.variables());
-  slicer_.slice(proven.sheet, proven.x, found_, whole);
-  statistics_.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  slicer_.slice(proven.sheet, proven.x, shard_.found, whole);
+  shard_.statistics.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 std::vector<double> BoxProcessor::midpoint(std::span<const Interval> x) const {
@@ -197,32 +198,28 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   return split;
 }
 
-BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double share) {
-  ++statistics_.processed;
+BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpone, double share) {
+  ++shard_.statistics.processed;
   if (!contract(x)) {
     if (recorder_) recorder_->leaf_empty();
     return Outcome::done;
   }
   if (preconditioners_.over()) {  // the search ends
-    leave(x);
+    if (recorder_) recorder_->keep(x);
+    shard_.left.push_back({copy_of(x), share, go_on_later()});
     return Outcome::done;
   }
   if (worth_proving_ && certify(x, Proof::full)) return Outcome::done;
   std::optional<LocalSolution> near;
-  split_variable_ = choose_split(x, share, near);
+  split_variable_ = choose_split(x, postpone, near);
   if (split_variable_ >= 0) {
     if (recorder_) recorder_->keep(x);
     return Outcome::split;
   }
   if (near) {
     if (recorder_) recorder_->keep(x);
-    postponed_.push_back({{x.begin(), x.begin() + problem_.compiled.variables()},
-                          std::move(*near),
-                          0,
-                          recorder_ ? recorder_->go_on_later() : 0,
-                          noisy_ && problem_.relative_width(x) < kNoisySize,
-                          {},
-                          {}});
+    const bool noisy = noisy_ && problem_.relative_width(x) < kNoisySize;
+    shard_.postponed.push_back({{copy_of(x), share, go_on_later()}, std::move(*near), noisy, {}, {}});
     return Outcome::postponed;
   }
   // At its final size: where equations may be redundant, the box gets its one chance of such a proof here, where its rank

@@ -2,6 +2,7 @@
 // through its stages.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -49,6 +50,15 @@ std::uint64_t bytes_of(const Cover& cover, std::uint64_t later_bytes);
 /// pictures as well.
 inline constexpr std::uint64_t kFileBytes = 17, kPageBytes = 64;
 
+/// Of a search.
+struct SearchProgress {
+  std::uint64_t processed = 0;  ///< boxes done
+  std::uint64_t waiting = 0;    ///< boxes left
+  double excluded = 0;          ///< share of the domain's volume that is done with, 0 … 1
+  std::array<std::uint64_t, kVerdicts> verdicts{};
+  double seconds = 0;
+};
+
 class Control {
  public:
   struct Limits {
@@ -94,6 +104,9 @@ class Control {
   /// Called where a stage begins, and by stages that know how far they are; from one thread. To be set before the run.
   std::function<void(const Progress&)> progress;
   void report(std::uint64_t done, std::uint64_t all) const;
+  /// Called by searches every so many seconds or so, from one thread at a time. To be set before the run.
+  std::function<void(const SearchProgress&)> search_progress;
+  double search_progress_interval = 0.1;
 
  private:
   friend class InStage;

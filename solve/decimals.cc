@@ -1,20 +1,20 @@
+#include "corank/solve/decimals.h"
+
 #include "corank/certify/algebraic_number.h"
 #include "corank/certify/distinct.h"
 #include "corank/certify/reduction.h"
 #include "corank/certify/refinement.h"
-#include "corank/solve/exactness.h"
 
 namespace corank::solve {
-
+namespace {
 constexpr int kMostBits = 8192;
+}
 
-void prove_decimals(const System& system, int digits, Cover& cover, const Options& options) {
-  std::optional<Control> own;
-  Control& control = options.control ? *options.control : own.emplace(limits_of(options));
+void prove_decimals(const Prepared& prepared, int digits, Cover& cover, Control& control) {
   const InStage stage(control, Stage::decimals);
   const Ended ended = [&control] { return control.ended(); };
   cover.decimals.clear();
-  const certify::Reduction reduction = options.reduction ? *options.reduction : certify::reduce(system, ended);
+  const certify::Reduction& reduction = prepared.reduction;
   for (const CoverBox& point : cover.points) {
     control.report(cover.decimals.size(), cover.points.size());
     std::vector<std::string>& decimals = cover.decimals.emplace_back();
@@ -33,7 +33,7 @@ void prove_decimals(const System& system, int digits, Cover& cover, const Option
       const auto zero = certify::prove_zero(reduction.system, start, digits + 2, kMostBits, ended);
       const Box& region = point.region >= 0 ? cover.regions[static_cast<std::size_t>(point.region)] : point.box;
       if (!zero || !certify::is_solution_of_region(*zero, reduction, region)) continue;
-      decimals.resize(system.variables.size());
+      decimals.resize(prepared.system.variables.size());
       for (std::size_t j = 0; j < reduction.kept.size(); ++j)
         decimals[static_cast<std::size_t>(reduction.kept[j])] =
             certify::proven_decimal(zero->sides[j].first, zero->sides[j].second, digits);

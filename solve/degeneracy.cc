@@ -74,9 +74,9 @@ bool goes_on(const Problem& problem, const LocalSolution& start, double step, st
 
 // Of the typical sizes: how far the cluster reaches.
 double extent(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster) {
-  Box hull = boxes[cluster[0]].x;
+  Box hull = boxes[cluster[0]].box.x;
   for (const std::size_t i : cluster)
-    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], boxes[i].x[j]);
+    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], boxes[i].box.x[j]);
   return problem.relative_width(hull);
 }
 
@@ -123,13 +123,13 @@ void SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed&
   const certify::SelfMotion& motion = known_[index].motion;
   certify::NewtonWorkspace workspace;
   PreconditionerFactory of_system(problem.compiled), of_motion(motion.compiled);
-  const std::vector<int> steady = steady_rows(problem.compiled, box.x);
+  const std::vector<int> steady = steady_rows(problem.compiled, box.box.x);
   for (const std::vector<int>* rows : {static_cast<const std::vector<int>*>(nullptr), &steady}) {
-    const certify::Preconditioner e = of_system.near_solution(box.x, kMotionRankTolerance, rows);
+    const certify::Preconditioner e = of_system.near_solution(box.box.x, kMotionRankTolerance, rows);
     if (e.rank() != static_cast<int>(motion.sufficient.size())) continue;
-    const certify::Preconditioner r = of_motion.at_midpoint(box.x, &e.dependent, &motion.sufficient);
+    const certify::Preconditioner r = of_motion.at_midpoint(box.box.x, &e.dependent, &motion.sufficient);
     if (r.rank() != e.rank()) continue;
-    box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.x, workspace);
+    box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.box.x, workspace);
     box.proof.motion = static_cast<int>(index);
     box.step = e;
     if (box.proof.proven) return;
@@ -144,7 +144,7 @@ bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
     known = known || holds_at(motion, problem, box.near.x);
     if (!known && !precise) precise = local_solution(problem, box.near.x, kTolerance);
     known = known || (precise && holds_at(motion, problem, precise->x));
-    if (may_hold_in(motion, box.x)) prove_on(k, problem, box);
+    if (may_hold_in(motion, box.box.x)) prove_on(k, problem, box);
   }
   return known || box.proof.proven;
 }
@@ -180,7 +180,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
                                        double share) {
   std::vector<Reason> reasons(boxes.size(), Reason::none);
   std::vector<const Box*> sides;
-  for (const Postponed& box : boxes) sides.push_back(&box.x);
+  for (const Postponed& box : boxes) sides.push_back(&box.box.x);
   const double last = system.dimension() == 0 ? kPointShare : kOtherShare;
   for (const std::vector<std::size_t>& cluster : clusters(sides, problem.limits(1e-3 * share), problem.ended)) {
     if (problem.ended()) break;  // the search takes what is left back
@@ -204,7 +204,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
     }
     for (const std::size_t i : cluster) {
       const bool on_known = !boxes[i].proof.proven && prove_on_known(problem, boxes[i]);
-      const bool at_doubles_end = problem.relative_width(boxes[i].x) < kDoublesEnd || boxes[i].noisy;
+      const bool at_doubles_end = problem.relative_width(boxes[i].box.x) < kDoublesEnd || boxes[i].noisy;
       reasons[i] = reason == Reason::none && at_doubles_end ? Reason::precision : reason;
       if (reasons[i] != Reason::none && on_known) reasons[i] = Reason::degenerate_set;  // it is no point
     }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "corank/core/cover.h"
-#include "corank/solve/box_processor.h"
 #include "corank/solve/self_motion_search.h"
+#include "corank/solve/shard.h"
 
 namespace corank::solve {
 

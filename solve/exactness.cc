@@ -1,44 +1,33 @@
 #include "corank/solve/exactness.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <boost/functional/hash.hpp>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
+#include <utility>
 
 #include "corank/certify/domain.h"
-#include "corank/certify/exact_verification.h"
 #include "corank/certify/isolation.h"
 #include "corank/certify/kernel_bound.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/reduction.h"
-#include "corank/certify/refinement.h"
 #include "corank/core/rounding.h"
-#include "corank/solve/corank_system.h"
+#include "corank/solve/box_hash.h"
 #include "corank/solve/cover_edit.h"
-#include "corank/solve/exact_guess.h"
+#include "corank/solve/exact_points.h"
+#include "corank/solve/kernel_dimensions.h"
 #include "corank/solve/points.h"
-#include "corank/solve/polish.h"
+#include "corank/solve/solve.h"
 
 namespace corank::solve {
 namespace {
 
-constexpr int kBits = 512;                     // of the arithmetic of guesses
-constexpr int kGuessBits = 220;                // that are right in what it finds, also at double solutions
-constexpr int kDegree = 4;                     // of algebraic numbers
 constexpr std::uint64_t kFaceBoxes = 200'000;  // to search in one face of a blow-up
-constexpr double kSmallSingularValue = 0.2;    // relative to the largest: worth a try
 constexpr std::size_t kMostOpenBoxes = 3000;   // beyond, clusters are no longer sought
 constexpr int kMostVariables = 150;            // exact points of larger systems take too long
 constexpr int kMostFutile = 16;                // attempts, before a kind of point is no longer sought
 constexpr int kCoreAttempts = 6;
-constexpr double kNextToHull = 3;  // of its width
-constexpr int kKernelDepth = 6;    // halvings of a box in which the kernel's dimension is bounded
 
 bool contains(const Box& outer, const Box& inner) {
   for (std::size_t j = 0; j < outer.size(); ++j)
@@ -46,28 +35,9 @@ bool contains(const Box& outer, const Box& inner) {
   return true;
 }
 
-std::vector<double> midpoint(const Box& box) {
-  std::vector<double> x;
-  for (const Interval& side : box) x.push_back(side.mid());
-  return x;
-}
-
-std::vector<ExactNumber> dyadic(const std::vector<double>& x) {
-  std::vector<ExactNumber> result;
-  for (const double c : x) result.push_back(ExactNumber::dyadic(c));
-  return result;
-}
-
 class Prover {
  public:
-  /// The options have a control.
-  Prover(const System& system, const Options& options, Cover& cover)
-      : system_(system), cover_(cover), options_(options), reduction_(*options.reduction) {
-    options_.progress = nullptr;
-    options_.max_boxes = options_.max_found = options_.max_solutions = 0;
-    options_.sigma_length = cover.sigma.length;
-    options_.sigma_angle = cover.sigma.angle;
-  }
+  Prover(const Prepared& prepared, Cover& cover, Control& control) : prepared_(prepared), cover_(cover), control_(control) {}
 
   void points() {
     const InStage stage(control_, Stage::exact);
@@ -77,7 +47,7 @@ class Prover {
     for (CoverBox& point : cover_.points) {
       control_.report(done++, cover_.points.size());
       if (point.verdict != Verdict::isolated || stopped() || futile >= kMostFutile) continue;
-      const std::optional<int> exact = exact_point(point.box);
+      const std::optional<int> exact = exact_.solution_in(point.box);
       futile = exact ? 0 : futile + 1;
       if (!exact) continue;
       point.point = *exact;
@@ -118,7 +88,7 @@ class Prover {
       Box hull = cover_.boxes[cluster[0]].box;
       for (const std::size_t i : cluster)
         for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cover_.boxes[i].box[j]);
-      const std::optional<int> point = corank_point(matrix, hull, system_.kernel_vectors + 1);
+      const std::optional<int> point = exact_.with_kernel(matrix, hull, system_.kernel_vectors + 1);
       if (!point) {
         ++futile;
         continue;
@@ -126,31 +96,6 @@ class Prover {
       search_around(*point, hull, cluster);
     }
     edit_.finish();
-  }
-
-  void kernel_dimensions() {
-    const InStage stage(control_, Stage::kernel);
-    const certify::KernelBound bound(system_);
-    if (!bound.applies()) return;
-    const std::vector<certify::PointLocation> places(cover_.exact_points.begin(), cover_.exact_points.end());
-    const auto bound_in = [&](CoverBox& box) {
-      const UpwardRounding rounding;
-      if (box.verdict != Verdict::pending && !stopped()) box.corank = bound.at_most(box.box);
-    };
-    tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::this_task_arena::max_concurrency());
-    arena.execute(
-        [&] { tbb::parallel_for(std::size_t{0}, cover_.boxes.size(), [&](std::size_t i) { bound_in(cover_.boxes[i]); }); });
-    if (!cover_.points.empty()) bound_points(bound_in);
-    // Few: one after the other, since a point's number is narrowed while it is compared.
-    const auto explain = [&](CoverBox& box) {
-      const UpwardRounding rounding;
-      if (box.corank <= system_.kernel_vectors || stopped()) return;
-      for (std::size_t i = 0; i < cover_.exact_points.size() && box.point < 0; ++i)
-        if (cover_.exact_points[i].corank >= box.corank && places[i].in(box.box)) box.point = static_cast<int>(i);
-      if (box.point < 0) box.corank = bound.at_most(box.box, kKernelDepth);
-    };
-    for (CoverBox& box : cover_.boxes) explain(box);
-    if (!cover_.points.empty()) bound_points(explain);
   }
 
  private:
@@ -163,7 +108,7 @@ class Prover {
     for (const CoverBox& point : cover_.points) {
       if (stopped() || futile >= kMostFutile) break;
       if (point.verdict != Verdict::undecided || point.point >= 0) continue;
-      const std::optional<int> exact = corank_point(matrix, point.box, system_.kernel_vectors);
+      const std::optional<int> exact = exact_.with_kernel(matrix, point.box, system_.kernel_vectors);
       futile = exact ? 0 : futile + 1;
       if (exact && std::find(found.begin(), found.end(), *exact) == found.end()) found.push_back(*exact);
     }
@@ -177,7 +122,7 @@ class Prover {
 
   // Proves an undecided cluster. True: it holds nothing but the solution of another box.
   bool settle(CoverBox& cluster) {
-    const std::optional<int> exact = exact_point(cluster.box);
+    const std::optional<int> exact = exact_.solution_in(cluster.box);
     if (!exact || !is_only_solution(*exact, cluster.box)) return false;
     const auto same = [&](const CoverBox& b) {  // known as an isolated one, or from the cluster next to this
       return (b.verdict == Verdict::isolated || b.verdict == Verdict::exact) && b.point == *exact;
@@ -197,62 +142,11 @@ class Prover {
 
   bool stopped() const { return control_.ended(); }
 
-  // What is said of a box is said of the point that it is; `say` of the other points, which are hulls of boxes.
-  template <class Say>
-  void bound_points(Say say) {
-    std::unordered_multimap<std::size_t, std::size_t> places;
-    for (std::size_t i = 0; i < cover_.boxes.size(); ++i) places.emplace(hash(cover_.boxes[i].box), i);
-    for (CoverBox& point : cover_.points) {
-      const auto [first, last] = places.equal_range(hash(point.box));
-      const auto same = std::find_if(first, last, [&](const auto& at) { return cover_.boxes[at.second].box == point.box; });
-      if (same == last) {
-        say(point);
-      } else {
-        point.corank = cover_.boxes[same->second].corank;
-        point.point = cover_.boxes[same->second].point;
-      }
-    }
-  }
-
-  // Isolated boxes by their sides.
-  static std::size_t hash(const Box& box) {
-    std::size_t seed = 0;
-    for (const Interval& side : box) {
-      boost::hash_combine(seed, side.lo());
-      boost::hash_combine(seed, side.hi());
-    }
-    return seed;
-  }
   std::unordered_multimap<std::size_t, std::size_t> isolated_boxes() const {
     std::unordered_multimap<std::size_t, std::size_t> result;
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
       if (cover_.boxes[i].verdict == Verdict::isolated) result.emplace(hash(cover_.boxes[i].box), i);
     return result;
-  }
-
-  int add(ExactPoint point) {
-    const auto same = [&](const ExactPoint& p) {  // whatever is known of what lies around it
-      point.sole_within = p.sole_within;
-      return p == point;
-    };
-    const auto known = std::find_if(cover_.exact_points.begin(), cover_.exact_points.end(), same);
-    point.sole_within = 0;
-    if (known != cover_.exact_points.end()) return static_cast<int>(known - cover_.exact_points.begin());
-    cover_.exact_points.push_back(std::move(point));
-    return static_cast<int>(cover_.exact_points.size()) - 1;
-  }
-
-  // A verified solution in the box.
-  std::optional<int> exact_point(const Box& box) {
-    const std::vector<double> start = polish(system_, box, ended_).value_or(midpoint(box));
-    const auto zero = certify::approximate_zero(system_, dyadic(start), kBits, ended_);
-    if (!zero) return std::nullopt;
-    auto point = guess_exactly({zero->begin(), zero->end()}, kGuessBits, kDegree, ended_);
-    if (!point) return std::nullopt;
-    const certify::ExactVerification verified = certify::verify_exactly(system_, *point, ended_);
-    if (!verified.holds || !certify::lies_in(*point, box)) return std::nullopt;
-    point->corank = verified.corank;
-    return add(std::move(*point));
   }
 
   bool is_only_solution(int index, const Box& box) {
@@ -265,12 +159,10 @@ class Prover {
     const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius), ended_);
     if (!faces) return false;
     Options options;
-    options.threads = options_.threads;
-    options.control = &control_;
-    options.max_boxes = kFaceBoxes;
+    options.threads = prepared_.options.threads;
     try {
       for (const System& face : *faces) {
-        const Cover solutions = solve(face, options);
+        const Cover solutions = solve(prepare(face, options, control_), control_, kFaceBoxes);
         if (!solutions.complete() || !solutions.boxes.empty()) return false;
       }
     } catch (const std::invalid_argument&) {  // elimination has made coefficients that no double holds
@@ -278,39 +170,6 @@ class Prover {
     }
     point.sole_within = radius;
     return certify::holds_nothing_else(point, box);
-  }
-
-  // A verified configuration in or next to the box where the kernel has that dimension at least.
-  std::optional<int> corank_point(const certify::KernelMatrix& matrix, const Box& hull, int least) {
-    const std::vector<double> x = midpoint(hull);
-    const std::vector<double> s = singular_values(matrix, x);
-    const int k = static_cast<int>(s.size());
-    for (int c = least; c <= k && s[static_cast<std::size_t>(k - c)] < kSmallSingularValue * s[0]; ++c) {
-      const CorankSystem extended = corank_system(system_, matrix, x, c);
-      const auto zero = certify::approximate_zero(extended.system, dyadic(extended.start), kBits, ended_);
-      if (!zero) continue;
-      std::vector<std::optional<ExactNumber>> coordinates(x.size());
-      for (std::size_t j = 0; j < extended.configuration.size(); ++j)
-        coordinates[static_cast<std::size_t>(extended.configuration[j])] = (*zero)[j];
-      auto point = guess_exactly(coordinates, kGuessBits, kDegree, ended_);
-      if (!point) continue;
-      const certify::ExactVerification verified = certify::verify_exactly(system_, *point, ended_);
-      if (!verified.holds || verified.corank < least) continue;
-      point->corank = verified.corank;
-      // Next to the boxes: no farther than they are wide together.
-      const ExactNumber far = certify::reach(*point, hull);
-      if ((far - ExactNumber::dyadic(kNextToHull * width_of(*point, hull))).sign() == 1) continue;
-      return add(std::move(*point));
-    }
-    return std::nullopt;
-  }
-
-  // The widest side of the hull in the coordinates that the point has.
-  static double width_of(const ExactPoint& point, const Box& hull) {
-    double width = 0;
-    for (std::size_t j = 0; j < hull.size(); ++j)
-      if (!point.coordinates[j].empty()) width = std::max(width, hull[j].width());
-    return width;
   }
 
   // The search again, in the hull without a core about the point's known coordinates; then the core itself. Nothing changes
@@ -328,11 +187,14 @@ class Prover {
         core[j] = Interval(bounds.lower.enclose().lo() - half, bounds.upper.enclose().hi() + half);
         all[j] = Interval::hull(hull[j], core[j]);
       }
-      Options options = options_;
       const Partition partition = difference(all, core);
       if (partition.parts.empty()) return;
-      options.roots = partition.parts;
-      Cover around = solve(system_, options);
+      Prepared parts = prepared_;
+      parts.options.roots = partition.parts;
+      parts.options.max_found = parts.options.max_solutions = 0;
+      parts.options.sigma_length = cover_.sigma.length;
+      parts.options.sigma_angle = cover_.sigma.angle;
+      Cover around = solve(parts, control_);
       cover_.statistics.processed += around.statistics.processed;
       cover_.statistics.newton_steps += around.statistics.newton_steps;
       cover_.statistics.proofs_tried += around.statistics.proofs_tried;
@@ -384,45 +246,39 @@ class Prover {
     return partition;
   }
 
-  const System& system_;
+  const Prepared& prepared_;
+  const System& system_ = prepared_.system;
+  const certify::Reduction& reduction_ = prepared_.reduction;
   Cover& cover_;
-  Options options_;
-  Control& control_ = *options_.control;
+  Control& control_;
   const Ended ended_ = [this] { return control_.ended(); };
-  const certify::Reduction& reduction_;  // what solve() searches
+  ExactPoints exact_{system_, cover_, control_};
   CoverEdit edit_{cover_, reduction_};
 };
 
 }  // namespace
 
-void prove_exactly(const System& system, const Options& given, Cover& cover) {
-  if (system.coefficient_tolerance > 0) return;
-  Options options = given;
-  std::optional<Control> control;
-  if (!options.control) {
-    Control::Limits limits = limits_of(given);
-    constexpr double kLeast = 1e-9;  // 0 is no limit
-    if (limits.time > 0) limits.time = std::max(kLeast, limits.time - cover.statistics.seconds_total);
-    control.emplace(limits);
-    control->count_boxes(cover.statistics.processed);
-    options.control = &*control;
-  }
-  std::optional<certify::Reduction> reduction;
-  if (!options.reduction) {
-    const InStage stage(*options.control, Stage::reduction);
-    options.reduction = &reduction.emplace(certify::reduce(system, [&options] { return options.control->ended(); }));
-  }
-  if (options.control->ended()) return;  // the reduction may not be the search's
+void prove_exactly(const System& system, const Options& options, Cover& cover) {
+  Control control(limits_of(options));
+  prove_exactly(prepare(system, options, control), cover, control);
+}
+
+void prove_exactly(const Prepared& prepared, Cover& cover, Control& control) {
+  if (prepared.system.coefficient_tolerance > 0) return;
+  if (control.ended()) return;  // the reduction may not be the search's
   const auto start = std::chrono::steady_clock::now();
-  Prover prover(system, options, cover);
-  if (system.size() <= kMostVariables) {
+  if (prepared.system.size() <= kMostVariables) {
+    Prover prover(prepared, cover, control);
+    // Its searches are a part of this stage, and say nothing of themselves.
+    const auto progress = std::exchange(control.search_progress, nullptr);
     if (cover.dimension == 0) {
       prover.points();
     } else if (cover.complete()) {
       prover.coranks();
     }
+    control.search_progress = progress;
   }
-  prover.kernel_dimensions();
+  bound_kernel_dimensions(prepared, cover, control);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   cover.statistics.seconds_total += seconds;
   cover.statistics.seconds_certify += seconds;

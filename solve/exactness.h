@@ -2,11 +2,13 @@
 // the kernel has dimension 2 or more, at which the kernel vector is a continuum.
 #pragma once
 
-#include "corank/solve/solve.h"
+#include "corank/core/cover.h"
+#include "corank/solve/control.h"
+#include "corank/solve/prepared.h"
 
 namespace corank::solve {
 
-/// Improves the cover that solve(system, options) returned. It stays a cover of the same solutions.
+/// Improves the cover that solve() returned. It stays a cover of the same solutions.
 ///
 /// Dimension 0: for each point exact coordinates are guessed, from many digits (Ipopt, then Newton in MPFR), and verified
 /// (certify::verify_exactly). An `isolated` point keeps its verdict and gets its exact point. A cluster of undecided boxes
@@ -22,13 +24,11 @@ namespace corank::solve {
 /// of the box where it must); a proven box where it may be 2 or more, and that holds a known point where it is, names that
 /// point, too.
 ///
-/// What cannot be proven stays as it was, and so does what is left once the options' control, time limit or stop has ended
-/// the run. Systems with a tolerance, irrational coefficients or sines and cosines are left alone.
-void prove_exactly(const System& system, const Options& options, Cover& cover);
+/// What cannot be proven stays as it was, and so does what is left once the control has ended the run. Systems with a
+/// tolerance, irrational coefficients or sines and cosines are left alone.
+void prove_exactly(const Prepared& prepared, Cover& cover, Control& control);
 
-/// Fills cover.decimals: for every isolated or exact point of a set of dimension 0 decimals with so many digits after the
-/// point, proven by certify::prove_zero, or from its exact coordinates. Points that are left once the options' control has
-/// ended the run have none. The other options do not matter, but for the reduction.
-void prove_decimals(const System& system, int digits, Cover& cover, const Options& options = {});
+/// The same within the limits of the options, of which this call is told alone.
+void prove_exactly(const System& system, const Options& options, Cover& cover);
 
 }  // namespace corank::solve

@@ -36,9 +36,7 @@ struct Key {
 // Of boxes that claim the same, as overlapping roots have them.
 bool region_before(const Found& a, const Found& b) {
   if (!a.region || !b.region) return !a.region && b.region;
-  return std::lexicographical_compare(
-      a.region->begin(), a.region->end(), b.region->begin(), b.region->end(),
-      [](const auto& x, const auto& y) { return std::pair(x.lo(), x.hi()) < std::pair(y.lo(), y.hi()); });
+  return before(*a.region, *b.region);
 }
 
 }  // namespace

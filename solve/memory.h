@@ -15,7 +15,10 @@ class MemoryEstimate {
   std::int64_t of(const Found& found, const Found* former) const;
   /// A part of the script: itself, the copy in the cover, and the file's.
   std::int64_t of_script(std::uint64_t bytes) const { return 3 * static_cast<std::int64_t>(bytes); }
-  std::int64_t of_waiting(std::size_t boxes) const { return waiting_ * static_cast<std::int64_t>(boxes); }
+  /// Boxes that will be found before anybody looks again.
+  std::int64_t of_found(std::size_t boxes) const { return box_ * static_cast<std::int64_t>(boxes); }
+  /// Boxes that wait: a limit would leave them, and make `pending` ones of them.
+  std::int64_t of_waiting(std::size_t boxes) const { return (waiting_ + box_) * static_cast<std::int64_t>(boxes); }
   /// The matrices that a thread works with.
   std::int64_t of_thread() const { return thread_; }
 

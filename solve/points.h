@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "corank/core/ended.h"
-#include "corank/solve/box_processor.h"
+#include "corank/solve/problem.h"
 
 namespace corank::solve {
 

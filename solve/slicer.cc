@@ -36,7 +36,6 @@ constexpr int kMostChartsTried = 6;
 constexpr double kNoSigma = 1e6;              // of the typical size, where a variable has no σ: never free
 constexpr int kBoundaryDepth = 2;             // halvings of a piece that may leave the domain
 constexpr std::size_t kMostHalvedSides = 12;  // at once: 4,096 parts
-constexpr unsigned kPiecesBetweenChecks = 16;
 
 }  // namespace
 

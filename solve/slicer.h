@@ -15,6 +15,8 @@ namespace corank::solve {
 
 /// Halvings of a piece on which redundant equations are bounded.
 inline constexpr int kPartialDepth = 8;
+/// A thread that cuts looks so rarely whether it is to end.
+inline constexpr unsigned kPiecesBetweenChecks = 16;
 
 /// One per thread.
 class Slicer {

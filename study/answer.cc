@@ -4,10 +4,10 @@
 #include <set>
 
 #include "corank/certify/kernel_bound.h"
-#include "corank/certify/reduction.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/motion_words.h"
 #include "corank/solve/corank_system.h"
+#include "corank/solve/decimals.h"
 #include "corank/solve/exactness.h"
 #include "corank/symbolic/printer.h"
 
@@ -63,6 +63,7 @@ std::string stopped_words(const result::Result& result) {
 }
 
 result::Result answer(const Question& question, const Options& options) {
+  options.search.validate();
   solve::Control control(solve::limits_of(options.search));
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
   const System system = study::system(question);
@@ -72,21 +73,17 @@ result::Result answer(const Question& question, const Options& options) {
 }
 
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control) {
-  const certify::Reduction reduction = solve::reduced(system, control);
-  solve::Options governed = options.search;
-  governed.control = &control;
-  governed.reduction = &reduction;
-  governed.max_boxes = 0;  // the control's
+  const solve::Prepared prepared = solve::prepare(system, options.search, control);
   result::Result result;
   result.model = question.model.name();
   result.model_text = question.model.source_text();
   result.set = question.set ? to_string(*question.set) : "system";
   result.system_text = symbolic::to_cuik(system);
-  result.cover = solve::solve(system, governed);
+  result.cover = solve::solve(prepared, control);
   control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
-  solve::prove_exactly(system, governed, result.cover);
+  solve::prove_exactly(prepared, result.cover, control);
   if (options.digits > 0 && result.cover.dimension == 0)
-    solve::prove_decimals(system, options.digits, result.cover, governed);
+    solve::prove_decimals(prepared, options.digits, result.cover, control);
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result::describe_system(system, result);
   result::describe_domain(question.model, system, result);

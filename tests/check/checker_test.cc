@@ -92,7 +92,7 @@ Report stopped(const System& system, const Cover& cover, const std::function<boo
 TEST(Checker, EndsWhereItIsStoppedAndNamesTheStage) {
   const System system = plain(kCircle);
   solve::Options options;
-  options.set_sigma(0.01);
+  options.sigma = 0.01;
   options.proof = true;
   const Cover cover = solve::solve(system, options);
   const Report first = stopped(system, cover, [](const Progress&) { return true; });

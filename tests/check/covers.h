@@ -27,7 +27,7 @@ inline System model(const std::string& name, symbolic::SingularitySet set,
 
 inline Cover solved(const System& system, double sigma) {
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   return solve::solve(system, options);
 }
 

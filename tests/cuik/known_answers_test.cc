@@ -39,7 +39,7 @@ Problem read_problem(const fs::path& model) {
   System system = symbolic::algebrize(symbolic::plain_system(mechanism));
   system.coefficient_tolerance = solve::printed_tolerance(system);
   solve::Options options;
-  options.set_sigma(result::sigma_for(result::read_param(fs::path(model).replace_extension(".param")), system));
+  options.sigma = result::sigma_for(result::read_param(fs::path(model).replace_extension(".param")), system);
   options.threads = 0;
   return {std::move(mechanism), std::move(system), std::move(options)};
 }

@@ -108,7 +108,7 @@ TEST(SuiteFiles, TheCurvesOfSimpleSingAreCovered) {
   if (!fs::exists(model)) GTEST_SKIP() << model << " is not there";
   const System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
   solve::Options options;
-  options.set_sigma(result::read_param(fs::path(model).replace_extension(".param")).sigma);
+  options.sigma = result::read_param(fs::path(model).replace_extension(".param")).sigma;
   const Cover cover = solve::solve(system, options);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.dimension, 1);
@@ -152,7 +152,7 @@ TEST_P(Coverage, NoBoxOfTheSuiteIsMissed) {
   const fs::path model = suite_folder() / folder / (name + ".cuik");
   const System system = symbolic::algebrize(symbolic::plain_system(symbolic::read_model(model)));
   solve::Options options;
-  options.set_sigma(result::read_param(fs::path(model).replace_extension(".param")).sigma);
+  options.sigma = result::read_param(fs::path(model).replace_extension(".param")).sigma;
   options.threads = 0;
   const Cover cover = solve::solve(system, options);
   EXPECT_TRUE(cover.complete());

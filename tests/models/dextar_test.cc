@@ -25,7 +25,7 @@ System dextar(SingularitySet set, std::optional<KernelSide> side = std::nullopt)
 
 Cover solve_at(const System& system, double sigma) {
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   options.threads = 0;
   return solve::solve(system, options);
 }

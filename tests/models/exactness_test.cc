@@ -1,6 +1,8 @@
 // What only exact arithmetic proves: the three-slider's degenerate points, Dextar's configurations with a kernel of
 // dimension 2.
 #include "corank/solve/exactness.h"
+#include "corank/solve/decimals.h"
+#include "corank/solve/solve.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +29,7 @@ System system_of(const std::string& model_file, SingularitySet set, const std::s
 
 Cover proven(const System& system, std::optional<double> sigma = std::nullopt) {
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   Cover cover = solve::solve(system, options);
   solve::prove_exactly(system, options, cover);
   return cover;
@@ -221,7 +223,7 @@ TEST(ProveExactly, CountsASolutionOnceThatTwoClustersHold) {
 TEST(ProveExactly, TakesNoTimeBeyondTheLimit) {
   TwiceZero zero;
   solve::Options options;
-  options.time_limit = zero.cover.statistics.seconds_total = 5;
+  options.time_limit = 1e-9;
   solve::prove_exactly(zero.builder.system(), options, zero.cover);
   EXPECT_EQ(zero.cover.count(Verdict::undecided), 2u);
   EXPECT_TRUE(zero.cover.exact_points.empty());
@@ -232,7 +234,8 @@ TEST(ProveDecimals, AreRightToTheLastDigit) {
   const int x = b.variable("x", "1", "2");
   b.equation({{"1", {{x, 5}}}, {"-1", {{x, 1}}}, {"-1", {}}});
   Cover cover = proven(b.system());
-  solve::prove_decimals(b.system(), 60, cover);
+  solve::Control control;
+  solve::prove_decimals(solve::prepare(b.system(), {}, control), 60, cover, control);
   ASSERT_EQ(cover.decimals.size(), 1u);
   ASSERT_EQ(cover.decimals[0].size(), 1u);
   // f changes its sign between one unit less and one more.

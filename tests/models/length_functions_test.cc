@@ -21,7 +21,7 @@ System system_of(const std::string& model) {
 
 Cover solve_with(const System& system, double sigma) {
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   return solve::solve(system, options);
 }
 

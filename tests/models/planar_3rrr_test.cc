@@ -171,7 +171,7 @@ System forward(const char* model, const char* phi0 = nullptr) {
 
 Cover solve_at(const System& system, double sigma, std::uint64_t max_boxes = 0) {
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   options.threads = max_boxes > 0 ? 1 : 0;
   options.max_boxes = max_boxes;
   return solve::solve(system, options);

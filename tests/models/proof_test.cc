@@ -3,6 +3,7 @@
 
 #include "corank/check/checker.h"
 #include "corank/solve/exactness.h"
+#include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 
@@ -27,7 +28,7 @@ System system_of(const Case& c) {
 
 Cover proven(const System& system, double sigma, int threads) {
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   options.threads = threads;
   options.proof = true;
   Cover cover = solve::solve(system, options);
@@ -73,7 +74,7 @@ TEST(RecordedProof, OfDextarsInverseLocusIsAccepted) {
 TEST(RecordedProof, LeavesTheCoverAsItIs) {
   const System system = system_of({"dextar", "", "", SingularitySet::inverse, 0.1});
   solve::Options options;
-  options.set_sigma(0.1);
+  options.sigma = 0.1;
   Cover plain = solve::solve(system, options);
   solve::prove_exactly(system, options, plain);
   const Cover recorded = proven(system, 0.1, 1);

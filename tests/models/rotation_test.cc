@@ -40,7 +40,7 @@ System system_of(SingularitySet set) {
 
 Cover solve_at(SingularitySet set, double sigma) {
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   return solve::solve(system_of(set), options);
 }
 

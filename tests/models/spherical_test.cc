@@ -141,7 +141,7 @@ std::array<bool, 3> may_vanish(const Robot& robot, const Box& box) {
 void expect_closed_forms(const Robot& robot, std::optional<KernelSide> side) {
   for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse}) {
     solve::Options options;
-    options.set_sigma(0.02);
+    options.sigma = 0.02;
     const Cover cover = solve::solve(robot.system(set, side), options);
     EXPECT_TRUE(cover.complete());
     EXPECT_EQ(cover.dimension, 1);
@@ -190,7 +190,7 @@ TEST(SphericalFiveBar, WithTwoOfThreeCosinesHasThatChoicesSingularities) {
   ASSERT_NE(at, std::string::npos);
   text.replace(at, outputs.size(), "[OUTPUTS]  w_x, w_z");
   solve::Options options;
-  options.set_sigma(0.02);
+  options.sigma = 0.02;
   const Cover cover = solve::solve(
       symbolic::algebrize(symbolic::singularity_system(symbolic::parse_model(text, "chart.cuik"), SingularitySet::inverse)),
       options);

@@ -5,7 +5,9 @@
 #include <atomic>
 
 #include "corank/check/checker.h"
+#include "corank/solve/decimals.h"
 #include "corank/solve/exactness.h"
+#include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/tests/models/closed_forms.h"
@@ -61,17 +63,12 @@ struct Outcome {
   int questions = 0;  // asked in the stage
 };
 
-void solve_all(const System& system, const Question& question, solve::Options options, Cover& cover) {
-  certify::Reduction reduction;
-  {
-    const solve::InStage in(*options.control, Stage::reduction);
-    reduction = certify::reduce(system, [&options] { return options.control->ended(); });
-  }
-  options.set_sigma(question.sigma);
-  options.reduction = &reduction;
-  cover = solve::solve(system, options);
-  solve::prove_exactly(system, options, cover);
-  if (cover.dimension == 0) solve::prove_decimals(system, 20, cover, options);
+void solve_all(const System& system, const Question& question, solve::Options options, Control& control, Cover& cover) {
+  options.sigma = question.sigma;
+  const solve::Prepared prepared = solve::prepare(system, options, control);
+  cover = solve::solve(prepared, control);
+  solve::prove_exactly(prepared, cover, control);
+  if (cover.dimension == 0) solve::prove_decimals(prepared, 20, cover, control);
 }
 
 // All that `corank solve --digits 20 --proof` does (no proof of curves: to check it takes long), with k answers of "not yet"
@@ -83,9 +80,8 @@ Outcome run(const System& system, const Question& question, Stage stage, int k, 
   solve::Options options;
   options.threads = threads;
   options.proof = question.set == SingularitySet::forward;
-  options.control = &control;
   Outcome result;
-  solve_all(system, question, options, result.cover);
+  solve_all(system, question, options, control, result.cover);
   result.ending = control.ending();
   result.questions = clock.questions();
   return result;
@@ -157,10 +153,8 @@ TEST_P(Interrupted, EndsTheStageInWhichItIs) {
   control.progress = [&stop](const Control::Progress& p) {
     if (p.stage == GetParam()) stop = true;
   };
-  solve::Options options;
-  options.control = &control;
   Cover cover;
-  solve_all(system, kPoints, options, cover);
+  solve_all(system, kPoints, {}, control, cover);
   EXPECT_EQ(control.ending(), (Ending{Limit::interrupt, GetParam()}));
   EXPECT_EQ(cover.complete(), GetParam() > Stage::search);
   expect_honest(kPoints, system, cover);
@@ -179,17 +173,15 @@ TEST(BoxLimit, HoldsForTheSearchesOfTheExactStage) {
   const System system = system_of(kPoints);
   const auto exact_within = [&](std::uint64_t boxes, std::optional<Ending> expected) {
     Control control({.boxes = boxes});
-    solve::Options options;
-    options.control = &control;
     Cover cover;
-    solve_all(system, kPoints, options, cover);
+    solve_all(system, kPoints, {}, control, cover);
     EXPECT_EQ(control.ending(), expected);
     expect_honest(kPoints, system, cover);
     EXPECT_TRUE(cover.complete());
     return cover.count(Verdict::exact);
   };
   solve::Options options;
-  options.set_sigma(kPoints.sigma);
+  options.sigma = kPoints.sigma;
   const std::uint64_t processed = solve::solve(system, options).statistics.processed;
   EXPECT_EQ(exact_within(0, std::nullopt), 2u);
   EXPECT_EQ(exact_within(processed + 2, Ending{Limit::boxes, Stage::exact}), 0u);

@@ -39,7 +39,7 @@ result::Result solved(const Kind& kind, double sigma) {
   result.system_text = symbolic::to_cuik(system);
   result::describe_system(system, result);
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   options.proof = kind.proof;
   result.cover = solve::solve(system, options);
   solve::prove_exactly(system, options, result.cover);

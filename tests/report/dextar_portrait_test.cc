@@ -22,7 +22,7 @@ result::Result solved(SingularitySet set, const std::string& name, double sigma)
   static const auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
   const System system = symbolic::algebrize(symbolic::singularity_system(model, set, std::nullopt));
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   result::Result result;
   result.set = name;
   result.cover = solve::solve(system, options);

@@ -39,7 +39,7 @@ Result solved(const std::string& model, const std::string& set, double sigma, st
   result.system_text = symbolic::to_cuik(system);
   describe_system(system, result);
   solve::Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   options.proof = true;
   result.cover = solve::solve(system, options);
   solve::prove_exactly(system, options, result.cover);

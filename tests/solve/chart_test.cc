@@ -52,7 +52,7 @@ TEST(Slicer, CoversASphereWithFewBoxes) {
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-1", {}}});
   for (const double sigma : {0.1, 0.05}) {
     Options options;
-    options.set_sigma(sigma);
+    options.sigma = sigma;
     const Cover cover = solve(b.system(), options);
     EXPECT_TRUE(cover.complete());
     EXPECT_EQ(cover.count(Verdict::regular), cover.boxes.size());
@@ -77,7 +77,7 @@ TEST(Merging, LeavesFewFragmentsOfACurve) {
   const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
   Options options;
-  options.set_sigma(0.25);
+  options.sigma = 0.25;
   const Cover cover = solve(b.system(), options);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.count(Verdict::regular), cover.boxes.size());

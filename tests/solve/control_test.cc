@@ -88,11 +88,10 @@ TEST(Control, KeepsTheNameOfTheOuterStage) {
 TEST(MemoryLimit, LeavesWhatDoesNotFitPending) {
   for (const int threads : {1, 2}) {
     Options options;
-    options.set_sigma(0.02);
+    options.sigma = 0.02;
     options.threads = threads;
     Control control({.memory = 500'000});
-    options.control = &control;
-    const Cover cover = solve(torus().system(), options);
+    const Cover cover = solve(prepare(torus().system(), options, control), control);
     EXPECT_FALSE(cover.complete());
     EXPECT_EQ(control.ending(), (Ending{Limit::memory, Stage::search}));
     EXPECT_EQ(control.kept(), 0) << "what the search kept is given back";
@@ -105,19 +104,18 @@ TEST(MemoryLimit, LeavesWhatDoesNotFitPending) {
 
 TEST(MemoryLimit, CountsWhatAProofTakes) {
   Options options;
-  options.set_sigma(0.1);
+  options.sigma = 0.1;
   const auto boxes_within = [&](bool proof) {
     options.proof = proof;
     Control control({.memory = 500'000});
-    options.control = &control;
-    return solve(torus().system(), options).boxes.size();
+    return solve(prepare(torus().system(), options, control), control).boxes.size();
   };
   EXPECT_LT(boxes_within(true), boxes_within(false));
 }
 
 TEST(MemoryLimit, IsOneOfTheOptions) {
   Options options;
-  options.set_sigma(0.02);
+  options.sigma = 0.02;
   options.memory_limit = 500'000;
   EXPECT_FALSE(solve(torus().system(), options).complete());
 }

@@ -28,7 +28,7 @@ inline double widest(const Cover& cover) {
 
 inline Cover solve_with(const System& system, double sigma, int threads = 1) {
   Options options;
-  options.set_sigma(sigma);
+  options.sigma = sigma;
   options.threads = threads;
   return solve(system, options);
 }

@@ -237,7 +237,7 @@ TEST(Degenerate, SpheresThatTouchAreUndecidedAtTheirPointAndAtNoOther) {
               {"-4/3", {{z, 1}}},
               {"3", {}}});
   Options options;
-  options.set_sigma(0.01);
+  options.sigma = 0.01;
   options.max_boxes = 200'000;
   const auto near_touch = [](const CoverBox& box, double distance) {
     for (const auto& [j, at] : {std::pair{0, 2.0 / 3}, {1, 2.0 / 3}, {2, 1.0 / 3}})

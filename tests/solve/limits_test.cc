@@ -24,7 +24,7 @@ void expect_covers_torus(const Cover& cover) {
 
 TEST(Solve, ABoxLimitGivesAValidIncompleteCover) {
   Options options;
-  options.set_sigma(0.1);
+  options.sigma = 0.1;
   options.max_boxes = 50;
   const Cover cover = solve(torus().system(), options);
   EXPECT_FALSE(cover.complete());
@@ -38,7 +38,7 @@ std::size_t proven(const Cover& cover) {
 
 TEST(Solve, EndsAfterSoManyProvenBoxesWithAValidIncompleteCover) {
   Options options;
-  options.set_sigma(0.1);
+  options.sigma = 0.1;
   for (const std::uint64_t wanted : {1u, 40u, 1000u}) {
     options.max_solutions = wanted;
     const Cover cover = solve(torus().system(), options);
@@ -65,7 +65,7 @@ TEST(Solve, EndsAfterSoManyFoundBoxesWhateverTheirVerdict) {
   const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
   b.equation({{"1", {{x, 4}}}, {"2", {{x, 2}, {y, 2}}}, {"1", {{y, 4}}}, {"-2", {{x, 2}}}, {"-2", {{y, 2}}}, {"1", {}}});
   Options options;
-  options.set_sigma(0.01);
+  options.sigma = 0.01;
   const std::size_t all = solve(b.system(), options).boxes.size();
   options.max_found = 50;
   for (const int threads : {1, 2}) {
@@ -116,7 +116,7 @@ TEST(Solve, ATimeLimitEndsTheCuttingOfAWideSheet) {
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
   b.equation({{"8", {{y, 1}}}, {"-1", {{x, 2}}}});
   Options options;
-  options.set_sigma(2e-8);
+  options.sigma = 2e-8;
   options.time_limit = 0.05;
   const Cover cover = solve(b.system(), options);
   EXPECT_FALSE(cover.complete());
@@ -126,10 +126,9 @@ TEST(Solve, ATimeLimitEndsTheCuttingOfAWideSheet) {
 TEST(Solve, AStopAndATimeLimitEndTheSearch) {
   std::atomic<bool> stop{true};
   Options options;
-  options.set_sigma(0.001);
-  options.stop = &stop;
-  EXPECT_FALSE(solve(torus().system(), options).complete());
-  options.stop = nullptr;
+  options.sigma = 0.001;
+  Control control({.stop = &stop});
+  EXPECT_FALSE(solve(prepare(torus().system(), options, control), control).complete());
   options.time_limit = 1e-6;
   options.threads = 2;
   EXPECT_FALSE(solve(torus().system(), options).complete());
@@ -137,14 +136,15 @@ TEST(Solve, AStopAndATimeLimitEndTheSearch) {
 
 TEST(Solve, ReportsProgressThatEndsWithAllOfTheDomain) {
   Options options;
-  options.set_sigma(0.2);
-  options.progress_interval = 0;
-  std::vector<Progress> reports;
-  options.progress = [&](const Progress& p) {
+  options.sigma = 0.2;
+  Control control;
+  control.search_progress_interval = 0;
+  std::vector<SearchProgress> reports;
+  control.search_progress = [&](const SearchProgress& p) {
     EXPECT_EQ(std::fegetround(), FE_TONEAREST) << "a callback runs under the caller's rounding mode";
     reports.push_back(p);
   };
-  const Cover cover = solve(torus().system(), options);
+  const Cover cover = solve(prepare(torus().system(), options, control), control);
   ASSERT_GT(reports.size(), 2u);
   for (std::size_t k = 1; k < reports.size(); ++k) {
     EXPECT_GE(reports[k].excluded, reports[k - 1].excluded - 1e-12);

@@ -199,7 +199,7 @@ TEST(Solve, GivesTheSameSortedResultForAnyNumberOfThreads) {
 TEST(Solve, RecordsTheSameProofForAnyNumberOfThreads) {
   const auto recorded = [](int threads) {
     Options options;
-    options.set_sigma(0.05);
+    options.sigma = 0.05;
     options.threads = threads;
     options.proof = true;
     return solve(torus().system(), options);
@@ -278,7 +278,7 @@ TEST(Solve, EndsWhereRoundingKeepsASheetWide) {
   b.equation({{"9", {{u, 2}}}, {"-16", {}}});
   b.equation({{"1", {{y, 1}}}, {"-1e8", {{u, 1}}}, {"133333333.333", {}}});
   Options options;
-  options.set_sigma(3e-9);
+  options.sigma = 3e-9;
   options.max_boxes = 1000;
   options.time_limit = 20;
   const Cover cover = solve(b.system(), options);
@@ -292,7 +292,7 @@ TEST(Solve, EndsWhereThePivotOfASheetIsTiny) {
   const int d = b.variable("d", "-2e10", "2e10"), t = b.variable("t", "-1", "1");
   b.equation({{"1e-10", {{d, 1}}}, {"1", {{t, 2}}}});
   Options options;
-  options.set_sigma(1e6);
+  options.sigma = 1e6;
   options.time_limit = 30;
   const Cover cover = solve(b.system(), options);
   EXPECT_TRUE(cover.complete());
@@ -342,7 +342,7 @@ TEST(Solve, NeverLosesAPlantedSolution) {
       system.equations.push_back(p);
     }
     Options options;
-    options.set_sigma(0.05);
+    options.sigma = 0.05;
     options.max_boxes = 20000;
     const Cover cover = solve(system, options);
     ASSERT_TRUE(covers(cover, root)) << "trial " << trial;

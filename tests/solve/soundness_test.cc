@@ -348,7 +348,7 @@ void check(unsigned seed, double tolerance, Tally& tally) {
   system.coefficient_tolerance = tolerance;
   Options options;
   options.max_boxes = 2000;
-  options.set_sigma(generator.chance(50) ? 0.25 : 0.1);
+  options.sigma = generator.chance(50) ? 0.25 : 0.1;
   const Cover cover = solve(system, options);
   tally.complete += cover.complete();
   tally.proven += cover.count(Verdict::regular) + cover.count(Verdict::isolated) > 0;

@@ -1,0 +1,19 @@
+// From the shards of a search to its cover.
+#pragma once
+
+#include <vector>
+
+#include "corank/solve/degeneracy.h"
+#include "corank/solve/prepared.h"
+#include "corank/solve/problem.h"
+#include "corank/solve/shard.h"
+
+namespace corank::solve {
+
+/// The cover that the shards hold together, in an order that does not depend on who has made which: boxes are merged where
+/// the problem's σ allows, distinct solutions told apart, the script put together from `roots` on. To be called in the arena
+/// whose threads it may use; the found boxes are moved from.
+Cover assemble(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards,
+               const std::vector<Waiting>& roots, const SelfMotions& motions, const Sigma& sigma, Control& control);
+
+}  // namespace corank::solve

@@ -1,0 +1,64 @@
+#include "corank/solve/kernel_dimensions.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "corank/certify/isolation.h"
+#include "corank/certify/kernel_bound.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/box_hash.h"
+
+namespace corank::solve {
+namespace {
+
+constexpr int kKernelDepth = 6;  // halvings of a box in which the kernel's dimension is bounded
+
+// What is said of a box is said of the point that it is; `say` of the other points, which are hulls of boxes.
+template <class Say>
+void say_of_points(Cover& cover, Say say) {
+  std::unordered_multimap<std::size_t, std::size_t> places;
+  for (std::size_t i = 0; i < cover.boxes.size(); ++i) places.emplace(hash(cover.boxes[i].box), i);
+  for (CoverBox& point : cover.points) {
+    const auto [first, last] = places.equal_range(hash(point.box));
+    const auto same = std::find_if(first, last, [&](const auto& at) { return cover.boxes[at.second].box == point.box; });
+    if (same == last) {
+      say(point);
+    } else {
+      point.corank = cover.boxes[same->second].corank;
+      point.point = cover.boxes[same->second].point;
+    }
+  }
+}
+
+}  // namespace
+
+void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& control) {
+  const InStage stage(control, Stage::kernel);
+  const System& system = prepared.system;
+  const auto stopped = [&control] { return control.ended(); };
+  const certify::KernelBound bound(system);
+  if (!bound.applies()) return;
+  const std::vector<certify::PointLocation> places(cover.exact_points.begin(), cover.exact_points.end());
+  const auto bound_in = [&](CoverBox& box) {
+    const UpwardRounding rounding;
+    if (box.verdict != Verdict::pending && !stopped()) box.corank = bound.at_most(box.box);
+  };
+  tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
+  arena.execute(
+      [&] { tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) { bound_in(cover.boxes[i]); }); });
+  if (!cover.points.empty()) say_of_points(cover, bound_in);
+  // Few: one after the other, since a point's number is narrowed while it is compared.
+  const auto explain = [&](CoverBox& box) {
+    const UpwardRounding rounding;
+    if (box.corank <= system.kernel_vectors || stopped()) return;
+    for (std::size_t i = 0; i < cover.exact_points.size() && box.point < 0; ++i)
+      if (cover.exact_points[i].corank >= box.corank && places[i].in(box.box)) box.point = static_cast<int>(i);
+    if (box.point < 0) box.corank = bound.at_most(box.box, kKernelDepth);
+  };
+  for (CoverBox& box : cover.boxes) explain(box);
+  if (!cover.points.empty()) say_of_points(cover, explain);
+}
+
+}  // namespace corank::solve

@@ -1,0 +1,198 @@
+#include "corank/solve/pool.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/box_order.h"
+#include "corank/solve/box_processor.h"
+#include "corank/solve/work_list.h"
+
+namespace corank::solve {
+
+struct Pool::Threads {
+  struct Worker {  // one per thread
+    Worker(const Problem& problem, int number, bool recorded) : shard(number, recorded), processor(problem, shard) {}
+    Shard shard;
+    BoxProcessor processor;
+    Tally::Counted counted{};
+  };
+
+  Threads(const Prepared& p, Tally& t, int last_shard)
+      : prepared(p),
+        tally(t),
+        problem(p.system, p.reduction,
+                [this] {
+                  tally.report(false);
+                  count(workers.local());
+                  return tally.ended();
+                }),
+        numbers(last_shard),
+        workers([this] {
+          tally.keep_thread();
+          return Worker(problem, ++numbers, prepared.options.proof);
+        }),
+        allowed(p.options.threads > 0 ? p.options.threads : tbb::this_task_arena::max_concurrency()),
+        allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(allowed)),
+        arena(allowed) {}
+
+  int variables() const { return problem.compiled.variables(); }
+  void count(Worker& worker) { tally.count(worker.shard, worker.counted); }
+
+  void spawn(WorkList list, double postpone) {
+    ++busy;
+    auto shared = std::make_shared<WorkList>(std::move(list));
+    group.run([this, shared, postpone] {
+      work(std::move(*shared), postpone);
+      --busy;
+    });
+  }
+
+  void work(WorkList list, double postpone) {
+    const UpwardRounding rounding;
+    Worker& worker = workers.local();
+    BoxProcessor& processor = worker.processor;
+    std::optional<Recorder>& script = worker.shard.script;
+    std::vector<Interval> x(static_cast<std::size_t>(variables()));
+    std::int64_t listed = 0;
+    while (!list.empty()) {
+      tally.keep_waiting(list.size(), listed);
+      if (!tally.count_box()) break;
+      const NodeId node = list.node();
+      const double share = list.pop(x);
+      if (script) script->begin(node, x, variables());
+      const auto outcome = processor.process(x, postpone, share);
+      if (outcome == BoxProcessor::Outcome::split) {
+        const auto j = static_cast<std::size_t>(processor.split_variable());
+        const Interval side = x[j];
+        const double at = *split_point(side);
+        NodeId lower = 0, upper = 0;
+        if (script) {
+          lower = script->new_node();
+          upper = script->new_node();
+          script->split(processor.split_variable(), at, lower, upper);
+        }
+        x[j] = Interval(at, side.hi());
+        list.push(x, share * (1 - kBisectionPoint), upper);
+        x[j] = Interval(side.lo(), at);
+        list.push(x, share * kBisectionPoint, lower);
+        tally.one_more_waits();
+      } else {
+        tally.one_less_waits();
+      }
+      if (outcome == BoxProcessor::Outcome::done) tally.done_with(share);
+      count(worker);
+      if (busy.load(std::memory_order_relaxed) < allowed && allowed > 1 && list.size() > 1)
+        spawn(list.split_off(), postpone);
+    }
+    tally.keep_waiting(0, listed);
+    while (!list.empty()) {
+      const NodeId node = list.node();
+      const double share = list.pop(x);
+      worker.shard.left.push_back({x, share, node});
+    }
+  }
+
+  const Prepared& prepared;
+  Tally& tally;
+  Problem problem;
+  std::atomic<int> numbers, busy{0};
+  tbb::enumerable_thread_specific<Worker> workers;
+  int allowed;
+  tbb::global_control allow;
+  tbb::task_arena arena;
+  tbb::task_group group;
+};
+
+Pool::Pool(const Prepared& prepared, Tally& tally, int last_shard)
+    : threads_(std::make_unique<Threads>(prepared, tally, last_shard)) {}
+Pool::~Pool() = default;
+
+const Problem& Pool::problem() const { return threads_->problem; }
+int Pool::threads() const { return threads_->allowed; }
+void Pool::set_sigma(const Sigma& sigma) { threads_->problem.set_sigma(sigma); }
+void Pool::execute(const std::function<void()>& f) { threads_->arena.execute(f); }
+
+void Pool::search(const Work& work) {
+  Threads& t = *threads_;
+  WorkList list(static_cast<std::size_t>(t.variables()));
+  for (auto box = work.boxes.rbegin(); box != work.boxes.rend(); ++box) list.push(box->x, box->share, box->node);
+  t.tally.wait_for(list.size());
+  execute([&] {
+    if (t.allowed == 1) {
+      t.work(std::move(list), work.postpone);
+    } else {
+      t.spawn(std::move(list), work.postpone);
+      CORANK_CHECK(t.group.wait() != tbb::canceled);  // else waiting boxes would be lost
+    }
+  });
+}
+
+std::vector<Postponed> Pool::take_postponed() {
+  std::vector<Postponed> all;
+  for (Threads::Worker& w : threads_->workers) {
+    std::move(w.shard.postponed.begin(), w.shard.postponed.end(), std::back_inserter(all));
+    w.shard.postponed.clear();
+  }
+  std::sort(all.begin(), all.end(), [](const Postponed& a, const Postponed& b) { return before(a.box.x, b.box.x); });
+  return all;
+}
+
+void Pool::add_proven(const Postponed& box) {
+  Threads::Worker& worker = threads_->workers.local();
+  worker.processor.add_proven(box);
+  threads_->tally.done_with(box.box.share);
+  threads_->count(worker);
+}
+
+void Pool::give_up(const Postponed& box, Reason reason) {
+  Threads::Worker& worker = threads_->workers.local();
+  if (worker.shard.script) worker.shard.script->begin(box.box.node, box.box.x, threads_->variables());
+  worker.processor.give_up(box.box.x, reason);
+  threads_->tally.done_with(box.box.share);
+  threads_->count(worker);
+}
+
+void Pool::cut(const std::vector<Shard*>& shards) {
+  Threads& t = *threads_;
+  const bool whole = t.tally.begin_cutting();
+  std::vector<const Proven*> sheets;
+  std::vector<const Waiting*> left;
+  for (const Shard* shard : shards) {
+    for (const Proven& sheet : shard->sheets) sheets.push_back(&sheet);
+    for (const Waiting& box : shard->left) left.push_back(&box);
+  }
+  execute([&] {
+    const auto cut_one = [&](std::size_t i) {
+      const UpwardRounding rounding;
+      Threads::Worker& worker = t.workers.local();
+      if (i < sheets.size()) {
+        worker.processor.cut(*sheets[i], whole);
+      } else {
+        worker.processor.leave(*left[i - sheets.size()]);
+      }
+      t.count(worker);
+    };
+    const std::size_t all = sheets.size() + left.size();
+    if (t.allowed == 1) {
+      for (std::size_t i = 0; i < all; ++i) cut_one(i);
+    } else {
+      tbb::parallel_for(std::size_t{0}, all, cut_one);
+    }
+  });
+}
+
+std::vector<Shard*> Pool::shards() {
+  std::vector<Shard*> all;
+  for (Threads::Worker& w : threads_->workers) all.push_back(&w.shard);
+  return all;
+}
+
+}  // namespace corank::solve

@@ -1,0 +1,50 @@
+// The threads of a search, each with a shard of what is found. What happens to a box does not depend on any other box, so
+// threads only share the work, and what all shards hold together is the same for any number of them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "corank/solve/prepared.h"
+#include "corank/solve/problem.h"
+#include "corank/solve/shard.h"
+#include "corank/solve/tally.h"
+
+namespace corank::solve {
+
+class Pool {
+ public:
+  /// Its shards get numbers above `last_shard`. prepared and tally have to outlive it.
+  Pool(const Prepared& prepared, Tally& tally, int last_shard = 0);
+  ~Pool();
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
+  const Problem& problem() const;
+  int threads() const;
+  /// To be called before sheets are cut.
+  void set_sigma(const Sigma& sigma);
+  /// f() where its parallel parts have the threads that the options allow.
+  void execute(const std::function<void()>& f);
+
+  /// Depth first, so that memory grows with the depth and the results. Once a limit ends the search, what is not processed
+  /// goes to Shard::left.
+  void search(const Work& work);
+  /// Takes the postponed boxes out of all shards, sorted by their sides.
+  std::vector<Postponed> take_postponed();
+  /// Keeps a postponed box that was proven to hold a self-motion.
+  void add_proven(const Postponed& box);
+  /// A postponed box that is not divided any further.
+  void give_up(const Postponed& box, Reason reason);
+  /// Cuts the sheets, those that other pools have found as well, to σ, into boxes of its own shards; what is left becomes
+  /// `pending` boxes.
+  void cut(const std::vector<Shard*>& shards);
+
+  std::vector<Shard*> shards();
+
+ private:
+  struct Threads;
+  std::unique_ptr<Threads> threads_;
+};
+
+}  // namespace corank::solve

@@ -1,0 +1,59 @@
+// Parts of a search as plain values: boxes to search go in, what was found in them comes out, whoever runs it and where.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "corank/certify/newton.h"
+#include "corank/core/cover.h"
+#include "corank/solve/local_solution.h"
+#include "corank/solve/problem.h"
+#include "corank/solve/recorder.h"
+
+namespace corank::solve {
+
+/// A box that is to be searched, in the variables that are kept.
+struct Waiting {
+  Box x;
+  double share = 0;  ///< of the search domain: 1 for all of it
+  NodeId node = 0;   ///< its script begins there, where one is recorded
+};
+
+/// A sheet over a box of the search, to be cut when the search is done.
+struct Proven {
+  Box x;
+  certify::Sheet sheet;
+  NodeId node = 0;  ///< its script goes on there
+};
+
+/// A small box that resists proof next to a solution at which the Jacobian has not its full rank.
+struct Postponed {
+  Waiting box;
+  LocalSolution near;
+  bool noisy = false;            ///< rounding makes what the equations say as uncertain as the box is wide
+  certify::Sheet proof{};        ///< of a self-motion, where one was found
+  certify::Preconditioner step;  ///< of that proof
+};
+
+/// What is to be done in one pass of a search.
+struct Work {
+  std::vector<Waiting> boxes;
+  double postpone = 0;  ///< of the typical sizes: how small boxes are that may be postponed
+};
+
+/// What one thread has made of its boxes. Every box that it was given, or has made of one by bisection, ends in one of the
+/// lists, or holds no solution. Shards of one search differ in their numbers; what is in them depends on the boxes alone.
+struct Shard {
+  Shard(int n, bool recorded) : number(n) {
+    if (recorded) script.emplace(n);
+  }
+  int number;
+  std::vector<Proven> sheets{};
+  std::vector<Postponed> postponed{};
+  std::vector<Found> found{};   ///< boxes of the cover: pieces of sheets, and what nothing could be proven of
+  std::vector<Waiting> left{};  ///< what a limit has left unprocessed
+  std::optional<Recorder> script{};
+  Statistics statistics{};
+};
+
+}  // namespace corank::solve

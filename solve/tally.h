@@ -1,0 +1,75 @@
+// Counts what a search does and finds, and says when a limit ends it; tells who waits how far it is. Of all threads.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+
+#include "corank/solve/control.h"
+#include "corank/solve/distinct_solutions.h"
+#include "corank/solve/memory.h"
+#include "corank/solve/prepared.h"
+#include "corank/solve/shard.h"
+
+namespace corank::solve {
+
+class Tally {
+ public:
+  /// `most`: ends after so many processed boxes, which is no limit of the run; 0: no limit.
+  Tally(const Prepared& prepared, Control& control, std::uint64_t most);
+  ~Tally() { control_.keep(-kept_); }
+  Tally(const Tally&) = delete;
+  Tally& operator=(const Tally&) = delete;
+
+  /// How much of a shard has been counted.
+  struct Counted {
+    std::size_t found = 0, sheets = 0, weighed = 0;
+    std::uint64_t recorded = 0;  // bytes of the script
+  };
+  /// Counts what the shard has got since the last call: for the progress, and towards the limits.
+  void count(const Shard& shard, Counted& counted);
+  /// A box is about to be processed; false: there is to be none.
+  bool count_box();
+  void wait_for(std::uint64_t boxes) { waiting_ = boxes; }
+  void one_more_waits() { waiting_.fetch_add(1, std::memory_order_relaxed); }
+  void one_less_waits() { waiting_.fetch_sub(1, std::memory_order_relaxed); }
+  void done_with(double share) { done_share_.fetch_add(share, std::memory_order_relaxed); }
+  /// A thread begins; so many boxes wait in its list, `before` at the last call.
+  void keep_thread() { keep(memory_.of_thread()); }
+  void keep_waiting(std::size_t boxes, std::int64_t& before);
+
+  bool ended();
+  /// From now on sheets are cut. True: the search was long enough, and what it has found is to stay whole. What another
+  /// limit has ended is cut all the same.
+  bool begin_cutting();
+  void report(bool last);
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void count_sheets(const Shard& shard, Counted& counted);
+  void weigh(const Shard& shard, Counted& counted);
+  void end(Limit by);
+  void keep(std::int64_t bytes);
+
+  const Options& options_;
+  Control& control_;
+  const std::uint64_t most_;
+  MemoryEstimate memory_;
+  const std::int64_t soon_found_;      // bytes of the pieces that threads cut before they look again, and of those in hand
+  std::atomic<std::int64_t> kept_{0};  // bytes that this search has told the control of
+  std::atomic<bool> ended_{false}, cutting_{false};
+  std::atomic<std::uint64_t> processed_{0}, waiting_{0}, found_{0}, sheets_{0}, cut_{0};
+  std::atomic<double> done_share_{0};
+  std::array<std::atomic<std::uint64_t>, kVerdicts> verdicts_{};
+  std::mutex solutions_mutex_;
+  DistinctSolutions isolated_;
+  std::uint64_t pieces_ = 0;  // proven boxes with free variables
+  std::mutex progress_mutex_;
+  double last_report_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace corank::solve
