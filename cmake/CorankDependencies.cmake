@@ -7,6 +7,7 @@ include(CorankLibraries)
 
 # Needed to build corank, not to use it: no installed header shows them.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(cereal 1.3 REQUIRED)
 find_package(pegtl 3.2 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)

@@ -27,7 +27,7 @@ std::vector<Found*> gather(const std::vector<Shard*>& shards) {
 }
 
 // `found` are the boxes as the cover has them.
-std::shared_ptr<const Proof> script_of(const std::vector<Shard*>& shards, const std::vector<Waiting>& roots,
+std::shared_ptr<const Proof> script_of(const std::vector<Shard*>& shards, const Work& first_pass,
                                        const std::vector<Found*>& found) {
   std::map<LeafId, int> place;
   for (std::size_t i = 0; i < found.size(); ++i)
@@ -37,7 +37,7 @@ std::shared_ptr<const Proof> script_of(const std::vector<Shard*>& shards, const 
     if (shard->script) recorders.push_back(&*shard->script);
   std::vector<Box> boxes;
   std::vector<NodeId> nodes;
-  for (const Waiting& root : roots) {
+  for (const Waiting& root : first_pass.boxes) {
     boxes.push_back(root.x);
     nodes.push_back(root.node);
   }
@@ -57,8 +57,8 @@ Statistics statistics_of(const std::vector<Shard*>& shards) {
 
 }  // namespace
 
-Cover assemble(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards,
-               const std::vector<Waiting>& roots, const SelfMotions& motions, const Sigma& sigma, Control& control) {
+Cover assemble(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards, const Work& first_pass,
+               const SelfMotions& motions, const Sigma& sigma, Control& control) {
   const certify::Reduction& reduction = prepared.reduction;
   Cover cover;
   cover.sigma = sigma;
@@ -92,7 +92,7 @@ Cover assemble(const Prepared& prepared, const Problem& problem, const std::vect
   for (const Found* f : found) cover.wider_than_sigma += f->region != nullptr && problem.excess(f->box.box) > 1;
   // A replay would have to find the self-motions again.
   const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial && motions.none();
-  if (prepared.options.proof && replayable) cover.proof = script_of(shards, roots, found);
+  if (prepared.options.proof && replayable) cover.proof = script_of(shards, first_pass, found);
   cover.self_motions = motions.records(reduction);
   if (std::any_of(found.begin(), found.end(), [](const Found* f) { return f->box.reason == Reason::degenerate_set; }))
     cover.observed_dimension = motions.observed_dimension();

@@ -6,12 +6,12 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
-#include <algorithm>
 #include <atomic>
+#include <iterator>
+#include <utility>
 
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
-#include "corank/solve/box_order.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/work_list.h"
 
@@ -116,6 +116,7 @@ Pool::Pool(const Prepared& prepared, Tally& tally, int last_shard)
 Pool::~Pool() = default;
 
 const Problem& Pool::problem() const { return threads_->problem; }
+bool Pool::ended() const { return threads_->tally.ended(); }
 int Pool::threads() const { return threads_->allowed; }
 void Pool::set_sigma(const Sigma& sigma) { threads_->problem.set_sigma(sigma); }
 void Pool::execute(const std::function<void()>& f) { threads_->arena.execute(f); }
@@ -135,13 +136,12 @@ void Pool::search(const Work& work) {
   });
 }
 
-std::vector<Postponed> Pool::take_postponed() {
+std::vector<Postponed> take_postponed(const std::vector<Shard*>& shards) {
   std::vector<Postponed> all;
-  for (Threads::Worker& w : threads_->workers) {
-    std::move(w.shard.postponed.begin(), w.shard.postponed.end(), std::back_inserter(all));
-    w.shard.postponed.clear();
+  for (Shard* shard : shards) {
+    std::move(shard->postponed.begin(), shard->postponed.end(), std::back_inserter(all));
+    shard->postponed.clear();
   }
-  std::sort(all.begin(), all.end(), [](const Postponed& a, const Postponed& b) { return before(a.box.x, b.box.x); });
   return all;
 }
 
@@ -192,6 +192,12 @@ void Pool::cut(const std::vector<Shard*>& shards) {
 std::vector<Shard*> Pool::shards() {
   std::vector<Shard*> all;
   for (Threads::Worker& w : threads_->workers) all.push_back(&w.shard);
+  return all;
+}
+
+std::vector<Shard> Pool::take_shards() {
+  std::vector<Shard> all;
+  for (Threads::Worker& w : threads_->workers) all.push_back(std::move(w.shard));
   return all;
 }
 

@@ -30,8 +30,7 @@ class Pool {
   /// Depth first, so that memory grows with the depth and the results. Once a limit ends the search, what is not processed
   /// goes to Shard::left.
   void search(const Work& work);
-  /// Takes the postponed boxes out of all shards, sorted by their sides.
-  std::vector<Postponed> take_postponed();
+  bool ended() const;
   /// Keeps a postponed box that was proven to hold a self-motion.
   void add_proven(const Postponed& box);
   /// A postponed box that is not divided any further.
@@ -41,10 +40,15 @@ class Pool {
   void cut(const std::vector<Shard*>& shards);
 
   std::vector<Shard*> shards();
+  /// Of the pool, which is not to be used any more.
+  std::vector<Shard> take_shards();
 
  private:
   struct Threads;
   std::unique_ptr<Threads> threads_;
 };
+
+/// Takes the postponed boxes out of the shards.
+std::vector<Postponed> take_postponed(const std::vector<Shard*>& shards);
 
 }  // namespace corank::solve

@@ -18,6 +18,7 @@ using LeafId = std::uint64_t;
 
 class Recorder {
  public:
+  Recorder() = default;
   /// Each thread's number differs.
   explicit Recorder(int thread) : prefix_(static_cast<std::uint64_t>(thread) << 40) {}
 
@@ -40,23 +41,38 @@ class Recorder {
   void leaf_empty() { step(Proof::Step::empty); }
   void leaf_elsewhere() { step(Proof::Step::elsewhere); }
 
+  /// What has been recorded, for an archive (solve/shard_bytes.h): it is between two boxes.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(prefix_, next_, script_, combination_bytes_, nodes_);
+    open_ = nullptr;
+  }
+
   /// Script by script, from the roots' nodes on. `place` gives the place in the cover of each LeafId.
   static Proof assemble(const std::vector<const Recorder*>& recorders, std::vector<std::vector<Interval>> roots,
                         const std::vector<NodeId>& nodes, const std::map<LeafId, int>& place);
 
  private:
   struct Cursor {
-    std::size_t step, integer, real;
+    std::uint64_t step = 0, integer = 0, real = 0;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(step, integer, real);
+    }
   };
   struct Node {
     Cursor begin, end;
     NodeId lower = 0, upper = 0;  // where it was split; upper alone: where its script goes on
     bool is_split = false, goes_on = false;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(begin, end, lower, upper, is_split, goes_on);
+    }
   };
   void step(Proof::Step s);
   void close();
 
-  std::uint64_t prefix_, next_ = 1;
+  std::uint64_t prefix_ = 0, next_ = 1;
   Proof script_;
   std::uint64_t combination_bytes_ = 0;
   std::map<NodeId, Node> nodes_;

@@ -19,9 +19,6 @@ constexpr int kTightenings = 2;
 constexpr double kNearSigma = 1.2;     // of σ: a wider piece is cut anyway, however well it is tightened
 constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
 constexpr double kStaleSpread = 0.1;   // |I − Y·S| beyond which a part gets its own Y
-constexpr double kCutMargin = 0.98;    // aim a little below σ: the linearization is not exact
-constexpr int kMostSlabs = 3;          // more parts than that: halve, and look again
-constexpr int kMostPartsAtOnce = 81;   // of a piece with many free sides: the other sides wait
 constexpr double kRoom = 1.0 / 128;    // of a side, at each end
 constexpr double kLeastRoom = 4e-16;   // of its magnitude
 // Of σ: a narrower piece of a curve gets a step of its own, after which it may be a fragment that merges (at 0.85 in
@@ -108,61 +105,6 @@ std::optional<Location> Slicer::place(const Task& task, NewtonStep& step, const 
   if (!trim(task, step, own, sides)) return std::nullopt;
   const Location location = problem_.domain.locate_zeros(step, sides);
   return location == Location::outside ? std::nullopt : std::optional(location);
-}
-
-void Slicer::measure_steepness(const NewtonStep& step, const std::vector<int>& free, const Box& piece) {
-  const auto& system = problem_.compiled;
-  const std::size_t n = static_cast<std::size_t>(system.variables()), r = step.dependent().size();
-  steepness_.clear();
-  slope_.resize(static_cast<std::size_t>(system.entries()));
-  for (std::size_t a = 0; a < r; ++a) {
-    const double sigma = problem_.sigma[static_cast<std::size_t>(step.dependent()[a])];
-    if (!std::isfinite(sigma)) continue;
-    for (int f : free) steepness_.push_back(std::fabs(step.derivative(static_cast<int>(a), f)) / sigma);
-  }
-  for (int k = 0; k < system.values(); ++k) {
-    const double sigma = problem_.sigma[n + static_cast<std::size_t>(k)];
-    if (!std::isfinite(sigma)) continue;
-    const int row = system.value_row(k);
-    system.slopes(row, piece, step.center().data(), slope_);
-    gradient_.assign(n, 0.0);
-    for (int e = system.row_begin(row); e < system.row_begin(row + 1); ++e)
-      gradient_[static_cast<std::size_t>(system.column(e))] = slope_[static_cast<std::size_t>(e)].mid();
-    for (int f : free) {
-      double slope = gradient_[static_cast<std::size_t>(f)];
-      for (std::size_t a = 0; a < r; ++a)
-        slope += gradient_[static_cast<std::size_t>(step.dependent()[a])] * step.derivative(static_cast<int>(a), f);
-      steepness_.push_back(std::fabs(slope) / sigma);
-    }
-  }
-}
-
-std::vector<int> Slicer::parts_of(const Box& piece, const std::vector<int>& free) const {
-  constexpr double kMostParts = 1 << 20;
-  const std::size_t k = free.size();
-  std::vector<double> parts(k, 1.0);
-  const auto width = [&](std::size_t f) { return piece[static_cast<std::size_t>(free[f])].width(); };
-  const auto sigma_of_free = [&](std::size_t f) { return problem_.sigma[static_cast<std::size_t>(free[f])]; };
-  for (std::size_t f = 0; f < k; ++f) parts[f] = std::clamp(std::ceil(width(f) / sigma_of_free(f)), 1.0, kMostParts);
-  // The width of a, in its σ, is Σ_f |∂a/∂f| w_f / parts_f.
-  for (int step = 0; step < 1000; ++step) {
-    double worst = kCutMargin;
-    std::size_t grow = k;
-    for (std::size_t a = 0; a * k < steepness_.size(); ++a) {
-      double sum = 0, best = 0;
-      std::size_t best_free = 0;
-      for (std::size_t f = 0; f < k; ++f) {
-        const double share = steepness_[a * k + f] * width(f) / parts[f];
-        sum += share;
-        // One part more takes share/(parts + 1) off at the price of a factor (parts + 1)/parts in cells.
-        if (const double gain = share * parts[f] / (parts[f] + 1); gain > best) best = gain, best_free = f;
-      }
-      if (sum > worst && best > 0) worst = sum, grow = best_free;
-    }
-    if (grow == k) break;
-    parts[grow] = std::min(std::max(parts[grow] + 1, std::floor(parts[grow] * 1.1)), kMostParts);
-  }
-  return {parts.begin(), parts.end()};
 }
 
 bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Box piece, int depth) {
@@ -279,21 +221,22 @@ void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, std::vector<
   descend(task, {sheet.image}, p);
 }
 
+void Slicer::leave_piece(Task& task, Box sides) {
+  bool here = true;
+  sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
+  for (std::size_t j = 0; j < sides.size(); ++j) here = here && sides[j].intersect(task.x[j]);
+  if (here) {
+    leave(task.found, std::move(sides));
+  } else if (recorder_) {
+    recorder_->leaf_elsewhere();  // another box's business
+  }
+}
+
 void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   const std::vector<int>& free = task.free;
   Box& sides = piece.sides;
   task.ended = task.ended || (!task.whole && task.turns++ % kPiecesBetweenChecks == 0 && problem_.ended());
-  if (task.ended) {
-    bool here = true;
-    sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
-    for (std::size_t j = 0; j < sides.size(); ++j) here = here && sides[j].intersect(task.x[j]);
-    if (here) {
-      leave(task.found, std::move(sides));
-    } else if (recorder_) {
-      recorder_->leaf_elsewhere();  // another box's business
-    }
-    return;
-  }
+  if (task.ended) return leave_piece(task, std::move(sides));
   Preconditioner renewed;
   const Preconditioner* p = &inherited;
   std::optional<NewtonStep> step = tighten(task, piece, p, renewed);
@@ -306,8 +249,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   double width = problem_.excess(sides);
   std::vector<int> parts;
   if (width > 1 && !free.empty() && !task.whole) {
-    measure_steepness(*step, free, sides);
-    parts = parts_of(sides, free);
+    parts = planner_.parts(*step, free, sides);
     const double number = std::accumulate(parts.begin(), parts.end(), 1.0, std::multiplies<>());
     if (task.rechartable && piece.charts_tried < kMostChartsTried && number >= kPartsForAChart) {
       const auto dependent = better_chart(task, sides);
@@ -334,45 +276,9 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     add(task, std::move(sides), *location);
     return;
   }
-  std::size_t along = 0;
-  const auto relative_width = [&](std::size_t f) {
-    const auto j = static_cast<std::size_t>(free[f]);
-    return sides[j].width() / problem_.compiled.scales()[j];
-  };
-  for (std::size_t f = 1; f < free.size(); ++f) {
-    const bool wider = relative_width(f) > relative_width(along);
-    if (parts[f] > parts[along] || (parts[f] == parts[along] && wider)) along = f;
-  }
   piece.former_width = width;
   piece.futile_cuts = futile_cuts;
-  parts[along] = std::max(parts[along], 2);
-  std::vector<double> shares(free.size(), 0.0);
-  if (parts[along] > kMostSlabs) {
-    // Many: two groups of slabs first, since the sheet's steepness changes.
-    shares[along] = static_cast<double>(parts[along] / 2) / parts[along];
-    parts.assign(free.size(), 1);
-    parts[along] = 2;
-  }
-  int at_once = parts[along];
-  for (std::size_t f = 0; f < free.size(); ++f) {
-    if (f == along) continue;
-    if (parts[f] > kMostPartsAtOnce / at_once) parts[f] = 1;
-    at_once *= parts[f];
-  }
-  cut(task, piece, *p, std::move(step), places_of(sides, free, parts, shares));
-}
-
-std::vector<std::vector<double>> Slicer::places_of(const Box& piece, const std::vector<int>& free,
-                                                   const std::vector<int>& parts, const std::vector<double>& shares) const {
-  std::vector<std::vector<double>> places(free.size());
-  for (std::size_t f = 0; f < free.size(); ++f) {
-    const Interval& side = piece[static_cast<std::size_t>(free[f])];
-    for (int k = 1; k < parts[f]; ++k) {
-      const double share = shares[f] > 0 ? shares[f] : static_cast<double>(k) / parts[f];
-      places[f].push_back(std::min(side.lo() + side.width() * share, side.hi()));
-    }
-  }
-  return places;
+  cut(task, piece, *p, std::move(step), planner_.places(sides, free, std::move(parts)));
 }
 
 void Slicer::settle(const Task& task, NewtonStep& step, Part& part) {

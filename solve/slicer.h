@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "corank/solve/cut_planner.h"
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/problem.h"
 #include "corank/solve/recorder.h"
@@ -82,14 +83,6 @@ class Slicer {
   // The same, and where the solutions lie with respect to the domain. Nothing: none in x, or none in the domain.
   std::optional<certify::Location> place(const Task& task, certify::NewtonStep& step, const certify::Preconditioner* own,
                                          Box& sides);
-  // steepness_[a·k + f] = |∂a/∂f| on the step's piece, linearized, of each dependent, then each eliminated variable a, with
-  // respect to the f-th of k free variables.
-  void measure_steepness(const certify::NewtonStep& step, const std::vector<int>& free, const Box& piece);
-  // The number of equal parts along each free side that makes all sides narrower than σ in the linearization, few in all.
-  std::vector<int> parts_of(const Box& piece, const std::vector<int>& free) const;
-  // Where each free side is cut into so many equal parts (two parts: at shares[f] of the width, where that is not 0).
-  std::vector<std::vector<double>> places_of(const Box& piece, const std::vector<int>& free, const std::vector<int>& parts,
-                                             const std::vector<double>& shares) const;
   // Cuts the piece there, along all free sides, and goes on with each part. The parts are tightened by the piece's step
   // first, where there is one: many are small enough then, and need no step of their own.
   void cut(Task& task, const Piece& piece, const certify::Preconditioner& p, std::optional<certify::NewtonStep> step,
@@ -104,6 +97,8 @@ class Slicer {
   // Proves the piece's solutions in x to be a sheet with these dependents, and slices that; false: that is not proven.
   bool slice_in_chart(Task& task, Box sides, const std::vector<int>& dependent);
   void add(Task& task, Box piece, certify::Location location);
+  // What a limit leaves of a piece.
+  void leave_piece(Task& task, Box sides);
   // What a limit leaves, unless it is outside the domain.
   void leave(std::vector<Found>& found, Box sides);
 
@@ -112,8 +107,7 @@ class Slicer {
   certify::NewtonWorkspace& workspace_;
   Recorder* recorder_;
   Box met_;
-  std::vector<double> steepness_, gradient_;
-  std::vector<Interval> slope_;
+  CutPlanner planner_{problem_};
 };
 
 }  // namespace corank::solve
