@@ -5,8 +5,10 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "corank/certify/domain.h"
+#include "corank/certify/elimination.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/shortening.h"
 #include "corank/core/check.h"
@@ -35,6 +37,11 @@ bool is_integer(const Monomial& m) {
   return m.coefficient.is_rational() && m.enclosure.is_point() && std::nearbyint(m.enclosure.lo()) == m.enclosure.lo();
 }
 
+bool is_short(const ExactNumber& q) {
+  constexpr std::size_t kMostDigits = 40;
+  return q.text().size() <= kMostDigits;
+}
+
 // Thrown and caught here: the reduction is given up.
 struct GivenUp {};
 
@@ -59,8 +66,12 @@ class Reducer {
   // One step of (a), of (b). False: nothing to do.
   bool eliminate_tied();
   bool eliminate_image();
+  // Steps of (c) that leave few products. False: nothing to do.
+  bool eliminate_products();
   // One step of (c). False: nothing to do.
   bool shorten();
+  std::vector<double> sizes() const;
+  ExactNumber exact_factor(const RowSum& sum) const;
   void add(std::size_t row, std::size_t other, const ExactNumber& factor);
   // A tolerance is about the equations as given: what `partial` says of one does not hold of a sum.
   bool may_add() const { return eliminate_ != Eliminate::none && system_.coefficient_tolerance == 0; }
@@ -359,9 +370,40 @@ bool Reducer::eliminate_image() {
   return false;
 }
 
+std::vector<double> Reducer::sizes() const {
+  std::vector<double> result;
+  for (const Variable& v : system_.variables) result.push_back(v.domain.mag());
+  return result;
+}
+
+// The number itself where the quotient of two coefficients is what the factor is a rounded value of.
+ExactNumber Reducer::exact_factor(const RowSum& sum) const {
+  const Polynomial &f = system_.equations[sum.row], &g = system_.equations[sum.other];
+  for (const Monomial& b : g.monomials)
+    for (const Monomial& a : f.monomials) {
+      if (a.factors != b.factors || !a.coefficient.is_rational() || !b.coefficient.is_rational() || b.coefficient.is_zero())
+        continue;
+      ExactNumber q = -(a.coefficient / b.coefficient);
+      const double difference = (q - sum.factor).enclose().mag();
+      if (difference <= 1e-12 * sum.factor.enclose().mag() && is_short(q)) return q;
+    }
+  return sum.factor;
+}
+
+bool Reducer::eliminate_products() {
+  if (!may_add()) return false;
+  const std::vector<RowSum> sums = certify::eliminate_products(system_.equations, sizes(), [this] { check_ended(); });
+  for (const RowSum& sum : sums) {
+    check_ended();
+    add(sum.row, sum.other, exact_factor(sum));
+  }
+  return !sums.empty();
+}
+
 bool Reducer::shorten() {
   if (!may_add()) return false;
-  const auto& rows = system_.equations;
+  std::vector<Polynomial> rows;
+  for (const Polynomial& f : system_.equations) rows.push_back(without_residues(f, sizes()));
   const BestShortening best = best_shortening(rows, [this] { check_ended(); });
   if (best.saved == 0) return false;
   add(best.row, best.other, best.factor);
@@ -377,13 +419,18 @@ Reduction Reducer::run() {
   const UpwardRounding rounding;
   eliminate_fixed();
   // Images first: a shorter equation may have its variable in two.
+  bool products_done = false;
+  const auto go_on = [&] {
+    if (!std::exchange(products_done, true) && eliminate_products()) return true;
+    return shorten();
+  };
   do {
     while (tidy() && consistent_ && eliminate_tied()) {
     }
     drop_repeated();
     while (consistent_ && eliminate_image()) {
     }
-  } while (consistent_ && shorten());
+  } while (consistent_ && go_on());
   Reduction result;
   result.consistent = consistent_;
   result.subset = subset_;

@@ -1,0 +1,180 @@
+#include "corank/certify/elimination.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+
+namespace corank::certify {
+namespace {
+
+using Product = std::vector<int>;
+
+Product product_of(const Monomial& m) {
+  Product product;
+  for (const Factor& x : m.factors) product.insert(product.end(), {x.variable, x.power, static_cast<int>(x.function)});
+  return product;
+}
+
+bool is_linear(const Monomial& m) { return m.degree() <= 1 && !m.is_trigonometric(); }
+
+double size_of(const Monomial& m, const std::vector<double>& sizes) {
+  double size = 1;
+  for (const Factor& x : m.factors)
+    if (x.function == Function::identity) size *= std::pow(sizes[static_cast<std::size_t>(x.variable)], x.power);
+  return size;
+}
+
+// A group of equations as a matrix of doubles: a row for each, a column for each product, scaled by its size.
+class Tableau {
+ public:
+  Tableau(const std::vector<Polynomial>& rows, std::vector<std::size_t> members, const std::vector<double>& sizes)
+      : members_(std::move(members)) {
+    std::map<Product, std::size_t> columns;
+    for (const std::size_t i : members_)
+      for (const Monomial& m : rows[i].monomials)
+        if (columns.try_emplace(product_of(m), columns.size()).second) {
+          linear_.push_back(is_linear(m));
+          sizes_.push_back(size_of(m, sizes));
+        }
+    n_ = columns.size();
+    entries_.assign(members_.size() * n_, 0.0);
+    magnitude_ = entries_;
+    for (std::size_t k = 0; k < members_.size(); ++k)
+      for (const Monomial& m : rows[members_[k]].monomials) {
+        const std::size_t j = columns[product_of(m)];
+        at(k, j) = m.enclosure.mid() * sizes_[j];
+        magnitude_[k * n_ + j] = std::fabs(at(k, j));
+      }
+  }
+
+  // Makes every linear column, or every other, one row's alone where it can.
+  void eliminate(bool linear) {
+    std::vector<bool> used(members_.size(), false), taken(n_, false);
+    if (linear)  // by rows that have nothing else
+      for (std::size_t k = 0; k < members_.size(); ++k)
+        for (std::size_t j = 0; j < n_; ++j) used[k] = used[k] || (!linear_[j] && counts(k, j));
+    for (;;) {
+      double best = 0;
+      std::size_t row = 0, column = 0;
+      for (std::size_t k = 0; k < members_.size(); ++k) {
+        if (used[k]) continue;
+        const double scale = largest(k);
+        for (std::size_t j = 0; j < n_; ++j) {
+          if (linear_[j] != linear || taken[j] || !counts(k, j) || sizes_[j] == 0) continue;
+          const double size = std::fabs(at(k, j)) / scale * (is_shared(j) ? 1 : kPreferOwn);
+          if (size > best) best = size, row = k, column = j;
+        }
+      }
+      if (best == 0) return;
+      used[row] = taken[column] = true;
+      for (std::size_t k = 0; k < members_.size(); ++k)
+        if (k != row && counts(k, column)) add(k, row, column);
+    }
+  }
+
+  // Terms that count, products more than linear ones.
+  std::size_t weight() const {
+    std::size_t sum = 0;
+    for (std::size_t k = 0; k < members_.size(); ++k)
+      for (std::size_t j = 0; j < n_; ++j) sum += counts(k, j) ? (linear_[j] ? 1 : kProductWeight) : 0;
+    return sum;
+  }
+
+  struct Step {
+    std::size_t row, other;  // of all rows
+    double factor;
+  };
+  const std::vector<Step>& steps() const { return steps_; }
+
+ private:
+  static constexpr double kPreferOwn = 1;
+  static constexpr std::size_t kProductWeight = 4;
+
+  double& at(std::size_t k, std::size_t j) { return entries_[k * n_ + j]; }
+  double at(std::size_t k, std::size_t j) const { return entries_[k * n_ + j]; }
+  double largest(std::size_t k) const {
+    double size = 0;
+    for (std::size_t j = 0; j < n_; ++j) size = std::max(size, std::fabs(at(k, j)));
+    return size;
+  }
+  bool counts(std::size_t k, std::size_t j) const {
+    return std::fabs(at(k, j)) > kResidue * std::max(magnitude_[k * n_ + j], 0.0) && std::fabs(at(k, j)) > kResidue * largest(k);
+  }
+  bool is_shared(std::size_t j) const {
+    std::size_t uses = 0;
+    for (std::size_t k = 0; k < members_.size(); ++k) uses += counts(k, j);
+    return uses > 1;
+  }
+  void add(std::size_t k, std::size_t row, std::size_t column) {
+    const double factor = -at(k, column) / at(row, column);
+    for (std::size_t j = 0; j < n_; ++j) {
+      const double part = factor * at(row, j);
+      at(k, j) += part;
+      magnitude_[k * n_ + j] = std::max(magnitude_[k * n_ + j], std::fabs(part));
+    }
+    at(k, column) = 0;
+    steps_.push_back({members_[k], members_[row], factor});
+  }
+
+  std::vector<std::size_t> members_;
+  std::size_t n_ = 0;
+  std::vector<bool> linear_;
+  std::vector<double> sizes_, entries_, magnitude_;  // magnitude_: the largest that ever was added there
+  std::vector<Step> steps_;
+};
+
+// The groups of rows that share products, each ascending; rows that share none are in no group.
+std::vector<std::vector<std::size_t>> groups_of(const std::vector<Polynomial>& rows) {
+  std::vector<std::size_t> parent(rows.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::map<Product, std::size_t> first;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const Monomial& m : rows[i].monomials)
+      if (!is_linear(m)) {
+        const auto [known, is_new] = first.try_emplace(product_of(m), i);
+        if (!is_new) parent[root(i)] = root(known->second);
+      }
+  std::map<std::size_t, std::vector<std::size_t>> by_root;
+  for (std::size_t i = 0; i < rows.size(); ++i) by_root[root(i)].push_back(i);
+  std::vector<std::vector<std::size_t>> groups;
+  for (auto& [r, members] : by_root)
+    if (members.size() > 1) groups.push_back(std::move(members));
+  return groups;
+}
+
+}  // namespace
+
+std::vector<RowSum> eliminate_products(const std::vector<Polynomial>& rows, const std::vector<double>& sizes,
+                                       const std::function<void()>& check) {
+  std::vector<RowSum> sums;
+  for (std::vector<std::size_t>& members : groups_of(rows)) {
+    check();
+    Tableau tableau(rows, std::move(members), sizes);
+    const std::size_t before = tableau.weight();
+    Tableau products = tableau;
+    products.eliminate(false);
+    if (products.weight() >= before) continue;
+    Tableau linear = products;
+    linear.eliminate(true);
+    const Tableau& best = linear.weight() < products.weight() ? linear : products;
+    for (const auto& step : best.steps()) sums.push_back({step.row, step.other, ExactNumber::dyadic(step.factor)});
+  }
+  return sums;
+}
+
+Polynomial without_residues(const Polynomial& row, const std::vector<double>& sizes) {
+  double largest = 0;
+  for (const Monomial& m : row.monomials) largest = std::max(largest, m.enclosure.mag() * size_of(m, sizes));
+  Polynomial result{{}, row.source};
+  for (const Monomial& m : row.monomials)
+    if (m.enclosure.mag() * size_of(m, sizes) > kResidue * largest) result.monomials.push_back(m);
+  return result;
+}
+
+}  // namespace corank::certify
