@@ -74,6 +74,27 @@ class Tableau {
     }
   }
 
+  // Adds a multiple of a row to another where that leaves fewer terms, the best such pair first, as long as there is one.
+  void shorten(const std::function<void()>& check) {
+    for (std::size_t former = weight() + 1; weight() < former;) {
+      former = weight();
+      std::ptrdiff_t best = 0;
+      std::size_t row = 0, other = 0, column = 0;
+      for (std::size_t k = 0; k < members_.size(); ++k)
+        for (std::size_t i = 0; i < members_.size(); ++i) {
+          if (i == k) continue;
+          check();
+          for (std::size_t j = 0; j < n_; ++j) {
+            if (!counts(k, j) || !counts(i, j)) continue;
+            const std::ptrdiff_t saved = saved_by(k, i, j);
+            if (saved > best) best = saved, row = k, other = i, column = j;
+          }
+        }
+      if (best == 0) return;
+      add(row, other, column);
+    }
+  }
+
   // Terms that count, products more than linear ones.
   std::size_t weight() const {
     std::size_t sum = 0;
@@ -100,12 +121,27 @@ class Tableau {
     return size;
   }
   bool counts(std::size_t k, std::size_t j) const {
-    return std::fabs(at(k, j)) > kResidue * std::max(magnitude_[k * n_ + j], 0.0) && std::fabs(at(k, j)) > kResidue * largest(k);
+    return std::fabs(at(k, j)) > kResidue * std::max(magnitude_[k * n_ + j], 0.0) &&
+           std::fabs(at(k, j)) > kResidue * largest(k);
   }
   bool is_shared(std::size_t j) const {
     std::size_t uses = 0;
     for (std::size_t k = 0; k < members_.size(); ++k) uses += counts(k, j);
     return uses > 1;
+  }
+  // How much less row k weighs when a multiple of row i has taken its column j away.
+  std::ptrdiff_t saved_by(std::size_t k, std::size_t i, std::size_t j) const {
+    const double factor = -at(k, j) / at(i, j);
+    const double least = kResidue * std::max(largest(k), std::fabs(factor) * largest(i));
+    std::ptrdiff_t saved = 0;
+    for (std::size_t c = 0; c < n_; ++c) {
+      const bool before = counts(k, c);
+      const double sum = at(k, c) + factor * at(i, c);
+      const bool after = c != j && std::fabs(sum) > least && std::fabs(sum) > kResidue * std::fabs(factor * at(i, c));
+      saved += (static_cast<std::ptrdiff_t>(before) - static_cast<std::ptrdiff_t>(after)) *
+               static_cast<std::ptrdiff_t>(linear_[c] ? 1 : kProductWeight);
+    }
+    return saved;
   }
   void add(std::size_t k, std::size_t row, std::size_t column) {
     const double factor = -at(k, column) / at(row, column);
@@ -125,7 +161,8 @@ class Tableau {
   std::vector<Step> steps_;
 };
 
-// The groups of rows that share products, each ascending; rows that share none are in no group.
+// The groups of rows that share products, or that have none and share variables; each ascending. Rows that share nothing are
+// in no group.
 std::vector<std::vector<std::size_t>> groups_of(const std::vector<Polynomial>& rows) {
   std::vector<std::size_t> parent(rows.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -134,12 +171,14 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<Polynomial>& r
     return i;
   };
   std::map<Product, std::size_t> first;
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool all_linear = std::all_of(rows[i].monomials.begin(), rows[i].monomials.end(), is_linear);
     for (const Monomial& m : rows[i].monomials)
-      if (!is_linear(m)) {
+      if (is_linear(m) == all_linear && !m.factors.empty()) {
         const auto [known, is_new] = first.try_emplace(product_of(m), i);
         if (!is_new) parent[root(i)] = root(known->second);
       }
+  }
   std::map<std::size_t, std::vector<std::size_t>> by_root;
   for (std::size_t i = 0; i < rows.size(); ++i) by_root[root(i)].push_back(i);
   std::vector<std::vector<std::size_t>> groups;
@@ -156,14 +195,17 @@ std::vector<RowSum> eliminate_products(const std::vector<Polynomial>& rows, cons
   for (std::vector<std::size_t>& members : groups_of(rows)) {
     check();
     Tableau tableau(rows, std::move(members), sizes);
-    const std::size_t before = tableau.weight();
-    Tableau products = tableau;
+    Tableau pairs = tableau, products = tableau;
+    pairs.shorten(check);
     products.eliminate(false);
-    if (products.weight() >= before) continue;
     Tableau linear = products;
     linear.eliminate(true);
-    const Tableau& best = linear.weight() < products.weight() ? linear : products;
-    for (const auto& step : best.steps()) sums.push_back({step.row, step.other, ExactNumber::dyadic(step.factor)});
+    products.shorten(check);
+    linear.shorten(check);
+    const Tableau* best = &tableau;
+    for (const Tableau* other : {&pairs, &products, &linear})
+      if (other->weight() < best->weight()) best = other;
+    for (const auto& step : best->steps()) sums.push_back({step.row, step.other, ExactNumber::dyadic(step.factor)});
   }
   return sums;
 }

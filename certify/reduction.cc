@@ -37,9 +37,29 @@ bool is_integer(const Monomial& m) {
   return m.coefficient.is_rational() && m.enclosure.is_point() && std::nearbyint(m.enclosure.lo()) == m.enclosure.lo();
 }
 
+constexpr std::size_t kMostEliminations = 4;
+
 bool is_short(const ExactNumber& q) {
   constexpr std::size_t kMostDigits = 40;
   return q.text().size() <= kMostDigits;
+}
+
+constexpr double kRounding = 1e-12;  // relative, of quotients in doubles
+
+// A rational number with a small denominator that close to x, relatively.
+std::optional<ExactNumber> simple_rational(double x, double tolerance) {
+  constexpr double kLargest = 1000;
+  double p0 = 1, q0 = 0, p1 = std::floor(x), q1 = 1, rest = x;  // convergents of the continued fraction
+  while (q1 <= kLargest && std::fabs(p1) <= kLargest * kLargest) {
+    if (std::fabs(x - p1 / q1) <= tolerance * std::fabs(x)) return ExactNumber::dyadic(p1) / ExactNumber::dyadic(q1);
+    const double fraction = rest - std::floor(rest);
+    if (fraction == 0) break;
+    rest = 1 / fraction;
+    const double digit = std::floor(rest);
+    p0 = std::exchange(p1, digit * p1 + p0);
+    q0 = std::exchange(q1, digit * q1 + q0);
+  }
+  return std::nullopt;
 }
 
 // Thrown and caught here: the reduction is given up.
@@ -376,16 +396,21 @@ std::vector<double> Reducer::sizes() const {
   return result;
 }
 
-// The number itself where the quotient of two coefficients is what the factor is a rounded value of.
+// The quotient of two coefficients itself, of which the factor is a rounded value, where that is rational and short.
 ExactNumber Reducer::exact_factor(const RowSum& sum) const {
   const Polynomial &f = system_.equations[sum.row], &g = system_.equations[sum.other];
+  const auto is_it = [&](const ExactNumber& q) {
+    return (q - sum.factor).enclose().mag() <= kRounding * sum.factor.enclose().mag() && is_short(q);
+  };
+  const std::optional<ExactNumber> simple = simple_rational(sum.factor.enclose().mid(), kRounding);
   for (const Monomial& b : g.monomials)
     for (const Monomial& a : f.monomials) {
-      if (a.factors != b.factors || !a.coefficient.is_rational() || !b.coefficient.is_rational() || b.coefficient.is_zero())
-        continue;
-      ExactNumber q = -(a.coefficient / b.coefficient);
-      const double difference = (q - sum.factor).enclose().mag();
-      if (difference <= 1e-12 * sum.factor.enclose().mag() && is_short(q)) return q;
+      if (a.factors != b.factors || b.coefficient.is_zero()) continue;
+      if (a.coefficient.is_rational() && b.coefficient.is_rational()) {
+        if (ExactNumber q = -(a.coefficient / b.coefficient); is_it(q)) return q;
+      } else if (simple && cancels(a.coefficient, *simple, b.coefficient)) {
+        return *simple;
+      }
     }
   return sum.factor;
 }
@@ -419,9 +444,13 @@ Reduction Reducer::run() {
   const UpwardRounding rounding;
   eliminate_fixed();
   // Images first: a shorter equation may have its variable in two.
-  bool products_done = false;
-  const auto go_on = [&] {
-    if (!std::exchange(products_done, true) && eliminate_products()) return true;
+  std::size_t eliminated = 0, variables_left = system_.variables.size() + 1;
+  const auto go_on = [&] {  // products again where there are fewer variables
+    const std::size_t left = system_.variables.size() - definitions_.size();
+    if (eliminated < kMostEliminations && left < std::exchange(variables_left, left)) {
+      ++eliminated;
+      if (eliminate_products()) return true;
+    }
     return shorten();
   };
   do {

@@ -106,7 +106,40 @@ NodePtr make_sum(const NodePtr& x, const NodePtr& y) {
   return std::make_shared<const Node>(std::move(sum));
 }
 
+// √q of a rational number q ≥ 0: its square is q.
+bool is_root_of_rational(const NodePtr& x) {
+  return x->kind == Kind::function && x->function == ConstantFunction::sqrt && is_rational(x->operands[0]) &&
+         x->operands[0]->value >= 0;
+}
+
+// Multiplies by e: √q·√q is q.
+void multiply_operand(Node& product, const NodePtr& x) {
+  if (is_root_of_rational(x)) {
+    const auto like =
+        std::find_if(product.operands.begin(), product.operands.end(), [&](const NodePtr& y) { return same(x, y); });
+    if (like != product.operands.end()) {
+      product.value *= x->operands[0]->value;
+      product.operands.erase(like);
+      return;
+    }
+  }
+  product.operands.push_back(x);
+}
+
+// c·(q + a + b …) as a sum, so that sums of multiples of sums stay as short as their different parts are many.
+NodePtr distribute(const mpq_class& c, const NodePtr& sum) {
+  Node result;
+  result.kind = Kind::sum;
+  result.value = c * sum->value;
+  if (bits(result.value) > kMaxBits) too_long();
+  const NodePtr factor = make_rational(c);
+  for (const NodePtr& operand : sum->operands) result.operands.push_back(make_product(factor, operand));
+  return std::make_shared<const Node>(std::move(result));
+}
+
 NodePtr make_product(const NodePtr& x, const NodePtr& y) {
+  for (const auto& [c, e] : {std::pair{x, y}, {y, x}})
+    if (is_rational(c) && e->kind == Kind::sum && c->value != 0) return c->value == 1 ? e : distribute(c->value, e);
   Node product;
   product.kind = Kind::product;
   product.value = 1;
@@ -115,9 +148,9 @@ NodePtr make_product(const NodePtr& x, const NodePtr& y) {
       product.value *= part->value;
     } else if (part->kind == Kind::product) {
       product.value *= part->value;
-      product.operands.insert(product.operands.end(), part->operands.begin(), part->operands.end());
+      for (const NodePtr& operand : part->operands) multiply_operand(product, operand);
     } else {
-      product.operands.push_back(part);
+      multiply_operand(product, part);
     }
   }
   if (product.value == 0 || product.operands.empty()) return make_rational(product.value);
@@ -147,6 +180,10 @@ NodePtr make_power(const NodePtr& x, int n) {
   }
   if (n == 0) return make_rational(1);
   if (n == 1) return x;
+  if (n > 1 && is_root_of_rational(x)) {
+    const NodePtr even = make_power(x->operands[0], n / 2);
+    return n % 2 == 0 ? even : make_product(even, x);
+  }
   if (x->kind == Kind::power && x->exponent > 0 && n > 0 && x->exponent <= std::numeric_limits<int>::max() / n)
     return make_power(x->operands[0], x->exponent * n);
   Node power;

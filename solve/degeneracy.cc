@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/rounding.h"
@@ -23,9 +24,12 @@ constexpr double kCloseShare = 1e-4;   // of the typical sizes
 constexpr double kTolerance = 1e-6;    // of singular values, at the solutions themselves
 constexpr double kDoublesEnd = 1e-11;  // of the typical sizes
 constexpr double kMotionRankTolerance = 1e-6;
-constexpr int kMotionAttempts = 4;             // in a cluster, without success
-constexpr std::size_t kManyBoxes = 400;        // along a set: dividing them makes too many
-constexpr std::size_t kTooManyBoxes = 30'000;  // whatever they are along
+constexpr int kMotionAttempts = 4;       // in a cluster, without success
+constexpr std::size_t kManyBoxes = 400;  // along a set: dividing them makes too many
+// Whatever they are along, if they have become so many times more since boxes were four times as large: around points their
+// number hardly grows, along a curve by four.
+constexpr std::size_t kTooManyBoxes = 30'000;
+constexpr std::size_t kGrowth = 2;
 
 // Is every equation's zero, linearized, close to x? Where equations are badly scaled, small residuals say little.
 bool may_be_solution(const Problem& problem, const std::vector<double>& x) {
@@ -182,6 +186,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
   std::vector<const Box*> sides;
   for (const Postponed& box : boxes) sides.push_back(&box.box.x);
   const double last = system.dimension() == 0 ? kPointShare : kOtherShare;
+  const std::size_t former = std::exchange(former_, boxes.size());
   for (const std::vector<std::size_t>& cluster : clusters(sides, problem.limits(1e-3 * share), problem.ended)) {
     if (problem.ended()) break;  // the search takes what is left back
     Reason reason = share < last ? Reason::degenerate_point : Reason::none;
@@ -193,7 +198,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
           std::count_if(cluster.begin(), cluster.end(), [&](std::size_t i) { return !boxes[i].proof.proven; }));
       // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around
       // a few places may be divided on.
-      const std::size_t many = along ? kManyBoxes : kTooManyBoxes;
+      const std::size_t many = along ? kManyBoxes : std::max(kTooManyBoxes, former > 0 ? kGrowth * former : boxes.size());
       // Around a surface these places are curves, where each size has twice as many boxes, and the surface is proven in four
       // times as many.
       const bool surface = std::any_of(cluster.begin(), cluster.end(), [&](std::size_t i) {

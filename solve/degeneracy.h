@@ -39,6 +39,7 @@ class SelfMotions {
   };
   std::vector<Known> known_;
   int observed_ = 0;
+  std::size_t former_ = 0;  // the number of boxes at the last call
 };
 
 }  // namespace corank::solve
