@@ -120,7 +120,9 @@ Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Deriva
                     const result::Result& result) {
   Json columns = Json::array();
   if (result.options.kernel != "right") return columns;
-  const symbolic::ExpressionMatrix& matrix = result.set == "forward" ? derivation.l_y : derivation.l_z;
+  const symbolic::ExpressionMatrix& matrix = result.set == "forward"   ? derivation.l_y
+                                             : result.set == "inverse" ? derivation.l_z
+                                                                       : derivation.phi_q;
   for (const std::string& name : matrix.columns) columns.push_back(mechanism.find_coordinate(name));
   return columns;
 }

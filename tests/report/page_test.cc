@@ -28,14 +28,15 @@ using testing::HasSubstr;
 Mechanism slider() { return symbolic::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik"); }
 
 result::Result solved(const Mechanism& mechanism, SingularitySet set) {
-  const System system = algebrize(singularity_system(mechanism, set));
+  const symbolic::KernelSide side = symbolic::KernelSide::right;
+  const System system = algebrize(singularity_system(mechanism, set, side));
   result::Result result;
   result.model = mechanism.name();
   result.model_text = mechanism.source_text();
   result.set = to_string(set);
   result.cover = solve::solve(system);
   result::describe_system(system, result);
-  result.options.kernel = set == SingularitySet::cspace ? "" : "right";
+  result.options.kernel = set == SingularitySet::cspace ? "" : to_string(side);
   return result;
 }
 
@@ -95,6 +96,16 @@ TEST(PageModel, NamesCoordinatesVariablesAndVelocities) {
   EXPECT_EQ(set["count"], 8);
   EXPECT_EQ(set["points"].size(), 8u);
   EXPECT_EQ(set["columns"], json({1, 2}));  // L_y has the columns of y_B and x_C
+}
+
+// x² + y² = 1 and x = 1 touch at (1, 0), where Φ_q = (2x 2y; 1 0) has the right kernel (0, 1).
+TEST(PageModel, TakesAVelocityOfCSpaceForRatesOfAllCoordinates) {
+  const Mechanism mechanism = symbolic::parse_model(
+      "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\nx = 1;\n[INPUTS] x\n[OUTPUTS] y\n", "m.cuik");
+  const json set = json::parse(page_model(mechanism, {solved(mechanism, SingularitySet::cspace_singular)}))["sets"][0];
+  EXPECT_EQ(set["variables"], json({"x", "y", "xi1", "xi2"}));
+  EXPECT_EQ(set["columns"], json({0, 1}));
+  EXPECT_EQ(set["scales"].size(), 2u);
 }
 
 TEST(PageModel, RefusesAResultOfAnotherMechanism) {
