@@ -42,7 +42,7 @@ struct ReportCommand {
 result::Result solve_one(const ReportCommand& command, study::Question question, std::size_t index, std::uint64_t taken) {
   const std::vector<std::string>& sets = command.search.sets;
   question.set = symbolic::singularity_set_from_string(sets[index]);
-  if (question.set == symbolic::SingularitySet::cspace) question.corank = 1;  // it has no kernel
+  if (!symbolic::definition(question.set).has_kernel()) question.corank = 1;
   solve::Options limits;
   command.search.limits.apply(limits);
   solve::Control control(command.search.limits_beside(limits, taken));

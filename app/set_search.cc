@@ -33,7 +33,7 @@ solve::Control::Limits SetSearch::limits_beside(const solve::Options& options, s
 
 solve::Options SetSearch::options(const System& system, SingularitySet set) const {
   solve::Options options;
-  const std::optional<double>& asked = set == SingularitySet::cspace ? cspace_sigma : sigma;
+  const std::optional<double>& asked = symbolic::definition(set).is_cspace() ? cspace_sigma : sigma;
   check_sigma("--sigma", asked, system);
   options.set_sigma(asked);
   options.coarser = coarser;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "corank/report/page_words.h"
+#include "corank/symbolic/set_definition.h"
 
 namespace corank::report {
 namespace {
@@ -36,8 +37,9 @@ Totals totals_of(const std::vector<FamilyMember>& members) {
 }
 
 bool has_surface(const FamilyMember& member) {
-  return std::any_of(member.results.begin(), member.results.end(),
-                     [](const result::Result& r) { return r.set == "cspace" && r.cover.dimension > 1; });
+  return std::any_of(member.results.begin(), member.results.end(), [](const result::Result& r) {
+    return symbolic::definition(r.set).is_cspace() && r.cover.dimension > 1;
+  });
 }
 
 }  // namespace

@@ -117,8 +117,8 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["script"] = std::string(kPageScript);
   page["three"] = std::string(kThree);
   page["data"] = page_model(mechanism, results);
-  page["inputs"] = chosen_html(mechanism.inputs(), derivation.input_ties.size());
-  page["outputs"] = chosen_html(mechanism.outputs(), derivation.output_ties.size());
+  page["inputs"] = chosen_html(mechanism.inputs(), derivation.velocity.ties(std::array{symbolic::Role::input}).size());
+  page["outputs"] = chosen_html(mechanism.outputs(), derivation.velocity.ties(std::array{symbolic::Role::output}).size());
   const std::string found = found_html(results);
   page["found"] = found;
   page.set("hasFound", truth(!found.empty()));

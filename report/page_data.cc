@@ -24,10 +24,8 @@ using symbolic::SingularitySet;
 static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
 
 std::string_view role(const symbolic::Mechanism& mechanism, const symbolic::Coordinate& c) {
-  const auto has = [&c](const std::vector<std::string>& names) {
-    return std::find(names.begin(), names.end(), c.name) != names.end();
-  };
-  return has(mechanism.inputs()) ? "input" : has(mechanism.outputs()) ? "output" : c.auxiliary ? "auxiliary" : "passive";
+  const symbolic::Role role = role_of(mechanism, c.name);
+  return role == symbolic::Role::passive && c.auxiliary ? "auxiliary" : to_string(role);
 }
 
 Json coordinates(const symbolic::Mechanism& mechanism, const System& system) {
@@ -120,10 +118,8 @@ Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Deriva
                     const result::Result& result) {
   Json columns = Json::array();
   if (result.options.kernel != "right") return columns;
-  const symbolic::ExpressionMatrix& matrix = result.set == "forward"   ? derivation.l_y
-                                             : result.set == "inverse" ? derivation.l_z
-                                                                       : derivation.phi_q;
-  for (const std::string& name : matrix.columns) columns.push_back(mechanism.find_coordinate(name));
+  for (const std::string& name : derivation.velocity.without(symbolic::definition(result.set).locked).columns)
+    columns.push_back(mechanism.find_coordinate(name));
   return columns;
 }
 

@@ -64,9 +64,13 @@ std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vec
   std::vector<std::string> phi;
   for (const symbolic::Expression& e : derivation.phi) phi.push_back(mathml(e == symbolic::Expression(0)));
   html += "<div class=\"scroll\">" + numbered(phi, {}) + "</div><h3>Jacobian blocks</h3>";
-  html += matrix_html("Φ", "q", "all coordinates", derivation.phi_q);
-  html += matrix_html("L", "y", "without the inputs; rank deficient at forward singularities", derivation.l_y);
-  html += matrix_html("L", "z", "without the outputs; rank deficient at inverse singularities", derivation.l_z);
+  html += matrix_html("Φ", "q", "all coordinates", derivation.velocity.matrix);
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions())
+    if (!set.locked.empty())
+      html += matrix_html(
+          "L", set.matrix + 2,
+          fmt::format("without the {}s; rank deficient at {} singularities", to_string(set.locked.front()), set.name),
+          derivation.velocity.without(set.locked));
   html +=
       "<h3>Systems solved</h3><p>Cosines and sines of angles are variables of their own in the search, with their circle as "
       "an equation.</p>";

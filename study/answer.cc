@@ -15,11 +15,8 @@ namespace corank::study {
 namespace {
 
 std::string kernel_of(const Question& question) {
-  using symbolic::SingularitySet;
-  if (!question.set || *question.set == SingularitySet::cspace) return "";
-  if (question.kernel) return to_string(*question.kernel);
-  return to_string(*question.set == SingularitySet::cspace_singular ? symbolic::KernelSide::left
-                                                                    : symbolic::KernelSide::right);
+  const symbolic::SetDefinition& set = symbolic::definition(question.set);
+  return set.has_kernel() ? to_string(question.kernel.value_or(set.side)) : "";
 }
 
 void mark_auxiliary(const symbolic::Mechanism& mechanism, result::Result& result) {
@@ -80,7 +77,7 @@ result::Result answer(const Question& question, const System& system, const Opti
   result::Result result;
   result.model = question.model.name();
   result.model_text = question.model.source_text();
-  result.set = question.set ? to_string(*question.set) : "system";
+  result.set = symbolic::definition(question.set).name;
   result.system_text = symbolic::to_cuik(system);
   result.cover = solve::solve(system, governed);
   control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
