@@ -22,6 +22,10 @@ std::string meaning(const symbolic::SetDefinition& set, int corank) {
   return corank == 1 ? set.meaning : fmt::format(fmt::runtime(set.of_corank), corank);
 }
 
+std::string title(const symbolic::SetDefinition& set, int corank) {
+  return set.title + (corank == 1 ? "" : fmt::format(" of corank {}", corank));
+}
+
 std::string shape(int dimension) {
   switch (dimension) {
     case 0: return "Isolated points";
@@ -185,11 +189,6 @@ std::string percentage(std::size_t part, std::size_t whole) {
   return share > 99.9 ? "over 99.9 %" : fmt::format("{:.1f} %", share);
 }
 
-std::string set_title(const result::Result& result) {
-  const int corank = result.options.corank;
-  return symbolic::definition(result.set).title + (corank == 1 ? "" : fmt::format(" of corank {}", corank));
-}
-
 std::string grouped(std::uint64_t n) {
   std::string digits = std::to_string(n);
   for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
@@ -229,8 +228,8 @@ std::string digits_text(const Interval& x) { return with_minus(result::outward_t
 SetWords set_words(const result::Result& result, const Components& found) {
   const Cover& cover = result.cover;
   SetWords words;
-  words.title = set_title(result);
   const symbolic::SetDefinition& set = symbolic::definition(result.set);
+  words.title = title(set, result.options.corank);
   words.meaning = meaning(set, result.options.corank);
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);

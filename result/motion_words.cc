@@ -9,6 +9,7 @@
 
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/rounding.h"
+#include "corank/result/domain_notes.h"
 #include "corank/symbolic/velocity_equation.h"
 
 namespace corank::result {
@@ -332,6 +333,11 @@ void describe_motions(const symbolic::Mechanism& mechanism, const System& system
       result.motions.emplace_back();
     }
   }
+}
+
+void describe_in_words(const symbolic::Mechanism& mechanism, const System& system, Result& result) {
+  describe_domain(mechanism, system, result);
+  describe_motions(mechanism, system, result);
 }
 
 std::string motion_sentence(const Result& result, std::size_t motion) {

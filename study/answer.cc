@@ -1,11 +1,9 @@
 #include "corank/study/answer.h"
 
 #include <algorithm>
-#include <set>
 
 #include "corank/certify/kernel_bound.h"
 #include "corank/certify/reduction.h"
-#include "corank/result/domain_notes.h"
 #include "corank/result/motion_words.h"
 #include "corank/solve/corank_system.h"
 #include "corank/solve/exactness.h"
@@ -17,19 +15,6 @@ namespace {
 std::string kernel_of(const Question& question) {
   const symbolic::SetDefinition& set = symbolic::definition(question.set);
   return set.has_kernel() ? to_string(question.kernel.value_or(set.side)) : "";
-}
-
-void mark_auxiliary(const symbolic::Mechanism& mechanism, result::Result& result) {
-  std::set<std::string> names;
-  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
-    if (c.auxiliary) names.insert(c.name);
-  }
-  for (result::ResultVariable& v : result.variables)
-    v.auxiliary = names.contains(v.name) || v.kind == VariableKind::auxiliary;
-  for (const Angle& a : result.angles) {
-    for (const int v : {a.cosine, a.sine})
-      result.variables.at(static_cast<std::size_t>(v)).auxiliary = names.contains(a.name);
-  }
 }
 
 }  // namespace
@@ -86,9 +71,7 @@ result::Result answer(const Question& question, const System& system, const Opti
     solve::prove_decimals(system, options.digits, result.cover, governed);
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result::describe_system(system, result);
-  result::describe_domain(question.model, system, result);
-  result::describe_motions(question.model, system, result);
-  mark_auxiliary(question.model, result);
+  result::describe_in_words(question.model, system, result);
   const solve::Options& search = options.search;
   result.options = {kernel_of(question),          result.cover.sigma, system.kernel_scales,
                     system.coefficient_tolerance, search.threads,     search.max_boxes,

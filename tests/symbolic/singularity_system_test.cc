@@ -74,6 +74,23 @@ TEST(Derivation, GivesDextarsJacobianAndItsBlocks) {
                   {"-l2*cos(theta2)", "-l3*cos(theta3)", "0", "0"}}));
 }
 
+TEST(Derivation, KnowsTheRolesOfColumnsAndThePlacesOfRows) {
+  const Derivation d =
+      derive(model("x : [-1, 1]\ny : [-1, 1]\nz : [-1, 1]", "x^2 + y^2 = 1;\nx = z;", "[INPUTS] y\n[OUTPUTS] x"));
+  EXPECT_THAT(d.velocity.roles, ElementsAre(Role::output, Role::input, Role::passive));
+  ASSERT_EQ(d.velocity.where.size(), 2u);
+  EXPECT_EQ(d.velocity.where[1].line, d.velocity.where[0].line + 1);
+}
+
+TEST(SingularitySystem, SaysWhichEquationsAreOfTheKernel) {
+  for (const KernelSide side : {KernelSide::right, KernelSide::left}) {
+    const TrigonometricSystem s = singularity_system(reference("three_slider"), SingularitySet::forward, side, {}, 2);
+    for (const auto* list : {&s.equations, &s.inequalities})
+      for (const auto& e : *list)
+        EXPECT_EQ(e.of_kernel, e.relation.text().find("xi") != std::string::npos) << e.relation.text();
+  }
+}
+
 TEST(Derivation, GivesTheThreeSlidersJacobianAndItsBlocks) {
   const Derivation d = derive(reference("three_slider"));
   EXPECT_EQ(texts(d.velocity.matrix), (Rows{{"2*y_A", "0", "2*x_C"}, {"0", "2*y_B", "2*x_C"}}));
