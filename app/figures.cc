@@ -32,12 +32,11 @@ std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, con
 }
 
 Figures write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
-                      const std::vector<result::Result>& results, const std::atomic<bool>& stop) {
+                      const std::vector<report::SetView>& views, const std::atomic<bool>& stop) {
   ProgressLine line;
   std::vector<report::PictureSource> sources;
-  for (const result::Result& result : results) {
-    if (!result.cover.boxes.empty()) sources.push_back(report::picture_source(result, result.set));
-  }
+  for (const report::SetView& view : views)
+    if (!view.result.cover.boxes.empty()) sources.push_back(report::picture_source(view.result, view.result.set));
   Figures figures;
   for (const auto& [name, first] :
        {std::pair{"output-portrait", &mechanism.outputs()}, std::pair{"input-portrait", &mechanism.inputs()}}) {
@@ -67,7 +66,7 @@ Figures write_family_figures(const std::filesystem::path& folder, const std::vec
     if (stop) return {{}, true};
     line.show(fmt::format("figures: {} of {}", pictures.size(), members.size()));
     std::vector<report::PictureSource> sources;
-    for (const result::Result& result : member.results) sources.push_back(report::picture_source(result, result.set));
+    for (const report::SetView& view : member.sets) sources.push_back(report::picture_source(view.result, view.result.set));
     pictures.push_back(report::make_picture(sources, plane));
     titles.push_back(options.constant + " = " + member.value);
   }

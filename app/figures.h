@@ -28,7 +28,7 @@ struct Figures {
 /// Writes output-portrait and input-portrait, each as .svg and .pdf, into a folder that exists; nothing where there is no
 /// box or no plane. Where `stop` is set meanwhile, the figures that are left are left out.
 Figures write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
-                      const std::vector<result::Result>& results, const std::atomic<bool>& stop);
+                      const std::vector<report::SetView>& views, const std::atomic<bool>& stop);
 
 /// Writes the output portraits of a family, all with the same axes, as member-1.svg …, and side by side as family.svg; none
 /// where there is no box.

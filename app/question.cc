@@ -9,8 +9,7 @@ namespace corank::app {
 
 void QuestionOptions::add_options(CLI::App& command) {
   command.add_option("FILE", file, "The model file (.cuik)");
-  command.add_option("--set", set, "The set of a mechanism: cspace, forward, inverse or cspace-singular")
-      ->check(CLI::IsMember(kSets));
+  command.add_option("--set", set, "The set of a mechanism: " + symbolic::names_of_sets())->check(CLI::IsMember(kSets));
   command
       .add_option("--kernel", kernel,
                   "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
@@ -70,8 +69,7 @@ std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& questi
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no --set", question.file));
   }
   if (question.set.empty()) {
-    throw UsageError(
-        fmt::format("{} is a mechanism: --set is required (cspace, forward, inverse or cspace-singular)", question.file));
+    throw UsageError(fmt::format("{} is a mechanism: --set is required ({})", question.file, symbolic::names_of_sets()));
   }
   return symbolic::singularity_set_from_string(question.set);
 }

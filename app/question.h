@@ -11,7 +11,11 @@
 namespace corank::app {
 
 /// The sets of a mechanism, in the order in which a report has them.
-inline const std::vector<std::string> kSets = {"cspace", "forward", "inverse", "cspace-singular"};
+inline const std::vector<std::string> kSets = [] {
+  std::vector<std::string> names;
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions()) names.emplace_back(set.name);
+  return names;
+}();
 
 /// What the options say, not yet checked.
 struct QuestionOptions {

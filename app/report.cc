@@ -14,8 +14,6 @@
 #include "corank/app/set_search.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/page.h"
-#include "corank/report/page_words.h"
-#include "corank/result/domain_notes.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
@@ -39,81 +37,80 @@ struct ReportCommand {
   std::string folder;
 };
 
-result::Result solve_one(const ReportCommand& command, study::Question question, std::size_t index, std::uint64_t taken) {
+report::SetView solve_one(const ReportCommand& command, study::Question question, std::size_t index, std::uint64_t taken) {
   const std::vector<std::string>& sets = command.search.sets;
   question.set = symbolic::singularity_set_from_string(sets[index]);
-  if (question.set == symbolic::SingularitySet::cspace) question.corank = 1;  // it has no kernel
+  if (!symbolic::definition(question.set).has_kernel()) question.corank = 1;
   solve::Options limits;
   command.search.limits.apply(limits);
   solve::Control control(command.search.limits_beside(limits, taken));
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  const System system = study::system(question);
+  System system = study::system(question);
   control.ended();  // notes the stage
   stage.reset();
   study::Options options{command.search.options(system, *question.set), kDigits};
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
   line.follow(control);
-  return study::answer(question, system, options, control);
+  result::Result result = study::answer(question, system, options, control);
+  return report::set_view(std::move(result), std::move(system));
 }
 
-std::vector<result::Result> solve_all(const ReportCommand& command, const study::Question& question) {
-  std::vector<result::Result> results;
+std::vector<report::SetView> solve_all(const ReportCommand& command, const study::Question& question) {
+  std::vector<report::SetView> views;
   std::uint64_t taken = 0;
   // After an interrupt the searches left end at once, with all of their domain pending.
   for (std::size_t i = 0; i < command.search.sets.size(); ++i) {
-    results.push_back(solve_one(command, question, i, taken));
-    taken += solve::bytes_of(results.back().cover, solve::kPageBytes);
+    views.push_back(solve_one(command, question, i, taken));
+    taken += solve::bytes_of(views.back().result.cover, solve::kPageBytes);
   }
-  return results;
+  return views;
 }
 
 /// What a stranger's result says of its variables has to be so before a picture relies on it.
-void check_against_model(const result::Result& result, const std::string& path) {
-  const System system = result::system_of(result);
+report::SetView read_one(const std::string& path) {
+  result::Result result = result::read_result(path);
+  const symbolic::Mechanism mechanism = result::model_of(result);
+  System system = result::system_of(mechanism, result);
   const auto contradictions = result::contradictions(result, system, symbolic::to_cuik(system));
   if (!contradictions.empty())
     throw result::ResultFileError(fmt::format("{}: contradicts the model in it: {}", path, fmt::join(contradictions, "; ")));
+  result::describe_in_words(mechanism, system, result);
+  return report::set_view(std::move(result), std::move(system));
 }
 
-/// Reads results of one model, and brings them and their paths into the order of kSets.
-std::vector<result::Result> read_all(std::vector<std::string>& paths) {
-  std::map<std::ptrdiff_t, std::pair<std::string, result::Result>> by_set;
+/// Reads results of one model, and brings them and their paths into the order of the sets' definitions.
+std::vector<report::SetView> read_all(std::vector<std::string>& paths) {
+  std::map<const symbolic::SetDefinition*, std::pair<std::string, report::SetView>> by_set;
   for (const std::string& path : paths) {
-    result::Result result = result::read_result(path);
-    check_against_model(result, path);
-    const auto place = std::find(kSets.begin(), kSets.end(), result.set) - kSets.begin();
-    const auto [other, added] = by_set.try_emplace(place, path, result);
-    const auto& [first_path, first] = by_set.begin()->second;
+    report::SetView view = read_one(path);
+    const auto [place, added] = by_set.try_emplace(view.set, path, std::move(view));
     if (!added) {
-      throw result::ResultFileError(fmt::format("{}: holds the set {}, as {} does", path, result.set, other->second.first));
+      const auto& [other, of_set] = place->second;
+      throw result::ResultFileError(fmt::format("{}: holds the set {}, as {} does", path, of_set.result.set, other));
     }
-    if (result.model_text != first.model_text || result.options.constants != first.options.constants) {
+    const auto& [first_path, first] = by_set.begin()->second;
+    const result::Result &a = place->second.second.result, &b = first.result;
+    if (a.model_text != b.model_text || a.options.constants != b.options.constants)
       throw result::ResultFileError(fmt::format("{} and {} are of two models, or with other constants", path, first_path));
-    }
   }
-  std::vector<result::Result> results;
+  std::vector<report::SetView> views;
   paths.clear();
-  for (auto& [place, entry] : by_set) {
+  for (auto& [set, entry] : by_set) {
     paths.push_back(entry.first);
-    results.push_back(std::move(entry.second));
+    views.push_back(std::move(entry.second));
   }
-  return results;
+  return views;
 }
 
 ExitStatus write_report(ReportCommand command) {
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results take the place of FILE: their model is in them");
   command.search.validate();
-  std::vector<result::Result> results;
-  if (!command.results.empty()) results = read_all(command.results);
+  std::vector<report::SetView> views;
+  if (!command.results.empty()) views = read_all(command.results);
   const study::Question question =
-      results.empty() ? load(command.question) : study::Question{.model = result::model_of(results.front())};
+      views.empty() ? load(command.question) : study::Question{.model = result::model_of(views.front().result)};
   const symbolic::Mechanism& mechanism = question.model;
-  for (result::Result& result : results) {
-    const System system = result::system_of(result);
-    result::describe_domain(mechanism, system, result);
-    result::describe_motions(mechanism, system, result);
-  }
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
   make_folder(folder / "figures");
@@ -121,11 +118,11 @@ ExitStatus write_report(ReportCommand command) {
 
   const Interrupt interrupt;
   report::PageOptions options;
-  if (results.empty()) {
-    results = solve_all(command, question);
+  if (views.empty()) {
+    views = solve_all(command, question);
     options.command = command.search.command_line("report", command.question);
     ProgressLine line;
-    for (const result::Result& result : results) {
+    for (const auto& [result, set, system, components, words] : views) {
       line.show("writing " + result.set + ".h5");
       options.files.push_back(result.set + ".h5");
       result::write_result(folder / options.files.back(), result);
@@ -134,22 +131,22 @@ ExitStatus write_report(ReportCommand command) {
     options.command = "corank report --results " + fmt::format("{}", fmt::join(command.results, " "));
     for (const std::string& path : command.results) options.files.push_back(std::filesystem::path(path).filename().string());
   }
-  const Figures figures = write_figures(folder / "figures", mechanism, results, Interrupt::stop());
+  const Figures figures = write_figures(folder / "figures", mechanism, views, Interrupt::stop());
   for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
   {
     ProgressLine line;
     line.show("page");
-    result::write_text(folder / "index.html", report_page(mechanism, results, options));
+    result::write_text(folder / "index.html", report_page(mechanism, views, options));
   }
 
   bool complete = !figures.stopped;
-  for (const result::Result& result : results) {
+  for (const auto& [result, set, system, components, words] : views) {
     complete = complete && result.cover.complete() && result.stopped.empty();
-    fmt::print("{}: {}\n", report::set_title(result), report::set_words(result, report::components(result)).finding);
+    fmt::print("{}: {}\n", words.title, words.finding);
   }
   fmt::print("{}\n", result::printable_line((folder / "index.html").string()));
   if (complete) return kDone;
-  for (const result::Result& result : results)
+  for (const auto& [result, set, system, components, words] : views)
     if (!result.cover.complete() || !result.stopped.empty())
       fmt::print(stderr, "corank: {}: {}\n", result.set, study::stopped_words(result));
   if (figures.stopped) fmt::print(stderr, "corank: stopped by an interrupt, in the stage figures\n");

@@ -45,7 +45,7 @@ solve::Control::Limits SetSearch::limits_beside(const solve::Options& options, s
 
 solve::Options SetSearch::options_of(SingularitySet set) const {
   solve::Options options;
-  options.sigma = set == SingularitySet::cspace ? cspace_sigma : sigma;
+  options.sigma = symbolic::definition(set).is_cspace() ? cspace_sigma : sigma;
   options.coarser = coarser;
   limits.apply(options);
   options.proof = proof;

@@ -55,8 +55,8 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
   return plans;
 }
 
-result::Result solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task,
-                         std::uint64_t taken) {
+report::SetView solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task,
+                          std::uint64_t taken) {
   study::Question question = plan.question;
   question.set = symbolic::singularity_set_from_string(command.search.sets[set_index]);
   const System& system = plan.systems[set_index];
@@ -65,7 +65,7 @@ result::Result solve_one(const SweepCommand& command, const Plan& plan, std::siz
   line.show(task);  // searches may be too short to tell more
   solve::Control control(command.search.limits_beside(options.search, taken));
   line.follow(control);
-  return study::answer(question, system, options, control);
+  return report::set_view(study::answer(question, system, options, control), system);
 }
 
 /// "member-03-forward.h5": members from 1, with as many digits as the last one needs.
@@ -82,13 +82,14 @@ std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const s
   for (std::size_t k = 0; k < plans.size() && !Interrupt::stop(); ++k) {
     report::FamilyMember member{plans[k].value, plans[k].question.model, {}, {}};
     for (std::size_t s = 0; s < command.search.sets.size(); ++s) {
-      member.results.push_back(solve_one(
+      member.sets.push_back(solve_one(
           command, plans[k], s,
           fmt::format("{} = {} ({} of {}), {}", constant, plans[k].value, k + 1, plans.size(), command.search.sets[s]),
           taken));
-      taken += solve::bytes_of(member.results.back().cover, solve::kPageBytes);
+      const result::Result& result = member.sets.back().result;
+      taken += solve::bytes_of(result.cover, solve::kPageBytes);
       member.files.push_back(file_name(k, plans.size(), "-" + command.search.sets[s] + ".h5"));
-      result::write_result(std::filesystem::path(command.folder) / member.files.back(), member.results.back());
+      result::write_result(std::filesystem::path(command.folder) / member.files.back(), result);
     }
     members.push_back(std::move(member));
   }
@@ -123,13 +124,12 @@ ExitStatus write_sweep(SweepCommand command) {
 
   bool complete = members.size() == plans.size() && !figures.stopped;
   for (const report::FamilyMember& member : members) {
-    for (const result::Result& result : member.results) {
+    for (const auto& [result, set, system, components, words] : member.sets) {
       if (!result.stopped.empty())
         fmt::print(stderr, "corank: {} = {}, {}: {}\n", family.constant, member.value, result.set,
                    study::stopped_words(result));
       complete = complete && result.cover.complete() && result.stopped.empty();
-      fmt::print("{} = {}, {}: {}\n", family.constant, member.value, report::set_title(result),
-                 report::set_words(result, report::components(result)).finding);
+      fmt::print("{} = {}, {}: {}\n", family.constant, member.value, words.title, words.finding);
     }
   }
   fmt::print("{}\n", (folder / "index.html").string());

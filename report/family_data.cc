@@ -36,17 +36,14 @@ Json coordinates(const symbolic::Mechanism& mechanism, const std::array<std::str
   return list;
 }
 
-Json set_of(const result::Result& result, const std::array<std::string, 2>& axes) {
+Json set_of(const SetView& view, const std::array<std::string, 2>& axes) {
+  const result::Result& result = view.result;
   const std::vector<int> variables = plane_variables(result, axes);
   Json names = Json::array();
   for (const int v : variables) names.push_back(result.variables[static_cast<std::size_t>(v)].name);
-  return {{"name", result.set},
-          {"dimension", result.cover.dimension},
-          {"sigma", result.cover.sigma.largest()},
-          {"complete", result.cover.complete()},
-          {"count", result.cover.boxes.size()},
-          {"variables", names},
-          {"configuration", names.size()}};
+  Json set = Json::parse(set_description(view));
+  set.update({{"variables", names}, {"configuration", names.size()}});
+  return set;
 }
 
 }  // namespace
@@ -77,7 +74,7 @@ std::string family_model(const std::vector<FamilyMember>& members, const FamilyO
   for (int v = 0; v < kVerdicts; ++v) verdicts.push_back(to_string(static_cast<Verdict>(v)));
   for (const FamilyMember& member : members) {
     Json sets = Json::array();
-    for (const result::Result& result : member.results) sets.push_back(set_of(result, options.axes));
+    for (const SetView& view : member.sets) sets.push_back(set_of(view, options.axes));
     list.push_back(
         {{"text", member.value}, {"value", constant_values(member.mechanism).at(options.constant)}, {"sets", sets}});
   }

@@ -48,11 +48,12 @@ struct Columns {
 
 std::vector<Columns> columns_of(const std::vector<FamilyMember>& members) {
   std::vector<Columns> all;
-  for (std::size_t s = 0; s < members.front().results.size(); ++s) {
+  for (std::size_t s = 0; s < members.front().sets.size(); ++s) {
     all.push_back({s, {}});
     for (int v = 0; v < kVerdicts; ++v) {
       const auto verdict = static_cast<Verdict>(v);
-      if (std::any_of(members.begin(), members.end(), [&](const auto& m) { return m.results[s].cover.count(verdict) > 0; }))
+      if (std::any_of(members.begin(), members.end(),
+                      [&](const auto& m) { return m.sets[s].result.cover.count(verdict) > 0; }))
         all.back().verdicts.push_back(verdict);
     }
   }
@@ -69,8 +70,9 @@ mustache::data heads(const std::vector<Columns>& all, const FamilyMember& member
   mustache::data groups = list();
   for (const Columns& columns : all) {
     mustache::data group, names = list();
-    group["name"] = member.results[columns.set].set;
-    group["title"] = set_title(member.results[columns.set]);
+    const SetView& view = member.sets[columns.set];
+    group["name"] = view.set->name;
+    group["title"] = view.words.title;
     group["width"] = std::to_string(columns.verdicts.size() + 2);
     names << cell("head", "components", true) << cell("head", "boxes", false);
     for (const Verdict verdict : columns.verdicts) names << cell("head", std::string(to_string(verdict)), false);
@@ -83,19 +85,20 @@ mustache::data heads(const std::vector<Columns>& all, const FamilyMember& member
 mustache::data counts(const std::vector<Columns>& all, const FamilyMember& member) {
   mustache::data cells = list();
   for (const Columns& columns : all) {
-    const result::Result& result = member.results[columns.set];
-    cells << cell("count", grouped(static_cast<std::uint64_t>(components(result).count)), true)
-          << cell("count", grouped(result.cover.boxes.size()), false);
-    for (const Verdict verdict : columns.verdicts) cells << cell("count", grouped(result.cover.count(verdict)), false);
+    const SetView& view = member.sets[columns.set];
+    const Cover& cover = view.result.cover;
+    cells << cell("count", grouped(static_cast<std::uint64_t>(view.components.count)), true)
+          << cell("count", grouped(cover.boxes.size()), false);
+    for (const Verdict verdict : columns.verdicts) cells << cell("count", grouped(cover.count(verdict)), false);
   }
   return cells;
 }
 
 mustache::data run_row(const FamilyMember& member, std::size_t set, const std::string& constant) {
-  const result::Result& result = member.results[set];
+  const result::Result& result = member.sets[set].result;
   mustache::data row;
   row["valueHtml"] = value_html(member, constant);
-  row["title"] = set_title(result);
+  row["title"] = member.sets[set].words.title;
   row["sigma"] = fmt::format("{:g}", result.cover.sigma.largest());
   row["boxes"] = grouped(result.cover.boxes.size());
   row["processed"] = grouped(result.cover.statistics.processed);
@@ -107,7 +110,7 @@ mustache::data run_row(const FamilyMember& member, std::size_t set, const std::s
 mustache::data entry(const FamilyMember& member, std::size_t index, const std::vector<Columns>& columns,
                      const std::string& constant) {
   mustache::data data, cards = list();
-  for (const result::Result& result : member.results) cards << mustache::data{"card", card_html(result)};
+  for (const SetView& view : member.sets) cards << mustache::data{"card", card_html(view)};
   data["index"] = std::to_string(index);
   data["value"] = member.value;
   data["valueHtml"] = value_html(member, constant);
@@ -119,10 +122,10 @@ mustache::data entry(const FamilyMember& member, std::size_t index, const std::v
 }
 
 void check_sets(const std::vector<FamilyMember>& members) {
-  const auto same = [](const result::Result& a, const result::Result& b) { return a.set == b.set; };
+  const auto same = [](const SetView& a, const SetView& b) { return a.set == b.set; };
   for (const FamilyMember& member : members) {
-    const auto& first = members.front().results;
-    if (!std::equal(first.begin(), first.end(), member.results.begin(), member.results.end(), same))
+    const auto& first = members.front().sets;
+    if (!std::equal(first.begin(), first.end(), member.sets.begin(), member.sets.end(), same))
       throw std::invalid_argument("the members of a family have different sets");
   }
 }
@@ -141,8 +144,8 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
   for (std::size_t m = 0; m < members.size(); ++m) {
     entries << entry(members[m], m, columns, options.constant);
     values += (m > 0 ? ", " : "") + value_html(members[m], options.constant);
-    for (std::size_t s = 0; s < members[m].results.size(); ++s) {
-      const result::Result& result = members[m].results[s];
+    for (std::size_t s = 0; s < members[m].sets.size(); ++s) {
+      const result::Result& result = members[m].sets[s].result;
       mustache::data payload;
       payload["id"] = family_set_id(m, result.set);
       payload["boxes"] = box_payload(result, plane_variables(result, options.axes));
@@ -152,10 +155,10 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
       complete = complete && result.cover.complete();
     }
   }
-  for (const result::Result& result : first.results) {
+  for (const SetView& view : first.sets) {
     mustache::data set;
-    set["name"] = result.set;
-    set["title"] = set_title(result);
+    set["name"] = view.set->name;
+    set["title"] = view.words.title;
     sets << set;
   }
   for (const std::string& figure : options.figures) figures << mustache::data{"figure", figure};
@@ -191,7 +194,7 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
   page.set("figures", figures);
   page.set("hasFigures", truth(!options.figures.empty()));
   page["modelText"] = mechanism.source_text();
-  page["style"] = std::string(kPageStyle);
+  page["style"] = std::string(kPageStyle) + set_style();
   page["familyStyle"] = std::string(kFamilyStyle);
   page["data"] = family_model(members, options);
   page.set("payloads", payloads);

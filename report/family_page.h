@@ -10,16 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "corank/result/result.h"
+#include "corank/report/set_view.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
 
 struct FamilyMember {
-  std::string value;                    ///< of the constant, in the model language
-  symbolic::Mechanism mechanism;        ///< with that value
-  std::vector<result::Result> results;  ///< of the same sets in the same order for every member
-  std::vector<std::string> files;       ///< of the results; shown and linked
+  std::string value;               ///< of the constant, in the model language
+  symbolic::Mechanism mechanism;   ///< with that value
+  std::vector<SetView> sets;       ///< the same ones in the same order for every member
+  std::vector<std::string> files;  ///< of the results; shown and linked
 };
 
 struct FamilyOptions {

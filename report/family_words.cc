@@ -18,8 +18,8 @@ struct Totals {
 Totals totals_of(const std::vector<FamilyMember>& members) {
   Totals t;
   for (const FamilyMember& member : members) {
-    for (const result::Result& result : member.results) {
-      const Cover& cover = result.cover;
+    for (const SetView& view : member.sets) {
+      const Cover& cover = view.result.cover;
       ++t.covers;
       t.complete += cover.complete() ? 1 : 0;
       t.boxes += cover.boxes.size();
@@ -36,8 +36,8 @@ Totals totals_of(const std::vector<FamilyMember>& members) {
 }
 
 bool has_surface(const FamilyMember& member) {
-  return std::any_of(member.results.begin(), member.results.end(),
-                     [](const result::Result& r) { return r.set == "cspace" && r.cover.dimension > 1; });
+  return std::any_of(member.sets.begin(), member.sets.end(),
+                     [](const SetView& view) { return view.set->is_cspace() && view.result.cover.dimension > 1; });
 }
 
 }  // namespace

@@ -24,18 +24,19 @@ mustache::data truth(bool value) {
   return mustache::data{value ? mustache::data::type::bool_true : mustache::data::type::bool_false};
 }
 
-mustache::data set_entry(const result::Result& result) {
+mustache::data set_entry(const SetView& view) {
   mustache::data entry;
-  entry["name"] = result.set;
-  entry["title"] = set_title(result);
-  entry["card"] = card_html(result);
+  entry["name"] = view.set->name;
+  entry["title"] = view.words.title;
+  entry["card"] = card_html(view);
   return entry;
 }
 
-mustache::data run_row(const result::Result& result, const std::string& file) {
+mustache::data run_row(const SetView& view, const std::string& file) {
+  const result::Result& result = view.result;
   const Statistics& s = result.cover.statistics;
   mustache::data row;
-  row["title"] = set_title(result);
+  row["title"] = view.words.title;
   row["sigma"] = fmt::format("{:g}", result.cover.sigma.largest());
   row["kernel"] = result.options.kernel.empty() ? "–" : result.options.kernel;
   row["variables"] = std::to_string(result.variables.size());
@@ -74,11 +75,12 @@ std::string chosen_html(const std::vector<std::string>& names, std::size_t ties)
 }
 
 /// Ranges that the model leaves out: "<i>x</i> in [−0.41, 1.76]".
-std::string found_html(const std::vector<result::Result>& results) {
+std::string found_html(const std::vector<SetView>& views) {
   std::string html;
-  if (results.empty()) return html;
-  for (const int j : results.front().domain.found) {
-    const result::ResultVariable& v = results.front().variables[static_cast<std::size_t>(j)];
+  if (views.empty()) return html;
+  const result::Result& first = views.front().result;
+  for (const int j : first.domain.found) {
+    const result::ResultVariable& v = first.variables[static_cast<std::size_t>(j)];
     html += fmt::format("{}{} in {}", html.empty() ? "" : ", ", symbolic::html_name(v.name),
                         with_minus(fmt::format("[{:.6g}, {:.6g}]", v.domain.lo(), v.domain.hi())));
   }
@@ -86,17 +88,17 @@ std::string found_html(const std::vector<result::Result>& results) {
 }
 
 /// The constants that were given with -D.
-std::string overridden_html(const std::vector<result::Result>& results) {
+std::string overridden_html(const std::vector<SetView>& views) {
   std::string html;
-  if (results.empty()) return html;
-  for (const result::ConstantOverride& c : results.front().options.constants)
+  if (views.empty()) return html;
+  for (const result::ConstantOverride& c : views.front().result.options.constants)
     html += (html.empty() ? "" : ", ") + constant_html(c.name, symbolic::parse_expression(c.expression, "-D " + c.name));
   return html;
 }
 
 }  // namespace
 
-std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results,
+std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<SetView>& views,
                         const PageOptions& options) {
   if (mechanism.is_plain_system()) {
     throw symbolic::ModelError({mechanism.name(), 0, 0}, "the model names no inputs and outputs",
@@ -105,28 +107,28 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   const symbolic::Derivation derivation = derive(mechanism);
   mustache::data cards{mustache::data::type::list}, runs{mustache::data::type::list}, payloads{mustache::data::type::list};
   bool complete = true;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    cards << set_entry(results[i]);
-    runs << run_row(results[i], i < options.files.size() ? options.files[i] : "");
-    payloads << payload(results[i]);
-    complete = complete && results[i].cover.complete();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    cards << set_entry(views[i]);
+    runs << run_row(views[i], i < options.files.size() ? options.files[i] : "");
+    payloads << payload(views[i].result);
+    complete = complete && views[i].result.cover.complete();
   }
   mustache::data page;
   page["model"] = mechanism.name();
-  page["style"] = std::string(kPageStyle);
+  page["style"] = std::string(kPageStyle) + set_style();
   page["script"] = std::string(kPageScript);
   page["three"] = std::string(kThree);
-  page["data"] = page_model(mechanism, results);
-  page["inputs"] = chosen_html(mechanism.inputs(), derivation.input_ties.size());
-  page["outputs"] = chosen_html(mechanism.outputs(), derivation.output_ties.size());
-  const std::string found = found_html(results);
+  page["data"] = page_model(mechanism, derivation, views);
+  page["inputs"] = chosen_html(mechanism.inputs(), derivation.velocity.ties(std::array{symbolic::Role::input}).size());
+  page["outputs"] = chosen_html(mechanism.outputs(), derivation.velocity.ties(std::array{symbolic::Role::output}).size());
+  const std::string found = found_html(views);
   page["found"] = found;
   page.set("hasFound", truth(!found.empty()));
   page["coordinates"] = std::to_string(mechanism.coordinates().size());
   page["constraints"] = std::to_string(derivation.phi.size());
   page["mobility"] = std::to_string(mechanism.coordinates().size() - derivation.phi.size());
   page["constants"] = constants_html(mechanism);
-  const std::string changed = overridden_html(results);
+  const std::string changed = overridden_html(views);
   page["overridden"] = changed;
   page.set("hasOverrides", truth(!changed.empty()));
   const std::string cut = fixed_html(mechanism);
@@ -135,8 +137,8 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["unit"] = mechanism.drawing().unit;
   page.set("hasUnit", truth(!mechanism.drawing().unit.empty()));
   page.set("sets", cards);
-  page["points"] = points_html(results);
-  page["derivation"] = derivation_html(mechanism, results);
+  page["points"] = points_html(views);
+  page["derivation"] = derivation_html(mechanism, derivation, views);
   page.set("runs", runs);
   page.set("payloads", payloads);
   page["command"] = options.command;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/result/result.h"
+#include "corank/report/set_view.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
@@ -16,9 +16,8 @@ struct PageOptions {
   std::vector<std::string> files;    ///< of the results, in their order; shown and linked. May be empty
 };
 
-/// Throws ResultFileError where a result is none of this mechanism's sets, ModelError where the mechanism has no
-/// singularities to speak of (a plain system).
-std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results,
+/// Of a mechanism and sets of it. Throws ModelError where it has no singularities to speak of (a plain system).
+std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<SetView>& views,
                         const PageOptions& options = {});
 
 }  // namespace corank::report

@@ -21,10 +21,10 @@ mustache::data sentences(const std::vector<std::string>& list) {
 
 }  // namespace
 
-std::string card_html(const result::Result& result) {
-  const SetWords words = set_words(result, components(result));
+std::string card_html(const SetView& view) {
+  const SetWords& words = view.words;
   mustache::data card;
-  card["name"] = result.set;
+  card["name"] = view.set->name;
   card["title"] = words.title;
   card["meaning"] = words.meaning;
   card["finding"] = words.finding;
@@ -37,7 +37,7 @@ std::string card_html(const result::Result& result) {
     mustache::data part;
     part["verdict"] = std::string(to_string(share.verdict));
     part["count"] = grouped(share.count);
-    part["percent"] = percentage(share.count, result.cover.boxes.size());
+    part["percent"] = percentage(share.count, view.result.cover.boxes.size());
     part["grow"] = fmt::format("{:.6f}", share.share);
     bar << part;
   }

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "corank/result/result.h"
+#include "corank/report/set_view.h"
 
 namespace corank::report {
 
 /// An HTML fragment.
-std::string card_html(const result::Result& result);
+std::string card_html(const SetView& view);
 
 }  // namespace corank::report

@@ -1,5 +1,7 @@
 #include "corank/report/page_data.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -7,10 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "corank/report/components.h"
 #include "corank/report/drawing_tree.h"
-#include "corank/result/hdf5_file.h"
-#include "corank/result/verification.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/singularity_system.h"
@@ -19,15 +18,12 @@ namespace corank::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using symbolic::SingularitySet;
 
 static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
 
 std::string_view role(const symbolic::Mechanism& mechanism, const symbolic::Coordinate& c) {
-  const auto has = [&c](const std::vector<std::string>& names) {
-    return std::find(names.begin(), names.end(), c.name) != names.end();
-  };
-  return has(mechanism.inputs()) ? "input" : has(mechanism.outputs()) ? "output" : c.auxiliary ? "auxiliary" : "passive";
+  const symbolic::Role role = role_of(mechanism, c.name);
+  return role == symbolic::Role::passive && c.auxiliary ? "auxiliary" : to_string(role);
 }
 
 Json coordinates(const symbolic::Mechanism& mechanism, const System& system) {
@@ -89,22 +85,6 @@ Json polynomials(const std::vector<Polynomial>& list) {
   return json;
 }
 
-System solved_system(const symbolic::Mechanism& mechanism, const result::Result& result) {
-  if (!symbolic::singularity_set_from_string(result.set))
-    throw result::ResultFileError("the result's set '" + result.set + "' is no set of a mechanism");
-  System system;
-  try {
-    system = result::system_of(mechanism, result);
-  } catch (const symbolic::ModelError& error) {  // scales that are none of this model
-    throw result::ResultFileError(std::string("the result's system: ") + error.what());
-  }
-  const auto same = [](const Variable& a, const result::ResultVariable& b) { return a.name == b.name; };
-  if (!std::equal(system.variables.begin(), system.variables.end(), result.variables.begin(), result.variables.end(), same))
-    throw result::ResultFileError("the result of the set '" + result.set + "' has other variables than the model " +
-                                  mechanism.name());
-  return system;
-}
-
 /// What each component of ξ is multiplied by to be a rate.
 Json kernel_scales(const result::Result& result, std::size_t columns) {
   Json scales = Json::array();
@@ -116,12 +96,11 @@ Json kernel_scales(const result::Result& result, std::size_t columns) {
 }
 
 /// The coordinates that the components of ξ belong to, where ξ is a velocity (M ξ = 0).
-Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
-                    const result::Result& result) {
+Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
   Json columns = Json::array();
-  if (result.options.kernel != "right") return columns;
-  const symbolic::ExpressionMatrix& matrix = result.set == "forward" ? derivation.l_y : derivation.l_z;
-  for (const std::string& name : matrix.columns) columns.push_back(mechanism.find_coordinate(name));
+  if (view.result.options.kernel != to_string(symbolic::KernelSide::right)) return columns;
+  for (const std::string& name : derivation.velocity.without(view.set->locked).columns)
+    columns.push_back(mechanism.find_coordinate(name));
   return columns;
 }
 
@@ -135,26 +114,23 @@ Json points(const result::Result& result) {
   return list;
 }
 
-Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const result::Result& result) {
-  const System system = solved_system(mechanism, result);
+Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
+  const result::Result& result = view.result;
   Json names = Json::array(), domains = Json::array();
   for (const result::ResultVariable& v : result.variables) {
     names.push_back(v.name);
     domains.push_back({v.domain.lo(), v.domain.hi()});
   }
-  const Json columns = kernel_columns(mechanism, derivation, result);
-  return {{"name", result.set},
-          {"dimension", result.cover.dimension},
-          {"sigma", result.cover.sigma.largest()},
-          {"complete", result.cover.complete()},
-          {"count", result.cover.boxes.size()},
-          {"variables", names},
-          {"domains", domains},
-          {"configuration", result.configuration_size},
-          {"columns", columns},
-          {"scales", kernel_scales(result, columns.size())},
-          {"equations", polynomials(system.equations)},
-          {"points", points(result)}};
+  const Json columns = kernel_columns(mechanism, derivation, view);
+  Json set = Json::parse(set_description(view));
+  set.update({{"variables", names},
+              {"domains", domains},
+              {"configuration", result.configuration_size},
+              {"columns", columns},
+              {"scales", kernel_scales(result, columns.size())},
+              {"equations", polynomials(view.system.equations)},
+              {"points", points(result)}});
+  return set;
 }
 
 }  // namespace
@@ -209,12 +185,42 @@ std::string verdict_payload(const result::Result& result) {
   return base64(bytes);
 }
 
-std::string page_model(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results) {
-  const System cspace = algebrize(singularity_system(mechanism, SingularitySet::cspace));
-  const symbolic::Derivation derivation = derive(mechanism);
+std::string set_description(const SetView& view) {
+  Json locked = Json::array();
+  for (const symbolic::Role role : view.set->locked) locked.push_back(to_string(role));
+  const Cover& cover = view.result.cover;
+  return Json{{"name", view.set->name},
+              {"title", view.set->member},
+              {"singular", view.set->has_kernel()},
+              {"locked", locked},
+              {"layer", view.set->layer},
+              {"dot", view.set->dot},
+              {"dimension", cover.dimension},
+              {"sigma", cover.sigma.largest()},
+              {"complete", cover.complete()},
+              {"count", cover.boxes.size()}}
+      .dump();
+}
+
+std::string set_style() {
+  std::string light, dark, classes;
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions()) {
+    light += fmt::format("--set-{}: {}; ", set.name, set.on_light);
+    dark += fmt::format("--set-{}: {}; ", set.name, set.on_dark);
+    // C-space is seen through.
+    classes +=
+        fmt::format(".{0} {{ --set: var(--set-{0}); --swatch: color-mix(in srgb, var(--set-{0}) {1}%, transparent); }}\n",
+                    set.name, set.is_cspace() ? 45 : 100);
+  }
+  return fmt::format(":root {{ {}}}\n:root[data-theme=\"dark\"] {{ {}}}\n{}", light, dark, classes);
+}
+
+std::string page_model(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
+                       const std::vector<SetView>& views) {
+  const System cspace = algebrize(singularity_system(mechanism, symbolic::SingularitySet::cspace));
   Json verdicts = Json::array(), sets = Json::array();
   for (int v = 0; v < kVerdicts; ++v) verdicts.push_back(to_string(static_cast<Verdict>(v)));
-  for (const result::Result& result : results) sets.push_back(set_of(mechanism, derivation, result));
+  for (const SetView& view : views) sets.push_back(set_of(mechanism, derivation, view));
   const Json model = {{"model", mechanism.name()},
                       {"verdicts", verdicts},
                       {"coordinates", coordinates(mechanism, cspace)},

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "corank/report/set_view.h"
 #include "corank/result/result.h"
-#include "corank/symbolic/mechanism.h"
+#include "corank/symbolic/velocity_equation.h"
 
 namespace corank::report {
 
@@ -31,8 +32,14 @@ std::string box_payload(const result::Result& result, std::span<const int> varia
 /// A byte for each box: the index of its verdict in Verdict.
 std::string verdict_payload(const result::Result& result);
 
-/// The coordinates, the drawing and, for each result, its set with variables, equations and points: one JSON object. Throws
-/// ResultFileError where a result is none of this mechanism: its variables differ from those of the mechanism's set.
-std::string page_model(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results);
+/// A JSON object of what every page says of a set: "name", "title" of one member, is it "singular", whose rates are
+/// "locked", "layer" and "dot" (SetDefinition), "dimension", "sigma", "complete", "count" of boxes.
+std::string set_description(const SetView& view);
+/// CSS: --set-NAME, a set's colour; for elements of the class NAME it is --set, and --swatch that of a small area.
+std::string set_style();
+
+/// The coordinates, the drawing and each set with its variables, equations and points: one JSON object.
+std::string page_model(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
+                       const std::vector<SetView>& views);
 
 }  // namespace corank::report

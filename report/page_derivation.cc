@@ -37,11 +37,18 @@ std::string matrix_html(const std::string& base, const std::string& subscript, c
       columns.empty() ? "none" : columns, math(symbol(base, subscript) + "<mo>=</mo>" + mathml(matrix)));
 }
 
-std::string system_html(const symbolic::Mechanism& mechanism, const result::Result& result) {
-  const auto set = symbolic::singularity_set_from_string(result.set);
-  const symbolic::TrigonometricSystem system =
-      singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
-                         result.options.kernel_scales, result.options.corank);
+symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
+                                           const SetView& view) {
+  if (!view.set->has_kernel()) return singularity_system(mechanism, view.set->set.value());
+  const result::RunOptions& options = view.result.options;
+  return singularity_system(
+      mechanism,
+      kernel_question(mechanism, derivation.velocity, *view.set->set, symbolic::kernel_side_from_string(options.kernel)),
+      options.kernel_scales, options.corank);
+}
+
+std::string system_html(const symbolic::TrigonometricSystem& system, const SetView& view) {
+  const std::string& kernel = view.result.options.kernel;
   std::vector<std::string> equations, sources;
   for (const auto* list : {&system.equations, &system.inequalities}) {
     for (const auto& equation : *list) {
@@ -50,27 +57,30 @@ std::string system_html(const symbolic::Mechanism& mechanism, const result::Resu
     }
   }
   return fmt::format("<details><summary>{}: {} equation{}{}</summary><div class=\"scroll\">{}</div></details>",
-                     set_title(result), system.equations.size(), system.equations.size() == 1 ? "" : "s",
-                     result.options.kernel.empty() ? "" : ", " + symbolic::html_text(result.options.kernel) + " kernel",
-                     numbered(equations, sources));
+                     view.words.title, system.equations.size(), system.equations.size() == 1 ? "" : "s",
+                     kernel.empty() ? "" : ", " + symbolic::html_text(kernel) + " kernel", numbered(equations, sources));
 }
 
 }  // namespace
 
-std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results) {
-  const symbolic::Derivation derivation = derive(mechanism);
+std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
+                            const std::vector<SetView>& views) {
   std::string html = "<h3>Assembly constraints " +
                      math("<mi mathvariant=\"normal\">Φ</mi><mo>(</mo><mi>q</mi><mo>)</mo><mo>=</mo><mn>0</mn>") + "</h3>";
   std::vector<std::string> phi;
   for (const symbolic::Expression& e : derivation.phi) phi.push_back(mathml(e == symbolic::Expression(0)));
   html += "<div class=\"scroll\">" + numbered(phi, {}) + "</div><h3>Jacobian blocks</h3>";
-  html += matrix_html("Φ", "q", "all coordinates", derivation.phi_q);
-  html += matrix_html("L", "y", "without the inputs; rank deficient at forward singularities", derivation.l_y);
-  html += matrix_html("L", "z", "without the outputs; rank deficient at inverse singularities", derivation.l_z);
+  html += matrix_html("Φ", "q", "all coordinates", derivation.velocity.matrix);
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions())
+    if (!set.locked.empty())
+      html += matrix_html(
+          "L", set.matrix + 2,
+          fmt::format("without the {}s; rank deficient at {} singularities", to_string(set.locked.front()), set.name),
+          derivation.velocity.without(set.locked));
   html +=
       "<h3>Systems solved</h3><p>Cosines and sines of angles are variables of their own in the search, with their circle as "
       "an equation.</p>";
-  for (const result::Result& result : results) html += system_html(mechanism, result);
+  for (const SetView& view : views) html += system_html(equations_of(mechanism, derivation, view), view);
   return html;
 }
 

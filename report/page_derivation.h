@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "corank/result/result.h"
-#include "corank/symbolic/mechanism.h"
+#include "corank/report/set_view.h"
+#include "corank/symbolic/velocity_equation.h"
 
 namespace corank::report {
 
-/// An HTML fragment; the systems of the results' sets, each folded away.
-std::string derivation_html(const symbolic::Mechanism& mechanism, const std::vector<result::Result>& results);
+/// An HTML fragment; the systems of the sets, each folded away.
+std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
+                            const std::vector<SetView>& views);
 
 }  // namespace corank::report

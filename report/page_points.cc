@@ -99,10 +99,10 @@ std::string kernel_points_html(const result::Result& result, const std::vector<C
       head, rows);
 }
 
-std::string table_html(const result::Result& result) {
+std::string table_html(const SetView& view) {
+  const result::Result& result = view.result;
   const std::vector<Column> shown = columns(result);
-  std::string html = fmt::format("<section class=\"points\" data-set=\"{}\"><h3>{}</h3>", symbolic::html_text(result.set),
-                                 set_title(result));
+  std::string html = fmt::format("<section class=\"points\" data-set=\"{}\"><h3>{}</h3>", view.set->name, view.words.title);
   if (!result.cover.points.empty()) {
     html += "<div class=\"scroll\"><table><thead><tr><th>point</th>";
     for (const Column& column : shown) html += "<th>" + symbolic::html_name(column.name) + "</th>";
@@ -122,13 +122,14 @@ std::string table_html(const result::Result& result) {
 
 }  // namespace
 
-std::string points_html(const std::vector<result::Result>& results) {
+std::string points_html(const std::vector<SetView>& views) {
   std::string html;
-  for (const result::Result& result : results) {
-    const bool isolated = result.cover.dimension == 0 && !result.cover.points.empty();
-    const bool kernels = std::any_of(result.cover.exact_points.begin(), result.cover.exact_points.end(),
+  for (const SetView& view : views) {
+    const Cover& cover = view.result.cover;
+    const bool isolated = cover.dimension == 0 && !cover.points.empty();
+    const bool kernels = std::any_of(cover.exact_points.begin(), cover.exact_points.end(),
                                      [](const ExactPoint& point) { return point.corank > 1; });
-    if (isolated || kernels) html += table_html(result);
+    if (isolated || kernels) html += table_html(view);
   }
   return html.empty() ? "<p>None: no set of this mechanism consists of isolated points.</p>" : html;
 }

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "corank/result/result.h"
+#include "corank/report/set_view.h"
 
 namespace corank::report {
 
 /// A table for each set that has such points; a sentence where none has. Digits are those that are proven.
-std::string points_html(const std::vector<result::Result>& results);
+std::string points_html(const std::vector<SetView>& views);
 
 }  // namespace corank::report

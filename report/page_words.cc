@@ -8,6 +8,7 @@
 #include "corank/result/summary.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
+#include "corank/symbolic/set_definition.h"
 
 namespace corank::report {
 namespace {
@@ -17,17 +18,12 @@ std::string counted(std::size_t n, const std::string& one, const std::string& ma
 }
 std::string boxes_text(std::size_t n) { return counted(n, "box", "boxes"); }
 
-std::string meaning(const std::string& set, int corank) {
-  if (corank > 1 && set == "cspace-singular")
-    return fmt::format("the constraints’ Jacobian loses at least {} of its ranks", corank);
-  if (corank > 1)
-    return fmt::format("with the {} locked the mechanism can still move, to first order, in at least {} independent ways",
-                       set == "forward" ? "actuators" : "output", corank);
-  if (set == "cspace") return "every way to assemble the mechanism";
-  if (set == "forward") return "with the actuators locked the mechanism can still move, to first order";
-  if (set == "inverse") return "with the output locked the mechanism can still move, to first order";
-  if (set == "cspace-singular") return "the constraints’ Jacobian loses rank: C-space may cross itself or end in a cusp";
-  return "the solutions of the system";
+std::string meaning(const symbolic::SetDefinition& set, int corank) {
+  return corank == 1 ? set.meaning : fmt::format(fmt::runtime(set.of_corank), corank);
+}
+
+std::string title(const symbolic::SetDefinition& set, int corank) {
+  return set.title + (corank == 1 ? "" : fmt::format(" of corank {}", corank));
 }
 
 std::string shape(int dimension) {
@@ -193,16 +189,6 @@ std::string percentage(std::size_t part, std::size_t whole) {
   return share > 99.9 ? "over 99.9 %" : fmt::format("{:.1f} %", share);
 }
 
-std::string set_title(const result::Result& result) {
-  const std::string& set = result.set;
-  const std::string corank = result.options.corank == 1 ? "" : fmt::format(" of corank {}", result.options.corank);
-  if (set == "cspace") return "C-space";
-  if (set == "forward") return "Forward singularities" + corank;
-  if (set == "inverse") return "Inverse singularities" + corank;
-  if (set == "cspace-singular") return "C-space singularities" + corank;
-  return "Solutions";
-}
-
 std::string grouped(std::uint64_t n) {
   std::string digits = std::to_string(n);
   for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
@@ -242,8 +228,9 @@ std::string digits_text(const Interval& x) { return with_minus(result::outward_t
 SetWords set_words(const result::Result& result, const Components& found) {
   const Cover& cover = result.cover;
   SetWords words;
-  words.title = set_title(result);
-  words.meaning = meaning(result.set, result.options.corank);
+  const symbolic::SetDefinition& set = symbolic::definition(result.set);
+  words.title = title(set, result.options.corank);
+  words.meaning = meaning(set, result.options.corank);
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
     if (const std::size_t n = cover.count(verdict); n > 0)
@@ -251,10 +238,7 @@ SetWords set_words(const result::Result& result, const Components& found) {
   }
   if (cover.boxes.empty()) {
     words.finding = "None";
-    words.proven.push_back(result.set == "cspace" ? "The mechanism cannot be assembled within the search domain."
-                           : result.set == "cspace-singular" && result.options.corank == 1
-                               ? "There is none in the search domain, so C-space is smooth there."
-                               : "There is none in the search domain.");
+    words.proven.emplace_back(result.options.corank == 1 ? set.none : symbolic::definition(std::nullopt).none);
     return words;
   }
   if (cover.complete()) {

@@ -17,15 +17,13 @@ struct VerdictShare {
 };
 
 struct SetWords {
-  std::string title;                          ///< "Forward singularities"
+  std::string title;                          ///< "C-space", "Forward singularities", "Forward singularities of corank 2"
   std::string meaning;                        ///< what the set is, in one clause
   std::string finding;                        ///< "curves in 2 486 boxes"
   std::vector<std::string> proven, unproven;  ///< one sentence each
   std::vector<VerdictShare> shares;           ///< of the verdicts that occur
 };
 
-/// "C-space", "Forward singularities", "Forward singularities of corank 2" …
-std::string set_title(const result::Result& result);
 /// "100 %" only where it is all.
 std::string percentage(std::size_t part, std::size_t whole);
 /// "94 004" with narrow spaces.

@@ -10,6 +10,7 @@
 
 #include "corank/certify/angle.h"
 #include "corank/report/picture_style.h"
+#include "corank/symbolic/set_definition.h"
 
 namespace corank::report {
 namespace {
@@ -163,7 +164,8 @@ Picture make_picture(const std::vector<PictureSource>& sources, const PictureOpt
     throw std::invalid_argument("expected two or three variables for axes");
   std::vector<const PictureSource*> order;
   for (const PictureSource& source : sources) order.push_back(&source);
-  std::stable_partition(order.begin(), order.end(), [](const PictureSource* s) { return s->set == "cspace"; });
+  std::stable_partition(order.begin(), order.end(),
+                        [](const PictureSource* s) { return symbolic::definition(s->set).is_cspace(); });
   const std::vector<SetStyle> styles = set_styles(order);
   Picture picture;
   for (std::size_t k = 0; k < order.size(); ++k) {

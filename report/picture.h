@@ -23,7 +23,7 @@ struct Color {
 };
 /// Of a verdict; blue where there is none.
 Color verdict_color(std::optional<Verdict> verdict);
-/// "cspace": grey, "forward": red, "inverse": blue, "cspace-singular": violet; any other set grey-blue.
+/// SetDefinition::print; of no mechanism's set grey-blue.
 Color set_color(const std::string& set);
 
 /// Boxes and the coordinates that they can be drawn in.

@@ -4,20 +4,17 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
+
+#include "corank/symbolic/set_definition.h"
 
 namespace corank::report {
 namespace {
 
 SetStyle set_style(const PictureSource& source) {
-  static const std::map<std::string, std::string> kLabels{{"cspace", "C-space"},
-                                                          {"forward", "forward locus"},
-                                                          {"inverse", "inverse locus"},
-                                                          {"cspace-singular", "C-space singularities"}};
-  const auto known = kLabels.find(source.set);
+  const symbolic::SetDefinition& set = symbolic::definition(source.set);
   // A surface is seen through; a curve of that colour would be too faint.
-  return {known != kLabels.end() ? known->second : std::filesystem::path(source.file).stem().string(), set_color(source.set),
-          source.set == "cspace" && source.dimension > 1 ? 0.4 : 1.0};
+  return {*set.label ? set.label : std::filesystem::path(source.file).stem().string(), set_color(source.set),
+          set.is_cspace() && source.dimension > 1 ? 0.4 : 1.0};
 }
 
 }  // namespace
@@ -30,7 +27,7 @@ std::vector<SetStyle> set_styles(const std::vector<const PictureSource*>& source
   std::size_t others = 0;
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const auto same = [&](const PictureSource* s) { return s->set == sources[k]->set; };
-    if (set_color(sources[k]->set) == kOthers[0]) {
+    if (!symbolic::definition(sources[k]->set).set) {
       styles[k].color = kOthers[others++ % kOthers.size()];
     } else if (std::count_if(sources.begin(), sources.end(), same) > 1) {
       const double light =
@@ -58,11 +55,8 @@ Color verdict_color(std::optional<Verdict> verdict) {
 }
 
 Color set_color(const std::string& set) {
-  if (set == "cspace") return {0.55, 0.56, 0.58};
-  if (set == "forward") return {0.80, 0.11, 0.14};
-  if (set == "inverse") return {0.09, 0.33, 0.75};
-  if (set == "cspace-singular") return {0.52, 0.18, 0.68};
-  return {0.35, 0.45, 0.58};
+  const auto& [red, green, blue] = symbolic::definition(set).print;
+  return {red, green, blue};
 }
 
 }  // namespace corank::report

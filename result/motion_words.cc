@@ -9,6 +9,8 @@
 
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/rounding.h"
+#include "corank/result/domain_notes.h"
+#include "corank/symbolic/velocity_equation.h"
 
 namespace corank::result {
 namespace {
@@ -108,10 +110,7 @@ class Sentence {
         system_(system),
         linear_(system, motion.relations),
         dimension_(motion.dimension),
-        names_(set == "forward"   ? mechanism.inputs()
-               : set == "inverse" ? mechanism.outputs()
-                                  : std::vector<std::string>{}),
-        role_(set == "forward" ? "input" : "output") {}
+        locked_roles_(symbolic::definition(set).locked) {}
 
   std::string text() {
     for (const symbolic::Coordinate& c : mechanism_.coordinates()) {
@@ -157,7 +156,9 @@ class Sentence {
   }
 
   void put_fixed(const std::string& coordinate, const std::string& text) {
-    (std::find(names_.begin(), names_.end(), coordinate) == names_.end() ? fixed_ : locked_).push_back(text);
+    const symbolic::Role role = symbolic::role_of(mechanism_, coordinate);
+    const bool locked = std::find(locked_roles_.begin(), locked_roles_.end(), role) != locked_roles_.end();
+    (locked ? locked_ : fixed_).push_back(text);
   }
 
   void sort_length(int v) {
@@ -285,7 +286,8 @@ class Sentence {
   std::string written() const {
     std::string text;
     if (!locked_.empty())
-      text += fmt::format("with the {}{} locked at {}", role_, names_.size() == 1 ? "" : "s", listed(locked_));
+      text += fmt::format("with the {}{} locked at {}", to_string(locked_roles_.front()),
+                          names_of(mechanism_, locked_roles_.front()).size() == 1 ? "" : "s", listed(locked_));
     if (!fixed_.empty()) text += (text.empty() ? "with " : " and with ") + listed(fixed_);
     std::vector<std::string> moving;
     bool angles = true;
@@ -301,8 +303,7 @@ class Sentence {
   const System& system_;
   LinearRelations linear_;
   int dimension_;
-  std::vector<std::string> names_;  // of the inputs or outputs, which may be locked
-  std::string role_;
+  std::span<const symbolic::Role> locked_roles_;
   std::vector<std::string> locked_, fixed_, following_;
   std::vector<Free> free_;
   std::set<int> staying_;  // cosine and sine of angles that do not move
@@ -332,6 +333,11 @@ void describe_motions(const symbolic::Mechanism& mechanism, const System& system
       result.motions.emplace_back();
     }
   }
+}
+
+void describe_in_words(const symbolic::Mechanism& mechanism, const System& system, Result& result) {
+  describe_domain(mechanism, system, result);
+  describe_motions(mechanism, system, result);
 }
 
 std::string motion_sentence(const Result& result, std::size_t motion) {

@@ -14,6 +14,9 @@ namespace corank::result {
 /// the kernel's. Does nothing for a result that is of another system.
 void describe_motions(const symbolic::Mechanism& mechanism, const System& system, Result& result);
 
+/// describe_domain() and describe_motions().
+void describe_in_words(const symbolic::Mechanism& mechanism, const System& system, Result& result);
+
 /// "c_t3 = c_t2": a linear relation, solved for the first variable that has the coefficient 1, or the first.
 std::string relation_text(const Result& result, const Polynomial& f);
 

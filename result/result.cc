@@ -10,7 +10,8 @@ std::string version() { return CORANK_VERSION; }
 
 void describe_system(const System& system, Result& result) {
   result.variables.clear();
-  for (const Variable& v : system.variables) result.variables.push_back({v.name, v.kind, v.domain});
+  for (const Variable& v : system.variables)
+    result.variables.push_back({v.name, v.kind, v.domain, v.auxiliary || v.kind == VariableKind::auxiliary});
   result.angles = system.angles;
   result.configuration_size = system.configuration_size;
   result.equations = static_cast<int>(system.equations.size());

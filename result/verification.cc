@@ -113,7 +113,7 @@ System system_of(const Result& result) { return system_of(model_of(result), resu
 
 System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
-  if (mechanism.is_plain_system() ? result.set != "system" : !set)
+  if (mechanism.is_plain_system() ? result.set != symbolic::definition(std::nullopt).name : !set)
     throw ResultFileError("the result's model has no set '" + result.set + "'");
   System system = symbolic::algebrize(
       set ? symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),

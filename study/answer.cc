@@ -1,10 +1,8 @@
 #include "corank/study/answer.h"
 
 #include <algorithm>
-#include <set>
 
 #include "corank/certify/kernel_bound.h"
-#include "corank/result/domain_notes.h"
 #include "corank/result/motion_words.h"
 #include "corank/solve/corank_system.h"
 #include "corank/solve/decimals.h"
@@ -15,24 +13,8 @@ namespace corank::study {
 namespace {
 
 std::string kernel_of(const Question& question) {
-  using symbolic::SingularitySet;
-  if (!question.set || *question.set == SingularitySet::cspace) return "";
-  if (question.kernel) return to_string(*question.kernel);
-  return to_string(*question.set == SingularitySet::cspace_singular ? symbolic::KernelSide::left
-                                                                    : symbolic::KernelSide::right);
-}
-
-void mark_auxiliary(const symbolic::Mechanism& mechanism, result::Result& result) {
-  std::set<std::string> names;
-  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
-    if (c.auxiliary) names.insert(c.name);
-  }
-  for (result::ResultVariable& v : result.variables)
-    v.auxiliary = names.contains(v.name) || v.kind == VariableKind::auxiliary;
-  for (const Angle& a : result.angles) {
-    for (const int v : {a.cosine, a.sine})
-      result.variables.at(static_cast<std::size_t>(v)).auxiliary = names.contains(a.name);
-  }
+  const symbolic::SetDefinition& set = symbolic::definition(question.set);
+  return set.has_kernel() ? to_string(question.kernel.value_or(set.side)) : "";
 }
 
 }  // namespace
@@ -77,7 +59,7 @@ result::Result answer(const Question& question, const System& system, const Opti
   result::Result result;
   result.model = question.model.name();
   result.model_text = question.model.source_text();
-  result.set = question.set ? to_string(*question.set) : "system";
+  result.set = symbolic::definition(question.set).name;
   result.system_text = symbolic::to_cuik(system);
   result.cover = solve::solve(prepared, control);
   control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
@@ -86,9 +68,7 @@ result::Result answer(const Question& question, const System& system, const Opti
     solve::prove_decimals(prepared, options.digits, result.cover, control);
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result::describe_system(system, result);
-  result::describe_domain(question.model, system, result);
-  result::describe_motions(question.model, system, result);
-  mark_auxiliary(question.model, result);
+  result::describe_in_words(question.model, system, result);
   const solve::Options& search = options.search;
   result.options = {kernel_of(question),          result.cover.sigma, system.kernel_scales,
                     system.coefficient_tolerance, search.threads,     search.max_boxes,

@@ -8,10 +8,9 @@ namespace corank::study {
 
 symbolic::TrigonometricSystem equations(const Question& q) {
   if (!q.set) return symbolic::plain_system(q.model);
-  // Without scales first: it checks what is asked for.
-  symbolic::TrigonometricSystem equations = symbolic::singularity_system(q.model, *q.set, q.kernel, {}, q.corank);
-  const std::vector<std::string> scales = symbolic::kernel_scales(q.model, *q.set, q.kernel);
-  return scales.empty() ? equations : symbolic::singularity_system(q.model, *q.set, q.kernel, scales, q.corank);
+  if (!definition(q.set).has_kernel()) return symbolic::singularity_system(q.model, *q.set, q.kernel, {}, q.corank);
+  const auto kernel = symbolic::kernel_question(q.model, derive(q.model).velocity, *q.set, q.kernel);
+  return symbolic::singularity_system(q.model, kernel, symbolic::kernel_scales(q.model, kernel), q.corank);
 }
 
 System system(const Question& question) { return system(question, equations(question)); }

@@ -35,7 +35,6 @@ class Algebrizer {
   ConstantRange range_of(const Coordinate& coordinate);
   /// lhs − rhs.
   ExpandedPolynomial difference(const TrigonometricSystem::Equation& equation);
-  bool mentions_kernel(const Relation& relation) const { return mentions(relation, in_.kernel_unknowns); }
   std::string fresh_name(std::string name);
 
   const TrigonometricSystem& in_;
@@ -151,7 +150,7 @@ void Algebrizer::add_equation(const TrigonometricSystem::Equation& equation) {
   if (polynomial.monomials.empty()) {
     // A kernel row that the constants make zero says nothing about xi, and where an angle has one value an equation may say
     // nothing there. Any other equation of the model that says nothing is a mistake.
-    if (mentions_kernel(equation.relation) || mentions(equation.relation, fixed_angles_)) return;
+    if (equation.of_kernel || mentions(equation.relation, fixed_angles_)) return;
     throw ModelError(equation.where, "the equation " + equation_text(equation) + " holds always",
                      "an equation between unknowns");
   }
@@ -202,10 +201,10 @@ System Algebrizer::run() {
 
   // The configuration's own equations and its angles' first, the kernel's after them.
   for (const auto& equation : in_.equations)
-    if (!mentions_kernel(equation.relation)) add_equation(equation);
+    if (!equation.of_kernel) add_equation(equation);
   out_.equations.insert(out_.equations.end(), angle_equations_.begin(), angle_equations_.end());
   for (const auto& equation : in_.equations)
-    if (mentions_kernel(equation.relation)) add_equation(equation);
+    if (equation.of_kernel) add_equation(equation);
   for (const auto& inequality : in_.inequalities) add_inequality(inequality);
   out_.inequalities.insert(out_.inequalities.end(), chords_.begin(), chords_.end());
   expander_.length_functions().settle(out_, [this](const std::string& name) { return fresh_name(name); });

@@ -67,22 +67,20 @@ std::vector<std::string> texts(const std::vector<double>& sizes, double unit) {
 }  // namespace
 
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
-  if (set == SingularitySet::cspace) return {};
-  const Derivation derivation = derive(mechanism);
-  const bool left =
-      side.value_or(set == SingularitySet::cspace_singular ? KernelSide::left : KernelSide::right) == KernelSide::left;
+  if (!definition(set).has_kernel()) return {};
+  return kernel_scales(mechanism, kernel_question(mechanism, derive(mechanism).velocity, set, side));
+}
+
+std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel) {
   const Configurations all = configurations(algebrize(plain_system(mechanism)));
   std::vector<double> scales;  // 0: an angle's
-  if (left) {
+  if (kernel.side == KernelSide::left) {
     const UpwardRounding rounding;
     std::vector<Interval> entries(static_cast<std::size_t>(all.system.entries()));
     all.system.jacobian(all.box, entries);
-    const std::vector<std::size_t> none;
-    const auto& ties = set == SingularitySet::forward   ? derivation.input_ties
-                       : set == SingularitySet::inverse ? derivation.output_ties
-                                                        : none;
-    for (int row = 0; row < static_cast<int>(derivation.phi.size()); ++row) {
-      if (std::find(ties.begin(), ties.end(), static_cast<std::size_t>(row)) != ties.end()) continue;
+    const std::size_t equations = kernel.matrix.rows.size() + kernel.dropped.size();
+    for (int row = 0; row < static_cast<int>(equations); ++row) {
+      if (std::binary_search(kernel.dropped.begin(), kernel.dropped.end(), static_cast<std::size_t>(row))) continue;
       double largest = 0;
       for (int k = all.system.row_begin(row); k < all.system.row_begin(row + 1); ++k)
         largest = std::max(largest, entries[static_cast<std::size_t>(k)].mag() *
@@ -91,16 +89,14 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySe
     }
     return texts(scales, 1);
   }
-  const ExpressionMatrix& matrix = set == SingularitySet::forward   ? derivation.l_y
-                                   : set == SingularitySet::inverse ? derivation.l_z
-                                                                    : derivation.phi_q;
+  const std::vector<std::string>& columns = kernel.matrix.columns;
   bool angles = false;
   double largest = 0;
   std::size_t variable = 0;
   std::vector<double> of_columns;
   for (const Coordinate& coordinate : mechanism.coordinates()) {
     const bool is_angle = coordinate.kind == CoordinateKind::angle;
-    const bool used = std::find(matrix.columns.begin(), matrix.columns.end(), coordinate.name) != matrix.columns.end();
+    const bool used = std::find(columns.begin(), columns.end(), coordinate.name) != columns.end();
     if (used) {
       of_columns.push_back(is_angle ? 0 : size_of(all.box[variable]));
       largest = std::max(largest, of_columns.back());

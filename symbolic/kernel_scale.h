@@ -20,5 +20,6 @@ namespace corank::symbolic {
 /// |∂Φ_i/∂q_j| s_j over those ranges, relative to the smallest and rounded to powers of two.
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt);
+std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel);
 
 }  // namespace corank::symbolic

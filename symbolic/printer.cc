@@ -175,13 +175,13 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
   out << "Φ(q) = 0\n";
   print_numbered(out, phi_lines(derivation));
   out << "\n";
-  print_matrix(out, "Φ_q", derivation.phi_q);
-  out << "\n";
-  print_matrix(out, "L_y", derivation.l_y);
-  print_ties(out, "inputs", derivation.input_ties);
-  out << "\n";
-  print_matrix(out, "L_z", derivation.l_z);
-  print_ties(out, "outputs", derivation.output_ties);
+  print_matrix(out, "Φ_q", derivation.velocity.matrix);
+  for (const SetDefinition& set : set_definitions()) {
+    if (set.locked.empty()) continue;
+    out << "\n";
+    print_matrix(out, set.matrix, derivation.velocity.without(set.locked));
+    print_ties(out, std::string(to_string(set.locked.front())) + "s", derivation.velocity.ties(set.locked));
+  }
   out << "\nSystem " << system.name << "\n";
   for (const Coordinate& coordinate : system.coordinates)
     out << "  " << coordinate.name << (coordinate.kind == CoordinateKind::angle ? " ~ [" : " : [") << coordinate.lower.text()
@@ -200,9 +200,9 @@ std::string to_latex(const Derivation& derivation, const TrigonometricSystem& sy
   out << "% Assembly constraints\n";
   for (const Expression& phi : derivation.phi) lines.push_back(latex(phi == Expression(0), "&"));
   print_latex_lines(out, lines);
-  print_latex_matrix(out, "\\Phi_q", derivation.phi_q);
-  print_latex_matrix(out, "L_y", derivation.l_y);
-  print_latex_matrix(out, "L_z", derivation.l_z);
+  print_latex_matrix(out, "\\Phi_q", derivation.velocity.matrix);
+  for (const SetDefinition& set : set_definitions())
+    if (!set.locked.empty()) print_latex_matrix(out, set.matrix, derivation.velocity.without(set.locked));
   out << "% System " << one_line(system.name) << "\n";
   lines.clear();
   for (const auto& equation : system.equations) lines.push_back(latex(equation.relation, "&"));

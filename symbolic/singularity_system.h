@@ -1,10 +1,5 @@
-// From a mechanism to the equations of its singularities, in trigonometric form: GiNaC differentiates Φ with respect to q,
-// so that an angle has one column, and picks out the blocks of the velocity equation L m = 0, here with L = Φ_q.
-//
-//   L_y = L without the input columns     (forward singularity: Φ = 0 and L_y rank deficient)
-//   L_z = L without the output columns    (inverse singularity: Φ = 0 and L_z rank deficient)
-//   L_p = the passive columns alone
-//   C-space singularity: Φ = 0 and Φ_q rank deficient
+// From a mechanism to the equations of its singularities, in trigonometric form: Φ(q) = 0 and the kernel of a block of the
+// velocity equation (velocity_equation.h); which block, a set's definition says (set_definition.h).
 //
 // Definitions and kernel equations: Bohigas, Manubens, Ros, "Singularities of Robot Mechanisms", 2017 (key Bohigas2017), §§
 // 2–3.
@@ -15,35 +10,9 @@
 #include <vector>
 
 #include "corank/symbolic/mechanism.h"
+#include "corank/symbolic/velocity_equation.h"
 
 namespace corank::symbolic {
-
-/// Row-major matrix of expressions.
-struct ExpressionMatrix {
-  std::vector<std::string> columns;  ///< the coordinate of each column
-  std::vector<std::vector<Expression>> rows;
-};
-
-/// Φ and its Jacobian blocks, shapes n_e × n_q, n_e × (n_q − n_v), n_e × (n_q − n_u), n_e × n_p.
-struct Derivation {
-  std::vector<Expression> phi;  ///< lhs − rhs of each equation
-  ExpressionMatrix phi_q, l_y, l_z, l_p;
-  /// Equations in inputs (outputs) and constants alone, such as a unit vector's norm: their rows of L_y (L_z) are zero. They
-  /// leave the kernel as it is, and so many inputs (outputs) more than the mobility may be named.
-  std::vector<std::size_t> input_ties, output_ties;
-};
-
-/// Throws ModelError where the mechanism is not valid (Mechanism::validate).
-Derivation derive(const Mechanism& mechanism);
-
-enum class SingularitySet { cspace, forward, inverse, cspace_singular };
-enum class KernelSide { right, left };  ///< M ξ = 0 or Mᵀ ξ = 0
-
-const char* to_string(SingularitySet set);  ///< "cspace", "forward", "inverse", "cspace-singular"
-const char* to_string(KernelSide side);
-/// Nothing for another word.
-std::optional<SingularitySet> singularity_set_from_string(const std::string& text);
-std::optional<KernelSide> kernel_side_from_string(const std::string& text);
 
 /// Equations with sines and cosines over coordinates, then kernel unknowns.
 struct TrigonometricSystem {
@@ -59,14 +28,28 @@ struct TrigonometricSystem {
     Relation relation;
     std::string source;  ///< "dextar.cuik:17", "row 3 of L_y xi = 0", "norm of xi" …
     SourceLocation where;
+    bool of_kernel = false;  ///< about ξ, not q alone
   };
   std::vector<Equation> equations;     ///< all with =
   std::vector<Equation> inequalities;  ///< ≤ or ≥
 };
 
+/// What the kernel of a set is asked of, checked: that inputs and outputs are there and fit the mobility.
+struct KernelQuestion {
+  const SetDefinition& set;
+  ExpressionMatrix matrix;            ///< M: L without the locked columns and the dropped rows
+  std::vector<SourceLocation> where;  ///< of its rows
+  KernelSide side;
+  std::vector<std::size_t> dropped;  ///< of a left kernel: the rows of L that are ties, and not in M
+};
+
+/// Of a set that has a kernel. Throws ModelError as singularity_system does.
+KernelQuestion kernel_question(const Mechanism& mechanism, const VelocityEquation& velocity, SingularitySet set,
+                               std::optional<KernelSide> side = std::nullopt);
+
 /// The system of a set: Φ(q) = 0 and, for all but cspace, the kernel equations, ‖ξ‖² = 1 and a·ξ ≥ 0 with a fixed generic a
 /// that drops −ξ. Default kernel: right where the matrix is square (forward, inverse), left for Φ_q (cspace-singular).
-/// L_y and L_z are taken without the zero rows of ties (Derivation): ker L_z is the same without them, at every
+/// L_y and L_z are taken without the zero rows of ties (VelocityEquation): ker L_z is the same without them, at every
 /// configuration, and what is left is square where the outputs less their ties are as many as the mobility (doc/theory.md,
 /// "Tied outputs and inputs"). `scales`: of each kernel unknown, the number by which its column is multiplied
 /// (symbolic/kernel_scale.h), a rational number's text; none: all are 1.
@@ -85,9 +68,9 @@ struct TrigonometricSystem {
 TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt,
                                        const std::vector<std::string>& scales = {}, int corank = 1);
-
-/// "forward singularities of corank 2"; "forward" where the corank is 1.
-std::string set_with_corank(const std::string& set, int corank);
+/// The same of a kernel_question().
+TrigonometricSystem singularity_system(const Mechanism& mechanism, const KernelQuestion& kernel,
+                                       const std::vector<std::string>& scales, int corank);
 
 /// The equations and inequalities of the model itself, nothing added (a plain system, or C-space).
 TrigonometricSystem plain_system(const Mechanism& mechanism);

@@ -32,7 +32,7 @@ function spreadOrder(n) {
 }
 
 // A set of `dimension` 2 or more that is not singular is drawn faint: one sees the others through it.
-const isFaint = (set) => !set.singular() && set.dimension > 1;
+const isFaint = (set) => !set.singular && set.dimension > 1;
 
 const pointOpacity = (set) => (isFaint(set) ? 0.16 * Math.min(1, 9e4 / set.count) : 1);
 
@@ -71,7 +71,7 @@ export function boxCloud(set, middles, extents, colourText) {
   });
   const mesh = new THREE.InstancedMesh(new THREE.BoxGeometry(1, 1, 1), material, extents.length / 3);
   const matrix = new THREE.Matrix4(),
-    least = set.singular() ? 0.004 : 0.001;
+    least = set.singular ? 0.004 : 0.001;
   spreadOrder(extents.length / 3).forEach((i, place) => {
     matrix.makeScale(...[0, 1, 2].map((k) => Math.max(extents[3 * i + k], least)));
     matrix.setPosition(middles[3 * i], middles[3 * i + 1], middles[3 * i + 2]);

@@ -1,4 +1,5 @@
-// What the page carries, decoded: the model, and for each set its boxes as outward-rounded floats.
+// What the page carries, decoded: the model, and for each set its boxes as outward-rounded floats. What a set is, it says itself:
+// {name, title, singular, locked: whose rates are 0, layer: higher is drawn over lower, dot: radius of a point …}.
 
 export function bytesOfBase64(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
@@ -32,9 +33,6 @@ export class BoxSet {
       if (this.lower(a, j) > this.upper(b, j) || this.lower(b, j) > this.upper(a, j)) return false;
     }
     return true;
-  }
-  singular() {
-    return this.name !== "cspace";
   }
 }
 

@@ -53,7 +53,7 @@ class Family {
   // Of each locus of curves the places of its pieces that are no wider than a few boxes: {name, x, y}.
   spotsOf({projections}) {
     return projections
-      .filter(({set}) => set.singular() && set.dimension === 1)
+      .filter(({set}) => set.singular && set.dimension === 1)
       .flatMap((projection) =>
         smallGroups(projection, 3 * projection.set.sigma).map(([x0, x1, y0, y1]) => ({
           name: projection.set.name,
@@ -149,7 +149,7 @@ class Family {
       if (this.hidden.has(name)) continue;
       context.beginPath();
       context.arc(plane.toX(x), plane.toY(y), radius, 0, 7);
-      context.fillStyle = colours[name];
+      context.fillStyle = colours.of({name});
       context.strokeStyle = colours.paper;
       context.lineWidth = 0.6 * radius;
       context.stroke();

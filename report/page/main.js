@@ -54,8 +54,8 @@ function firstOf(order, model, role) {
 function main() {
   takeTheme();
   const model = readModel(),
-    filled = (name) => model.sets.find((set) => set.count > 0 && (!name || set.name === name));
-  const samples = sampleConfigurations(model, filled("cspace") || filled(), 300);
+    filled = (test = () => true) => model.sets.find((set) => set.count > 0 && test(set));
+  const samples = sampleConfigurations(model, filled((set) => !set.singular) || filled(), 300);
   const everywhere = model.sets.flatMap((set) => sampleConfigurations(model, set, 150));
   const view = drawingWindow(
     model,
@@ -107,7 +107,7 @@ function main() {
     if (space) space.build();
   });
 
-  const first = clearest(model, sampleConfigurations(model, filled("forward") || filled(), 100));
+  const first = clearest(model, sampleConfigurations(model, filled((set) => set.locked.includes("input")) || filled(), 100));
   if (first) panel.offer([{set: first.set, box: first.box}]);
   window.corank = {model, panel, portraits: views, space};
   document.documentElement.dataset.ready = String(Math.round(performance.now()));

@@ -2,7 +2,7 @@
 // place, and what is known of it.
 import {drawMechanism} from "./mechanism.js";
 import {pointOfBoxes} from "./newton.js";
-import {coordinateValues, groupedText, htmlLabel, htmlUnit, isAngle, numberText, setTitles} from "./values.js";
+import {coordinateValues, groupedText, htmlLabel, htmlUnit, isAngle, numberText} from "./values.js";
 
 export class Panel {
   // `onShow(configuration)` is told what is drawn: {set, box, x}, or null.
@@ -54,9 +54,9 @@ export class Panel {
     candidates.slice(0, 24).forEach((candidate, k) => {
       const button = document.createElement("button");
       button.type = "button";
-      button.className = `mode ${candidate.set.name}`;
+      button.className = `mode ${candidate.set.name}${candidate.set.singular ? " singular" : ""}`;
       button.textContent = k + 1;
-      button.title = `${setTitles[candidate.set.name]}, box ${groupedText(candidate.box + 1)}`;
+      button.title = `${candidate.set.title}, box ${groupedText(candidate.box + 1)}`;
       button.addEventListener("click", () => {
         this.pinned = true;
         this.choose(k);
@@ -125,7 +125,7 @@ export class Panel {
       : `${shown} the middle of the box: Newton’s method found no point in it.`;
     const arrows =
       drawn && set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
-    return `<p class="headline"><span class="swatch ${set.name}"></span>${setTitles[set.name]} · box ${groupedText(box + 1)} of ${groupedText(
+    return `<p class="headline"><span class="swatch ${set.name}"></span>${set.title} · box ${groupedText(box + 1)} of ${groupedText(
       set.count,
     )} · <span class="verdict ${verdict}">${verdict}</span></p><table>${rows.join("")}</table><p class="fine">${how}${arrows}</p>`;
   }
@@ -133,7 +133,7 @@ export class Panel {
   showNothing(place, portrait) {
     this.drawing.replaceChildren();
     this.current = null;
-    const cspace = this.model.sets.find((set) => set.name === "cspace");
+    const cspace = this.model.sets.find((set) => !set.singular);
     const proven = cspace && cspace.complete && cspace.dimension > 1;
     this.text.innerHTML = `<p class="headline">${portrait.placeText(place)}</p><p class="fine">${
       proven ? "No configuration has these values: every box lies elsewhere." : "No box lies there."

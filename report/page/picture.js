@@ -17,11 +17,8 @@ export function pageColours(element) {
     paper: colour("--plot"),
     card: colour("--card"),
     line: colour("--line-strong"),
-    cspace: colour("--cspace").split(",").map(Number),
-    forward: colour("--forward"),
-    inverse: colour("--inverse"),
-    "cspace-singular": colour("--crossing"),
     undecided: colour("--undecided"),
+    of: ({name}) => colour(`--set-${name}`),
   };
 }
 
@@ -75,12 +72,10 @@ export class Picture {
     for (const projection of shown.filter(({set}) => !set.complete)) {
       this.drawDensity(context, projection, true, colours.undecided, (count) => 0.14 * Math.min(1, count));
     }
-    for (const name of ["cspace", "inverse", "forward", "cspace-singular"]) {
-      for (const projection of shown.filter(({set}) => set.name === name)) {
-        if (name === "cspace" && projection.set.dimension > 1)
-          this.drawDensity(context, projection, false, `rgb(${colours.cspace})`, sheetTone);
-        else this.drawBoxes(context, projection, name);
-      }
+    for (const projection of shown.slice().sort((a, b) => a.set.layer - b.set.layer)) {
+      const {set} = projection;
+      if (!set.singular && set.dimension > 1) this.drawDensity(context, projection, false, colours.of(set), sheetTone);
+      else this.drawBoxes(context, projection);
     }
     for (const projection of shown) this.drawUndecided(context, projection);
     context.restore();
@@ -103,15 +98,17 @@ export class Picture {
   }
 
   // Boxes as they are, though never thinner than a line; few tiny ones as dots.
-  drawBoxes(context, projection, name) {
-    context.fillStyle = name === "cspace" ? `rgba(${this.colours.cspace}, 0.55)` : this.colours[name];
-    const dots = projection.set.dimension === 0;
+  drawBoxes(context, projection) {
+    const {set} = projection;
+    context.fillStyle = this.colours.of(set);
+    context.globalAlpha = set.singular ? 1 : 0.55;
+    const dots = set.dimension === 0;
     for (let i = 0; i < projection.length; ++i) {
-      if (this.isPending(projection.set, projection.owners[i])) continue;
+      if (this.isPending(set, projection.owners[i])) continue;
       const {left, right, top, bottom} = this.rectangle(projection, i);
       if (dots && right - left < 7 && bottom - top < 7) {
         context.beginPath();
-        context.arc((left + right) / 2, (top + bottom) / 2, name === "forward" ? 3.8 : 6.2, 0, 7);
+        context.arc((left + right) / 2, (top + bottom) / 2, set.dot, 0, 7);
         context.fill();
         continue;
       }
@@ -119,6 +116,7 @@ export class Picture {
       const high = Math.max(bottom - top, 1.8);
       context.fillRect((left + right - wide) / 2, (top + bottom - high) / 2, wide, high);
     }
+    context.globalAlpha = 1;
   }
 
   // Rings, or dots where they are many.
@@ -175,10 +173,10 @@ export class Picture {
     this.projections.forEach((projection) => {
       const {set} = projection;
       if (this.hidden.has(set.name)) return;
-      const surface = !set.singular() && set.dimension > 1;
+      const surface = !set.singular && set.dimension > 1;
       const boxes = projection.near(x, y, surface ? 0 : dx, surface ? 0 : dy);
       const groups = groupTouching(set, boxes).map((group) => ({...group, place: [x, y], axes: this.axes}));
-      if (set.singular()) found.unshift(...groups);
+      if (set.singular) found.unshift(...groups);
       else found.push(...groups);
     });
     return found;

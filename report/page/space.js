@@ -8,7 +8,6 @@ import {
   groupedText,
   isAngle,
   plainLabel,
-  setTitles,
   wrapped,
 } from "./values.js";
 
@@ -84,8 +83,7 @@ export class Space {
     this.measure();
     this.discard();
     this.scene = new THREE.Scene();
-    const colours = pageColours(this.root);
-    this.colours = {...colours, cspace: `rgb(${colours.cspace})`};
+    this.colours = pageColours(this.root);
     this.clouds = this.model.sets.filter((set) => !this.hidden.has(set.name) && set.count > 0).map((set) => this.cloud(set));
     for (const {object} of this.clouds) this.scene.add(object);
     this.addFrame();
@@ -122,8 +120,8 @@ export class Space {
       }
     });
     const make = this.form.value === "boxes" ? boxCloud : pointCloud;
-    const object = make(set, middles, extents, this.colours[set.name]);
-    object.renderOrder = set.singular() ? 2 : 1;
+    const object = make(set, middles, extents, this.colours.of(set));
+    object.renderOrder = set.singular ? 2 : 1;
     return {set, owners, middles, object};
   }
 
@@ -217,7 +215,7 @@ export class Space {
         const distance = Math.hypot(((at.x + 1) / 2) * width - px, ((1 - at.y) / 2) * height - py);
         if (distance > 10) continue;
         // Nearer to the eye wins among boxes at about the same place.
-        const cost = distance + 60 * at.z - (set.singular() ? 6 : 0);
+        const cost = distance + 60 * at.z - (set.singular ? 6 : 0);
         if (!best || cost < best.cost) best = {set, box: owners[i], cost};
       }
     }
@@ -232,7 +230,7 @@ export class Space {
       if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4) return; // the end of an orbit
       const box = canvas.getBoundingClientRect();
       const found = this.nearest(event.clientX - box.left, event.clientY - box.top);
-      this.note.textContent = found ? `Picked: ${setTitles[found.set.name]}, box ${groupedText(found.box + 1)}` : "";
+      this.note.textContent = found ? `Picked: ${found.set.title}, box ${groupedText(found.box + 1)}` : "";
       if (found) this.onPick(found.set, found.box);
     });
     this.frame.addEventListener("keydown", (event) => this.key(event));

@@ -72,10 +72,3 @@ export function numberText(x, digits = 4) {
   return withMinus(text);
 }
 export const groupedText = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
-
-export const setTitles = {
-  cspace: "C-space",
-  forward: "Forward singularity",
-  inverse: "Inverse singularity",
-  "cspace-singular": "C-space singularity",
-};

@@ -85,11 +85,11 @@ TEST(Figures, AreLeftOutAfterAnInterrupt) {
   result::describe_system(algebrize(singularity_system(mechanism, symbolic::SingularitySet::cspace)), result);
   result.cover.boxes.push_back({Box(result.variables.size(), Interval(0, 1)), Verdict::pending, {}});
   std::atomic<bool> stop{false};
-  const Figures all = write_figures(folder.file(""), mechanism, {result}, stop);
+  const Figures all = write_figures(folder.file(""), mechanism, {report::set_view(mechanism, result)}, stop);
   EXPECT_FALSE(all.stopped);
   EXPECT_EQ(all.files.size(), 4u);
   stop = true;
-  const Figures none = write_figures(folder.file(""), mechanism, {result}, stop);
+  const Figures none = write_figures(folder.file(""), mechanism, {report::set_view(mechanism, result)}, stop);
   EXPECT_TRUE(none.stopped);
   EXPECT_TRUE(none.files.empty());
 }

@@ -92,7 +92,7 @@ void show(const result::Result& result, const result::Verification& verification
   symbolic::Mechanism mechanism = symbolic::parse_model(result.model_text, result.model + ".cuik");
   for (const auto& [name, expression] : result.options.constants)
     mechanism.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
-  report_page(mechanism, {result}, {"", {}, {"r.h5"}});
+  report_page(mechanism, {set_view(mechanism, result)}, {"", {}, {"r.h5"}});
 }
 
 int changes() {

@@ -28,15 +28,20 @@ using testing::HasSubstr;
 Mechanism slider() { return symbolic::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik"); }
 
 result::Result solved(const Mechanism& mechanism, SingularitySet set) {
-  const System system = algebrize(singularity_system(mechanism, set));
+  const symbolic::KernelSide side = symbolic::KernelSide::right;
+  const System system = algebrize(singularity_system(mechanism, set, side));
   result::Result result;
   result.model = mechanism.name();
   result.model_text = mechanism.source_text();
   result.set = to_string(set);
   result.cover = solve::solve(system);
   result::describe_system(system, result);
-  result.options.kernel = set == SingularitySet::cspace ? "" : "right";
+  result.options.kernel = set == SingularitySet::cspace ? "" : to_string(side);
   return result;
+}
+
+json set_of(const Mechanism& mechanism, SingularitySet set) {
+  return json::parse(page_model(mechanism, derive(mechanism), {set_view(mechanism, solved(mechanism, set))}))["sets"][0];
 }
 
 /// Without printing the page where it does not.
@@ -79,7 +84,7 @@ TEST(PageBoxes, CarryTheirVerdictsInOrder) {
 
 TEST(PageModel, NamesCoordinatesVariablesAndVelocities) {
   const Mechanism dextar = symbolic::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
-  const json model = json::parse(page_model(dextar, {}));
+  const json model = json::parse(page_model(dextar, derive(dextar), {}));
   EXPECT_EQ(model["coordinates"][0]["role"], "output");
   EXPECT_EQ(model["coordinates"][2]["role"], "input");
   EXPECT_EQ(model["coordinates"][2]["label"], json({"θ", "2"}));
@@ -91,29 +96,39 @@ TEST(PageModel, NamesCoordinatesVariablesAndVelocities) {
   EXPECT_EQ(model["drawing"]["points"][2]["at"][0], json({"*", 0.9, {"cos", "theta5"}}));
   EXPECT_EQ(model["drawing"]["points"][4]["at"][0], "J3x");
 
-  const json set = json::parse(page_model(slider(), {solved(slider(), SingularitySet::forward)}))["sets"][0];
+  const json set = set_of(slider(), SingularitySet::forward);
   EXPECT_EQ(set["count"], 8);
   EXPECT_EQ(set["points"].size(), 8u);
   EXPECT_EQ(set["columns"], json({1, 2}));  // L_y has the columns of y_B and x_C
 }
 
+// x² + y² = 1 and x = 1 touch at (1, 0), where Φ_q = (2x 2y; 1 0) has the right kernel (0, 1).
+TEST(PageModel, TakesAVelocityOfCSpaceForRatesOfAllCoordinates) {
+  const Mechanism mechanism = symbolic::parse_model(
+      "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\nx = 1;\n[INPUTS] x\n[OUTPUTS] y\n", "m.cuik");
+  const json set = set_of(mechanism, SingularitySet::cspace_singular);
+  EXPECT_EQ(set["variables"], json({"x", "y", "xi1", "xi2"}));
+  EXPECT_EQ(set["columns"], json({0, 1}));
+  EXPECT_EQ(set["scales"].size(), 2u);
+}
+
 TEST(PageModel, RefusesAResultOfAnotherMechanism) {
-  EXPECT_THROW(page_model(slider(), {result::sample_result()}), result::ResultFileError);
+  EXPECT_THROW(set_view(slider(), result::sample_result()), result::ResultFileError);
   result::Result plain = solved(slider(), SingularitySet::cspace);
   plain.set = "system";
-  EXPECT_THROW(page_model(slider(), {plain}), result::ResultFileError);
+  EXPECT_THROW(set_view(slider(), plain), result::ResultFileError);
 }
 
 TEST(Page, HoldsTheResultsAndLoadsNothing) {
   const Mechanism mechanism = slider();
-  const std::vector<result::Result> results = {solved(mechanism, SingularitySet::cspace),
-                                               solved(mechanism, SingularitySet::forward)};
-  const std::string page = report_page(mechanism, results, {"corank report x.cuik", {}, {"cspace.h5", "forward.h5"}});
-  for (const result::Result& result : results) {
+  const std::vector<SetView> views = {set_view(mechanism, solved(mechanism, SingularitySet::cspace)),
+                                      set_view(mechanism, solved(mechanism, SingularitySet::forward))};
+  const std::string page = report_page(mechanism, views, {"corank report x.cuik", {}, {"cspace.h5", "forward.h5"}});
+  for (const auto& [result, set, system, components, words] : views) {
     EXPECT_EQ(script_text(page, "boxes-" + result.set), box_payload(result));
     EXPECT_EQ(script_text(page, "verdicts-" + result.set), verdict_payload(result));
   }
-  EXPECT_EQ(json::parse(script_text(page, "model")), json::parse(page_model(mechanism, results)));
+  EXPECT_EQ(json::parse(script_text(page, "model")), json::parse(page_model(mechanism, derive(mechanism), views)));
   const std::string before_scripts = page.substr(0, page.find("<script"));
   EXPECT_FALSE(std::regex_search(before_scripts, std::regex("(src|href)=\"(https?:)?//"))) << "the page loads something";
   EXPECT_FALSE(holds(page, "<link rel=\"stylesheet\""));
@@ -126,7 +141,7 @@ TEST(Page, HoldsTheResultsAndLoadsNothing) {
 TEST(Page, EscapesWhatAModelMaySay) {
   const std::string text = "% </script><b>&\n" + slider().source_text();
   const Mechanism mechanism = symbolic::parse_model(text, "a<b.cuik");
-  const std::string page = report_page(mechanism, {solved(mechanism, SingularitySet::forward)});
+  const std::string page = report_page(mechanism, {set_view(mechanism, solved(mechanism, SingularitySet::forward))});
   EXPECT_TRUE(holds(page, "% &lt;/script&gt;&lt;b&gt;&amp;"));
   EXPECT_TRUE(holds(page, "<h1>a&lt;b</h1>"));
   EXPECT_FALSE(holds(page, "</script><b>"));
@@ -138,7 +153,8 @@ TEST(Page, HoldsNoMarkupOfAResultsNames) {
   result.options.kernel = "right";
   result.version = "<script>alert(1)</script>";
   result.options.constants = {{"<img src=x onerror=alert(2)>", "1"}};
-  const std::string page = report_page(mechanism, {result}, {"", {}, {"\"><script>alert(3)</script>.h5"}});
+  const std::string page =
+      report_page(mechanism, {set_view(mechanism, result)}, {"", {}, {"\"><script>alert(3)</script>.h5"}});
   EXPECT_FALSE(holds(page, "<!--<script"));
   EXPECT_FALSE(holds(page, "<script>alert"));
   EXPECT_FALSE(holds(page, "<img src=x"));
@@ -149,9 +165,9 @@ TEST(Page, HoldsNoMarkupOfAResultsNames) {
 TEST(Page, SaysWhereASearchEndedEarly) {
   const Mechanism mechanism = slider();
   result::Result result = solved(mechanism, SingularitySet::forward);
-  EXPECT_FALSE(holds(report_page(mechanism, {result}), "ended before its end"));
+  EXPECT_FALSE(holds(report_page(mechanism, {set_view(mechanism, result)}), "ended before its end"));
   result.cover.boxes.front().verdict = Verdict::pending;
-  const std::string page = report_page(mechanism, {result});
+  const std::string page = report_page(mechanism, {set_view(mechanism, result)});
   EXPECT_TRUE(holds(page, "ended before its end"));
   EXPECT_TRUE(holds(page, "what 1 box may hold was not looked into"));
 }
@@ -174,7 +190,7 @@ TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
   result.cover.decimals = {{"-0.60", "0.71", "0.71", "0.00"}, {}};
   result.cover.points[0].point = 0;
   result.cover.points[1].point = -1;
-  const std::string html = points_html({result});
+  const std::string html = points_html({set_view(result, {})});
   EXPECT_THAT(
       html,
       HasSubstr("<td><math><mfrac><mrow><mn>3</mn></mrow><mrow><mn>5</mn></mrow></mfrac></math> <small>−0.60</small></td>"));
@@ -183,7 +199,7 @@ TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
   EXPECT_THAT(html, HasSubstr("<td>2</td></tr>")) << "the dimension of the kernel";
   result.cover.exact_points[0].lower = 3;
   result.cover.exact_points[0].upper = 4;
-  EXPECT_THAT(points_html({result}), HasSubstr("a number of degree 2")) << "what a file says may define none";
+  EXPECT_THAT(points_html({set_view(result, {})}), HasSubstr("a number of degree 2")) << "what a file says may define none";
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(RotationMatrix, HasSixEquationsThatAreIndependentAtEveryRotation) {
     // The Gram determinant of the six gradients.
     std::array<std::array<long double, 9>, 6> rows{};
     for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t j = 0; j < 9; ++j) rows[i][j] = evaluate(d.phi_q.rows[i][j], at);
+      for (std::size_t j = 0; j < 9; ++j) rows[i][j] = evaluate(d.velocity.matrix.rows[i][j], at);
     long double determinant = 1;
     for (std::size_t i = 0; i < 6; ++i) {  // Gram and Schmidt
       long double square = 0;

@@ -1,0 +1,34 @@
+#include "corank/report/set_view.h"
+
+#include <algorithm>
+
+#include "corank/result/hdf5_file.h"
+#include "corank/result/verification.h"
+#include "corank/symbolic/model_error.h"
+
+namespace corank::report {
+
+SetView set_view(result::Result result, System system) {
+  const symbolic::SetDefinition& set = symbolic::definition(result.set);
+  Components found = components(result);
+  SetWords words = set_words(result, found);
+  return {std::move(result), &set, std::move(system), std::move(found), std::move(words)};
+}
+
+SetView set_view(const symbolic::Mechanism& mechanism, result::Result result) {
+  if (!symbolic::singularity_set_from_string(result.set))
+    throw result::ResultFileError("the result's set '" + result.set + "' is no set of a mechanism");
+  System system;
+  try {
+    system = result::system_of(mechanism, result);
+  } catch (const symbolic::ModelError& error) {  // scales that are none of this model
+    throw result::ResultFileError(std::string("the result's system: ") + error.what());
+  }
+  const auto same = [](const Variable& a, const result::ResultVariable& b) { return a.name == b.name; };
+  if (!std::equal(system.variables.begin(), system.variables.end(), result.variables.begin(), result.variables.end(), same))
+    throw result::ResultFileError("the result of the set '" + result.set + "' has other variables than the model " +
+                                  mechanism.name());
+  return set_view(std::move(result), std::move(system));
+}
+
+}  // namespace corank::report

@@ -1,0 +1,26 @@
+// A result as pages and pictures show it: with what it takes to do so, made once.
+#pragma once
+
+#include "corank/core/system.h"
+#include "corank/report/components.h"
+#include "corank/report/page_words.h"
+#include "corank/result/result.h"
+#include "corank/symbolic/set_definition.h"
+
+namespace corank::report {
+
+struct SetView {
+  result::Result result;
+  const symbolic::SetDefinition* set;  ///< of result.set
+  System system;                       ///< that was solved
+  Components components;
+  SetWords words;
+};
+
+/// Of a result and the system that was solved.
+SetView set_view(result::Result result, System system);
+/// The same of a result that was read. Throws ResultFileError where it is none of this mechanism: its variables differ from
+/// those of the mechanism's set.
+SetView set_view(const symbolic::Mechanism& mechanism, result::Result result);
+
+}  // namespace corank::report

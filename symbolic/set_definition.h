@@ -1,0 +1,61 @@
+// The sets of configurations that corank knows of a mechanism, as data: of which matrix a set is the rank deficiency, what
+// it is called in words, and how pictures show it. Whoever needs to know what a set is asks here; nobody compares names.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace corank::symbolic {
+
+enum class SingularitySet { cspace, forward, inverse, cspace_singular };
+enum class KernelSide { right, left };  ///< M ξ = 0 or Mᵀ ξ = 0
+/// Of a coordinate: whose rate is it? Inputs are the actuators', passive is the rest.
+enum class Role { input, output, passive };
+
+const char* to_string(SingularitySet set);  ///< "cspace", "forward", "inverse", "cspace-singular"
+const char* to_string(KernelSide side);
+const char* to_string(Role role);
+/// Nothing for another word.
+std::optional<SingularitySet> singularity_set_from_string(const std::string& text);
+std::optional<KernelSide> kernel_side_from_string(const std::string& text);
+
+/// { q : Φ(q) = 0 and, where there is a matrix, ker M or ker Mᵀ ≠ 0 }, M = L without the columns of the locked rates.
+struct SetDefinition {
+  std::optional<SingularitySet> set;  ///< nothing: the solutions of a plain system
+  const char* name;                   ///< on command lines and in result files: "forward"
+  const char* matrix = "";            ///< what M is called, "L_y"; empty: the set has no kernel
+  std::span<const Role> locked{};     ///< the rates that are 0: which columns of L go
+  KernelSide side{};                  ///< of the kernel, where none is asked for
+
+  const char* title;      ///< "Forward singularities"
+  const char* member;     ///< one of them, "Forward singularity"
+  const char* label;      ///< in a picture's legend, "forward locus"; empty: the file's name
+  const char* meaning;    ///< one clause
+  const char* of_corank;  ///< the same of a corank {} of 2 or more
+  const char* none;       ///< what it says of the mechanism that there is none
+
+  std::array<double, 3> print;     ///< colour on paper: red, green and blue, each from 0 to 1
+  const char *on_light, *on_dark;  ///< on a page, in CSS
+  int layer = 0;                   ///< higher ones are drawn over lower ones
+  double dot = 0;                  ///< radius of an isolated point on a page, in pixels
+
+  bool has_kernel() const { return *matrix != '\0'; }
+  /// All configurations of a mechanism, among which those of the other sets are.
+  bool is_cspace() const { return set && !has_kernel(); }
+};
+
+/// The sets of a mechanism, in the order of a report.
+std::span<const SetDefinition> set_definitions();
+/// Nothing: a plain system's.
+const SetDefinition& definition(std::optional<SingularitySet> set);
+/// By name; a plain system's where no set is called so.
+const SetDefinition& definition(const std::string& name);
+
+/// "cspace, forward, inverse or cspace-singular"; those that have a kernel, or all.
+std::string names_of_sets(bool with_kernel_only = false);
+/// "forward singularities of corank 2"; "forward" where the corank is 1.
+std::string set_with_corank(const std::string& set, int corank);
+
+}  // namespace corank::symbolic

@@ -1,0 +1,38 @@
+// What the table of sets says is consistent, and who asks by name finds it.
+#include "corank/symbolic/set_definition.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace corank::symbolic {
+namespace {
+
+TEST(SetDefinitions, AreFoundByTheirNamesAndByTheirSets) {
+  for (const SetDefinition& d : set_definitions()) {
+    ASSERT_TRUE(d.set);
+    EXPECT_EQ(&definition(d.set), &d);
+    EXPECT_EQ(&definition(std::string(d.name)), &d);
+    EXPECT_EQ(singularity_set_from_string(to_string(*d.set)), d.set);
+  }
+  EXPECT_EQ(names_of_sets(), "cspace, forward, inverse or cspace-singular");
+  EXPECT_EQ(names_of_sets(true), "forward, inverse or cspace-singular");
+}
+
+TEST(SetDefinitions, KnowAPlainSystemUnderAnyOtherName) {
+  for (const std::string name : {"system", "", "Forward", "outverse"}) {
+    EXPECT_EQ(&definition(name), &definition(std::nullopt));
+    EXPECT_FALSE(singularity_set_from_string(name));
+  }
+  EXPECT_FALSE(definition(std::nullopt).has_kernel());
+  EXPECT_FALSE(definition(std::nullopt).is_cspace());
+}
+
+TEST(SetDefinitions, AreDrawnInLayersOfTheirOwn) {
+  std::set<int> layers;
+  for (const SetDefinition& d : set_definitions()) EXPECT_TRUE(layers.insert(d.layer).second) << d.name;
+}
+
+}  // namespace
+}  // namespace corank::symbolic
