@@ -1,5 +1,9 @@
 #include "corank/certify/projection.h"
 
+#include <algorithm>
+#include <limits>
+#include <vector>
+
 #include "corank/certify/trigonometric.h"
 #include "corank/core/check.h"
 
@@ -46,7 +50,6 @@ class Projector {
     return true;
   }
 
- private:
   bool set(int v, const std::optional<Interval>& shrunk) {
     if (!shrunk) return false;
     const double before = x_[v].width(), after = shrunk->width();
@@ -55,11 +58,56 @@ class Projector {
     return true;
   }
 
+ private:
   const CompiledSystem& system_;
   std::span<Interval> x_;
   double share_;
   std::uint8_t* changed_;
 };
+
+bool is_linear(std::span<const CompiledSystem::Term> terms) {
+  using Shape = CompiledSystem::Shape;
+  return std::all_of(terms.begin(), terms.end(),
+                     [](const auto& t) { return t.shape == Shape::constant || t.shape == Shape::linear; });
+}
+
+// f(x) ≥ 0 by slopes: f(c) + Σ s_j·(x_j − c_j), solved for each x_j.
+bool project_by_slopes(const CompiledSystem& system, int row, std::span<Interval> x, Projector& projector) {
+  thread_local std::vector<Interval> slopes, offsets;  // all of the row's are written before they are read
+  thread_local std::vector<double> center;
+  const int begin = system.row_begin(row), end = system.row_begin(row + 1);
+  center.resize(x.size());
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    if (!x[j].is_bounded()) return true;
+    center[j] = x[j].mid();
+  }
+  slopes.resize(static_cast<std::size_t>(system.entries()));
+  offsets.resize(slopes.size());
+  system.slopes(row, x, center.data(), slopes);
+  const Interval at_center = system.evaluate_at(row, center.data());
+  Interval sum = at_center;
+  for (int k = begin; k < end; ++k) {
+    const int j = system.column(k);
+    offsets[k] = x[j] - Interval(center[j]);
+    sum += slopes[k] * offsets[k];
+  }
+  if (sum.hi() < 0) return false;
+  if (sum.lo() >= 0) return true;
+  for (int k = begin; k < end; ++k) {
+    const int j = system.column(k);
+    Interval others = at_center;
+    for (int i = begin; i < end; ++i)
+      if (i != k) others += slopes[i] * offsets[i];
+    const Interval image(-others.hi(), std::numeric_limits<double>::infinity());
+    if (image.contains(slopes[k] * offsets[k])) continue;  // no information
+    const auto offset = divide(image, slopes[k], offsets[k]);
+    if (!offset) return false;
+    Interval side = x[j];
+    if (!side.intersect(*offset + Interval(center[j]))) return false;
+    projector.set(j, side);
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -92,7 +140,7 @@ bool project(const CompiledSystem& system, int row, std::span<Interval> x, doubl
     if (image.contains(value[k])) continue;  // no information
     if (!projector.invert(terms[k], image)) return false;
   }
-  return true;
+  return equation || is_linear(terms) || project_by_slopes(system, row, x, projector);
 }
 
 }  // namespace corank::certify

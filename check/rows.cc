@@ -184,6 +184,34 @@ bool Row::project(Sides& x, bool equation) const {
     if (values[k].inside(image)) continue;  // no information
     if (!invert(terms_[k], image, x)) return false;
   }
+  return equation || is_linear() || project_by_slopes(x);
+}
+
+bool Row::is_linear() const {
+  return std::all_of(terms_.begin(), terms_.end(), [](const Term& t) {
+    return t.parts.empty() || (t.parts.size() == 1 && t.parts[0].power == 1 && t.parts[0].function == Function::identity);
+  });
+}
+
+bool Row::project_by_slopes(Sides& x) const {
+  Sides c = x, s;
+  for (const int j : columns_) {
+    const double mid = x[static_cast<std::size_t>(j)].mid();
+    if (!std::isfinite(mid)) return true;
+    c[static_cast<std::size_t>(j)] = Enclosure(mid);
+  }
+  slopes(x, c, s);
+  const Enclosure at_center = value(c);
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    Enclosure& side = x[static_cast<std::size_t>(columns_[k])];
+    const Enclosure& middle = c[static_cast<std::size_t>(columns_[k])];
+    Enclosure others = at_center;
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (i != k)
+        others.add_product(s[i], x[static_cast<std::size_t>(columns_[i])] - c[static_cast<std::size_t>(columns_[i])]);
+    const auto offset = divide(Enclosure::hull(-others, Enclosure(kInfinity)), s[k], side - middle);
+    if (!offset || !side.intersect(*offset + middle)) return false;
+  }
   return true;
 }
 

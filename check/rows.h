@@ -29,7 +29,7 @@ class Row {
   void approximate(const std::vector<double>& x, std::vector<double>& s) const;
   /// Shrinks X to a box that holds every x ∈ X with f(x) = 0 (f(x) ≥ 0). False: there is none. Theorem: if Σ tₖ(x) = 0 then
   /// tₖ(x) ∈ −Σ_{j≠k} Tⱼ, Tⱼ an enclosure of tⱼ over X, and each variable of tₖ lies in the inverse image of that set
-  /// (Benhamou1999).
+  /// (Benhamou1999). For f(x) ≥ 0 also by f(c) + s·(x − c) ≥ 0 with the slopes about the midpoint, each x solved for.
   bool project(Sides& x, bool equation) const;
 
  private:
@@ -48,6 +48,8 @@ class Row {
   static double approximate(const Part& p, double x);
   static double approximate_derivative(const Part& p, double x);
   static Enclosure value(const Term& t, const Sides& x);
+  bool is_linear() const;
+  bool project_by_slopes(Sides& x) const;
   static bool invert(const Term& t, const Enclosure& image, Sides& x);
 
   std::vector<Term> terms_;
