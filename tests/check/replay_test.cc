@@ -148,6 +148,38 @@ TEST_F(TwoPoints, AreNotShownWhereOneBoxIsGone) {
   EXPECT_THAT(failures(script), HasSubstr("not shown to lie in box 1"));
 }
 
+TEST_F(TwoPoints, AreNotShownWhereTheUpperPartIsSaidToBeEmpty) {
+  for (const Step leaf : {Step::empty, Step::elsewhere}) {
+    Script split(kSquare), cut(kSquare);
+    split.add(Step::split, {0}, {0.25}).add(Step::box, {0}).add(leaf);
+    EXPECT_THAT(failures(split), HasSubstr("not shown to have no solution"));
+    cut.add(Step::cut, {0, 2}, {-1.5, 0.25}).add(leaf).add(Step::box, {0}).add(leaf);
+    EXPECT_THAT(failures(cut), HasSubstr("not shown to have no solution"));
+    Script lower(kSquare);
+    lower.add(Step::split, {0}, {0.25}).add(leaf).add(Step::box, {1});
+    EXPECT_THAT(failures(lower), HasSubstr("not shown to have no solution"));
+  }
+}
+
+TEST_F(TwoPoints, AreNotShownByAPartThatIsEmptyBesideOneThatIsNot) {
+  // The rows leave [-1, 1]: below -1.5 there is nothing.
+  Script script(kSquare);
+  script.add(Step::row, {0}).add(Step::split, {0}, {-1.5}).add(Step::empty).add(Step::empty);
+  EXPECT_THAT(failures(script), HasSubstr("not shown to have no solution"));
+}
+
+TEST_F(TwoPoints, AreNotShownWhereAFurtherRootIsSaidToBeEmpty) {
+  Script script(kSquare);
+  script.root(kSquare).add(Step::root, {1}).add(Step::empty);
+  EXPECT_THAT(failures(script), HasSubstr("not shown to have no solution"));
+}
+
+TEST_F(TwoPoints, AreNotShownByAnotherBoxThanTheOneNamed) {
+  Script script(kSquare);
+  script.add(Step::split, {0}, {0.25}).add(Step::box, {1}).add(Step::box, {1});
+  EXPECT_THAT(failures(script), HasSubstr("not shown to lie in box 2"));
+}
+
 TEST_F(TwoPoints, NeedNoStepsWhereTheCheckerFindsThemItself) {
   Script script(kSquare);
   script.add(Step::split, {0}, {0}).add(Step::box, {0}).add(Step::box, {1});
@@ -200,6 +232,8 @@ TEST_F(TwoPoints, AreNotShownByAMalformedScript) {
   EXPECT_THAT(failures(Script(all).combination({{0}, {0, 1}, {1}}).add(Step::empty)), HasSubstr("malformed"));
   EXPECT_THAT(failures(Script(all).combination({{0}, {5}, {1}}).add(Step::empty)), HasSubstr("malformed"));
   EXPECT_THAT(failures(Script(std::vector<Interval>{{-2, 2}}).add(Step::empty)), HasSubstr("one bounded side"));
+  EXPECT_THAT(failures(Script({{-2, 2}, {2, -2}}).add(Step::empty)), HasSubstr("one bounded side"));
+  EXPECT_THAT(failures(Script({{-2, 2}, {-2, HUGE_VAL}}).add(Step::empty)), HasSubstr("one bounded side"));
   Script deep(all);
   for (int k = 0; k < 20'000; ++k) deep.add(Step::split, {0}, {0});
   EXPECT_NE(failures(deep), "");
