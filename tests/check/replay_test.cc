@@ -252,6 +252,21 @@ TEST(Replay, ShowsNothingWhereAnEliminatedVariablesSideIsAnother) {
   EXPECT_FALSE(check(system, cover).proof.verified);
 }
 
+TEST(Replay, ShowsThatAnEliminatedVariablesSideHoldsAllOfItsValues) {
+  const System system = plain("[SYSTEM VARS]\nx : [0, 1]\ny : [-9, 9]\n[SYSTEM EQS]\ny = x + x^2;\n");
+  Cover cover;
+  cover.sigma = {9, 9};
+  cover.dimension = 1;
+  cover.reduction = {{1, 0}};
+  cover.proof = std::make_shared<const Proof>(Script(std::vector<Interval>{{0, 1}}).add(Step::box, {0}).proof());
+  const auto verified = [&](const Interval& y) {
+    cover.boxes = {{{{0, 1}, y}, Verdict::undecided, {}}};
+    return check(system, cover).proof.verified;
+  };
+  EXPECT_TRUE(verified({0, 2}));
+  for (const Interval& part : {Interval(0, 1.5), Interval(0.5, 2), Interval(0.5, 1.5)}) EXPECT_FALSE(verified(part));
+}
+
 TEST(Replay, ShowsThatASystemHasNoSolution) {
   const System system = plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx*y = 1;\nx^2 + y^2 = 1;\n");
   Cover cover;
