@@ -209,7 +209,9 @@ class Checker {
         if (reason.empty() && box.point >= 0) reason = check_point_in(box, box.verdict != Verdict::isolated);
         return reason;
       }
-      case Verdict::exact: return check_point_in(box, false);
+      case Verdict::exact:
+        if (box.motion >= 0) return "it names a self-motion, of which it is no piece";  // and would be missing in the points
+        return check_point_in(box, false);
       case Verdict::undecided:
         if (box.region >= 0) return "it names a region";
         if (box.point >= 0) return check_point_in(box, true);

@@ -360,11 +360,10 @@ std::string ExactCheck::inside(const Box& box) const {
 std::string ExactCheck::within(double radius, const Box& box) const {
   for (int j = 0; j < system_.size(); ++j) {
     if (!knows(j)) continue;
-    const Enclosure ball = coordinate(j) + Enclosure(-radius, radius);
-    // Inside the radius whatever the coordinate is within its enclosure: ends moved inward by its width.
-    const double width = coordinate(j).width();
-    const Enclosure side = Enclosure(box[static_cast<std::size_t>(j)]) + Enclosure(-width, width);
-    if (!side.inside(ball)) return "it reaches farther from its exact point than that is shown to be the only solution";
+    // Every x − p_j, rounded outward: the ends of the ball itself would be rounded to its favour.
+    const Enclosure offset = Enclosure(box[static_cast<std::size_t>(j)]) - coordinate(j);
+    if (!offset.inside(Enclosure(-radius, radius)))
+      return "it reaches farther from its exact point than that is shown to be the only solution";
   }
   return {};
 }

@@ -62,7 +62,8 @@ class Script {
   void check_values() const {
     const auto n = static_cast<std::size_t>(problem_.size());
     for (const auto& root : proof_.roots)
-      if (root.size() != n || !std::all_of(root.begin(), root.end(), [](const Interval& x) { return x.is_bounded(); }))
+      if (root.size() != n ||
+          !std::all_of(root.begin(), root.end(), [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); }))
         refuse("a root has not one bounded side for each variable that was kept");
     const auto within = [](const std::vector<int>& list, std::size_t size) {
       return std::all_of(list.begin(), list.end(), [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < size; });

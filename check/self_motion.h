@@ -15,7 +15,8 @@ class MotionCheck {
   MotionCheck(const Problem& problem, const SelfMotionRecord& record);
 
   /// Why the record claims what is not so: nothing where {R = 0, g = 0} solves all of F, g the rows of F that the
-  /// substitution leaves, up to rational factors, and these are as many as its dimension asks for.
+  /// substitution leaves, up to rational factors, these are as many as its dimension asks for, and that is larger than the
+  /// count of F says.
   const std::string& fault() const { return fault_; }
   /// R and g.
   const std::vector<Row>& rows() const { return rows_; }

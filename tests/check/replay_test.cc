@@ -148,6 +148,38 @@ TEST_F(TwoPoints, AreNotShownWhereOneBoxIsGone) {
   EXPECT_THAT(failures(script), HasSubstr("not shown to lie in box 1"));
 }
 
+TEST_F(TwoPoints, AreNotShownWhereTheUpperPartIsSaidToBeEmpty) {
+  for (const Step leaf : {Step::empty, Step::elsewhere}) {
+    Script split(kSquare), cut(kSquare);
+    split.add(Step::split, {0}, {0.25}).add(Step::box, {0}).add(leaf);
+    EXPECT_THAT(failures(split), HasSubstr("not shown to have no solution"));
+    cut.add(Step::cut, {0, 2}, {-1.5, 0.25}).add(leaf).add(Step::box, {0}).add(leaf);
+    EXPECT_THAT(failures(cut), HasSubstr("not shown to have no solution"));
+    Script lower(kSquare);
+    lower.add(Step::split, {0}, {0.25}).add(leaf).add(Step::box, {1});
+    EXPECT_THAT(failures(lower), HasSubstr("not shown to have no solution"));
+  }
+}
+
+TEST_F(TwoPoints, AreNotShownByAPartThatIsEmptyBesideOneThatIsNot) {
+  // The rows leave [-1, 1]: below -1.5 there is nothing.
+  Script script(kSquare);
+  script.add(Step::row, {0}).add(Step::split, {0}, {-1.5}).add(Step::empty).add(Step::empty);
+  EXPECT_THAT(failures(script), HasSubstr("not shown to have no solution"));
+}
+
+TEST_F(TwoPoints, AreNotShownWhereAFurtherRootIsSaidToBeEmpty) {
+  Script script(kSquare);
+  script.root(kSquare).add(Step::root, {1}).add(Step::empty);
+  EXPECT_THAT(failures(script), HasSubstr("not shown to have no solution"));
+}
+
+TEST_F(TwoPoints, AreNotShownByAnotherBoxThanTheOneNamed) {
+  Script script(kSquare);
+  script.add(Step::split, {0}, {0.25}).add(Step::box, {1}).add(Step::box, {1});
+  EXPECT_THAT(failures(script), HasSubstr("not shown to lie in box 2"));
+}
+
 TEST_F(TwoPoints, NeedNoStepsWhereTheCheckerFindsThemItself) {
   Script script(kSquare);
   script.add(Step::split, {0}, {0}).add(Step::box, {0}).add(Step::box, {1});
@@ -200,6 +232,8 @@ TEST_F(TwoPoints, AreNotShownByAMalformedScript) {
   EXPECT_THAT(failures(Script(all).combination({{0}, {0, 1}, {1}}).add(Step::empty)), HasSubstr("malformed"));
   EXPECT_THAT(failures(Script(all).combination({{0}, {5}, {1}}).add(Step::empty)), HasSubstr("malformed"));
   EXPECT_THAT(failures(Script(std::vector<Interval>{{-2, 2}}).add(Step::empty)), HasSubstr("one bounded side"));
+  EXPECT_THAT(failures(Script({{-2, 2}, {2, -2}}).add(Step::empty)), HasSubstr("one bounded side"));
+  EXPECT_THAT(failures(Script({{-2, 2}, {-2, HUGE_VAL}}).add(Step::empty)), HasSubstr("one bounded side"));
   Script deep(all);
   for (int k = 0; k < 20'000; ++k) deep.add(Step::split, {0}, {0});
   EXPECT_NE(failures(deep), "");
@@ -216,6 +250,21 @@ TEST(Replay, ShowsNothingWhereAnEliminatedVariablesSideIsAnother) {
   ASSERT_EQ(cover.boxes.size(), cover.count(Verdict::undecided));
   for (CoverBox& box : cover.boxes) box.box[1] = Interval(box.box[1].lo() + 1, box.box[1].hi() + 1);
   EXPECT_FALSE(check(system, cover).proof.verified);
+}
+
+TEST(Replay, ShowsThatAnEliminatedVariablesSideHoldsAllOfItsValues) {
+  const System system = plain("[SYSTEM VARS]\nx : [0, 1]\ny : [-9, 9]\n[SYSTEM EQS]\ny = x + x^2;\n");
+  Cover cover;
+  cover.sigma = {9, 9};
+  cover.dimension = 1;
+  cover.reduction = {{1, 0}};
+  cover.proof = std::make_shared<const Proof>(Script(std::vector<Interval>{{0, 1}}).add(Step::box, {0}).proof());
+  const auto verified = [&](const Interval& y) {
+    cover.boxes = {{{{0, 1}, y}, Verdict::undecided, {}}};
+    return check(system, cover).proof.verified;
+  };
+  EXPECT_TRUE(verified({0, 2}));
+  for (const Interval& part : {Interval(0, 1.5), Interval(0.5, 2), Interval(0.5, 1.5)}) EXPECT_FALSE(verified(part));
 }
 
 TEST(Replay, ShowsThatASystemHasNoSolution) {

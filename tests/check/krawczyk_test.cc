@@ -1,0 +1,85 @@
+// The operator that proves existence and uniqueness, and what it says of other rows.
+#include "corank/check/krawczyk.h"
+
+#include <gtest/gtest.h>
+
+#include "corank/tests/system_builder.h"
+
+namespace corank::check {
+namespace {
+
+using Term = test::SystemBuilder::Term;
+using Center = Krawczyk::Center;
+
+Row row(const std::vector<Term>& terms, double tolerance = 0) {
+  return Row(Terms(test::SystemBuilder::polynomial(terms), tolerance), {0, 1, 2});
+}
+bool holds(const Enclosure& x, double p) { return Enclosure(p).inside(x); }
+
+TEST(Contraction, IsStrictInEveryRow) {
+  EXPECT_TRUE(is_contraction({0.9}, 1));
+  EXPECT_FALSE(is_contraction({1}, 1));
+  EXPECT_FALSE(is_contraction({2, 0, 0, 0.1}, 2));
+  EXPECT_FALSE(is_contraction({0.1, 0, 0, 2}, 2));
+}
+
+TEST(KrawczyksOperator, DoesNotShowThatASquareIsInjectiveByItsSlopes) {
+  const std::vector<Row> square{row({{"1", {{0, 2}}}, {"-1", {}}})};
+  Krawczyk newton(square, 1);
+  const Sides both{{-0.5, 2}};  // 2 x has a zero in it, the slopes about its middle have none
+  ASSERT_TRUE(newton.set({0}, both, Center::middle));
+  EXPECT_FALSE(newton.is_injective(both));
+  const Sides one{{0.5, 2}};
+  ASSERT_TRUE(newton.set({0}, one, Center::middle));
+  EXPECT_TRUE(newton.is_injective(one));
+}
+
+TEST(KrawczyksOperator, HoldsTheZerosForEveryValueOfTheFreeVariables) {
+  const std::vector<Row> line{row({{"1", {{0, 1}}}, {"1", {{1, 1}}}, {"-1", {}}})};  // x + y = 1
+  Krawczyk newton(line, 2);
+  for (const Sides& x : {Sides{{-1, 4}, {0, 1}}, Sides{{-2, 2}, {0, 1}}}) {
+    ASSERT_TRUE(newton.set({0}, x, Center::middle));
+    const Enclosure image = newton.image(x)[0];
+    EXPECT_TRUE(holds(image, 0) && holds(image, 1));
+    EXPECT_LT(image.width(), 1.1);
+  }
+}
+
+TEST(KrawczyksOperator, HoldsTheZerosForEveryChoiceWithinTheTolerance) {
+  const std::vector<Row> third{row({{"1", {{0, 1}}}, {"-1/3", {}}}, 0.1)};
+  Krawczyk newton(third, 1);
+  const Sides x{{0, 1}};
+  ASSERT_TRUE(newton.set({0}, x, Center::middle));
+  const Enclosure image = newton.image(x)[0];
+  EXPECT_TRUE(holds(image, 0.31) && holds(image, 0.36));
+}
+
+TEST(KrawczyksOperator, KnowsARowAtTheZeros) {
+  const std::vector<Row> equal{row({{"1", {{0, 1}}}, {"-1", {{1, 1}}}})};  // x = y
+  Krawczyk newton(equal, 2);
+  const Row sum = row({{"1", {{0, 1}}}, {"1", {{1, 1}}}}), own = row({{"1", {{0, 1}}}});
+  Sides x{{0, 2}, {0, 1}};
+  ASSERT_TRUE(newton.set({0}, x, Center::middle));
+  newton.image(x);
+  const Enclosure value = newton.value_at_zeros(own, x);
+  EXPECT_TRUE(holds(value, 0) && holds(value, 1));
+  x[0] = {0.9, 1};  // the zeros at y ∈ [0.9, 1]
+  ASSERT_TRUE(newton.set({0}, x, Center::middle));
+  newton.image(x);
+  EXPECT_TRUE(holds(newton.value_at_zeros(sum, x), 1.8) && holds(newton.value_at_zeros(sum, x), 2));
+}
+
+TEST(KrawczyksOperator, HasACentreThatSolvesOnlyWhereItDoesForEveryFreeValue) {
+  const std::vector<Row> rows{row({{"1", {{0, 1}}}}), row({{"1", {{1, 1}}}, {"-1", {{2, 1}}}})};  // x = 0, y = z
+  Krawczyk newton(rows, 3);
+  const Sides x(3, Enclosure(-1, 1));
+  ASSERT_TRUE(newton.set({0, 1}, x, Center::middle));
+  EXPECT_FALSE(newton.center_solves(x));
+  const std::vector<Row> fixed{rows[0], row({{"1", {{1, 1}}}, {"1", {{0, 1}, {2, 1}}}})};
+  Krawczyk other(fixed, 3);
+  ASSERT_TRUE(other.set({0, 1}, x, Center::middle));
+  EXPECT_TRUE(other.center_solves(x)) << "x = y = 0, whatever z is";
+}
+
+}  // namespace
+}  // namespace corank::check

@@ -1,0 +1,125 @@
+// Boxes about a sheet, each just on the wrong side of one of the claims that check/sheets.h lists.
+#include "corank/check/sheets.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "corank/tests/check/covers.h"
+
+namespace corank::check {
+namespace {
+
+using testing::HasSubstr;
+
+struct Claim {
+  Verdict verdict = Verdict::regular;
+  std::vector<int> free;
+  Box box, region;
+};
+
+std::string fault(const System& system, const Claim& claim, const std::vector<ReductionStep>& reduction = {}) {
+  const Problem problem(system, reduction);
+  const CoverBox box{claim.box, claim.verdict, claim.free, 0};
+  return check_sheet(problem, problem.equations(), box, claim.region);
+}
+
+System lines(const std::string& domain = "[-9, 9]") {
+  return plain("[SYSTEM VARS]\nx : " + domain + "\ny : [-9, 9]\nw : [-9, 9]\n[SYSTEM EQS]\nx = y;\nw = y;\n");
+}
+
+TEST(Sheet, HasASolutionForEveryValueOfTheFreeVariables) {
+  const Interval all(-0.5, 1.5), part(0.5, 1.5), y(0, 1);
+  EXPECT_EQ(fault(lines(), {Verdict::regular, {1}, {all, y, all}, {all, y, all}}), "");
+  EXPECT_NE(fault(lines(), {Verdict::regular, {1}, {part, y, all}, {part, y, all}}), "") << "x = y < 1/2 is not in it";
+  EXPECT_NE(fault(lines(), {Verdict::regular, {1}, {all, y, part}, {all, y, part}}), "");
+  EXPECT_NE(fault(lines(), {Verdict::regular, {1}, {part, y, all}, {all, y, all}}), "");
+}
+
+TEST(Sheet, HasOneSolutionInItsRegionNotOnlyInItsBox) {
+  const System system = plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\n[SYSTEM EQS]\nx^2 = y;\n");
+  const Interval side(0.9, 1.1);
+  EXPECT_EQ(fault(system, {Verdict::regular, {1}, {side, side}, {{0.5, 2}, side}}), "");
+  for (const double beyond : {-2.0, -1.0, -0.97})
+    EXPECT_NE(fault(system, {Verdict::regular, {1}, {side, side}, {{beyond, 2}, side}}), "") << beyond;
+}
+
+TEST(Sheet, HasTheFreeVariablesThatItsVerdictSays) {
+  const System system = plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\n[SYSTEM EQS]\nx^2 = y;\n");
+  const Interval side(0.9, 1.1);
+  EXPECT_THAT(fault(system, {Verdict::isolated, {1}, {side, side}, {side, side}}), HasSubstr("contradict its verdict"));
+  EXPECT_THAT(fault(system, {Verdict::regular, {1, 1}, {side, side}, {side, side}}), HasSubstr("distinct"));
+  EXPECT_THAT(fault(system, {Verdict::regular, {}, {side, side}, {side, side}}), HasSubstr("not as many"));
+  const System point = plain("[SYSTEM VARS]\nx : [-9, 9]\n[SYSTEM EQS]\nx^2 = 1;\n");
+  EXPECT_THAT(fault(point, {Verdict::regular, {}, {side}, {side}}), HasSubstr("contradict its verdict"));
+  EXPECT_EQ(fault(point, {Verdict::isolated, {}, {side}, {side}}), "");
+}
+
+TEST(Sheet, IsNoPointWhereItsRegionHoldsTwoOrNone) {
+  const System system = plain("[SYSTEM VARS]\nx : [-9, 9]\n[SYSTEM EQS]\nx^2 = 1;\n");
+  const Interval near(0.9, 1.1);
+  EXPECT_EQ(fault(system, {Verdict::isolated, {}, {near}, {{0.5, 2}}}), "");
+  for (const Interval& region : {Interval(-2, 2), Interval(-1, 1.5)})
+    EXPECT_NE(fault(system, {Verdict::isolated, {}, {near}, {region}}), "") << region.lo();
+  EXPECT_NE(fault(system, {Verdict::isolated, {}, {{1.1, 1.2}}, {{1.05, 2}}}), "");
+  const System doubled = plain("[SYSTEM VARS]\nx : [-9, 9]\n[SYSTEM EQS]\n(x - 1)^2 = 0;\n");
+  EXPECT_NE(fault(doubled, {Verdict::isolated, {}, {near}, {{0.5, 2}}}), "");
+}
+
+TEST(Sheet, LiesInsideItsRegion) {
+  const System system = plain("[SYSTEM VARS]\nx : [-9, 9]\n[SYSTEM EQS]\nx^2 = 1;\n");
+  EXPECT_THAT(fault(system, {Verdict::isolated, {}, {{0.5, 2}}, {{0.9, 1.1}}}), HasSubstr("not inside the region"));
+}
+
+TEST(Sheet, HoldsTheValuesOfEliminatedVariables) {
+  const System system = plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\nz : [-9, 9]\n[SYSTEM EQS]\nx^2 = y;\nz = x + y;\n");
+  const auto with = [&](const Interval& z) {
+    const Interval side(0.9, 1.1);
+    return fault(system, {Verdict::regular, {1}, {side, side, z}, {{0.5, 2}, side, {-9, 9}}}, {{2, 1}});
+  };
+  EXPECT_EQ(with({1.8, 2.2}), "");
+  EXPECT_THAT(with({2.2, 2.3}), HasSubstr("outside it (z)"));
+  EXPECT_THAT(with({2, 2.2}), HasSubstr("outside it (z)"));
+}
+
+TEST(Sheet, LiesInTheDomainUnlessItIsBoundary) {
+  const Interval side(-0.5, 2.5), y(0, 2), w(-1, 3);
+  const Claim claim{Verdict::regular, {1}, {side, y, w}, {{-1, 3}, y, {-2, 4}}};
+  EXPECT_EQ(fault(lines(), claim), "");
+  for (const char* domain : {"[-9, 1]", "[1, 9]", "[-9, 1999/1000]", "[1/1000, 9]"}) {
+    EXPECT_THAT(fault(lines(domain), claim), HasSubstr("violate")) << domain;
+    Claim boundary = claim;
+    boundary.verdict = Verdict::boundary;
+    EXPECT_EQ(fault(lines(domain), boundary), "") << domain;
+  }
+}
+
+TEST(Sheet, ReachesWithAFreeSideNoFartherThanTheDoubleNextToItsRange) {
+  const System system = plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [0, 2/5]\n[SYSTEM EQS]\nx^2 = y;\n");
+  const auto to = [&](double end) {
+    const Interval x(0.5, 0.7), y(0.3, end);
+    return fault(system, {Verdict::regular, {1}, {x, y}, {{0.4, 0.8}, y}});
+  };
+  EXPECT_EQ(to(0.4), "");
+  EXPECT_THAT(to(std::nextafter(0.4, 1.0)), HasSubstr("violate the domain of y"));
+}
+
+// x = 2/5 + 10⁻¹⁷, which is less than the double next to 2/5, and more than 2/5.
+TEST(Sheet, HasItsPointInTheDomainAsItIsWritten) {
+  const std::string equations = "\n[SYSTEM EQS]\n(x - 40000000000000001/100000000000000000)*(x + 5) = 0;\n";
+  const Claim claim{Verdict::isolated, {}, {{0.39, 0.4}}, {{0.3, 0.5}}};
+  EXPECT_EQ(fault(plain("[SYSTEM VARS]\nx : [0, 1]" + equations), claim), "");
+  EXPECT_THAT(fault(plain("[SYSTEM VARS]\nx : [0, 2/5]" + equations), claim), HasSubstr("violates the domain of x"));
+}
+
+// z = (x − y)² is nearly −10⁻⁸ along a line, so that no end of parts tells it; far from where it begins x + y > 1.99.
+TEST(Sheet, IsNotShownByALimitOfItsParts) {
+  const System system = plain(
+      "[SYSTEM VARS]\nx : [-1, 1]\ny : [-1, 1]\nz : [-9, 9]\n[SYSTEM EQS]\nz - x^2 + 2*x*y - y^2 = 0;\nx + y <= 1.99;\n");
+  const Interval side(-1, 1);
+  EXPECT_NE(fault(system, {Verdict::regular, {0, 1}, {side, side, {-1e-8, 5}}, {side, side, {-2, 6}}}), "");
+}
+
+}  // namespace
+}  // namespace corank::check
