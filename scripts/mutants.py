@@ -4,8 +4,8 @@ tests until one fails. A fault that no test notices is a hypothesis that no test
 
   scripts/mutants.py [--jobs N] [WORD …]   those whose file or description holds each WORD
 
-Works on N copies (1) of the last commit in build/mutants; with CMAKE_CXX_COMPILER_LAUNCHER=ccache in the environment a
-second run is quick. A mutant's fields: "file"; "old", a text that is once in it; "new", what takes its place; "of", the
+Works on N copies (1) of the last commit in build/mutants, where it also remembers which test killed which mutant, to try
+that one first; with CMAKE_CXX_COMPILER_LAUNCHER=ccache in the environment a second run is quick. A mutant's fields: "file"; "old", a text that is once in it; "new", what takes its place; "of", the
 hypothesis in the words of doc/theory.md; "tests", the programs to run, in this order, until one fails; and, where no test
 can fail, "equivalent", the proof of that.
 """
@@ -19,6 +19,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDER = ROOT / "build" / "mutants"
+KILLERS = FOLDER / "killers.json"
 TEST_TIMEOUT = 300  # a fault may also make a test go on for ever
 
 
@@ -35,7 +37,7 @@ class Copy:
     """A clone of the repository in which one mutant after the other is built."""
 
     def __init__(self, number):
-        self.root = ROOT / "build" / "mutants" / str(number)
+        self.root = FOLDER / str(number)
         self.build_folder = self.root / "build" / "release"
 
     def prepare(self, targets):
@@ -54,7 +56,7 @@ class Copy:
     def build(self, target):
         return run("cmake", "--build", self.build_folder, "--target", target).returncode == 0
 
-    def fate(self, mutant):
+    def fate(self, mutant, last_killer):
         """What becomes of it: "killed by TEST", "does not compile", or None where every test passes."""
         file = self.root / mutant["file"]
         text = file.read_text()
@@ -65,17 +67,19 @@ class Copy:
             for target in mutant["tests"]:
                 if not self.build(target):
                     return "does not compile"
-                killer = self.killer(target)
+                killer = self.killer(target, last_killer) if last_killer else None
+                killer = killer or self.killer(target, "*")
                 if killer:
                     return "killed by " + killer
             return None
         finally:
             file.write_text(text)
 
-    def killer(self, target):
+    def killer(self, target, tests):
         program = next(self.build_folder.glob(f"tests/**/{target}"))
+        options = ["--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=" + tests]
         try:
-            outcome = run(program, "--gtest_brief=1", "--gtest_fail_fast", timeout=TEST_TIMEOUT)
+            outcome = run(program, *options, timeout=TEST_TIMEOUT)
         except subprocess.TimeoutExpired:
             return f"{target}, which does not end"
         if outcome.returncode == 0:
@@ -108,18 +112,26 @@ def main():
         copy.prepare(first_tests)
         copies.put(copy)
 
+    killers = json.loads(KILLERS.read_text()) if KILLERS.exists() else {}
+
     def treat(mutant):
         copy = copies.get()
+        name = mutant["file"] + ", " + mutant["of"]
         try:
-            return judge(mutant, copy.fate(mutant))
+            fate = copy.fate(mutant, killers.get(name))
         finally:
             copies.put(copy)
+        if fate and fate.startswith("killed by ") and "." in fate:
+            killers[name] = fate.removeprefix("killed by ")
+        return judge(mutant, fate)
 
     by_file = collections.defaultdict(collections.Counter)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for number, (mutant, (kind, words)) in enumerate(zip(chosen, pool.map(treat, chosen)), 1):
             by_file[mutant["file"]][kind] += 1
             print(f"{number:4}  {mutant['file']}, {mutant['of']}: {words}", flush=True)
+
+    KILLERS.write_text(json.dumps(killers, indent=1))
 
     def summary(counts):
         parts = [f"{counts[kind]} {kind}" for kind in ("killed", "explained", "alive", "broken") if counts[kind]]
