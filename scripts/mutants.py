@@ -114,24 +114,25 @@ def main():
 
     killers = json.loads(KILLERS.read_text()) if KILLERS.exists() else {}
 
-    def treat(mutant):
+    def name(mutant):
+        return mutant["file"] + ", " + mutant["of"]
+
+    def fate(mutant):
         copy = copies.get()
-        name = mutant["file"] + ", " + mutant["of"]
         try:
-            fate = copy.fate(mutant, killers.get(name))
+            return copy.fate(mutant, killers.get(name(mutant)))
         finally:
             copies.put(copy)
-        if fate and fate.startswith("killed by ") and "." in fate:
-            killers[name] = fate.removeprefix("killed by ")
-        return judge(mutant, fate)
 
     by_file = collections.defaultdict(collections.Counter)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for number, (mutant, (kind, words)) in enumerate(zip(chosen, pool.map(treat, chosen)), 1):
+        for number, (mutant, end) in enumerate(zip(chosen, pool.map(fate, chosen)), 1):
+            kind, words = judge(mutant, end)
             by_file[mutant["file"]][kind] += 1
-            print(f"{number:4}  {mutant['file']}, {mutant['of']}: {words}", flush=True)
-
-    KILLERS.write_text(json.dumps(killers, indent=1))
+            print(f"{number:4}  {name(mutant)}: {words}", flush=True)
+            if kind == "killed" and "." in end:
+                killers[name(mutant)] = end.removeprefix("killed by ")
+                KILLERS.write_text(json.dumps(killers, indent=1))
 
     def summary(counts):
         parts = [f"{counts[kind]} {kind}" for kind in ("killed", "explained", "alive", "broken") if counts[kind]]
