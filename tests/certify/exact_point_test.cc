@@ -81,8 +81,7 @@ TEST(AlgebraicNumber, BoundsHoldTheValueWhereTheFunctionTurns) {
 
 TEST(AlgebraicNumber, MultipliesPolynomialsTermByTerm) {
   const AlgebraicNumber t({q("-2"), q("0"), q("0"), q("0"), q("1")}, q("1"), q("2"));
-  EXPECT_EQ(t.product({q("1"), q("2"), q("3")}, {q("4"), q("5")}),
-            (RationalPolynomial{q("4"), q("13"), q("22"), q("15")}));
+  EXPECT_EQ(t.product({q("1"), q("2"), q("3")}, {q("4"), q("5")}), (RationalPolynomial{q("4"), q("13"), q("22"), q("15")}));
   EXPECT_EQ(t.product({q("0"), q("0"), q("1")}, {q("0"), q("0"), q("1")}), RationalPolynomial{q("2")}) << "t⁴ = 2";
 }
 
@@ -427,6 +426,14 @@ TEST(ProveZero, IsTheSolutionOfARegionThatItLiesIn) {
   reduction.subset = false;
   reduction.tolerant = true;
   EXPECT_FALSE(is_solution_of_region(*zero, reduction, region({0.7, 0.8}))) << "a zero of some choice of coefficients";
+}
+
+TEST(ProveZero, IsComparedWithTheSidesOfTheKeptVariables) {
+  Reduction reduction;
+  reduction.kept = {1};
+  const ProvenZero zero{{{q("1/4"), q("1/2")}}, 53};
+  EXPECT_TRUE(is_solution_of_region(zero, reduction, {{5, 6}, {0.25, 0.5}}));
+  EXPECT_FALSE(is_solution_of_region(zero, reduction, {{0, 1}, {5, 6}}));
 }
 
 TEST(ProveZero, LeavesADoubleRootUnproven) {
