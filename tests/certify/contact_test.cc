@@ -125,7 +125,7 @@ TEST(Contact, IsWithTheExactEnd) {
 }
 
 TEST(Contact, WithAnEndThatTheSolutionOnlyComesCloseToIsNotProven) {
-  // x = √(25 − y²) is above 3 for y < 4, by less than any Newton step tells at the last double before 4; and beneath it after.
+  // x = √(25 − y²) is above 3 for y < 4 and beneath it for y > 4, next to 4 by less than any Newton step tells.
   for (const Interval y : {Interval(3.9, std::nextafter(4.0, 0)), Interval(std::nextafter(4.0, 5), 4.1)}) {
     CoverBox close = box({2.86, 3.13}, y, Verdict::boundary, {1});
     close.region = 0;
