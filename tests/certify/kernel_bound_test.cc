@@ -86,5 +86,15 @@ TEST(KernelBound, MultipliesByTheInverseFromTheLeft) {
   EXPECT_EQ(at_most({{one, ten}, {small, one}}, {-1, 1}), 0);
 }
 
+TEST(KernelBound, IsRefusedInAnotherRoundingMode) {
+  test::SystemBuilder b;
+  b.variable("xi", "-1", "1", VariableKind::kernel);
+  b.equation({{"1", {{0, 1}}}});
+  const KernelBound bound(b.system());
+  EXPECT_THROW(bound.at_most({Interval(-1, 1)}), std::logic_error);
+  const UpwardRounding rounding;
+  EXPECT_EQ(bound.at_most({Interval(-1, 1)}), 0);
+}
+
 }  // namespace
 }  // namespace corank::certify

@@ -429,5 +429,17 @@ TEST_F(Newton, SlopesAndJacobiansEncloseDifferencesAndDerivatives) {
   }
 }
 
+TEST(NewtonProof, IsRefusedInAnotherRoundingMode) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2");
+  b.equation({{"1", {{x, 1}}}});
+  const CompiledSystem f(b.system());
+  const std::vector<Interval> box{Interval(-1, 1)};
+  NewtonWorkspace workspace;
+  EXPECT_THROW(newton_prove(f, {{0}, {x}, {1}}, box, workspace), std::logic_error);
+  const UpwardRounding rounding;
+  EXPECT_TRUE(newton_prove(f, {{0}, {x}, {1}}, box, workspace).proven);
+}
+
 }  // namespace
 }  // namespace corank::certify
