@@ -490,6 +490,16 @@ TEST_F(ReductionOfAnImage, AsksForNoEndThatIsImplied) {
   EXPECT_EQ(text(inequalities[0]), "-1*x0^1*x2^1 + -1*x1^1*x3^1 + 1");
 }
 
+TEST(Reduction, DefinesEachVariableByThoseThatAreKept) {
+  SystemBuilder b;  // z = y + 1, then y = x
+  for (const char* name : {"x", "y", "z"}) b.variable(name, "-4", "4");
+  b.equation({{"1", {{2, 1}}}, {"-1", {{1, 1}}}, {"-1", {}}}).equation({{"1", {{1, 1}}}, {"-1", {{0, 1}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  ASSERT_EQ(r.definitions.size(), 2u);
+  EXPECT_EQ(r.definitions[0].variable, 2);
+  EXPECT_EQ(text(r.definitions[0].value), "1 + 1*x0^1");
+}
+
 TEST(Reduction, ReplacesAVariableInTheInequalitiesToo) {
   SystemBuilder b;
   const int y = b.variable("y", "-4", "4"), x = b.variable("x", "-4", "4");
