@@ -522,11 +522,12 @@ TEST(Reduction, IsExactForWhatIsOverDeterminedOnlyWhereThatLeavesNoMoreEquations
   };
   EXPECT_FALSE(tolerant("", true));
   EXPECT_TRUE(tolerant("0.1", false)) << "three equations of two variables";
-  SystemBuilder b;  // x = 0.3 and x = 0.300001, y = x: consistent within the tolerance only
-  b.variable("x", "-2", "2"), b.variable("y", "-2", "2");
-  b.equation({{"1", {{0, 1}}}, {"-0.3", {}}}).equation({{"1", {{0, 1}}}, {"-0.3000001", {}}});
-  b.equation({{"1", {{0, 1}}}, {"-1", {{1, 1}}}});
+  SystemBuilder b;  // x = y/2 <= 1 and y > 2: consistent within the tolerance only
+  const int x = b.variable("x", "0", "1"), y = b.variable("y", "2.0000001", "3");
+  for (const auto& [p, q] : {std::pair{"1", "-0.5"}, {"0.1", "-0.05"}, {"0.3", "-0.15"}})
+    b.equation({{p, {{x, 1}}}, {q, {{y, 1}}}});
   System system = b.system();
+  EXPECT_FALSE(reduce(system).consistent);
   system.coefficient_tolerance = 1e-6;
   EXPECT_TRUE(reduce(system).consistent);
 }
