@@ -123,6 +123,17 @@ RC_GTEST_PROP(ExactNumberContainment, OfFunctionsOfDoubles, ()) {
   }
 }
 
+RC_GTEST_PROP(WaveContainment, OfTheAngleOfANumber, ()) {
+  const double h =
+      std::clamp(*rc::gen::inRange(0, 4) == 0 ? finite_double() : *rc::gen::inRange(-1000000, 1000001) * 1e-6, -1.0, 1.0);
+  const Ball cosine = Ball::unary(arb_acos, h, 200), sine = Ball::unary(arb_asin, h, 200);
+  const auto by_cosine = upward([&] { return inverse_cosine(h, {0, 3.5}); });
+  const auto by_sine = upward([&] { return inverse_sine(h, {-1.6, 1.6}); });
+  RC_LOG() << h << ": " << shown(by_cosine) << ' ' << shown(by_sine) << '\n';
+  RC_ASSERT(by_cosine && cosine.in(*by_cosine));
+  RC_ASSERT(by_sine && sine.in(*by_sine));
+}
+
 // A random system with every shape of term, its coefficients doubles.
 struct RandomSystem {
   System system;

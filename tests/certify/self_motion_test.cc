@@ -64,7 +64,8 @@ TEST_F(Motion, TakesLinearRelationsEachWithAVariableOfItsOwn) {
   for (const char* name : {"p", "q", "u", "v"}) four.variable(name, "-2", "2");
   four.equation({{"1", {{0, 1}, {2, 1}}}, {"-1", {{1, 1}, {2, 1}}}});
   const auto sum = linear({{"1", {{0, 1}}}, {"1", {{1, 1}}}}), difference = linear({{"1", {{0, 1}}}, {"-1", {{1, 1}}}});
-  EXPECT_FALSE(self_motion(four.system(), {sum, difference}, 2)) << "both are of p and q alone";
+  for (const int dimension : {0, 1, 2})
+    EXPECT_FALSE(self_motion(four.system(), {sum, difference}, dimension)) << "both are of p and q alone";
 }
 
 TEST_F(Motion, DoesNotReplaceTheArgumentOfASine) {
@@ -80,7 +81,7 @@ TEST_F(Motion, IsNotOfCoefficientsWithATolerance) {
   system = builder_.system();
   EXPECT_TRUE(self_motion(system, {equal()}, 1));
   widen(system.equations[3], 1e-6);
-  EXPECT_FALSE(self_motion(system, {equal()}, 1));
+  for (const int dimension : {0, 1, 2}) EXPECT_FALSE(self_motion(system, {equal()}, dimension));
 }
 
 TEST_F(Motion, IsProvenWhereBothProofsAreOfOneZero) {

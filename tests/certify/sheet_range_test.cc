@@ -199,7 +199,7 @@ TEST(SheetRangeOfAValue, IsAskedWithTheSheetsOwnRows) {
   NewtonWorkspace workspace;
   SystemBuilder b;
   const int f = b.variable("f", "-9", "9"), d = b.variable("d", "-9", "9");
-  b.equation({{"1", {{d, 1}}}, {"-1", {{f, 1}}}}).equation({{"1", {{d, 1}}}, {"-2", {{f, 1}}}});
+  b.equation({{"1", {{d, 1}}}, {"-1", {{f, 1}}}}).equation({{"1", {{d, 1}}}, {"-0.9", {{f, 1}}}});
   const CompiledSystem system(b.system());
   const std::vector<Interval> box{Interval(0, 1), Interval(-1, 2)};
   const Sheet sheet = newton_prove(system, {{0}, {d}, {1}}, box, workspace);
@@ -207,6 +207,8 @@ TEST(SheetRangeOfAValue, IsAskedWithTheSheetsOwnRows) {
   std::vector<Interval> piece = sheet.image;
   EXPECT_NO_THROW(shrink_to_faces(system, sheet, {{0}, {d}, {1}}, {0, 0}, piece, workspace));
   EXPECT_THROW(shrink_to_faces(system, sheet, {{1}, {d}, {1}}, {0, 0}, piece, workspace), std::logic_error);
+  piece[1] = Interval(-5, 5);  // the sheet's claim does not go so far
+  EXPECT_THROW(shrink_to_faces(system, sheet, {{0}, {d}, {1}}, {0, 0}, piece, workspace), std::logic_error);
 }
 
 }  // namespace

@@ -63,12 +63,24 @@ TEST(Unbounded, TakesNoProductWithASquareForTheSquare) {
 }
 
 TEST(Unbounded, DividesByTheFactorOfTheSquare) {
-  SystemBuilder b;  // x²/4 + y² = 1
+  SystemBuilder b;  // (x/2 − 3)² + y² = 1
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
-  b.equation({{"1/4", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+  b.equation({{"1/4", {{x, 2}}}, {"-3", {{x, 1}}}, {"1", {{y, 2}}}, {"8", {}}});
   std::vector<Interval> box(2, Interval::whole());
   ASSERT_TRUE(contract_unbounded(b.system(), box));
-  EXPECT_TRUE(box[0].contains(Interval(-2, 2)) && box[0].mag() < 2.0001);
+  EXPECT_TRUE(box[0].contains(Interval(4, 8)) && Interval(3.999, 8.001).contains(box[0])) << box[0];
+}
+
+TEST(Unbounded, TakesAnInequalityInItsDirection) {
+  SystemBuilder outside, inside;  // (x − 1)² >= 4 and <= 4
+  for (SystemBuilder* b : {&outside, &inside}) b->variable("x", "-1", "1");
+  outside.at_least_zero({{"1", {{0, 2}}}, {"-2", {{0, 1}}}, {"-3", {}}});
+  inside.at_least_zero({{"-1", {{0, 2}}}, {"2", {{0, 1}}}, {"3", {}}});
+  std::vector<Interval> box{Interval::whole()};
+  ASSERT_TRUE(contract_unbounded(outside.system(), box));
+  EXPECT_EQ(box[0], Interval::whole());
+  ASSERT_TRUE(contract_unbounded(inside.system(), box));
+  EXPECT_TRUE(box[0].contains(Interval(-1, 3)) && box[0].mag() < 3.001);
 }
 
 TEST(Unbounded, LeavesAPartThatMayBeNegative) {
