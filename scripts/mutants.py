@@ -5,9 +5,11 @@ tests until one fails. A fault that no test notices is a hypothesis that no test
   scripts/mutants.py [--jobs N] [WORD …]   those whose file or description holds each WORD
 
 Works on N copies (1) of the last commit in build/mutants, where it also remembers which test killed which mutant, to try
-that one first; with CMAKE_CXX_COMPILER_LAUNCHER=ccache in the environment a second run is quick. A mutant's fields: "file"; "old", a text that is once in it; "new", what takes its place; "of", the
-hypothesis in the words of doc/theory.md; "tests", the programs to run, in this order, until one fails; and, where no test
-can fail, "equivalent", the proof of that.
+that one first; with CMAKE_CXX_COMPILER_LAUNCHER=ccache in the environment a second run is quick.
+
+A mutant's fields: "file"; "old", a text that is once in it; "new", what takes its place; "of", the hypothesis in the words
+of doc/theory.md; "tests", the programs to run, in this order, until one fails; and, where no test can fail, "equivalent",
+the proof of that.
 """
 import argparse
 import collections

@@ -134,6 +134,15 @@ RC_GTEST_PROP(WaveContainment, OfTheAngleOfANumber, ()) {
   RC_ASSERT(by_sine && sine.in(*by_sine));
 }
 
+// What the C library gives for the arccosine of these numbers, rounding upward, is below it.
+TEST(WaveContainment, OfAnglesThatTheLibraryRoundsInTheWrongDirection) {
+  for (const double h : {0x1.f0065ba0fa143p-1, 0x1.ff8dda23df321p-1, 0x1.556673d4bbed6p-1, 0x1.eeb02caedd142p-1,
+                         0x1.ff75c9b57d45bp-1, 0x1.e020fb22c0554p-1, 0x1.4b766306761fp-1, 0x1.0b6ad948cd95cp-1}) {
+    const auto angle = upward([&] { return inverse_cosine(h, {0, 3.5}); });
+    EXPECT_TRUE(angle && Ball::unary(arb_acos, h, 200).in(*angle)) << shown(angle);
+  }
+}
+
 // A random system with every shape of term, its coefficients doubles.
 struct RandomSystem {
   System system;

@@ -60,6 +60,10 @@ TEST_F(Motion, NeedsEveryEquationToBeAMultipleOfARepresentative) {
 TEST_F(Motion, TakesLinearRelationsEachWithAVariableOfItsOwn) {
   EXPECT_FALSE(self_motion(builder_.system(), {linear({{"1", {{a_, 1}}}, {"-1", {{b_, 2}}}})}, 1)) << "no line";
   EXPECT_FALSE(self_motion(builder_.system(), {linear({{"1", {{a_, 1}}}, {"-1", {{b_, 2}}}})}, 0));
+  SystemBuilder parabola;
+  for (const char* name : {"a", "b", "u"}) parabola.variable(name, "-2", "2");
+  parabola.equation({{"1", {{0, 1}, {2, 1}}}, {"-1", {{1, 2}, {2, 1}}}});  // u (a − b²) = 0
+  EXPECT_FALSE(self_motion(parabola.system(), {linear({{"1", {{0, 1}}}, {"-1", {{1, 2}}}})}, 2));
   SystemBuilder four;
   for (const char* name : {"p", "q", "u", "v"}) four.variable(name, "-2", "2");
   four.equation({{"1", {{0, 1}, {2, 1}}}, {"-1", {{1, 1}, {2, 1}}}});
