@@ -138,7 +138,7 @@ def main():
 
     def summary(counts):
         parts = [f"{counts[kind]} {kind}" for kind in ("killed", "explained", "alive", "broken") if counts[kind]]
-        return f"{counts.total()} mutants, " + ", ".join(parts)
+        return f"{counts.total()} mutant" + ("" if counts.total() == 1 else "s") + ": " + ", ".join(parts)
 
     for file, counts in sorted(by_file.items()):
         print(f"{file}: {summary(counts)}")
