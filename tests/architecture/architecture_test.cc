@@ -151,6 +151,30 @@ TEST(Architecture, WhateverInlinesIntervalsIsCompiledForDirectedRounding) {
   EXPECT_GT(checked, 150);
 }
 
+// scripts/mutants.py replaces a text that is once in its file; this keeps the lists from rotting.
+TEST(Architecture, EveryMutantChangesOneTextOfATrustedFile) {
+  const fs::path root = CORANK_SOURCE_DIR;
+  std::set<std::string> seen;
+  int mutants = 0;
+  for_each_file({"tests/mutants"}, {".json"}, [&](const std::string& list, const std::string& text) {
+    for (const nlohmann::json& mutant : nlohmann::json::parse(text)) {
+      const std::string file = mutant.at("file"), before = mutant.at("old"),
+                        name = list + ": " + file + ", " + mutant.at("of").get<std::string>();
+      ++mutants;
+      EXPECT_TRUE(seen.insert(name).second) << name << ": twice";
+      EXPECT_NE(before, mutant.at("new").get<std::string>()) << name;
+      EXPECT_FALSE(mutant.at("tests").empty()) << name;
+      const std::string folder = file.substr(0, file.find('/'));
+      EXPECT_THAT((std::vector<std::string>{"core", "certify", "check"}), testing::Contains(folder)) << name;
+      const std::string source = read(root / file);
+      const std::size_t first = source.find(before);
+      ASSERT_NE(first, std::string::npos) << name << ": its text is not in the file";
+      EXPECT_EQ(source.find(before, first + 1), std::string::npos) << name << ": its text is in the file twice";
+    }
+  });
+  EXPECT_GT(mutants, 100);
+}
+
 // --- the rules themselves ---
 
 TEST(IncludeRules, NoticeAnArrowThatIsNotThere) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
+#include <cmath>
 
 #include "corank/tests/system_builder.h"
 
@@ -98,6 +98,76 @@ TEST(Contact, IsNoneWithTheRangeOfAVariableOfOneValue) {
   b.variable("y", "1/3", "1/3");
   b.equation({{"1", {{x, 1}}}, {"-1", {}}});
   EXPECT_TRUE(contacts_of(b.system(), box({0.9, 1.1}, {0.3, 0.4}, Verdict::isolated, {})).empty());
+}
+
+TEST(Contact, IsThereWhereABoxEndsOnAnEnd) {
+  for (const auto& [x, end] : {std::pair{Interval(-3, 0), With::lower_end}, {Interval(0, 3), With::upper_end}}) {
+    const auto found = contacts_of(circle(), box(x, {4, 4.9}, Verdict::undecided, {0}));
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found[0].with, end);
+  }
+}
+
+// x in [1/3, 2/3], between the doubles kBelow and kAbove each.
+TEST(Contact, IsWithTheExactEnd) {
+  constexpr double kBelow = 0x1.5555555555555p-2, kAbove = 0x1.5555555555556p-2;
+  SystemBuilder b;
+  b.variable("x", "1/3", "2/3"), b.variable("y", "-9", "9");
+  const auto one = [&](Interval x) { return contacts_of(b.system(), box(x, {0, 1}, Verdict::regular, {0, 1})); };
+  EXPECT_EQ(one({kAbove, 0.5}).size(), 1u) << "no double is known to be above 1/3 but those beyond its neighbour";
+  EXPECT_TRUE(one({0x1.5555555555557p-2, 0.5}).empty());
+  EXPECT_EQ(one({0.5, 2 * kBelow}).size(), 1u);
+  EXPECT_TRUE(one({0.5, 0x1.5555555555554p-1}).empty());
+  const auto reached = [&](Interval x) { return one(x).at(0).reached; };
+  EXPECT_TRUE(reached({kBelow, 0.5}) && reached({0.5, 2 * kAbove}));
+  EXPECT_FALSE(reached({kAbove, 0.5})) << "1/3 is not in it";
+  EXPECT_FALSE(reached({0.5, 2 * kBelow}));
+}
+
+TEST(Contact, WithAnEndThatTheSolutionMayJustMissIsNotProven) {
+  // x = √(25 − y²), to 1/100, is 3.007 at y = 3.995 and 2.993 at 4.005.
+  SystemBuilder b;
+  const int x = b.variable("x", "-3", "3"), y = b.variable("y", "0", "9");
+  b.equation({{"0.1", {{x, 2}}}, {"0.1", {{y, 2}}}, {"-2.5", {}}});
+  System system = b.system();
+  widen(system.equations[0], 1e-3);
+  const auto reached = [&](Interval y_side) {
+    CoverBox across = box({2.7, 3.3}, y_side, Verdict::boundary, {1});
+    across.region = 0;
+    return contacts_of(system, across).at(0).reached;
+  };
+  EXPECT_TRUE(reached({3.9, 4.1}));
+  EXPECT_FALSE(reached({3.9, 3.995})) << "not certainly beneath 3";
+  EXPECT_FALSE(reached({4.005, 4.1})) << "not certainly above";
+}
+
+TEST(Contact, IsNoneWithAnImpliedEndAndIsOneWithTheOtherEnd) {
+  SystemBuilder b;  // x >= −5 is implied, x <= 3 is not
+  const int x = b.variable("x", "-5", "3"), y = b.variable("y", "-9", "9");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-25", {}}});
+  EXPECT_TRUE(contacts_of(b.system(), box({-5, -4}, {0, 3}, Verdict::regular, {1})).empty());
+  EXPECT_EQ(contacts_of(b.system(), box({2, 3}, {4, 5}, Verdict::regular, {0})).size(), 1u);
+}
+
+TEST(Contact, IsAskedOfEveryInequality) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-9", "9"), y = b.variable("y", "-9", "9");
+  b.at_least_zero({{"1", {{x, 1}}}}).at_least_zero({{"1", {{y, 1}}}});
+  const auto at = [&](Interval x_side, Interval y_side) {
+    std::vector<int> indices;
+    for (const Contact& c : contacts_of(b.system(), box(x_side, y_side, Verdict::regular, {0, 1})))
+      indices.push_back(c.index);
+    return indices;
+  };
+  EXPECT_EQ(at({0, 1}, {1, 2}), std::vector<int>{0}) << "0 is on the inequality";
+  EXPECT_EQ(at({1, 2}, {-1, 2}), std::vector<int>{1});
+  EXPECT_EQ(at({1, 2}, {1, 2}), std::vector<int>{});
+}
+
+TEST(Contact, OfAnUndecidedBoxReachesNothing) {
+  const auto found = contacts_of(circle(), box({2.5, 3}, {4, 4.4}, Verdict::undecided, {0}));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_FALSE(found[0].reached);
 }
 
 }  // namespace

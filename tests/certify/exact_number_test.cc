@@ -175,6 +175,33 @@ TEST(ExactNumber, RefusesWhatIsNoRealNumber) {
   EXPECT_THROW(root(root(-1) * 2).enclose(), std::domain_error);
 }
 
+TEST(ExactNumber, TellsExpressionsApartByTheirExponentsAndFunctions) {
+  const ExactNumber pi = ExactNumber::pi(), two = 2;
+  EXPECT_FALSE(pow(pi, 2) == pow(pi, 3));
+  EXPECT_FALSE((pow(pi, 2) - pow(pi, 3)).is_zero());
+  EXPECT_FALSE(apply(ConstantFunction::sin, two) == apply(ConstantFunction::cos, two));
+}
+
+TEST(ExactNumber, TakesRootsOfSquaresOfFractionsOnly) {
+  EXPECT_FALSE(root(ExactNumber::rational("4/3")).is_rational());
+  EXPECT_FALSE(root(ExactNumber::rational("3/4")).is_rational());
+  EXPECT_EQ(root(ExactNumber::rational("4/9")), ExactNumber::rational("2/3"));
+}
+
+TEST(ExactNumber, BoundsItsValueFromBothSides) {
+  const auto [lower, upper] = root(2).bounds(53);
+  EXPECT_EQ((lower * lower - 2).sign(), -1);
+  EXPECT_EQ((upper * upper - 2).sign(), 1);
+}
+
+// √2·√2 is no fraction of integers for corank: asin of it less 1 cannot be told from asin of a little more than 1.
+TEST(ExactNumber, RefusesAnArgumentThatMayLieOutsideTheFunctionsDomain) {
+  const ExactNumber one = root(2) * root(2) - 1;
+  EXPECT_THROW(apply(ConstantFunction::asin, one).enclose(), std::domain_error);
+  EXPECT_THROW(apply(ConstantFunction::acos, -one).enclose(), std::domain_error);
+  EXPECT_THROW(pow(root(2) * root(3) - root(6), -2).enclose(), std::domain_error);
+}
+
 TEST(ExactNumber, RefusesAbsurdlyLongNumbers) {
   EXPECT_THROW(pow(ExactNumber(2), 1'000'000), std::domain_error);
   EXPECT_THROW(pow(ExactNumber::rational("3/7"), -1'000'000'000), std::domain_error);

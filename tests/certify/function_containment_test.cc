@@ -123,6 +123,26 @@ RC_GTEST_PROP(ExactNumberContainment, OfFunctionsOfDoubles, ()) {
   }
 }
 
+RC_GTEST_PROP(WaveContainment, OfTheAngleOfANumber, ()) {
+  const double h =
+      std::clamp(*rc::gen::inRange(0, 4) == 0 ? finite_double() : *rc::gen::inRange(-1000000, 1000001) * 1e-6, -1.0, 1.0);
+  const Ball cosine = Ball::unary(arb_acos, h, 200), sine = Ball::unary(arb_asin, h, 200);
+  const auto by_cosine = upward([&] { return inverse_cosine(h, {0, 3.5}); });
+  const auto by_sine = upward([&] { return inverse_sine(h, {-1.6, 1.6}); });
+  RC_LOG() << h << ": " << shown(by_cosine) << ' ' << shown(by_sine) << '\n';
+  RC_ASSERT(by_cosine && cosine.in(*by_cosine));
+  RC_ASSERT(by_sine && sine.in(*by_sine));
+}
+
+// What the C library gives for the arccosine of these numbers, rounding upward, is below it.
+TEST(WaveContainment, OfAnglesThatTheLibraryRoundsInTheWrongDirection) {
+  for (const double h : {0x1.f0065ba0fa143p-1, 0x1.ff8dda23df321p-1, 0x1.556673d4bbed6p-1, 0x1.eeb02caedd142p-1,
+                         0x1.ff75c9b57d45bp-1, 0x1.e020fb22c0554p-1, 0x1.4b766306761fp-1, 0x1.0b6ad948cd95cp-1}) {
+    const auto angle = upward([&] { return inverse_cosine(h, {0, 3.5}); });
+    EXPECT_TRUE(angle && Ball::unary(arb_acos, h, 200).in(*angle)) << shown(angle);
+  }
+}
+
 // A random system with every shape of term, its coefficients doubles.
 struct RandomSystem {
   System system;

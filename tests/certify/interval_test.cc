@@ -202,6 +202,13 @@ TEST_F(IntervalTest, IntersectionLeavesTheIntervalAloneWhereItIsEmpty) {
   EXPECT_EQ(x, Interval(1));
 }
 
+TEST_F(IntervalTest, TheInteriorHoldsNeitherEnd) {
+  const Interval x(0, 1);
+  EXPECT_TRUE(x.strictly_contains(Interval(0.25, 0.75)));
+  EXPECT_FALSE(x.strictly_contains(Interval(0, 0.75)));
+  EXPECT_FALSE(x.strictly_contains(Interval(0.25, 1)));
+}
+
 TEST_F(IntervalTest, TheMiddleLiesInside) {
   for (int k = 0; k < kSamples; ++k) {
     const Interval x = doubles_.interval();

@@ -282,6 +282,7 @@ TEST_F(Newton, ASingularPreconditionerProvesNothing) {
   EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 0, 0, 0}}, box, workspace_).proven);
   EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {0, 0, 0, 0}}, box, workspace_).proven);
   EXPECT_FALSE(newton_prove(f, {{0, 1}, {x, y}, {1, 1, 1, 1}}, box, workspace_).proven);
+  EXPECT_FALSE(newton_prove(f, {{}, {}, {}}, box, workspace_).proven) << "no row, no claim";
   const Sheet partial = newton_prove(f, {{0}, {x}, {1}}, box, workspace_);
   EXPECT_TRUE(partial.proven);
   EXPECT_EQ(partial.equations, std::vector<int>{0}) << "a proof says which rows it speaks of";
@@ -296,6 +297,7 @@ TEST_F(Newton, ComparesIsolatedSolutions) {
   ASSERT_TRUE(left.proven && right.proven && again.proven);
   EXPECT_EQ(compare_isolated(left, right), Identity::different);
   EXPECT_EQ(compare_isolated(right, again), Identity::same);
+  EXPECT_EQ(compare_isolated(again, right), Identity::same);
   const Interval inside(1.35, 1.36), outside(1.0, 1.36);
   EXPECT_TRUE(holds_nothing_else(right, {&inside, 1}));
   EXPECT_FALSE(holds_nothing_else(right, {&outside, 1}));
@@ -308,8 +310,22 @@ TEST_F(Newton, DoesNotKnowWhetherProofsThatOverlapAreOfOneSolution) {
   };
   const Sheet a = sheet({0.2, 0.65}, {0.3, 0.6}), b = sheet({0.45, 0.9}, {0.5, 0.8});
   EXPECT_EQ(compare_isolated(a, b), Identity::unknown);
-  EXPECT_EQ(compare_isolated(a, sheet({0.29, 0.9}, {0.5, 0.8})), Identity::same) << "a's image is in its region";
+  const Sheet wide = sheet({0.29, 0.9}, {0.5, 0.8});
+  EXPECT_EQ(compare_isolated(a, wide), Identity::same) << "a's image is in its region";
+  EXPECT_EQ(compare_isolated(wide, a), Identity::same);
   EXPECT_EQ(compare_isolated(a, sheet({0.45, 0.9}, {0.61, 0.8})), Identity::different);
+}
+
+TEST_F(Newton, ProofsAreOfOneSolutionWhereTheyAreSoInEveryVariable) {
+  const auto sheet = [](const std::vector<Interval>& region, const std::vector<Interval>& image) {
+    return Sheet{.proven = true, .equations = {0, 1}, .dependent = {0, 1}, .region = region, .image = image};
+  };
+  const Sheet a = sheet({{0, 1}, {0, 1}}, {{0.4, 0.6}, {0.4, 0.6}});
+  EXPECT_EQ(compare_isolated(a, sheet({{0, 1}, {0.5, 2}}, {{0.5, 0.7}, {0.55, 1.5}})), Identity::unknown);
+  EXPECT_EQ(compare_isolated(a, sheet({{0, 1}, {0.5, 2}}, {{0.5, 0.7}, {0.7, 1.5}})), Identity::different);
+  EXPECT_TRUE(holds_nothing_else(a, std::vector<Interval>{{0, 0.1}, {0.9, 1}})) << "the region counts";
+  EXPECT_FALSE(holds_nothing_else(a, std::vector<Interval>{{0.4, 0.6}, {0.9, 1.1}}));
+  EXPECT_FALSE(holds_nothing_else(a, std::vector<Interval>{{0.9, 1.1}, {0.4, 0.6}}));
 }
 
 // x² + a·x over [−1, 1], preconditioned by y: (1) asks for |1 − y·[a − 1, a + 1]| < 1, (2) for |1 − y·[a − 2, a + 2]| < 1.
@@ -411,6 +427,18 @@ TEST_F(Newton, SlopesAndJacobiansEncloseDifferencesAndDerivatives) {
     ASSERT_TRUE((f.evaluate(0, box) + slack).contains(value(p[0], p[1], p[2])));
     ASSERT_TRUE((f.evaluate_at(0, p) + slack).contains(value(p[0], p[1], p[2])));
   }
+}
+
+TEST(NewtonProof, IsRefusedInAnotherRoundingMode) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2");
+  b.equation({{"1", {{x, 1}}}});
+  const CompiledSystem f(b.system());
+  const std::vector<Interval> box{Interval(-1, 1)};
+  NewtonWorkspace workspace;
+  EXPECT_THROW(newton_prove(f, {{0}, {x}, {1}}, box, workspace), std::logic_error);
+  const UpwardRounding rounding;
+  EXPECT_TRUE(newton_prove(f, {{0}, {x}, {1}}, box, workspace).proven);
 }
 
 }  // namespace

@@ -171,5 +171,23 @@ TEST_F(PanelTest, RefusesWhatIsNotFinite) {
     for (int again = 0; again < 2; ++again) EXPECT_FALSE(panel.set_matrix({y}, 1));
 }
 
+TEST_F(PanelTest, AnEntryThatLeavesTheRangeOfDoublesIsWithoutBounds) {
+  constexpr double kMax = std::numeric_limits<double>::max();
+  Panel panel;
+  panel.set_matrix({1.0}, 1);
+  for (const Interval& entry : {Interval(-kMax, 1), Interval(-kMax, kMax)}) {
+    ASSERT_TRUE(panel.assign_product(full_system(1, 1), {0}, {entry}));
+    for (const Interval& offset : {Interval(0, 1), Interval(-1, 0), Interval(0.0), Interval(-1, 1)}) {
+      std::vector<Interval> sums{Interval(0.0)};
+      panel.accumulate(&offset, {0}, Panel::Diagonal::minus_one, sums);
+      EXPECT_FALSE(std::isnan(sums[0].lo()) || std::isnan(sums[0].hi())) << offset;
+      for (const double x : {offset.lo(), offset.hi()}) {
+        EXPECT_TRUE(x == 0 || sums[0].contains((entry.lo() - 1) * x)) << offset;
+        EXPECT_TRUE(sums[0].contains(0.5 * x)) << offset;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace corank::certify

@@ -52,6 +52,39 @@ TEST(Projection, HonoursAnInequality) {
   EXPECT_FALSE(project_once(b.system(), none));
 }
 
+TEST(Projection, KeepsWhatHoldsAtAnEndOnly) {
+  SystemBuilder equation, inequality;
+  for (SystemBuilder* b : {&equation, &inequality}) b->variable("u", "-4", "4"), b->variable("v", "-4", "4");
+  equation.equation({{"1", {{0, 1}}}, {"-1", {{1, 1}}}});
+  inequality.at_least_zero({{"1", {{0, 1}}}, {"-1", {{1, 1}}}});
+  for (const SystemBuilder* b : {&equation, &inequality}) {
+    std::vector<Interval> x{Interval(0, 1), Interval(1, 2)};
+    ASSERT_TRUE(project_once(b->system(), x));
+    EXPECT_EQ(x, (std::vector<Interval>{1.0, 1.0}));
+  }
+  std::vector<Interval> x{Interval(1, 2), Interval(0, 1)};
+  ASSERT_TRUE(project_once(equation.system(), x));
+  EXPECT_EQ(x, (std::vector<Interval>{1.0, 1.0}));
+}
+
+TEST(Projection, LeavesWhatAnInequalityAllows) {
+  SystemBuilder b;
+  const int u = b.variable("u", "-4", "4"), v = b.variable("v", "-4", "4");
+  b.at_least_zero({{"1", {{u, 1}}}, {"-1", {{v, 1}}}});
+  std::vector<Interval> x{Interval(0, 3), Interval(1, 2)};
+  ASSERT_TRUE(project_once(b.system(), x));
+  EXPECT_EQ(x, (std::vector<Interval>{Interval(1, 3), Interval(1, 2)}));
+}
+
+TEST(Projection, KeepsBothRootsOfASquare) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-4", "4");
+  b.equation({{"1", {{x, 2}}}, {"-4", {}}});
+  std::vector<Interval> box{Interval(-4, 4)};
+  ASSERT_TRUE(project_once(b.system(), box));
+  EXPECT_EQ(box[0], Interval(-2, 2));
+}
+
 TEST(Projection, ShrinksTheArgumentOfASineToItsBranches) {
   SystemBuilder b;
   const int s = b.variable("s", "-1", "1"), t = b.variable("t", "-40", "40");

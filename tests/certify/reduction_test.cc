@@ -84,6 +84,7 @@ TEST(Reduction, LeavesLongNumbersAlone) {
   };
   EXPECT_GT(steps("1"), 0u);
   EXPECT_EQ(steps("1" + std::string(699, '0') + "1/1" + std::string(700, '0')), 0u);
+  EXPECT_EQ(steps("1/1" + std::string(700, '0')), 0u) << "a long denominator";
 }
 
 TEST(Reduction, TreatsThousandsOfEquations) {
@@ -361,6 +362,197 @@ TEST(Reduction, ExpandsNoLongPowers) {
   const Reduction r = reduce(b.system(), Eliminate::exact);
   EXPECT_EQ(r.system.equations.size(), 3u);
   EXPECT_EQ(r.definitions.size(), 1u) << "w only: v = u^1000 would make it u^1000000";
+}
+
+TEST(Reduction, TakesAConstantThatMayBeZeroForNoContradiction) {
+  // x = 1/2 and x = 1/2 of another tolerance: 0 = 0 for some choices.
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"1", {{x, 1}}}, {"-1", {}}}).equation({{"0.5", {{x, 1}}}, {"-0.5", {}}, {"1e-4", {{y, 2}}}});
+  b.equation({{"0.5", {{x, 1}}}, {"-0.5", {}}});
+  System system = b.system();
+  system.coefficient_tolerance = 1e-3;
+  const Reduction r = reduce(system, Eliminate::integers);
+  EXPECT_TRUE(r.consistent);
+  EXPECT_TRUE(r.subset) << "one was dropped";
+  EXPECT_EQ(r.system.equations.size(), 1u) << "with 1e-4 y² it is no 0 = 0, though as small";
+}
+
+TEST(Reduction, DropsWhatRepeatsToTenTimesTheToleranceAndNoMore) {
+  // The second equation less twice the first is within τ · range² of 0; its coefficients are 3, so it may be 30 τ.
+  for (const auto& [range, repeats] : {std::pair{"5.4", true}, {"5.5", false}}) {
+    SystemBuilder b;
+    const int x = b.variable("x", std::string("-") + range, range), y = b.variable("y", "-1", "1");
+    b.equation({{"0.5", {{x, 2}}}, {"-1", {{y, 2}}}}).equation({{"1", {{x, 2}}}, {"-2", {{y, 2}}}});
+    System system = b.system();
+    system.coefficient_tolerance = 1e-3;
+    const Reduction r = reduce(system, Eliminate::integers);
+    EXPECT_EQ(r.system.equations.size(), repeats ? 1u : 2u) << range;
+    EXPECT_EQ(r.subset, repeats) << range;
+  }
+}
+
+TEST(Reduction, GivesTheRangeOfTheTiedVariableToTheOther) {
+  // x = 2y + 1 in [0, 2] is y in [−1/2, 1/2]; x = −2y + 1 in [0, 3] is y in [−1, 1/2].
+  for (const auto& [slope, upper, expected] : {std::tuple{"-2", "2", Interval(-0.5, 0.5)}, {"2", "3", Interval(-1, 0.5)}}) {
+    SystemBuilder b;
+    const int y = b.variable("y", "-4", "4"), x = b.variable("x", "0", upper);
+    b.equation({{"1", {{x, 1}}}, {slope, {{y, 1}}}, {"-1", {}}});
+    const Reduction r = reduce(b.system(), Eliminate::exact);
+    ASSERT_EQ(r.system.size(), 1);
+    EXPECT_EQ(r.system.variables[0].domain, expected);
+  }
+}
+
+TEST(Reduction, GivesImpliedSidesToTheOtherVariableInItsDirection) {
+  // x <= 1 is implied by the circle, x >= −1/2 is not; y = −x.
+  SystemBuilder b;
+  const int y = b.variable("y", "-4", "4"), x = b.variable("x", "-1/2", "1"), s = b.variable("s", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"1", {{s, 2}}}, {"-1", {}}}).equation({{"1", {{x, 1}}}, {"1", {{y, 1}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  ASSERT_EQ(r.system.variables[0].name, "y");
+  EXPECT_TRUE(r.system.variables[0].lower_implied);
+  EXPECT_FALSE(r.system.variables[0].upper_implied);
+}
+
+TEST(Reduction, AnImpliedEndInsideAnotherIsNoReasonToImplyThat) {
+  // y in [0, 1] is cut at 0 by the model; x = y with the implied x >= −1 says nothing of that.
+  SystemBuilder b;
+  const int y = b.variable("y", "0", "1"), x = b.variable("x", "-1", "1"), s = b.variable("s", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"1", {{s, 2}}}, {"-1", {}}}).equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  ASSERT_EQ(r.system.variables[0].name, "y");
+  EXPECT_FALSE(r.system.variables[0].lower_implied);
+  EXPECT_TRUE(r.system.variables[0].upper_implied);
+}
+
+TEST(Reduction, LeavesTheOneValueThatTwoRangesShare) {
+  SystemBuilder b;
+  b.variable("x", "0", "1"), b.variable("y", "1", "2"), b.variable("z", "-1", "1");
+  b.equation({{"1", {{0, 1}}}, {"-1", {{1, 1}}}}).equation({{"1", {{0, 2}}}, {"1", {{2, 2}}}, {"-1", {}}});
+  EXPECT_TRUE(reduce(b.system(), Eliminate::exact).consistent);
+}
+
+TEST(Reduction, ReplacesByItsDomainOnlyWhatHasOneValue) {
+  SystemBuilder b;
+  const int x = b.variable("x", "1/2", "1/2"), y = b.variable("y", "0.999", "1"), z = b.variable("z", "-2", "2");
+  b.equation({{"1", {{x, 1}, {z, 2}}}, {"1", {{y, 2}, {z, 1}}}, {"-1", {{y, 1}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  EXPECT_EQ(r.kept, (std::vector<int>{y, z}));
+}
+
+// w = x z, whose range is what x and z leave: an inequality where that is not within w's domain, exactly.
+class ReductionOfAnImage : public testing::Test {
+ protected:
+  Reduction of(const char* x_lower, const char* w_lower, const char* w_upper, double tolerance = 0) {
+    SystemBuilder b;
+    const int x = b.variable("x", x_lower, "1"), z = b.variable("z", "1", "2"), w = b.variable("w", w_lower, w_upper);
+    b.equation({{"1", {{w, 1}}}, {"-1", {{x, 1}, {z, 1}}}});
+    System system = b.system();
+    system.coefficient_tolerance = tolerance;
+    return reduce(system, tolerance > 0 ? Eliminate::integers : Eliminate::exact);
+  }
+};
+
+TEST_F(ReductionOfAnImage, KeepsBothEndsOfItsRange) {
+  EXPECT_TRUE(of("1/2", "1/2", "2").system.inequalities.empty());
+  const auto lower = of("1/2", "3/4", "2").system.inequalities, upper = of("1/2", "1/2", "3/2").system.inequalities;
+  ASSERT_EQ(lower.size(), 1u);
+  EXPECT_EQ(text(lower[0]), "1*x0^1*x1^1 + -3/4");
+  ASSERT_EQ(upper.size(), 1u);
+  EXPECT_EQ(text(upper[0]), "-1*x0^1*x1^1 + 3/2");
+}
+
+TEST_F(ReductionOfAnImage, GoesByTheExactEnds) {
+  // x >= the double below 1/3, so w = x z may be less than 1/3 by that.
+  EXPECT_EQ(of("6004799503160661/18014398509481984", "1/3", "2").system.inequalities.size(), 1u);
+  EXPECT_EQ(of("6004799503160662/18014398509481984", "1/3", "2").system.inequalities.size(), 0u);
+}
+
+TEST_F(ReductionOfAnImage, EnclosesTheCoefficientsOfItsInequalities) {
+  for (const auto& [lower, upper] : {std::pair{"3/4", "2"}, {"1/2", "3/2"}}) {
+    const Reduction r = of("1/2", lower, upper, 1e-3);
+    ASSERT_EQ(r.system.inequalities.size(), 1u);
+    for (const Monomial& m : r.system.inequalities[0].monomials)
+      EXPECT_TRUE(m.enclosure.contains(m.coefficient.enclose())) << m.coefficient;
+  }
+}
+
+TEST_F(ReductionOfAnImage, AsksForNoEndThatIsImplied) {
+  SystemBuilder b;  // |w| <= 2 is implied by Cauchy and Schwarz, w <= 1 is not
+  int v[5];
+  for (int k = 0; k < 4; ++k) v[k] = b.variable("v" + std::to_string(k), "-9", "9");
+  v[4] = b.variable("w", "-2", "1");
+  for (const int k : {0, 2}) b.equation({{"1/2", {{v[k], 2}}}, {"1/2", {{v[k + 1], 2}}}, {"-1", {}}});
+  b.equation({{"1", {{v[4], 1}}}, {"-1", {{v[0], 1}, {v[2], 1}}}, {"-1", {{v[1], 1}, {v[3], 1}}}});
+  const auto inequalities = reduce(b.system(), Eliminate::exact).system.inequalities;
+  ASSERT_EQ(inequalities.size(), 1u);
+  EXPECT_EQ(text(inequalities[0]), "-1*x0^1*x2^1 + -1*x1^1*x3^1 + 1");
+}
+
+TEST(Reduction, DefinesEachVariableByThoseThatAreKept) {
+  SystemBuilder b;  // z = y + 1, then y = x
+  for (const char* name : {"x", "y", "z"}) b.variable(name, "-4", "4");
+  b.equation({{"1", {{2, 1}}}, {"-1", {{1, 1}}}, {"-1", {}}}).equation({{"1", {{1, 1}}}, {"-1", {{0, 1}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  ASSERT_EQ(r.definitions.size(), 2u);
+  EXPECT_EQ(r.definitions[0].variable, 2);
+  EXPECT_EQ(text(r.definitions[0].value), "1 + 1*x0^1");
+}
+
+TEST(Reduction, ReplacesAVariableInTheInequalitiesToo) {
+  SystemBuilder b;
+  const int y = b.variable("y", "-4", "4"), x = b.variable("x", "-4", "4");
+  b.equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}, {"-1", {}}}).at_least_zero({{"1", {{x, 2}}}, {"-1", {}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  ASSERT_EQ(r.system.inequalities.size(), 1u);
+  EXPECT_EQ(text(r.system.inequalities[0]), "2*x0^1 + 1*x0^2");
+}
+
+TEST(Reduction, IsExactForWhatIsOverDeterminedOnlyWhereThatLeavesNoMoreEquationsThanVariables) {
+  const auto tolerant = [](const char* constant, bool dependent) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+    b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}}).equation({{"1", {{x, 2}}}, {"-1", {{y, 1}}}});
+    if (dependent) b.equation({{"0.1", {{x, 2}}}, {"-0.1", {{y, 1}}}});
+    if (!dependent) b.equation({{"0.1", {{x, 1}, {y, 1}}}, {"-0.3", {{y, 3}}}, {constant, {}}});
+    System system = b.system();
+    system.coefficient_tolerance = 1e-6;
+    return reduce(system).tolerant;
+  };
+  EXPECT_FALSE(tolerant("", true));
+  EXPECT_TRUE(tolerant("0.1", false)) << "three equations of two variables";
+  SystemBuilder b;  // x = y/2 <= 1 and y > 2: consistent within the tolerance only
+  const int x = b.variable("x", "0", "1"), y = b.variable("y", "2.0000001", "3");
+  for (const auto& [p, q] : {std::pair{"1", "-0.5"}, {"0.1", "-0.05"}, {"0.3", "-0.15"}})
+    b.equation({{p, {{x, 1}}}, {q, {{y, 1}}}});
+  System system = b.system();
+  EXPECT_FALSE(reduce(system).consistent);
+  system.coefficient_tolerance = 1e-6;
+  EXPECT_TRUE(reduce(system).consistent);
+}
+
+TEST(Reduction, GivenUpKeepsTheTolerance) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"0.5", {{x, 1}}}, {"-1", {{y, 1}}}});
+  System system = b.system();
+  system.coefficient_tolerance = 1e-3;
+  const Reduction r = reduce(system, Eliminate::integers, [] { return true; });
+  EXPECT_TRUE(r.tolerant);
+  EXPECT_TRUE(r.system.equations.at(0).monomials.at(0).enclosure.contains(Interval(0.4995, 0.5005)));
+  const Reduction done = reduce(system, Eliminate::none);
+  EXPECT_TRUE(done.system.equations.at(0).monomials.at(0).enclosure.contains(Interval(0.4995, 0.5005)));
+}
+
+TEST(Reduction, NamesEquationsInItsStepsAsTheyWereGiven) {
+  SystemBuilder b;  // the first equation goes, the second is shortened by the third
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+  b.equation({{"1", {{z, 1}}}, {"-1", {}}});
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{x, 1}, {y, 1}}}, {"-1", {}}});
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{x, 1}, {y, 1}}}, {"-1", {{x, 3}}}});
+  const Reduction r = reduce(b.system(), Eliminate::exact);
+  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{ReductionStep::elimination(z, 0), ReductionStep::sum(1, 2, -1)}));
 }
 
 TEST(PolynomialAlgebra, SolvesOnlyForWhatIsLinearWithARationalFactor) {

@@ -157,5 +157,59 @@ TEST_F(SheetRange, RefusesAPieceThatIsNotTheSheets) {
   EXPECT_THROW(shrunk(sides), std::logic_error);
 }
 
+// d + d²/5 = f with f free, and the value q = d − c·f, whose derivative vanishes at some d of the piece: U has to say so for
+// any Y, over all of the piece.
+TEST(SheetRangeOfAValue, LosesNoPointWhereItTurns) {
+  const UpwardRounding rounding;
+  NewtonWorkspace workspace;
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> share(0, 1);
+  int proven = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const double lo = -0.8 + 1.6 * share(random), hi = lo + 0.1 + 0.4 * share(random), turn = lo + share(random) * (hi - lo);
+    const int c = static_cast<int>(std::lround(1e6 / (1 + 0.4 * turn)));
+    SystemBuilder b;
+    const int f = b.variable("f", "-9", "9"), d = b.variable("d", "-9", "9");
+    b.equation({{"1", {{d, 1}}}, {"1/5", {{d, 2}}}, {"-1", {{f, 1}}}});
+    const std::vector<Polynomial> values{
+        SystemBuilder::polynomial({{"1", {{d, 1}}}, {"-" + std::to_string(c) + "/1000000", {{f, 1}}}})};
+    const CompiledSystem system(b.system(), values);
+    const double good = 1 / (1 + 0.2 * (lo + hi)), factors[] = {1, 1, 0.5, 0.7, 1.3};
+    const Preconditioner p{{0}, {d}, {good * factors[trial % 5]}};
+    const auto f_at = [](double at) { return at + at * at / 5; };
+    const std::vector<Interval> box{Interval(f_at(lo), f_at(hi)), Interval(lo - 0.2, hi + 0.2)};
+    const Sheet sheet = newton_prove(system, p, box, workspace);
+    if (!sheet.proven) continue;
+    ++proven;
+    std::vector<Interval> sides = sheet.image;
+    for (int k = 0; k < 3; ++k) tighten_sheet(system, p, sides, workspace);
+    sides.push_back(system.evaluate(system.value_row(0), sides));
+    shrink_to_faces(system, sheet, p, {0, 0, 0}, sides, workspace);
+    for (int k = 0; k <= 100; ++k) {
+      const double at = lo + (hi - lo) * k / 100, q = at - c * 1e-6 * f_at(at);
+      EXPECT_TRUE((sides[1] + Interval(-1e-14, 1e-14)).contains(at)) << trial;
+      EXPECT_TRUE((sides[2] + Interval(-1e-14, 1e-14)).contains(q)) << trial << ": " << q << " not in " << sides[2];
+    }
+  }
+  EXPECT_GT(proven, 300);
+}
+
+TEST(SheetRangeOfAValue, IsAskedWithTheSheetsOwnRows) {
+  const UpwardRounding rounding;
+  NewtonWorkspace workspace;
+  SystemBuilder b;
+  const int f = b.variable("f", "-9", "9"), d = b.variable("d", "-9", "9");
+  b.equation({{"1", {{d, 1}}}, {"-1", {{f, 1}}}}).equation({{"1", {{d, 1}}}, {"-0.9", {{f, 1}}}});
+  const CompiledSystem system(b.system());
+  const std::vector<Interval> box{Interval(0, 1), Interval(-1, 2)};
+  const Sheet sheet = newton_prove(system, {{0}, {d}, {1}}, box, workspace);
+  ASSERT_TRUE(sheet.proven);
+  std::vector<Interval> piece = sheet.image;
+  EXPECT_NO_THROW(shrink_to_faces(system, sheet, {{0}, {d}, {1}}, {0, 0}, piece, workspace));
+  EXPECT_THROW(shrink_to_faces(system, sheet, {{1}, {d}, {1}}, {0, 0}, piece, workspace), std::logic_error);
+  piece[1] = Interval(-5, 5);  // the sheet's claim does not go so far
+  EXPECT_THROW(shrink_to_faces(system, sheet, {{0}, {d}, {1}}, {0, 0}, piece, workspace), std::logic_error);
+}
+
 }  // namespace
 }  // namespace corank::certify

@@ -44,6 +44,54 @@ TEST(Unbounded, ProvesThatASumOfSquaresIsNotNegative) {
   EXPECT_FALSE(contract_unbounded(b.system(), box));
 }
 
+TEST(Unbounded, TakesNoOtherPowerForALinearTerm) {
+  SystemBuilder b;  // x² − x³ = −4 at x = 2; x² − x + 4 is positive
+  const int x = b.variable("x", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"-1", {{x, 3}}}, {"4", {}}});
+  std::vector<Interval> box(1, Interval::whole());
+  ASSERT_TRUE(contract_unbounded(b.system(), box));
+  EXPECT_TRUE(box[0].contains(2));
+}
+
+TEST(Unbounded, TakesNoProductWithASquareForTheSquare) {
+  SystemBuilder b;  // x² − y x² + 3 = 0 with y in [0, 4]: x² = 1 at y = 4; without the product it has no solution
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "0", "4");
+  b.equation({{"1", {{x, 2}}}, {"-1", {{x, 2}, {y, 1}}}, {"3", {}}});
+  std::vector<Interval> box{Interval::whole(), Interval(0, 4)};
+  ASSERT_TRUE(contract_unbounded(b.system(), box));
+  EXPECT_TRUE(box[0].contains(Interval(-1, 1)));
+}
+
+TEST(Unbounded, DividesByTheFactorOfTheSquare) {
+  SystemBuilder b;  // (x/2 − 3)² + y² = 1
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
+  b.equation({{"1/4", {{x, 2}}}, {"-3", {{x, 1}}}, {"1", {{y, 2}}}, {"8", {}}});
+  std::vector<Interval> box(2, Interval::whole());
+  ASSERT_TRUE(contract_unbounded(b.system(), box));
+  EXPECT_TRUE(box[0].contains(Interval(4, 8)) && Interval(3.999, 8.001).contains(box[0])) << box[0];
+}
+
+TEST(Unbounded, TakesAnInequalityInItsDirection) {
+  SystemBuilder outside, inside;  // (x − 1)² >= 4 and <= 4
+  for (SystemBuilder* b : {&outside, &inside}) b->variable("x", "-1", "1");
+  outside.at_least_zero({{"1", {{0, 2}}}, {"-2", {{0, 1}}}, {"-3", {}}});
+  inside.at_least_zero({{"-1", {{0, 2}}}, {"2", {{0, 1}}}, {"3", {}}});
+  std::vector<Interval> box{Interval::whole()};
+  ASSERT_TRUE(contract_unbounded(outside.system(), box));
+  EXPECT_EQ(box[0], Interval::whole());
+  ASSERT_TRUE(contract_unbounded(inside.system(), box));
+  EXPECT_TRUE(box[0].contains(Interval(-1, 3)) && box[0].mag() < 3.001);
+}
+
+TEST(Unbounded, LeavesAPartThatMayBeNegative) {
+  SystemBuilder b;  // x² + z³ = 1: nothing bounds x
+  const int x = b.variable("x", "-1", "1"), z = b.variable("z", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"1", {{z, 3}}}, {"-1", {}}});
+  std::vector<Interval> box(2, Interval::whole());
+  ASSERT_TRUE(contract_unbounded(b.system(), box));
+  EXPECT_EQ(box[0], Interval::whole());
+}
+
 // Systems made to have a given solution, among them sides without end: it must stay.
 TEST(Unbounded, NeverLosesAPlantedSolution) {
   std::mt19937 engine(kSeed);
