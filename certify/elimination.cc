@@ -62,15 +62,15 @@ class Tableau {
         if (used[k]) continue;
         const double scale = largest(k);
         for (std::size_t j = 0; j < n_; ++j) {
-          if (linear_[j] != linear || taken[j] || !counts(k, j) || sizes_[j] == 0) continue;
-          const double size = std::fabs(at(k, j)) / scale * (is_shared(j) ? 1 : kPreferOwn);
-          if (size > best) best = size, row = k, column = j;
+          if (linear_[j] != linear || taken[j] || !is_pivot(k, j)) continue;
+          const double size = std::fabs(at(k, j)) / scale;
+          if (size > (1 + kTie) * best) best = size, row = k, column = j;
         }
       }
       if (best == 0) return;
       used[row] = taken[column] = true;
       for (std::size_t k = 0; k < members_.size(); ++k)
-        if (k != row && counts(k, column)) add(k, row, column);
+        if (k != row && counts(k, column) && is_moderate(k, row, column)) add(k, row, column);
     }
   }
 
@@ -85,9 +85,9 @@ class Tableau {
           if (i == k) continue;
           check();
           for (std::size_t j = 0; j < n_; ++j) {
-            if (!counts(k, j) || !counts(i, j)) continue;
+            if (!counts(k, j) || !is_pivot(i, j)) continue;
             const std::ptrdiff_t saved = saved_by(k, i, j);
-            if (saved > best) best = saved, row = k, other = i, column = j;
+            if (saved > best && is_moderate(k, i, j)) best = saved, row = k, other = i, column = j;
           }
         }
       if (best == 0) return;
@@ -110,7 +110,9 @@ class Tableau {
   const std::vector<Step>& steps() const { return steps_; }
 
  private:
-  static constexpr double kPreferOwn = 1;
+  static constexpr double kTie = 1e-9;         // of two pivots as large the first, whatever rounding says
+  static constexpr double kLeastPivot = 1e-3;  // of its row's largest entry, and of what was added up to it
+  static constexpr double kLargestPart = 1e3;  // of a row's largest entry: as large a part of another may be added to it
   static constexpr std::size_t kProductWeight = 4;
 
   double& at(std::size_t k, std::size_t j) { return entries_[k * n_ + j]; }
@@ -124,10 +126,11 @@ class Tableau {
     return std::fabs(at(k, j)) > kResidue * std::max(magnitude_[k * n_ + j], 0.0) &&
            std::fabs(at(k, j)) > kResidue * largest(k);
   }
-  bool is_shared(std::size_t j) const {
-    std::size_t uses = 0;
-    for (std::size_t k = 0; k < members_.size(); ++k) uses += counts(k, j);
-    return uses > 1;
+  bool is_pivot(std::size_t k, std::size_t j) const {
+    return std::fabs(at(k, j)) > kLeastPivot * std::max(magnitude_[k * n_ + j], largest(k));
+  }
+  bool is_moderate(std::size_t k, std::size_t row, std::size_t column) const {
+    return std::fabs(at(k, column) / at(row, column)) * largest(row) <= kLargestPart * largest(k);
   }
   // How much less row k weighs when a multiple of row i has taken its column j away.
   std::ptrdiff_t saved_by(std::size_t k, std::size_t i, std::size_t j) const {

@@ -237,7 +237,7 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, std::s
     }
     for (int a = 0; a < r; ++a) {  // ε-inflation
       const Interval& k = w.image[a];
-      const double margin = 0.1 * k.width() + 1e-15 * k.mag() + 1e-300;
+      const double margin = 0.1 * k.width() + 1e-15 * k.mag() + 1e-30 * system.scales()[p.dependent[a]];
       b[p.dependent[a]] = k + Interval(-margin, margin);
     }
   }

@@ -40,7 +40,7 @@ bool is_integer(const Monomial& m) {
 constexpr std::size_t kMostEliminations = 4;
 
 bool is_short(const ExactNumber& q) {
-  constexpr std::size_t kMostDigits = 40;
+  constexpr std::size_t kMostDigits = 100;
   return q.text().size() <= kMostDigits;
 }
 
@@ -417,7 +417,10 @@ ExactNumber Reducer::exact_factor(const RowSum& sum) const {
 
 bool Reducer::eliminate_products() {
   if (!may_add()) return false;
-  const std::vector<RowSum> sums = certify::eliminate_products(system_.equations, sizes(), [this] { check_ended(); });
+  std::vector<Polynomial> rows = system_.equations;
+  for (Polynomial& f : rows)
+    if (has_long_number(f)) f.monomials.clear();
+  const std::vector<RowSum> sums = certify::eliminate_products(rows, sizes(), [this] { check_ended(); });
   for (const RowSum& sum : sums) {
     check_ended();
     add(sum.row, sum.other, exact_factor(sum));
@@ -428,7 +431,7 @@ bool Reducer::eliminate_products() {
 bool Reducer::shorten() {
   if (!may_add()) return false;
   std::vector<Polynomial> rows;
-  for (const Polynomial& f : system_.equations) rows.push_back(without_residues(f, sizes()));
+  for (const Polynomial& f : system_.equations) rows.push_back(has_long_number(f) ? f : without_residues(f, sizes()));
   const BestShortening best = best_shortening(rows, [this] { check_ended(); });
   if (best.saved == 0) return false;
   add(best.row, best.other, best.factor);

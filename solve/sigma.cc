@@ -1,6 +1,7 @@
 #include "corank/solve/sigma.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace corank::solve {
@@ -15,6 +16,17 @@ double share_of_size(int dimension, double tolerance) {
     case 2: return 1.0 / 60;
     default: return kCoarse;
   }
+}
+
+// The nearest of 20 numbers a decade (ISO 3, R20, to two digits): what the user reads is what was used, and hulls that
+// differ by rounding, as in another unit, nearly always give the same.
+double preferred_number(double x) {
+  constexpr std::array kSeries{1.0, 1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 2.8,
+                               3.2, 3.6, 4.0,  4.5, 5.0, 5.6, 6.3, 7.1, 8.0, 9.0};
+  const double decade = std::floor(std::log10(x));
+  const auto step = std::lround(20 * (std::log10(x) - decade));
+  const double power = std::pow(10.0, decade);
+  return step < 20 ? kSeries[static_cast<std::size_t>(step)] * power : 10 * power;
 }
 
 }  // namespace
@@ -51,18 +63,17 @@ double sigma_of(const Sigma& sigma, SigmaClass kind) {
 Sigma default_sigma(const System& system, const Box& hull, int dimension) {
   Sigma size;
   for (std::size_t j = 0; j < hull.size(); ++j) {
-    // A constant, enclosed, has no size.
-    const double width = hull[j].width() > 1e-9 * hull[j].mag() ? hull[j].width() : 0;
+    // A constant, enclosed, has no size, 0 included.
+    const double least = 1e-9 * std::max(hull[j].mag(), system.variables[j].domain.mag());
+    const double width = hull[j].width() > least ? hull[j].width() : 0;
     const SigmaClass kind = sigma_class(system.variables[j]);
     if (kind == SigmaClass::length) size.length = std::max(size.length, width);
     if (kind == SigmaClass::angle) size.angle = std::max(size.angle, width);
   }
   const auto share = [&](double width) {
-    // Two digits, so that what the user reads is what was used.
     const double sigma =
         share_of_size(dimension, system.coefficient_tolerance) * (width > 0 && std::isfinite(width) ? width : 1);
-    const double unit = std::pow(10.0, std::floor(std::log10(sigma)) - 1);
-    return std::round(sigma / unit) * unit;
+    return preferred_number(sigma);
   };
   return {share(size.length), share(size.angle)};
 }

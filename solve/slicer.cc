@@ -134,7 +134,10 @@ void Slicer::leave_room(const Task& task, Box& piece) const {
   for (std::size_t j = 0; j < piece.size(); ++j) {
     if (std::find(task.free.begin(), task.free.end(), static_cast<int>(j)) != task.free.end()) continue;
     Interval& side = piece[j];
-    const double room = std::min(kRoom * side.width() + kLeastRoom * side.mag(), 0.49 * (problem_.sigma[j] - side.width()));
+    const double sigma = problem_.sigma[j];
+    const double size = j < problem_.compiled.scales().size() ? problem_.compiled.scales()[j] : 0;  // also about 0
+    const double room =
+        std::min(kRoom * side.width() + kLeastRoom * std::max(side.mag(), size), 0.49 * (sigma - side.width()));
     if (!(room > 0)) continue;
     // Inside the region, where the solution is the only one, and not across an end of the domain that the side keeps.
     Interval wider = side + Interval(-room, room);

@@ -291,7 +291,12 @@ const std::vector<Tampering>& tamperings() {
        }},
       {"another elimination", "does not define it", curve,
        [](Result& r) { std::swap(r.cover.reduction[0].equation, r.cover.reduction[1].equation); }},
-      {"an elimination missing", "no whole boxes", curve, [](Result& r) { r.cover.reduction.pop_back(); }},
+      {"an elimination missing", "no whole boxes", curve,
+       [](Result& r) {
+         auto& steps = r.cover.reduction;
+         const auto last = std::find_if(steps.rbegin(), steps.rend(), [](const ReductionStep& s) { return !s.is_sum(); });
+         steps.erase(std::next(last).base());
+       }},
       {"another dimension", "the set has dimension 1, not 2", curve, [](Result& r) { r.cover.dimension = 2; }},
       {"a leaf of the proof dropped", "the script ends early", curve,
        [](Result& r) { change_proof(r, [](Proof& p) { p.steps.pop_back(); }); }},
