@@ -87,6 +87,20 @@ const std::vector<Line> kSuite = {
     {"3rrr", kForward, 0.2, 0, {}, true},
 };
 
+/// Models that users brought; no set: a plain system. σ = 0: the default.
+struct UserLine {
+  const char* model;
+  std::optional<SingularitySet> set;
+  double sigma;
+};
+
+const std::vector<UserLine> kUserSuite = {
+    {"stewart_fixed_orientation", kForward, 0.1}, {"spatial/stewart_rotation_matrix", kForward, 0.1},
+    {"spatial/stewart_twist", {}, 0.1},           {"spatial/stewart_twist_12_digits", {}, 0.1},
+    {"spatial/3rps_one_mode", kForward, 0.1},     {"spatial/delta_position", {}, 0},
+    {"spatial/delta_position_by_legs", {}, 0},    {"peaucellier_ineq", kCspace, 0},
+};
+
 struct CuikLine {
   const char* name;
   CuikRun cuik;
@@ -194,6 +208,26 @@ void run_models(const std::string& only, int threads) {
   }
 }
 
+void run_user_models(const std::string& only, int threads) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(CORANK_SOURCE_DIR "/../shared/models").lexically_normal();
+  for (const UserLine& line : kUserSuite) {
+    const fs::path file = folder / (std::string(line.model) + ".cuik");
+    const std::string name =
+        fmt::format("{} {} {}", file.stem().string(), line.set ? symbolic::to_string(*line.set) : "", line.sigma);
+    if (name.find(only) == std::string::npos || !fs::exists(file)) continue;
+    const auto model = symbolic::read_model(file);
+    const System system = line.set ? symbolic::algebrize(symbolic::singularity_system(
+                                         model, *line.set, std::nullopt, symbolic::kernel_scales(model, *line.set)))
+                                   : symbolic::algebrize(symbolic::plain_system(model));
+    solve::Options options;
+    if (line.sigma > 0) options.sigma = line.sigma;
+    options.threads = threads;
+    options.time_limit = kTimeLimit;
+    run(name, system, options, 0, {});
+  }
+}
+
 void run_cuik_files(const std::string& only, int threads) {
   namespace fs = std::filesystem;
   const char* const given = std::getenv("CORANK_CUIK_DIR");
@@ -246,5 +280,6 @@ int main(int argc, char** argv) {
   }
   print_header();
   run_models(only, threads);
+  run_user_models(only, threads);
   run_cuik_files(only, threads);
 }
