@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "corank/result/motion_words.h"
+#include "corank/result/number_text.h"
 #include "corank/result/summary.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"

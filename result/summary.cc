@@ -3,64 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cfenv>
-#include <cstdio>
-#include <map>
-#include <nlohmann/json.hpp>
 
 #include "corank/certify/algebraic_number.h"
-#include "corank/certify/angle.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/exact_angle.h"
 #include "corank/result/motion_words.h"
+#include "corank/result/number_text.h"
+#include "corank/result/tallies.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::result {
 namespace {
-using Json = nlohmann::ordered_json;
-
-constexpr std::array kVerdictsInOrder{Verdict::regular, Verdict::isolated,  Verdict::exact,  Verdict::boundary,
-                                      Verdict::partial, Verdict::undecided, Verdict::pending};
-static_assert(kVerdictsInOrder.size() == kVerdicts);
-
-// glibc's printf rounds decimals in the current rounding mode (exactly, at any number of digits).
-std::string decimal(double x, int digits, int rounding_mode) {
-  const int former = std::fegetround();
-  std::fesetround(rounding_mode);
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.*g", digits, x == 0 ? 0.0 : x);
-  std::fesetround(former);
-  return text.data();
-}
-
-struct Value {
-  std::string name;
-  Interval value;
-  int variable;  ///< −1: an angle
-  const Angle* angle = nullptr;
-};
-
-const ExactPoint* exact_point(const Result& result, const CoverBox& box) {
-  return box.point < 0 ? nullptr : &result.cover.exact_points[static_cast<std::size_t>(box.point)];
-}
-
-// The box in the model's own coordinates: an angle stands in place of its cosine and sine, in the order of the variables.
-std::vector<Value> values(const Result& result, const CoverBox& box, int variables) {
-  std::vector<Value> values;
-  for (int i = 0; i < variables; ++i) {
-    const auto has = [i](const Angle& a) { return a.cosine == i || a.sine == i; };
-    const auto angle = std::find_if(result.angles.begin(), result.angles.end(), has);
-    const auto at = [&box](int v) { return box.box[static_cast<std::size_t>(v)]; };
-    if (angle == result.angles.end()) {
-      values.push_back({result.variables[static_cast<std::size_t>(i)].name, at(i), i});
-    } else if (i == std::min(angle->cosine, angle->sine)) {
-      values.push_back(
-          {angle->name, certify::angle_enclosure(at(angle->cosine), at(angle->sine), angle->range), -1, &*angle});
-    }
-  }
-  return values;
-}
 
 std::string plural(std::size_t n, const std::string& word) {
   const std::string many = word.back() == 'y'   ? word.substr(0, word.size() - 1) + "ies"
@@ -130,27 +83,6 @@ std::string decimals_text(const Result& result) {
   return text;
 }
 
-// Boxes by the bound of the kernel's dimension; without the undecided boxes that may hold no solution.
-struct KernelTally {
-  std::map<int, std::size_t> at_most;
-  std::size_t larger = 0;     // with a bound above the corank that was asked for
-  std::size_t explained = 0;  // of these, with a point where the dimension is known to be above 1
-  std::size_t known = 0;      // of the others, likewise: the corank asked for was above 1
-};
-
-KernelTally kernel_tally(const Result& result) {
-  KernelTally tally;
-  for (const CoverBox& box : result.cover.boxes) {
-    const ExactPoint* point = exact_point(result, box);
-    if (box.corank < 0 || (box.verdict == Verdict::undecided && !point)) continue;
-    ++tally.at_most[box.corank];
-    const bool larger = box.corank > result.options.corank;
-    tally.larger += larger;
-    if (point && point->corank > 1) ++(larger ? tally.explained : tally.known);
-  }
-  return tally;
-}
-
 // What is known of the kernel's dimension, and the points where it is 2 or more.
 std::string kernel_text(const Result& result) {
   const auto [at_most, larger, explained, known] = kernel_tally(result);
@@ -217,22 +149,6 @@ std::string seconds_text(const Cover& cover) {
 
 }  // namespace
 
-std::string outward_text(const Interval& x, int digits) {
-  constexpr double kNothing = 1e-12;  // nobody wants to read 9.88131292e-324
-  const auto outward = [](double far) { return 0 < far && far < kNothing ? kNothing : far; };
-  const auto inward = [](double near) { return 0 < near && near < kNothing ? 0 : near; };
-  const double lo = x.lo() < 0 ? -outward(-x.lo()) : inward(x.lo()), hi = x.hi() > 0 ? outward(x.hi()) : -inward(-x.hi());
-  const std::string lower = decimal(lo, digits, FE_DOWNWARD), upper = decimal(hi, digits, FE_UPWARD);
-  return lower == upper ? lower : "[" + lower + ", " + upper + "]";
-}
-
-std::map<Reason, std::size_t> undecided_reasons(const Cover& cover) {
-  std::map<Reason, std::size_t> reasons;
-  for (const CoverBox& box : cover.boxes)
-    if (box.verdict == Verdict::undecided) ++reasons[box.reason];
-  return reasons;
-}
-
 namespace {
 
 std::string sigma_text(const Sigma& sigma) {
@@ -263,12 +179,6 @@ std::string in_words(Reason reason, const Cover& cover) {
     case limit: return "a limit ended the search before they were divided further";
   }
   return "reason unknown";
-}
-
-std::size_t boxes_on(const Cover& cover, std::size_t motion) {
-  return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [motion](const CoverBox& box) {
-    return box.motion == static_cast<int>(motion);
-  }));
 }
 
 std::string motions_text(const Result& result) {
@@ -352,106 +262,6 @@ std::string to_table(const Result& result) {
   }
   text += kernel_text(result);
   return text + seconds_text(cover);
-}
-
-namespace {
-
-// The coordinates of an exact point that have a short text.
-Json exact_json(const Result& result, const ExactPoint& point) {
-  Json json = Json::object();
-  for (std::size_t v = 0; v < result.variables.size(); ++v)
-    if (const auto text = exact_coordinate(point, static_cast<int>(v))) json[result.variables[v].name] = *text;
-  return json;
-}
-
-// The same as kernel_text.
-Json kernel_json(const Result& result) {
-  const KernelTally tally = kernel_tally(result);
-  if (tally.at_most.empty()) return Json();
-  Json json = {{"at_most", Json::object()}, {"points", Json::array()}};
-  for (const auto& [bound, n] : tally.at_most) json["at_most"][std::to_string(bound)] = n;
-  for (const ExactPoint& point : result.cover.exact_points)
-    if (point.corank > 1) json["points"].push_back({{"dimension", point.corank}, {"exact", exact_json(result, point)}});
-  return json;
-}
-
-}  // namespace
-
-std::string to_json(const Result& result) {
-  const Cover& cover = result.cover;
-  Json json;
-  json["model"] = result.model;
-  json["set"] = result.set;
-  json["corank"] = result.options.kernel.empty() ? Json() : Json(result.options.corank);
-  json["system"] = {{"variables", result.variables.size()},
-                    {"equations", result.equations},
-                    {"inequalities", result.inequalities},
-                    {"dimension", cover.dimension}};
-  Json constants = Json::object();
-  for (const ConstantOverride& c : result.options.constants) constants[c.name] = c.expression;
-  json["options"] = {{"kernel", result.options.kernel.empty() ? Json() : Json(result.options.kernel)},
-                     {"sigma", result.options.sigma.largest()},
-                     {"sigma_length", result.options.sigma.length},
-                     {"sigma_angle", result.options.sigma.angle},
-                     {"kernel_scales", result.options.kernel_scales},
-                     {"tolerance", result.options.tolerance},
-                     {"threads", result.options.threads},
-                     {"max_boxes", result.options.max_boxes},
-                     {"max_solutions", result.options.max_solutions},
-                     {"time_limit", result.options.time_limit},
-                     {"constants", constants}};
-  json["complete"] = cover.complete();
-  json["stopped"] = result.stopped.empty() ? Json() : Json(result.stopped);
-  json["boxes"]["processed"] = cover.statistics.processed;
-  const auto counts = cover.counts();
-  for (const Verdict verdict : kVerdictsInOrder)
-    json["boxes"][to_string(verdict)] = counts[static_cast<std::size_t>(verdict)];
-  json["undecided_reasons"] = Json::object();
-  for (const auto& [reason, n] : undecided_reasons(cover)) json["undecided_reasons"][to_string(reason)] = n;
-  json["observed_dimension"] = cover.observed_dimension > 0 ? Json(cover.observed_dimension) : Json();
-  json["seems_of_corank"] = result.seems_of_corank > 0 ? Json(result.seems_of_corank) : Json();
-  json["self_motions"] = Json::array();
-  for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
-    Json relations = Json::array();
-    for (const Polynomial& f : cover.self_motions[k].relations) relations.push_back(relation_text(result, f));
-    json["self_motions"].push_back({{"dimension", cover.self_motions[k].dimension},
-                                    {"boxes", boxes_on(cover, k)},
-                                    {"relations", relations},
-                                    {"text", motion_sentence(result, k)}});
-  }
-  json["boundary_reasons"] = Json::array();
-  for (const DomainNotes::Reason& reason : result.domain.boundary)
-    json["boundary_reasons"].push_back({{"reason", reason.text}, {"boxes", reason.boxes}});
-  json["range_ends"] = Json::array();
-  for (const DomainNotes::End& end : result.domain.ends)
-    json["range_ends"].push_back({{"variable", end.coordinate}, {"reached", end.reached}});
-  json["ranges_found"] = Json::object();
-  for (const int j : result.domain.found) {
-    const ResultVariable& v = result.variables[static_cast<std::size_t>(j)];
-    json["ranges_found"][v.name] = {{"lo", v.domain.lo()}, {"hi", v.domain.hi()}};
-  }
-  json["points"] = nullptr;
-  if (cover.dimension == 0) {
-    json["points"] = Json::array();
-    for (const CoverBox& point : cover.points) {
-      Json entry = {{"values", Json::object()}, {"verdict", to_string(point.verdict)}};
-      for (const Value& v : values(result, point, static_cast<int>(result.variables.size()))) {
-        entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
-      }
-      if (const ExactPoint* exact = exact_point(result, point)) entry["exact"] = exact_json(result, *exact);
-      const std::size_t i = static_cast<std::size_t>(&point - cover.points.data());
-      if (i < cover.decimals.size() && !cover.decimals[i].empty())
-        for (std::size_t v = 0; v < result.variables.size(); ++v)
-          entry["decimals"][result.variables[v].name] = cover.decimals[i][v];
-      json["points"].push_back(std::move(entry));
-    }
-  }
-  json["kernel"] = kernel_json(result);
-  json["seconds"] = {{"total", cover.statistics.seconds_total},
-                     {"search", cover.statistics.seconds_search},
-                     {"certify", cover.statistics.seconds_certify}};
-  json["version"] = result.version;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace corank::result

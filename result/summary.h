@@ -1,19 +1,11 @@
 // What a result says, short: a table for people and a JSON object for programs.
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "corank/result/result.h"
 
 namespace corank::result {
-
-/// "[0.59999999, 0.60000001]" with at most so many significant digits, rounded outward (below 1e-12 to 0 or
-/// ±1e-12); one number where both ends agree.
-std::string outward_text(const Interval& x, int digits);
-
-/// How many undecided boxes there are with each reason.
-std::map<Reason, std::size_t> undecided_reasons(const Cover& cover);
 
 /// Along what boxes with Reason::degenerate_set lie; where that is larger than expected, of which dimension, and why it is
 /// not proven.

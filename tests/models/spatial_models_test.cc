@@ -1,5 +1,5 @@
-// Models in space that users brought, whose equations share products: what elimination makes of them is searched in few boxes.
-// Skipped where the models are absent.
+// Models in space that users brought, whose equations share products: what elimination makes of them is searched in few
+// boxes. Skipped where the models are absent.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,0 +1,112 @@
+#include <nlohmann/json.hpp>
+
+#include "corank/certify/algebraic_number.h"
+#include "corank/result/domain_notes.h"
+#include "corank/result/exact_angle.h"
+#include "corank/result/motion_words.h"
+#include "corank/result/summary.h"
+#include "corank/result/tallies.h"
+
+namespace corank::result {
+namespace {
+using Json = nlohmann::ordered_json;
+
+// The coordinates of an exact point that have a short text.
+Json exact_json(const Result& result, const ExactPoint& point) {
+  Json json = Json::object();
+  for (std::size_t v = 0; v < result.variables.size(); ++v)
+    if (const auto text = exact_coordinate(point, static_cast<int>(v))) json[result.variables[v].name] = *text;
+  return json;
+}
+
+// The same as kernel_text.
+Json kernel_json(const Result& result) {
+  const KernelTally tally = kernel_tally(result);
+  if (tally.at_most.empty()) return Json();
+  Json json = {{"at_most", Json::object()}, {"points", Json::array()}};
+  for (const auto& [bound, n] : tally.at_most) json["at_most"][std::to_string(bound)] = n;
+  for (const ExactPoint& point : result.cover.exact_points)
+    if (point.corank > 1) json["points"].push_back({{"dimension", point.corank}, {"exact", exact_json(result, point)}});
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const Result& result) {
+  const Cover& cover = result.cover;
+  Json json;
+  json["model"] = result.model;
+  json["set"] = result.set;
+  json["corank"] = result.options.kernel.empty() ? Json() : Json(result.options.corank);
+  json["system"] = {{"variables", result.variables.size()},
+                    {"equations", result.equations},
+                    {"inequalities", result.inequalities},
+                    {"dimension", cover.dimension}};
+  Json constants = Json::object();
+  for (const ConstantOverride& c : result.options.constants) constants[c.name] = c.expression;
+  json["options"] = {{"kernel", result.options.kernel.empty() ? Json() : Json(result.options.kernel)},
+                     {"sigma", result.options.sigma.largest()},
+                     {"sigma_length", result.options.sigma.length},
+                     {"sigma_angle", result.options.sigma.angle},
+                     {"kernel_scales", result.options.kernel_scales},
+                     {"tolerance", result.options.tolerance},
+                     {"threads", result.options.threads},
+                     {"max_boxes", result.options.max_boxes},
+                     {"max_solutions", result.options.max_solutions},
+                     {"time_limit", result.options.time_limit},
+                     {"constants", constants}};
+  json["complete"] = cover.complete();
+  json["stopped"] = result.stopped.empty() ? Json() : Json(result.stopped);
+  json["boxes"]["processed"] = cover.statistics.processed;
+  const auto counts = cover.counts();
+  for (const Verdict verdict : kVerdictsInOrder)
+    json["boxes"][to_string(verdict)] = counts[static_cast<std::size_t>(verdict)];
+  json["undecided_reasons"] = Json::object();
+  for (const auto& [reason, n] : undecided_reasons(cover)) json["undecided_reasons"][to_string(reason)] = n;
+  json["observed_dimension"] = cover.observed_dimension > 0 ? Json(cover.observed_dimension) : Json();
+  json["seems_of_corank"] = result.seems_of_corank > 0 ? Json(result.seems_of_corank) : Json();
+  json["self_motions"] = Json::array();
+  for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
+    Json relations = Json::array();
+    for (const Polynomial& f : cover.self_motions[k].relations) relations.push_back(relation_text(result, f));
+    json["self_motions"].push_back({{"dimension", cover.self_motions[k].dimension},
+                                    {"boxes", boxes_on(cover, k)},
+                                    {"relations", relations},
+                                    {"text", motion_sentence(result, k)}});
+  }
+  json["boundary_reasons"] = Json::array();
+  for (const DomainNotes::Reason& reason : result.domain.boundary)
+    json["boundary_reasons"].push_back({{"reason", reason.text}, {"boxes", reason.boxes}});
+  json["range_ends"] = Json::array();
+  for (const DomainNotes::End& end : result.domain.ends)
+    json["range_ends"].push_back({{"variable", end.coordinate}, {"reached", end.reached}});
+  json["ranges_found"] = Json::object();
+  for (const int j : result.domain.found) {
+    const ResultVariable& v = result.variables[static_cast<std::size_t>(j)];
+    json["ranges_found"][v.name] = {{"lo", v.domain.lo()}, {"hi", v.domain.hi()}};
+  }
+  json["points"] = nullptr;
+  if (cover.dimension == 0) {
+    json["points"] = Json::array();
+    for (const CoverBox& point : cover.points) {
+      Json entry = {{"values", Json::object()}, {"verdict", to_string(point.verdict)}};
+      for (const Value& v : values(result, point, static_cast<int>(result.variables.size()))) {
+        entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+      }
+      if (const ExactPoint* exact = exact_point(result, point)) entry["exact"] = exact_json(result, *exact);
+      const std::size_t i = static_cast<std::size_t>(&point - cover.points.data());
+      if (i < cover.decimals.size() && !cover.decimals[i].empty())
+        for (std::size_t v = 0; v < result.variables.size(); ++v)
+          entry["decimals"][result.variables[v].name] = cover.decimals[i][v];
+      json["points"].push_back(std::move(entry));
+    }
+  }
+  json["kernel"] = kernel_json(result);
+  json["seconds"] = {{"total", cover.statistics.seconds_total},
+                     {"search", cover.statistics.seconds_search},
+                     {"certify", cover.statistics.seconds_certify}};
+  json["version"] = result.version;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace corank::result

@@ -1,0 +1,55 @@
+#include "corank/result/tallies.h"
+
+#include <algorithm>
+
+#include "corank/certify/angle.h"
+
+namespace corank::result {
+
+std::map<Reason, std::size_t> undecided_reasons(const Cover& cover) {
+  std::map<Reason, std::size_t> reasons;
+  for (const CoverBox& box : cover.boxes)
+    if (box.verdict == Verdict::undecided) ++reasons[box.reason];
+  return reasons;
+}
+
+std::size_t boxes_on(const Cover& cover, std::size_t motion) {
+  return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [motion](const CoverBox& box) {
+    return box.motion == static_cast<int>(motion);
+  }));
+}
+
+const ExactPoint* exact_point(const Result& result, const CoverBox& box) {
+  return box.point < 0 ? nullptr : &result.cover.exact_points[static_cast<std::size_t>(box.point)];
+}
+
+std::vector<Value> values(const Result& result, const CoverBox& box, int variables) {
+  std::vector<Value> values;
+  for (int i = 0; i < variables; ++i) {
+    const auto has = [i](const Angle& a) { return a.cosine == i || a.sine == i; };
+    const auto angle = std::find_if(result.angles.begin(), result.angles.end(), has);
+    const auto at = [&box](int v) { return box.box[static_cast<std::size_t>(v)]; };
+    if (angle == result.angles.end()) {
+      values.push_back({result.variables[static_cast<std::size_t>(i)].name, at(i), i});
+    } else if (i == std::min(angle->cosine, angle->sine)) {
+      values.push_back(
+          {angle->name, certify::angle_enclosure(at(angle->cosine), at(angle->sine), angle->range), -1, &*angle});
+    }
+  }
+  return values;
+}
+
+KernelTally kernel_tally(const Result& result) {
+  KernelTally tally;
+  for (const CoverBox& box : result.cover.boxes) {
+    const ExactPoint* point = exact_point(result, box);
+    if (box.corank < 0 || (box.verdict == Verdict::undecided && !point)) continue;
+    ++tally.at_most[box.corank];
+    const bool larger = box.corank > result.options.corank;
+    tally.larger += larger;
+    if (point && point->corank > 1) ++(larger ? tally.explained : tally.known);
+  }
+  return tally;
+}
+
+}  // namespace corank::result

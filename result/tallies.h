@@ -1,0 +1,46 @@
+// What the table and the JSON object of a result count and list.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "corank/result/result.h"
+
+namespace corank::result {
+
+inline constexpr std::array kVerdictsInOrder{Verdict::regular, Verdict::isolated,  Verdict::exact,  Verdict::boundary,
+                                             Verdict::partial, Verdict::undecided, Verdict::pending};
+static_assert(kVerdictsInOrder.size() == kVerdicts);
+
+/// How many undecided boxes there are with each reason.
+std::map<Reason, std::size_t> undecided_reasons(const Cover& cover);
+
+/// Boxes that lie on the self-motion of that number.
+std::size_t boxes_on(const Cover& cover, std::size_t motion);
+
+/// One of the model's own coordinates in a box.
+struct Value {
+  std::string name;
+  Interval value;
+  int variable;  ///< −1: an angle
+  const Angle* angle = nullptr;
+};
+/// The box in the model's own coordinates, of the first variables: an angle stands in place of its cosine and sine, in the
+/// order of the variables.
+std::vector<Value> values(const Result& result, const CoverBox& box, int variables);
+
+/// The point that the box names, if any.
+const ExactPoint* exact_point(const Result& result, const CoverBox& box);
+
+/// Boxes by the bound of the kernel's dimension; without the undecided boxes that may hold no solution.
+struct KernelTally {
+  std::map<int, std::size_t> at_most;
+  std::size_t larger = 0;     ///< with a bound above the corank that was asked for
+  std::size_t explained = 0;  ///< of these, with a point where the dimension is known to be above 1
+  std::size_t known = 0;      ///< of the others, likewise: the corank asked for was above 1
+};
+KernelTally kernel_tally(const Result& result);
+
+}  // namespace corank::result
