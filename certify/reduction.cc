@@ -234,7 +234,7 @@ void Reducer::drop_repeated() {
     if (!ratio) return false;
     if (is_exact(f) && is_exact(g)) {
       // 0 = 0 for a checker, too, whatever becomes of g.
-      if (may_add()) steps_.push_back(ReductionStep::sum(origins_[row], origins_[&g - rows.data()], -*ratio));
+      if (may_add()) steps_.push_back(SumOfEquations{origins_[row], origins_[&g - rows.data()], -*ratio});
       return true;
     }
     for (Monomial& m : f.monomials)  // f − q·g
@@ -312,7 +312,7 @@ void Reducer::carry_domain(int x, const Polynomial& value) {
 }
 
 void Reducer::eliminate(std::size_t row, int variable, const Polynomial& value) {
-  steps_.push_back(ReductionStep::elimination(variable, origins_[row]));
+  steps_.push_back(Elimination{variable, origins_[row]});
   erase_row(row);
   carry_domain(variable, value);
   replace_everywhere(variable, value);
@@ -326,7 +326,7 @@ void Reducer::eliminate_fixed() {
     Polynomial value{{}, "domain of " + v.name};
     if (!v.lower.is_zero()) value.monomials.emplace_back(v.lower, std::vector<Factor>{});
     if (!affordable(static_cast<int>(j), value)) continue;
-    steps_.push_back(ReductionStep::elimination(static_cast<int>(j), -1));
+    steps_.push_back(Elimination{static_cast<int>(j), {}});
     replace_everywhere(static_cast<int>(j), std::move(value));
   }
 }
@@ -439,7 +439,7 @@ bool Reducer::shorten() {
 }
 
 void Reducer::add(std::size_t row, std::size_t other, const ExactNumber& factor) {
-  steps_.push_back(ReductionStep::sum(origins_[row], origins_[other], factor));
+  steps_.push_back(SumOfEquations{origins_[row], origins_[other], factor});
   system_.equations[row] = sum(system_.equations[row], factor, system_.equations[other]);
 }
 

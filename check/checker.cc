@@ -11,9 +11,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "corank/check/blow_up.h"
 #include "corank/check/distinct.h"
 #include "corank/check/exact.h"
-#include "corank/check/isolation.h"
 #include "corank/check/kernel.h"
 #include "corank/check/replay.h"
 #include "corank/check/self_motion.h"
@@ -36,7 +36,7 @@ bool contains(const Box& outer, const Box& inner) {
 
 bool same(const CoverBox& a, const CoverBox& b) {
   return a.box == b.box && a.verdict == b.verdict && a.free == b.free && a.region == b.region && a.point == b.point &&
-         a.corank == b.corank;
+         a.kernel_at_most == b.kernel_at_most;
 }
 
 class Checker {
@@ -112,7 +112,8 @@ class Checker {
     const auto valid = [&](const CoverBox& b) {
       return b.box.size() == n && bounded(b.box) && b.region >= -1 && b.region < static_cast<int>(cover_.regions.size()) &&
              b.point >= -1 && b.point < static_cast<int>(cover_.exact_points.size()) && b.motion >= -1 &&
-             b.motion < static_cast<int>(cover_.self_motions.size()) && b.corank >= -1 && b.corank <= static_cast<int>(n);
+             b.motion < static_cast<int>(cover_.self_motions.size()) && b.kernel_at_most >= -1 &&
+             b.kernel_at_most <= static_cast<int>(n);
     };
     const std::string fault =
         "it has not one bounded side for each variable, or names a region or a point that does not exist";
@@ -177,8 +178,8 @@ class Checker {
   // What could not be shown of the box; nothing where all was, or where there is nothing to check (`checkable`).
   std::string check_box(const CoverBox& box, bool& checkable) const {
     std::string reason = check_verdict(box, checkable);
-    if (reason.empty() && box.corank >= 0 && !kernel_->is_at_most(box.corank, box.box))
-      reason = "a kernel of a dimension above " + std::to_string(box.corank) + " is not excluded";
+    if (reason.empty() && box.kernel_at_most >= 0 && !kernel_->is_at_most(box.kernel_at_most, box.box))
+      reason = "a kernel of a dimension above " + std::to_string(box.kernel_at_most) + " is not excluded";
     checkable = checkable || !reason.empty();
     return reason;
   }

@@ -209,21 +209,21 @@ class Reducer {
     result_.values.resize(system.variables.size());
   }
 
-  // Replaces a variable everywhere by what the equation, or −1: its domain, says of it.
-  void eliminate(int x, int row) {
-    if (x >= system_.size() || row < -1 || row >= static_cast<int>(equations_.size()))
+  // Replaces a variable everywhere by what the equation says of it, or its domain where there is none.
+  void eliminate(int x, const std::optional<int>& row) {
+    if (x < 0 || x >= system_.size() || (row && (*row < 0 || *row >= static_cast<int>(equations_.size()))))
       throw std::invalid_argument("an elimination names no variable or no equation");
     const auto refuse = [&](const std::string& reason) {
       throw std::invalid_argument("elimination of " + name_of(system_, x) + ": " + reason);
     };
     auto& value = result_.values[static_cast<std::size_t>(x)];
     if (value) refuse("it is gone already");
-    if (row < 0) {
+    if (!row) {
       const Variable& v = system_.variables[static_cast<std::size_t>(x)];
       if (!(v.lower == v.upper)) refuse("its domain is more than one number");
       value = Terms(v.lower);
     } else {
-      auto& equation = equations_[static_cast<std::size_t>(row)];
+      auto& equation = equations_[static_cast<std::size_t>(*row)];
       if (!equation) refuse("its equation has been used");
       value = equation->solved_for(x);
       if (!value) refuse("its equation does not define it");
@@ -286,10 +286,11 @@ Reduced reduce(const System& system, const std::vector<ReductionStep>& steps, co
   Reducer reducer(system, stop);
   for (const ReductionStep& s : steps) {
     stop.poll();
-    if (s.is_sum()) {
-      reducer.add(s.equation, s.other, s.factor);
+    if (const auto* sum = std::get_if<SumOfEquations>(&s)) {
+      reducer.add(sum->equation, sum->other, sum->factor);
     } else {
-      reducer.eliminate(s.variable, s.equation);
+      const Elimination& elimination = std::get<Elimination>(s);
+      reducer.eliminate(elimination.variable, elimination.equation);
     }
   }
   return reducer.take_result();

@@ -78,7 +78,7 @@ struct CoverBox {
   int point = -1;
   /// No solution in the box has a kernel of larger dimension (certify/kernel_bound.h); −1: the system has no kernel, or
   /// nobody asked.
-  int corank = -1;
+  int kernel_at_most = -1;
   int motion = -1;               ///< index in Cover::self_motions: it is `regular` with the free variables of that set
   Reason reason = Reason::none;  ///< what was found where it was given up; no claim
 };

@@ -25,7 +25,7 @@ struct ExactPoint {
   /// has none.
   int corank = -1;
   /// > 0: no other solution has all its variables within this distance of the point's (proven by blow-up,
-  /// certify/isolation.h). 0: nothing is said.
+  /// certify/blow_up.h). 0: nothing is said.
   double sole_within = 0;
 
   friend bool operator==(const ExactPoint&, const ExactPoint&) = default;

@@ -125,8 +125,8 @@ void say_kernel(const Cover& cover, SetWords& words) {
   const auto count = [&cover](auto&& test) {
     return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), test));
   };
-  const std::size_t one = count([](const auto&b) { return b.corank == 1; }),
-                    asked = count([](const auto&b) { return b.corank >= 0; });
+  const std::size_t one = count([](const auto&b) { return b.kernel_at_most == 1; }),
+                    asked = count([](const auto&b) { return b.kernel_at_most >= 0; });
   const auto larger = static_cast<std::size_t>(
       std::count_if(cover.exact_points.begin(), cover.exact_points.end(), [](const auto& p) { return p.corank > 1; }));
   if (asked == 0) return;

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "corank/report/drawing_svg.h"
+#include "corank/report/layout_svg.h"
 #include "corank/result/result_file.h"
 
 namespace corank::report {
@@ -45,12 +45,12 @@ double text_width(cairo_t* c, const Label& label, double size) {
   return width;
 }
 
-void draw(cairo_t* c, const Drawing::Text& text) {
-  const double width = text.anchor == Drawing::Anchor::start ? 0 : text_width(c, text.label, text.size);
+void draw(cairo_t* c, const Layout::Text& text) {
+  const double width = text.anchor == Layout::Anchor::start ? 0 : text_width(c, text.label, text.size);
   cairo_save(c);
   cairo_translate(c, text.x, text.y);
   if (text.upward) cairo_rotate(c, -std::numbers::pi / 2);
-  double x = text.anchor == Drawing::Anchor::middle ? -width / 2 : -width;
+  double x = text.anchor == Layout::Anchor::middle ? -width / 2 : -width;
   for (const TextRun& run : text.label) {
     set_font(c, run, text.size);
     cairo_move_to(c, x, run.subscript ? kSubscriptDrop * text.size : 0);
@@ -61,7 +61,7 @@ void draw(cairo_t* c, const Drawing::Text& text) {
 }
 
 // Where outline and marks overlap the filling, a translucent shape is put together first.
-void draw(cairo_t* c, const Drawing& drawing, const Drawing::Shape& shape) {
+void draw(cairo_t* c, const Layout& drawing, const Layout::Shape& shape) {
   const bool overlaps = shape.opacity < 1 && (drawing.outline > 0 || !shape.marked.empty());
   if (overlaps) cairo_push_group(c);
   cairo_save(c);
@@ -89,28 +89,28 @@ void draw(cairo_t* c, const Drawing& drawing, const Drawing::Shape& shape) {
   cairo_paint_with_alpha(c, shape.opacity);
 }
 
-void draw(cairo_t* c, const Drawing& drawing) {
+void draw(cairo_t* c, const Layout& drawing) {
   cairo_set_fill_rule(c, CAIRO_FILL_RULE_EVEN_ODD);
-  for (const Drawing::Shape& shape : drawing.shapes) draw(c, drawing, shape);
-  for (const Drawing::Swatch& s : drawing.swatches) {
+  for (const Layout::Shape& shape : drawing.shapes) draw(c, drawing, shape);
+  for (const Layout::Swatch& s : drawing.swatches) {
     cairo_set_source_rgba(c, s.color.red, s.color.green, s.color.blue, s.opacity);
     cairo_rectangle(c, s.x, s.y, s.width, s.height);
     cairo_fill(c);
   }
   cairo_set_source_rgb(c, 0, 0, 0);
   cairo_set_line_cap(c, CAIRO_LINE_CAP_SQUARE);
-  for (const Drawing::Line& l : drawing.lines) {
+  for (const Layout::Line& l : drawing.lines) {
     cairo_set_line_width(c, l.width);
     cairo_move_to(c, l.x0, l.y0);
     cairo_line_to(c, l.x1, l.y1);
     cairo_stroke(c);
   }
-  for (const Drawing::Text& text : drawing.texts) draw(c, text);
+  for (const Layout::Text& text : drawing.texts) draw(c, text);
 }
 
 // Calls `use` with the font's own widths, whatever the resolution.
 template <typename Use>
-Drawing measured(const Use& use) {
+Layout measured(const Use& use) {
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), cairo_surface_destroy);
   const Context c(cairo_create(surface.get()), cairo_destroy);
   cairo_font_options_t* const exact = cairo_font_options_create();
@@ -120,11 +120,11 @@ Drawing measured(const Use& use) {
   return use([&](const Label& label, double size) { return text_width(c.get(), label, size); });
 }
 
-Drawing laid_out(const Picture& picture, const PortraitOptions& options) {
+Layout laid_out(const Picture& picture, const PortraitOptions& options) {
   return measured([&](const TextWidth& text_width) { return lay_out(picture, options, text_width); });
 }
 
-std::string to_pdf(const Drawing& drawing, const std::string& title, const std::string& path) {
+std::string to_pdf(const Layout& drawing, const std::string& title, const std::string& path) {
   std::string bytes;
   const Surface surface(cairo_pdf_surface_create_for_stream(append, &bytes, drawing.width, drawing.height),
                         cairo_surface_destroy);
@@ -140,7 +140,7 @@ std::string to_pdf(const Drawing& drawing, const std::string& title, const std::
   return bytes;
 }
 
-std::string to_png(const Drawing& drawing, double dots_per_inch, const std::string& path) {
+std::string to_png(const Layout& drawing, double dots_per_inch, const std::string& path) {
   const double scale = dots_per_inch / 72;
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(drawing.width * scale)),
                                                    static_cast<int>(std::ceil(drawing.height * scale))),
@@ -171,7 +171,7 @@ void write_portrait(const std::filesystem::path& path, const Picture& picture, c
       !(options.dots_per_inch >= 10 && options.dots_per_inch <= 2400))
     throw std::invalid_argument(path.string() + ": expected a width from 20 to 1000 mm and 10 to 2400 dots per inch");
   if (!options.ranges && is_empty(picture)) throw std::invalid_argument(path.string() + ": there are no boxes to draw");
-  const Drawing drawing = laid_out(picture, options);
+  const Layout drawing = laid_out(picture, options);
   const std::string extension = path.extension().string();
   result::write_text(path, extension == ".svg"   ? to_svg(drawing, options.title)
                            : extension == ".pdf" ? to_pdf(drawing, options.title, path.string())
@@ -194,11 +194,11 @@ std::vector<std::string> write_small_multiples(const std::filesystem::path& fold
     write_portrait(folder / files.back(), pictures[k], options);
     options.legend = false;
     options.width_mm = 45;
-    Drawing drawing = laid_out(pictures[k], options);
+    Layout drawing = laid_out(pictures[k], options);
     all.push_back({drawing.width * static_cast<double>(k % kColumns), drawing.height * static_cast<double>(k / kColumns),
                    std::move(drawing)});
   }
-  const Drawing& last = all.back().drawing;
+  const Layout& last = all.back().drawing;
   const double width = last.width * static_cast<double>(std::min(kColumns, all.size())), below = all.back().y + last.height;
   all.push_back({0, below, measured([&](const TextWidth& text_width) {
                    return lay_out_legend(pictures.front(), width, text_width);

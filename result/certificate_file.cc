@@ -35,7 +35,7 @@ void write_indices(Hdf5Writer& file, const std::string& name, const std::vector<
     motions.push_back(box.motion);
     regions.push_back(box.region);
     points.push_back(box.point);
-    coranks.push_back(box.corank);
+    coranks.push_back(box.kernel_at_most);
   }
   file.packed(kGroup + name + "_corank", coranks);
   file.packed(kGroup + name + "_region", regions);
@@ -158,8 +158,13 @@ class Reader {
       if (!is_index(variables[k]) || variables[k] >= static_cast<std::int64_t>(n_) || !is_index(equations[k]) ||
           !is_index(others[k]))
         refuse(kReduction + " names no variable or no equation");
-      cover_.reduction.push_back({static_cast<int>(variables[k]), static_cast<int>(equations[k]),
-                                  static_cast<int>(others[k]), number(factors[k], kReduction + "factor")});
+      const int variable = static_cast<int>(variables[k]), equation = static_cast<int>(equations[k]);
+      const ExactNumber factor = number(factors[k], kReduction + "factor");
+      if (variable < 0) {
+        cover_.reduction.emplace_back(SumOfEquations{equation, static_cast<int>(others[k]), factor});
+      } else {
+        cover_.reduction.emplace_back(Elimination{variable, equation < 0 ? std::nullopt : std::optional(equation)});
+      }
     }
   }
 
@@ -205,7 +210,7 @@ class Reader {
       if (coranks[i] < -1 || coranks[i] > static_cast<std::int64_t>(n_)) refuse(kGroup + name + "_corank is out of range");
       list[i].region = regions[i];
       list[i].point = points[i];
-      list[i].corank = coranks[i];
+      list[i].kernel_at_most = coranks[i];
     }
     if (!file_.has(kGroup + name + "_motion")) return;  // before format version 4
     const auto motions = vector<std::int32_t>(kGroup + name + "_motion");
@@ -273,8 +278,9 @@ class Reader {
 
   Proof proof() const {
     Proof proof;
-    const auto eliminated = static_cast<std::size_t>(std::count_if(
-        cover_.reduction.begin(), cover_.reduction.end(), [](const ReductionStep& step) { return !step.is_sum(); }));
+    const auto eliminated = static_cast<std::size_t>(
+        std::count_if(cover_.reduction.begin(), cover_.reduction.end(),
+                      [](const ReductionStep& step) { return std::holds_alternative<Elimination>(step); }));
     if (n_ < eliminated) refuse("more variables were eliminated than there are");
     proof.roots = boxes(kProof + "root", n_ - eliminated);
     if (n_ == eliminated) proof.roots.resize(1);  // the only point that there is, without a number
@@ -315,10 +321,13 @@ void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variab
   std::vector<std::int64_t> eliminated, equations, others;
   std::vector<std::string> factors;
   for (const ReductionStep& step : cover.reduction) {
-    eliminated.push_back(step.variable);
-    equations.push_back(step.equation);
-    others.push_back(step.other);
-    factors.push_back(step.factor.text());
+    const auto* elimination = std::get_if<Elimination>(&step);
+    const SumOfEquations sum =
+        elimination ? SumOfEquations{elimination->equation.value_or(-1), -1, 0} : std::get<SumOfEquations>(step);
+    eliminated.push_back(elimination ? elimination->variable : -1);
+    equations.push_back(sum.equation);
+    others.push_back(sum.other);
+    factors.push_back(sum.factor.text());
   }
   file.integers(kReduction + "variable", eliminated);
   file.integers(kReduction + "equation", equations);

@@ -43,9 +43,9 @@ KernelTally kernel_tally(const Result& result) {
   KernelTally tally;
   for (const CoverBox& box : result.cover.boxes) {
     const ExactPoint* point = exact_point(result, box);
-    if (box.corank < 0 || (box.verdict == Verdict::undecided && !point)) continue;
-    ++tally.at_most[box.corank];
-    const bool larger = box.corank > result.options.corank;
+    if (box.kernel_at_most < 0 || (box.verdict == Verdict::undecided && !point)) continue;
+    ++tally.at_most[box.kernel_at_most];
+    const bool larger = box.kernel_at_most > result.options.corank;
     tally.larger += larger;
     if (point && point->corank > 1) ++(larger ? tally.explained : tally.known);
   }

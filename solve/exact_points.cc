@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/certify/blow_up.h"
 #include "corank/certify/exact_verification.h"
-#include "corank/certify/isolation.h"
 #include "corank/certify/refinement.h"
 #include "corank/solve/corank_system.h"
 #include "corank/solve/exact_guess.h"

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "corank/certify/blow_up.h"
 #include "corank/certify/domain.h"
-#include "corank/certify/isolation.h"
 #include "corank/certify/kernel_bound.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/reduction.h"

@@ -20,9 +20,9 @@ namespace corank::solve {
 /// a point is searched again without a small box about it: the result is one undecided box that holds the point, named in
 /// CoverBox::point, and proven boxes around it.
 ///
-/// Systems with kernel equations: CoverBox::corank bounds the kernel's dimension in each box (certify::KernelBound, on parts
-/// of the box where it must); a proven box where it may be 2 or more, and that holds a known point where it is, names that
-/// point, too.
+/// Systems with kernel equations: CoverBox::kernel_at_most bounds the kernel's dimension in each box (certify::KernelBound,
+/// on parts of the box where it must); a proven box where it may be 2 or more, and that holds a known point where it is,
+/// names that point, too.
 ///
 /// What cannot be proven stays as it was, and so does what is left once the control has ended the run. Systems with a
 /// tolerance, irrational coefficients or sines and cosines are left alone.

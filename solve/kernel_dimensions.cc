@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "corank/certify/isolation.h"
+#include "corank/certify/blow_up.h"
 #include "corank/certify/kernel_bound.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/box_hash.h"
@@ -26,7 +26,7 @@ void say_of_points(Cover& cover, Say say) {
     if (same == last) {
       say(point);
     } else {
-      point.corank = cover.boxes[same->second].corank;
+      point.kernel_at_most = cover.boxes[same->second].kernel_at_most;
       point.point = cover.boxes[same->second].point;
     }
   }
@@ -43,7 +43,7 @@ void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& co
   const std::vector<certify::PointLocation> places(cover.exact_points.begin(), cover.exact_points.end());
   const auto bound_in = [&](CoverBox& box) {
     const UpwardRounding rounding;
-    if (box.verdict != Verdict::pending && !stopped()) box.corank = bound.at_most(box.box);
+    if (box.verdict != Verdict::pending && !stopped()) box.kernel_at_most = bound.at_most(box.box);
   };
   tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
   arena.execute(
@@ -52,10 +52,10 @@ void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& co
   // Few: one after the other, since a point's number is narrowed while it is compared.
   const auto explain = [&](CoverBox& box) {
     const UpwardRounding rounding;
-    if (box.corank <= system.kernel_vectors || stopped()) return;
+    if (box.kernel_at_most <= system.kernel_vectors || stopped()) return;
     for (std::size_t i = 0; i < cover.exact_points.size() && box.point < 0; ++i)
-      if (cover.exact_points[i].corank >= box.corank && places[i].in(box.box)) box.point = static_cast<int>(i);
-    if (box.point < 0) box.corank = bound.at_most(box.box, kKernelDepth);
+      if (cover.exact_points[i].corank >= box.kernel_at_most && places[i].in(box.box)) box.point = static_cast<int>(i);
+    if (box.point < 0) box.kernel_at_most = bound.at_most(box.box, kKernelDepth);
   };
   for (CoverBox& box : cover.boxes) explain(box);
   if (!cover.points.empty()) say_of_points(cover, explain);

@@ -7,7 +7,7 @@
 
 namespace corank::solve {
 
-/// CoverBox::corank of every box and point, where the system has kernel equations (certify::KernelBound, on parts of
+/// CoverBox::kernel_at_most of every box and point, where the system has kernel equations (certify::KernelBound, on parts of
 /// the box where it must); a box where it is larger than the system asks for, and that holds a known exact point with such a
 /// kernel, names that point. What is left once the control has ended stays as it was.
 void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& control);

@@ -25,7 +25,7 @@ void load(Archive& archive, Interval& x) {
 
 template <class Archive>
 void serialize(Archive& archive, CoverBox& b) {
-  archive(b.box, b.verdict, b.free, b.region, b.point, b.corank, b.motion, b.reason);
+  archive(b.box, b.verdict, b.free, b.region, b.point, b.kernel_at_most, b.motion, b.reason);
 }
 
 template <class Archive>

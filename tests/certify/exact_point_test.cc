@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "corank/certify/algebraic_number.h"
+#include "corank/certify/blow_up.h"
 #include "corank/certify/distinct.h"
 #include "corank/certify/exact_verification.h"
-#include "corank/certify/isolation.h"
 #include "corank/certify/refinement.h"
 #include "corank/core/rounding.h"
 #include "corank/tests/system_builder.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -312,6 +313,58 @@ TEST(Domain, LocatesPiecesInsideOutsideAndAcross) {
   EXPECT_EQ(locate({0.4, 0.6}, {0.5, 0.6}), Location::across);
   EXPECT_EQ(locate({0.9, 1.1}, {0.1, 0.2}), Location::across);
   EXPECT_EQ(locate({1.1, 1.2}, {0.1, 0.2}), Location::outside);
+}
+
+// Random quadratic inequalities: no point that satisfies one is cut off.
+TEST(Project, KeepsEveryPointOfAnInequalityBySlopes) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto coefficient = [&] { return std::to_string(std::lround(8 * unit(random))) + "/4"; };
+  int shrunk = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-4", "4"), y = b.variable("y", "-4", "4"), z = b.variable("z", "-4", "4");
+    b.at_least_zero({{coefficient(), {{x, 2}}},
+                     {coefficient(), {{x, 1}, {y, 1}}},
+                     {coefficient(), {{y, 2}}},
+                     {coefficient(), {{y, 1}, {z, 1}}},
+                     {coefficient(), {{z, 1}}},
+                     {coefficient(), {}}});
+    const CompiledSystem system(b.system());
+    const UpwardRounding rounding;
+    std::vector<Interval> box;
+    for (int j = 0; j < 3; ++j) {
+      const double at = 3 * unit(random);
+      box.emplace_back(at, at + std::fabs(unit(random)));
+    }
+    std::vector<Interval> left = box;
+    std::array<std::uint8_t, 3> changed{};
+    const bool any = project(system, 0, left, 0.1, changed.data());
+    shrunk += !any || left != box;
+    for (int sample = 0; sample < 50; ++sample) {
+      std::array<double, 3> p{};
+      for (std::size_t j = 0; j < 3; ++j) p[j] = box[j].lo() + 0.5 * (unit(random) + 1) * (box[j].hi() - box[j].lo());
+      bool inside = true;
+      for (std::size_t j = 0; j < 3; ++j) inside = inside && box[j].contains(p[j]);
+      if (!inside || system.evaluate_at(0, p.data()).lo() < 0) continue;
+      ASSERT_TRUE(any) << trial;
+      for (std::size_t j = 0; j < 3; ++j) ASSERT_TRUE(left[j].contains(p[j])) << trial;
+    }
+  }
+  EXPECT_GT(shrunk, 500);
+}
+
+TEST(Project, SeesThatTwoNumbersAreTooCloseToEachOther) {
+  SystemBuilder b;  // (x − y)² ≥ 1/4, written out
+  const int x = b.variable("x", "-9", "9"), y = b.variable("y", "-9", "9");
+  b.at_least_zero({{"1", {{x, 2}}}, {"-2", {{x, 1}, {y, 1}}}, {"1", {{y, 2}}}, {"-1/4", {}}});
+  const CompiledSystem system(b.system());
+  const UpwardRounding rounding;
+  std::vector<Interval> box{{5.0, 5.2}, {5.0, 5.2}};
+  std::array<std::uint8_t, 2> changed{};
+  EXPECT_FALSE(project(system, 0, box, 0.1, changed.data()));
+  box = {{5.0, 5.2}, {5.5, 5.7}};
+  EXPECT_TRUE(project(system, 0, box, 0.1, changed.data()));
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ TEST(Reduction, AddsMultiplesOfEquationsThatShortenOthers) {
   const Reduction r = reduce(kernel_rows().system(), Eliminate::exact);
   ASSERT_EQ(r.system.equations.size(), 3u);
   EXPECT_EQ(text(r.system.equations[1]), "-1*x0^2 + 1*x3^1*x6^1");
-  EXPECT_EQ(r.steps, std::vector<ReductionStep>{ReductionStep::sum(1, 0, -2)});
+  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{SumOfEquations{1, 0, -2}}));
 }
 
 TEST(Reduction, AddsNoEquationsWhereAToleranceIsAboutThemAsGiven) {
@@ -184,7 +184,7 @@ TEST(Reduction, AddsEquationsWithIrrationalNumbers) {
     set(system.equations[0].monomials[1], root);
     set(system.equations[1].monomials[1], same ? 2 * root : ExactNumber::apply(ConstantFunction::sqrt, 8));
     const Reduction r = reduce(system, Eliminate::exact);
-    EXPECT_EQ(r.steps, std::vector<ReductionStep>{ReductionStep::sum(1, 0, -2)});
+    EXPECT_EQ(r.steps, (std::vector<ReductionStep>{SumOfEquations{1, 0, -2}}));
     if (!same) {
       EXPECT_EQ(r.system.equations[1].monomials.size(), 3u);
       continue;
@@ -200,7 +200,7 @@ TEST(Reduction, NotesWhyARepeatedEquationIsDropped) {
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-1", {{x, 1}, {z, 1}}}, {"-2", {}}});
   b.equation({{"3", {{x, 2}}}, {"3", {{y, 2}}}, {"3", {{z, 2}}}, {"-3", {{x, 1}, {z, 1}}}, {"-6", {}}});
   const Reduction r = reduce(b.system(), Eliminate::exact);
-  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{ReductionStep::sum(2, 1, -3), ReductionStep::sum(1, 0, -1)}));
+  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{SumOfEquations{2, 1, -3}, SumOfEquations{1, 0, -1}}));
 }
 
 TEST(Reduction, AddsNoEquationThatMakesAnotherAsLong) {
@@ -217,7 +217,7 @@ TEST(Reduction, EliminatesWhatASumTies) {
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-1", {}}});
   b.equation({{"2", {{x, 2}}}, {"2", {{y, 2}}}, {"2", {{z, 2}}}, {"1", {{x, 1}}}, {"-1", {{y, 1}}}, {"-2", {}}});
   const Reduction r = reduce(b.system(), Eliminate::exact);
-  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{ReductionStep::sum(1, 0, -2), ReductionStep::elimination(y, 1)}));
+  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{SumOfEquations{1, 0, -2}, Elimination{y, 1}}));
   ASSERT_EQ(r.system.equations.size(), 1u);
   EXPECT_EQ(text(r.system.equations[0]), "-1 + 2*x0^2 + 1*x1^2");
 }
@@ -552,7 +552,7 @@ TEST(Reduction, NamesEquationsInItsStepsAsTheyWereGiven) {
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{x, 1}, {y, 1}}}, {"-1", {}}});
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{x, 1}, {y, 1}}}, {"-1", {{x, 3}}}});
   const Reduction r = reduce(b.system(), Eliminate::exact);
-  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{ReductionStep::elimination(z, 0), ReductionStep::sum(2, 1, -1)}));
+  EXPECT_EQ(r.steps, (std::vector<ReductionStep>{Elimination{z, 0}, SumOfEquations{2, 1, -1}}));
 }
 
 TEST(PolynomialAlgebra, SolvesOnlyForWhatIsLinearWithARationalFactor) {

@@ -220,15 +220,15 @@ TEST(Checker, RejectsIllegalEliminations) {
     cover.reduction = std::move(steps);
     return reasons(system, cover);
   };
-  EXPECT_THAT(with({{0, 0}}), HasSubstr("does not define it"));
-  EXPECT_THAT(with({{0, -1}}), HasSubstr("more than one number"));
-  EXPECT_THAT(with({{0, 1}, {0, 2}}), HasSubstr("gone already"));
-  EXPECT_THAT(with({{0, 1}, {1, 1}}), HasSubstr("has been used"));
-  EXPECT_THAT(with({{7, 1}}), HasSubstr("no variable"));
-  EXPECT_THAT(with({ReductionStep::sum(0, 0, 1)}), HasSubstr("not two different ones"));
-  EXPECT_THAT(with({ReductionStep::sum(0, 9, 1)}), HasSubstr("not two different ones"));
-  EXPECT_THAT(with({{0, 1}, ReductionStep::sum(0, 1, 1)}), HasSubstr("not two different ones"));
-  EXPECT_THAT(with({ReductionStep::sum(0, 1, ExactNumber::pi())}), HasSubstr("not rational"));
+  EXPECT_THAT(with({Elimination{0, 0}}), HasSubstr("does not define it"));
+  EXPECT_THAT(with({Elimination{0, {}}}), HasSubstr("more than one number"));
+  EXPECT_THAT(with({Elimination{0, 1}, Elimination{0, 2}}), HasSubstr("gone already"));
+  EXPECT_THAT(with({Elimination{0, 1}, Elimination{1, 1}}), HasSubstr("has been used"));
+  EXPECT_THAT(with({Elimination{7, 1}}), HasSubstr("no variable"));
+  EXPECT_THAT(with({SumOfEquations{0, 0, 1}}), HasSubstr("not two different ones"));
+  EXPECT_THAT(with({SumOfEquations{0, 9, 1}}), HasSubstr("not two different ones"));
+  EXPECT_THAT(with({Elimination{0, 1}, SumOfEquations{0, 1, 1}}), HasSubstr("not two different ones"));
+  EXPECT_THAT(with({SumOfEquations{0, 1, ExactNumber::pi()}}), HasSubstr("not rational"));
 }
 
 TEST(Checker, RejectsSwappedBoxesAndPointsThatAreNone) {
@@ -346,7 +346,7 @@ class RootOfTwo : public testing::Test {
     cover_.points = cover_.boxes;
     cover_.sigma = {0.1, 0.1};
     cover_.exact_points = {{{number("-1/2"), 0, 1}, 0, 1, {{0, 1}, {0, 1}, {number("1/2"), 1}}, -1, 0.25}};
-    cover_.reduction = {{2, 2}};
+    cover_.reduction = {Elimination{2, 2}};
   }
   System system_;
   Cover cover_;
@@ -447,7 +447,7 @@ TEST_F(Plane, IsNotExplainedInTheListOfPointsAlone) {
 }
 
 TEST_F(Plane, HasNoSmallerKernelInTheListOfPoints) {
-  cover_.points[0].corank = 1;
+  cover_.points[0].kernel_at_most = 1;
   EXPECT_THAT(text(check(system_, cover_)), HasSubstr("a dimension above 1 is not excluded"));
 }
 

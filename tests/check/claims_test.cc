@@ -101,7 +101,7 @@ TEST(Claims, AreNoneOfEquationsThatContradictEachOther) {
   const System system = plain("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx = 1;\n2*x = 3;\n");
   Cover cover;
   cover.sigma = {0.1, 0.1};
-  cover.reduction = {{0, 0}};
+  cover.reduction = {Elimination{0, 0}};
   EXPECT_TRUE(check(system, cover).verified()) << text(check(system, cover));
   cover.regions = {{{0, 2}, {0, 1}}};
   cover.boxes = {{{{0, 2}, {0, 1}}, Verdict::regular, {1}, 0}};

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "corank/check/isolation.h"
+#include "corank/check/blow_up.h"
 #include "corank/tests/check/covers.h"
 
 namespace corank::check {

@@ -131,7 +131,7 @@ Problem with_value(const char* a, const char* b, const char* lower, const char* 
   builder.equation({{"-1", {{z, 1}}}, {a, {{x, 1}}}, {b, {}}});
   System system = builder.system();
   system.coefficient_tolerance = tolerance;
-  return Problem(system, {{z, 1}});
+  return Problem(system, {Elimination{z, 1}});
 }
 
 TEST(ImpliedDomains, OfAValueFollowItsDirection) {

@@ -117,10 +117,10 @@ TEST(SelfMotion, IsNoneOfVariablesThatAreGoneOrOfEquationsWithATolerance) {
   System system = plain(
       "[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\nz : [-9, 9]\nw : [-9, 9]\n"
       "[SYSTEM EQS]\n1/3*x^2 + z^2 = 1;\nx^2 - x*y = 0;\nw = x^2 + 1;\nx*y - y^2 = 0;\n");
-  EXPECT_EQ(fault(system, {1, {kEqual}}, {{3, 2}}), "");
-  EXPECT_THAT(fault(system, {1, {relation({{1, {{0, 1}}}, {-1, {{3, 1}}}})}}, {{3, 2}}), HasSubstr("were kept"));
+  EXPECT_EQ(fault(system, {1, {kEqual}}, {Elimination{3, 2}}), "");
+  EXPECT_THAT(fault(system, {1, {relation({{1, {{0, 1}}}, {-1, {{3, 1}}}})}}, {Elimination{3, 2}}), HasSubstr("were kept"));
   system.coefficient_tolerance = 1e-3;
-  EXPECT_THAT(fault(system, {1, {kEqual}}, {{3, 2}}), HasSubstr("tolerance"));
+  EXPECT_THAT(fault(system, {1, {kEqual}}, {Elimination{3, 2}}), HasSubstr("tolerance"));
 }
 
 }  // namespace

@@ -245,7 +245,7 @@ TEST(Replay, ShowsNothingWhereAnEliminatedVariablesSideIsAnother) {
   options.proof = true;
   Cover cover = solve::solve(system, options);
   ASSERT_EQ(cover.reduction.size(), 1u);
-  ASSERT_EQ(cover.reduction[0].variable, 1);
+  ASSERT_EQ(std::get<Elimination>(cover.reduction[0]).variable, 1);
   EXPECT_TRUE(check(system, cover).proof.verified) << text(check(system, cover));
   ASSERT_EQ(cover.boxes.size(), cover.count(Verdict::undecided));
   for (CoverBox& box : cover.boxes) box.box[1] = Interval(box.box[1].lo() + 1, box.box[1].hi() + 1);
@@ -257,7 +257,7 @@ TEST(Replay, ShowsThatAnEliminatedVariablesSideHoldsAllOfItsValues) {
   Cover cover;
   cover.sigma = {9, 9};
   cover.dimension = 1;
-  cover.reduction = {{1, 0}};
+  cover.reduction = {Elimination{1, 0}};
   cover.proof = std::make_shared<const Proof>(Script(std::vector<Interval>{{0, 1}}).add(Step::box, {0}).proof());
   const auto verified = [&](const Interval& y) {
     cover.boxes = {{{{0, 1}, y}, Verdict::undecided, {}}};

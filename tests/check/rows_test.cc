@@ -69,6 +69,18 @@ TEST(Rows, DeleteNoBoxThatAnInequalityHoldsInPartOf) {
   EXPECT_TRUE(holds(x[0], 0) && holds(x[0], 1)) << "1 - x is not 0 but at least that";
 }
 
+// (x − y)² ≥ 1/4, written out: by its slopes, and no point that satisfies it is lost.
+TEST(Rows, ProjectAConditionByItsSlopes) {
+  const Row f = row({{"1", {{0, 2}}}, {"-2", {{0, 1}, {1, 1}}}, {"1", {{1, 2}}}, {"-1/4", {}}});
+  Sides close{Enclosure(5.0, 5.25), Enclosure(5.0, 5.25), Enclosure(0.0)};
+  EXPECT_FALSE(f.project(close, false));
+  Sides apart{Enclosure(5.0, 5.25), Enclosure(5.25, 5.625), Enclosure(0.0)};
+  ASSERT_TRUE(f.project(apart, false));
+  for (const auto& [x, y] : {std::pair{5.0, 5.5}, {5.125, 5.625}, {5.0, 5.625}})
+    EXPECT_TRUE(holds(apart[0], x) && holds(apart[1], y)) << x << ' ' << y;
+  EXPECT_FALSE(holds(apart[1], 5.25)) << "no x is so far from it";
+}
+
 TEST(Rows, ProjectEachVariableWithAllTheOthers) {
   const Row sum = row({{"1", {{0, 1}}}, {"1", {{1, 1}}}, {"1", {{2, 1}}}, {"-6", {}}});
   for (std::size_t j = 0; j < 3; ++j) {

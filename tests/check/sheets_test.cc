@@ -76,7 +76,7 @@ TEST(Sheet, HoldsTheValuesOfEliminatedVariables) {
   const System system = plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\nz : [-9, 9]\n[SYSTEM EQS]\nx^2 = y;\nz = x + y;\n");
   const auto with = [&](const Interval& z) {
     const Interval side(0.9, 1.1);
-    return fault(system, {Verdict::regular, {1}, {side, side, z}, {{0.5, 2}, side, {-9, 9}}}, {{2, 1}});
+    return fault(system, {Verdict::regular, {1}, {side, side, z}, {{0.5, 2}, side, {-9, 9}}}, {Elimination{2, 1}});
   };
   EXPECT_EQ(with({1.8, 2.2}), "");
   EXPECT_THAT(with({2.2, 2.3}), HasSubstr("outside it (z)"));

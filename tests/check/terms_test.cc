@@ -108,9 +108,9 @@ TEST(Reduction, FindsNoContradictionWithinTheTolerance) {
   builder.variable("y", "-2", "2");
   builder.equation({{"3/2", {{x, 1}}}, {"-1/2", {}}}).equation({{"3/2", {{x, 1}}}, {"-5001/10000", {}}});
   System system = builder.system();
-  EXPECT_TRUE(reduce(system, {{x, 0}}).contradiction);
+  EXPECT_TRUE(reduce(system, {Elimination{x, 0}}).contradiction);
   system.coefficient_tolerance = 0.01;
-  EXPECT_FALSE(reduce(system, {{x, 0}}).contradiction);
+  EXPECT_FALSE(reduce(system, {Elimination{x, 0}}).contradiction);
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST(CorankTwo, IsolatedConfigurationsOfGenericMatricesAreProven) {
       if (b.verdict != Verdict::isolated) continue;
       ++isolated;
       EXPECT_LT(second_value(system, b), 1e-9) << seed;
-      EXPECT_EQ(b.corank, 2);
+      EXPECT_EQ(b.kernel_at_most, 2);
     }
     expect_accepted(system, cover);
   }
@@ -276,7 +276,7 @@ TEST(CorankTwo, OfThreeLegsInOneIsACurveProvenWithItsDimension) {
     EXPECT_EQ(b.free.size(), 1u);
     EXPECT_NEAR(std::hypot(b.box[0].mid(), b.box[1].mid()), radius, 0.05);
     EXPECT_NEAR(b.box[3].mid(), -0.6, 1e-9);
-    EXPECT_EQ(b.corank, 2);
+    EXPECT_EQ(b.kernel_at_most, 2);
   }
   expect_accepted(system, cover);
 }
@@ -298,7 +298,7 @@ TEST(CorankTwo, TamperedBoxesAreRefused) {
   const auto refused = [&](const Cover& changed) { return !check::check(system, changed, {}).failures.empty(); };
   ASSERT_FALSE(refused(cover));
   Cover changed = cover;
-  changed.boxes[index].corank = 1;  // a smaller kernel than the box has
+  changed.boxes[index].kernel_at_most = 1;  // a smaller kernel than the box has
   EXPECT_TRUE(refused(changed));
   changed = cover;
   changed.exact_points[static_cast<std::size_t>(box->point)].corank = 3;

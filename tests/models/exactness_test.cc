@@ -113,8 +113,8 @@ TEST_P(ExactDextar, HasNoUndecidedBoxThatNoPointExplains) {
   EXPECT_EQ(points, (std::set<std::string>{"59/100, 11/100*sqrt(239)", "59/100, -11/100*sqrt(239)"}));
   for (const auto& box : cover.boxes) {
     if (box.verdict == Verdict::regular || box.verdict == Verdict::boundary) {
-      EXPECT_GE(box.corank, 1);
-      if (box.corank == 1) continue;
+      EXPECT_GE(box.kernel_at_most, 1);
+      if (box.kernel_at_most == 1) continue;
     } else {
       EXPECT_EQ(box.verdict, Verdict::undecided);
     }
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Sigmas, ExactDextar, testing::Values(0.1, 0.01));
 TEST(ExactDextar, HasAKernelOfDimensionOneOnAllOfItsForwardLocus) {
   const Cover cover = proven(system_of("dextar.cuik", SingularitySet::forward), 0.1);
   EXPECT_TRUE(cover.exact_points.empty());
-  for (const auto& box : cover.boxes) EXPECT_EQ(box.corank, 1);
+  for (const auto& box : cover.boxes) EXPECT_EQ(box.kernel_at_most, 1);
 }
 
 TEST(ProveExactly, FindsNumbersOfDegreeFour) {

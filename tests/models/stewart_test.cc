@@ -1,7 +1,7 @@
 // 6-UPS platforms at a fixed orientation: their forward singularities, a surface in x, y, z, against the determinant of
-// their legs' lines (Merlet 2006, § 6): six lines are dependent where det (d_i, c_i × d_i) = 0, d_i from the base's joint to the
-// platform's, c_i the platform's joint about its centre. How the model is written, exact or rounded to 12 digits, does not
-// matter.
+// their legs' lines (Merlet 2006, § 6): six lines are dependent where det (d_i, c_i × d_i) = 0, d_i from the base's joint to
+// the platform's, c_i the platform's joint about its centre. How the model is written, exact or rounded to 12 digits, does
+// not matter.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "corank/report/drawing.h"
+#include "corank/report/layout.h"
 
 namespace corank::report {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "corank/report/drawing.h"
+#include "corank/report/layout.h"
 #include "corank/tests/report/portrait_reader.h"
 
 namespace corank::report {

@@ -55,7 +55,7 @@ void expect_same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBo
     ASSERT_EQ(a[i].free, b[i].free);
     ASSERT_EQ(a[i].region, b[i].region);
     ASSERT_EQ(a[i].point, b[i].point);
-    ASSERT_EQ(a[i].corank, b[i].corank);
+    ASSERT_EQ(a[i].kernel_at_most, b[i].kernel_at_most);
   }
 }
 
@@ -315,7 +315,7 @@ TEST_F(InconsistentFile, IsRefusedForIndicesOutOfRange) {
   EXPECT_THAT(refused([](Cover& c) { c.boxes[0].region = 0; }), HasSubstr("out of range"));
   EXPECT_THAT(refused([](Cover& c) { c.points[0].point = -2; }), HasSubstr("out of range"));
   EXPECT_THAT(refused([](Cover& c) { c.boxes.clear(); }), HasSubstr("another length"));
-  EXPECT_THAT(refused([](Cover& c) { c.reduction = {{1, 0}}; }), HasSubstr("names no variable"));
+  EXPECT_THAT(refused([](Cover& c) { c.reduction = {Elimination{1, 0}}; }), HasSubstr("names no variable"));
   EXPECT_THAT(refused([](Cover& c) { c.regions = {{{1.0, 0.0}}}; }), HasSubstr("empty interval"));
 }
 

@@ -89,8 +89,8 @@ TEST(Summary, SaysWhichCorankWasAskedFor) {
   Result result = sample_result();
   EXPECT_EQ(ordered_json::parse(to_json(result))["corank"], 1);
   result.options.corank = 2;
-  result.cover.boxes[3].corank = 2;
-  result.cover.boxes[4].corank = 2;
+  result.cover.boxes[3].kernel_at_most = 2;
+  result.cover.boxes[4].kernel_at_most = 2;
   EXPECT_EQ(ordered_json::parse(to_json(result))["corank"], 2);
   EXPECT_THAT(to_table(result), testing::StartsWith("sample, forward singularities of corank 2: "));
   EXPECT_THAT(to_table(result),
@@ -100,7 +100,7 @@ TEST(Summary, SaysWhichCorankWasAskedFor) {
 TEST(Summary, LeavesUndecidedBoxesOutOfTheKernelUnlessTheyHoldAKnownPoint) {
   Result result = sample_result();
   const auto at_most = [&] { return ordered_json::parse(to_json(result))["kernel"]["at_most"]; };
-  result.cover.boxes[4].corank = 2;
+  result.cover.boxes[4].kernel_at_most = 2;
   EXPECT_EQ(at_most(), (ordered_json{{"1", 1}, {"2", 1}}));
   EXPECT_THAT(to_table(result), HasSubstr("kernel: dimension 1 in 1 box, at most 2 in 1\n"));
   result.cover.boxes[4].point = -1;

@@ -279,7 +279,7 @@ const std::vector<Tampering>& tamperings() {
       {"a kernel's dimension at a point that explains lowered", "the kernel's dimension is 2, not 1", crossing,
        [](Result& r) { r.cover.exact_points[0].corank = 1; }},
       {"a bound of the kernel's dimension lowered", "above 1 is not excluded", crossing,
-       [](Result& r) { r.cover.boxes[first(r, Verdict::undecided)].corank = 1; }},
+       [](Result& r) { r.cover.boxes[first(r, Verdict::undecided)].kernel_at_most = 1; }},
       {"an explaining point exchanged", "lies outside it", crossing,
        [](Result& r) {
          CoverBox& box = r.cover.boxes[first(r, Verdict::undecided)];
@@ -290,11 +290,15 @@ const std::vector<Tampering>& tamperings() {
          for (ExactPoint& p : r.cover.exact_points) p.sole_within = 2;
        }},
       {"another elimination", "does not define it", curve,
-       [](Result& r) { std::swap(r.cover.reduction[0].equation, r.cover.reduction[1].equation); }},
+       [](Result& r) {
+         std::swap(std::get<Elimination>(r.cover.reduction[0]).equation,
+                   std::get<Elimination>(r.cover.reduction[1]).equation);
+       }},
       {"an elimination missing", "no whole boxes", curve,
        [](Result& r) {
          auto& steps = r.cover.reduction;
-         const auto last = std::find_if(steps.rbegin(), steps.rend(), [](const ReductionStep& s) { return !s.is_sum(); });
+         const auto last = std::find_if(steps.rbegin(), steps.rend(),
+                                        [](const ReductionStep& s) { return std::holds_alternative<Elimination>(s); });
          steps.erase(std::next(last).base());
        }},
       {"another dimension", "the set has dimension 1, not 2", curve, [](Result& r) { r.cover.dimension = 2; }},

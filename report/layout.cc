@@ -1,4 +1,4 @@
-#include "corank/report/drawing.h"
+#include "corank/report/layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,14 +50,14 @@ struct Scale {
   }
 };
 
-Drawing::Shape shape(const PictureLayer& layer, const Scale& x, const Scale& y, double mark_cells) {
+Layout::Shape shape(const PictureLayer& layer, const Scale& x, const Scale& y, double mark_cells) {
   CellUnion cells(x.cells, y.cells);
   for (const PictureBox& box : layer.boxes) {
     const int x0 = x.below(box.sides[0].lo()), x1 = x.above(box.sides[0].hi(), x0 + 1);
     const int y0 = y.below(box.sides[1].lo()), y1 = y.above(box.sides[1].hi(), y0 + 1);
     cells.add(x0, y.cells - y1, x1, y.cells - y0);
   }
-  Drawing::Shape result{layer.label, layer.set, layer.color, layer.opacity, cells.outlines(), {}};
+  Layout::Shape result{layer.label, layer.set, layer.color, layer.opacity, cells.outlines(), {}};
   for (const GridPolygon& p : result.polygons) {
     const auto [left, right] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.x < b.x; });
     const auto [top, bottom] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.y < b.y; });
@@ -70,7 +70,7 @@ Drawing::Shape shape(const PictureLayer& layer, const Scale& x, const Scale& y, 
 }
 
 // Swatches and their words in rows from y on, as many to a row as there is room. Returns the y below.
-double add_legend(const Picture& picture, const TextWidth& text_width, double left, double right, double y, Drawing& out) {
+double add_legend(const Picture& picture, const TextWidth& text_width, double left, double right, double y, Layout& out) {
   constexpr double kSwatch = 6, kSpace = 9, kRow = 10.5;
   std::vector<std::string> seen;
   double x = left;
@@ -82,7 +82,7 @@ double add_legend(const Picture& picture, const TextWidth& text_width, double le
     const double width = kSwatch + kGap + text_width(label, kLegendSize);
     if (x > left && x + width > right) x = left, y += kRow;
     out.swatches.push_back({x, y - kSwatch + 0.3, kSwatch, kSwatch, layer.color, layer.opacity});
-    out.texts.push_back({x + kSwatch + kGap, y, kLegendSize, Drawing::Anchor::start, false, label});
+    out.texts.push_back({x + kSwatch + kGap, y, kLegendSize, Layout::Anchor::start, false, label});
     x += width + kSpace;
   }
   return y + 5;
@@ -95,7 +95,7 @@ double widest(const std::vector<Tick>& marks, const TextWidth& text_width) {
 }
 
 void add_axes(const Picture& picture, const View& x, const View& y, const std::vector<Tick>& x_ticks,
-              const std::vector<Tick>& y_ticks, double y_tick_width, Drawing& out) {
+              const std::vector<Tick>& y_ticks, double y_tick_width, Layout& out) {
   const double left = out.frame_x, top = out.frame_y, right = left + out.frame_width, bottom = top + out.frame_height;
   for (const auto& [x0, y0, x1, y1] : {std::array{left, top, right, top},
                                        {right, top, right, bottom},
@@ -105,16 +105,16 @@ void add_axes(const Picture& picture, const View& x, const View& y, const std::v
   for (const Tick& t : x_ticks) {
     const double at = left + (t.at - x.lo) / x.extent() * out.frame_width;
     out.lines.push_back({at, bottom, at, bottom + kTickLength, kLine});
-    out.texts.push_back({at, bottom + kTickLength + kTickSize, kTickSize, Drawing::Anchor::middle, false, {{t.text}}});
+    out.texts.push_back({at, bottom + kTickLength + kTickSize, kTickSize, Layout::Anchor::middle, false, {{t.text}}});
   }
   for (const Tick& t : y_ticks) {
     const double at = bottom - (t.at - y.lo) / y.extent() * out.frame_height;
     out.lines.push_back({left - kTickLength, at, left, at, kLine});
-    out.texts.push_back({left - kTickLength - 2, at + 0.36 * kTickSize, kTickSize, Drawing::Anchor::end, false, {{t.text}}});
+    out.texts.push_back({left - kTickLength - 2, at + 0.36 * kTickSize, kTickSize, Layout::Anchor::end, false, {{t.text}}});
   }
   out.texts.push_back({(left + right) / 2, bottom + kTickLength + kTickSize + kGap + kNameSize, kNameSize,
-                       Drawing::Anchor::middle, false, axis_label(picture.axes[0])});
-  out.texts.push_back({left - kTickLength - 2 - y_tick_width - 4, (top + bottom) / 2, kNameSize, Drawing::Anchor::middle,
+                       Layout::Anchor::middle, false, axis_label(picture.axes[0])});
+  out.texts.push_back({left - kTickLength - 2 - y_tick_width - 4, (top + bottom) / 2, kNameSize, Layout::Anchor::middle,
                        true, axis_label(picture.axes[1])});
 }
 
@@ -132,12 +132,12 @@ std::array<Interval, 2> common_ranges(const std::vector<Picture>& pictures) {
   return {Interval{x.lo, x.hi}, Interval{y.lo, y.hi}};
 }
 
-Drawing lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width) {
+Layout lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width) {
   CORANK_CHECK(picture.axes.size() == 2 && (options.ranges || !is_empty(picture)));
   const auto [x_range, y_range] = options.ranges ? *options.ranges : common_ranges({picture});
   const View x{x_range.lo(), x_range.hi()}, y{y_range.lo(), y_range.hi()};
   const double ratio = proportion(picture, x, y);
-  Drawing out;
+  Layout out;
   out.width = options.width_mm * kPointsPerMm;
   out.x_range = {x.lo, x.hi}, out.y_range = {y.lo, y.hi};
   out.outline = options.outline, out.mark = options.mark;
@@ -155,7 +155,7 @@ Drawing lay_out(const Picture& picture, const PortraitOptions& options, const Te
   out.frame_y = kEdge;
   if (!options.title.empty()) {
     out.frame_y += kTitleSize + 3;
-    out.texts.push_back({out.frame_x, out.frame_y - 3, kTitleSize, Drawing::Anchor::start, false, {{options.title}}});
+    out.texts.push_back({out.frame_x, out.frame_y - 3, kTitleSize, Layout::Anchor::start, false, {{options.title}}});
   }
   if (options.legend) out.frame_y = add_legend(picture, text_width, out.frame_x, out.width - kEdge, out.frame_y, out);
   if (options.title.empty() && !options.legend) out.frame_y += 0.5 * kTickSize;
@@ -166,8 +166,8 @@ Drawing lay_out(const Picture& picture, const PortraitOptions& options, const Te
   return out;
 }
 
-Drawing lay_out_legend(const Picture& picture, double width, const TextWidth& text_width) {
-  Drawing out;
+Layout lay_out_legend(const Picture& picture, double width, const TextWidth& text_width) {
+  Layout out;
   out.width = width;
   out.height = add_legend(picture, text_width, kEdge, width - kEdge, 0, out);
   return out;

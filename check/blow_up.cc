@@ -1,4 +1,4 @@
-#include "corank/check/isolation.h"
+#include "corank/check/blow_up.h"
 
 #include <algorithm>
 #include <cmath>

@@ -30,7 +30,7 @@ using TextWidth = std::function<double(const Label&, double)>;
 
 inline constexpr double kSubscriptSize = 0.72, kSubscriptDrop = 0.22;  ///< in font sizes
 
-struct Drawing {
+struct Layout {
   struct Line {
     double x0, y0, x1, y1, width;
   };
@@ -71,10 +71,10 @@ struct Drawing {
 std::array<Interval, 2> common_ranges(const std::vector<Picture>& pictures);
 
 /// Requires two axes, and a box where the options give no ranges.
-Drawing lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width);
+Layout lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width);
 
 /// The legend of a picture alone.
-Drawing lay_out_legend(const Picture& picture, double width, const TextWidth& text_width);
+Layout lay_out_legend(const Picture& picture, double width, const TextWidth& text_width);
 
 /// The centre of the bounds.
 std::pair<double, double> centre(const GridPolygon& polygon);

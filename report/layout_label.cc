@@ -9,7 +9,7 @@
 #include <numeric>
 #include <string_view>
 
-#include "corank/report/drawing.h"
+#include "corank/report/layout.h"
 
 namespace corank::report {
 namespace {

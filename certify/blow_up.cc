@@ -1,4 +1,4 @@
-#include "corank/certify/isolation.h"
+#include "corank/certify/blow_up.h"
 
 #include <algorithm>
 #include <map>

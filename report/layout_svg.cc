@@ -1,4 +1,4 @@
-#include "corank/report/drawing_svg.h"
+#include "corank/report/layout_svg.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +39,7 @@ std::string path_data(const std::vector<GridPolygon>& polygons) {
   return data;
 }
 
-void add_shape(pugi::xml_node parent, const Drawing& drawing, const Drawing::Shape& shape) {
+void add_shape(pugi::xml_node parent, const Layout& drawing, const Layout::Shape& shape) {
   const std::string color = color_text(shape.color);
   pugi::xml_node group = append(parent, "g", {{"class", "layer"}, {"fill", color}});
   if (!shape.set.empty()) group.append_attribute("data-set").set_value(shape.set.c_str());
@@ -56,7 +56,7 @@ void add_shape(pugi::xml_node parent, const Drawing& drawing, const Drawing::Sha
   }
 }
 
-void add_text(pugi::xml_node parent, const Drawing::Text& text) {
+void add_text(pugi::xml_node parent, const Layout::Text& text) {
   pugi::xml_node node = append(parent, "text", {{"font-size", number(text.size)}});
   if (text.upward) {
     node.append_attribute("transform")
@@ -65,8 +65,8 @@ void add_text(pugi::xml_node parent, const Drawing::Text& text) {
     node.append_attribute("x").set_value(number(text.x).c_str());
     node.append_attribute("y").set_value(number(text.y).c_str());
   }
-  if (text.anchor != Drawing::Anchor::start)
-    node.append_attribute("text-anchor").set_value(text.anchor == Drawing::Anchor::middle ? "middle" : "end");
+  if (text.anchor != Layout::Anchor::start)
+    node.append_attribute("text-anchor").set_value(text.anchor == Layout::Anchor::middle ? "middle" : "end");
   bool lowered = false;
   for (const TextRun& run : text.label) {
     if (!run.italic && !run.subscript && !lowered) {
@@ -83,7 +83,7 @@ void add_text(pugi::xml_node parent, const Drawing::Text& text) {
   }
 }
 
-void add_plot(pugi::xml_node svg, const Drawing& drawing) {
+void add_plot(pugi::xml_node svg, const Layout& drawing) {
   // A script that knows the ranges can tell coordinates.
   pugi::xml_node plot = append(svg, "g",
                                {{"class", "plot"},
@@ -93,13 +93,13 @@ void add_plot(pugi::xml_node svg, const Drawing& drawing) {
                                 {"data-height", fmt::format("{:.0f}", drawing.frame_height / drawing.cell)},
                                 {"data-x", fmt::format("{} {}", drawing.x_range.lo(), drawing.x_range.hi())},
                                 {"data-y", fmt::format("{} {}", drawing.y_range.lo(), drawing.y_range.hi())}});
-  for (const Drawing::Shape& shape : drawing.shapes)
+  for (const Layout::Shape& shape : drawing.shapes)
     if (!shape.polygons.empty()) add_shape(plot, drawing, shape);
 }
 
-void add_drawing(pugi::xml_node svg, const Drawing& drawing) {
+void add_drawing(pugi::xml_node svg, const Layout& drawing) {
   if (drawing.cell > 0) add_plot(svg, drawing);  // else a legend alone
-  for (const Drawing::Swatch& s : drawing.swatches)
+  for (const Layout::Swatch& s : drawing.swatches)
     append(svg, "rect",
            {{"class", "swatch"},
             {"x", number(s.x)},
@@ -109,7 +109,7 @@ void add_drawing(pugi::xml_node svg, const Drawing& drawing) {
             {"fill", color_text(s.color)},
             {"fill-opacity", number(s.opacity)}});
   std::string lines;
-  for (const Drawing::Line& l : drawing.lines)
+  for (const Layout::Line& l : drawing.lines)
     lines += fmt::format("M{} {}L{} {}", number(l.x0), number(l.y0), number(l.x1), number(l.y1));
   if (!lines.empty()) {
     append(svg, "path",
@@ -119,7 +119,7 @@ void add_drawing(pugi::xml_node svg, const Drawing& drawing) {
             {"stroke-linecap", "square"},
             {"stroke-width", number(drawing.lines[0].width)}});
   }
-  for (const Drawing::Text& text : drawing.texts) add_text(svg, text);
+  for (const Layout::Text& text : drawing.texts) add_text(svg, text);
 }
 
 pugi::xml_node add_page(pugi::xml_document& document, double page_width, double page_height, const std::string& title) {
@@ -144,7 +144,7 @@ std::string text_of(const pugi::xml_document& document) {
 
 }  // namespace
 
-std::string to_svg(const Drawing& drawing, const std::string& title) {
+std::string to_svg(const Layout& drawing, const std::string& title) {
   pugi::xml_document document;
   add_drawing(add_page(document, drawing.width, drawing.height, title), drawing);
   return text_of(document);
