@@ -125,33 +125,47 @@ class Implication {
     open_.insert(open_.end(), rows.begin(), rows.end());
   }
 
-  // An implied upper (else lower) bound of m's value.
-  std::optional<ExactNumber> end(const Monomial& m, bool upper) const {
+  // Is the upper (else lower) bound of a·x_j that of x_j's upper side?
+  static bool by_upper_side(const Monomial& m, bool upper) { return upper == (m.coefficient.sign() == 1); }
+  // Is there an implied upper (else lower) bound of m's value?
+  bool has_end(const Monomial& m, bool upper) const {
+    if (m.factors.empty() || m.is_trigonometric()) return true;
+    const auto j = static_cast<std::size_t>(m.factors[0].variable);
+    const bool of_upper = by_upper_side(m, upper);
+    return (of_upper ? sides_[j].upper : sides_[j].lower) &&
+           (of_upper ? system_.variables[j].upper : system_.variables[j].lower).is_rational();
+  }
+  // That bound, where there is one.
+  ExactNumber end(const Monomial& m, bool upper) const {
     if (m.factors.empty()) return m.coefficient;
     if (m.is_trigonometric()) return upper ? magnitude(m.coefficient) : -magnitude(m.coefficient);
-    const auto j = static_cast<std::size_t>(m.factors[0].variable);
-    const bool of_upper = upper == (m.coefficient.sign() == 1);
-    const ExactNumber& side = of_upper ? system_.variables[j].upper : system_.variables[j].lower;
-    if (!(of_upper ? sides_[j].upper : sides_[j].lower) || !side.is_rational()) return std::nullopt;
-    return m.coefficient * side;
+    const Variable& v = system_.variables[static_cast<std::size_t>(m.factors[0].variable)];
+    return m.coefficient * (by_upper_side(m, upper) ? v.upper : v.lower);
+  }
+  // Is m a variable whose side close() is about not known to be implied?
+  bool may_close(const Monomial& m, bool upper) const {
+    if (!is_plain_variable(m)) return false;
+    const ImpliedSides& sides = sides_[static_cast<std::size_t>(m.factors[0].variable)];
+    return !(upper == (m.coefficient.sign() == -1) ? sides.upper : sides.lower);
   }
 
   // The lemma about sums, for each variable of Σ m = 0.
   void by_sums(const Polynomial& f) {
     for (const bool upper : {false, true}) {
-      ExactNumber sum;
       const Monomial* open = nullptr;  // the last one without a bound
       int missing = 0;
-      for (const Monomial& m : f.monomials) {
-        if (const auto value = end(m, upper)) {
-          sum = sum + *value;
-        } else {
-          open = &m, ++missing;
-        }
-      }
-      if (missing == 1) close(*open, sum, upper);
       for (const Monomial& m : f.monomials)
-        if (missing == 0 && is_plain_variable(m)) close(m, sum - *end(m, upper), upper);
+        if (!has_end(m, upper)) open = &m, ++missing;
+      const bool says_something = missing == 0 ? std::any_of(f.monomials.begin(), f.monomials.end(),
+                                                             [&](const Monomial& m) { return may_close(m, upper); })
+                                               : missing == 1 && may_close(*open, upper);
+      if (!says_something) continue;  // exact sums are long work
+      ExactNumber sum;
+      for (const Monomial& m : f.monomials)
+        if (&m != open) sum = sum + end(m, upper);
+      if (open) close(*open, sum, upper);
+      for (const Monomial& m : f.monomials)
+        if (missing == 0 && may_close(m, upper)) close(m, sum - end(m, upper), upper);
     }
   }
 
