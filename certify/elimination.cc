@@ -4,18 +4,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
+
+#include "corank/certify/shortening.h"
 
 namespace corank::certify {
 namespace {
-
-using Product = std::vector<int>;
-
-Product product_of(const Monomial& m) {
-  Product product;
-  for (const Factor& x : m.factors) product.insert(product.end(), {x.variable, x.power, static_cast<int>(x.function)});
-  return product;
-}
 
 bool is_linear(const Monomial& m) { return m.degree() <= 1 && !m.is_trigonometric(); }
 
@@ -103,11 +96,7 @@ class Tableau {
     return sum;
   }
 
-  struct Step {
-    std::size_t row, other;  // of all rows
-    double factor;
-  };
-  const std::vector<Step>& steps() const { return steps_; }
+  const std::vector<RowSum>& sums() const { return sums_; }
 
  private:
   static constexpr double kTie = 1e-9;         // of two pivots as large the first, whatever rounding says
@@ -123,8 +112,7 @@ class Tableau {
     return size;
   }
   bool counts(std::size_t k, std::size_t j) const {
-    return std::fabs(at(k, j)) > kResidue * std::max(magnitude_[k * n_ + j], 0.0) &&
-           std::fabs(at(k, j)) > kResidue * largest(k);
+    return std::fabs(at(k, j)) > kResidue * std::max(magnitude_[k * n_ + j], largest(k));
   }
   bool is_pivot(std::size_t k, std::size_t j) const {
     return std::fabs(at(k, j)) > kLeastPivot * std::max(magnitude_[k * n_ + j], largest(k));
@@ -154,14 +142,14 @@ class Tableau {
       magnitude_[k * n_ + j] = std::max(magnitude_[k * n_ + j], std::fabs(part));
     }
     at(k, column) = 0;
-    steps_.push_back({members_[k], members_[row], factor});
+    sums_.push_back({members_[k], members_[row], ExactNumber::dyadic(factor)});
   }
 
   std::vector<std::size_t> members_;
   std::size_t n_ = 0;
   std::vector<bool> linear_;
   std::vector<double> sizes_, entries_, magnitude_;  // magnitude_: the largest that ever was added there
-  std::vector<Step> steps_;
+  std::vector<RowSum> sums_;
 };
 
 // The groups of rows that share products, or that have none and share variables; each ascending. Rows that share nothing are
@@ -208,7 +196,7 @@ std::vector<RowSum> eliminate_products(const std::vector<Polynomial>& rows, cons
     const Tableau* best = &tableau;
     for (const Tableau* other : {&pairs, &products, &linear})
       if (other->weight() < best->weight()) best = other;
-    for (const auto& step : best->steps()) sums.push_back({step.row, step.other, ExactNumber::dyadic(step.factor)});
+    sums.insert(sums.end(), best->sums().begin(), best->sums().end());
   }
   return sums;
 }

@@ -42,9 +42,8 @@ class NewtonWorkspace {
 struct NewtonOutcome {
   bool empty = false;    ///< the box holds no solution
   bool regular = false;  ///< no diagonal entry of Y·S(X) held 0: a hint that a proof is worth trying, no claim
-  double spread =
-      /// largest row sum of |I − Y·S_D|, weighted by the scales, where regular: below 1 a proof may succeed; a hint
-      HUGE_VAL;
+  /// Largest row sum of |I − Y·S_D|, weighted by the scales, where regular: below 1 a proof may succeed; a hint.
+  double spread = HUGE_VAL;
 };
 
 /// One interval Newton step on a box X about its midpoint c: the rows Y·F(c) + Y·S(X)·(x − c) ∋ 0, which each zero x of p's

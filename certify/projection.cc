@@ -77,7 +77,8 @@ bool project_by_slopes(const CompiledSystem& system, int row, std::span<Interval
   thread_local std::vector<double> center;
   const int begin = system.row_begin(row), end = system.row_begin(row + 1);
   center.resize(x.size());
-  for (std::size_t j = 0; j < x.size(); ++j) {
+  for (int k = begin; k < end; ++k) {
+    const int j = system.column(k);
     if (!x[j].is_bounded()) return true;
     center[j] = x[j].mid();
   }

@@ -187,9 +187,7 @@ void Reducer::refresh(Polynomial& f) const {
 }
 
 bool Reducer::within_tolerance(const Polynomial& f, double scale) const {
-  std::vector<Interval> domain;
-  for (const Variable& v : system_.variables) domain.push_back(v.domain);
-  return evaluate(f, domain).mag() <= -(-kPartialTolerance * system_.coefficient_tolerance * scale);
+  return evaluate(f, system_.domain()).mag() <= -(-kPartialTolerance * system_.coefficient_tolerance * scale);
 }
 
 bool Reducer::negligible(std::size_t row) const {
@@ -282,9 +280,7 @@ void Reducer::carry_domain(int x, const Polynomial& value) {
       return;
     }
   }
-  std::vector<Interval> domain;
-  for (const Variable& v : system_.variables) domain.push_back(v.domain);
-  const Interval image = evaluate(value, domain);
+  const Interval image = evaluate(value, system_.domain());
   const auto bound = [&](const ExactNumber& end, int sign) {  // sign·(value − end) ≥ 0
     Polynomial g = value;
     Polynomial shifted{{}, "range of " + from.name};
@@ -430,8 +426,9 @@ bool Reducer::eliminate_products() {
 
 bool Reducer::shorten() {
   if (!may_add()) return false;
+  const std::vector<double> of_variables = sizes();
   std::vector<Polynomial> rows;
-  for (const Polynomial& f : system_.equations) rows.push_back(has_long_number(f) ? f : without_residues(f, sizes()));
+  for (const Polynomial& f : system_.equations) rows.push_back(has_long_number(f) ? f : without_residues(f, of_variables));
   const BestShortening best = best_shortening(rows, [this] { check_ended(); });
   if (best.saved == 0) return false;
   add(best.row, best.other, best.factor);

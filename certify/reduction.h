@@ -5,9 +5,9 @@
 //       Likewise a variable whose domain is one number;
 //   (b) a·x + g = 0 with a rational a ≠ 0 and x in no other equation or inequality: x is g's image, whatever g is;
 //   (c) f = 0 becomes f + q·g = 0 with a rational q and another equation g = 0, where that has fewer terms: shorter
-//   equations are tighter
-//       over boxes. The rows of a kernel condition that speak of the same velocity are such. Before that, products that
-//       several equations share are eliminated in the same way (certify/elimination.h), with any rational q.
+//       equations are tighter over boxes. The rows of a kernel condition that speak of the same velocity are such. Before
+//       that, products that several equations share are eliminated in the same way (certify/elimination.h), with any
+//       rational q.
 // Numbers of more than 2,000 bits are left alone: exact arithmetic with them takes minutes, and intervals of doubles gain
 // nothing by it.
 // Theorem: let x_e = p_e(x') be the eliminated variables' values as polynomials in the variables x' that are kept. Then

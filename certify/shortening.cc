@@ -64,13 +64,15 @@ bool has_long_number(const Polynomial& f) {
   });
 }
 
+Product product_of(const Monomial& m) {
+  Product product;
+  for (const Factor& x : m.factors) product.insert(product.end(), {x.variable, x.power, static_cast<int>(x.function)});
+  return product;
+}
+
 Products products_of(const Polynomial& f) {
   Products products;
-  for (const Monomial& m : f.monomials) {
-    products.emplace_back();
-    for (const Factor& x : m.factors)
-      products.back().insert(products.back().end(), {x.variable, x.power, static_cast<int>(x.function)});
-  }
+  for (const Monomial& m : f.monomials) products.push_back(product_of(m));
   std::sort(products.begin(), products.end());
   products.erase(std::unique(products.begin(), products.end()), products.end());
   return products;

@@ -12,8 +12,11 @@ namespace corank::certify {
 /// Exact arithmetic with such numbers takes minutes, and intervals of doubles gain nothing by it: more than 2,000 bits.
 bool has_long_number(const Polynomial& f);
 
+/// The monomial without its coefficient, as a key.
+using Product = std::vector<int>;
+Product product_of(const Monomial& m);
 /// The products that f has, in order; equations that repeat each other have the same.
-using Products = std::vector<std::vector<int>>;
+using Products = std::vector<Product>;
 Products products_of(const Polynomial& f);
 
 /// rows[row] + factor · rows[other] has so many terms fewer than rows[row]; saved = 0: there is no such pair.

@@ -5,9 +5,10 @@
 // What is checked, by verdict; theorems in check/*.h:
 //   regular, isolated, boundary   the box of the proof, see check/sheets.h
 //   exact                         the exact point, see check/exact.h
-//   CoverBox::kernel_at_most              the bound of the kernel's dimension, see check/kernel.h
-//   undecided                     claims nothing. With an exact point: that is a configuration with a kernel of dimension 2
-//   or more, in the box partial, pending              not checkable
+//   undecided                     claims nothing, but with an exact point: that it is a configuration with a kernel of
+//                                 dimension 2 or more, in the box
+//   partial, pending              not checkable
+// besides, CoverBox::kernel_at_most: the bound of the kernel's dimension, see check/kernel.h;
 // and that the reduction is legal, isolated boxes are disjoint, points belong to boxes, boxes are sorted and in bounds.
 #pragma once
 

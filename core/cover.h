@@ -26,9 +26,9 @@ enum class Verdict : std::uint8_t {
   exact,      ///< the solution is known exactly and verified in exact arithmetic
   boundary,   ///< as regular, but the piece may leave the search domain or an inequality inside the box
   undecided,  ///< not excluded, nothing proven
-  /// over-determined systems: as regular or isolated for a maximal independent subset of the equations; along that
+  /// over-determined systems: as regular or isolated for a maximal independent subset of the equations; along that piece
+  /// the other equations hold within Cover::tolerance, not exactly
   partial,
-  ///< piece the other equations hold within Cover::tolerance, not exactly
   pending,  ///< not processed: the cover is incomplete
 };
 inline constexpr int kVerdicts = 7;

@@ -13,10 +13,10 @@ namespace corank {
 
 // Canonical form, kept by the constructors below:
 //   sum      value + Σ operands (none a sum or a rational; at least one, at least two where value = 0; of few operands no
-//   two that differ by a
-//            rational factor alone)
-//   product  value · Π operands (none a product or a rational; value ≠ 0, negative powers last; at least two where value =
-//   1) power    operands[0]^exponent, exponent ∉ {0, 1}, the base no rational
+//            two that differ by a rational factor alone)
+//   product  value · Π operands (none a product, a rational or, alone beside a rational, a sum; no √q twice, q rational;
+//            value ≠ 0, negative powers last; at least two where value = 1)
+//   power    operands[0]^exponent, exponent ∉ {0, 1}, the base no rational
 struct ExactNumber::Node {
   enum class Kind { rational, pi, sum, product, power, function };
   Kind kind = Kind::rational;

@@ -77,6 +77,12 @@ void validate_polynomial(const Polynomial& polynomial, int variables) {
 
 }  // namespace
 
+std::vector<Interval> System::domain() const {
+  std::vector<Interval> domain;
+  for (const Variable& v : variables) domain.push_back(v.domain);
+  return domain;
+}
+
 void System::validate() const {
   std::set<std::string> names;
   for (const Variable& variable : variables) {

@@ -98,6 +98,8 @@ struct System {
   std::vector<std::string> kernel_scales;
 
   int size() const { return static_cast<int>(variables.size()); }
+  /// Of each variable the enclosure of its search domain.
+  std::vector<Interval> domain() const;
   /// max(0, n − m): the dimension of the solution set where the equations are independent.
   int dimension() const;
   /// Index of the variable, or −1.

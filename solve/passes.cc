@@ -13,12 +13,6 @@ namespace {
 // next.
 constexpr double kFirstShare = 1.0 / 20, kNextShare = 1.0 / 4;
 
-Box domain_of(const System& system) {
-  Box domain;
-  for (const auto& v : system.variables) domain.push_back(v.domain);
-  return domain;
-}
-
 // The σ that is asked for, the others by default from the hull of a set.
 Sigma chosen_sigma(const Prepared& prepared, const Box& hull, int dimension) {
   const Options& options = prepared.options;
@@ -40,7 +34,7 @@ Box hull_of(const Prepared& prepared, const Problem& problem, const std::vector<
       for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], sides[j]);
       if (hull.empty()) hull = std::move(sides);
     }
-  return hull.empty() ? domain_of(prepared.system) : prepared.reduction.lift(hull);
+  return hull.empty() ? prepared.system.domain() : prepared.reduction.lift(hull);
 }
 
 // Of the sets found: self-motions are larger than expected.
@@ -56,9 +50,9 @@ int largest_dimension(int dimension, const std::vector<Shard*>& shards) {
 Work first_pass(const Prepared& prepared) {
   const certify::Reduction& reduction = prepared.reduction;
   std::vector<Waiting> roots;
-  if (prepared.options.roots.empty()) roots.push_back({domain_of(reduction.system), 1, 0});
+  if (prepared.options.roots.empty()) roots.push_back({reduction.system.domain(), 1, 0});
   for (const Box& given : prepared.options.roots) {
-    Box root = domain_of(reduction.system);
+    Box root = reduction.system.domain();
     bool empty = false;
     for (std::size_t j = 0; j < root.size(); ++j)
       empty = empty || !root[j].intersect(given.at(static_cast<std::size_t>(reduction.kept[j])));
@@ -89,7 +83,7 @@ Work next_pass(const Prepared& prepared, const Work& pass, std::vector<Postponed
 
 Sigma sigma_of_search(const Prepared& prepared, const Problem& problem) {
   const bool any_dimension = problem.tolerant && prepared.system.equations.size() > prepared.system.variables.size();
-  return chosen_sigma(prepared, domain_of(prepared.system), any_dimension ? 1 : prepared.reduction.system.dimension());
+  return chosen_sigma(prepared, prepared.system.domain(), any_dimension ? 1 : prepared.reduction.system.dimension());
 }
 
 Sigma sigma_of_set(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards) {

@@ -28,9 +28,7 @@ Problem::Problem(const System& system, const certify::Reduction& reduction, std:
       branching(reduction.system),
       ended(std::move(e)),
       classes_(sigma_classes(system, reduction)) {
-  Box search_domain;
-  for (const Variable& v : reduction.system.variables) search_domain.push_back(v.domain);
-  TypicalSizes sizes = typical_sizes(compiled, std::move(search_domain));
+  TypicalSizes sizes = typical_sizes(compiled, reduction.system.domain());
   compiled.set_scales(std::move(sizes.variables));
   equation_sizes = std::move(sizes.equations);
 }

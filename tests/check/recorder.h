@@ -23,7 +23,7 @@ class Recorder {
   Proof run() {
     const UpwardRounding rounding;
     std::vector<Interval> x;
-    for (const Variable& v : reduction_.system.variables) x.push_back(v.domain);
+    for (const Interval& side : reduction_.system.domain()) x.push_back(side);
     proof_.roots = {x};
     visit(x, 0);
     return std::move(proof_);
