@@ -17,6 +17,7 @@ ExitStatus derive(QuestionOptions options, const std::string& format) {
   if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
   question.set = chosen_set(options, question.model);
   const symbolic::TrigonometricSystem system = study::equations(question);
+  if (!system.claimed.empty()) static_cast<void>(study::system(question, system));  // refuses what does not follow
   if (format == "cuik") {
     fmt::print("{}", result::printable(symbolic::to_cuik(symbolic::algebrize(system))));
   } else {

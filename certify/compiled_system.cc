@@ -30,6 +30,7 @@ CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial>
   system.validate();
   equations_ = static_cast<int>(system.equations.size());
   rows_ = equations_ + static_cast<int>(system.inequalities.size());
+  contracting_ = rows_ + static_cast<int>(system.implied.size());
   term_begin_.push_back(0);
   row_begin_.push_back(0);
   std::vector<std::vector<int>> rows_of(variables_);
@@ -42,7 +43,7 @@ CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial>
     const int first = row_begin_.back();
     for (int v : used) {
       columns_.push_back(v);
-      if (row < rows()) rows_of[v].push_back(row);
+      if (row < contracting_) rows_of[v].push_back(row);
     }
     const auto entry = [&](int v) { return first + static_cast<int>(std::distance(used.begin(), used.find(v))); };
     for (const Monomial& m : f.monomials) {
@@ -75,6 +76,7 @@ CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial>
   };
   for (const Polynomial& f : system.equations) add_row(f);
   for (const Polynomial& g : system.inequalities) add_row(g);
+  for (const Polynomial& h : system.implied) add_row(h);
   for (const Polynomial& v : values) add_row(v);
 
   rows_of_begin_.push_back(0);

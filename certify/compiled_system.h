@@ -1,7 +1,7 @@
 // A System in the form that evaluates fast: flat terms with interval coefficients, one sparsity pattern for all Jacobians.
 //
-// Rows 0 … m−1 are the equations (= 0), rows m … m+p−1 the inequalities (≥ 0); value rows, any further polynomials whose
-// values are asked for, follow. Every interval function requires
+// Rows 0 … m−1 are the equations (= 0), rows m … m+p−1 the inequalities (≥ 0); then come implied equations, which serve
+// projections alone, and value rows, any further polynomials whose values are asked for. Every interval function requires
 // UpwardRounding::active() and, but for evaluate(), bounded arguments. Derivatives are stored sparsely: entry k of row i,
 // row_begin(i) ≤ k < row_begin(i+1), belongs to variable column(k).
 #pragma once
@@ -40,9 +40,11 @@ class CompiledSystem {
   int variables() const { return variables_; }
   int equations() const { return equations_; }
   int inequalities() const { return rows() - equations_; }
-  int rows() const { return rows_; }  ///< without the value rows
-  int values() const { return static_cast<int>(term_begin_.size()) - 1 - rows_; }
-  int value_row(int k) const { return rows_ + k; }
+  int rows() const { return rows_; }                     ///< equations and inequalities
+  int contracting_rows() const { return contracting_; }  ///< with the implied equations
+  bool is_equation(int row) const { return row < equations_ || row >= rows_; }
+  int values() const { return static_cast<int>(term_begin_.size()) - 1 - contracting_; }
+  int value_row(int k) const { return contracting_ + k; }
   int entries() const { return static_cast<int>(columns_.size()); }
 
   std::span<const Term> terms(int row) const {
@@ -54,7 +56,7 @@ class CompiledSystem {
   int row_begin(int row) const { return row_begin_[row]; }
   int column(int entry) const { return columns_[entry]; }
   const int* columns() const { return columns_.data(); }  ///< of all entries
-  /// Equations and inequalities in which the variable occurs.
+  /// Contracting rows in which the variable occurs.
   std::span<const int> rows_of(int variable) const {
     return {rows_of_.data() + rows_of_begin_[variable], rows_of_.data() + rows_of_begin_[variable + 1]};
   }
@@ -82,7 +84,7 @@ class CompiledSystem {
   void slopes(int from, int to, std::span<const Interval> x, const double* c, std::span<Interval> s) const;
   void jacobian(int from, int to, std::span<const Interval> x, std::span<Interval> j) const;
 
-  int variables_ = 0, equations_ = 0, rows_ = 0;
+  int variables_ = 0, equations_ = 0, rows_ = 0, contracting_ = 0;
   std::vector<Term> terms_;
   std::vector<GeneralFactor> factors_;
   std::vector<int> term_begin_, row_begin_, columns_, rows_of_, rows_of_begin_;

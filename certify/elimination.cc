@@ -96,6 +96,18 @@ class Tableau {
     return sum;
   }
 
+  // What the rows cost a projection: Σ |term| / the row's largest, products more than linear ones: a row bounds a
+  // variable the better the less its other terms contribute.
+  double cost() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      const double scale = largest(k);
+      for (std::size_t j = 0; j < n_; ++j)
+        if (counts(k, j)) sum += std::fabs(at(k, j)) / scale * (linear_[j] ? 1 : kProductWeight);
+    }
+    return sum;
+  }
+
   const std::vector<RowSum>& sums() const { return sums_; }
 
  private:
@@ -195,7 +207,7 @@ std::vector<RowSum> eliminate_products(const std::vector<Polynomial>& rows, cons
     linear.shorten(check);
     const Tableau* best = &tableau;
     for (const Tableau* other : {&pairs, &products, &linear})
-      if (other->weight() < best->weight()) best = other;
+      if (other->weight() < tableau.weight() && other->cost() < best->cost()) best = other;
     sums.insert(sums.end(), best->sums().begin(), best->sums().end());
   }
   return sums;

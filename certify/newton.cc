@@ -1,6 +1,7 @@
 #include "corank/certify/newton.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "corank/certify/newton_buffers.h"
 #include "corank/core/check.h"
@@ -110,6 +111,23 @@ const std::vector<int>& NewtonStep::dependent() const { return buffers_->p.depen
 std::span<const double> NewtonStep::center() const { return buffers_->center; }
 double NewtonStep::derivative(int a, int j) const { return bounded_ ? -buffers_->panel.at(a, j).mid() : 0; }
 double NewtonStep::noise(int a) const { return bounded_ ? buffers_->residual[static_cast<std::size_t>(a)].width() : 0; }
+
+void NewtonStep::add_smears(std::span<const Interval> x, std::vector<double>& sums) const {
+  if (!bounded_) return;
+  const Panel& panel = buffers_->panel;
+  std::vector<double> parts(sums.size());
+  for (int a = 0; a < buffers_->p.rank(); ++a) {
+    double sum = 0;
+    for (int j = 0; j < panel.columns(); ++j) {
+      const Interval entry = panel.at(a, j);
+      const double size =
+          j == buffers_->p.dependent[static_cast<std::size_t>(a)] ? (entry - Interval(1.0)).mag() : entry.mag();
+      sum += parts[static_cast<std::size_t>(j)] = size * x[j].width();
+    }
+    if (!(sum > 0 && std::isfinite(sum))) continue;
+    for (std::size_t j = 0; j < parts.size(); ++j) sums[j] += std::sqrt(parts[j] / sum);
+  }
+}
 
 void NewtonStep::check_part(std::span<const Interval> x) const {
   CORANK_CHECK(UpwardRounding::active());

@@ -86,6 +86,9 @@ class NewtonStep {
   std::span<const double> center() const;
   double derivative(int a, int j) const;
   double noise(int a) const;
+  /// Of each variable Σ_a √(u_aj / Σ_k u_ak), its shares in what the rows leave open over a part x of X: u_aj = |Y·S − I|_aj
+  /// times the width of x_j, where I has its 1 at (a, dependent[a]).
+  void add_smears(std::span<const Interval> x, std::vector<double>& sums) const;
 
  private:
   void check_part(std::span<const Interval> x) const;

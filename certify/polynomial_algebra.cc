@@ -110,6 +110,11 @@ Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value
   return {sum.monomials(), f.source};
 }
 
+Polynomial product(const Polynomial& f, const std::vector<Factor>& powers) {
+  CORANK_CHECK(UpwardRounding::active());
+  return {product(f.monomials, {Monomial(1, powers)}), f.source};
+}
+
 std::optional<Polynomial> solved_for(const Polynomial& f, int variable) {
   CORANK_CHECK(UpwardRounding::active());
   const Monomial* own = nullptr;

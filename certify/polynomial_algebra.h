@@ -33,6 +33,10 @@ bool cancels(const ExactNumber& a, const ExactNumber& q, const ExactNumber& b);
 /// f + q·g, without the terms that cancel. Requires UpwardRounding::active().
 Polynomial sum(const Polynomial& f, const ExactNumber& q, const Polynomial& g);
 
+/// f times a product of powers of variables, which must be 1 where f has a sine or cosine. Requires
+/// UpwardRounding::active().
+Polynomial product(const Polynomial& f, const std::vector<Factor>& powers);
+
 /// Does the variable occur in f?
 bool mentions(const Polynomial& f, int variable);
 

@@ -128,7 +128,7 @@ bool project(const CompiledSystem& system, int row, std::span<Interval> x, doubl
     value[k] = system.evaluate(terms[k], x);
     suffix[k] = value[k] + suffix[k + 1];
   }
-  const bool equation = row < system.equations();
+  const bool equation = system.is_equation(row);
   if (equation ? !suffix[0].contains_zero() : suffix[0].hi() < 0) return false;
   if (!equation && suffix[0].lo() >= 0) return true;  // holds on all of the box
 

@@ -114,6 +114,7 @@ class Reducer {
   std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
   std::vector<ReductionStep> steps_;
   std::vector<int> origins_;    // of each equation: its index in the system as given
+  int given_ = 0;               // equations
   std::vector<double> scales_;  // of each equation: the sum of its |coefficients| as given, rounded downward
   bool subset_ = false;
   bool consistent_ = true;
@@ -139,6 +140,7 @@ Reducer::Reducer(const System& system, Eliminate eliminate, const Ended& ended)
   for (std::size_t j = 0; j < implied.size(); ++j)
     system_.variables[j].lower_implied = implied[j].lower, system_.variables[j].upper_implied = implied[j].upper;
   const UpwardRounding rounding;
+  given_ = static_cast<int>(system_.equations.size());
   for (const Polynomial& f : system_.equations) {
     origins_.push_back(static_cast<int>(origins_.size()));
     scales_.push_back(0);
@@ -482,6 +484,8 @@ Reduction Reducer::run() {
   for (const Polynomial& f : system_.equations) result.system.equations.push_back(renamed(f));
   for (const Polynomial& g : system_.inequalities) result.system.inequalities.push_back(renamed(g));
   for (const auto& [x, p] : definitions_) result.definitions.push_back({x, renamed(p)});
+  result.origins = origins_;
+  result.given_equations = given_;
   result.steps = steps_;
   return result;
 }
@@ -491,6 +495,9 @@ Reduction unreduced(const System& system) {
   result.system = system;
   result.kept.resize(system.variables.size());
   std::iota(result.kept.begin(), result.kept.end(), 0);
+  result.given_equations = static_cast<int>(system.equations.size());
+  result.origins.resize(system.equations.size());
+  std::iota(result.origins.begin(), result.origins.end(), 0);
   result.tolerant = system.coefficient_tolerance > 0;
   for (auto* rows : {&result.system.equations, &result.system.inequalities})
     for (Polynomial& f : *rows) widen(f, system.coefficient_tolerance);

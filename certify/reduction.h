@@ -37,6 +37,8 @@ struct Reduction {
   System system;                        ///< in the kept variables
   std::vector<int> kept;                ///< kept[j]: index in the original system of variable j of `system`
   std::vector<Definition> definitions;  ///< the others
+  std::vector<int> origins;             ///< of each equation of `system`: its index in the original one
+  int given_equations = 0;              ///< of the original system
   std::vector<ReductionStep> steps;     ///< in their order; those that eliminate are in the order of `definitions`
   bool tolerant = false;                ///< enclosures carry the coefficient tolerance
   /// An equation was dropped that holds for some choices of coefficients only, and for the others to kPartialTolerance · τ,

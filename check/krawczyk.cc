@@ -29,23 +29,25 @@ std::vector<double> inverse(std::vector<double> a, std::size_t r) {
 }
 
 bool is_contraction(const std::vector<double>& e, std::size_t r) {
-  constexpr int kCandidates = 8;
-  std::vector<double> radius(r, 1.0), next(r);
+  constexpr int kCandidates = 200;
+  // r = Σ Eᵏ·1 to where Eᵏ·1 < 1: then E·r < r. In doubles; what they find is checked in enclosures.
+  std::vector<double> power(r, 1.0), radius(r, 1.0), next(r);
   for (int candidate = 0; candidate < kCandidates; ++candidate) {
-    bool passes = true;
-    double largest = 0;
     for (std::size_t a = 0; a < r; ++a) {
-      Enclosure sum;
-      for (std::size_t k = 0; k < r; ++k) sum.add_product(radius[k], Enclosure(e[a * r + k]));
-      if (!sum.is_bounded()) return false;
-      passes = passes && sum.below(Enclosure(radius[a]));
-      next[a] = sum.hi();
-      largest = std::max(largest, next[a]);
+      next[a] = 0;
+      for (std::size_t k = 0; k < r; ++k) next[a] += e[a * r + k] * power[k];
+      if (!std::isfinite(next[a])) return false;
     }
-    if (passes) return true;
-    for (std::size_t a = 0; a < r; ++a) radius[a] = next[a] / largest + 0.05;
+    power = next;
+    if (std::all_of(power.begin(), power.end(), [](double x) { return x < 1; })) break;
+    for (std::size_t a = 0; a < r; ++a) radius[a] += power[a];
   }
-  return false;
+  for (std::size_t a = 0; a < r; ++a) {
+    Enclosure sum;
+    for (std::size_t k = 0; k < r; ++k) sum.add_product(radius[k], Enclosure(e[a * r + k]));
+    if (!sum.is_bounded() || !sum.below(Enclosure(radius[a]))) return false;
+  }
+  return true;
 }
 
 void drop_noise(std::vector<double>& y, std::size_t r) {

@@ -42,6 +42,7 @@ Problem::Problem(const System& system, const std::vector<ReductionStep>& reducti
     equations_.emplace_back(f, place_), terms_.push_back(f);
     sources.push_back(f);
   }
+  for (const Terms& h : reduced.implied) implied_equations_.emplace_back(h, place_);
   implied_ = Implied(system, sources);
   implied_lower_.assign(kept_.size(), 0);
   implied_upper_.assign(kept_.size(), 0);

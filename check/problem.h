@@ -29,6 +29,7 @@ class Problem {
   int place(int variable) const { return place_[static_cast<std::size_t>(variable)]; }  ///< among the kept, −1: eliminated
   const std::vector<int>& places() const { return place_; }
   const std::vector<Row>& equations() const { return equations_; }
+  const std::vector<Row>& implied() const { return implied_equations_; }  ///< rows that vanish where all equations do
   const std::vector<Terms>& terms() const { return terms_; }  ///< of the equations, by the variables' own indices
   bool contradiction() const { return contradiction_; }
   /// Eliminated variables' values.
@@ -51,7 +52,7 @@ class Problem {
   StopFlag stop_;
   Implied implied_;  // by the equations before and after the reduction
   std::vector<int> kept_, place_;
-  std::vector<Row> equations_;
+  std::vector<Row> equations_, implied_equations_;
   std::vector<Terms> terms_;
   std::vector<Value> values_;
   std::vector<Condition> conditions_;

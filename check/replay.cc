@@ -110,7 +110,14 @@ class Script {
     };
     const auto n = static_cast<std::size_t>(problem_.size());
     switch (step(cursor_)) {
-      case Step::row: below(0, problem_.equations().size() + problem_.conditions().size() + 1); break;
+      case Step::row:
+        if (integer(cursor_, 0) < 0) {
+          if (static_cast<std::size_t>(-1L - integer(cursor_, 0)) >= problem_.implied().size())
+            refuse("an index is out of range");
+        } else {
+          below(0, problem_.equations().size() + problem_.conditions().size() + 1);
+        }
+        break;
       case Step::newton: below(0, proof_.combinations.size()); break;
       case Step::keep:
         for (std::size_t k = 0; k < count(cursor_, 0); ++k) below(1 + k, 2 * n);

@@ -24,6 +24,7 @@ double total_width(const Sides& x) {
 
 bool Search::project(Sides& x, int row) const {
   const auto m = static_cast<int>(problem_.equations().size());
+  if (row < 0) return problem_.implied()[static_cast<std::size_t>(-1 - row)].project(x, true);
   if (row < m) return problem_.equations()[static_cast<std::size_t>(row)].project(x, true);
   return std::all_of(problem_.conditions().begin(), problem_.conditions().end(),
                      [&](const Condition& c) { return c.row.project(x, false); });
@@ -131,6 +132,8 @@ bool Search::contract(Sides& x) {
     const double before = total_width(x);
     for (int row = 0; row <= static_cast<int>(problem_.equations().size()); ++row)
       if (!project(x, row)) return false;
+    for (int k = 0; k < static_cast<int>(problem_.implied().size()); ++k)
+      if (!project(x, -1 - k)) return false;
     if (own_combination(x, p, center) && !newton(x, p, center)) return false;
     if (total_width(x) > before - kGain) break;
   }

@@ -21,7 +21,8 @@ class Search {
   explicit Search(const Problem& problem) : problem_(problem) {}
 
   /// Shrinks x to a box that holds its solutions (equations, domain, inequalities). False: it has none.
-  bool project(Sides& x, int row) const;  ///< an equation; from equations().size() on: all that is no equation
+  /// Row: an equation; −1 − k: implied equation k; from equations().size() on: all that is neither.
+  bool project(Sides& x, int row) const;
   /// A Hansen–Sengupta step: a zero z of F in X satisfies Y·F(c) + Y·S·(z − c) ∋ 0 row by row, for any c and Y
   /// (HansenSengupta1981): a row may be solved for its dependent variable, and for each free one.
   bool newton(Sides& x, const LinearCombination& p, const std::vector<double>& center);

@@ -184,6 +184,16 @@ Terms Terms::plus(const ExactNumber& q, const Terms& g) const {
   return result;
 }
 
+std::optional<Terms> Terms::times(const std::vector<Factor>& powers) const {
+  if (powers.empty()) return *this;
+  Terms result;
+  for (const auto& [factors, c] : list_) {
+    if (is_function(factors)) return std::nullopt;
+    result.add(merged(factors, powers), c);
+  }
+  return result;
+}
+
 Terms operator-(const Terms& f, const ExactNumber& c) {
   Terms result = f;
   result.add({}, {-c, Enclosure(-c), false});
@@ -230,6 +240,7 @@ class Reducer {
       equation.reset();
     }
     const Terms put = *value;
+    if (!result_.implied.empty()) refuse("after an implied equation");
     const auto replace = [&](Terms& f) {
       if (!f.mentions(x)) return;
       auto replaced = f.substituted(x, put);
@@ -253,8 +264,30 @@ class Reducer {
     if (!is_there(row) || !is_there(other) || row == other)
       throw std::invalid_argument("a sum of equations: not two different ones that are there");
     if (!factor.is_rational()) throw std::invalid_argument("a sum of equations: the factor is not rational");
+    if (!result_.implied.empty()) throw std::invalid_argument("a sum of equations: after an implied equation");
     Terms& f = *equations_[static_cast<std::size_t>(row)];
     f = f.plus(factor, *equations_[static_cast<std::size_t>(other)]);
+  }
+
+  // Where all f vanish, so does Σ q·p·f.
+  void imply(const ImpliedEquation& step) {
+    const auto refuse = [](const std::string& reason) { throw std::invalid_argument("an implied equation: " + reason); };
+    Terms h;
+    for (const ImpliedEquation::Part& part : step.parts) {
+      const int given = static_cast<int>(equations_.size()), implied = static_cast<int>(result_.implied.size());
+      if (part.equation < 0 || part.equation >= given + implied) refuse("names an equation that is not there");
+      const auto k = static_cast<std::size_t>(part.equation);
+      if (part.equation < given && !equations_[k]) refuse("names an equation that has been used");
+      if (!part.factor.is_rational()) refuse("a factor is not rational");
+      for (const Factor& x : part.product)
+        if (x.variable < 0 || x.variable >= system_.size() || x.power < 1 || x.function != Function::identity ||
+            result_.values[static_cast<std::size_t>(x.variable)])
+          refuse("a product is not one of powers of variables that are kept");
+      const auto p = (part.equation < given ? *equations_[k] : result_.implied[k - equations_.size()]).times(part.product);
+      if (!p) refuse("a product with a sine or cosine");
+      h = h.plus(part.factor, *p);
+    }
+    result_.implied.push_back(std::move(h));
   }
 
   Reduced take_result() {
@@ -288,6 +321,8 @@ Reduced reduce(const System& system, const std::vector<ReductionStep>& steps, co
     stop.poll();
     if (const auto* sum = std::get_if<SumOfEquations>(&s)) {
       reducer.add(sum->equation, sum->other, sum->factor);
+    } else if (const auto* implied = std::get_if<ImpliedEquation>(&s)) {
+      reducer.imply(*implied);
     } else {
       const Elimination& elimination = std::get<Elimination>(s);
       reducer.eliminate(elimination.variable, elimination.equation);

@@ -54,6 +54,8 @@ class Terms {
 
   /// this + q·g.
   Terms plus(const ExactNumber& q, const Terms& g) const;
+  /// this times powers of variables; nothing where a sine or cosine would become a factor.
+  std::optional<Terms> times(const std::vector<Factor>& powers) const;
   friend Terms operator-(const Terms& f, const ExactNumber& c);
   friend Terms operator-(const Terms& f);
 
@@ -69,13 +71,15 @@ struct Reduced {
   std::vector<int> kept;
   std::vector<Terms> equations;              ///< none vanishes or is a multiple of one before
   std::vector<Terms> inequalities;           ///< the system's
+  std::vector<Terms> implied;                ///< they follow from the equations
   std::vector<std::optional<Terms>> values;  ///< of each eliminated variable: its value in the kept ones
   bool contradiction = false;                ///< an equation became a nonzero number = 0
 };
 
 /// Repeats the reduction. Theorem: certify/reduction.h. Each step is legal: an elimination's equation is a·x + g = 0 with a
-/// rational a ≠ 0 and x not in g, or the domain of x is one number; a sum is of two different equations that are there.
-/// Throws std::invalid_argument, with the reason, where one is not.
+/// rational a ≠ 0 and x not in g, or the domain of x is one number; a sum is of two different equations that are there; an
+/// implied equation, which no other step may follow, is Σ q·p·f with rational q, products p of powers of kept variables, and
+/// equations f that are there. Throws std::invalid_argument, with the reason, where one is not.
 Reduced reduce(const System& system, const std::vector<ReductionStep>& steps, const StopFlag& stop = {});
 
 }  // namespace corank::check

@@ -15,7 +15,8 @@ namespace corank {
 
 struct Proof {
   enum class Step : std::uint8_t {
-    row,     ///< integers: i. The box is shrunk by projections of row i (equations, then inequalities)
+    row,     ///< integers: i. The box is shrunk by projections of row i (equations, then inequalities; −1 − k: implied
+             ///< equation k)
     newton,  ///< integers: k. The box is shrunk by a Hansen–Sengupta step with combination k about its midpoint
     keep,   ///< integers: c, then c times 2·variable + (1: upper); reals: c bounds. The zeros lie between these bounds; the
             ///< box becomes exactly that

@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "corank/core/exact_number.h"
+#include "corank/core/system.h"
 
 namespace corank {
 
@@ -22,7 +24,21 @@ struct SumOfEquations {
   friend bool operator==(const SumOfEquations&, const SumOfEquations&) = default;
 };
 
-/// Equations are named by their indices in the original system, and are meant as the steps before have left them.
-using ReductionStep = std::variant<Elimination, SumOfEquations>;
+/// A new equation Σ factor · product · equation, which serves to shrink boxes and is no part of the system. It may be named
+/// in later steps of this kind: those of a system of m equations are numbered m, m + 1 …
+struct ImpliedEquation {
+  struct Part {
+    int equation = 0;
+    ExactNumber factor;           ///< rational
+    std::vector<Factor> product;  ///< of powers of variables, sorted; none: 1
+    friend bool operator==(const Part&, const Part&) = default;
+  };
+  std::vector<Part> parts;
+  friend bool operator==(const ImpliedEquation&, const ImpliedEquation&) = default;
+};
+
+/// Equations are named by their indices in the original system, and are meant as the steps before have left them. Implied
+/// equations come last.
+using ReductionStep = std::variant<Elimination, SumOfEquations, ImpliedEquation>;
 
 }  // namespace corank

@@ -83,6 +83,8 @@ struct System {
   std::vector<Variable> variables;       ///< n
   std::vector<Polynomial> equations;     ///< m, each = 0
   std::vector<Polynomial> inequalities;  ///< each ≥ 0
+  std::vector<Polynomial> claimed;       ///< a model says that each = 0 wherever all equations are; nothing rests on that
+  std::vector<Polynomial> implied;       ///< of a reduced system: that is so, and they serve to shrink boxes
   std::vector<Angle> angles;
   /// Relative tolerance τ of the coefficients that are no integers, in [0, kCoefficientToleranceLimit); certify::reduce()
   /// puts it into their enclosures. Every exclusion and every proof then holds for every choice of coefficients within τ,

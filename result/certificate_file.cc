@@ -14,6 +14,7 @@ const std::string kGroup = "/certificates/";
 const std::string kPoints = kGroup + "exact_points/";
 const std::string kProof = kGroup + "proof/";
 const std::string kReduction = kGroup + "reduction/";
+const std::string kImplied = kGroup + "implied/";
 const std::string kMotions = kGroup + "self_motions/";
 
 void append(const std::vector<Interval>& box, std::vector<double>& lower, std::vector<double>& upper) {
@@ -112,6 +113,7 @@ class Reader {
 
   void read() {
     read_reduction();
+    read_implied();
     cover_.regions = boxes(kGroup + "region", n_);
     read_points();
     read_motions();
@@ -166,6 +168,38 @@ class Reader {
         cover_.reduction.emplace_back(Elimination{variable, equation < 0 ? std::nullopt : std::optional(equation)});
       }
     }
+  }
+
+  void read_implied() {
+    if (!file_.has(kGroup + "implied")) return;  // before format version 4
+    const auto parts = file_.integers(kImplied + "parts"), equations = file_.integers(kImplied + "equation"),
+               powers = file_.integers(kImplied + "powers"), variables = file_.integers(kImplied + "variable"),
+               power = file_.integers(kImplied + "power");
+    const auto factors = file_.texts(kImplied + "factor");
+    if (equations.size() != factors.size() || powers.size() != factors.size() || variables.size() != power.size())
+      refuse(kImplied + "equation, factor, powers, variable and power differ in length");
+    const auto take = [&](std::int64_t count, std::size_t& next, std::size_t size, const std::string& name) {
+      if (count < 0 || static_cast<std::uint64_t>(count) > size - next) refuse(kImplied + name + " is out of range");
+      const std::size_t first = next;
+      next += static_cast<std::size_t>(count);
+      return first;
+    };
+    const auto number_in = [&](std::int64_t i, std::int64_t least) {
+      if (i < least || i > std::numeric_limits<int>::max()) refuse(kImplied + "equation, variable or power is out of range");
+      return static_cast<int>(i);
+    };
+    std::size_t part = 0, factor = 0;
+    for (const std::int64_t count : parts) {
+      ImpliedEquation implied;
+      for (std::size_t k = take(count, part, factors.size(), "parts"); k < part; ++k) {
+        ImpliedEquation::Part p{number_in(equations[k], 0), number(factors[k], kImplied + "factor"), {}};
+        for (std::size_t f = take(powers[k], factor, variables.size(), "powers"); f < factor; ++f)
+          p.product.push_back({number_in(variables[f], 0), number_in(power[f], 1)});
+        implied.parts.push_back(std::move(p));
+      }
+      cover_.reduction.emplace_back(std::move(implied));
+    }
+    if (part != factors.size() || factor != variables.size()) refuse(kImplied + "parts and powers do not use all of it");
   }
 
   void read_motions() {
@@ -320,7 +354,19 @@ class Reader {
 void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variables) {
   std::vector<std::int64_t> eliminated, equations, others;
   std::vector<std::string> factors;
+  std::vector<std::int64_t> parts, of_equation, powers, variable, power;
+  std::vector<std::string> part_factors;
   for (const ReductionStep& step : cover.reduction) {
+    if (const auto* implied = std::get_if<ImpliedEquation>(&step)) {
+      parts.push_back(static_cast<std::int64_t>(implied->parts.size()));
+      for (const ImpliedEquation::Part& part : implied->parts) {
+        of_equation.push_back(part.equation);
+        part_factors.push_back(part.factor.text());
+        powers.push_back(static_cast<std::int64_t>(part.product.size()));
+        for (const Factor& x : part.product) variable.push_back(x.variable), power.push_back(x.power);
+      }
+      continue;
+    }
     const auto* elimination = std::get_if<Elimination>(&step);
     const SumOfEquations sum =
         elimination ? SumOfEquations{elimination->equation.value_or(-1), -1, 0} : std::get<SumOfEquations>(step);
@@ -333,6 +379,12 @@ void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variab
   file.integers(kReduction + "equation", equations);
   file.integers(kReduction + "other", others);
   file.texts(kReduction + "factor", factors);
+  file.integers(kImplied + "parts", parts);
+  file.integers(kImplied + "equation", of_equation);
+  file.texts(kImplied + "factor", part_factors);
+  file.integers(kImplied + "powers", powers);
+  file.integers(kImplied + "variable", variable);
+  file.integers(kImplied + "power", power);
   std::vector<double> lower, upper;
   for (const Box& region : cover.regions) {
     CORANK_CHECK(region.size() == variables);

@@ -21,7 +21,8 @@ constexpr double kNoise = 0.5, kRegularNoise = 8;  // of a side: what rounding a
 constexpr double kOpenShare =
     1.0 / 8;  // of the size at which degenerate ones wait: how much smaller other unproven boxes get
 constexpr double kPartialShare = 0.05;  // of its typical size: as wide as a box is that nobody says a σ of
-constexpr double kFreeCutShare = 0.1;   // cut a free side unless it is already so much narrower than the others
+constexpr double kWide = 0.2;  // of the typical sizes: what a Newton step says of narrower boxes misleads a bisection
+constexpr double kFreeCutShare = 0.1;  // cut a free side unless it is already so much narrower than the others
 
 }  // namespace
 
@@ -41,7 +42,7 @@ bool BoxProcessor::contract(std::span<Interval> x) {
     for (int j = 0; j < n; ++j) widths_[j] = x[j].width();
     const auto& p = preconditioners_.at_midpoint(x);
     if (recorder_) recorder_->newton(p, x);
-    const certify::NewtonStep step(problem_.compiled, p, x, workspace_);
+    const certify::NewtonStep& step = step_.emplace(problem_.compiled, p, x, workspace_);
     const certify::NewtonOutcome& newton = step.outcome();
     ++shard_.statistics.newton_steps;
     if (newton.empty || !step.contract_free(x)) return false;
@@ -177,12 +178,14 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const I
 int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near) {
   const auto& branching = problem_.branching;
   const bool noisy = noisy_ && problem_.relative_width(x) < kNoisySize;
-  int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share));
+  const certify::NewtonStep* const step = problem_.relative_width(x) > kWide ? &*step_ : nullptr;
+  int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
     // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
     // may be, but not for long.
     if (!regular_) near = degenerate_solution(x, share);
-    if (!near) split = branching.choose(problem_.compiled, x, problem_.limits(regular_ ? kFinestShare : kOpenShare * share));
+    if (!near)
+      split = branching.choose(problem_.compiled, x, problem_.limits(regular_ ? kFinestShare : kOpenShare * share), step);
   }
   // What else cannot be divided waits, too: it may lie on a self-motion.
   if (split < 0 && !near && !problem_.tolerant) {

@@ -69,6 +69,7 @@ class BoxProcessor {
   Recorder* const recorder_;  // the shard's script, where it has one
   PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
+  std::optional<certify::NewtonStep> step_;  // the last of the box
   Slicer slicer_;
   Propagator propagator_;
   std::vector<double> widths_;

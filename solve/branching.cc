@@ -84,15 +84,18 @@ std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, 
 }
 
 int BranchingRule::choose(const certify::CompiledSystem& system, std::span<const Interval> x,
-                          const std::vector<double>& limits) const {
+                          const std::vector<double>& limits, const certify::NewtonStep* step) const {
   const std::vector<double> smears = smear(system, x);
+  std::vector<double> of_step(weight_.size(), 0.0);
+  if (step) step->add_smears(x, of_step);
+  const bool has_step = std::any_of(of_step.begin(), of_step.end(), [](double t) { return t > 0; });
   int best = -1, widest = -1;
   double best_score = 0, widest_width = 0;
   for (std::size_t j = 0; j < weight_.size(); ++j) {
     if (x[j].width() <= limits[j] || !split_point(x[j])) continue;
     const double width = std::min(x[j].width(), std::numeric_limits<double>::max()) / system.scales()[j];
-    const double square = smears[j] * smears[j];
-    const double score = weight_[j] * width * std::max(square * square, kLeastSmear);
+    const double product = smears[j] * (has_step ? of_step[j] : smears[j]);
+    const double score = weight_[j] * width * std::max(product * product, kLeastSmear);
     if (score > best_score) best_score = score, best = static_cast<int>(j);
     if (width > widest_width) widest_width = width, widest = static_cast<int>(j);
   }

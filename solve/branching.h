@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
+#include "corank/certify/newton.h"
 #include "corank/core/system.h"
 
 namespace corank::solve {
@@ -20,12 +21,15 @@ class BranchingRule {
  public:
   explicit BranchingRule(const System& system);
 
-  /// The variable to bisect for an unproven box: the one of largest s⁴ · width / typical size
+  /// The variable to bisect for an unproven box: the one of largest s² t² · width / typical size
   /// (certify::CompiledSystem::scales) among those wider than their limit; −1 where there is none that can be divided. s is
   /// the sum over the equations i of √(|J_ij| w_j / Σ_k |J_ik| w_k), the variable's share in what makes each uncertain:
-  /// relative smear (key Trombettoni2011), where the root favours a variable of many equations; root and power are measured,
-  /// see bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until all others are narrow.
-  int choose(const certify::CompiledSystem& system, std::span<const Interval> x, const std::vector<double>& limits) const;
+  /// relative smear (key Trombettoni2011), where the root favours a variable of many equations. t is the same for the rows
+  /// of the box's last Newton step, which a narrower side must make contract; s where there is none. Root and powers are
+  /// measured, see bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until all others
+  /// are narrow.
+  int choose(const certify::CompiledSystem& system, std::span<const Interval> x, const std::vector<double>& limits,
+             const certify::NewtonStep* step = nullptr) const;
 
   const std::vector<double>& weights() const { return weight_; }
 

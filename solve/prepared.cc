@@ -2,13 +2,17 @@
 
 #include <utility>
 
+#include "corank/solve/implied_equations.h"
+
 namespace corank::solve {
 
 Prepared prepare(System system, const Options& options, Control& control) {
   const InStage stage(control, Stage::reduction);
   system.validate();
   options.validate(system);
-  certify::Reduction reduction = certify::reduce(system, [&control] { return control.ended(); });
+  const Ended ended = [&control] { return control.ended(); };
+  certify::Reduction reduction = certify::reduce(system, ended);
+  add_implied_equations(system.claimed, reduction, ended);
   return {std::move(system), std::move(reduction), options};
 }
 

@@ -20,16 +20,17 @@ bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> 
   // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows,
   // since each return costs a variable a tenth of its width.
   queue_.clear();
-  for (int row = 0; row < system.rows(); ++row) queue_.push_back(row);
-  pending_.assign(static_cast<std::size_t>(system.rows()), 1);
-  const std::size_t limit = static_cast<std::size_t>(system.rows()) * kTurns;
+  for (int row = 0; row < system.contracting_rows(); ++row) queue_.push_back(row);
+  pending_.assign(static_cast<std::size_t>(system.contracting_rows()), 1);
+  const std::size_t limit = static_cast<std::size_t>(system.contracting_rows()) * kTurns;
   for (std::size_t head = 0; head < queue_.size() && head < limit; ++head) {
     const int row = queue_[head];
     pending_[row] = 0;
     std::fill(changed_.begin(), changed_.end(), 0);
     if (recorder) before_.assign(x.begin(), x.begin() + system.variables());
     const bool empty = !certify::project(system, row, x, kWorthwhileShare, changed_.data());
-    if (recorder && (empty || !std::equal(before_.begin(), before_.end(), x.begin()))) recorder->row(row);
+    if (recorder && (empty || !std::equal(before_.begin(), before_.end(), x.begin())))
+      recorder->row(row < system.rows() ? row : system.rows() - row - 1);
     if (empty) return false;
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) {
       if (!changed_[system.column(k)]) continue;

@@ -29,6 +29,7 @@ class Recorder {
 
   /// What follows is done to this box, until it is split or ends in a leaf.
   void begin(NodeId node, std::span<const Interval> x, int variables);
+  /// −1 − k names implied equation k.
   void row(int row);
   /// A step with p about the midpoint of x, the box as it is before. Nothing is kept of a p that floats cannot hold.
   void newton(const certify::Preconditioner& p, std::span<const Interval> x);

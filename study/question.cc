@@ -1,5 +1,6 @@
 #include "corank/study/question.h"
 
+#include "corank/solve/implied_equations.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
@@ -17,6 +18,14 @@ System system(const Question& question) { return system(question, equations(ques
 
 System system(const Question& question, const symbolic::TrigonometricSystem& equations) {
   System system = symbolic::algebrize(equations);
+  if (!system.claimed.empty()) {
+    certify::Reduction reduction = certify::reduce(system);
+    for (const std::size_t k : solve::add_implied_equations(system.claimed, reduction))
+      throw symbolic::ModelError(equations.claimed[k].where,
+                                 "no identity was found by which this follows from the model's equations",
+                                 "a sum of the equations times polynomials, with rational coefficients; or leave it out, "
+                                 "since it only serves to shorten the search");
+  }
   system.coefficient_tolerance = question.tolerance.value_or(question.set ? 0 : solve::printed_tolerance(system));
   return system;
 }

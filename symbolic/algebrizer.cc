@@ -206,6 +206,7 @@ System Algebrizer::run() {
   for (const auto& equation : in_.equations)
     if (equation.of_kernel) add_equation(equation);
   for (const auto& inequality : in_.inequalities) add_inequality(inequality);
+  for (const auto& claim : in_.claimed) out_.claimed.push_back(difference(claim).compile(claim.source));
   out_.inequalities.insert(out_.inequalities.end(), chords_.begin(), chords_.end());
   expander_.length_functions().settle(out_, [this](const std::string& name) { return fresh_name(name); });
   try {

@@ -81,6 +81,7 @@ void LengthFunctions::add_sum(StandIn& s, System& system, const std::function<st
 void LengthFunctions::settle(System& system, const std::function<std::string(std::string)>& fresh_name) {
   mark(system.equations);
   mark(system.inequalities);
+  mark(system.claimed);
   for (StandIn& s : stand_ins_)
     if (is_sum(s) && s.used) add_sum(s, system, fresh_name);
   std::vector<Polynomial> definitions;
@@ -100,6 +101,7 @@ void LengthFunctions::settle(System& system, const std::function<std::string(std
   }
   replace(system.equations);
   replace(system.inequalities);
+  replace(system.claimed);
   system.equations.insert(system.equations.end(), definitions.begin(), definitions.end());
 }
 

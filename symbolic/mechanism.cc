@@ -111,6 +111,12 @@ void Mechanism::constrain(const Relation& relation, const SourceLocation& where,
   constraints_.push_back({relation, where, note});
 }
 
+void Mechanism::imply(const Relation& relation, const SourceLocation& where) {
+  if (relation.kind != Relation::Kind::equal)
+    throw ModelError(where, "an inequality cannot be an implied equation", "lhs = rhs");
+  implied_.push_back({relation, where});
+}
+
 void Mechanism::choose(const std::string& role, const std::vector<Expression>& symbols, const SourceLocation& where,
                        std::vector<std::string>& chosen, const std::string& other_role,
                        const std::vector<std::string>& others) const {
@@ -183,6 +189,7 @@ void Mechanism::validate() const {
   for (const Coordinate& c : coordinates_)
     if (c.has_range) validator.check_range(c);
   for (const Constraint& c : constraints_) validator.check_constraint(c);
+  for (const Constraint& c : implied_) validator.check_constraint(c);
   for (const DrawingPoint& p : drawing_.points) validator.check_point(p);
   drawing_.validate();
   if (coordinates_.empty()) throw ModelError({name_, 0, 0}, "the model has no variables", "at least one, in [SYSTEM VARS]");

@@ -78,6 +78,9 @@ class Mechanism {
   void mark_auxiliary(std::size_t coordinates = 1);
   /// Adds lhs = rhs (an assembly constraint) or an inequality.
   void constrain(const Relation& relation, const SourceLocation& where = {}, const std::string& note = {});
+  /// Adds lhs = rhs as a consequence of the constraints, which solve/ is to find a proof of. Throws ModelError for an
+  /// inequality.
+  void imply(const Relation& relation, const SourceLocation& where = {});
   /// Each argument is a coordinate's symbol, or a Composite's for all of its coordinates. Throws ModelError for anything
   /// else, a repetition, or a coordinate that is already an output (input). Repeated calls add.
   void inputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
@@ -96,6 +99,7 @@ class Mechanism {
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   const std::vector<Composite>& composites() const { return composites_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }
+  const std::vector<Constraint>& implied() const { return implied_; }
   const std::vector<std::string>& inputs() const { return inputs_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
   const Drawing& drawing() const { return drawing_; }
@@ -129,7 +133,7 @@ class Mechanism {
   std::vector<Constant> constants_;
   std::vector<Coordinate> coordinates_;
   std::vector<Composite> composites_;
-  std::vector<Constraint> constraints_;
+  std::vector<Constraint> constraints_, implied_;
   std::vector<std::string> inputs_, outputs_;
   SourceLocation inputs_where_, outputs_where_;
   Drawing drawing_;

@@ -131,7 +131,8 @@ void ModelBuilder::finish_composite(Composite::Kind composite) {
 }
 
 void ModelBuilder::finish_equation() {
-  mechanism.constrain({values.at(0), relation, values.at(1)}, equation_where);
+  const Relation read{values.at(0), relation, values.at(1)};
+  implied ? mechanism.imply(read, equation_where) : mechanism.constrain(read, equation_where);
   values.clear();
 }
 

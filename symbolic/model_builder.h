@@ -79,6 +79,7 @@ struct ModelBuilder {
 
   CoordinateKind kind = CoordinateKind::length;
   bool auxiliary = false;  ///< the section's variables
+  bool implied = false;    ///< the section's equations
   Relation::Kind relation = Relation::Kind::equal;
   SourceLocation equation_where;
   bool equation_is_empty = false;  ///< nothing of it has been read

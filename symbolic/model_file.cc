@@ -123,6 +123,7 @@ CORANK_ACTION0(variable_end, { b.finish_variable(); })
 CORANK_ACTION0(no_range, { b.finish_variable(); })
 CORANK_ACTION(composite_word,
               { b.finish_composite(in.string_view() == "unit" ? Composite::Kind::unit : Composite::Kind::rotation); })
+CORANK_ACTION(equations_header, { b.implied = in.string_view().find("IMPLIED") != std::string_view::npos; })
 CORANK_ACTION(equation_begin, {
   b.equation_where = place(in, b);
   b.equation_is_empty = true;

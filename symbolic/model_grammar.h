@@ -79,8 +79,10 @@ struct constants_header : header<TAO_PEGTL_STRING("CONSTANTS")> {};
 struct variables_header : header<sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("SECONDARY"), TAO_PEGTL_STRING("DUMMY"),
                                      TAO_PEGTL_STRING("CARTESIAN")>,
                                  plus<blank_character>, TAO_PEGTL_STRING("VARS")> {};
-struct equations_header : header<sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("COORD"), TAO_PEGTL_STRING("DUMMY")>,
-                                 plus<blank_character>, TAO_PEGTL_STRING("EQS")> {};
+struct equations_header
+    : header<
+          sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("COORD"), TAO_PEGTL_STRING("DUMMY"), TAO_PEGTL_STRING("IMPLIED")>,
+          plus<blank_character>, TAO_PEGTL_STRING("EQS")> {};
 struct inputs_header : header<TAO_PEGTL_STRING("INPUTS")> {};
 struct outputs_header : header<TAO_PEGTL_STRING("OUTPUTS")> {};
 struct drawing_header : header<TAO_PEGTL_STRING("DRAWING")> {};

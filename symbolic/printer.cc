@@ -191,6 +191,10 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
   const auto inequalities = relation_lines(system.inequalities);
   lines.insert(lines.end(), inequalities.begin(), inequalities.end());
   print_numbered(out, lines);
+  if (!system.claimed.empty()) {
+    out << "\nImplied: rows that shrink boxes\n";
+    print_numbered(out, relation_lines(system.claimed));
+  }
   return out.str();
 }
 
@@ -233,6 +237,10 @@ std::string to_cuik(const System& system) {
   out << "\n[SYSTEM EQS]\n";
   print_cuik_polynomials(out, system.equations, " = 0", system);
   print_cuik_polynomials(out, system.inequalities, " >= 0", system);
+  if (!system.claimed.empty()) {
+    out << "\n[IMPLIED EQS]\n";
+    print_cuik_polynomials(out, system.claimed, " = 0", system);
+  }
   return out.str();
 }
 

@@ -250,15 +250,22 @@ TrigonometricSystem plain_system(const Mechanism& mechanism) {
   system.name = mechanism.name();
   system.constants = mechanism.constants();
   system.coordinates = mechanism.coordinates();
-  for (const Constraint& constraint : mechanism.constraints()) {
-    const bool equation = constraint.relation.kind == Relation::Kind::equal;
-    auto& list = equation ? system.equations : system.inequalities;
-    const std::string number = (equation ? "equation " : "inequality ") + std::to_string(list.size() + 1);
+  const auto add = [](std::vector<TrigonometricSystem::Equation>& list, const Constraint& constraint,
+                      const std::string& word) {
+    const std::string number = word + " " + std::to_string(list.size() + 1);
     // The file without its folders: results must not depend on where a model lies.
     const SourceLocation line{std::filesystem::path(constraint.where.file).filename().string(), constraint.where.line, 0};
     const std::string note = constraint.note.empty() ? "" : " (" + constraint.note + ")";
     list.push_back({constraint.relation, (line.line > 0 ? line.text() : number) + note, constraint.where, false});
+  };
+  for (const Constraint& constraint : mechanism.constraints()) {
+    if (constraint.relation.kind == Relation::Kind::equal) {
+      add(system.equations, constraint, "equation");
+    } else {
+      add(system.inequalities, constraint, "inequality");
+    }
   }
+  for (const Constraint& constraint : mechanism.implied()) add(system.claimed, constraint, "implied equation");
   find_ranges(system);
   return system;
 }

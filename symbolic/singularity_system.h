@@ -32,6 +32,7 @@ struct TrigonometricSystem {
   };
   std::vector<Equation> equations;     ///< all with =
   std::vector<Equation> inequalities;  ///< ≤ or ≥
+  std::vector<Equation> claimed;       ///< that the model says to follow from its equations
 };
 
 /// What the kernel of a set is asked of, checked: that inputs and outputs are there and fit the mobility.

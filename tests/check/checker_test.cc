@@ -229,6 +229,20 @@ TEST(Checker, RejectsIllegalEliminations) {
   EXPECT_THAT(with({SumOfEquations{0, 9, 1}}), HasSubstr("not two different ones"));
   EXPECT_THAT(with({Elimination{0, 1}, SumOfEquations{0, 1, 1}}), HasSubstr("not two different ones"));
   EXPECT_THAT(with({SumOfEquations{0, 1, ExactNumber::pi()}}), HasSubstr("not rational"));
+  const auto implied = [](int equation, const ExactNumber& factor, std::vector<Factor> product) {
+    return ImpliedEquation{{{equation, factor, std::move(product)}}};
+  };
+  EXPECT_THAT(with({implied(9, 1, {})}), HasSubstr("not there"));
+  EXPECT_THAT(with({implied(-1, 1, {})}), HasSubstr("not there"));
+  EXPECT_THAT(with({implied(3, 1, {})}), HasSubstr("not there")) << "itself";
+  EXPECT_THAT(with({Elimination{0, 1}, implied(1, 1, {})}), HasSubstr("has been used"));
+  EXPECT_THAT(with({implied(0, ExactNumber::pi(), {})}), HasSubstr("not rational"));
+  EXPECT_THAT(with({implied(0, 1, {{7, 1}})}), HasSubstr("variables that are kept"));
+  EXPECT_THAT(with({implied(0, 1, {{0, 0}})}), HasSubstr("variables that are kept"));
+  EXPECT_THAT(with({implied(0, 1, {{0, 1, Function::sine}})}), HasSubstr("variables that are kept"));
+  EXPECT_THAT(with({Elimination{0, 1}, implied(0, 1, {{0, 1}})}), HasSubstr("variables that are kept"));
+  EXPECT_THAT(with({implied(0, 1, {{0, 1}}), SumOfEquations{0, 2, 1}}), HasSubstr("after an implied equation"));
+  EXPECT_THAT(with({implied(0, 1, {{0, 1}}), Elimination{0, 1}}), HasSubstr("after an implied equation"));
 }
 
 TEST(Checker, RejectsSwappedBoxesAndPointsThatAreNone) {

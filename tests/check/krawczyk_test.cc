@@ -23,6 +23,12 @@ TEST(Contraction, IsStrictInEveryRow) {
   EXPECT_FALSE(is_contraction({0.1, 0, 0, 2}, 2));
 }
 
+TEST(Contraction, DoesNotDependOnTheUnitsOfTheRows) {
+  EXPECT_TRUE(is_contraction({0.5, 1e5, 1e-6, 0.5}, 2)) << "spectral radius 0.82";
+  EXPECT_TRUE(is_contraction({0.5, 1e-6, 1e5, 0.5}, 2));
+  EXPECT_FALSE(is_contraction({0.5, 1e5, 1e-5, 0.5}, 2)) << "spectral radius 1.5";
+}
+
 TEST(KrawczyksOperator, DoesNotShowThatASquareIsInjectiveByItsSlopes) {
   const std::vector<Row> square{row({{"1", {{0, 2}}}, {"-1", {}}})};
   Krawczyk newton(square, 1);

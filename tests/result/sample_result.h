@@ -55,7 +55,9 @@ inline Result sample_result() {
   const auto number = [](const char* text) { return ExactNumber::rational(text); };
   r.cover.exact_points = {{{0, 1}, -1, 1, {{number("1/3")}, {0, 1}, {}, {number("-2/7"), 0, 5}}, -1, 0.25},
                           {{-2, 0, 1}, 1, number("3/2"), {{1}, {2}, {}, {}}, 2, 0}};
-  r.cover.reduction = {Elimination{3, {}}, SumOfEquations{0, 2, ExactNumber::rational("-3/4")}, Elimination{1, 2}};
+  r.cover.reduction = {Elimination{3, {}}, SumOfEquations{0, 2, ExactNumber::rational("-3/4")}, Elimination{1, 2},
+                       ImpliedEquation{{{0, ExactNumber::rational("2/3"), {{0, 1}, {2, 3}}}, {4, -1, {}}}},
+                       ImpliedEquation{{{5, 1, {{2, 2}}}}}};
   Proof proof;
   proof.roots = {{{-2.0, 2.0}, {-kTiny, kHuge}}};
   proof.combinations = {{{2, 0}, {1, 0}, {1.0f, -0.1f, 0.0f, 3e-39f}}, {{}, {}, {}}, {{1}, {1}, {2.5f}}};

@@ -29,6 +29,25 @@ TEST(Branching, BisectsArgumentsRatherThanTheirSines) {
   EXPECT_EQ(rule.choose(compiled, narrow, limits), s);
 }
 
+// x + y + z² = 0 and x − y = 0 over a wide z: the equations alone are as uncertain in x and y, what is left open by their
+// combinations is z's.
+TEST(Branching, BisectsWhatNewtonsRowsLeaveOpen) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1"), z = b.variable("z", "-1", "1");
+  b.equation({{"8", {{x, 1}}}, {"8", {{y, 1}}}, {"1", {{z, 2}}}}).equation({{"8", {{x, 1}}}, {"-8", {{y, 1}}}});
+  const UpwardRounding rounding;
+  const BranchingRule rule(b.system());
+  const certify::CompiledSystem compiled(b.system());
+  PreconditionerFactory factory(compiled);
+  std::vector<Interval> box{Interval(-1, 1), Interval(-1, 1), Interval(-1, 1)};
+  const std::vector<double> limits(3, 0.05);
+  EXPECT_NE(rule.choose(compiled, box, limits), z);
+  certify::NewtonWorkspace workspace;
+  std::vector<Interval> contracted = box;
+  const certify::NewtonStep step(compiled, factory.at_midpoint(box), contracted, workspace);
+  EXPECT_EQ(rule.choose(compiled, box, limits, &step), z);
+}
+
 TEST(Preconditioner, InvertsTheDependentColumns) {
   const UpwardRounding rounding;
   const System system = circle_and_diagonal().system();
