@@ -35,11 +35,10 @@
 #include "corank/result/cuik_param.h"
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/solve.h"
+#include "corank/study/question.h"
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
 
 namespace {
 
@@ -202,9 +201,7 @@ void run_models(const std::string& only, int threads) {
     options.sigma = line.sigma;
     options.threads = threads;
     if (line.is_long) options.time_limit = kLongTimeLimit;
-    const auto scales = symbolic::kernel_scales(model, line.set);
-    const auto system = symbolic::singularity_system(model, line.set, std::nullopt, scales);
-    run(name, symbolic::algebrize(system), options, line.prototype_kilo_lu, line.cuik);
+    run(name, study::system({model, line.set}), options, line.prototype_kilo_lu, line.cuik);
   }
 }
 
@@ -217,14 +214,11 @@ void run_user_models(const std::string& only, int threads) {
         fmt::format("{} {} {}", file.stem().string(), line.set ? symbolic::to_string(*line.set) : "", line.sigma);
     if (name.find(only) == std::string::npos || !fs::exists(file)) continue;
     const auto model = symbolic::read_model(file);
-    const System system = line.set ? symbolic::algebrize(symbolic::singularity_system(
-                                         model, *line.set, std::nullopt, symbolic::kernel_scales(model, *line.set)))
-                                   : symbolic::algebrize(symbolic::plain_system(model));
     solve::Options options;
     if (line.sigma > 0) options.sigma = line.sigma;
     options.threads = threads;
     options.time_limit = kTimeLimit;
-    run(name, system, options, 0, {});
+    run(name, study::system({model, line.set}), options, 0, {});
   }
 }
 

@@ -98,6 +98,9 @@ struct System {
   int kernel_vectors = 1;
   /// by which number each column of M was multiplied, as exact text; none: all are 1
   std::vector<std::string> kernel_scales;
+  /// M is one whose passive rates were eliminated where that can be done (symbolic/passive_rates.h): some of its rows give
+  /// such a rate, and the normalization of the ξʲ is without them.
+  bool passive_rates_eliminated = false;
 
   int size() const { return static_cast<int>(variables.size()); }
   /// Of each variable the enclosure of its search domain.

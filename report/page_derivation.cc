@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "corank/report/page_words.h"
+#include "corank/result/verification.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 #include "corank/symbolic/singularity_system.h"
@@ -35,16 +36,6 @@ std::string matrix_html(const std::string& base, const std::string& subscript, c
   return fmt::format(
       "<figure class=\"matrix\"><figcaption>{} · columns {}</figcaption><div class=\"scroll\">{}</div></figure>", words,
       columns.empty() ? "none" : columns, math(symbol(base, subscript) + "<mo>=</mo>" + mathml(matrix)));
-}
-
-symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
-                                           const SetView& view) {
-  if (!view.set->has_kernel()) return singularity_system(mechanism, view.set->set.value());
-  const result::RunOptions& options = view.result.options;
-  return singularity_system(
-      mechanism,
-      kernel_question(mechanism, derivation.velocity, *view.set->set, symbolic::kernel_side_from_string(options.kernel)),
-      options.kernel_scales, options.corank);
 }
 
 std::string system_html(const symbolic::TrigonometricSystem& system, const SetView& view) {
@@ -80,7 +71,8 @@ std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic
   html +=
       "<h3>Systems solved</h3><p>Cosines and sines of angles are variables of their own in the search, with their circle as "
       "an equation.</p>";
-  for (const SetView& view : views) html += system_html(equations_of(mechanism, derivation, view), view);
+  for (const SetView& view : views)
+    html += system_html(result::equations_of(mechanism, view.set->set.value(), view.result.options), view);
   return html;
 }
 

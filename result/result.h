@@ -43,6 +43,7 @@ struct RunOptions {
   double time_limit = 0;            ///< seconds; 0: no limit
   std::vector<ConstantOverride> constants;
   int corank = 1;  ///< the set is that of kernels of this dimension at least; the number of kernel vectors
+  bool passive_rates_eliminated = false;  ///< System::passive_rates_eliminated; older files know it not
   friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };
 

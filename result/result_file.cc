@@ -106,6 +106,7 @@ void write_options(Hdf5Writer& file, const RunOptions& options) {
   file.attribute("/options", "sigma_angle", options.sigma.angle);
   file.texts("/options/kernel_scales", options.kernel_scales);
   file.attribute("/options", "corank", std::int64_t{options.corank});
+  file.attribute("/options", "passive_rates_eliminated", std::int64_t{options.passive_rates_eliminated});
   file.attribute("/options", "tolerance", options.tolerance);
   file.attribute("/options", "threads", std::int64_t{options.threads});
   file.attribute("/options", "max_boxes", options.max_boxes);
@@ -257,6 +258,8 @@ class ResultReader {
         refuse("the attribute corank of /options is out of range");
       options.corank = static_cast<int>(corank);
     }
+    if (file_.has_attribute("/options", "passive_rates_eliminated"))
+      options.passive_rates_eliminated = file_.integer_attribute("/options", "passive_rates_eliminated") != 0;
     options.sigma = sigma("/options");
     if (format_ >= kFirstWithScales) options.kernel_scales = words("/options/kernel_scales");
     const std::int64_t threads = file_.integer_attribute("/options", "threads");

@@ -49,6 +49,7 @@ std::string to_json(const Result& result) {
                      {"sigma_length", result.options.sigma.length},
                      {"sigma_angle", result.options.sigma.angle},
                      {"kernel_scales", result.options.kernel_scales},
+                     {"passive_rates_eliminated", result.options.passive_rates_eliminated},
                      {"tolerance", result.options.tolerance},
                      {"threads", result.options.threads},
                      {"max_boxes", result.options.max_boxes},

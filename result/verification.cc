@@ -109,16 +109,26 @@ Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.fa
 
 }  // namespace
 
+symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
+                                           const RunOptions& options) {
+  const auto side = symbolic::kernel_side_from_string(options.kernel);
+  if (!symbolic::definition(set).has_kernel() || !options.passive_rates_eliminated)
+    return symbolic::singularity_system(mechanism, set, side, options.kernel_scales, options.corank);
+  return symbolic::singularity_system(
+      mechanism,
+      symbolic::without_passive_rates(mechanism,
+                                      symbolic::kernel_question(mechanism, symbolic::derive(mechanism).velocity, set, side)),
+      options.kernel_scales, options.corank);
+}
+
 System system_of(const Result& result) { return system_of(model_of(result), result); }
 
 System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (mechanism.is_plain_system() ? result.set != symbolic::definition(std::nullopt).name : !set)
     throw ResultFileError("the result's model has no set '" + result.set + "'");
-  System system = symbolic::algebrize(
-      set ? symbolic::singularity_system(mechanism, *set, symbolic::kernel_side_from_string(result.options.kernel),
-                                         result.options.kernel_scales, result.options.corank)
-          : symbolic::plain_system(mechanism));
+  System system =
+      symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism));
   system.coefficient_tolerance = result.options.tolerance;
   try {
     system.validate();

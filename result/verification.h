@@ -6,6 +6,7 @@
 
 #include "corank/check/checker.h"
 #include "corank/result/result.h"
+#include "corank/symbolic/singularity_system.h"
 
 namespace corank::result {
 
@@ -20,6 +21,9 @@ struct Verification {
   bool complete() const { return contradictions.empty() && report.complete(); }
 };
 
+/// The equations of a set as the options of a result say: its kernel's side, scales, corank, passive rates.
+symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model, symbolic::SingularitySet set,
+                                           const RunOptions& options);
 /// The system that a result's model and options give. Throws ModelError where the model is none, ResultFileError where it
 /// has no such set.
 System system_of(const Result& result);

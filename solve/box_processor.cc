@@ -15,6 +15,7 @@ constexpr double kNewtonGain = 0.3;  // repeat Newton while some variable loses 
 constexpr int kNewtonRepeats = 4;
 constexpr double kProofSpread = 1.5;    // try a proof below this spread |I − Y·S|
 constexpr double kRankShare = 1;        // of a box's size: singular values below make its solution count as degenerate
+constexpr double kTiny = 1e-6;          // of the typical sizes
 constexpr double kFinestShare = 1e-13;  // of its typical size: doubles resolve little more
 constexpr double kNoisySize = 2e-3;     // of the typical sizes: in larger boxes it is the choice of Y that makes noise
 constexpr double kNoise = 0.5, kRegularNoise = 8;  // of a side: what rounding alone makes as wide is divided in vain
@@ -182,8 +183,9 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
     // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
-    // may be, but not for long.
-    if (!regular_) near = degenerate_solution(x, share);
+    // may be, but not for long. What is regular and yet not proven in a tiny box is next to a degenerate solution: around a
+    // point of a surface there would be no end of such boxes.
+    if (!regular_ || problem_.relative_width(x) < kTiny) near = degenerate_solution(x, share);
     if (!near)
       split = branching.choose(problem_.compiled, x, problem_.limits(regular_ ? kFinestShare : kOpenShare * share), step);
   }

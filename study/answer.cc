@@ -74,6 +74,7 @@ result::Result answer(const Question& question, const System& system, const Opti
                     system.coefficient_tolerance, search.threads,     search.max_boxes,
                     search.max_solutions,         search.time_limit,  question.constants};
   result.options.corank = system.kernel_vectors;
+  result.options.passive_rates_eliminated = system.passive_rates_eliminated;
   describe_corank(system, result);
   return result;
 }

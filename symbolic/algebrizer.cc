@@ -196,6 +196,7 @@ System Algebrizer::run() {
   out_.configuration_size = out_.size();
   out_.kernel_vectors = in_.corank;
   out_.kernel_scales = in_.kernel_scales;
+  out_.passive_rates_eliminated = in_.passive_rates_eliminated;
   add_kernel_unknowns();
   expander_.length_functions().start(out_.size());
 

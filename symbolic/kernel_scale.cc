@@ -64,6 +64,32 @@ std::vector<std::string> texts(const std::vector<double>& sizes, double unit) {
   return result;
 }
 
+// 2^e with |ξ_j| ≤ 2^e/2 for each eliminated rate, as its row gives it in terms of the others.
+void scale_eliminated(const Mechanism& mechanism, const KernelQuestion& kernel, std::vector<std::string>& scales) {
+  if (scales.empty()) scales.assign(kernel.matrix.columns.size(), "1");
+  const System system = algebrize(singularity_system(mechanism, kernel, scales, 1));
+  const UpwardRounding rounding;
+  const std::vector<Interval> domain = system.domain();
+  for (const std::size_t j : kernel.passive.eliminated) {
+    const int unknown = system.configuration_size + static_cast<int>(j);
+    for (const Polynomial& f : system.equations) {
+      double own = 0, others = 0;
+      for (const Monomial& m : f.monomials) {
+        Interval size = m.enclosure;
+        bool is_own = false;
+        for (const Factor& x : m.factors) {
+          is_own = is_own || x.variable == unknown;
+          size *= power(domain[static_cast<std::size_t>(x.variable)], x.power);
+        }
+        is_own ? own = m.enclosure.mig() : others += size.mag();
+      }
+      if (!(own > 0)) continue;
+      const double bound = std::max(others / own, 1.0);  // upward
+      scales[j] = pow(ExactNumber(2), static_cast<int>(std::ceil(std::log2(bound))) + 1).text();
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
@@ -94,17 +120,23 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQ
   double largest = 0;
   std::size_t variable = 0;
   std::vector<double> of_columns;
+  const std::vector<std::size_t>& eliminated = kernel.passive.eliminated;
   for (const Coordinate& coordinate : mechanism.coordinates()) {
     const bool is_angle = coordinate.kind == CoordinateKind::angle;
-    const bool used = std::find(columns.begin(), columns.end(), coordinate.name) != columns.end();
-    if (used) {
+    const auto column = std::find(columns.begin(), columns.end(), coordinate.name);
+    if (column != columns.end() &&
+        std::binary_search(eliminated.begin(), eliminated.end(), static_cast<std::size_t>(column - columns.begin()))) {
+      of_columns.push_back(0);
+    } else if (column != columns.end()) {
       of_columns.push_back(is_angle ? 0 : size_of(all.box[variable]));
       largest = std::max(largest, of_columns.back());
       angles = angles || is_angle;
     }
     variable += is_angle ? 2 : 1;
   }
-  return texts(of_columns, angles && largest > 0 ? kLengthUnits * largest : 1);
+  std::vector<std::string> result = texts(of_columns, angles && largest > 0 ? kLengthUnits * largest : 1);
+  if (!eliminated.empty()) scale_eliminated(mechanism, kernel, result);
+  return result;
 }
 
 }  // namespace corank::symbolic

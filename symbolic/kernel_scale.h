@@ -17,7 +17,9 @@ namespace corank::symbolic {
 /// range, as the constraints leave it, is rounded to a power of two times the largest; beside angles, whose scale is 1, four
 /// times the largest is rounded to two digits (so that a model in other units has the same system but for this number).
 /// Where the kernel holds no angle, the largest is 1. Of the left kernel, whose unknowns belong to equations: 1/max_j
-/// |∂Φ_i/∂q_j| s_j over those ranges, relative to the smallest and rounded to powers of two.
+/// |∂Φ_i/∂q_j| s_j over those ranges, relative to the smallest and rounded to powers of two. Of a rate that was eliminated
+/// from the kernel (KernelQuestion::passive) a power of two by which it stays within [−1/2, 1/2] wherever the others are in
+/// [−1, 1] and the coordinates in their ranges, so that its own range is no condition.
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt);
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel);

@@ -216,9 +216,18 @@ void add_normalization(TrigonometricSystem& system, const SourceLocation& where,
   }
 }
 
+// How a row came about, behind its name.
+std::string words(const PassiveRates::RowNote& note) {
+  std::string text;
+  for (const std::string& rate : note.free_of) text += (text.empty() ? "" : ", ") + rate;
+  if (!text.empty()) text = ", without the rate" + std::string(note.free_of.size() > 1 ? "s" : "") + " of " + text;
+  return note.gives.empty() ? text : text + ", gives the rate of " + note.gives;
+}
+
 void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const KernelQuestion& kernel) {
-  const ExpressionMatrix& matrix = kernel.matrix;
   const bool right = kernel.side == KernelSide::right;
+  const PassiveRates& passive = kernel.passive;
+  const ExpressionMatrix& matrix = passive.eliminated.empty() ? kernel.matrix : passive.matrix;
   const std::vector<std::vector<Expression>> xi = add_unknowns(system, mechanism, kernel);
   const std::size_t rows = matrix.rows.size(), columns = matrix.columns.size(), n = xi[0].size();
   for (std::size_t v = 0; v < xi.size(); ++v) {
@@ -232,14 +241,17 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
       } else {
         for (const auto& row : matrix.rows) entries.push_back(row[i]);
       }
-      const std::string source =
-          "row " + std::to_string(i + 1) + " of " + kernel.set.matrix + (right ? "" : "^T") + " " + vector + " = 0";
+      const std::string source = "row " + std::to_string(i + 1) + " of " + kernel.set.matrix + (right ? "" : "^T") + " " +
+                                 vector + " = 0" + (passive.eliminated.empty() ? "" : words(passive.notes[i]));
       // A row of zeros says nothing about xi.
       if (const auto lhs = kernel_row(entries, rates))
         system.equations.push_back({*lhs == Expression(0), source, right ? kernel.where[i] : model_place(mechanism), true});
     }
   }
-  add_normalization(system, model_place(mechanism), xi);
+  std::vector<std::vector<Expression>> left = xi;  // of which it asks that they are not all 0
+  for (auto& v : left)
+    for (const std::size_t j : passive.eliminated | std::views::reverse) v.erase(v.begin() + static_cast<std::ptrdiff_t>(j));
+  add_normalization(system, model_place(mechanism), left);
 }
 
 }  // namespace
@@ -290,12 +302,18 @@ KernelQuestion kernel_question(const Mechanism& mechanism, const VelocityEquatio
   return kernel;
 }
 
+KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion kernel) {
+  if (kernel.side == KernelSide::right) kernel.passive = eliminate_passive_rates(mechanism, kernel.matrix);
+  return kernel;
+}
+
 TrigonometricSystem singularity_system(const Mechanism& mechanism, const KernelQuestion& kernel,
                                        const std::vector<std::string>& scales, int corank) {
   TrigonometricSystem system = plain_system(mechanism);
   system.name += std::string(" ") + kernel.set.name + (corank > 1 ? " corank " + std::to_string(corank) : "");
   system.kernel_scales = scales;
   system.corank = corank;
+  system.passive_rates_eliminated = !kernel.passive.eliminated.empty();
   add_kernel(system, mechanism, kernel);
   return system;
 }

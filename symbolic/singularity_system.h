@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "corank/symbolic/mechanism.h"
+#include "corank/symbolic/passive_rates.h"
 #include "corank/symbolic/velocity_equation.h"
 
 namespace corank::symbolic {
@@ -24,6 +25,7 @@ struct TrigonometricSystem {
   std::vector<std::string> kernel_unknowns;
   std::vector<std::string> kernel_scales;  ///< as given to singularity_system
   int corank = 1;                          ///< likewise: the number of kernel vectors
+  bool passive_rates_eliminated = false;   ///< KernelQuestion::passive has some
   struct Equation {
     Relation relation;
     std::string source;  ///< "dextar.cuik:17", "row 3 of L_y xi = 0", "norm of xi" …
@@ -42,11 +44,15 @@ struct KernelQuestion {
   std::vector<SourceLocation> where;  ///< of its rows
   KernelSide side;
   std::vector<std::size_t> dropped;  ///< of a left kernel: the rows of L that are ties, and not in M
+  PassiveRates passive{};            ///< of M, where they are eliminated
 };
 
 /// Of a set that has a kernel. Throws ModelError as singularity_system does.
 KernelQuestion kernel_question(const Mechanism& mechanism, const VelocityEquation& velocity, SingularitySet set,
                                std::optional<KernelSide> side = std::nullopt);
+
+/// The same question with the passive rates eliminated, where it is about a right kernel and has such.
+KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion kernel);
 
 /// The system of a set: Φ(q) = 0 and, for all but cspace, the kernel equations, ‖ξ‖² = 1 and a·ξ ≥ 0 with a fixed generic a
 /// that drops −ξ. Default kernel: right where the matrix is square (forward, inverse), left for Φ_q (cspace-singular).

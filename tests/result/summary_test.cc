@@ -33,8 +33,8 @@ TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
                           "ranges_found", "points", "kernel", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]),
-              ElementsAre("kernel", "sigma", "sigma_length", "sigma_angle", "kernel_scales", "tolerance", "threads",
-                          "max_boxes", "max_solutions", "time_limit", "constants"));
+              ElementsAre("kernel", "sigma", "sigma_length", "sigma_angle", "kernel_scales", "passive_rates_eliminated",
+                          "tolerance", "threads", "max_boxes", "max_solutions", "time_limit", "constants"));
   EXPECT_THAT(keys(json["boxes"]),
               ElementsAre("processed", "regular", "isolated", "exact", "boundary", "partial", "undecided", "pending"));
   EXPECT_THAT(keys(json["seconds"]), ElementsAre("total", "search", "certify"));
