@@ -28,6 +28,7 @@ constexpr std::size_t kMostOpenBoxes = 3000;   // beyond, clusters are no longer
 constexpr int kMostVariables = 150;            // exact points of larger systems take too long
 constexpr int kMostFutile = 16;                // attempts, before a kind of point is no longer sought
 constexpr int kCoreAttempts = 6;
+constexpr std::uint64_t kSearchedAgain = 20'000;  // boxes, or half of the search's: what lies around points is worth no more
 
 bool contains(const Box& outer, const Box& inner) {
   for (std::size_t j = 0; j < outer.size(); ++j)
@@ -81,9 +82,10 @@ class Prover {
         clusters(open_sides, std::vector<double>(system_.variables.size(), 0.0), ended_);
     int futile = 0;
     std::size_t done = 0;
+    const std::uint64_t before = cover_.statistics.processed, most = before + std::max(kSearchedAgain, before / 2);
     for (std::vector<std::size_t>& cluster : groups) {
       control_.report(done++, groups.size());
-      if (stopped() || futile >= kMostFutile) break;
+      if (stopped() || futile >= kMostFutile || cover_.statistics.processed > most) break;
       for (std::size_t& i : cluster) i = open[i];
       Box hull = cover_.boxes[cluster[0]].box;
       for (const std::size_t i : cluster)
