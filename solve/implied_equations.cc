@@ -24,7 +24,7 @@ constexpr mp_limb_t kPrime = 2305843009213693951;  // 2^61 − 1
 constexpr int kRounds = 4;
 constexpr std::size_t kMostRows = 1200;         // of an elimination
 constexpr std::size_t kMostMultiples = 20'000;  // before those are dropped that serve nothing
-constexpr std::size_t kMostTerms = 4;           // of an equation that is kept, but for its constant
+constexpr std::size_t kMostTerms = 9;           // of an equation that is kept, but for its constant
 constexpr std::size_t kMostFound = 100;
 constexpr double kLargestInteger = 2;  // of the coefficients of equations that are multiplied
 
