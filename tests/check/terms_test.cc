@@ -113,5 +113,33 @@ TEST(Reduction, FindsNoContradictionWithinTheTolerance) {
   EXPECT_FALSE(reduce(system, {Elimination{x, 0}}).contradiction);
 }
 
+// f = x² + y − 1, g = x y − 2: h₂ = 3/2·y·f − x·g, h₃ = 2·x²·h₂ with a sum before them, and a row with a sine.
+TEST(Reduction, FormsImpliedEquationsFromTheirFactors) {
+  test::SystemBuilder b;
+  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 1}}}, {"-1", {}}}).equation({{"1", {{x, 1}, {y, 1}}}, {"-2", {}}});
+  const ExactNumber half = ExactNumber(1) / ExactNumber(2);
+  const ImpliedEquation second{{{0, ExactNumber(3) * half, {{y, 1}}}, {1, -1, {{x, 1}}}}}, third{{{2, 2, {{x, 2}}}}};
+  const Reduced plain = reduce(b.system(), {second, third});
+  ASSERT_EQ(plain.implied.size(), 2u);
+  const Terms& h = plain.implied[0];  // (3/2 − 1) x² y + 3/2 y² − 3/2 y + 2 x
+  EXPECT_EQ(h.list().size(), 4u);
+  EXPECT_EQ(coefficient(h, {{x, 2}, {y, 1}}), half);
+  EXPECT_EQ(coefficient(h, {{y, 2}}), ExactNumber(3) * half);
+  EXPECT_EQ(coefficient(h, {{y, 1}}), -(ExactNumber(3) * half));
+  EXPECT_EQ(coefficient(h, {{x, 1}}), ExactNumber(2));
+  EXPECT_EQ(coefficient(plain.implied[1], {{x, 4}, {y, 1}}), ExactNumber(1));
+  EXPECT_EQ(coefficient(plain.implied[1], {{x, 3}}), ExactNumber(4));
+  EXPECT_EQ(plain.equations.size(), 2u) << "they are none of the system's equations";
+  // After f ← f + 2 g the same parts give another row.
+  const Reduced summed = reduce(b.system(), {SumOfEquations{0, 1, 2}, second});
+  EXPECT_EQ(coefficient(summed.implied[0], {{x, 1}, {y, 2}}), ExactNumber(3));
+  test::SystemBuilder wave;
+  wave.variable("x", "-2", "2"), wave.variable("y", "-2", "2");
+  wave.equation({{"1", {{x, 1, Function::sine}}}, {"1", {{y, 1}}}});
+  EXPECT_THROW(reduce(wave.system(), {ImpliedEquation{{{0, 1, {{y, 1}}}}}}), std::invalid_argument);
+  EXPECT_EQ(reduce(wave.system(), {ImpliedEquation{{{0, 2, {}}}}}).implied.size(), 1u);
+}
+
 }  // namespace
 }  // namespace corank::check
