@@ -178,14 +178,15 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const I
 // The variable to bisect; −1: the box is small enough to be given up, and `near` says why where that is known.
 int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near) {
   const auto& branching = problem_.branching;
-  const bool noisy = noisy_ && problem_.relative_width(x) < kNoisySize;
-  const certify::NewtonStep* const step = problem_.relative_width(x) > kWide ? &*step_ : nullptr;
+  const double width = problem_.relative_width(x);
+  const bool noisy = noisy_ && width < kNoisySize;
+  const certify::NewtonStep* const step = width > kWide ? &*step_ : nullptr;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
     // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
     // may be, but not for long. What is regular and yet not proven in a tiny box is next to a degenerate solution: around a
     // point of a surface there would be no end of such boxes.
-    if (!regular_ || problem_.relative_width(x) < kTiny) near = degenerate_solution(x, share);
+    if (!regular_ || width < kTiny) near = degenerate_solution(x, share);
     if (!near)
       split = branching.choose(problem_.compiled, x, problem_.limits(regular_ ? kFinestShare : kOpenShare * share), step);
   }

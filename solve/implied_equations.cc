@@ -77,7 +77,7 @@ class Matrix {
   Matrix(const Matrix&) = delete;
   Matrix& operator=(const Matrix&) = delete;
   mp_limb_t& at(std::size_t i, std::size_t j) { return nmod_mat_entry(m_, i, j); }
-  std::size_t reduce() { return static_cast<std::size_t>(nmod_mat_rref(m_)); }
+  void reduce() { nmod_mat_rref(m_); }
 
  private:
   nmod_mat_t m_;
@@ -95,15 +95,19 @@ Product times(Product p, const Product& q) {
   return {powers.begin(), powers.end()};
 }
 
+Product product_of(const Monomial& m) {
+  Product p;
+  for (const Factor& x : m.factors) p.emplace_back(x.variable, x.power);
+  return p;
+}
+
 // Nothing where a coefficient is not rational, or there is a sine or cosine.
 std::optional<Row> row_of(const Polynomial& f) {
   Row row;
   for (const Monomial& m : f.monomials) {
     const auto c = modulo_prime(m.coefficient);
     if (!c || m.is_trigonometric()) return std::nullopt;
-    Product p;
-    for (const Factor& x : m.factors) p.emplace_back(x.variable, x.power);
-    row[std::move(p)] = *c;
+    row[product_of(m)] = *c;
   }
   return row;
 }
@@ -115,20 +119,28 @@ struct Multiple {
   Row row;
 };
 
+Multiple multiple_of(int equation, const Row& row, const Product& product) {
+  Multiple m{equation, product, {}};
+  for (const auto& [p, c] : row) m.row[times(p, product)] = c;
+  return m;
+}
+
 ImpliedEquation::Part part_of(const Multiple& multiple, const ExactNumber& factor) {
   ImpliedEquation::Part part{multiple.equation, factor, {}};
   for (const auto& [variable, power] : multiple.product) part.product.push_back({variable, power});
   return part;
 }
 
-// Drops the multiples that have a product of that degree which no other has: nothing cancels it.
-void drop_lone(std::vector<Multiple>& multiples, int of_degree) {
+// Drops the multiples that have a product of at least that degree which neither another nor the target has: nothing cancels
+// it.
+void drop_lone(std::vector<Multiple>& multiples, int of_degree, const Row& target = {}) {
   for (std::size_t before = 0; before != multiples.size();) {
     before = multiples.size();
     std::map<Product, int> uses;
     for (const Multiple& m : multiples)
       for (const auto& [p, c] : m.row)
         if (degree(p) >= of_degree) ++uses[p];
+    for (const auto& [p, c] : target) ++uses[p];
     std::erase_if(multiples, [&](const Multiple& m) {
       return std::any_of(m.row.begin(), m.row.end(),
                          [&](const auto& t) { return degree(t.first) >= of_degree && uses[t.first] == 1; });
@@ -145,11 +157,9 @@ std::size_t weight(const std::vector<mp_limb_t>& terms) {  // the constant is th
   return static_cast<std::size_t>(std::count_if(terms.begin(), terms.end() - 1, [](mp_limb_t c) { return c != 0; }));
 }
 
-// s − q·t without the term k.
-std::vector<mp_limb_t> without(std::size_t k, const std::vector<mp_limb_t>& s, const std::vector<mp_limb_t>& t,
-                               mp_limb_t& q) {
+// s − q·t.
+std::vector<mp_limb_t> difference(const std::vector<mp_limb_t>& s, mp_limb_t q, const std::vector<mp_limb_t>& t) {
   const nmod_t mod = field();
-  q = nmod_div(s[k], t[k], mod);
   std::vector<mp_limb_t> result(s.size());
   for (std::size_t j = 0; j < s.size(); ++j) result[j] = nmod_sub(s[j], nmod_mul(q, t[j], mod), mod);
   return result;
@@ -166,19 +176,16 @@ void make_first_one(Sum& s) {
 
 // Adds multiples of others as long as that leaves fewer terms.
 void shorten(Sum& s, const std::vector<Sum>& others) {
-  const nmod_t mod = field();
   for (bool gained = true; gained;) {
     gained = false;
     for (const Sum& other : others)
       for (std::size_t k = 0; k + 1 < s.terms.size() && !gained; ++k) {
         if (s.terms[k] == 0 || other.terms[k] == 0) continue;
-        mp_limb_t q = 0;
-        std::vector<mp_limb_t> sum = without(k, s.terms, other.terms, q);
-        const std::size_t w = weight(sum);
+        const mp_limb_t q = nmod_div(s.terms[k], other.terms[k], field());
+        std::vector<mp_limb_t> terms = difference(s.terms, q, other.terms);
+        const std::size_t w = weight(terms);
         if (w == 0 || w >= weight(s.terms)) continue;
-        s.terms = std::move(sum);
-        for (std::size_t j = 0; j < s.factors.size(); ++j)
-          s.factors[j] = nmod_sub(s.factors[j], nmod_mul(q, other.factors[j], mod), mod);
+        s = {std::move(terms), difference(s.factors, q, other.factors)};
         gained = true;
       }
   }
@@ -206,32 +213,30 @@ class Finder {
            std::nearbyint(m.enclosure.lo()) == m.enclosure.lo();
   }
 
-  void add(int equation, Row row) {
+  // False: it is there already.
+  bool add(int equation, Row row) {
     Sum normal;
     for (const auto& [p, c] : row) normal.terms.push_back(c);
     make_first_one(normal);
     Row key;
     std::size_t k = 0;
     for (const auto& [p, c] : row) key[p] = normal.terms[k++];
-    known_.insert(std::move(key));
+    if (!known_.insert(std::move(key)).second) return false;
     for (const auto& [p, c] : row)
       if (degree(p) == 2)
         for (const auto& [variable, power] : p) variables_.insert(variable);
     equations_.push_back({equation, std::move(row)});
+    return true;
   }
 
   // False: nothing new.
   bool step() {
     std::vector<Multiple> multiples;
     for (const auto& [equation, row] : equations_)
-      for (const int v : variables_) {
-        Multiple m{equation, {{v, 1}}, {}};
-        for (const auto& [p, c] : row) m.row[times(p, m.product)] = c;
-        multiples.push_back(std::move(m));
-      }
+      for (const int v : variables_) multiples.push_back(multiple_of(equation, row, {{v, 1}}));
     drop_lone(multiples, 3);
     if (multiples.empty()) return false;
-    for (const auto& [equation, row] : equations_) multiples.push_back({equation, {}, row});
+    for (const auto& [equation, row] : equations_) multiples.push_back(multiple_of(equation, row, {}));
     if (multiples.size() > kMostRows || is_over(ended_)) return false;
 
     std::map<Product, std::size_t> column;
@@ -303,11 +308,8 @@ class Finder {
       for (std::size_t j = 0; j < i; ++j)
         for (std::size_t k = 0; k + 1 < sums[i].terms.size(); ++k) {
           if (sums[i].terms[k] == 0 || sums[j].terms[k] == 0) continue;
-          const nmod_t mod = field();
-          mp_limb_t q = 0;
-          Sum s{without(k, sums[i].terms, sums[j].terms, q), {}};
-          for (std::size_t f = 0; f < sums[i].factors.size(); ++f)
-            s.factors.push_back(nmod_sub(sums[i].factors[f], nmod_mul(q, sums[j].factors[f], mod), mod));
+          const mp_limb_t q = nmod_div(sums[i].terms[k], sums[j].terms[k], field());
+          Sum s{difference(sums[i].terms, q, sums[j].terms), difference(sums[i].factors, q, sums[j].factors)};
           shorten(s, sums);
           if (weight(s.terms) == 0 || weight(s.terms) > std::min(weight(sums[i].terms), weight(sums[j].terms))) continue;
           make_first_one(s);
@@ -332,15 +334,7 @@ class Finder {
         if (usable) implied.parts.push_back(part_of(multiples[i], *factor));
       }
       if (!usable || !multiplied || found_.size() >= kMostFound) continue;
-      const std::size_t known = known_.size();
-      const int index = given_ + static_cast<int>(found_.size());
-      Row copy = row;
-      add(index, std::move(copy));
-      if (known_.size() == known) {
-        equations_.pop_back();
-        continue;
-      }
-      found_.push_back(std::move(implied));
+      if (add(given_ + static_cast<int>(found_.size()), std::move(row))) found_.push_back(std::move(implied));
     }
     return found_.size() > before;
   }
@@ -409,29 +403,13 @@ class Expression {
       const int own = polynomials_[static_cast<std::size_t>(i)]->degree();
       if (own > most) continue;
       for (const Product& p : products_up_to(most - own, variables_)) {
-        Multiple m{i, p, {}};
-        for (const auto& [q, c] : f) m.row[times(q, p)] = c;
-        multiples.push_back(std::move(m));
+        multiples.push_back(multiple_of(i, f, p));
         if (multiples.size() > kMostMultiples) return std::nullopt;
       }
     }
-    drop_useless(multiples);
+    drop_lone(multiples, 0, target_);
     if (multiples.empty() || multiples.size() > kMostRows) return std::nullopt;
     return combination(multiples);
-  }
-
-  // Drops multiples with a product that neither another nor h has.
-  void drop_useless(std::vector<Multiple>& multiples) const {
-    for (std::size_t before = 0; before != multiples.size();) {
-      before = multiples.size();
-      std::map<Product, int> uses;
-      for (const Multiple& m : multiples)
-        for (const auto& [p, c] : m.row) ++uses[p];
-      for (const auto& [p, c] : target_) ++uses[p];
-      std::erase_if(multiples, [&](const Multiple& m) {
-        return std::any_of(m.row.begin(), m.row.end(), [&](const auto& t) { return uses[t.first] == 1; });
-      });
-    }
   }
 
   // Which multiples have a part in it, modulo the prime; their factors in rational numbers; and the sum itself, exactly.
@@ -468,11 +446,10 @@ class Expression {
     fmpq_mat_init(x, columns, 1);
     for (std::size_t k = 0; k < used.size(); ++k)
       for (const Monomial& m : polynomials_[static_cast<std::size_t>(used[k]->equation)]->monomials)
-        set(fmpq_mat_entry(a, static_cast<slong>(place.at(times(product_of_factors(m), used[k]->product))),
-                           static_cast<slong>(k)),
+        set(fmpq_mat_entry(a, static_cast<slong>(place.at(times(product_of(m), used[k]->product))), static_cast<slong>(k)),
             m.coefficient);
     for (const Monomial& m : h_.monomials)
-      set(fmpq_mat_entry(b, static_cast<slong>(place.at(product_of_factors(m))), 0), m.coefficient);
+      set(fmpq_mat_entry(b, static_cast<slong>(place.at(product_of(m))), 0), m.coefficient);
     std::optional<ImpliedEquation> result;
     if (fmpq_mat_can_solve(x, a, b)) {
       result.emplace();
@@ -494,11 +471,6 @@ class Expression {
     return certify::sum(certify::implied_equation(system_, of), -1, h_).monomials.empty();
   }
 
-  static Product product_of_factors(const Monomial& m) {
-    Product p;
-    for (const Factor& x : m.factors) p.emplace_back(x.variable, x.power);
-    return p;
-  }
   static void set(fmpq* entry, const ExactNumber& x) { fmpq_set_str(entry, x.text().c_str(), 10); }
 
   const Polynomial& h_;

@@ -75,6 +75,19 @@ ex apply_function(const std::string& name, const ex& x) {
   throw std::domain_error("the function " + name + " is not known");
 }
 
+namespace {
+
+std::vector<std::string> names_of(const auto& declared) {
+  std::vector<std::string> names;
+  for (const auto& d : declared) names.push_back(d.name);
+  return names;
+}
+
+}  // namespace
+
+GinacBridge::GinacBridge(const Mechanism& mechanism)
+    : GinacBridge(names_of(mechanism.constants()), names_of(mechanism.coordinates())) {}
+
 GinacBridge::GinacBridge(const std::vector<std::string>& constants, const std::vector<std::string>& coordinates) {
   for (const std::string& name : constants) {
     symbols_.emplace(name, GiNaC::realsymbol(name));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "corank/symbolic/expression.h"
+#include "corank/symbolic/mechanism.h"
 
 namespace corank::symbolic {
 
@@ -26,6 +27,8 @@ GiNaC::ex apply_function(const std::string& name, const GiNaC::ex& argument);
 
 class GinacBridge {
  public:
+  /// A mechanism's constants and coordinates.
+  explicit GinacBridge(const Mechanism& mechanism);
   /// The order of the names is the order of the output.
   GinacBridge(const std::vector<std::string>& constants, const std::vector<std::string>& coordinates);
 

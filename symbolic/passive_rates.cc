@@ -14,7 +14,7 @@ using Row = std::vector<GiNaC::ex>;
 class Eliminator {
  public:
   Eliminator(const Mechanism& mechanism, const ExpressionMatrix& matrix)
-      : mechanism_(mechanism), columns_(matrix.columns), bridge_(names_of_constants(), names_of_coordinates()) {
+      : mechanism_(mechanism), columns_(matrix.columns), bridge_(mechanism) {
     for (const auto& row : matrix.rows) {
       rows_.emplace_back();
       for (const Expression& e : row) rows_.back().push_back(bridge_.to_ginac(e, {}).expand());
@@ -44,17 +44,6 @@ class Eliminator {
     std::size_t row;
     GiNaC::ex factor;
   };
-
-  std::vector<std::string> names_of_constants() const {
-    std::vector<std::string> names;
-    for (const Constant& c : mechanism_.constants()) names.push_back(c.name);
-    return names;
-  }
-  std::vector<std::string> names_of_coordinates() const {
-    std::vector<std::string> names;
-    for (const Coordinate& c : mechanism_.coordinates()) names.push_back(c.name);
-    return names;
-  }
 
   // The number that a constant expression is; nothing where it is not rational.
   std::optional<GiNaC::numeric> number(GiNaC::ex e) const {
@@ -146,7 +135,6 @@ class Eliminator {
     giving[j] = s.factor;  // α (sin² + cos²)
     rows_[s.row] = std::move(free);
     rows_[c.row] = std::move(giving);
-    used_[s.row] = false;
     used_[c.row] = true;
     notes_[s.row].free_of.push_back(columns_[j]);
     notes_[c.row].gives = columns_[j];

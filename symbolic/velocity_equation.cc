@@ -41,10 +41,9 @@ std::vector<std::size_t> VelocityEquation::ties(std::span<const Role> locked) co
 Derivation derive(const Mechanism& mechanism) {
   mechanism.validate();
   const GinacLock lock;
-  std::vector<std::string> constants, coordinates;
-  for (const Constant& constant : mechanism.constants()) constants.push_back(constant.name);
+  std::vector<std::string> coordinates;
   for (const Coordinate& coordinate : mechanism.coordinates()) coordinates.push_back(coordinate.name);
-  const GinacBridge bridge(constants, coordinates);
+  const GinacBridge bridge(mechanism);
 
   Derivation result;
   VelocityEquation& velocity = result.velocity;
