@@ -59,7 +59,7 @@ const std::vector<LibraryRule>& library_rules() {
       {std::regex("^hdf5|^H5"), {"result"}, true},
       {std::regex("^(cairo|pugi|zlib)"), {"report"}, true},
       {std::regex("^CLI/"), {"app"}, false},
-      {std::regex("^tao/"), {"symbolic"}, false},
+      {std::regex("^tao/"), {"symbolic", "kinematics"}, false},
       {std::regex("^nlohmann/"), {"result", "report", "bench"}, true},
       {std::regex("^kainjow/"), {"report"}, false},
   };
