@@ -68,8 +68,10 @@ class Implication {
       open_.push_back(row);
     }
     for (const SumOfSquares& sum : squares_)
-      for (const auto& [j, a] : sum.coefficients)
+      for (const auto& [j, coefficient] : sum.coefficients) {
+        const auto& a = coefficient;  // clang 14 lets no lambda capture a binding
         bound(j, [&](const ExactNumber& h) { return at_least(a * h * h, sum.bound); });
+      }
     for (const Polynomial* f : rows_) by_products(*f);
     while (!open_.empty()) {  // a row that has a new bound comes again
       const std::size_t row = open_.back();

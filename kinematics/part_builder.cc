@@ -11,6 +11,16 @@ namespace corank::kinematics {
 using symbolic::in_quotes;
 using symbolic::ModelError;
 
+namespace {
+
+std::string canonical_name(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
+  return error ? path.string() : real.string();
+}
+
+}  // namespace
+
 std::string small_letters(std::string_view word) {
   std::string result(word);
   for (char& c : result) {
@@ -25,6 +35,7 @@ PartBuilder::PartBuilder(const std::string& file_, std::optional<std::filesystem
   is_world_ = path.extension() == ".world";
   robot.file = file_;
   robot.name = path.stem().string();
+  if (folder_) open_files_.push_back(canonical_name(*folder_ / path.filename()));
 }
 
 void PartBuilder::pass_over(const std::string& what) {
@@ -155,18 +166,17 @@ void PartBuilder::include(const std::string& prefix_read) {
                      "a robot read from a file");
   }
   const std::filesystem::path path = *folder_ / quoted;
-  std::error_code error;
-  const std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
-  const std::string key = error ? path.string() : real.string();
+  const std::string key = canonical_name(path);
   if (std::find(open_files_.begin(), open_files_.end(), key) != open_files_.end()) {
     throw ModelError(quoted_where, "the file " + in_quotes(quoted) + " includes itself, directly or through others",
                      "a file that does not include this one");
   }
-  if (open_files_.size() >= kMaxIncludeDepth || ++includes_ > kMaxIncludes) {
+  if (open_files_.size() > kMaxIncludeDepth || ++includes_ > kMaxIncludes) {
     throw ModelError(
         quoted_where, "too many files are included",
         "at most " + std::to_string(kMaxIncludes) + ", " + std::to_string(kMaxIncludeDepth) + " inside one another");
   }
+  std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     throw ModelError(quoted_where, "the included file " + in_quotes(quoted) + " is not there",
                      "a file of links and joints in " + folder_->string());

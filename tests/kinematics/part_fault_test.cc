@@ -257,7 +257,7 @@ TEST(PartFaults, OfIncludedFilesNameTheFile) {
               HasSubstr("b.world:1:15: the file 'b.world' includes"));
   write("c.world", "[INCLUDE] x : \"d.world\"");
   EXPECT_THAT(message_of(write("d.world", "[INCLUDE] x : \"c.world\"")),
-              HasSubstr("d.world:1:15: the file 'c.world' includes itself"));
+              HasSubstr("c.world:1:15: the file 'd.world' includes itself"));
   EXPECT_THAT(message_of(write("e.world", "[INCLUDE] x : \"none.world\"")),
               HasSubstr("e.world:1:15: the included file 'none.world' is not there"));
   EXPECT_THAT(message_of(write("f.world", "[LINKS] a: body \"off.off\"")), HasSubstr("off.off:3: 'x' is no number"));
