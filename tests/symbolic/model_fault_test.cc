@@ -62,7 +62,7 @@ std::vector<FaultCase> faults() {
        "at least one, in [SYSTEM VARS]"},
       {"NoEquations", "[SYSTEM VARS]\nx:[0,1]\n", "3:1", "the model has no equations", "at least one, in [SYSTEM EQS]"},
       // sections
-      {"UnsupportedSection", equations("x=y;\n[VELOCITY EQS]\ns=1"), "7:1", "section [VELOCITY EQS] is not supported",
+      {"UnsupportedSection", equations("x=y;\n[VELOCITY VARS]\ns=1"), "7:1", "section [VELOCITY VARS] is not supported",
        "[CONSTANTS], [SYSTEM VARS]"},
       {"SearchByMinimization", equations("x=y;\n[SEARCH]\nMIN x"), "8:1", "the search order MIN is not supported",
        "DEPTH FIRST"},
