@@ -1,5 +1,7 @@
 #include "corank/kinematics/assembly.h"
 
+#include <algorithm>
+
 #include "corank/kinematics/planar.h"
 #include "corank/kinematics/spatial.h"
 #include "corank/symbolic/ginac_lock.h"
@@ -22,18 +24,26 @@ int freedom(JointKind kind) {
   return 0;
 }
 
-int count_mobility(const Bodies& bodies, bool is_planar) {
-  const int space = is_planar ? 3 : 6;
-  int mobility = space * (static_cast<int>(bodies.size()) - 1);
+int count_mobility(const Bodies& bodies, Space space) {
+  const int full = space == Space::spatial ? 6 : 3;
+  int mobility = full * (static_cast<int>(bodies.size()) - 1);
   for (const BodyJoint& j : bodies.joints) {
-    const bool is_free_in_plane = is_planar && j.kind == JointKind::planar;
     const bool is_rod = j.kind == JointKind::distance || j.kind == JointKind::distance_variable;
-    mobility -= is_free_in_plane ? 0 : is_rod ? 6 - freedom(j.kind) : space - freedom(j.kind);
+    mobility -= is_rod ? 6 - freedom(j.kind) : std::max(0, full - freedom(j.kind));
   }
   return mobility;
 }
 
 }  // namespace
+
+const char* to_string(Space space) {
+  switch (space) {
+    case Space::planar: return "planar";
+    case Space::spherical: return "spherical";
+    case Space::spatial: return "spatial";
+  }
+  return "?";
+}
 
 Assembly assemble(const Robot& robot) {
   const symbolic::GinacLock lock;
@@ -41,12 +51,15 @@ Assembly assemble(const Robot& robot) {
   const Bodies bodies = bodies_of(robot, algebra);
   Draft draft(robot, algebra);
   const auto normals = plane_of(robot, bodies, algebra);
+  Space space = Space::planar;
   if (normals) {
     draft_planar(robot, bodies, *normals, algebra, draft);
   } else {
-    draft_spatial(robot, bodies, algebra, draft);
+    space = draft_spatial(robot, bodies, algebra, draft) ? Space::spherical : Space::spatial;
   }
-  Assembly assembly{draft.mechanism(), normals.has_value(), 0, count_mobility(bodies, normals.has_value()), {}};
+  Assembly assembly = draft.assembly();
+  assembly.space = space;
+  assembly.mobility_by_joints = count_mobility(bodies, space);
   assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())
     assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;

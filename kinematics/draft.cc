@@ -56,16 +56,17 @@ Vec Draft::unit_vector(const std::string& name, const SourceLocation& where) {
   return v;
 }
 
-void Draft::equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what) {
+bool Draft::equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what) {
   const ex clean = algebra_.clean(e);
   if (algebra_.is_constant(clean)) {
-    if (algebra_.is_zero(clean)) return;
+    if (algebra_.is_zero(clean)) return false;
     throw ModelError(where, what + " can never close: it stays open by " + std::to_string(algebra_.value(clean)),
                      "geometry that fits together");
   }
   for (const DraftEquation& known : equations_)
-    if (!known.inequality && (known.value.is_equal(clean) || known.value.is_equal(-clean))) return;
+    if (!known.inequality && (known.value.is_equal(clean) || known.value.is_equal(-clean))) return false;
   equations_.push_back({clean, false, note, where});
+  return true;
 }
 
 void Draft::at_least_zero(const ex& e, const std::string& note, const SourceLocation& where) {
@@ -83,7 +84,15 @@ void Draft::velocity(const ex& e, const std::string& note, const SourceLocation&
   if (!clean.is_zero()) velocity_.push_back({clean, false, note, where});
 }
 
-Mechanism Draft::mechanism() const {
+std::string Draft::point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity, int dimension) {
+  std::string name = wanted;
+  const auto taken = [&](const DraftPoint& p) { return p.name == name; };
+  for (int k = 2; std::any_of(points_.begin(), points_.end(), taken); ++k) name = wanted + "_" + std::to_string(k);
+  points_.push_back({name, at, velocity, static_cast<std::size_t>(dimension)});
+  return name;
+}
+
+Assembly Draft::assembly() const {
   Mechanism mechanism(robot_.name);
   for (const symbolic::Constant& constant : robot_.constants)
     mechanism.constant(constant.name, constant.value, constant.where);
@@ -108,6 +117,21 @@ Mechanism Draft::mechanism() const {
   for (const DraftEquation& e : velocity_) all.push_back(e.value);
   all.insert(all.end(), inputs_.begin(), inputs_.end());
   all.insert(all.end(), outputs_.begin(), outputs_.end());
+  const auto add = [&](const Vec& v, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) all.push_back(algebra_.clean(v[i]));
+  };
+  for (const DraftPoint& p : points_) {
+    add(p.at, p.dimension);
+    if (p.velocity) add(*p.velocity, p.dimension);
+  }
+  for (const LinkPose& p : poses_) {
+    add(p.origin, 3);
+    for (const Vec& row : p.axes) add(row, 3);
+  }
+  for (const JointValue& v : values_) {
+    all.push_back(v.value);
+    if (v.sine) all.push_back(algebra_.clean(*v.sine));
+  }
   const std::vector<Expression> translated = algebra_.translated(all);
   auto next = translated.begin();
   for (const DraftEquation& e : equations_) {
@@ -124,7 +148,32 @@ Mechanism Draft::mechanism() const {
   if (const auto inputs = list(inputs_.size()); !inputs.empty()) mechanism.inputs(inputs);
   if (const auto outputs = list(outputs_.size()); !outputs.empty()) mechanism.outputs(outputs);
   for (const symbolic::Constraint& equation : robot_.equations) mechanism.constrain(equation.relation, equation.where);
-  return mechanism;
+  Assembly assembly;
+  symbolic::Drawing drawing;
+  drawing.unit = robot_.unit;
+  drawing.parts = parts_;
+  for (const DraftPoint& p : points_) {
+    symbolic::DrawingPoint& point = drawing.points.emplace_back();
+    point.name = p.name;
+    point.coordinates = list(p.dimension);
+    if (p.velocity) point.velocity = list(p.dimension);
+  }
+  mechanism.drawing(drawing);
+  for (std::size_t l = 0; l < poses_.size(); ++l) {
+    Assembly::LinkPose& pose = assembly.poses.emplace_back();
+    pose.link = robot_.links[l].name;
+    const std::vector<Expression> entries = list(12);
+    std::copy_n(entries.begin(), 3, pose.origin.begin());
+    for (std::size_t i = 0; i < 9; ++i) pose.rotation[i / 3][i % 3] = entries[3 + i];
+  }
+  for (const JointValue& v : values_) {
+    Assembly::JointValue& value = assembly.joint_values.emplace_back();
+    value.joint = v.joint;
+    value.value = *next++;
+    if (v.sine) value.sine = *next++;
+  }
+  assembly.mechanism = std::move(mechanism);
+  return assembly;
 }
 
 }  // namespace corank::kinematics

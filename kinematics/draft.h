@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corank/kinematics/algebra.h"
+#include "corank/kinematics/assembly.h"
 #include "corank/symbolic/mechanism.h"
 #include "corank/symbolic/set_definition.h"
 
@@ -29,18 +30,33 @@ class Draft {
 
   /// e = 0, left out where it is 0 by its constants alone. Throws ModelError where it is a constant that is not 0: `what` then
   /// cannot be assembled.
-  void equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what = "the loop");
+  /// Returns whether there is anything to say.
+  bool equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what = "the loop");
   void at_least_zero(const ex& e, const std::string& note, const SourceLocation& where);
 
   ex rate(const std::string& name, symbolic::CoordinateKind kind, symbolic::Role role, const SourceLocation& where);
   /// Left out where it is 0.
   void velocity(const ex& e, const std::string& note, const SourceLocation& where);
 
+  // What a solution means, and how it is drawn.
+  struct LinkPose {
+    Vec origin;
+    Mat axes;  ///< R
+  };
+  void pose(const LinkPose& pose) { poses_.push_back(pose); }
+  void joint_value(const std::string& joint, const ex& value) { values_.push_back({joint, value, {}}); }
+  void joint_value(const std::string& joint, const ex& cosine, const ex& sine) { values_.push_back({joint, cosine, sine}); }
+  /// Returns the point's name, `wanted` or one like it.
+  std::string point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity, int dimension);
+  void part(symbolic::DrawingPart::Kind kind, const std::vector<std::string>& points) {
+    parts_.push_back({kind, points, {}});
+  }
+
   void input(const ex& coordinate) { inputs_.push_back(coordinate); }
   void output(const ex& coordinate) { outputs_.push_back(coordinate); }
 
-  /// With the robot's constants. Rates are those that stand in velocity equations or were declared.
-  symbolic::Mechanism mechanism() const;
+  /// The mechanism, with the robot's constants, and what its solutions mean.
+  Assembly assembly() const;
 
  private:
   struct DraftCoordinate {
@@ -70,6 +86,21 @@ class Draft {
   std::vector<DraftEquation> equations_, velocity_;
   std::vector<DraftRate> rates_;
   std::vector<ex> inputs_, outputs_;
+  struct JointValue {
+    std::string joint;
+    ex value;  ///< or the cosine
+    std::optional<ex> sine;
+  };
+  struct DraftPoint {
+    std::string name;
+    Vec at;
+    std::optional<Vec> velocity;
+    std::size_t dimension;
+  };
+  std::vector<LinkPose> poses_;
+  std::vector<JointValue> values_;
+  std::vector<DraftPoint> points_;
+  std::vector<symbolic::DrawingPart> parts_;
 };
 
 }  // namespace corank::kinematics

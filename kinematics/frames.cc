@@ -90,6 +90,7 @@ Vec Frames::direction(std::size_t group, std::size_t i) {
   if (i < 2) return frame.world[i];
   if (!frame.third) {
     const Vec product = cross(frame.world[0], frame.world[1]);
+    if (finished_) return product;
     frame.third = simplified(product, "n_" + name_of_group(group), {});
   }
   return *frame.third;

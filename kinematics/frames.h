@@ -24,6 +24,9 @@ class Frames {
   /// Coefficients of v along the two directions and their cross product.
   Vec coefficients(std::size_t group, const Vec& v) const;
 
+  /// From now on a cross product is written out, so that images add no coordinates to what is complete.
+  void finish() { finished_ = true; }
+
   /// Gives the far group its frame, by a tree's edge.
   void orient(const TreeEdge& edge);
   /// What a joint that closes a loop asks of the orientations of its bodies.
@@ -66,6 +69,7 @@ class Frames {
   const Bodies& bodies_;
   Algebra& algebra_;
   Draft& draft_;
+  bool finished_ = false;
   std::vector<std::optional<Frame>> frames_;  // of each group
   std::vector<std::optional<Vec>> axes_;      // of each joint in bodies_, in the world
   std::vector<bool> aligned_;                 // of each joint in bodies_: both links have the same axis

@@ -3,6 +3,7 @@
 #include <deque>
 #include <map>
 
+#include "corank/kinematics/portrayal.h"
 #include "corank/kinematics/spanning_tree.h"
 
 namespace corank::kinematics {
@@ -92,6 +93,23 @@ class PlanarRobot {
     for (const Joint& joint : robot_.joints)
       if (joint.actuated) draft_.input(*coordinate_[static_cast<std::size_t>(&joint - robot_.joints.data())]);
     for (const Output& output : robot_.outputs) add(output);
+    draw(robot_, bodies_, algebra_, draft_, Space::planar, [this](std::size_t body, const Vec& point) -> Motion {
+      const PlanePoint p = plus(*origins_[body], image(body, point));
+      return {{p.x(), p.y(), 0}, {}};
+    });
+    for (std::size_t l = 0; l < robot_.links.size(); ++l) {
+      const std::size_t body = bodies_.of_link[l];
+      const Placement& at = bodies_.placement[l];
+      Mat axes;
+      for (std::size_t i = 0; i < 3; ++i) axes[i] = world(image(body, transpose(at.rotation)[i]));
+      draft_.pose({world(plus(*origins_[body], image(body, at.translation))), transpose(axes)});
+    }
+    for (const BodyJoint& j : bodies_.joints)
+      if (coordinate_[j.index]) {
+        draft_.joint_value(joint(j).name, *coordinate_[j.index]);
+      } else if (j.kind == JointKind::revolute) {
+        draft_.joint_value(joint(j).name, joint_turn(j).cosine(), joint_turn(j).sine());
+      }
   }
 
  private:
@@ -359,11 +377,12 @@ std::optional<std::vector<Vec>> plane_of(const Robot& robot, const Bodies& bodie
     }
   }
   std::vector<Vec> result;
-  int up = 1;  // so that the ground's normal is z, not −z
+  int up = 1;  // so that the plane is seen as xy, xz or yz, its second axis upwards
   for (const auto& n : normals) {
     if (!n) return std::nullopt;
-    for (std::size_t i = 3; i-- > 0 && result.empty();)
-      if (const int sign = algebra.sign((*n)[i])) {
+    const Vec e2 = cross(*n, algebra.perpendicular(*n));
+    for (std::size_t i = 0; i < 3 && result.empty(); ++i)
+      if (const int sign = algebra.sign(algebra.clean(e2[i]))) {
         up = sign;
         break;
       }

@@ -1,6 +1,9 @@
 #include "corank/kinematics/spatial.h"
 
+#include <algorithm>
+
 #include "corank/kinematics/frames.h"
+#include "corank/kinematics/portrayal.h"
 #include "corank/kinematics/twists.h"
 
 namespace corank::kinematics {
@@ -37,7 +40,25 @@ class SpatialRobot {
       if (positions_.coordinate[j]) draft_.input(*positions_.coordinate[j]);
     }
     for (const Output& output : robot_.outputs) add(output);
-    if (moves || !robot_.outputs.empty()) draft_twists(robot_, bodies_, tree_, frames_, positions_, algebra_, draft_);
+    std::optional<Twists> twists;
+    if (moves || !robot_.outputs.empty()) {
+      twists.emplace(robot_, bodies_, tree_, frames_, positions_, algebra_, draft_);
+      twists->run();
+    }
+    frames_.finish();
+    draw(robot_, bodies_, algebra_, draft_, is_spherical() ? Space::spherical : Space::spatial,
+         [&](std::size_t body, const Vec& point) -> Motion {
+           const Vec at = place({body, point, {}, {}});
+           return {at, twists ? std::optional(twists->velocity(body, at)) : std::nullopt};
+         });
+    report();
+  }
+
+  bool is_spherical() const {
+    return !translates_ && !tree_.chords.empty() &&
+           std::all_of(bodies_.joints.begin(), bodies_.joints.end(), [](const BodyJoint& j) {
+             return j.kind == JointKind::revolute || j.kind == JointKind::universal || j.kind == JointKind::spherical;
+           });
   }
 
  private:
@@ -179,7 +200,30 @@ class SpatialRobot {
       return;
     }
     const Vec open = gap - way(j);
-    for (const ex& component : open) draft_.equation(component, "loop", of.where, what);
+    for (const ex& component : open)
+      if (draft_.equation(component, "loop", of.where, what)) translates_ = true;
+  }
+
+  /// Poses of links and values of joints, for whoever wants to know them of a solution.
+  void report() {
+    for (std::size_t l = 0; l < robot_.links.size(); ++l) {
+      const std::size_t body = bodies_.of_link[l];
+      const Placement& at = bodies_.placement[l];
+      const Mat columns = transpose(at.rotation);
+      Mat axes;
+      for (std::size_t i = 0; i < 3; ++i) axes[i] = frames_.image(group(body), columns[i]);
+      draft_.pose({place({body, at.translation, {}, {}}), transpose(axes)});
+    }
+    for (const BodyJoint& j : bodies_.joints) {
+      if (positions_.coordinate[j.index]) {
+        draft_.joint_value(joint(j).name, *positions_.coordinate[j.index]);
+      } else if (j.kind == JointKind::revolute) {
+        const BodyEnd &a = j.ends[0], &b = j.ends[1];
+        const Vec zero = frames_.image(group(b.body), b.zero);
+        draft_.joint_value(joint(j).name, dot(zero, frames_.image(group(a.body), a.zero)),
+                           dot(zero, frames_.image(group(a.body), cross(a.axis, a.zero))));
+      }
+    }
   }
 
   void add(const Output& output) {
@@ -233,12 +277,15 @@ class SpatialRobot {
   SpanningTree tree_;
   Positions positions_;
   std::vector<Hung> hung_;
+  bool translates_ = false;  // a loop's positions say something
 };
 
 }  // namespace
 
-void draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft) {
-  SpatialRobot(robot, bodies, algebra, draft).run();
+bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft) {
+  SpatialRobot spatial(robot, bodies, algebra, draft);
+  spatial.run();
+  return spatial.is_spherical();
 }
 
 }  // namespace corank::kinematics

@@ -14,7 +14,8 @@
 
 namespace corank::kinematics {
 
-/// Throws ModelError where the robot can't be assembled.
-void draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft);
+/// Whether it is a spherical one: all of its loops close wherever its bodies are turned to, since all axes go through one
+/// point. Throws ModelError where the robot can't be assembled.
+bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft);
 
 }  // namespace corank::kinematics

@@ -24,7 +24,60 @@ struct Positions {
   std::map<std::string, Vec> output_points;   ///< by the output's name
 };
 
-void draft_twists(const Robot& robot, const Bodies& bodies, const SpanningTree& tree, Frames& frames,
-                  const Positions& positions, Algebra& algebra, Draft& draft);
+/// One rate's part of a body's motion.
+struct Screw {
+  ex rate;
+  Vec axis;   ///< of turning, or the direction of sliding
+  Vec point;  ///< that it turns about; unused where it slides
+  bool turns = true;
+};
+
+class Twists {
+ public:
+  Twists(const Robot& robot, const Bodies& bodies, const SpanningTree& tree, Frames& frames, const Positions& positions,
+         Algebra& algebra, Draft& draft)
+      : robot_(robot),
+        bodies_(bodies),
+        tree_(tree),
+        frames_(frames),
+        positions_(positions),
+        algebra_(algebra),
+        draft_(draft),
+        motion_(bodies.size()) {}
+
+  /// Declares the rates and adds the rows.
+  void run();
+  /// Of a body's point that is at c, in the rates.
+  Vec velocity(std::size_t body, const Vec& c) const;
+
+ private:
+  const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
+  std::size_t group(std::size_t body) const { return bodies_.group[body]; }
+  Vec cleaned(const Vec& v) const;
+  Vec place(const BodyEnd& end);
+  Vec axis(const BodyJoint& j, std::size_t end);
+  symbolic::Role role(std::size_t joint) const;
+  ex angular(const BodyJoint& j, const std::string& suffix = "");
+  ex linear(const BodyJoint& j, const std::string& suffix = "");
+  std::size_t link_of(std::size_t body) const;
+  /// The screws of a joint, as motions of end 1's body relative to end 0's.
+  std::vector<Screw> screws(const BodyJoint& j);
+  void reach(const TreeEdge& edge);
+  void add_velocity(Vec& sum, const std::vector<Screw>& screws, const Vec& c, int sign) const;
+  Vec turning(std::size_t body) const;
+  void row(const ex& e, const Joint& of);
+  void rows(const Vec& v, const Joint& of);
+  void close(const BodyJoint& j);
+  void add(const Output& output);
+
+  const Robot& robot_;
+  const Bodies& bodies_;
+  const SpanningTree& tree_;
+  Frames& frames_;
+  const Positions& positions_;
+  Algebra& algebra_;
+  Draft& draft_;
+  std::vector<std::vector<Screw>> motion_;  // of each body, relative to the ground
+};
 
 }  // namespace corank::kinematics
