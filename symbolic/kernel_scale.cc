@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kSweeps = 12;
 constexpr int kLargestExponent = 40;
+constexpr double kLeverUnits = 8;   // of the largest lever arm, likewise: of 0.5, 1 … 16 the best for Dextar and the 3-RRR
 constexpr double kLengthUnits = 4;  // of the largest size beside angles; measured, see bench/HISTORY.md
 
 // The constraints over the ranges that they leave.
@@ -124,7 +125,7 @@ std::vector<std::string> scales_of_rates(const Mechanism& mechanism, const Kerne
   std::vector<double> of_columns = sizes;
   for (const std::size_t j : eliminated)
     if (sizes[j] > 0) of_columns[j] = largest > 0 ? largest : 1;
-  std::vector<std::string> result = texts(of_columns, angles && largest > 0 ? kLengthUnits * largest : 1);
+  std::vector<std::string> result = texts(of_columns, angles && largest > 0 ? kLeverUnits * largest : 1);
   if (!eliminated.empty()) scale_eliminated(mechanism, kernel, result);
   return result;
 }

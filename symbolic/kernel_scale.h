@@ -22,7 +22,8 @@ namespace corank::symbolic {
 /// [−1, 1] and the coordinates in their ranges, so that its own range is no condition.
 ///
 /// Where the mechanism brings its own L, an angular rate's scale is 1, too, and a linear one's size comes from L over those
-/// ranges (rate_sizes.h); it is rounded as those of lengths above. Of a left kernel: 1/max_j |L_ij| s_j relative to the first
+/// ranges (rate_sizes.h); it is rounded as those of lengths above, eight
+/// times the largest in place of four. Of a left kernel: 1/max_j |L_ij| s_j relative to the first
 /// row, in two digits.
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt);
