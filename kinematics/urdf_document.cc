@@ -97,6 +97,8 @@ void UrdfDocument::check_attributes(const pugi::xml_node& element) const {
     const std::string_view value = attribute.value();
     if (value.find("${") != std::string_view::npos || value.find("$(") != std::string_view::npos)
       throw ModelError(where(attribute), in_quotes(value) + " is xacro", kRunXacro);
+    if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }))
+      throw ModelError(where(attribute), "a control character in an attribute", "visible characters and blanks");
     check_entities(attribute);
   }
 }
