@@ -95,10 +95,10 @@ void UrdfDocument::check_attributes(const pugi::xml_node& element) const {
                        "it once");
     }
     const std::string_view value = attribute.value();
-    if (value.find("${") != std::string_view::npos || value.find("$(") != std::string_view::npos)
-      throw ModelError(where(attribute), in_quotes(value) + " is xacro", kRunXacro);
     if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }))
       throw ModelError(where(attribute), "a control character in an attribute", "visible characters and blanks");
+    if (value.find("${") != std::string_view::npos || value.find("$(") != std::string_view::npos)
+      throw ModelError(where(attribute), in_quotes(value) + " is xacro", kRunXacro);
     check_entities(attribute);
   }
 }
@@ -109,7 +109,7 @@ void UrdfDocument::check_entities(const pugi::xml_attribute& attribute) const {
   if (begin == 0 || begin > text_.size()) return;
   const std::string_view written = std::string_view(text_).substr(begin, text_.find(text_[begin - 1], begin) - begin);
   for (std::size_t i = written.find('&'); i != std::string_view::npos; i = written.find('&', i + 1)) {
-    const std::string_view reference = written.substr(i + 1, written.find(';', i) - i - 1);
+    const std::string_view reference = written.substr(i + 1, written.find_first_of("; \t\r\n", i) - i - 1);
     if (reference.starts_with('#') || std::find(kEntities.begin(), kEntities.end(), reference) != kEntities.end()) continue;
     throw ModelError(place_at(begin + i), "the entity " + in_quotes(reference) + " is unknown",
                      "&amp; for the character &: entities of a file's own are not read");
