@@ -120,11 +120,23 @@ class TreeReader {
       if (text != "1" && !text.starts_with("1."))
         throw ModelError(reading_.where(version), "the version of URDF is " + in_quotes(text), "1.0");
     }
+    refuse_other_loops();
     reading_.allow_children(top_, {"link", "joint", "material", "transmission", "ros2_control", "gazebo"});
     for (const pugi::xml_node& gazebo : top_.children("gazebo")) {
       reading_.notice("<gazebo> passed over");
       if (gazebo.child("joint"))
         reading_.notice("a <gazebo> holds a joint; if it closes a loop, a .loops file has to say so");
+    }
+  }
+
+  // Other readers' ways to close a loop (<loop_joint>, <drake:ball_constraint>): without it the mechanism is another one.
+  void refuse_other_loops() const {
+    if (closed_) return;
+    for (const pugi::xml_node& child : top_.children()) {
+      const std::string_view name = child.name();
+      if (name.find("loop") == std::string_view::npos && name.find("constraint") == std::string_view::npos) continue;
+      throw ModelError(reading_.where(child), "<" + symbolic::shortened(name) + "> is not URDF's and may close a loop",
+                       "the loop in a .loops file; with one given this is passed over");
     }
   }
 

@@ -413,6 +413,8 @@ TEST(Urdf, SaysWhatIsWrongAndWhere) {
       {robot("<link name='a'><visual><geometry><box size='1 -2 3'/></geometry></visual></link>"),
        "size of a box is negative"},
       {robot("<material name='m'><color rgba='1 2 3'/></material><link name='a'/>"), "rgba of a colour holds '2'"},
+      {robot(two_links + joint_text("j", "a", "b") + "<loop_joint name='k'/>"),
+       "r.urdf:5:2: <loop_joint> is not URDF's and may close a loop; expected the loop in a .loops file"},
       {robot("<xacro:property name='l' value='1'/>\n<link name='a'/>"),
        "r.urdf:2:2: <xacro:property> is xacro; expected "
        "plain URDF: run xacro first"},
