@@ -6,6 +6,7 @@
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/printable.h"
+#include "corank/study/model.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_text.h"
 #include "corank/symbolic/printer.h"
@@ -15,6 +16,8 @@ namespace {
 
 ExitStatus derive(QuestionOptions options, const std::string& format) {
   study::Question question = load(options);
+  if (question.assembly)
+    fmt::print("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
   if (format == "model") {
     fmt::print("{}", result::printable(symbolic::to_model(question.model)));
     return kDone;
