@@ -28,7 +28,7 @@ struct Pose {
 
 /// What a report draws of a link. It proves nothing.
 struct Shape {
-  enum class Kind { sphere, cylinder, polygon };
+  enum class Kind { sphere, cylinder, polygon };  ///< a polygon of two corners is a line
   Kind kind = Kind::sphere;
   std::vector<Vector> points;  ///< a sphere's centre, a cylinder's two ends, a polygon's corners
   Expression radius;           ///< of spheres and cylinders
@@ -73,8 +73,9 @@ struct Joint {
   std::string name;
   JointKind kind = JointKind::revolute;
   std::array<JointEnd, 2> ends;
-  /// revolute: of the angle by which end 1's zero is turned from end 0's, about the axis; universal: of the angles about
-  /// end 0's axis and end 1's; prismatic: of the way of end 1's point from end 0's along the axis; cylindrical: of the
+  /// revolute: of the angle by which end 1's zero is turned from end 0's, about the axis; universal: of the angle about
+  /// end 0's axis that turns end 0's zero to end 1's axis, then of the angle about end 1's axis that turns end 0's axis to
+  /// end 1's zero; prismatic: of the way of end 1's point from end 0's along the axis; cylindrical: of the
   /// angle, then of the way; spherical: of the angle between the ends' axes (a cone), as [0, half angle];
   /// distance_variable: of the length.
   std::vector<std::optional<Range>> ranges;
@@ -112,6 +113,9 @@ struct Robot {
   std::vector<symbolic::Constraint> equations;
   /// What a reader passed over, one sentence each: "dynamics (mass, inertia), 6 times".
   std::vector<std::string> notices;
+  /// What is part of the robot but could not be read, one for each with file and line: "a.world:7: the equations of
+  /// 'b.cuik': there is no such file". mechanism_of() refuses such a robot; it can be looked at.
+  std::vector<std::string> missing;
 
   /// Index of a link, of a joint; −1 where there is none.
   int find_link(const std::string& link) const;
@@ -129,8 +133,9 @@ struct Robot {
 
   /// Throws ModelError, with the place, for: no links; names that are taken; a joint of a link with itself or with a link
   /// that is not there; an axis or a zero direction that is 0, a zero along the axis; a range that is empty, or too many of
-  /// them; a pose that is no rotation; a rod's length that is not positive; an output of what is not there; a link that no
-  /// joint connects with the ground.
+  /// them; a pose that is no rotation; a rod's length that is not positive; an actuated joint without a motion of one
+  /// coordinate; an output of what is not there; a link that no joint connects with the ground; and for an expression that
+  /// is no number in the robot's constants.
   void validate() const;
 };
 

@@ -61,7 +61,7 @@ class ExpressionBuilder {
 struct ModelBuilder {
   explicit ModelBuilder(std::string file_, bool keep_places_ = true) : file(std::move(file_)), keep_places(keep_places_) {}
 
-  const std::string file;
+  std::string file;
   const bool keep_places;  ///< else expressions carry no places
 
   ExpressionBuilder expressions;

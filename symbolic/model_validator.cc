@@ -49,6 +49,10 @@ void ModelValidator::add_constant(const Constant& constant) {
                      check(constant.value, {"the constant " + in_quotes(constant.name), true, constant.where}));
 }
 
+void ModelValidator::check_value(const Expression& value, const std::string& owner, const SourceLocation& where) const {
+  check(value, {owner, true, where});
+}
+
 void ModelValidator::check_range(const Coordinate& coordinate) const {
   const Context context{"the range of " + in_quotes(coordinate.name), true, coordinate.where};
   check(coordinate.lower, context);

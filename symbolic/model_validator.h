@@ -19,6 +19,8 @@ class ModelValidator {
 
   /// Checks a constant's value against the constants added before, then adds it. Throws ModelError.
   void add_constant(const Constant& constant);
+  /// A value of something that messages call `owner`: constants only.
+  void check_value(const Expression& value, const std::string& owner, const SourceLocation& where) const;
   /// A range: constants only.
   void check_range(const Coordinate& coordinate) const;
   /// A constraint: constants and coordinates.
