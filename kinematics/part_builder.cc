@@ -32,6 +32,7 @@ PartBuilder::PartBuilder(const std::string& file_, std::optional<std::filesystem
 }
 
 void PartBuilder::go_on_with(const Robot& begun) {
+  goes_on_ = true;
   robot = begun;
   scope = ConstantScope(robot.constants);
   link_data_.resize(robot.links.size());
@@ -360,6 +361,7 @@ void PartBuilder::finish_segments() {
 std::size_t PartBuilder::require_link(const std::string& link, const SourceLocation& where,
                                       const std::string& expectation) const {
   const int found = robot.find_link(link);
+  if (found < 0 && goes_on_ && link == "ground") return 0;
   if (found < 0) {
     throw ModelError(where, "there is no link " + in_quotes(link), expectation + suggestion(link, link_names()));
   }

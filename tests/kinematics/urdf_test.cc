@@ -120,10 +120,11 @@ TEST(Urdf, DecimalsOfMultiplesOfPiAreThoseMultiples) {
   EXPECT_EQ(reading("0.3927"), "pi/8");
   EXPECT_EQ(reading("2.0943951023931953"), "2*pi/3");  // Python's 2*math.pi/3, 2e-16 off
   EXPECT_EQ(reading("0.0174533"), "pi/180");
+  EXPECT_EQ(reading("0.872665"), "5*pi/18");
   EXPECT_EQ(reading("0.0"), "0");
   // Too few digits for what they might mean, or next to it.
-  for (const char* itself : {"1.6", "3", "3.1", "3.13", "1.5709", "1.570796326796", "1.5706", "0.524", "1.05", "0.0175",
-                             "0.01745", "2.967", "15.708"}) {
+  for (const char* itself : {"1.6", "3", "3.1", "3.13", "1.5709", "1.57080001", "1.570796326796", "1.5706", "0.524", "1.05",
+                             "0.0175", "0.01745", "2.967", "15.708"}) {
     EXPECT_EQ(reading(itself), itself) << itself;
   }
 }
@@ -241,6 +242,16 @@ TEST(Urdf, InputsOfACompanionStandForTheTransmissions) {
   };
   EXPECT_EQ(actuated("[INPUTS] elbow"), 1);
   EXPECT_EQ(actuated("[OUTPUTS] P : pose of tool0"), 6);
+}
+
+TEST(Urdf, TheRootIsTheGroundInACompanion) {
+  const Robot robot = parse_urdf(text_of("arm_3r.urdf"), "r.urdf",
+                                 UrdfLoops{"[LOOPS]\nfix: hand ground Txyz(0.3, 0, 0.5)*Rz(pi/2)\n"
+                                           "[OUTPUTS] P : pose of fore in ground",
+                                           "r.loops"});
+  EXPECT_EQ(robot.joints.back().kind, JointKind::fixed);
+  EXPECT_EQ(robot.joints.back().ends[1].link, 0u);
+  EXPECT_EQ(robot.outputs.at(0).relative_to, 0u);
 }
 
 TEST(Urdf, AFaultOfACompanionHasItsOwnPlace) {
