@@ -99,6 +99,21 @@ void PartBuilder::push_offset(const SourceLocation& where) {
   points.push_back({points.back().at + way, way, where});
 }
 
+void PartBuilder::shift_point() {
+  const Vector way = pop_vector();
+  points.back().at = points.back().at + way;
+}
+
+void PartBuilder::refuse_point(std::size_t link, const std::string& point, const SourceLocation& where) const {
+  constexpr std::size_t kMostNames = 8;
+  std::string known;
+  const auto& named = link_data_[link].points;
+  for (std::size_t i = 0; i < named.size() && i < kMostNames; ++i) known += (i == 0 ? " " : ", ") + named[i].first;
+  if (named.size() > kMostNames) known += " …";
+  throw ModelError(where, "the link " + in_quotes(robot.links[link].name) + " has no point " + in_quotes(point),
+                   "(x, y, z), or a point named in the link" + (known.empty() ? "" : ":" + known));
+}
+
 const PartBuilder::LinkData* PartBuilder::current() const { return link_ ? &link_data_[*link_] : nullptr; }
 
 void PartBuilder::push_vertex(std::string_view digits, const SourceLocation& where) {
@@ -158,10 +173,7 @@ void PartBuilder::push_named_point(const std::string& point, const SourceLocatio
                          (points.size() % 2 == 1 ? "one point" : "no point"),
                      points.size() % 2 == 1 ? "two points of the axis: P Q, or P + (direction)" : "a point of the link");
   }
-  std::vector<std::string> known;
-  for (const auto& [name_known, at] : link_data_[*link_].points) known.push_back(name_known);
-  throw ModelError(where, "the link " + in_quotes(owner) + " has no point " + in_quotes(point),
-                   "(x, y, z), or a point named in the link" + suggestion(point, known));
+  refuse_point(*link_, point, where);
 }
 
 void PartBuilder::finish_transform() {
@@ -243,6 +255,7 @@ void PartBuilder::begin_link(const std::string& name_read, const SourceLocation&
   link_data_.emplace_back();
   link_ = robot.links.size() - 1;
   link_colour.clear();
+  link_has_parts = false;
   draft = {};
 }
 
@@ -420,13 +433,7 @@ void PartBuilder::resolve_outputs() {
     if (read.vector) result.point = *read.vector;
     if (!read.point.empty()) {
       const Vector* const at = find_point(result.link, read.point);
-      std::vector<std::string> known;
-      for (const auto& [point, place] : link_data_[result.link].points) known.push_back(point);
-      if (at == nullptr) {
-        throw ModelError(read.point_where, "the link " + in_quotes(read.link) + " has no point " + in_quotes(read.point),
-                         "a point that the link names, or " + read.kind + " of " + read.link + " (x, y, z)" +
-                             suggestion(read.point, known));
-      }
+      if (at == nullptr) refuse_point(result.link, read.point, read.point_where);
       result.point = *at;
     }
     robot.outputs.push_back(std::move(result));
