@@ -142,6 +142,52 @@ Vec Algebra::perpendicular(const Vec& axis) const {
   return unit(e - dot(axis, e) / dot(axis, axis) * axis);
 }
 
+namespace {
+
+// A number, a name, products and sums of two of them.
+bool is_short(const ex& e) {
+  std::size_t leaves = 0;
+  bool plain = true;
+  for (GiNaC::const_preorder_iterator i = e.preorder_begin(); i != e.preorder_end(); ++i) {
+    if (i->nops() == 0) ++leaves;
+    if (is_a<GiNaC::function>(*i) || is_a<GiNaC::power>(*i)) plain = false;
+  }
+  return leaves <= (plain ? 4 : 2);
+}
+
+}  // namespace
+
+ex Algebra::named(const ex& constant) {
+  if (is_short(constant)) return constant;
+  if (const int s = sign(constant); s == 0) return 0;
+  for (const int simple : {1, -1})
+    if (is_zero(constant - simple)) return simple;
+  const auto known = names_of_.find(constant);
+  if (known != names_of_.end()) return known->second;
+  const auto negative = names_of_.find((-constant).expand());
+  if (negative != names_of_.end()) return -negative->second;
+  std::string name;
+  do name = "k" + std::to_string(++numbered_);
+  while (constants_.contains(name));
+  const GiNaC::realsymbol symbol(name);
+  values_[symbol] = in_numbers(constant);
+  expander_.add_constant(name, expander_.constant(symbolic::GinacBridge({}, {}).to_expression(values_[symbol]), name, {}));
+  constants_.emplace(name, symbol);
+  constant_names_.push_back(name);
+  named_.emplace_back(name, constant);
+  names_of_.emplace(constant, symbol);
+  return symbol;
+}
+
+std::vector<symbolic::Constant> Algebra::named_constants() const {
+  std::vector<ex> values;
+  for (const auto& [name, value] : named_) values.push_back(value);
+  const std::vector<Expression> texts = translated(values);
+  std::vector<symbolic::Constant> result;
+  for (std::size_t i = 0; i < named_.size(); ++i) result.push_back({named_[i].first, texts[i], {}});
+  return result;
+}
+
 bool Algebra::is_constant(const ex& e) const {
   for (GiNaC::const_preorder_iterator i = e.preorder_begin(); i != e.preorder_end(); ++i)
     if (is_a<GiNaC::symbol>(*i) && coordinates_.contains(ex_to<GiNaC::symbol>(*i).get_name())) return false;

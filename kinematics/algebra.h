@@ -59,6 +59,12 @@ class Algebra {
 
   /// Expanded, like terms collected, terms that are worth 0 left out; cos² + sin² is 1 where that makes it shorter.
   ex clean(const ex& e) const;
+  /// A constant, under a name of its own where it is no short expression, so that what is made of it stays short.
+  ex named(const ex& constant);
+  Vec named(const Vec& v) { return {named(v[0]), named(v[1]), named(v[2])}; }
+  /// The constants named so, which refer to the robot's and to those before them.
+  std::vector<symbolic::Constant> named_constants() const;
+
   /// No coordinate occurs.
   bool is_constant(const ex& e) const;
   bool is_constant(const Vec& v) const { return is_constant(v[0]) && is_constant(v[1]) && is_constant(v[2]); }
@@ -78,6 +84,9 @@ class Algebra {
   GiNaC::lst coordinate_symbols_;
   mutable symbolic::PolynomialExpander expander_;
   mutable std::map<ex, int, GiNaC::ex_is_less> signs_;
+  std::map<ex, ex, GiNaC::ex_is_less> names_of_;  // of constants that were given a name
+  std::vector<std::pair<std::string, ex>> named_;
+  int numbered_ = 0;
 };
 
 }  // namespace corank::kinematics

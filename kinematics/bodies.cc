@@ -20,7 +20,7 @@ Mat axis_frame(const Algebra& algebra, const Vec& axis, const Vec& zero) {
 
 class Builder {
  public:
-  Builder(const Robot& robot, const Algebra& algebra) : robot_(robot), algebra_(algebra) {}
+  Builder(const Robot& robot, Algebra& algebra) : robot_(robot), algebra_(algebra) {}
 
   Bodies run() {
     orient_links();
@@ -31,7 +31,9 @@ class Builder {
   }
 
  private:
-  Vec cleaned(const Vec& v) const { return {algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])}; }
+  Vec cleaned(const Vec& v) const {
+    return algebra_.named(Vec{algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])});
+  }
   Mat cleaned(const Mat& m) const { return {cleaned(m[0]), cleaned(m[1]), cleaned(m[2])}; }
 
   Mat rotation_of(const Pose& pose, const SourceLocation& where) const {
@@ -171,7 +173,7 @@ class Builder {
   }
 
   const Robot& robot_;
-  const Algebra& algebra_;
+  Algebra& algebra_;
   Bodies out_;
   std::vector<std::optional<Mat>> rotation_;
   std::vector<std::size_t> link_group_;
@@ -179,6 +181,6 @@ class Builder {
 
 }  // namespace
 
-Bodies bodies_of(const Robot& robot, const Algebra& algebra) { return Builder(robot, algebra).run(); }
+Bodies bodies_of(const Robot& robot, Algebra& algebra) { return Builder(robot, algebra).run(); }
 
 }  // namespace corank::kinematics

@@ -40,6 +40,6 @@ struct Bodies {
 };
 
 /// Throws ModelError where fixed joints contradict one another, or sliding joints ask one link for two orientations.
-Bodies bodies_of(const Robot& robot, const Algebra& algebra);
+Bodies bodies_of(const Robot& robot, Algebra& algebra);
 
 }  // namespace corank::kinematics

@@ -17,7 +17,7 @@ std::string Draft::free_name(const std::string& wanted) {
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0]))) name.insert(0, "_");
   const auto taken = [&](const std::string& candidate) {
     return symbolic::is_reserved(candidate) || std::find(names_.begin(), names_.end(), candidate) != names_.end() ||
-           std::any_of(robot_.constants.begin(), robot_.constants.end(), [&](const auto& c) { return c.name == candidate; });
+           algebra_.constants().contains(candidate);
   };
   while (taken(name)) name += "_";
   names_.push_back(name);
@@ -96,6 +96,7 @@ Assembly Draft::assembly() const {
   Mechanism mechanism(robot_.name);
   for (const symbolic::Constant& constant : robot_.constants)
     mechanism.constant(constant.name, constant.value, constant.where);
+  for (const symbolic::Constant& constant : algebra_.named_constants()) mechanism.constant(constant.name, constant.value);
   for (std::size_t i = 0; i < coordinates_.size(); ++i) {
     const DraftCoordinate& c = coordinates_[i];
     if (c.unit) {

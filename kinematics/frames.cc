@@ -79,10 +79,11 @@ Vec Frames::simplified(const Vec& v, const std::string& name, const SourceLocati
 
 Vec Frames::coefficients(std::size_t group, const Vec& v) const {
   const auto& [g0, g1] = frames_[group]->own;
-  const ex c = algebra_.clean(dot(g0, g1)), a0 = dot(v, g0), a1 = dot(v, g1), a2 = dot(v, cross(g0, g1));
-  if (c.is_zero()) return {algebra_.clean(a0), algebra_.clean(a1), algebra_.clean(a2)};
-  const ex square = 1 - c * c;
-  return {algebra_.clean(a0 - c * a1) / square, algebra_.clean(a1 - c * a0) / square, algebra_.clean(a2) / square};
+  const auto clean = [&](const ex& e) { return algebra_.named(algebra_.clean(e)); };
+  const ex c = clean(dot(g0, g1)), a0 = dot(v, g0), a1 = dot(v, g1), a2 = dot(v, cross(g0, g1));
+  if (c.is_zero()) return {clean(a0), clean(a1), clean(a2)};
+  const ex square = clean(1 - c * c);
+  return {clean(clean(a0 - c * a1) / square), clean(clean(a1 - c * a0) / square), clean(clean(a2) / square)};
 }
 
 Vec Frames::direction(std::size_t group, std::size_t i) {

@@ -1,4 +1,5 @@
-// Bodies in Geomview's OFF and COFF formats, as far as a robot needs them: vertices, which joints may name by number, and faces.
+// Bodies in Geomview's OFF and COFF formats, as far as a robot needs them: vertices, which joints may name by number, and
+// faces.
 #pragma once
 
 #include <filesystem>

@@ -65,6 +65,8 @@ class PartBuilder : public symbolic::ModelBuilder {
 
   Robot robot;
   ConstantScope scope;
+  /// Begins with another reader's links, joints and constants. `ground` is the first link, where none is called so.
+  void go_on_with(const Robot& begun);
 
   /// Parses an included text with this builder.
   std::function<void(const std::string& text)> parse_included;
@@ -80,6 +82,7 @@ class PartBuilder : public symbolic::ModelBuilder {
   Vector pop_vector();
   Expression pop_value();
   void push_offset(const SourceLocation& where);
+  void shift_point();
   void push_vertex(std::string_view digits, const SourceLocation& where);
   void push_named_point(const std::string& point, const SourceLocation& where);
   std::string transform_name;
@@ -98,7 +101,8 @@ class PartBuilder : public symbolic::ModelBuilder {
 
   // Links and shapes.
   bool in_obstacles = false, hidden = false;
-  std::string quoted;  ///< the name of a file
+  bool link_has_parts = false;  ///< or may have: a colon stands behind its name
+  std::string quoted;           ///< the name of a file
   SourceLocation quoted_where;
   void begin_link(const std::string& name_read, const SourceLocation& where);
   void finish_named_point();
@@ -156,6 +160,7 @@ class PartBuilder : public symbolic::ModelBuilder {
   void add_body(Body body);
   const LinkData* current() const;
   const Vector* find_point(std::size_t link, const std::string& point) const;
+  [[noreturn]] void refuse_point(std::size_t link, const std::string& point, const SourceLocation& where) const;
   std::size_t require_link(const std::string& link, const SourceLocation& where, const std::string& expectation) const;
   std::size_t require_joint(const std::string& joint, const SourceLocation& where, const std::string& expectation) const;
   void set_axes(Joint& joint);
@@ -170,7 +175,7 @@ class PartBuilder : public symbolic::ModelBuilder {
   std::string prefix_;
   std::vector<std::string> open_files_;
   std::size_t includes_ = 0;
-  bool is_world_;
+  bool is_world_, goes_on_ = false;
   std::optional<std::size_t> link_;  ///< of the points that are read
   std::vector<LinkData> link_data_;
   std::vector<NamedInput> named_inputs_;

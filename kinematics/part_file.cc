@@ -84,6 +84,7 @@ CORANK_ACTION(unit_name, {
 CORANK_ACTION(absolute_point, { b.points.push_back({b.pop_vector(), {}, place(in, b)}); })
 CORANK_ACTION(vertex, { b.push_vertex(in.string_view(), place(in, b)); })
 CORANK_ACTION(named_point, { b.push_named_point(in.string(), place(in, b)); })
+CORANK_ACTION0(point_shift, { b.shift_point(); })
 CORANK_ACTION(point_offset, { b.push_offset(place(in, b)); })
 
 // Colours.
@@ -160,11 +161,15 @@ struct Action<grammar::segments_end> : FinishShape<&PartBuilder::finish_segments
 CORANK_ACTION(segment_point_end, { b.points.push_back({b.pop_vector(), {}, place(in, b)}); })
 
 // Links.
-CORANK_ACTION0(links_header, { b.in_obstacles = false; })
+CORANK_ACTION0(links_header, {
+  b.in_obstacles = false;
+  b.link_has_parts = false;
+})
+CORANK_ACTION0(link_separator, { b.link_has_parts = true; })
 CORANK_ACTION(link_name, {
   const SourceLocation where = place(in, b);
   const char next = next_character(in, b);
-  if (next != ':' && next != '-' && follows_in_line(in, b) && !b.robot.links.empty())
+  if (next != ':' && next != '-' && b.link_has_parts && follows_in_line(in, b))
     refuse_word_behind_link(in.string(), b.robot.links.back().name, where);
   b.begin_link(in.string(), where);
 })
@@ -329,6 +334,14 @@ Robot parse_parts(std::string_view text, const std::string& file, const std::opt
   parse_text(text, builder);
   builder.finish();
   return std::move(builder.robot);
+}
+
+void parse_more(Robot& robot, std::string_view text, const std::string& file) {
+  PartBuilder builder(file, std::nullopt);
+  builder.go_on_with(robot);
+  parse_text(text, builder);
+  builder.finish();
+  robot = std::move(builder.robot);
 }
 
 Robot read_part_file(const std::filesystem::path& path) {

@@ -1,5 +1,5 @@
-// The grammar of the parts language, in PEGTL rules: sections of links, joints, inputs, outputs and what is passed over. As in
-// symbolic/model_grammar.h no rule that an action is attached to (part_file.cc) is ever taken back, and what has to follow
+// The grammar of the parts language, in PEGTL rules: sections of links, joints, inputs, outputs and what is passed over.
+// As in symbolic/model_grammar.h no rule that an action is attached to (part_file.cc) is ever taken back, and what has to follow
 // stands in must<>, whose failure is a fault (part_faults.h).
 //
 // Blanks and line ends are all the same. Keywords may be written in capitals or not; names may not.
@@ -170,7 +170,7 @@ template <typename... Letters>
 struct header : seq<one<'['>, star<model::blank_character>, Letters..., star<model::blank_character>, one<']'>> {};
 struct constants_header : header<TAO_PEGTL_ISTRING("constants")> {};
 struct links_header : header<TAO_PEGTL_ISTRING("links")> {};
-struct joints_header : header<TAO_PEGTL_ISTRING("joints")> {};
+struct joints_header : sor<header<TAO_PEGTL_ISTRING("joints")>, header<TAO_PEGTL_ISTRING("loops")>> {};
 struct obstacles_header : header<TAO_PEGTL_ISTRING("obstacles")> {};
 struct collisions_header : header<TAO_PEGTL_ISTRING("collisions")> {};
 struct include_header : header<TAO_PEGTL_ISTRING("include")> {};
@@ -265,7 +265,8 @@ struct joint_options : star<gap, joint_option> {};
 template <typename Kind>
 struct joint_head : seq<Kind, gap, opt<joint_name, gap>, must<joint_colon>, gap> {};
 struct axis_end : seq<must<joint_link>, gap, must<point>, gap, must<second_point>> {};
-struct point_joint_end : seq<must<joint_link>, gap, must<point>, opt<gap, point_offset>> {};
+struct point_shift : seq<one<'+'>, gap, must<offset_vector>> {};
+struct point_joint_end : seq<must<joint_link>, gap, must<point>, opt<gap, point_shift>> {};
 struct axis_joint : seq<joint_head<axis_kind>, axis_end, gap, axis_end, joint_options, joint_end> {};
 struct point_joint : seq<joint_head<point_kind>, point_joint_end, gap, point_joint_end, joint_options, joint_end> {};
 struct fixed_joint

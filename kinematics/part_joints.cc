@@ -70,14 +70,7 @@ void PartBuilder::push_named_reference(const std::string& point, const SourceLoc
   const std::size_t end = draft.references.size();
   if (end > 1) throw ModelError(where, draft.described() + " has a third reference point", "one for each end");
   const Vector* const at = find_point(draft.links[end], point);
-  if (at == nullptr) {
-    std::vector<std::string> known;
-    for (const auto& [known_point, place] : link_data_[draft.links[end]].points) known.push_back(known_point);
-    throw ModelError(where,
-                     "the link " + in_quotes(robot.links[draft.links[end]].name) + " has no point " + in_quotes(point),
-                     "a reference point: (x, y, z), + (direction), or a point named in the link, or else a joint" +
-                         suggestion(point, known));
-  }
+  if (at == nullptr) refuse_point(draft.links[end], point, where);
   draft.references.push_back({*at, false, where});
 }
 

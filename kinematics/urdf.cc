@@ -1,40 +1,42 @@
 #include "corank/kinematics/urdf.h"
 
-#include <fstream>
+#include <algorithm>
 
+#include "corank/kinematics/part_file.h"
 #include "corank/kinematics/urdf_document.h"
 #include "corank/kinematics/urdf_tree.h"
+#include "corank/symbolic/model_file.h"
 
 namespace corank::kinematics {
 namespace {
 
-using symbolic::ModelError;
-
-std::string read_text(const std::filesystem::path& path, const std::string& expected) {
-  const SourceLocation where{path.string(), 0, 0};
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) throw ModelError(where, "there is no such file", expected);
-  if (std::filesystem::is_directory(status)) throw ModelError(where, "is a directory", expected);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw ModelError(where, "the file cannot be opened", expected);
-  std::string text(UrdfDocument::kMaxBytes + 1, '\0');  // one byte more than may be: the parser refuses it
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw ModelError(where, "the file cannot be read", expected);
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return text;
+// The companion's inputs stand for those of the transmissions, where it has some.
+void add_loops(Robot& robot, const UrdfLoops& loops) {
+  std::vector<std::size_t> driven;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    if (robot.joints[i].actuated) driven.push_back(i);
+    robot.joints[i].actuated = false;
+  }
+  parse_more(robot, loops.text, loops.file);
+  if (std::any_of(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.actuated; })) return;
+  for (const std::size_t i : driven) robot.joints[i].actuated = true;
 }
 
 }  // namespace
 
 Robot parse_urdf(std::string_view text, const std::string& file, const std::optional<UrdfLoops>& loops) {
-  return read_urdf_tree(UrdfDocument(text, file), file, loops.has_value());
+  Robot robot = read_urdf_tree(UrdfDocument(text, file), file, loops.has_value());
+  if (loops) add_loops(robot, *loops);
+  if (std::none_of(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.actuated; }))
+    robot.notices.push_back("no <transmission> says which joints are actuated: [INPUTS] of a .loops file does");
+  robot.validate();
+  return robot;
 }
 
 Robot read_urdf(const std::filesystem::path& urdf, const std::optional<std::filesystem::path>& loops) {
-  const std::string text = read_text(urdf, "a URDF file");
+  const std::string text = symbolic::read_text(urdf);
   if (!loops) return parse_urdf(text, urdf.string());
-  return parse_urdf(text, urdf.string(), UrdfLoops{read_text(*loops, "a .loops file"), loops->string()});
+  return parse_urdf(text, urdf.string(), UrdfLoops{symbolic::read_text(*loops), loops->string()});
 }
 
 }  // namespace corank::kinematics

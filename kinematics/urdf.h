@@ -13,7 +13,7 @@
 
 namespace corank::kinematics {
 
-/// The text of a companion and the name that messages show.
+/// The text of a companion, which parse_more() (part_file.h) reads, and the name that messages show.
 struct UrdfLoops {
   std::string text, file;
 };
@@ -29,7 +29,8 @@ struct UrdfLoops {
 /// interface, names it, unless the loops' [INPUTS] name others. Spheres, cylinders and boxes of <visual> are shapes; what is
 /// passed over is in the notices. Names that are no identifiers are changed, with a notice.
 ///
-/// Throws ModelError with file, line and column at the first fault; never crashes, whatever the text.
+/// Throws ModelError with file, line and column at the first fault, and for what Robot::validate() refuses; never crashes,
+/// whatever the text.
 Robot parse_urdf(std::string_view text, const std::string& file, const std::optional<UrdfLoops>& loops = {});
 
 /// Reads a URDF file and its companion.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
 
 namespace corank::kinematics {
@@ -16,10 +17,6 @@ using symbolic::ModelError;
 constexpr long double kPi = 3.14159265358979323846264338327950288L;
 constexpr int kHalfTurn = 360;  ///< pi, in half degrees
 constexpr std::string_view kWhiteSpace = " \t\r\n";
-
-bool is_number(const Expression& e, const char* digits) {
-  return e.kind() == Expression::Kind::number && e.name() == digits;
-}
 
 // What a decimal in its normal form says of its digits.
 struct Digits {
@@ -153,32 +150,13 @@ std::array<UrdfNumber, 3> urdf_numbers(std::string_view text, const SourceLocati
   return numbers;
 }
 
-Expression tidy_sum(const Expression& a, const Expression& b) {
-  if (is_number(a, "0")) return b;
-  if (is_number(b, "0")) return a;
-  return a + b;
-}
-
-Expression tidy_negation(const Expression& a) {
-  if (is_number(a, "0")) return a;
-  return a.kind() == Expression::Kind::negation ? a.operands()[0] : -a;
-}
-
-Expression tidy_product(const Expression& a, const Expression& b) {
-  if (a.kind() == Expression::Kind::negation) return tidy_negation(tidy_product(a.operands()[0], b));
-  if (b.kind() == Expression::Kind::negation) return tidy_negation(tidy_product(a, b.operands()[0]));
-  if (is_number(a, "0") || is_number(b, "1")) return a;
-  if (is_number(b, "0") || is_number(a, "1")) return b;
-  return a * b;
-}
-
 // By quarter turns exactly; else of the positive angle, so that equal functions are equal trees.
 Expression exact_cos(const UrdfNumber& angle) {
   if (angle.half_degrees && *angle.half_degrees % (kHalfTurn / 2) == 0) {
     const int quarters = std::abs(*angle.half_degrees / (kHalfTurn / 2)) % 4;
     return quarters == 0 ? 1 : quarters == 2 ? -Expression(1) : Expression(0);
   }
-  return cos(angle.approximate < 0 ? tidy_negation(angle.value) : angle.value);
+  return cos(angle.approximate < 0 ? folded_difference(0, angle.value) : angle.value);
 }
 
 Expression exact_sin(const UrdfNumber& angle) {
@@ -188,9 +166,9 @@ Expression exact_sin(const UrdfNumber& angle) {
     const int quarters = std::abs(*angle.half_degrees / (kHalfTurn / 2)) % 4;
     sine = quarters == 1 ? Expression(1) : quarters == 3 ? -Expression(1) : Expression(0);
   } else {
-    sine = sin(is_negative ? tidy_negation(angle.value) : angle.value);
+    sine = sin(is_negative ? folded_difference(0, angle.value) : angle.value);
   }
-  return is_negative ? tidy_negation(sine) : sine;
+  return is_negative ? folded_difference(0, sine) : sine;
 }
 
 }  // namespace corank::kinematics

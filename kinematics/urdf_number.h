@@ -36,11 +36,7 @@ UrdfNumber urdf_angle(std::string_view text, const SourceLocation& where, const 
 std::array<UrdfNumber, 3> urdf_numbers(std::string_view text, const SourceLocation& where, const std::string& what,
                                        UrdfNumber (*read)(std::string_view, const SourceLocation&, const std::string&));
 
-/// Sums and products without what is 0 or 1, so that a rotation by quarter turns is a matrix of 0, 1 and −1.
-Expression tidy_sum(const Expression& a, const Expression& b);
-Expression tidy_product(const Expression& a, const Expression& b);
-Expression tidy_negation(const Expression& a);
-
+/// Whole numbers for quarter turns; else functions of the positive angle, so that equal values are equal trees.
 Expression exact_cos(const UrdfNumber& angle);
 Expression exact_sin(const UrdfNumber& angle);
 

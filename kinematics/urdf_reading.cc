@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "corank/kinematics/nearest_name.h"
+#include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
 
 namespace corank::kinematics {
@@ -12,26 +14,14 @@ using symbolic::ModelError;
 
 constexpr std::size_t kMaxNotices = 100;
 
-// Of texts of at most 64 bytes: letters changed, left out or put in.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  a = a.substr(0, 64);
-  b = b.substr(0, 64);
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
-Expression dot(const Vector& a, const Vector& b) {
-  return tidy_sum(tidy_sum(tidy_product(a[0], b[0]), tidy_product(a[1], b[1])), tidy_product(a[2], b[2]));
+// By the angle with this cosine and sine, about x, y or z.
+Pose about(std::size_t axis, const Expression& cosine, const Expression& sine) {
+  const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
+  Pose pose;
+  pose.rotation[i][i] = pose.rotation[j][j] = cosine;
+  pose.rotation[j][i] = sine;
+  pose.rotation[i][j] = folded_difference(0, sine);
+  return pose;
 }
 
 std::string listed(std::initializer_list<std::string_view> names) {
@@ -41,25 +31,6 @@ std::string listed(std::initializer_list<std::string_view> names) {
 }
 
 }  // namespace
-
-std::string nearest_name(std::string_view name, const std::vector<std::string_view>& names) {
-  std::string_view nearest;
-  std::size_t least = 1 + std::max<std::size_t>(1, name.size() / 3);
-  for (std::string_view other : names) {
-    const std::size_t longer = std::max(name.size(), other.size()), shorter = std::min(name.size(), other.size());
-    if (longer - shorter >= least) continue;
-    const std::size_t distance = edit_distance(name, other);
-    if (distance >= least || distance >= shorter) continue;
-    least = distance;
-    nearest = other;
-  }
-  return std::string(nearest);
-}
-
-std::string suggestion(std::string_view name, const std::vector<std::string_view>& names, const std::string& otherwise) {
-  const std::string nearest = nearest_name(name, names);
-  return nearest.empty() ? otherwise : in_quotes(nearest) + ", or " + otherwise;
-}
 
 std::string_view UrdfReading::required(const pugi::xml_node& element, const char* attribute,
                                        const std::string& owner) const {
@@ -94,11 +65,9 @@ void UrdfReading::allow_children(const pugi::xml_node& element, std::initializer
     if (child.type() != pugi::node_element) continue;
     const std::string_view name = child.name();
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    for (std::string_view known : names) {
-      if (name.size() >= 4 && edit_distance(name, known) <= 2) {
-        throw ModelError(where(child), "an unknown element <" + symbolic::shortened(name) + ">",
-                         "<" + std::string(known) + ">, or another name");
-      }
+    if (const std::string meant = nearest_name(std::string(name), {names.begin(), names.end()}); !meant.empty()) {
+      throw ModelError(where(child), "an unknown element <" + symbolic::shortened(name) + ">",
+                       "<" + meant + ">, or another name");
     }
     notice("<" + symbolic::shortened(name) + "> in a <" + element.name() + "> passed over");
   }
@@ -133,19 +102,8 @@ Pose UrdfReading::origin(const pugi::xml_node& element, const std::string& owner
   const auto angles = urdf_numbers(rpy.value(), where(rpy), "rpy of " + owner, urdf_angle);
   for (const UrdfNumber& angle : angles)
     if (!angle.reading.empty()) notice("rpy " + angle.reading);
-  const auto times = [](const auto&... factors) {
-    Expression product = 1;
-    ((product = tidy_product(product, factors)), ...);
-    return product;
-  };
-  const Expression cr = exact_cos(angles[0]), sr = exact_sin(angles[0]);
-  const Expression cp = exact_cos(angles[1]), sp = exact_sin(angles[1]);
-  const Expression cy = exact_cos(angles[2]), sy = exact_sin(angles[2]);
-  pose.rotation = {{{times(cy, cp), tidy_sum(times(cy, sp, sr), tidy_negation(times(sy, cr))),
-                     tidy_sum(times(cy, sp, cr), times(sy, sr))},
-                    {times(sy, cp), tidy_sum(times(sy, sp, sr), times(cy, cr)),
-                     tidy_sum(times(sy, sp, cr), tidy_negation(times(cy, sr)))},
-                    {tidy_negation(sp), times(cp, sr), times(cp, cr)}}};
+  const auto rotation = [&](std::size_t axis) { return about(axis, exact_cos(angles[axis]), exact_sin(angles[axis])); };
+  pose.rotation = (rotation(2) * rotation(1) * rotation(0)).rotation;
   return pose;
 }
 
@@ -173,7 +131,7 @@ Vector turned(const Pose& pose, const Vector& direction) {
 
 Vector moved_point(const Pose& pose, const Vector& point) {
   Vector moved = turned(pose, point);
-  for (std::size_t i = 0; i < 3; ++i) moved[i] = tidy_sum(moved[i], pose.translation[i]);
+  for (std::size_t i = 0; i < 3; ++i) moved[i] = folded_sum(moved[i], pose.translation[i]);
   return moved;
 }
 

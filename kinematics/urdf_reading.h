@@ -50,9 +50,4 @@ class UrdfReading {
 Vector moved_point(const Pose& pose, const Vector& point);
 Vector turned(const Pose& pose, const Vector& direction);
 
-/// The name most like the one given, where one is like it; else empty.
-std::string nearest_name(std::string_view name, const std::vector<std::string_view>& names);
-/// "did you mean 'x'? …", or the second sentence alone.
-std::string suggestion(std::string_view name, const std::vector<std::string_view>& names, const std::string& otherwise);
-
 }  // namespace corank::kinematics

@@ -5,8 +5,10 @@
 #include <numbers>
 #include <set>
 
+#include "corank/kinematics/nearest_name.h"
 #include "corank/kinematics/urdf_reading.h"
 #include "corank/kinematics/urdf_visual.h"
+#include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
 
 namespace corank::kinematics {
@@ -41,8 +43,9 @@ class Names {
     const std::string_view name = reading_.required(element, attribute, owner);
     const auto found = index_.find(name);
     if (found != index_.end()) return found->second;
-    throw ModelError(reading_.where(element.attribute(attribute)), "there is no " + what_ + " " + in_quotes(name),
-                     suggestion(name, list_, "the name of a <" + what_ + "> of this file"));
+    throw ModelError(
+        reading_.where(element.attribute(attribute)), "there is no " + what_ + " " + in_quotes(name),
+        "the name of a <" + what_ + "> of this file" + suggestion(std::string(name), {list_.begin(), list_.end()}));
   }
 
   // Once all are there: those that are identifiers keep their names.
@@ -284,9 +287,9 @@ class TreeReader {
     if (type == "prismatic") return JointKind::prismatic;
     if (type == "fixed") return JointKind::fixed;
     if (type == "planar") return JointKind::planar;
-    const std::vector<std::string_view> types{"revolute", "continuous", "prismatic", "fixed", "planar", "floating"};
+    const std::vector<std::string> types{"revolute", "continuous", "prismatic", "fixed", "planar", "floating"};
     throw ModelError(where, "a joint's type is " + in_quotes(type),
-                     suggestion(type, types, "one of revolute, continuous, prismatic, fixed, planar, floating"));
+                     "revolute, continuous, prismatic, fixed, planar or floating" + suggestion(std::string(type), types));
   }
 
   void refuse_mimic(const pugi::xml_node& element, std::size_t index) const {
@@ -336,7 +339,7 @@ class TreeReader {
     const std::size_t n = (k + 1) % 3;
     Vector result{0, 0, 0};
     result[n] = a[k].value;
-    result[k] = tidy_negation(a[n].value);
+    result[k] = folded_difference(0, a[n].value);
     return result;
   }
 
@@ -382,7 +385,6 @@ class TreeReader {
   }
 
   void read_actuators() {
-    int actuated = 0;
     const auto mark = [&](const pugi::xml_node& element, const std::string& owner) {
       const std::size_t index = joints_.find(element, "name", "the joint of a " + owner);
       const int joint = edges_[index].joint;
@@ -393,14 +395,12 @@ class TreeReader {
             "a joint that moves");
       }
       robot_.joints[joint].actuated = true;
-      ++actuated;
     };
     for (const pugi::xml_node& transmission : top_.children("transmission"))
       for (const pugi::xml_node& joint : transmission.children("joint")) mark(joint, "<transmission>");
     for (const pugi::xml_node& control : top_.children("ros2_control"))
       for (const pugi::xml_node& joint : control.children("joint"))
         if (joint.child("command_interface")) mark(joint, "<ros2_control>");
-    if (actuated == 0) reading_.notice("no <transmission> says which joints are actuated: [INPUTS] of a .loops file does");
   }
 
   UrdfReading reading_;
