@@ -102,7 +102,8 @@ class PartBuilder : public symbolic::ModelBuilder {
   // Links and shapes.
   bool in_obstacles = false, hidden = false;
   bool link_has_parts = false;  ///< or may have: a colon stands behind its name
-  std::string quoted;           ///< the name of a file
+  SourceLocation shape_where;
+  std::string quoted;  ///< the name of a file
   SourceLocation quoted_where;
   void begin_link(const std::string& name_read, const SourceLocation& where);
   void finish_named_point();

@@ -75,8 +75,8 @@ CORANK_ACTION(constant_token, {
 CORANK_ACTION(constant_name, { declare(in, b); })
 CORANK_ACTION0(constant_end, { b.define_constant(); })
 CORANK_ACTION(unit_name, {
-  if (!b.robot.unit.empty())
-    throw ModelError(place(in, b), "the unit " + in_quotes(b.robot.unit) + " is already given", "one unit of lengths");
+  if (!b.robot.unit.empty() && b.robot.unit != in.string_view())
+    throw ModelError(place(in, b), "the unit " + in_quotes(b.robot.unit) + " is already given", "the same unit everywhere");
   b.robot.unit = in.string();
 })
 
@@ -133,6 +133,13 @@ CORANK_ACTION(quoted_text, {
   b.quoted_where = place(in, b);
   b.quoted_where.column -= 1;  // the quotation mark
 })
+CORANK_ACTION(body_word, { b.shape_where = place(in, b); })
+CORANK_ACTION(box_word, { b.shape_where = place(in, b); })
+CORANK_ACTION(prism_word, { b.shape_where = place(in, b); })
+CORANK_ACTION(sphere_word, { b.shape_where = place(in, b); })
+CORANK_ACTION(cylinder_word, { b.shape_where = place(in, b); })
+CORANK_ACTION(line_word, { b.shape_where = place(in, b); })
+CORANK_ACTION(segments_word, { b.shape_where = place(in, b); })
 CORANK_ACTION0(hidden_word, { b.hidden = true; })
 template <void (PartBuilder::*finish)()>
 struct FinishShape {
@@ -266,6 +273,14 @@ struct Action<symbolic::grammar::section_title> {
 /// Turns a failed must<Rule> into the ModelError that PartFaultOf<Rule> words.
 template <typename Rule>
 struct Control : peg::normal<Rule> {
+  /// Comments may begin where the grammar looks ahead, without actions.
+  template <typename AnyInput>
+  static void start(const AnyInput& in, PartBuilder& builder) {
+    if constexpr (std::is_same_v<Rule, symbolic::grammar::block_comment_rest>) {
+      builder.comment_where = place(in, builder);
+      builder.comment_where.column -= 2;
+    }
+  }
   template <typename AnyInput>
   [[noreturn]] static void raise(const AnyInput& in, PartBuilder& builder) {
     const bool unfinished_comment = std::is_same_v<Rule, symbolic::grammar::block_comment_rest>;

@@ -1,6 +1,6 @@
 // The grammar of the parts language, in PEGTL rules: sections of links, joints, inputs, outputs and what is passed over.
-// As in symbolic/model_grammar.h no rule that an action is attached to (part_file.cc) is ever taken back, and what has to follow
-// stands in must<>, whose failure is a fault (part_faults.h).
+// As in symbolic/model_grammar.h no rule that an action is attached to (part_file.cc) is ever taken back, and what has to
+// follow stands in must<>, whose failure is a fault (part_faults.h).
 //
 // Blanks and line ends are all the same. Keywords may be written in capitals or not; names may not.
 #pragma once

@@ -186,7 +186,9 @@ void PartBuilder::finish_joint() {
           "the joint " + in_quotes(draft.name) + " is already there, in line " + std::to_string(known.where.line),
           "another name for the joint");
     }
-    known.name += "_";
+    std::string other = known.name;
+    while (robot.find_joint(other) >= 0) other += "_";
+    known.name = other;
   }
   joint.actuated = draft.actuated;
   if (joint.kind == JointKind::fixed) {

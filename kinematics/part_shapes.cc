@@ -14,6 +14,19 @@ namespace corank::kinematics {
 using symbolic::in_quotes;
 using symbolic::ModelError;
 
+namespace {
+
+// Each factor of a product may treble the expressions.
+constexpr std::size_t kMaxPoseNodes = 20'000;
+
+// Counts up to a little above the limit only.
+void count_nodes(const Expression& e, std::size_t& nodes) {
+  if (++nodes > kMaxPoseNodes) return;
+  for (const Expression& operand : e.operands()) count_nodes(operand, nodes);
+}
+
+}  // namespace
+
 // ---- points
 
 Expression PartBuilder::pop_value() {
@@ -137,6 +150,15 @@ void PartBuilder::finish_transform() {
   }
   draft.pose = draft.pose * (transform_is_inverse ? inverse(step) : step);
   transform_is_inverse = false;
+  std::size_t nodes = 0;
+  for (const Vector& row : draft.pose.rotation) {
+    for (const Expression& e : row) count_nodes(e, nodes);
+  }
+  for (const Expression& e : draft.pose.translation) count_nodes(e, nodes);
+  if (nodes > kMaxPoseNodes) {
+    throw ModelError(transform_where, "the product of transformations has grown too long",
+                     "a shorter one, or fixed joints with links between them");
+  }
 }
 
 // ---- colours
@@ -177,6 +199,8 @@ void PartBuilder::begin_link(const std::string& name_read, const SourceLocation&
   link_data_.emplace_back();
   link_ = robot.links.size() - 1;
   link_colour.clear();
+  shape_colour.clear();
+  hidden = false;
   link_has_parts = false;
   draft = {};
 }
@@ -202,7 +226,7 @@ void PartBuilder::finish_shape(Shape::Kind shape_kind, std::vector<Vector> shape
     shape.points = std::move(shape_points);
     shape.radius = radius;
     shape.colour = shape_colour.empty() ? link_colour : shape_colour;
-    shape.where = robot.links[*link_].where;
+    shape.where = shape_where;
     robot.links[*link_].shapes.push_back(std::move(shape));
   }
 }

@@ -61,7 +61,7 @@ const std::vector<LibraryRule>& library_rules() {
       {std::regex("^pugi"), {"kinematics", "report"}, true},
       {std::regex("^urdf_"), {}, true},  // another reader of URDF, for comparison
       {std::regex("^CLI/"), {"app"}, false},
-      {std::regex("^tao/"), {"symbolic"}, false},
+      {std::regex("^tao/"), {"symbolic", "kinematics"}, false},
       {std::regex("^nlohmann/"), {"result", "report", "bench"}, true},
       {std::regex("^kainjow/"), {"report"}, false},
   };

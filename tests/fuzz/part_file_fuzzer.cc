@@ -1,4 +1,5 @@
-// Any bytes may come as a robot: parse_parts either returns one that validates or throws ModelError, in one line, with a place.
+// Any bytes may come as a robot: parse_parts either returns one that validates or throws ModelError, in one line, with a
+// place.
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>

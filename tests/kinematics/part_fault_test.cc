@@ -48,6 +48,8 @@ std::vector<FaultCase> faults() {
       {"Empty", "", "0:0", "the robot has no links", "at least one, in [LINKS]"},
       {"TextBeforeTheFirstSection", "\nrobot", "2:1", "found 'robot' before the first section", "[LINKS]"},
       {"OpenComment", "[LINKS]\na /* one", "2:3", "the comment that begins here with /* has no end", "*/"},
+      {"OpenCommentWhereTheGrammarLooksAhead", "[LINKS]\na: point /* one", "2:10",
+       "the comment that begins here with /* has no end", "*/"},
       {"NotUtf8", "[LINKS] % caf\xE9\n", "1:14", "found the byte 0xE9", "plain text in UTF-8"},
       {"UnknownSection", "[LINK]\na", "1:1", "section [LINK] is unknown beside [LINKS]", "did you mean 'LINKS'?"},
       {"EquationsOfAModel", "[LINKS]\na\n[SYSTEM EQS]\nx = 1;", "3:1", "section [SYSTEM EQS] is unknown beside [LINKS]",
@@ -63,7 +65,7 @@ std::vector<FaultCase> faults() {
       {"FunctionThatIsNotSupported", constants("b := atan2(1, 2)"), "2:6", "the function 'atan2' is not supported",
        "sin, cos"},
       {"FunctionWithoutArgument", constants("b := sin + 1"), "2:10", "found '+'", "'(' behind the function sin"},
-      {"TwoUnits", constants("unit mm\nunit cm"), "3:6", "the unit 'mm' is already given", "one unit"},
+      {"TwoUnits", constants("unit mm\nunit cm"), "3:6", "the unit 'mm' is already given", "the same unit"},
       // links and shapes
       {"LinkTwice", links("a: sphere 1 (0,0,0)\na"), "3:1", "the link 'a' is already there, in line 2", "another name"},
       {"LinkWithTheNameOfAConstant", "[CONSTANTS] a := 1 [LINKS]\na", "2:1", "the link 'a' has the name of a constant",
@@ -75,7 +77,7 @@ std::vector<FaultCase> faults() {
        "did you mean 'sphere'?"},
       {"SphereWithoutCentre", links("a: sphere 1 red"), "2:13", "the link 'a' has no point 'red'", "(x, y, z)"},
       {"PointOfTwoNumbers", links("a: sphere 1 (0, 1)"), "2:18", "found ')'", "',' between the three numbers"},
-      {"NegativeRadius", links("a: sphere -1 (0,0,0)"), "2:1", "the radius of a shape of the link 'a', '-1', is negative",
+      {"NegativeRadius", links("a: sphere -1 (0,0,0)"), "2:4", "the radius of a shape of the link 'a', '-1', is negative",
        "a positive radius"},
       {"BodyWithoutQuotes", links("a: body x.off"), "2:9", "found 'x'", "the name of the body's file, in quotes"},
       {"OpenQuotes", links("a: body \"x.off"), "2:15", "found the end of the line", "'\"' behind the name of the file"},
@@ -163,6 +165,9 @@ std::vector<FaultCase> faults() {
        "the pose of the fix joint 'base–arm' is no rotation and translation: the matrix is a reflection",
        "a determinant of 1"},
       {"TransformationOfTwoNumbers", joints("fix: base arm Tx(1, 2)"), "5:15", "the transformation 'tx' has 2 numbers", "1"},
+      {"EndlessProductOfTransformations",
+       joints("fix: base arm Rx(1)*Ry(1)*Rz(1)*Rx(1)*Ry(1)*Rz(1)*Rx(1)*Ry(1)*Rz(1)*Rx(1)*Ry(1)*Rz(1)*Rx(1)*Ry(1)"), "5:93",
+       "the product of transformations has grown too long", "a shorter one"},
       {"UnknownTransformation", joints("fix: base arm Rw(1)"), "5:15", "found 'Rw'", "a transformation: Tx"},
       {"ActuatedFixedJoint", joints("fix: base arm id actuated fix: base hand id"), "5:1",
        "the fix joint 'base–arm' cannot be actuated", "revolute"},
@@ -257,6 +262,10 @@ TEST(PartFaults, OfIncludedFilesNameTheFile) {
               HasSubstr("e.world:1:15: the included file 'none.world' is not there"));
   EXPECT_THAT(message_of(write("f.world", "[LINKS] a: body \"off.off\"")), HasSubstr("off.off:3: 'x' is no number"));
   EXPECT_THAT(message_of(folder / "none.world"), HasSubstr("there is no such file"));
+  for (int i = 0; i < 12; ++i)
+    write("n" + std::to_string(i) + ".world", "[INCLUDE] x : \"n" + std::to_string(i + 1) + ".world\"");
+  EXPECT_THAT(message_of(folder / "n0.world"),
+              HasSubstr("n10.world:1:15: too many files are included; expected at most 100"));
   std::filesystem::remove_all(folder);
 }
 
