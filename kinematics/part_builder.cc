@@ -38,6 +38,13 @@ PartBuilder::PartBuilder(const std::string& file_, std::optional<std::filesystem
   if (folder_) open_files_.push_back(canonical_name(*folder_ / path.filename()));
 }
 
+void PartBuilder::go_on_with(const Robot& begun) {
+  goes_on_ = true;
+  robot = begun;
+  scope = ConstantScope(robot.constants);
+  link_data_.resize(robot.links.size());
+}
+
 void PartBuilder::pass_over(const std::string& what) {
   for (auto& [passed, count] : passed_over_) {
     if (passed != what) continue;
@@ -95,6 +102,7 @@ std::vector<std::string> PartBuilder::joint_names() const {
 std::size_t PartBuilder::require_link(const std::string& link, const SourceLocation& where,
                                       const std::string& expectation) const {
   const int found = robot.find_link(link);
+  if (found < 0 && goes_on_ && link == "ground") return 0;
   if (found < 0) {
     throw ModelError(where, "there is no link " + in_quotes(link), expectation + suggestion(link, link_names()));
   }

@@ -65,6 +65,8 @@ class PartBuilder : public symbolic::ModelBuilder {
 
   Robot robot;
   ConstantScope scope;
+  /// Begins with another reader's links, joints and constants. `ground` is the first link, where none is called so.
+  void go_on_with(const Robot& begun);
 
   /// Parses an included text with this builder.
   std::function<void(const std::string& text)> parse_included;
@@ -174,7 +176,7 @@ class PartBuilder : public symbolic::ModelBuilder {
   std::string prefix_;
   std::vector<std::string> open_files_;
   std::size_t includes_ = 0;
-  bool is_world_;
+  bool is_world_, goes_on_ = false;
   std::optional<std::size_t> link_;  ///< of the points that are read
   std::vector<LinkData> link_data_;
   std::vector<NamedInput> named_inputs_;

@@ -351,6 +351,14 @@ Robot parse_parts(std::string_view text, const std::string& file, const std::opt
   return std::move(builder.robot);
 }
 
+void parse_more(Robot& robot, std::string_view text, const std::string& file) {
+  PartBuilder builder(file, std::nullopt);
+  builder.go_on_with(robot);
+  parse_text(text, builder);
+  builder.finish();
+  robot = std::move(builder.robot);
+}
+
 Robot read_part_file(const std::filesystem::path& path) {
   const std::string text = symbolic::read_text(path);
   const std::filesystem::path folder = path.parent_path();

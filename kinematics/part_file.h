@@ -25,6 +25,10 @@ bool has_parts(std::string_view text);
 Robot parse_parts(std::string_view text, const std::string& file,
                   const std::optional<std::filesystem::path>& folder = std::nullopt);
 
+/// Adds what a text says to a robot that another reader has begun, and validates it: links, joints (also in a section called
+/// [LOOPS]), inputs, outputs. The first link may be called ground. INCLUDE is refused, other files count as missing.
+void parse_more(Robot& robot, std::string_view text, const std::string& file);
+
 /// Reads a file; the robot is named after it ("models/delta.cuik" → "delta"). Throws ModelError where it can't be read.
 Robot read_part_file(const std::filesystem::path& path);
 

@@ -170,7 +170,7 @@ template <typename... Letters>
 struct header : seq<one<'['>, star<model::blank_character>, Letters..., star<model::blank_character>, one<']'>> {};
 struct constants_header : header<TAO_PEGTL_ISTRING("constants")> {};
 struct links_header : header<TAO_PEGTL_ISTRING("links")> {};
-struct joints_header : header<TAO_PEGTL_ISTRING("joints")> {};
+struct joints_header : sor<header<TAO_PEGTL_ISTRING("joints")>, header<TAO_PEGTL_ISTRING("loops")>> {};
 struct obstacles_header : header<TAO_PEGTL_ISTRING("obstacles")> {};
 struct collisions_header : header<TAO_PEGTL_ISTRING("collisions")> {};
 struct include_header : header<TAO_PEGTL_ISTRING("include")> {};

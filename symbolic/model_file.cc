@@ -54,7 +54,12 @@ CORANK_ACTION0(variable_end, { b.finish_variable(); })
 CORANK_ACTION0(no_range, { b.finish_variable(); })
 CORANK_ACTION(composite_word,
               { b.finish_composite(in.string_view() == "unit" ? Composite::Kind::unit : Composite::Kind::rotation); })
-CORANK_ACTION(equations_header, { b.implied = in.string_view().find("IMPLIED") != std::string_view::npos; })
+CORANK_ACTION(equations_header, {
+  b.implied = in.string_view().find("IMPLIED") != std::string_view::npos;
+  b.of_rates = in.string_view().find("VELOCITY") != std::string_view::npos;
+})
+CORANK_ACTION(rate_name, { declare(in, b); })
+CORANK_ACTION(role_word, { b.finish_rate(in.string_view()); })
 CORANK_ACTION(equation_begin, {
   b.equation_where = place(in, b);
   b.equation_is_empty = true;
@@ -75,6 +80,7 @@ CORANK_ACTION(listed_name, {
   (b.names_are_inputs ? b.inputs : b.outputs).push_back(Expression::symbol(in.string(), where));
 })
 CORANK_ACTION(point_name, { declare(in, b); })
+CORANK_ACTION0(moves_word, { b.point_coordinates = b.values.size(); })
 CORANK_ACTION0(point_end, { b.finish_point(); })
 CORANK_ACTION(unit_name, { b.drawing.unit = in.string(); })
 CORANK_ACTION(slider_word, { b.begin_part(DrawingPart::Kind::slider, place(in, b)); })

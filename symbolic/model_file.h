@@ -1,4 +1,4 @@
-// The model language: CUIK's equation language and three sections more, [INPUTS], [OUTPUTS], [DRAWING].
+// The model language: CUIK's equation language and more sections, [INPUTS], [OUTPUTS], [RATES], [VELOCITY EQS], [DRAWING].
 // doc/model_language.md describes it for users.
 #pragma once
 
