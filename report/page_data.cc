@@ -103,8 +103,8 @@ bool moves(const symbolic::Mechanism& mechanism) {
   return std::any_of(points.begin(), points.end(), [](const symbolic::DrawingPoint& p) { return !p.velocity.empty(); });
 }
 
-/// The coordinates that the components of ξ belong to, or the mechanism's own rates, where ξ is a velocity (M ξ = 0) that can
-/// be drawn.
+/// The coordinates that the components of ξ belong to, or the mechanism's own rates, where ξ is a velocity (M ξ = 0) that
+/// can be drawn.
 Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
   Json columns = Json::array();
   if (view.result.options.kernel != to_string(symbolic::KernelSide::right)) return columns;

@@ -21,6 +21,8 @@
 
 namespace corank::symbolic {
 
+class ModelValidator;
+
 struct Constant {
   std::string name;
   Expression value;  ///< in numbers, pi and constants declared before
@@ -141,8 +143,8 @@ class Mechanism {
   /// Throws ModelError, with the place, for: a name in a constant, range, constraint that is not declared (before, for
   /// constants); a coordinate in a constant or range; an absurd power (9^9^9^9); no coordinates; no constraints; a faulty
   /// drawing (Drawing::validate), or one with an angle outside sin, cos and tan; rates without velocity equations or the
-  /// other way round, a velocity equation that is not linear and homogeneous in the rates, and another mobility by rates than
-  /// by coordinates.
+  /// other way round, a velocity equation that is not linear and homogeneous in the rates, and another mobility by rates
+  /// than by coordinates.
   void validate() const;
 
  private:
@@ -150,7 +152,7 @@ class Mechanism {
   /// Registers the name of the next constant, coordinate, composite or rate, where it is free and no reserved word.
   void declare(const std::string& name, Declared kind, const SourceLocation& where);
   const SourceLocation& declared_where(Declared kind, std::size_t index) const;
-  void validate_rates(const class ModelValidator& validator) const;
+  void validate_rates(const ModelValidator& validator) const;
   /// Declares a composite and its coordinates name_suffix.
   std::vector<Expression> compose(Composite::Kind kind, const std::string& name, const std::vector<std::string>& suffixes,
                                   const SourceLocation& where);

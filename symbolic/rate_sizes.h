@@ -1,5 +1,5 @@
-// How large the rates of a mechanism's own velocity equation are beside one another, so that its kernel vectors do not depend
-// on the unit of length.
+// How large the rates of a mechanism's own velocity equation are beside one another, so that its kernel vectors do not
+// depend on the unit of length.
 //
 // An angular rate is 1. A linear rate v_j in a row Σ_k L_ik m_k = 0 with an angular rate ω_k is as fast as |L_ik| / |L_ij|
 // where ω_k is 1: a lever arm. A row with linear rates only passes the size of one on to the others. All lengths times f: a

@@ -51,6 +51,23 @@ class Dextar(page_case.PageCase):
         self.assertNotIn("Arrows", bare)
         self.assertNotIn("Drawn", bare)
 
+    def test_takes_arrows_from_the_models_own_rates_where_it_has_such(self):
+        arrows = self.run_js("""(() => {
+          const panel = corank.panel, model = panel.model, set = model.sets.find((s) => s.name === "inverse");
+          panel.pinBox(set, 0);
+          const points = model.drawing.points.map((p) => ({...p, moves: p.name === "J3" ? ["v", 0] : [0, "locked"]}));
+          const own = Object.assign(Object.create(Object.getPrototypeOf(panel)), panel, {
+            model: {...model, rates: ["locked", "v"], drawing: {...model.drawing, points}},
+          });
+          const x = panel.current.x.map((value, k) => (k === set.configuration ? 0.5 : value));
+          own.show({...panel.current, x, set: {...set, columns: [1], scales: [2]}});
+          const arrows = document.querySelectorAll("#panel svg .velocity").length;
+          panel.show(panel.current);
+          panel.unpin();
+          return arrows;
+        })()""")
+        self.assertEqual(arrows, 1)
+
     def test_output_portrait_has_boxes_over_the_reach_of_both_arms_and_over_nothing_else(self):
         sigma = self.run_js("corank.model.sets.find((s) => s.name === 'cspace').sigma")
         places = [(0.1 * i + 0.003, 0.1 * k + 0.007) for i in range(-12, 31) for k in range(-20, 21)]

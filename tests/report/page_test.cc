@@ -112,6 +112,26 @@ TEST(PageModel, TakesAVelocityOfCSpaceForRatesOfAllCoordinates) {
   EXPECT_EQ(set["scales"].size(), 2u);
 }
 
+// The three sliders with rates of the rods: a drawing's velocities are expressions in them.
+TEST(PageModel, GivesTheModelsOwnRatesAndHowPointsMoveByThem) {
+  const std::string rates =
+      "[RATES]\nv_A : input\nv_B : output\nw1 ~ passive\nw2 ~ passive\n[VELOCITY EQS]\nv_A + x_C*w1 = 0;\n"
+      "y_A*w1 = y_B*w2;\nv_B + x_C*w2 = 0;\n[DRAWING]\npoint P = (x_C, 0)";
+  const Mechanism moving = symbolic::parse_model(slider().source_text() + rates + " moves (L1*y_A*w1, 0)", "m.cuik");
+  const json page =
+      json::parse(page_model(moving, derive(moving), {set_view(moving, solved(moving, SingularitySet::forward))}));
+  EXPECT_EQ(page["rates"], json({"v_A", "v_B", "w1", "w2"}));
+  EXPECT_EQ(page["sets"][0]["columns"], json({1, 2, 3})) << "v_B, w1 and w2, of the rates";
+  EXPECT_EQ(page["drawing"]["points"].back()["moves"], json({{"*", 1.0, "y_A", "w1"}, 0.0}));
+  EXPECT_FALSE(page["drawing"]["points"][0].contains("moves"));
+
+  const Mechanism still = symbolic::parse_model(slider().source_text() + rates, "m.cuik");
+  const json without =
+      json::parse(page_model(still, derive(still), {set_view(still, solved(still, SingularitySet::forward))}));
+  EXPECT_EQ(without["sets"][0]["columns"], json::array()) << "rates of coordinates they are not";
+  EXPECT_FALSE(json::parse(page_model(slider(), derive(slider()), {})).contains("rates"));
+}
+
 TEST(PageModel, RefusesAResultOfAnotherMechanism) {
   EXPECT_THROW(set_view(slider(), result::sample_result()), result::ResultFileError);
   result::Result plain = solved(slider(), SingularitySet::cspace);

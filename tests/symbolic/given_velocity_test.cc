@@ -119,8 +119,8 @@ TEST(GivenVelocity, LosesPassiveRatesToReciprocalRows) {
   EXPECT_THAT(eliminate_passive_rates(other, derive(other).velocity.matrix).eliminated, IsEmpty());
 }
 
-// v is counted in eight times the crank's length, the largest lever arm: r·sin t, and l·sin p = -r·sin t. With another unit the
-// number alone changes.
+// v is counted in eight times the crank's length, the largest lever arm: r·sin t, and l·sin p = -r·sin t. With another
+// unit the number alone changes.
 TEST(GivenVelocity, ScalesLinearRatesByTheLeverArmsOfTheirRows) {
   Mechanism m = crank();
   EXPECT_THAT(kernel_scales(m, SingularitySet::forward), ElementsAre("12/5", "1"));
