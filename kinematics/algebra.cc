@@ -152,7 +152,7 @@ bool is_short(const ex& e) {
     if (i->nops() == 0) ++leaves;
     if (is_a<GiNaC::function>(*i) || is_a<GiNaC::power>(*i)) plain = false;
   }
-  return leaves <= (plain ? 4 : 2);
+  return leaves <= (plain ? 3 : 2);
 }
 
 }  // namespace

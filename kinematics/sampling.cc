@@ -1,3 +1,4 @@
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -52,8 +53,8 @@ class Numeric {
 }  // namespace
 
 std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism) {
-  constexpr int kTries = 60, kEnough = 5, kSteps = 60;
-  constexpr double kZero = 1e-10, kRank = 1e-7;
+  constexpr int kTries = 30, kEnough = 4, kSteps = 50;
+  constexpr double kZero = 1e-10, kRank = 1e-7, kFar = 1e6;
   const System system = symbolic::algebrize(symbolic::plain_system(mechanism));
   std::vector<Numeric> equations, inequalities;
   for (const Polynomial& f : system.equations) equations.emplace_back(f);
@@ -79,16 +80,18 @@ std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism) {
         equations[static_cast<std::size_t>(i)].gradient(x, jacobian, i);
       }
       residual = m > 0 ? f.lpNorm<Eigen::Infinity>() : 0;
-      Eigen::JacobiSVD<MatrixXd> svd(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
-      svd.setThreshold(kRank);
-      rank = m > 0 ? svd.rank() : 0;
-      if (residual < kZero || m == 0) break;
-      x -= svd.solve(f);
+      if (residual < kZero || m == 0 || !(residual < kFar)) break;
+      Eigen::CompleteOrthogonalDecomposition<MatrixXd> steps;
+      steps.setThreshold(kRank);
+      x -= steps.compute(jacobian).solve(f);
     }
     const bool inside =
         std::all_of(inequalities.begin(), inequalities.end(), [&](const Numeric& g) { return g.value(x) > -1e-9; });
     if (!(residual < kZero) || !inside) continue;
     ++found;
+    Eigen::BDCSVD<MatrixXd> svd(jacobian);
+    svd.setThreshold(kRank);
+    if (m > 0) rank = svd.rank();
     // Special configurations are rarer than others, and have a lower rank.
     const int here = static_cast<int>(n - rank);
     mobility = mobility ? std::min(*mobility, here) : here;
