@@ -25,6 +25,8 @@ class ModelValidator {
   void check_constraint(const Constraint& constraint) const;
   /// A point of the drawing: constants and coordinates, angles inside sin, cos and tan only.
   void check_point(const DrawingPoint& point) const;
+  /// A part of the drawing: the radius of a solid is not negative, and no coordinate stands in it.
+  void check_part(const DrawingPart& part) const;
 
  private:
   /// What an expression could grow to.
