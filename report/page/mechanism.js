@@ -50,9 +50,9 @@ export function evaluateTree(tree, values, rates) {
 // Points of the drawing, flattened to the plane: spatial ones are seen from above a corner. Their own coordinates are in `place` and
 // `motion`.
 export function drawnPoints(model, values, rates = {}) {
-  // The ends of rails and of axes have no meaning of their own.
-  const first = (kind) => kind === "slider" || kind === "hinge";
-  const named = new Set(model.drawing.parts.flatMap(({kind, points}) => (first(kind) ? points.slice(0, 1) : points)));
+  // The ends of rails, of axes and of solids have no meaning of their own.
+  const meant = {slider: 1, hinge: 1, sphere: 0, cylinder: 0};
+  const named = new Set(model.drawing.parts.flatMap(({kind, points}) => points.slice(0, meant[kind] ?? points.length)));
   return model.drawing.points.map((point, i) => {
     const at = point.at.map((tree) => evaluateTree(tree, values, rates));
     const flat = (k) =>

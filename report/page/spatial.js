@@ -4,7 +4,7 @@ import {Orbit} from "./orbit.js";
 import {Solids, isPlace, pageMaterials} from "./solids.js";
 import {litScene} from "./stage.js";
 
-const thick = {bar: 0.026, edge: 0.016, rail: 0.012, joint: 0.044, ball: 0.05, hinge: 0.036, block: 0.1, pedestal: 0.12};
+const thick = {bar: 0.026, edge: 0.016, rail: 0.012, joint: 0.044, ball: 0.05, hinge: 0.04, block: 0.1, pedestal: 0.12};
 // The first view: to the right and up in the picture; and towards the eye.
 const [firstView, towardsEye] = viewFrom(2.0, -3.1, 1.75);
 
@@ -160,14 +160,14 @@ export class SpatialMechanism {
     }
   }
 
-  // `rates` may be null: no arrows. The longest arrow is half as long as the window; ξ has no scale of its own.
+  // `rates` may be null: no arrows. They stand at points with a name; the longest has a quarter of the window, ξ has no scale of its own.
   show(values, rates) {
     this.shown = [values, rates];
     this.points = drawnPoints(this.model, values, rates || {});
     this.at = this.points.map(({place}) => this.toScene(new THREE.Vector3(...place)));
     this.solids.pose(this.at);
     const motions = this.points.map(({motion}) => new THREE.Vector3(...motion)),
-      speeds = motions.map((motion) => motion.length()),
+      speeds = motions.map((motion, i) => (this.points[i].named ? motion.length() : 0)),
       fastest = Math.max(0, ...speeds.filter(Number.isFinite));
     this.velocities = motions.map((motion, i) =>
       rates && fastest > 1e-9 && speeds[i] > 1e-6 * fastest ? motion.multiplyScalar(0.55 / fastest) : null,
