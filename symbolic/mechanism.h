@@ -115,8 +115,8 @@ class Mechanism {
   const Composite* find_composite(const std::string& name) const;
 
   /// Throws ModelError, with the place, for: a name in a constant, range, constraint that is not declared (before, for
-  /// constants); a coordinate in a constant, range or radius; an absurd power (9^9^9^9); no coordinates; no constraints; a faulty
-  /// drawing (Drawing::validate), or one with an angle outside sin, cos and tan.
+  /// constants); a coordinate in a constant, range or radius; an absurd power (9^9^9^9); no coordinates; no constraints; a
+  /// faulty drawing (Drawing::validate), or one with an angle outside sin, cos and tan or a radius below 0.
   void validate() const;
 
  private:

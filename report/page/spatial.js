@@ -27,11 +27,23 @@ export class SpatialMechanism {
       onDraw: () => this.label(),
     });
     this.orbit.renderer.shadowMap.enabled = true;
+    this.letPageScroll();
     this.measure(configurations);
     this.addControls(svg);
     svg.replaceWith(this.frame);
     this.redraw();
     new ResizeObserver(() => this.resize()).observe(this.frame);
+  }
+
+  // The page scrolls when the wheel or a finger passes over the picture: it zooms once it is taken hold of, and one finger turns it
+  // sideways only.
+  letPageScroll() {
+    const {controls, renderer} = this.orbit;
+    controls.enableZoom = false;
+    for (const name of ["pointerdown", "focus"]) this.frame.addEventListener(name, () => (controls.enableZoom = true), true);
+    this.frame.addEventListener("focusout", () => (controls.enableZoom = false));
+    renderer.domElement.style.touchAction = "pan-y";
+    controls.touches.TWO = 3; // TOUCH.DOLLY_ROTATE
   }
 
   addControls(svg) {
@@ -150,7 +162,7 @@ export class SpatialMechanism {
         });
       case "effector":
         return each((i) => {
-          solids.ball(i, 1.15 * thick.joint, paint.effector);
+          solids.ball(i, 1.3 * thick.joint, paint.effector);
           solids.ball(i, 2.3 * thick.joint, paint.halo, false);
         });
       case "sphere":

@@ -95,6 +95,11 @@ class SpatialFourBar(page_case.PageCase):
         x, y = self.middle("#panel .solid canvas")
         eye = "corank.panel.picture.orbit.camera.position.toArray()"
         first = self.run_js(eye)
+        self.run_js("document.activeElement.blur()")
+        self.browser.mouse("mouseWheel", x, y, deltaX=0, deltaY=-20)
+        self.browser.drawn()
+        self.assertEqual(self.run_js(eye), first, "the wheel scrolls the page before the picture is taken hold of")
+        x, y = self.middle("#panel .solid canvas")
         self.browser.drag(x, y, 90, 30)
         self.browser.drawn()
         self.assertGreater(math.dist(self.run_js(eye), first), 0.1)

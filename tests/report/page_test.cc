@@ -130,8 +130,7 @@ TEST(PageModel, NamesTheBoxesOfASelfMotion) {
   ASSERT_EQ(set["motions"].size(), forward.cover.self_motions.size());
   ASSERT_FALSE(set["motions"].empty());
   EXPECT_EQ(set["motions"][0]["dimension"], 1);
-  for (const json& box : set["motions"][0]["boxes"])
-    EXPECT_EQ(forward.cover.boxes[box.get<std::size_t>()].motion, 0);
+  for (const json& box : set["motions"][0]["boxes"]) EXPECT_EQ(forward.cover.boxes[box.get<std::size_t>()].motion, 0);
   EXPECT_GT(set["motions"][0]["boxes"].size(), 10u);
 }
 
