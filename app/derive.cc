@@ -1,4 +1,4 @@
-// corank derive: the equations, for people (text, latex) and for programs (cuik).
+// corank derive: the equations, for people (text, latex) and for programs (cuik); the model itself (model).
 #include <fmt/format.h>
 
 #include <memory>
@@ -6,7 +6,9 @@
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/printable.h"
+#include "corank/study/model.h"
 #include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/model_text.h"
 #include "corank/symbolic/printer.h"
 
 namespace corank::app {
@@ -14,6 +16,12 @@ namespace {
 
 ExitStatus derive(QuestionOptions options, const std::string& format) {
   study::Question question = load(options);
+  if (question.assembly)
+    fmt::print("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
+  if (format == "model") {
+    fmt::print("{}", result::printable(symbolic::to_model(question.model)));
+    return kDone;
+  }
   if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
   question.set = chosen_set(options, question.model);
   const symbolic::TrigonometricSystem system = study::equations(question);
@@ -37,8 +45,9 @@ void add_derive(CLI::App& program, Action& action) {
   question->add_options(*command);
   command
       ->add_option("--format", *format,
-                   "text or latex: with sines and cosines; cuik: polynomials, a file that corank solve accepts")
-      ->check(CLI::IsMember({"text", "latex", "cuik"}))
+                   "text or latex: with sines and cosines; cuik: polynomials, a file that corank solve accepts;\n"
+                   "model: the model itself in order, whatever --set")
+      ->check(CLI::IsMember({"text", "latex", "cuik", "model"}))
       ->capture_default_str();
   command->footer(
       "The set is cspace where --set is not given.\n\n"

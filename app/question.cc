@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include "corank/app/exit_status.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/result/printable.h"
+#include "corank/study/model.h"
 
 namespace corank::app {
 
 void QuestionOptions::add_options(CLI::App& command) {
-  command.add_option("FILE", file, "The model file (.cuik)");
+  command.add_option("FILE", file, "The model: equations (.cuik), parts (.world, or .cuik with [LINKS]) or URDF (.urdf)");
+  command.add_option("--loops", loops, "Of a URDF file: its companion, with the joints that close loops, inputs and outputs")
+      ->type_name("FILE.loops")
+      ->check(CLI::ExistingFile);
   command.add_option("--set", set, "The set of a mechanism: " + symbolic::names_of_sets())->check(CLI::IsMember(kSets));
   command
       .add_option("--kernel", kernel,
@@ -54,12 +58,15 @@ std::vector<result::ConstantOverride> overrides(const QuestionOptions& question)
 study::Question load(const QuestionOptions& options) {
   if (options.file.empty()) throw UsageError("FILE is required; corank --help tells more");
   std::vector<result::ConstantOverride> constants = overrides(options);
-  symbolic::Mechanism model = symbolic::read_model(options.file);
-  result::put_in(constants, model);
-  return {.model = std::move(model),
+  std::optional<std::filesystem::path> loops;
+  if (!options.loops.empty()) loops = options.loops;
+  study::Model model = study::read_model(options.file, constants, loops);
+  for (const std::string& notice : model.notices) fmt::print(stderr, "{}: note: {}\n", options.file, result::printable(notice));
+  return {.model = std::move(model.mechanism),
           .kernel = symbolic::kernel_side_from_string(options.kernel),
           .corank = options.corank,
-          .constants = std::move(constants)};
+          .constants = std::move(constants),
+          .assembly = std::move(model.assembly)};
 }
 
 std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& question, const symbolic::Mechanism& mechanism) {

@@ -19,11 +19,11 @@ inline const std::vector<std::string> kSets = [] {
 
 /// What the options say, not yet checked.
 struct QuestionOptions {
-  std::string file, set, kernel;
+  std::string file, set, kernel, loops;
   std::vector<std::string> definitions;  ///< each "NAME=EXPR"
   int corank = 1;                        ///< of the sets with a kernel
 
-  /// FILE, --set, --kernel, --corank and -D.
+  /// FILE, --loops, --set, --kernel, --corank and -D.
   void add_options(CLI::App& command);
   void add_corank(CLI::App& command);
   /// -D alone.

@@ -52,7 +52,7 @@ report::SetView solve_one(const ReportCommand& command, study::Question question
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
   line.follow(control);
   result::Result result = study::answer(question, system, options, control);
-  return report::set_view(std::move(result), std::move(system));
+  return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation());
 }
 
 std::vector<report::SetView> solve_all(const ReportCommand& command, const study::Question& question) {
@@ -75,7 +75,7 @@ report::SetView read_one(const std::string& path) {
   if (!contradictions.empty())
     throw result::ResultFileError(fmt::format("{}: contradicts the model in it: {}", path, fmt::join(contradictions, "; ")));
   result::describe_in_words(mechanism, system, result);
-  return report::set_view(std::move(result), std::move(system));
+  return report::set_view(std::move(result), std::move(system), mechanism.has_own_velocity_equation());
 }
 
 /// Reads results of one model, and brings them and their paths into the order of the sets' definitions.

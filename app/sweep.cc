@@ -65,7 +65,8 @@ report::SetView solve_one(const SweepCommand& command, const Plan& plan, std::si
   line.show(task);  // searches may be too short to tell more
   solve::Control control(command.search.limits_beside(options.search, taken));
   line.follow(control);
-  return report::set_view(study::answer(question, system, options, control), system);
+  return report::set_view(study::answer(question, system, options, control), system,
+                          question.model.has_own_velocity_equation());
 }
 
 /// "member-03-forward.h5": members from 1, with as many digits as the last one needs.

@@ -13,6 +13,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 if(CORANK_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  pkg_check_modules(corank_urdfdom REQUIRED IMPORTED_TARGET GLOBAL urdfdom)  # reads the tests' URDF files as well
 endif()
 if(CORANK_BUILD_BENCH)
   find_package(benchmark REQUIRED)

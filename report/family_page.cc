@@ -14,6 +14,7 @@
 #include "corank/report/page_words.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
+#include "corank/symbolic/velocity_equation.h"
 
 namespace corank::report {
 namespace {
@@ -173,8 +174,14 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
   page["to"] = value_html(members.back(), options.constant);
   page["valuesHtml"] = values;
   page["constants"] = constants_html(mechanism, options.constant);
-  page["inputs"] = names_html(mechanism.inputs());
-  page["outputs"] = names_html(mechanism.outputs());
+  const auto chosen = [&](symbolic::Role role) {
+    std::vector<std::string> rates;
+    for (const symbolic::Rate& rate : mechanism.rates())
+      if (rate.role == role) rates.push_back(rate.name);
+    return names_html(mechanism.has_own_velocity_equation() ? rates : names_of(mechanism, role));
+  };
+  page["inputs"] = chosen(symbolic::Role::input);
+  page["outputs"] = chosen(symbolic::Role::output);
   page["unit"] = mechanism.drawing().unit;
   page.set("hasUnit", truth(!mechanism.drawing().unit.empty()));
   page.set("missing", truth(members.size() < options.asked));

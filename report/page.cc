@@ -68,8 +68,12 @@ std::string fixed_html(const symbolic::Mechanism& mechanism) {
   return html;
 }
 
-/// Names, and "tied by 1 equation" where equations speak of them alone.
-std::string chosen_html(const std::vector<std::string>& names, std::size_t ties) {
+/// Names, "rates" where they are the mechanism's own, and "tied by 1 equation" where equations speak of them alone.
+std::string chosen_html(const std::vector<std::string>& coordinates, const symbolic::VelocityEquation& velocity,
+                        symbolic::Role role) {
+  const std::vector<std::string> names = velocity.given ? velocity.names_of(role) : coordinates;
+  const std::size_t ties = velocity.ties(std::span(&role, 1)).size();
+  if (velocity.given && !names.empty() && ties == 0) return names_html(names) + " <small>rates</small>";
   if (ties == 0) return names_html(names);
   return fmt::format("{} <small>tied by {} equation{}</small>", names_html(names), ties, ties == 1 ? "" : "s");
 }
@@ -119,8 +123,8 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["script"] = std::string(kPageScript);
   page["three"] = std::string(kThree);
   page["data"] = page_model(mechanism, derivation, views);
-  page["inputs"] = chosen_html(mechanism.inputs(), derivation.velocity.ties(std::array{symbolic::Role::input}).size());
-  page["outputs"] = chosen_html(mechanism.outputs(), derivation.velocity.ties(std::array{symbolic::Role::output}).size());
+  page["inputs"] = chosen_html(mechanism.inputs(), derivation.velocity, symbolic::Role::input);
+  page["outputs"] = chosen_html(mechanism.outputs(), derivation.velocity, symbolic::Role::output);
   const std::string found = found_html(views);
   page["found"] = found;
   page.set("hasFound", truth(!found.empty()));

@@ -57,6 +57,8 @@ Json drawing(const symbolic::Mechanism& mechanism) {
     for (const symbolic::Expression& e : p.coordinates) at.push_back(Json::parse(drawing_tree(e, constants)));
     const symbolic::DisplayName shown = symbolic::display_name(p.name);
     json["points"].push_back({{"name", p.name}, {"label", {shown.base, shown.subscript}}, {"at", at}});
+    for (const symbolic::Expression& e : p.velocity)
+      json["points"].back()["moves"].push_back(Json::parse(drawing_tree(e, constants)));
   }
   for (const symbolic::DrawingPart& part : d.parts) {
     Json points = Json::array();
@@ -98,12 +100,21 @@ Json kernel_scales(const result::Result& result, std::size_t columns) {
   return scales;
 }
 
-/// The coordinates that the components of ξ belong to, where ξ is a velocity (M ξ = 0).
+/// What is drawn has velocities in the mechanism's own rates.
+bool moves(const symbolic::Mechanism& mechanism) {
+  const auto& points = mechanism.drawing().points;
+  return std::any_of(points.begin(), points.end(), [](const symbolic::DrawingPoint& p) { return !p.velocity.empty(); });
+}
+
+/// The coordinates that the components of ξ belong to, or the mechanism's own rates, where ξ is a velocity (M ξ = 0) that can
+/// be drawn.
 Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
   Json columns = Json::array();
   if (view.result.options.kernel != to_string(symbolic::KernelSide::right)) return columns;
+  const bool given = derivation.velocity.given;
+  if (given && !moves(mechanism)) return columns;
   for (const std::string& name : derivation.velocity.without(view.set->locked).columns)
-    columns.push_back(mechanism.find_coordinate(name));
+    columns.push_back(given ? mechanism.find_rate(name) : mechanism.find_coordinate(name));
   return columns;
 }
 
@@ -235,12 +246,13 @@ std::string page_model(const symbolic::Mechanism& mechanism, const symbolic::Der
   Json verdicts = Json::array(), sets = Json::array();
   for (int v = 0; v < kVerdicts; ++v) verdicts.push_back(to_string(static_cast<Verdict>(v)));
   for (const SetView& view : views) sets.push_back(set_of(mechanism, derivation, view));
-  const Json model = {{"model", mechanism.name()},
-                      {"verdicts", verdicts},
-                      {"coordinates", coordinates(mechanism, cspace)},
-                      {"drawing", drawing(mechanism)},
-                      {"constraints", polynomials(cspace.equations)},
-                      {"sets", sets}};
+  Json model = {{"model", mechanism.name()},
+                {"verdicts", verdicts},
+                {"coordinates", coordinates(mechanism, cspace)},
+                {"drawing", drawing(mechanism)},
+                {"constraints", polynomials(cspace.equations)},
+                {"sets", sets}};
+  for (const symbolic::Rate& rate : mechanism.rates()) model["rates"].push_back(rate.name);
   return script_safe(model.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

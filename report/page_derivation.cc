@@ -26,6 +26,7 @@ std::string numbered(const std::vector<std::string>& equations, const std::vecto
 }
 
 std::string symbol(const std::string& base, const std::string& subscript) {
+  if (subscript.empty()) return "<mi>" + base + "</mi>";
   return "<msub><mi>" + base + "</mi><mi>" + subscript + "</mi></msub>";
 }
 
@@ -60,8 +61,13 @@ std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic
                      math("<mi mathvariant=\"normal\">Φ</mi><mo>(</mo><mi>q</mi><mo>)</mo><mo>=</mo><mn>0</mn>") + "</h3>";
   std::vector<std::string> phi;
   for (const symbolic::Expression& e : derivation.phi) phi.push_back(mathml(e == symbolic::Expression(0)));
-  html += "<div class=\"scroll\">" + numbered(phi, {}) + "</div><h3>Jacobian blocks</h3>";
-  html += matrix_html("Φ", "q", "all coordinates", derivation.velocity.matrix);
+  html += "<div class=\"scroll\">" + numbered(phi, {}) + "</div><h3>" +
+          std::string(derivation.velocity.given ? "Velocity equation and its blocks" : "Jacobian blocks") + "</h3>";
+  if (derivation.velocity.given) {
+    html += matrix_html("L", "", "given by the model, in rates of its own", derivation.velocity.matrix);
+  } else {
+    html += matrix_html("Φ", "q", "all coordinates", derivation.velocity.matrix);
+  }
   for (const symbolic::SetDefinition& set : symbolic::set_definitions())
     if (!set.locked.empty())
       html += matrix_html(

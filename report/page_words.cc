@@ -19,8 +19,10 @@ std::string counted(std::size_t n, const std::string& one, const std::string& ma
 }
 std::string boxes_text(std::size_t n) { return counted(n, "box", "boxes"); }
 
-std::string meaning(const symbolic::SetDefinition& set, int corank) {
-  return corank == 1 ? set.meaning : fmt::format(fmt::runtime(set.of_corank), corank);
+std::string meaning(const symbolic::SetDefinition& set, int corank, bool given) {
+  const char* const one = given && set.given_meaning ? set.given_meaning : set.meaning;
+  const char* const more = given && set.given_of_corank ? set.given_of_corank : set.of_corank;
+  return corank == 1 ? one : fmt::format(fmt::runtime(more), corank);
 }
 
 std::string title(const symbolic::SetDefinition& set, int corank) {
@@ -226,12 +228,12 @@ std::string constants_html(const symbolic::Mechanism& mechanism, const std::stri
 
 std::string digits_text(const Interval& x) { return with_minus(result::outward_text(x, 9)); }
 
-SetWords set_words(const result::Result& result, const Components& found) {
+SetWords set_words(const result::Result& result, const Components& found, bool given_velocity_equation) {
   const Cover& cover = result.cover;
   SetWords words;
   const symbolic::SetDefinition& set = symbolic::definition(result.set);
   words.title = title(set, result.options.corank);
-  words.meaning = meaning(set, result.options.corank);
+  words.meaning = meaning(set, result.options.corank, given_velocity_equation);
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
     if (const std::size_t n = cover.count(verdict); n > 0)
@@ -239,7 +241,8 @@ SetWords set_words(const result::Result& result, const Components& found) {
   }
   if (cover.boxes.empty()) {
     words.finding = "None";
-    words.proven.emplace_back(result.options.corank == 1 ? set.none : symbolic::definition(std::nullopt).none);
+    const char* const none = given_velocity_equation && set.given_none ? set.given_none : set.none;
+    words.proven.emplace_back(result.options.corank == 1 ? none : symbolic::definition(std::nullopt).none);
     return words;
   }
   if (cover.complete()) {

@@ -39,6 +39,6 @@ std::string constants_html(const symbolic::Mechanism& mechanism, const std::stri
 /// One cell of a table for each coordinate: bounds with the digits that are proven, the rest in brackets.
 std::string digits_text(const Interval& x);
 
-SetWords set_words(const result::Result& result, const Components& components);
+SetWords set_words(const result::Result& result, const Components& components, bool given_velocity_equation = false);
 
 }  // namespace corank::report

@@ -8,10 +8,10 @@
 
 namespace corank::report {
 
-SetView set_view(result::Result result, System system) {
+SetView set_view(result::Result result, System system, bool given_velocity_equation) {
   const symbolic::SetDefinition& set = symbolic::definition(result.set);
   Components found = components(result);
-  SetWords words = set_words(result, found);
+  SetWords words = set_words(result, found, given_velocity_equation);
   return {std::move(result), &set, std::move(system), std::move(found), std::move(words)};
 }
 
@@ -28,7 +28,7 @@ SetView set_view(const symbolic::Mechanism& mechanism, result::Result result) {
   if (!std::equal(system.variables.begin(), system.variables.end(), result.variables.begin(), result.variables.end(), same))
     throw result::ResultFileError("the result of the set '" + result.set + "' has other variables than the model " +
                                   mechanism.name());
-  return set_view(std::move(result), std::move(system));
+  return set_view(std::move(result), std::move(system), mechanism.has_own_velocity_equation());
 }
 
 }  // namespace corank::report

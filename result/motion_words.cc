@@ -110,7 +110,8 @@ class Sentence {
         system_(system),
         linear_(system, motion.relations),
         dimension_(motion.dimension),
-        locked_roles_(symbolic::definition(set).locked) {}
+        locked_roles_(mechanism.has_own_velocity_equation() ? std::span<const symbolic::Role>()
+                                                            : symbolic::definition(set).locked) {}
 
   std::string text() {
     for (const symbolic::Coordinate& c : mechanism_.coordinates()) {
@@ -303,7 +304,7 @@ class Sentence {
   const System& system_;
   LinearRelations linear_;
   int dimension_;
-  std::span<const symbolic::Role> locked_roles_;
+  std::span<const symbolic::Role> locked_roles_;  // of coordinates: a rate of the mechanism's own locks none that we know of
   std::vector<std::string> locked_, fixed_, following_;
   std::vector<Free> free_;
   std::set<int> staying_;  // cosine and sine of angles that do not move

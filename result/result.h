@@ -2,6 +2,7 @@
 // summary shows; a regular value.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -62,6 +63,21 @@ struct DomainNotes {
   std::vector<Reason> boundary;
 };
 
+/// What a solution says of a robot from parts: in double precision, from the midpoint of its box.
+struct RobotState {
+  struct JointValue {
+    std::string joint;
+    double value = 0;  ///< an angle in radians, in (−π, π], or a length
+  };
+  struct LinkPose {
+    std::string link;
+    std::array<double, 3> position{};               ///< of the link's frame in the ground's
+    std::array<std::array<double, 3>, 3> rotation{};  ///< R, row by row: x ↦ R x + position
+  };
+  std::vector<JointValue> joints;
+  std::vector<LinkPose> links;
+};
+
 struct Result {
   std::string version = result::version();  ///< of the corank that made it
   std::string model;                        ///< the mechanism's name, "dextar"
@@ -82,6 +98,7 @@ struct Result {
   /// study::describe_corank(): a hint.
   int seems_of_corank = 0;
   DomainNotes domain;                ///< computed from the others by describe_domain(): result files do not hold it
+  std::vector<RobotState> states;    ///< of each of the cover's points, where the model is a robot from parts; likewise
   std::vector<std::string> motions;  ///< each self-motion in words, computed by describe_motions(), likewise
 };
 

@@ -30,6 +30,13 @@ Json kernel_json(const Result& result) {
   return json;
 }
 
+void add_state(Json& entry, const RobotState& state) {
+  entry["joints"] = Json::object();
+  for (const auto& joint : state.joints) entry["joints"][joint.joint] = joint.value;
+  entry["links"] = Json::object();
+  for (const auto& link : state.links) entry["links"][link.link] = {{"position", link.position}, {"rotation", link.rotation}};
+}
+
 }  // namespace
 
 std::string to_json(const Result& result) {
@@ -99,6 +106,7 @@ std::string to_json(const Result& result) {
       if (i < cover.decimals.size() && !cover.decimals[i].empty())
         for (std::size_t v = 0; v < result.variables.size(); ++v)
           entry["decimals"][result.variables[v].name] = cover.decimals[i][v];
+      if (i < result.states.size()) add_state(entry, result.states[i]);
       json["points"].push_back(std::move(entry));
     }
   }

@@ -10,7 +10,7 @@ compiler=${CORANK_FUZZ_CXX:-$(command -v clang++-14 || command -v clang++)}
 echo "fuzz: building with $compiler in $build"
 cmake -G Ninja -S "$root" -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
       -DCORANK_BUILD_FUZZERS=ON -DCORANK_BUILD_TESTS=ON -DCORANK_BUILD_BENCH=OFF >/dev/null
-fuzzers="model_file cuik_sol cuik_param result_file"
+fuzzers="model_file urdf cuik_sol cuik_param result_file"
 ninja -C "$build" $(printf '%s_fuzzer ' $fuzzers)
 
 for fuzzer in $fuzzers; do

@@ -7,6 +7,7 @@
 #include "corank/solve/corank_system.h"
 #include "corank/solve/decimals.h"
 #include "corank/solve/exactness.h"
+#include "corank/study/robot_state.h"
 #include "corank/symbolic/printer.h"
 
 namespace corank::study {
@@ -76,6 +77,7 @@ result::Result answer(const Question& question, const System& system, const Opti
   result.options.corank = system.kernel_vectors;
   result.options.passive_rates_eliminated = system.passive_rates_eliminated;
   describe_corank(system, result);
+  if (question.assembly) describe_states(*question.assembly, result);
   return result;
 }
 

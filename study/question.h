@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "corank/core/system.h"
+#include "corank/kinematics/assembly.h"
 #include "corank/result/result.h"
 #include "corank/symbolic/singularity_system.h"
 
@@ -16,6 +17,7 @@ struct Question {
   std::optional<symbolic::KernelSide> kernel{};       ///< nothing: the default of symbolic::singularity_system
   int corank = 1;                                     ///< the kernel's dimension, at least, of the configurations asked for
   std::vector<result::ConstantOverride> constants{};  ///< those that were put in, for the record
+  std::optional<kinematics::Assembly> assembly{};  ///< of a robot from parts: results say where its links are
   std::optional<double> tolerance{};  ///< of coefficients, relative; nothing: printed_tolerance() of a plain system, else 0
 };
 

@@ -53,6 +53,8 @@ void validate_colour(const DrawingPart& part) {
                    "a colour behind a link, platform, sphere or cylinder only");
 }
 
+std::string count_of(std::size_t n) { return std::to_string(n) + (n == 1 ? " component" : " components"); }
+
 std::string count(std::size_t n) { return std::to_string(n) + (n == 1 ? " point" : " points"); }
 
 void validate(const DrawingPart& part, const std::set<std::string>& known) {
@@ -110,6 +112,10 @@ void Drawing::validate() const {
       throw ModelError(point.where, "the point " + in_quotes(point.name) + " has " + std::to_string(n) + " coordinates",
                        point.name == points.front().name ? "2 or 3" : std::to_string(dimension()) + ", as the first point");
     }
+    if (!point.velocity.empty() && point.velocity.size() != n)
+      throw ModelError(point.where,
+                       "the velocity of the point " + in_quotes(point.name) + " has " + count_of(point.velocity.size()),
+                       std::to_string(n) + ", as the point itself");
   }
   for (const DrawingPart& part : parts) {
     corank::symbolic::validate(part, known);

@@ -16,6 +16,8 @@ struct DrawingPoint {
   std::vector<Expression>
       coordinates;  ///< two, or three; angles inside sin, cos and tan only; in the model's unit of length
   SourceLocation where;
+  /// As many, linear and homogeneous in the rates, where the mechanism has its own; empty: none is given.
+  std::vector<Expression> velocity = {};
 };
 
 struct DrawingPart {
@@ -53,8 +55,9 @@ struct Drawing {
   /// Index of a point, −1 where there is none.
   int find(const std::string& point) const;
   /// Throws ModelError, with the place, for: a point named twice, with one or more than three coordinates, or with another
-  /// number of them than the first; a part with an unknown point, a point twice, too few or too many; a hinge in the plane;
-  /// a colour that is none, or of a part that has none. Radii are the matter of Mechanism::validate().
+  /// number of them than the first, or a velocity with another number; a part with an unknown point, a point twice, too few or
+  /// too many; a hinge in the plane; a colour that is none, or of a part that has none. Radii are the matter of
+  /// Mechanism::validate().
   void validate() const;
 };
 

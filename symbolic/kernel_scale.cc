@@ -9,12 +9,14 @@
 #include "corank/certify/projection.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/rate_sizes.h"
 
 namespace corank::symbolic {
 namespace {
 
 constexpr int kSweeps = 12;
 constexpr int kLargestExponent = 40;
+constexpr double kLeverUnits = 8;   // of the largest lever arm, likewise: of 0.5, 1 … 16 the best for Dextar and the 3-RRR
 constexpr double kLengthUnits = 4;  // of the largest size beside angles; measured, see bench/HISTORY.md
 
 // The constraints over the ranges that they leave.
@@ -46,12 +48,19 @@ int exponent_of(double ratio) {
   return std::clamp(static_cast<int>(std::lround(std::log2(ratio))), -kLargestExponent, kLargestExponent);
 }
 
-// Two digits and a power of ten; then a power of two.
+// Two digits and a power of ten; then a power of two. Sizes that differ in a last bit only are the same number.
 std::string number(double size, int exponent) {
+  size *= 1 + 1e-9;
   const int ten = static_cast<int>(std::floor(std::log10(size))) - 1;
   const auto digits = std::lround(size / std::pow(10.0, ten));
   const ExactNumber value = ExactNumber(digits) * pow(ExactNumber(10), ten) * pow(ExactNumber(2), exponent);
   return value.text();
+}
+
+// None where all are 1.
+std::vector<std::string> without_ones(std::vector<std::string> texts) {
+  const bool ones = std::all_of(texts.begin(), texts.end(), [](const std::string& text) { return text == "1"; });
+  return ones ? std::vector<std::string>{} : std::move(texts);
 }
 
 std::vector<std::string> texts(const std::vector<double>& sizes, double unit) {
@@ -60,11 +69,10 @@ std::vector<std::string> texts(const std::vector<double>& sizes, double unit) {
   for (const double size : sizes) largest = std::max(largest, size);
   std::vector<std::string> result;
   for (const double size : sizes) result.push_back(size == 0 ? "1" : number(unit, exponent_of(size / largest)));
-  if (std::all_of(result.begin(), result.end(), [](const std::string& text) { return text == "1"; })) return {};
-  return result;
+  return without_ones(result);
 }
 
-// 2^e with |ξ_j| ≤ 2^e/2 for each eliminated rate, as its row gives it in terms of the others.
+// Times 2^e with |ξ_j| ≤ 2^e/2 for each eliminated rate, as its row gives it in terms of the others.
 void scale_eliminated(const Mechanism& mechanism, const KernelQuestion& kernel, std::vector<std::string>& scales) {
   if (scales.empty()) scales.assign(kernel.matrix.columns.size(), "1");
   const System system = algebrize(singularity_system(mechanism, kernel, scales, 1));
@@ -81,13 +89,45 @@ void scale_eliminated(const Mechanism& mechanism, const KernelQuestion& kernel, 
           is_own = is_own || x.variable == unknown;
           size *= power(domain[static_cast<std::size_t>(x.variable)], x.power);
         }
-        is_own ? own = m.enclosure.mig() : others += size.mag();
+        is_own ? own = m.enclosure.mig() : others += size.mag();  // own: with the scale it has
       }
       if (!(own > 0)) continue;
-      const double bound = std::max(others / own, 1.0);  // upward
-      scales[j] = pow(ExactNumber(2), static_cast<int>(std::ceil(std::log2(bound))) + 1).text();
+      // Upward. What is a power of two but for rounding is one in every unit; there is room for a factor of two.
+      const double slack = mechanism.has_own_velocity_equation() ? 1 - 1e-9 : 1;
+      const double bound = std::max(others / own * slack, 1.0);
+      const ExactNumber factor = pow(ExactNumber(2), static_cast<int>(std::ceil(std::log2(bound))) + 1);
+      scales[j] = (ExactNumber::rational(scales[j]) * factor).text();
     }
   }
+}
+
+// Of a mechanism's own velocity equation.
+std::vector<std::string> scales_of_rates(const Mechanism& mechanism, const KernelQuestion& kernel,
+                                         const std::vector<Interval>& box) {
+  const auto entries = entry_sizes(mechanism, kernel.matrix, box);
+  std::vector<double> sizes = rate_sizes(mechanism, kernel.matrix, entries);
+  if (kernel.side == KernelSide::left) {
+    std::vector<double> rows;
+    for (const std::vector<double>& row : entries) {
+      double largest = 0;
+      for (std::size_t j = 0; j < row.size(); ++j) largest = std::max(largest, row[j] * (sizes[j] > 0 ? sizes[j] : 1));
+      rows.push_back(largest > 0 && std::isfinite(largest) ? largest : 1);
+    }
+    std::vector<std::string> result;
+    for (const double row : rows) result.push_back(number(rows[0] / row, 0));
+    return without_ones(result);
+  }
+  const std::vector<std::size_t>& eliminated = kernel.passive.eliminated;
+  const bool angles = std::find(sizes.begin(), sizes.end(), 0) != sizes.end();
+  double largest = 0;
+  for (std::size_t j = 0; j < sizes.size(); ++j)
+    if (!std::binary_search(eliminated.begin(), eliminated.end(), j)) largest = std::max(largest, sizes[j]);
+  std::vector<double> of_columns = sizes;
+  for (const std::size_t j : eliminated)
+    if (sizes[j] > 0) of_columns[j] = largest > 0 ? largest : 1;
+  std::vector<std::string> result = texts(of_columns, angles && largest > 0 ? kLeverUnits * largest : 1);
+  if (!eliminated.empty()) scale_eliminated(mechanism, kernel, result);
+  return result;
 }
 
 }  // namespace
@@ -99,6 +139,7 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySe
 
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel) {
   const Configurations all = configurations(algebrize(plain_system(mechanism)));
+  if (mechanism.has_own_velocity_equation()) return scales_of_rates(mechanism, kernel, all.box);
   std::vector<double> scales;  // 0: an angle's
   if (kernel.side == KernelSide::left) {
     const UpwardRounding rounding;

@@ -20,6 +20,11 @@ namespace corank::symbolic {
 /// |∂Φ_i/∂q_j| s_j over those ranges, relative to the smallest and rounded to powers of two. Of a rate that was eliminated
 /// from the kernel (KernelQuestion::passive) a power of two by which it stays within [−1/2, 1/2] wherever the others are in
 /// [−1, 1] and the coordinates in their ranges, so that its own range is no condition.
+///
+/// Where the mechanism brings its own L, an angular rate's scale is 1, too, and a linear one's size comes from L over those
+/// ranges (rate_sizes.h); it is rounded as those of lengths above, eight
+/// times the largest in place of four. Of a left kernel: 1/max_j |L_ij| s_j relative to the first
+/// row, in two digits.
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt);
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel);

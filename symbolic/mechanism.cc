@@ -1,5 +1,6 @@
 #include "corank/symbolic/mechanism.h"
 
+#include <algorithm>
 #include <array>
 #include <unordered_set>
 
@@ -22,8 +23,9 @@ SourceLocation place(const Expression& e, const SourceLocation& otherwise) {
 bool is_fixed(const Coordinate& coordinate) { return coordinate.has_range && same_tree(coordinate.lower, coordinate.upper); }
 
 void Mechanism::declare(const std::string& name, Declared kind, const SourceLocation& where) {
-  const std::string expectation =
-      kind == Declared::constant ? "another name for the constant" : "another name for the variable";
+  const std::string expectation = kind == Declared::constant ? "another name for the constant"
+                                  : kind == Declared::rate   ? "another name for the rate"
+                                                             : "another name for the variable";
   if (!is_identifier(name)) {
     throw ModelError(where, in_quotes(name) + " is no name", "letters, digits and _, beginning with no digit");
   }
@@ -31,15 +33,20 @@ void Mechanism::declare(const std::string& name, Declared kind, const SourceLoca
   if (const auto found = names_.find(name); found != names_.end()) {
     const auto [old_kind, index] = found->second;
     throw ModelError(where,
-                     "the name " + in_quotes(name) + " is already declared" +
-                         declared_at(old_kind == Declared::constant     ? constants_[index].where
-                                     : old_kind == Declared::coordinate ? coordinates_[index].where
-                                                                        : composites_[index].where),
+                     "the name " + in_quotes(name) + " is already declared" + declared_at(declared_where(old_kind, index)),
                      expectation);
   }
   names_.emplace(name, Declaration{kind, kind == Declared::constant     ? constants_.size()
                                          : kind == Declared::coordinate ? coordinates_.size()
-                                                                        : composites_.size()});
+                                         : kind == Declared::composite  ? composites_.size()
+                                                                        : rates_.size()});
+}
+
+const SourceLocation& Mechanism::declared_where(Declared kind, std::size_t index) const {
+  return kind == Declared::constant     ? constants_[index].where
+         : kind == Declared::coordinate ? coordinates_[index].where
+         : kind == Declared::composite  ? composites_[index].where
+                                        : rates_[index].where;
 }
 
 Expression Mechanism::constant(const std::string& name, const Expression& value, const SourceLocation& where) {
@@ -117,6 +124,18 @@ void Mechanism::imply(const Relation& relation, const SourceLocation& where) {
   implied_.push_back({relation, where});
 }
 
+Expression Mechanism::rate(const std::string& name, CoordinateKind kind, Role role, const SourceLocation& where) {
+  declare(name, Declared::rate, where);
+  rates_.push_back({name, kind, role, where});
+  return Expression::symbol(name);
+}
+
+void Mechanism::velocity(const Relation& relation, const SourceLocation& where) {
+  if (relation.kind != Relation::Kind::equal)
+    throw ModelError(where, "an inequality cannot be a velocity equation", "lhs = rhs");
+  velocity_equations_.push_back({relation, where});
+}
+
 void Mechanism::choose(const std::string& role, const std::vector<Expression>& symbols, const SourceLocation& where,
                        std::vector<std::string>& chosen, const std::string& other_role,
                        const std::vector<std::string>& others) const {
@@ -131,6 +150,9 @@ void Mechanism::choose(const std::string& role, const std::vector<Expression>& s
     }
     if (has_constant(symbol.name()))
       throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is a constant", expectation);
+    if (find_rate(symbol.name()) >= 0)
+      throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is a rate, whose role stands in [RATES]",
+                       expectation);
     const Composite* const composite = find_composite(symbol.name());
     if (!composite && find_coordinate(symbol.name()) < 0)
       throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is not declared", expectation);
@@ -183,6 +205,42 @@ const Composite* Mechanism::find_composite(const std::string& name) const {
   return found == names_.end() || found->second.kind != Declared::composite ? nullptr : &composites_[found->second.index];
 }
 
+int Mechanism::find_rate(const std::string& name) const {
+  const auto found = names_.find(name);
+  return found == names_.end() || found->second.kind != Declared::rate ? -1 : static_cast<int>(found->second.index);
+}
+
+bool Mechanism::is_plain_system() const {
+  return inputs_.empty() && outputs_.empty() &&
+         std::all_of(rates_.begin(), rates_.end(), [](const Rate& rate) { return rate.role == Role::passive; });
+}
+
+void Mechanism::validate_rates(const ModelValidator& validator) const {
+  if (rates_.empty() && velocity_equations_.empty()) return;
+  if (rates_.empty())
+    throw ModelError(velocity_equations_[0].where, "the model has velocity equations but no rates",
+                     "[RATES], which declares them");
+  if (velocity_equations_.empty())
+    throw ModelError(rates_[0].where, "the model has rates but no velocity equations", "at least one, in [VELOCITY EQS]");
+  for (const Constraint& c : velocity_equations_) validator.check_velocity_equation(c);
+  const auto equations = std::count_if(constraints_.begin(), constraints_.end(),
+                                       [](const Constraint& c) { return c.relation.kind == Relation::Kind::equal; });
+  const auto difference = [](std::size_t a, std::size_t b) { return static_cast<long>(a) - static_cast<long>(b); };
+  const long by_rates = difference(rates_.size(), velocity_equations_.size()),
+             by_coordinates = difference(coordinates_.size(), static_cast<std::size_t>(equations));
+  if (by_rates == by_coordinates) return;
+  const auto counted = [](std::size_t n, const std::string& what, std::size_t m, const std::string& equation,
+                          long mobility) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s") + " and " + std::to_string(m) + " " + equation +
+           (m == 1 ? "" : "s") + " give mobility " + std::to_string(mobility);
+  };
+  throw ModelError(
+      velocity_equations_[0].where,
+      counted(rates_.size(), "rate", velocity_equations_.size(), "velocity equation", by_rates) + ", but " +
+          counted(coordinates_.size(), "coordinate", static_cast<std::size_t>(equations), "equation", by_coordinates),
+      "the same mobility by both");
+}
+
 void Mechanism::validate() const {
   ModelValidator validator(*this);
   for (const Constant& c : constants_) validator.add_constant(c);
@@ -193,6 +251,7 @@ void Mechanism::validate() const {
   for (const DrawingPoint& p : drawing_.points) validator.check_point(p);
   for (const DrawingPart& p : drawing_.parts) validator.check_part(p);
   drawing_.validate();
+  validate_rates(validator);
   if (coordinates_.empty()) throw ModelError({name_, 0, 0}, "the model has no variables", "at least one, in [SYSTEM VARS]");
   if (constraints_.empty()) throw ModelError({name_, 0, 0}, "the model has no equations", "at least one, in [SYSTEM EQS]");
 }

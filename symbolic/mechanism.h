@@ -2,7 +2,11 @@
 // and which coordinates are inputs v and outputs u. Built in C++ by the functions below or read from a model file
 // (model_file.h).
 //
-// Without inputs and outputs it is a plain system, which can be solved but has no singularities to speak of.
+// A mechanism may also bring its own velocity equation L m = 0: rates m, each with its role, and equations that are linear
+// in them, such as the twists of its loops. Else L is the derivative of Φ (velocity_equation.h).
+//
+// Without inputs and outputs, of coordinates or of rates, it is a plain system, which can be solved but has no singularities
+// to speak of.
 // Invariants: names are distinct, are no reserved words (pi, sin …); every range's ends are expressions in constants. That
 // expressions use known names only is checked by validate(), because constants may be overridden before.
 #pragma once
@@ -13,6 +17,7 @@
 
 #include "corank/symbolic/drawing.h"
 #include "corank/symbolic/expression.h"
+#include "corank/symbolic/set_definition.h"
 
 namespace corank::symbolic {
 
@@ -58,6 +63,14 @@ struct Constraint {
   std::string note = {};  ///< "w @ unit" where a declaration implies it
 };
 
+/// A component of m, where the mechanism brings its own velocity equation.
+struct Rate {
+  std::string name;
+  CoordinateKind kind = CoordinateKind::angle;  ///< angle: in rad/s; length: in the model's unit of length per second
+  Role role = Role::passive;
+  SourceLocation where;
+};
+
 class Mechanism {
  public:
   explicit Mechanism(std::string name = "mechanism") : name_(std::move(name)) {}
@@ -85,6 +98,11 @@ class Mechanism {
   /// else, a repetition, or a coordinate that is already an output (input). Repeated calls add.
   void inputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
   void outputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
+  /// Declares a component of m, as length() and angle() do of q.
+  Expression rate(const std::string& name, CoordinateKind kind, Role role, const SourceLocation& where = {});
+  /// Adds lhs = rhs, linear and homogeneous in the rates, its coefficients in constants and coordinates: a row of L. Throws
+  /// ModelError for an inequality.
+  void velocity(const Relation& relation, const SourceLocation& where = {});
   void drawing(Drawing drawing) { drawing_ = std::move(drawing); }
 
   /// Replaces the value of a declared constant (`-D L2=1`). Throws ModelError where there is no such constant.
@@ -102,27 +120,37 @@ class Mechanism {
   const std::vector<Constraint>& implied() const { return implied_; }
   const std::vector<std::string>& inputs() const { return inputs_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
+  /// Both empty where L is the derivative of the constraints.
+  const std::vector<Rate>& rates() const { return rates_; }
+  const std::vector<Constraint>& velocity_equations() const { return velocity_equations_; }
+  bool has_own_velocity_equation() const { return !rates_.empty(); }
   const Drawing& drawing() const { return drawing_; }
   /// Where the inputs (outputs) were named first.
   const SourceLocation& inputs_where() const { return inputs_where_; }
   const SourceLocation& outputs_where() const { return outputs_where_; }
-  /// No inputs and no outputs.
-  bool is_plain_system() const { return inputs_.empty() && outputs_.empty(); }
+  /// No inputs and no outputs, neither coordinates nor rates.
+  bool is_plain_system() const;
   /// Index of a coordinate, −1 where there is none.
   int find_coordinate(const std::string& name) const;
   bool has_constant(const std::string& name) const;
   /// Null where no unit vector or rotation matrix has that name.
   const Composite* find_composite(const std::string& name) const;
+  /// Index of a rate, −1 where there is none.
+  int find_rate(const std::string& name) const;
 
   /// Throws ModelError, with the place, for: a name in a constant, range, constraint that is not declared (before, for
   /// constants); a coordinate in a constant, range or radius; an absurd power (9^9^9^9); no coordinates; no constraints; a
-  /// faulty drawing (Drawing::validate), or one with an angle outside sin, cos and tan or a radius below 0.
+  /// faulty drawing (Drawing::validate), or one with an angle outside sin, cos and tan or a radius below 0; rates without
+  /// velocity equations or the other way round, a velocity equation that is not linear and homogeneous in the rates, and
+  /// another mobility by rates than by coordinates.
   void validate() const;
 
  private:
-  enum class Declared { constant, coordinate, composite };
-  /// Registers the name of the next constant, coordinate or composite, where it is free and no reserved word.
+  enum class Declared { constant, coordinate, composite, rate };
+  /// Registers the name of the next constant, coordinate, composite or rate, where it is free and no reserved word.
   void declare(const std::string& name, Declared kind, const SourceLocation& where);
+  const SourceLocation& declared_where(Declared kind, std::size_t index) const;
+  void validate_rates(const class ModelValidator& validator) const;
   /// Declares a composite and its coordinates name_suffix.
   std::vector<Expression> compose(Composite::Kind kind, const std::string& name, const std::vector<std::string>& suffixes,
                                   const SourceLocation& where);
@@ -133,11 +161,12 @@ class Mechanism {
   std::vector<Constant> constants_;
   std::vector<Coordinate> coordinates_;
   std::vector<Composite> composites_;
-  std::vector<Constraint> constraints_, implied_;
+  std::vector<Constraint> constraints_, implied_, velocity_equations_;
+  std::vector<Rate> rates_;
   std::vector<std::string> inputs_, outputs_;
   SourceLocation inputs_where_, outputs_where_;
   Drawing drawing_;
-  /// A name in use: the constant, the coordinate or the composite of that index.
+  /// A name in use: the constant, the coordinate, the composite or the rate of that index.
   struct Declaration {
     Declared kind;
     std::size_t index;

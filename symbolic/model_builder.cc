@@ -130,15 +130,29 @@ void ModelBuilder::finish_composite(Composite::Kind composite) {
   if (auxiliary) mechanism.mark_auxiliary(unit ? 3 : 9);
 }
 
+void ModelBuilder::finish_rate(std::string_view role) {
+  for (const Role r : {Role::input, Role::output, Role::passive})
+    if (role == to_string(r)) mechanism.rate(declared, kind, r, declared_where);
+}
+
 void ModelBuilder::finish_equation() {
   const Relation read{values.at(0), relation, values.at(1)};
-  implied ? mechanism.imply(read, equation_where) : mechanism.constrain(read, equation_where);
+  of_rates  ? mechanism.velocity(read, equation_where)
+  : implied ? mechanism.imply(read, equation_where)
+            : mechanism.constrain(read, equation_where);
   values.clear();
 }
 
 void ModelBuilder::finish_point() {
-  drawing.points.push_back({declared, std::move(values), declared_where});
+  std::vector<Expression> velocity;
+  if (point_coordinates > 0) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(point_coordinates);
+    velocity.assign(first, values.end());
+    values.erase(first, values.end());
+  }
+  drawing.points.push_back({declared, std::move(values), declared_where, std::move(velocity)});
   values.clear();
+  point_coordinates = 0;
 }
 
 void ModelBuilder::begin_part(DrawingPart::Kind part, const SourceLocation& where) {

@@ -61,7 +61,7 @@ class ExpressionBuilder {
 struct ModelBuilder {
   explicit ModelBuilder(std::string file_, bool keep_places_ = true) : file(std::move(file_)), keep_places(keep_places_) {}
 
-  const std::string file;
+  std::string file;
   const bool keep_places;  ///< else expressions carry no places
 
   ExpressionBuilder expressions;
@@ -79,7 +79,9 @@ struct ModelBuilder {
 
   CoordinateKind kind = CoordinateKind::length;
   bool auxiliary = false;  ///< the section's variables
-  bool implied = false;    ///< the section's equations
+  bool of_rates = false;   ///< the section's equations, as is `implied`
+  bool implied = false;
+  std::size_t point_coordinates = 0;  ///< of `values` belong to the point's position, the others to its velocity; 0: all
   Relation::Kind relation = Relation::Kind::equal;
   SourceLocation equation_where;
   bool equation_is_empty = false;  ///< nothing of it has been read
@@ -90,6 +92,7 @@ struct ModelBuilder {
 
   void finish_constant();
   void finish_variable();  ///< with its range where `values` has one
+  void finish_rate(std::string_view role);
   void finish_composite(Composite::Kind composite);
   void finish_equation();
   void finish_point();

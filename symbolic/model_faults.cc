@@ -7,7 +7,7 @@ namespace {
 
 const char* const kSections =
     "[CONSTANTS], [SYSTEM VARS], [SECONDARY VARS], [DUMMY VARS], [CARTESIAN VARS], [SYSTEM EQS], [COORD EQS], [DUMMY EQS], "
-    "[IMPLIED EQS], [SEARCH], [INPUTS], [OUTPUTS] or [DRAWING]";
+    "[IMPLIED EQS], [RATES], [VELOCITY EQS], [SEARCH], [INPUTS], [OUTPUTS] or [DRAWING]";
 const char* const kOperand = "a number, a name, a function or '('";
 
 /// Length of what Rule matches at the beginning of the text; 0 where it does not.
@@ -105,8 +105,7 @@ void Fault::unknown_section() const {
   if (title.find(',') != std::string::npos)
     throw ModelError(builder.section_where, "section [" + shortened(title) + "] is unknown",
                      "a section; the range of a variable stands in the variable's line");
-  const bool known_to_cuik =
-      title == "VELOCITY VARS" || title == "VELOCITY EQS" || title == "NON DYNAMIC VARS" || title == "NON DYNAMIC EQS";
+  const bool known_to_cuik = title == "VELOCITY VARS" || title == "NON DYNAMIC VARS" || title == "NON DYNAMIC EQS";
   const char* const why = known_to_cuik ? "] is not supported" : "] is unknown";
   throw ModelError(builder.section_where, "section [" + shortened(title) + why, kSections);
 }

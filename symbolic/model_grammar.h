@@ -79,10 +79,10 @@ struct constants_header : header<TAO_PEGTL_STRING("CONSTANTS")> {};
 struct variables_header : header<sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("SECONDARY"), TAO_PEGTL_STRING("DUMMY"),
                                      TAO_PEGTL_STRING("CARTESIAN")>,
                                  plus<blank_character>, TAO_PEGTL_STRING("VARS")> {};
-struct equations_header
-    : header<
-          sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("COORD"), TAO_PEGTL_STRING("DUMMY"), TAO_PEGTL_STRING("IMPLIED")>,
-          plus<blank_character>, TAO_PEGTL_STRING("EQS")> {};
+struct equations_header : header<sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("COORD"), TAO_PEGTL_STRING("DUMMY"),
+                                     TAO_PEGTL_STRING("IMPLIED"), TAO_PEGTL_STRING("VELOCITY")>,
+                                 plus<blank_character>, TAO_PEGTL_STRING("EQS")> {};
+struct rates_header : header<TAO_PEGTL_STRING("RATES")> {};
 struct inputs_header : header<TAO_PEGTL_STRING("INPUTS")> {};
 struct outputs_header : header<TAO_PEGTL_STRING("OUTPUTS")> {};
 struct drawing_header : header<TAO_PEGTL_STRING("DRAWING")> {};
@@ -123,6 +123,14 @@ struct declaration
           opt<line_gap, one<';'>>> {};
 struct variables_section : seq<variables_header, star<gap, not_at<section_or_end>, declaration>> {};
 
+// [RATES]  name ~ role or name : role
+struct rate_name : identifier {};
+struct rate_mark : sor<length_mark, angle_mark> {};
+struct role_word
+    : sor<word<TAO_PEGTL_STRING("input")>, word<TAO_PEGTL_STRING("output")>, word<TAO_PEGTL_STRING("passive")>> {};
+struct rate : seq<must<rate_name>, line_gap, must<rate_mark>, line_gap, must<role_word>, opt<line_gap, one<';'>>> {};
+struct rates_section : seq<rates_header, star<gap, not_at<section_or_end>, rate>> {};
+
 // [SYSTEM EQS]  expression = expression;
 struct equation_begin : success {};
 struct relation : sor<one<'='>, string<'<', '='>, string<'>', '='>> {};
@@ -138,7 +146,8 @@ struct names : seq<gap, must<listed_name>, star<gap, sor<if_must<one<','>, gap, 
                    opt<gap, one<';'>>, gap, must<list_end>> {};
 struct names_section : seq<sor<inputs_header, outputs_header>, names> {};
 
-// [DRAWING]  point P = (x, y), or another word and the names of points, a radius, a colour; each ends with its line.
+// [DRAWING]  point P = (x, y), also with moves (u, v) behind it, or another word and the names of points, a radius, a colour;
+// each ends with its line.
 struct point_word : word<TAO_PEGTL_STRING("point")> {};
 struct unit_word : word<TAO_PEGTL_STRING("unit")> {};
 struct slider_word : word<TAO_PEGTL_STRING("slider")> {};
@@ -162,9 +171,15 @@ struct colour_digits : sor<seq<rep<6, xdigit>, not_at<name_tail>>, failure> {};
 struct colour : seq<line_gap, if_must<one<'#'>, colour_digits>> {};
 struct drawing_line_end : sor<at<eolf>, one<';'>> {};
 struct third_coordinate : seq<one<','>, gap, expression<gap>, gap> {};
+struct moves_word : word<TAO_PEGTL_STRING("moves")> {};
+struct moves_open : one<'('> {};
+struct moves_comma : one<','> {};
+struct moves_close : one<')'> {};
+struct point_velocity : seq<moves_word, line_gap, must<moves_open>, gap, expression<gap>, gap, must<moves_comma>, gap,
+                            expression<gap>, gap, opt<third_coordinate>, must<moves_close>> {};
 struct drawing_point : seq<point_word, line_gap, must<point_name>, line_gap, must<point_equals>, line_gap, must<point_open>,
                            gap, expression<gap>, gap, must<point_comma>, gap, expression<gap>, gap, opt<third_coordinate>,
-                           must<point_close>, point_end> {};
+                           must<point_close>, opt<line_gap, point_velocity>, point_end> {};
 struct drawing_unit : seq<unit_word, line_gap, must<unit_name>> {};
 struct drawing_slider : seq<slider_word, line_gap, must<part_point>, line_gap, must<along_word>, line_gap, must<part_point>,
                             line_gap, must<part_point>> {};
@@ -187,8 +202,8 @@ struct search_end : at<section_or_end> {};
 struct search_section : seq<search_header, gap, must<search_order>, gap, must<search_end>> {};
 
 struct section_start : at<one<'['>> {};
-struct section : seq<must<section_start>, sor<constants_section, variables_section, equations_section, names_section,
-                                              drawing_section, search_section, unknown_section>> {};
+struct section : seq<must<section_start>, sor<constants_section, variables_section, rates_section, equations_section,
+                                              names_section, drawing_section, search_section, unknown_section>> {};
 struct file_end : eof {};
 struct model : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
 

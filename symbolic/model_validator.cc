@@ -42,11 +42,16 @@ ModelValidator::ModelValidator(const Mechanism& mechanism) {
   for (const Constant& c : mechanism.constants()) declared_.emplace(c.name, &c);
   for (const Coordinate& c : mechanism.coordinates()) coordinates_.emplace(c.name, &c);
   for (const Composite& c : mechanism.composites()) composites_.emplace(c.name, &c);
+  for (const Rate& r : mechanism.rates()) rates_.emplace(r.name, &r);
 }
 
 void ModelValidator::add_constant(const Constant& constant) {
   constants_.emplace(constant.name,
                      check(constant.value, {"the constant " + in_quotes(constant.name), true, constant.where}));
+}
+
+void ModelValidator::check_value(const Expression& value, const std::string& owner, const SourceLocation& where) const {
+  check(value, {owner, true, where});
 }
 
 void ModelValidator::check_range(const Coordinate& coordinate) const {
@@ -67,6 +72,70 @@ void ModelValidator::check_point(const DrawingPoint& point) const {
     check(coordinate, context);
     require_angles_inside_functions(coordinate, context);
   }
+  if (point.velocity.empty()) return;
+  const Context velocity{"the velocity of the point " + in_quotes(point.name), false, point.where, true};
+  if (rates_.empty()) throw ModelError(point.where, velocity.owner + " is given, but the model has no rates", "[RATES]");
+  for (const Expression& component : point.velocity) {
+    check(component, velocity);
+    require_angles_inside_functions(component, velocity);
+    require_linear_in_rates(component, velocity);
+  }
+}
+
+void ModelValidator::check_velocity_equation(const Constraint& equation) const {
+  const Context context{"a velocity equation", false, equation.where, true};
+  bool any = false;
+  for (const Expression& side : {equation.relation.lhs, equation.relation.rhs}) {
+    check(side, context);
+    any = any || std::any_of(rates_.begin(), rates_.end(), [&](const auto& rate) { return side.mentions(rate.first); });
+  }
+  if (!any)
+    throw ModelError(equation.where, "the velocity equation `" + equation.relation.text() + "` holds no rate",
+                     "an equation that is linear in the rates");
+  require_linear_in_rates(equation.relation.lhs, context);
+  require_linear_in_rates(equation.relation.rhs, context);
+}
+
+void ModelValidator::require_linear_in_rates(const Expression& e, const Context& context) const {
+  if (e.kind() == Expression::Kind::sum || e.kind() == Expression::Kind::negation) {
+    for (const Expression& operand : e.operands()) require_linear_in_rates(operand, context);
+    return;
+  }
+  const std::optional<int> degree = rate_degree(e, 1);
+  if (degree == 1) return;
+  throw ModelError(place(e, context.where),
+                   "the term " + in_quotes(e.text()) + " in " + context.owner +
+                       (degree == 0 ? " holds no rate" : " is not linear and homogeneous in the rates"),
+                   "a rate times an expression in coordinates and constants");
+}
+
+std::optional<int> ModelValidator::rate_degree(const Expression& e, int wanted) const {
+  using Kind = Expression::Kind;
+  const auto of = [&](std::size_t i, int degree) { return rate_degree(e.operands()[i], degree); };
+  switch (e.kind()) {
+    case Kind::number: return same_tree(e, Expression(0)) ? wanted : 0;
+    case Kind::symbol: return rates_.contains(e.name()) ? 1 : 0;
+    case Kind::negation: return of(0, wanted);
+    case Kind::sum: {
+      const std::optional<int> first = of(0, wanted);
+      for (std::size_t i = 1; i < e.operands().size() && first; ++i)
+        if (of(i, wanted) != first) return std::nullopt;
+      return first;
+    }
+    case Kind::product: {
+      int sum = 0;
+      for (std::size_t i = 0; i < e.operands().size(); ++i) {
+        const std::optional<int> degree = of(i, 0);
+        if (!degree) return std::nullopt;
+        sum += *degree;
+      }
+      return sum;
+    }
+    case Kind::quotient: return of(1, 0) == 0 ? of(0, wanted) : std::nullopt;
+    case Kind::power: return of(0, 0) == 0 && of(1, 0) == 0 ? std::optional(0) : std::nullopt;
+    case Kind::function: return of(0, 0) == 0 ? std::optional(0) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 void ModelValidator::check_part(const DrawingPart& part) const {
@@ -134,6 +203,11 @@ ModelValidator::Size ModelValidator::check_symbol(const Expression& e, const Con
         "the constant " + what + " is used before its declaration" + (line > 0 ? " in line " + std::to_string(line) : ""),
         "constants declared before");
   }
+  if (rates_.contains(name)) {
+    if (context.rates) return {1, false, 0};
+    throw ModelError(where, "the rate " + what + " may not stand there",
+                     context.constants_only ? "numbers and constants" : "numbers, constants and variables");
+  }
   const bool is_coordinate = coordinates_.contains(name);
   if (is_coordinate && !context.constants_only) return {1, false, 0};
   if (is_coordinate) throw ModelError(where, "the variable " + what + " may not stand there", "numbers and constants");
@@ -144,7 +218,9 @@ ModelValidator::Size ModelValidator::check_symbol(const Expression& e, const Con
                      "one of its components " + c.components.front() + " … " + c.components.back());
   }
   throw ModelError(where, "the name " + what + " is not declared",
-                   context.constants_only ? "a declared constant" : "a declared constant or variable");
+                   context.constants_only ? "a declared constant"
+                   : context.rates        ? "a declared constant, variable or rate"
+                                          : "a declared constant or variable");
 }
 
 ModelValidator::Size ModelValidator::check_power(const Expression& e, const Context& context) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "corank/core/check.h"
 #include "corank/symbolic/ginac_bridge.h"
 #include "corank/symbolic/ginac_lock.h"
 
@@ -14,7 +15,8 @@ using Row = std::vector<GiNaC::ex>;
 class Eliminator {
  public:
   Eliminator(const Mechanism& mechanism, const ExpressionMatrix& matrix)
-      : mechanism_(mechanism), columns_(matrix.columns), bridge_(mechanism) {
+      : mechanism_(mechanism), columns_(matrix.columns), roles_(matrix.roles), bridge_(mechanism) {
+    CORANK_CHECK(roles_.size() == columns_.size());
     for (const auto& row : matrix.rows) {
       rows_.emplace_back();
       for (const Expression& e : row) rows_.back().push_back(bridge_.to_ginac(e, {}).expand());
@@ -26,10 +28,11 @@ class Eliminator {
   PassiveRates run() {
     PassiveRates result;
     for (std::size_t j = 0; j < columns_.size(); ++j)
-      if (role_of(mechanism_, columns_[j]) == Role::passive && eliminate(j)) result.eliminated.push_back(j);
+      if (roles_[j] == Role::passive && eliminate(j)) result.eliminated.push_back(j);
     if (result.eliminated.size() == columns_.size()) result.eliminated.clear();
     if (result.eliminated.empty()) return result;
     result.matrix.columns = columns_;
+    result.matrix.roles = roles_;
     result.notes = notes_;
     for (const Row& row : rows_) {
       auto& to = result.matrix.rows.emplace_back();
@@ -107,8 +110,7 @@ class Eliminator {
 
   std::size_t passive_rates_in(std::size_t row) const {
     std::size_t count = 0;
-    for (std::size_t k = 0; k < columns_.size(); ++k)
-      count += !rows_[row][k].is_zero() && role_of(mechanism_, columns_[k]) == Role::passive;
+    for (std::size_t k = 0; k < columns_.size(); ++k) count += !rows_[row][k].is_zero() && roles_[k] == Role::passive;
     return count;
   }
 
@@ -142,6 +144,7 @@ class Eliminator {
 
   const Mechanism& mechanism_;
   const std::vector<std::string> columns_;
+  const std::vector<Role> roles_;
   const GinacBridge bridge_;
   std::vector<Row> rows_;
   std::vector<bool> used_;  // rows that give a rate

@@ -22,7 +22,7 @@ std::string right_aligned(const std::string& text, std::size_t width) {
 
 std::string number_label(std::size_t i) { return "(" + std::to_string(i + 1) + ")"; }
 
-// A matrix with the coordinates above its columns and the equations' numbers before its rows.
+// A matrix with the coordinates, or the rates, above its columns and the equations' numbers before its rows.
 void print_matrix(std::ostream& out, const std::string& name, const ExpressionMatrix& matrix) {
   out << name << "   " << matrix.rows.size() << " x " << matrix.columns.size() << "\n";
   if (matrix.columns.empty()) return;
@@ -175,7 +175,7 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
   out << "Φ(q) = 0\n";
   print_numbered(out, phi_lines(derivation));
   out << "\n";
-  print_matrix(out, "Φ_q", derivation.velocity.matrix);
+  print_matrix(out, derivation.velocity.given ? "L (given)" : "Φ_q", derivation.velocity.matrix);
   for (const SetDefinition& set : set_definitions()) {
     if (set.locked.empty()) continue;
     out << "\n";
@@ -204,7 +204,8 @@ std::string to_latex(const Derivation& derivation, const TrigonometricSystem& sy
   out << "% Assembly constraints\n";
   for (const Expression& phi : derivation.phi) lines.push_back(latex(phi == Expression(0), "&"));
   print_latex_lines(out, lines);
-  print_latex_matrix(out, "\\Phi_q", derivation.velocity.matrix);
+  if (derivation.velocity.given) out << "% The velocity equation L m = 0 as the model gives it\n";
+  print_latex_matrix(out, derivation.velocity.given ? "L" : "\\Phi_q", derivation.velocity.matrix);
   for (const SetDefinition& set : set_definitions())
     if (!set.locked.empty()) print_latex_matrix(out, set.matrix, derivation.velocity.without(set.locked));
   out << "% System " << one_line(system.name) << "\n";

@@ -8,7 +8,7 @@
 
 namespace corank::symbolic {
 
-/// Φ, Φ_q, L_y, L_z and the system, aligned, in trigonometric form.
+/// Φ, Φ_q or the L that the model gives, L_y, L_z and the system, aligned, in trigonometric form.
 std::string to_text(const Derivation& derivation, const TrigonometricSystem& system);
 /// The same as a LaTeX fragment (amsmath).
 std::string to_latex(const Derivation& derivation, const TrigonometricSystem& system);

@@ -64,6 +64,10 @@ constexpr std::array<SetDefinition, 5> kSets{{
      .meaning = "the constraints’ Jacobian loses rank: C-space may cross itself or end in a cusp",
      .of_corank = "the constraints’ Jacobian loses at least {} of its ranks",
      .none = "There is none in the search domain, so C-space is smooth there.",
+     .given_meaning =
+         "the velocity equation loses rank: to first order the mechanism can move in more ways than its mobility says",
+     .given_of_corank = "the velocity equation loses at least {} of its ranks",
+     .given_none = "There is none in the search domain: the velocity equation has full rank there.",
      .print = {0.52, 0.18, 0.68},
      .on_light = "#7a3fb0",
      .on_dark = "#c39af0",

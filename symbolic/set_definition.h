@@ -35,6 +35,8 @@ struct SetDefinition {
   const char* meaning;    ///< one clause
   const char* of_corank;  ///< the same of a corank {} of 2 or more
   const char* none;       ///< what it says of the mechanism that there is none
+  /// The last three where the mechanism brings its own velocity equation and that makes a difference; else null.
+  const char *given_meaning = nullptr, *given_of_corank = nullptr, *given_none = nullptr;
 
   std::array<double, 3> print;     ///< colour on paper: red, green and blue, each from 0 to 1
   const char *on_light, *on_dark;  ///< on a page, in CSS

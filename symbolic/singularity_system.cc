@@ -24,13 +24,35 @@ std::string count(std::size_t n, const std::string& noun) {
   return n == 0 ? "no " + noun + "s" : std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
 
-/// The inputs, or the outputs.
+/// What L has of columns and of rows, in words.
+struct Counted {
+  std::string column, row;
+};
+
+Counted counted(const VelocityEquation& velocity) {
+  return velocity.given ? Counted{"rate", "velocity equation"} : Counted{"coordinate", "equation"};
+}
+
+/// The inputs, or the outputs: coordinates or rates.
 struct Chosen {
-  const std::vector<std::string>& names;
+  std::vector<std::string> names;
   std::vector<std::size_t> ties;
   std::string noun;
-  const SourceLocation& where;
+  SourceLocation where;
+  std::string examples = " (w @ unit and R @ rotation have theirs)";  // of ties
 };
+
+Chosen chosen(const Mechanism& mechanism, const VelocityEquation& velocity, Role role) {
+  Chosen result{velocity.names_of(role), velocity.ties(std::span(&role, 1)), to_string(role), {}};
+  if (!velocity.given) {
+    result.where = role == Role::input ? mechanism.inputs_where() : mechanism.outputs_where();
+  } else if (!result.names.empty()) {
+    result.noun += " rate";
+    result.examples.clear();
+    result.where = mechanism.rates()[static_cast<std::size_t>(mechanism.find_rate(result.names[0]))].where;
+  }
+  return result;
+}
 
 // What would do, where the mobility is `wanted`.
 std::string wanted_text(const Chosen& chosen, std::size_t wanted) {
@@ -38,59 +60,61 @@ std::string wanted_text(const Chosen& chosen, std::size_t wanted) {
     return count(wanted + chosen.ties.size(), chosen.noun) + (chosen.ties.empty() ? "" : " with these ties");
   const std::size_t more = chosen.names.size() - chosen.ties.size() - wanted;
   return count(wanted, chosen.noun) + ", or " + count(more, chosen.ties.empty() ? "equation" : "more equation") + " in " +
-         chosen.noun + "s alone that " + (more == 1 ? "ties" : "tie") + " them (w @ unit and R @ rotation have theirs)";
+         chosen.noun + "s alone that " + (more == 1 ? "ties" : "tie") + " them" + chosen.examples;
 }
 
 // Mobility must equal the number of inputs (of outputs) less their ties: otherwise L_y (L_z) is not square, and the
 // mechanism is redundant.
-void check_mobility(const Mechanism& mechanism, std::size_t equations, const Chosen& chosen) {
+void check_mobility(const Mechanism& mechanism, const VelocityEquation& velocity, const Chosen& chosen) {
   const SourceLocation where = chosen.where.line > 0 ? chosen.where : model_place(mechanism);
-  if (chosen.names.size() == mechanism.coordinates().size() && equations > 0)
-    throw ModelError(where, "every coordinate is an " + chosen.noun + ", so nothing is left to move where they are locked",
-                     "coordinates that are no " + chosen.noun + "s");
-  const auto mobility = static_cast<long>(mechanism.coordinates().size()) - static_cast<long>(equations);
+  const std::size_t equations = velocity.matrix.rows.size(), columns = velocity.matrix.columns.size();
+  const Counted words = counted(velocity);
+  if (chosen.names.size() == columns && equations > 0)
+    throw ModelError(
+        where, "every " + words.column + " is an " + chosen.noun + ", so nothing is left to move where they are locked",
+        words.column + "s that are no " + chosen.noun + "s");
+  const auto mobility = static_cast<long>(columns) - static_cast<long>(equations);
   const long free = static_cast<long>(chosen.names.size()) - static_cast<long>(chosen.ties.size());
   if (free == mobility) return;
-  std::string problem = "the mechanism has " + count(mechanism.coordinates().size(), "coordinate") + " and " +
-                        count(equations, "equation") + ", so mobility " + std::to_string(mobility) + ", but " +
-                        count(chosen.names.size(), chosen.noun);
+  std::string problem = "the mechanism has " + count(columns, words.column) + " and " + count(equations, words.row) +
+                        ", so mobility " + std::to_string(mobility) + ", but " + count(chosen.names.size(), chosen.noun);
   if (!chosen.ties.empty())
     problem += " tied by " + count(chosen.ties.size(), "equation") + ", so " + std::to_string(free) + " free";
   if (free > mobility && mobility >= 0) problem += ": a redundant mechanism";
-  throw ModelError(
-      where, problem,
-      mobility < 0 ? "no more equations than coordinates" : wanted_text(chosen, static_cast<std::size_t>(mobility)));
+  throw ModelError(where, problem,
+                   mobility < 0 ? "no more " + words.row + "s than " + words.column + "s"
+                                : wanted_text(chosen, static_cast<std::size_t>(mobility)));
 }
 
 void check_chosen(const Mechanism& mechanism, const VelocityEquation& velocity, const SetDefinition& set) {
   for (const Role role : set.locked) {
-    if (names_of(mechanism, role).empty())
-      throw ModelError(
-          model_place(mechanism),
-          std::string("the model names no ") + to_string(role) + "s, which the " + set.name + " singularities need",
-          std::string("a line [") + (role == Role::input ? "INPUTS" : "OUTPUTS") + "]");
+    if (!velocity.names_of(role).empty()) continue;
+    const std::string word = to_string(role);
+    throw ModelError(
+        model_place(mechanism),
+        "the model names no " + word + (velocity.given ? " rates" : "s") + ", which the " + set.name + " singularities need",
+        velocity.given ? "a line `name ~ " + word + "` in [RATES]"
+                       : std::string("a line [") + (role == Role::input ? "INPUTS" : "OUTPUTS") + "]");
   }
   for (const Role role : {Role::input, Role::output}) {
-    const std::vector<std::string>& names = names_of(mechanism, role);
-    if (!names.empty())
-      check_mobility(mechanism, velocity.matrix.rows.size(),
-                     {names, velocity.ties(std::span(&role, 1)), to_string(role),
-                      role == Role::input ? mechanism.inputs_where() : mechanism.outputs_where()});
+    const Chosen names = chosen(mechanism, velocity, role);
+    if (!names.names.empty()) check_mobility(mechanism, velocity, names);
   }
 }
 
 // Whether all of L loses rank is a question only where that is not so everywhere.
-void check_whole(const Mechanism& mechanism, const ExpressionMatrix& matrix, const SetDefinition& set, KernelSide side) {
-  const std::size_t equations = matrix.rows.size(), coordinates = matrix.columns.size();
-  if (equations > coordinates) {
+void check_whole(const Mechanism& mechanism, const VelocityEquation& velocity, const std::string& name, KernelSide side) {
+  const std::size_t equations = velocity.matrix.rows.size(), columns = velocity.matrix.columns.size();
+  const Counted words = counted(velocity);
+  if (equations > columns) {
     throw ModelError(model_place(mechanism),
-                     "the mechanism has " + count(coordinates, "coordinate") + " and " + count(equations, "equation") +
-                         ", so " + set.matrix + " never has full row rank",
-                     "no more equations than coordinates");
+                     "the mechanism has " + count(columns, words.column) + " and " + count(equations, words.row) + ", so " +
+                         name + " never has full row rank",
+                     "no more " + words.row + "s than " + words.column + "s");
   }
-  if (side == KernelSide::right && equations < coordinates) {
+  if (side == KernelSide::right && equations < columns) {
     throw ModelError(model_place(mechanism),
-                     std::string(set.matrix) + " has " + count(equations, "row") + " and " + count(coordinates, "column") +
+                     name + " has " + count(equations, "row") + " and " + count(columns, "column") +
                          ", so every configuration has a right kernel",
                      "the left kernel");
   }
@@ -104,7 +128,7 @@ std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n,
       for (std::size_t i = 0; i < n; ++i)
         names.push_back(prefix + (vectors > 1 ? std::to_string(v + 1) + "_" : "") + std::to_string(i + 1));
     if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
-          return mechanism.has_constant(name) || mechanism.find_coordinate(name) >= 0;
+          return mechanism.has_constant(name) || mechanism.find_coordinate(name) >= 0 || mechanism.find_rate(name) >= 0;
         }))
       return names;
   }
@@ -176,8 +200,8 @@ std::vector<std::vector<Expression>> add_unknowns(TrigonometricSystem& system, c
   const std::size_t n = kernel.side == KernelSide::right ? kernel.matrix.columns.size() : kernel.matrix.rows.size();
   if (system.corank < 1 || static_cast<std::size_t>(system.corank) > n) {
     throw ModelError(model_place(mechanism),
-                     "a corank of " + std::to_string(system.corank) + ", but a kernel vector of " + kernel.set.matrix +
-                         " has " + count(n, "component"),
+                     "a corank of " + std::to_string(system.corank) + ", but a kernel vector of " + kernel.name + " has " +
+                         count(n, "component"),
                      "a corank from 1 to " + std::to_string(n));
   }
   const auto vectors = static_cast<std::size_t>(system.corank);
@@ -241,8 +265,8 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
       } else {
         for (const auto& row : matrix.rows) entries.push_back(row[i]);
       }
-      const std::string source = "row " + std::to_string(i + 1) + " of " + kernel.set.matrix + (right ? "" : "^T") + " " +
-                                 vector + " = 0" + (passive.eliminated.empty() ? "" : words(passive.notes[i]));
+      const std::string source = "row " + std::to_string(i + 1) + " of " + kernel.name + (right ? "" : "^T") + " " + vector +
+                                 " = 0" + (passive.eliminated.empty() ? "" : words(passive.notes[i]));
       // A row of zeros says nothing about xi.
       if (const auto lhs = kernel_row(entries, rates))
         system.equations.push_back({*lhs == Expression(0), source, right ? kernel.where[i] : model_place(mechanism), true});
@@ -284,10 +308,15 @@ TrigonometricSystem plain_system(const Mechanism& mechanism) {
 
 KernelQuestion kernel_question(const Mechanism& mechanism, const VelocityEquation& velocity, SingularitySet set,
                                std::optional<KernelSide> side) {
-  KernelQuestion kernel{definition(set), velocity.without(definition(set).locked), velocity.where, {}, {}};
+  KernelQuestion kernel{definition(set),
+                        matrix_name(definition(set), velocity),
+                        velocity.without(definition(set).locked),
+                        velocity.where,
+                        {},
+                        {}};
   kernel.side = side.value_or(kernel.set.side);
   if (kernel.set.locked.empty()) {
-    check_whole(mechanism, kernel.matrix, kernel.set, kernel.side);
+    check_whole(mechanism, velocity, kernel.name, kernel.side);
   } else {
     check_chosen(mechanism, velocity, kernel.set);
   }

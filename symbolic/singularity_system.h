@@ -40,6 +40,7 @@ struct TrigonometricSystem {
 /// What the kernel of a set is asked of, checked: that inputs and outputs are there and fit the mobility.
 struct KernelQuestion {
   const SetDefinition& set;
+  std::string name;                   ///< of M: "L_y"; of all of L "Phi_q", or "L" where the mechanism brings its own
   ExpressionMatrix matrix;            ///< M: L without the locked columns and the dropped rows
   std::vector<SourceLocation> where;  ///< of its rows
   KernelSide side;
@@ -69,8 +70,8 @@ KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion 
 /// a_(c−1) on K are dependent (for c = 2: K ⊥ a_1, two conditions on K): there, and where dim K > c, they are a continuum
 /// over one q. With a square M these are c² equations more than there are components of the vectors: the set's expected
 /// dimension is that of C-space less c². Where that is below 0 the system is over-determined.
-/// Throws ModelError where inputs or outputs are missing or, less their ties, do not match the mobility n_q − n_e (a
-/// redundant mechanism, non-square L_y or L_z), a right kernel is asked of the wide Φ_q, or a corank that is not in 1 … the
+/// Throws ModelError where inputs or outputs are missing or, less their ties, do not match the mobility, the columns of L
+/// less its rows (a redundant mechanism, non-square L_y or L_z), a right kernel is asked of the wide Φ_q, or a corank that is not in 1 … the
 /// number of the kernel's unknowns (1 for cspace, which has none).
 TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt,

@@ -22,8 +22,9 @@ ExpressionMatrix VelocityEquation::without(std::span<const Role> locked) const {
   ExpressionMatrix result;
   result.rows.resize(matrix.rows.size());
   for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
-    if (contains(locked, roles[j])) continue;
+    if (contains(locked, matrix.roles[j])) continue;
     result.columns.push_back(matrix.columns[j]);
+    result.roles.push_back(matrix.roles[j]);
     for (std::size_t i = 0; i < matrix.rows.size(); ++i) result.rows[i].push_back(matrix.rows[i][j]);
   }
   return result;
@@ -38,44 +39,86 @@ std::vector<std::size_t> VelocityEquation::ties(std::span<const Role> locked) co
   return rows;
 }
 
+std::vector<std::string> VelocityEquation::names_of(Role role) const {
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < matrix.roles.size(); ++j)
+    if (matrix.roles[j] == role) names.push_back(matrix.columns[j]);
+  return names;
+}
+
+namespace {
+
+GiNaC::ex difference(const GinacBridge& bridge, const Constraint& constraint) {
+  return bridge.to_ginac(constraint.relation.lhs, constraint.where) -
+         bridge.to_ginac(constraint.relation.rhs, constraint.where);
+}
+
+// Φ_q, and the coefficients of the rates in a velocity equation, which is linear in them, are derivatives by the columns.
+void add_row(const GinacBridge& bridge, const GiNaC::ex& e, const Constraint& constraint, VelocityEquation& velocity) {
+  velocity.where.push_back(constraint.where);
+  std::vector<Expression>& row = velocity.matrix.rows.emplace_back();
+  for (const std::string& column : velocity.matrix.columns) {
+    try {
+      row.push_back(bridge.to_expression(e.diff(bridge.symbol(column))));
+    } catch (const std::exception& error) {
+      throw ModelError(constraint.where, "the equation `" + constraint.relation.text() + "` cannot be differentiated by " +
+                                             column + ": " + error.what());
+    }
+  }
+}
+
+void add_given_rows(const Mechanism& mechanism, VelocityEquation& velocity) {
+  std::vector<std::string> constants, names;
+  for (const Constant& c : mechanism.constants()) constants.push_back(c.name);
+  for (const Coordinate& c : mechanism.coordinates()) names.push_back(c.name);
+  for (const Rate& r : mechanism.rates()) {
+    velocity.matrix.columns.push_back(r.name);
+    velocity.matrix.roles.push_back(r.role);
+    names.push_back(r.name);
+  }
+  velocity.given = true;
+  const GinacBridge bridge(constants, names);
+  for (const Constraint& c : mechanism.velocity_equations()) add_row(bridge, difference(bridge, c), c, velocity);
+}
+
+}  // namespace
+
 Derivation derive(const Mechanism& mechanism) {
   mechanism.validate();
   const GinacLock lock;
-  std::vector<std::string> coordinates;
-  for (const Coordinate& coordinate : mechanism.coordinates()) coordinates.push_back(coordinate.name);
   const GinacBridge bridge(mechanism);
 
   Derivation result;
   VelocityEquation& velocity = result.velocity;
-  velocity.matrix.columns = coordinates;
-  for (const std::string& coordinate : coordinates) velocity.roles.push_back(role_of(mechanism, coordinate));
+  const bool given = mechanism.has_own_velocity_equation();
+  if (given) {
+    add_given_rows(mechanism, velocity);
+  } else {
+    for (const Coordinate& coordinate : mechanism.coordinates()) {
+      velocity.matrix.columns.push_back(coordinate.name);
+      velocity.matrix.roles.push_back(role_of(mechanism, coordinate.name));
+    }
+  }
   for (const Constraint& constraint : mechanism.constraints()) {
     if (constraint.relation.kind != Relation::Kind::equal) continue;
-    const std::string text = constraint.relation.text();
-    const GiNaC::ex phi = bridge.to_ginac(constraint.relation.lhs, constraint.where) -
-                          bridge.to_ginac(constraint.relation.rhs, constraint.where);
+    const GiNaC::ex phi = difference(bridge, constraint);
     if (!bridge.mentions_coordinate(phi)) {
       const bool number = GiNaC::is_a<GiNaC::numeric>(phi);
       throw ModelError(constraint.where,
-                       "the equation `" + text + "` " +
+                       "the equation `" + constraint.relation.text() + "` " +
                            (!number         ? "is about constants only"
                             : phi.is_zero() ? "holds always"
                                             : "can never hold"),
                        "an equation between coordinates");
     }
     result.phi.push_back(residual(constraint.relation));
-    velocity.where.push_back(constraint.where);
-    std::vector<Expression>& row = velocity.matrix.rows.emplace_back();
-    for (const std::string& coordinate : coordinates) {
-      try {
-        row.push_back(bridge.to_expression(phi.diff(bridge.symbol(coordinate))));
-      } catch (const std::exception& error) {
-        throw ModelError(constraint.where,
-                         "the equation `" + text + "` cannot be differentiated by " + coordinate + ": " + error.what());
-      }
-    }
+    if (!given) add_row(bridge, phi, constraint, velocity);
   }
   return result;
+}
+
+std::string matrix_name(const SetDefinition& set, const VelocityEquation& velocity) {
+  return velocity.given && set.locked.empty() ? "L" : set.matrix;
 }
 
 Role role_of(const Mechanism& mechanism, const std::string& coordinate) {

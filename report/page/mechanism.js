@@ -53,8 +53,13 @@ export function drawnPoints(model, values, rates = {}) {
   // The ends of rails, of axes and of solids have no meaning of their own.
   const meant = {slider: 1, hinge: 1, sphere: 0, cylinder: 0};
   const named = new Set(model.drawing.parts.flatMap(({kind, points}) => points.slice(0, meant[kind] ?? points.length)));
+  // Where the model has rates of its own a point may move by an expression in them; those that are locked are 0.
+  const own = model.rates && {...values, ...Object.fromEntries(model.rates.map((name) => [name, rates[name] || 0]))};
   return model.drawing.points.map((point, i) => {
-    const at = point.at.map((tree) => evaluateTree(tree, values, rates));
+    const at = point.at.map((tree, k) => {
+      const [place, speed] = evaluateTree(tree, values, rates);
+      return [place, point.moves ? evaluateTree(point.moves[k], own, {})[0] : speed];
+    });
     const flat = (k) =>
       at.length === 2
         ? [at[0][k], at[1][k]]

@@ -106,13 +106,12 @@ export class Panel {
     this.onShow(configuration);
   }
 
-  // The rates of the coordinates where ξ is a velocity.
+  // The rates of the coordinates, or the model's own, where ξ is a velocity.
   velocity(set, x) {
     if (set.columns.length === 0) return null;
+    const names = this.model.rates || this.model.coordinates.map(({name}) => name);
     const rates = {};
-    set.columns.forEach(
-      (coordinate, k) => (rates[this.model.coordinates[coordinate].name] = set.scales[k] * x[set.configuration + k]),
-    );
+    set.columns.forEach((column, k) => (rates[names[column]] = set.scales[k] * x[set.configuration + k]));
     return rates;
   }
 

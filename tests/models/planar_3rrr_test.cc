@@ -19,6 +19,7 @@
 #include "corank/symbolic/printer.h"
 #include "corank/tests/models/closed_forms.h"
 #include "corank/tests/models/cover_lookup.h"
+#include "corank/tests/models/given_rates.h"
 
 namespace corank {
 namespace {
@@ -237,6 +238,53 @@ TEST_P(FixedOrientation, HasItsForwardSingularitiesWhereThreeLinesMeet) {
 INSTANTIATE_TEST_SUITE_P(Planar3Rrr, FixedOrientation,
                          testing::Combine(testing::Values(Orientation{"pi/10", kPi / 10}, Orientation{"0", 0}),
                                           testing::Values(0.1, 0.01)));
+
+// By three screws: six rates in place of nine, no passive one.
+TEST(Planar3Rrr, HasTheSameSingularitiesByTheScrewsOfItsLegs) {
+  constexpr double kSigma = 0.05;
+  const auto m = test::with_rates("3rrr_fixed_orientation", test::kLegScrews);
+  const Cover cover = solve_at(test::study_system(m, SingularitySet::forward), kSigma);
+  EXPECT_TRUE(cover.complete());
+  std::vector<Values> samples;
+  constexpr int kLines = 200, kSteps = 200;
+  for (int k = 0; k < kLines; ++k) {
+    const double at = -2 + 4 * (k + 0.37) / kLines;
+    add_samples({-2, at}, {2, at}, kPi / 10, kSteps, samples);
+    add_samples({at, -2}, {at, 2}, kPi / 10, kSteps, samples);
+  }
+  EXPECT_GT(samples.size(), 2000u);
+  const test::CoverLookup lookup(cover);
+  std::size_t lost = 0;
+  for (const Values& x : samples) {
+    std::array<double, kConfigurationSize> q{};
+    std::copy_n(x.begin(), q.size(), q.begin());
+    lost += !lookup.holds(q, kSampleTolerance);
+  }
+  EXPECT_EQ(lost, 0u) << "of " << samples.size() << " samples";
+  const double most = 3 * std::pow(1.25, 1.5) * std::sqrt(0.5) * kSigma * (1 + kSigma);
+  for (const auto& b : cover.boxes) {
+    ASSERT_TRUE(is_proven(b));
+    const auto c = platform_joints(middle(b.box, 0), middle(b.box, kPhi));
+    const std::array<Point, 3> u{middle(b.box, kPsi1), middle(b.box, kPsi1 + 2), middle(b.box, kPsi1 + 4)};
+    ASSERT_LE(std::fabs(determinant(lines(c, u))), most);
+  }
+
+  const Cover inverse = solve_at(test::study_system(m, SingularitySet::inverse), kSigma),
+              derived =
+                  solve_at(test::study_system(symbolic::read_model(CORANK_SOURCE_DIR "/models/3rrr_fixed_orientation.cuik"),
+                                              SingularitySet::inverse),
+                           kSigma);
+  EXPECT_TRUE(inverse.complete());
+  for (const auto& [from, to] : {std::pair(&inverse, &derived), std::pair(&derived, &inverse)}) {
+    const test::CoverLookup other(*to);
+    for (const auto& b : from->boxes) {
+      if (!is_proven(b)) continue;
+      std::array<double, kConfigurationSize> q{};
+      for (std::size_t j = 0; j < q.size(); ++j) q[j] = b.box[j].mid();
+      ASSERT_TRUE(other.holds(q, kSigma));
+    }
+  }
+}
 
 TEST(Planar3Rrr, WithAFixedOrientationHasItsInverseSingularitiesWhereALegIsStretchedOrFolded) {
   constexpr double kSigma = 0.2;

@@ -13,6 +13,7 @@
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/tests/models/cover_lookup.h"
+#include "corank/tests/models/given_rates.h"
 
 namespace corank {
 namespace {
@@ -47,8 +48,10 @@ struct Robot {
   std::filesystem::path file;
   double alpha, delta;
   std::array<int, 7> columns;  ///< of c1, s1, c2, s2, w among the model's variables
+  const char* rates = "";      ///< a velocity equation of its own
 
   System system(SingularitySet set, std::optional<KernelSide> side = std::nullopt) const {
+    if (*rates) return test::study_system(test::with_rates(file.stem().string(), rates), set, side);
     return symbolic::algebrize(symbolic::singularity_system(symbolic::read_model(file), set, side));
   }
 
@@ -167,11 +170,12 @@ void expect_closed_forms(const Robot& robot, std::optional<KernelSide> side) {
 }
 
 Robot own_robot() {
-  return {CORANK_SOURCE_DIR "/models/spherical_five_bar.cuik", std::acos(0.6), std::acos(5.0 / 13), {0, 1, 2, 3, 4, 5, 6}};
+  return {
+      CORANK_SOURCE_DIR "/models/spherical_five_bar.cuik", std::acos(0.6), std::acos(5.0 / 13), {0, 1, 2, 3, 4, 5, 6}, ""};
 }
 
 Robot shared_robot() {
-  return {CORANK_SOURCE_DIR "/../shared/models/spherical5_3out.cuik", M_PI / 2, 7 * M_PI / 18, {0, 1, 2, 3, 4, 5, 6}};
+  return {CORANK_SOURCE_DIR "/../shared/models/spherical5_3out.cuik", M_PI / 2, 7 * M_PI / 18, {0, 1, 2, 3, 4, 5, 6}, ""};
 }
 
 class SphericalFiveBar : public testing::TestWithParam<KernelSide> {};
@@ -181,6 +185,12 @@ TEST_P(SphericalFiveBar, HasTheSingularitiesOfItsDeterminants) { expect_closed_f
 TEST_P(SphericalFiveBar, OfRightAngledCranksHasThemToo) {
   if (!std::filesystem::exists(shared_robot().file)) GTEST_SKIP() << shared_robot().file << " is not there";
   expect_closed_forms(shared_robot(), GetParam());
+}
+
+TEST_P(SphericalFiveBar, HasThemByTheAngularVelocitiesOfItsLinks) {
+  Robot robot = own_robot();
+  robot.rates = test::kAngularVelocities;
+  expect_closed_forms(robot, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, SphericalFiveBar, testing::Values(KernelSide::right, KernelSide::left));

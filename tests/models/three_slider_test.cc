@@ -7,6 +7,7 @@
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
 #include "corank/tests/models/cover_lookup.h"
+#include "corank/tests/models/given_rates.h"
 
 namespace corank {
 namespace {
@@ -63,6 +64,33 @@ TEST_P(ThreeSlider, WithEqualRodsHasFourSimpleAndTwoDegenerateSingularities) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, ThreeSlider, testing::Values(KernelSide::right, KernelSide::left));
+
+// v_A, v_C and the rod's rate are one to one: with the rods' rates as unknowns nothing else is singular.
+TEST_P(ThreeSlider, WithTheRatesOfItsRodsHasTheSameSingularities) {
+  const auto solved = [](SingularitySet set, const char* l2) {
+    auto model = test::with_rates("three_slider", test::kRodRates);
+    model.set_constant("L2", symbolic::Expression(l2));
+    return solve::solve(test::study_system(model, set, GetParam()));
+  };
+  Points expected = corners(1, 0.8);
+  expect_points(solved(SingularitySet::inverse, "4/5"), expected, {});
+  for (double y : {-0.6, 0.6})
+    for (double x : {-0.8, 0.8}) expected.push_back({y, 0, x});
+  expect_points(solved(SingularitySet::forward, "4/5"), expected, {});
+  for (SingularitySet set : {SingularitySet::forward, SingularitySet::inverse})
+    expect_points(solved(set, "1"), corners(1, 1), {{0, 0, 1}, {0, 0, -1}});
+}
+
+TEST(ThreeSlider, WithTheRatesOfItsRodsHasTheSameCrossings) {
+  auto model = test::with_rates("three_slider", test::kRodRates);
+  EXPECT_TRUE(solve::solve(test::study_system(model, SingularitySet::cspace_singular)).boxes.empty());
+  model.set_constant("L2", symbolic::Expression("1"));
+  const Cover cover = solve::solve(test::study_system(model, SingularitySet::cspace_singular));
+  EXPECT_TRUE(cover.complete());
+  const test::CoverLookup lookup(cover);
+  for (double x : {-1.0, 1.0}) EXPECT_TRUE(lookup.holds(std::array{0.0, 0.0, x}, 0));
+  for (const auto& b : cover.boxes) EXPECT_GT(std::fabs(b.box[2].mid()), 0.99);
+}
 
 TEST(ThreeSlider, CspaceOfDifferentRodsIsRegularThroughout) {
   const Cover cover = solve::solve(three_slider(SingularitySet::cspace, "4/5"));

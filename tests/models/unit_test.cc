@@ -1,6 +1,7 @@
 // The answer does not depend on the unit of length, on generous ranges, or on sigma.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <regex>
 
 #include "corank/solve/solve.h"
@@ -8,6 +9,8 @@
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
+#include "corank/tests/models/cover_lookup.h"
+#include "corank/tests/models/given_rates.h"
 
 namespace corank {
 namespace {
@@ -43,6 +46,62 @@ TEST(Unit, OfLengthChangesNeitherBoxesNorVerdicts) {
           << unit;
     }
   }
+}
+
+// As many boxes, and in the same places: each proven one's middle is in a box of the other, up to their size. (Rows with
+// lengths and rows without are combined by their size, so the search is not the same to the last box.)
+void expect_same_places(const Cover& metres, const Cover& other, const System& system, double factor, double sigma) {
+  EXPECT_TRUE(other.complete());
+  const auto near = [](std::size_t a, std::size_t b, double share) {
+    return std::fabs(static_cast<double>(a) - static_cast<double>(b)) <= share * static_cast<double>(b) + 8;
+  };
+  EXPECT_PRED3(near, other.boxes.size(), metres.boxes.size(), 0.03);
+  EXPECT_PRED3(near, other.statistics.processed, metres.statistics.processed, 0.1);
+  for (const Verdict verdict : {Verdict::isolated, Verdict::undecided})
+    EXPECT_PRED3(near, other.count(verdict), metres.count(verdict), 0) << to_string(verdict);
+  Cover rescaled = other;
+  for (CoverBox& b : rescaled.boxes)
+    for (std::size_t j = 0; j < b.box.size(); ++j)
+      if (system.variables[j].kind == VariableKind::length)
+        b.box[j] = Interval(b.box[j].lo() / factor, b.box[j].hi() / factor);
+  const test::CoverLookup lookup(rescaled);
+  for (const CoverBox& b : metres.boxes) {
+    if (b.verdict == Verdict::undecided) continue;
+    std::vector<double> q;
+    for (int j = 0; j < system.configuration_size; ++j) q.push_back(b.box[static_cast<std::size_t>(j)].mid());
+    ASSERT_TRUE(lookup.holds(q, sigma));
+  }
+}
+
+TEST(Unit, OfLengthChangesNothingWhereTheVelocityEquationIsGiven) {
+  const auto system = [](const char* model, const char* rates,
+                         const std::vector<std::pair<std::string, std::string>>& lengths, const char* factor,
+                         SingularitySet set) {
+    auto m = test::with_rates(model, rates);
+    for (const auto& [name, value] : lengths) m.set_constant(name, symbolic::Expression(value + "*" + factor));
+    return test::study_system(m, set);
+  };
+  using Lengths = std::vector<std::pair<std::string, std::string>>;
+  const Lengths dextar{{"l", "9/10"}, {"d", "59/50"}}, rrr{{"b", "2"}, {"p", "1/2"}, {"l1", "1"}, {"l2", "1"}},
+      sliders{{"L1", "1"}, {"L2", "4/5"}};
+  for (const auto& [model, rates, lengths] :
+       {std::tuple("dextar", test::kJointRates, dextar), std::tuple("dextar", test::kLinkRates, dextar),
+        std::tuple("3rrr_fixed_orientation", test::kLegScrews, rrr), std::tuple("three_slider", test::kRodRates, sliders)})
+    for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse}) {
+      SCOPED_TRACE(std::string(model) + " " + to_string(set));
+      constexpr double kSigma = 0.1;
+      const auto solved = [&](const char* factor, double unit) {
+        solve::Options options;
+        options.sigma_length = kSigma * unit;
+        options.sigma_angle = kSigma;
+        options.threads = 0;
+        return solve::solve(system(model, rates, lengths, factor, set), options);
+      };
+      const Cover metres = solved("1", 1);
+      const System described = system(model, rates, lengths, "1", set);
+      expect_same_places(metres, solved("1/1000", 1e-3), described, 1e-3, kSigma);
+      expect_same_places(metres, solved("1000", 1e3), described, 1e3, kSigma);
+    }
 }
 
 TEST(Sigma, DoesNotSteerTheSearch) {

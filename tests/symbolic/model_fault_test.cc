@@ -46,6 +46,12 @@ std::string equations(const std::string& line) {
 /// Lists from line 7 on, a constant c and variables x, y.
 std::string lists(const std::string& line) { return equations("x=y;") + line; }
 
+/// Rates in line 6, velocity equations in line 9, a drawing in line 11; constant c in line 1, lengths x, y and one equation.
+std::string velocities(const std::string& rates, const std::string& rows, const std::string& drawing = "") {
+  return "[CONSTANTS] c := 1\n[SYSTEM VARS]\nx:[0,1] y:[0,1]\n[SYSTEM EQS] x=y;\n[RATES]\n" + rates +
+         "\nvx : input\n[VELOCITY EQS]\n" + rows + "\n[DRAWING]\n" + drawing + "\n";
+}
+
 std::vector<FaultCase> faults() {
   const char* const operand = "a number, a name, a function or '('";
   return {
@@ -62,7 +68,7 @@ std::vector<FaultCase> faults() {
        "at least one, in [SYSTEM VARS]"},
       {"NoEquations", "[SYSTEM VARS]\nx:[0,1]\n", "3:1", "the model has no equations", "at least one, in [SYSTEM EQS]"},
       // sections
-      {"UnsupportedSection", equations("x=y;\n[VELOCITY EQS]\ns=1"), "7:1", "section [VELOCITY EQS] is not supported",
+      {"UnsupportedSection", equations("x=y;\n[VELOCITY VARS]\ns=1"), "7:1", "section [VELOCITY VARS] is not supported",
        "[CONSTANTS], [SYSTEM VARS]"},
       {"SearchByMinimization", equations("x=y;\n[SEARCH]\nMIN x"), "8:1", "the search order MIN is not supported",
        "DEPTH FIRST"},
@@ -227,6 +233,67 @@ std::vector<FaultCase> faults() {
        "the parentheses are nested too deeply", "at most 200"},
       {"TooManySigns", equations(repeated("-", 2000) + "x = y;"), "6:2001", "the expression is nested too deeply",
        "at most 1000 operations"},
+      // rates and velocity equations
+      {"RateWithoutMark", velocities("w", "vx=w;"), "6:2", "found the end of the line",
+       "'~' (an angular rate) or ':' (a linear rate) behind the rate's name"},
+      {"RateWithoutRole", velocities("w ~", "vx=w;"), "6:4", "found the end of the line", "input, output or passive"},
+      {"RateOfAnotherRole", velocities("w ~ driven", "vx=w;"), "6:5", "found 'driven'", "input, output or passive"},
+      {"RateWithARange", velocities("w ~ [0, 1]", "vx=w;"), "6:5", "found '['", "input, output or passive"},
+      {"RateThatIsAnExpression", velocities("2*w ~ input", "vx=w;"), "6:1", "found '2'",
+       "a declaration, name ~ role or name : role, or a section"},
+      {"RateNamedAsAVariable", velocities("x ~ output", "vx=x;"), "6:1", "the name 'x' is already declared in line 3",
+       "another name for the rate"},
+      {"RateNamedAsAConstant", velocities("c ~ output", "vx=c;"), "6:1", "the name 'c' is already declared in line 1",
+       "another name for the rate"},
+      {"RateTwice", velocities("vx : input", "vx=0;"), "7:1", "the name 'vx' is already declared in line 6",
+       "another name for the rate"},
+      {"RateOfAReservedName", velocities("cos ~ output", "vx=0;"), "6:1", "the name 'cos' is reserved",
+       "another name for the rate"},
+      {"RateInAnEquation", velocities("w ~ output", "vx=w;") + "[SYSTEM EQS] x = w*y;", "12:18",
+       "the rate 'w' in an equation may not stand there", "numbers, constants and variables"},
+      {"RateInARange", velocities("w ~ output", "vx=w;") + "[SYSTEM VARS] z : [0, w]", "12:23",
+       "the rate 'w' in the range of 'z' may not stand there", "numbers and constants"},
+      {"RateInAPoint", velocities("w ~ output", "vx=w;", "point P = (x, 2*w)"), "11:17",
+       "the rate 'w' in the point 'P' may not stand there", "numbers, constants and variables"},
+      {"RateAsAnInput", velocities("w ~ output", "vx=w;") + "[INPUTS] w", "12:10",
+       "the input 'w' is a rate, whose role stands in [RATES]", "a variable of the model"},
+      {"VelocityInequality", velocities("w ~ output", "vx <= w;"), "9:1", "an inequality cannot be a velocity equation",
+       "lhs = rhs"},
+      {"VelocityEquationWithoutARate", velocities("w ~ output", "x = y;"), "9:1",
+       "the velocity equation `x = y` holds no rate", "an equation that is linear in the rates"},
+      {"VelocityEquationWithAnUnknownName", velocities("w ~ output", "vx = z;"), "9:6",
+       "the name 'z' in a velocity equation is not declared", "a declared constant, variable or rate"},
+      {"VelocityTermWithoutARate", velocities("w ~ output", "vx = w + x^2;"), "9:10",
+       "the term 'x^2' in a velocity equation holds no rate", "a rate times an expression in coordinates and constants"},
+      {"VelocityTermWithTwoRates", velocities("w ~ output", "vx = x*w*vx;"), "9:6",
+       "the term 'x*w*vx' in a velocity equation is not linear and homogeneous in the rates", "a rate times"},
+      {"VelocityTermWithASquare", velocities("w ~ output", "vx - w^2 = 0;"), "9:6",
+       "the term 'w^2' in a velocity equation is not linear", "a rate times"},
+      {"VelocityTermWithASine", velocities("w ~ output", "vx = sin(w);"), "9:6",
+       "the term 'sin(w)' in a velocity equation is not linear", "a rate times"},
+      {"VelocityTermOverARate", velocities("w ~ output", "vx = x/w;"), "9:6",
+       "the term 'x/w' in a velocity equation is not linear", "a rate times"},
+      {"VelocityTermThatIsMixed", velocities("w ~ output", "vx = x*(w + 1);"), "9:6",
+       "the term 'x*(w + 1)' in a velocity equation is not linear and homogeneous", "a rate times"},
+      {"RatesWithoutVelocityEquations", velocities("w ~ output", ""), "6:1", "the model has rates but no velocity equations",
+       "at least one, in [VELOCITY EQS]"},
+      {"VelocityEquationsWithoutRates", lists("[VELOCITY EQS]\nx = 0;"), "8:1",
+       "the model has velocity equations but no rates", "[RATES], which declares them"},
+      {"MobilityByRatesIsAnother", velocities("w ~ output\nu ~ passive", "vx = w;"), "10:1",
+       "3 rates and 1 velocity equation give mobility 2, but 2 coordinates and 1 equation give mobility 1",
+       "the same mobility by both"},
+      {"PointMovesNowhere", velocities("w ~ output", "vx=w;", "point P = (x, y) moves"), "11:23",
+       "found the end of the line", "the velocity of the point, (u, v) or (u, v, w)"},
+      {"PointMovesByOneComponent", velocities("w ~ output", "vx=w;", "point P = (x, y) moves (vx)"), "11:27", "found ')'",
+       "',' between the components"},
+      {"PointMovesByFour", velocities("w ~ output", "vx=w;", "point P = (x, y) moves (vx, 0, 0, 0)"), "11:33", "found ','",
+       "an operator, or ')' behind two or three components of the velocity"},
+      {"PlanarPointMovesInSpace", velocities("w ~ output", "vx=w;", "point P = (x, y) moves (vx, 0, 0)"), "11:7",
+       "the velocity of the point 'P' has 3 components", "2, as the point itself"},
+      {"PointMovesByNoRate", velocities("w ~ output", "vx=w;", "point P = (x, y) moves (vx, x)"), "11:29",
+       "the term 'x' in the velocity of the point 'P' holds no rate", "a rate times"},
+      {"PointMovesWithoutRates", lists("[DRAWING]\npoint P = (x, y) moves (x, y)"), "8:7",
+       "the velocity of the point 'P' is given, but the model has no rates", "[RATES]"},
       // inputs and outputs
       {"InputIsNotDeclared", lists("[INPUTS] z"), "7:10", "the input 'z' is not declared", "a variable of the model"},
       {"InputIsAConstant", lists("[INPUTS]\nx\nc"), "9:1", "the input 'c' is a constant", "a variable of the model"},

@@ -77,7 +77,7 @@ TEST(Derivation, GivesDextarsJacobianAndItsBlocks) {
 TEST(Derivation, KnowsTheRolesOfColumnsAndThePlacesOfRows) {
   const Derivation d =
       derive(model("x : [-1, 1]\ny : [-1, 1]\nz : [-1, 1]", "x^2 + y^2 = 1;\nx = z;", "[INPUTS] y\n[OUTPUTS] x"));
-  EXPECT_THAT(d.velocity.roles, ElementsAre(Role::output, Role::input, Role::passive));
+  EXPECT_THAT(d.velocity.matrix.roles, ElementsAre(Role::output, Role::input, Role::passive));
   ASSERT_EQ(d.velocity.where.size(), 2u);
   EXPECT_EQ(d.velocity.where[1].line, d.velocity.where[0].line + 1);
 }

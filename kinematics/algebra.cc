@@ -1,0 +1,210 @@
+#include "corank/kinematics/algebra.h"
+
+#include <cmath>
+
+#include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/ginac_bridge.h"
+
+namespace corank::kinematics {
+namespace {
+
+using GiNaC::ex_to;
+using GiNaC::is_a;
+using GiNaC::numeric;
+
+double number_of(const ex& e) {
+  const ex value = e.evalf();
+  return is_a<numeric>(value) ? ex_to<numeric>(value).to_double() : std::nan("");
+}
+
+}  // namespace
+
+Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec operator*(const ex& s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
+ex dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vec operator*(const Mat& m, const Vec& a) { return {dot(m[0], a), dot(m[1], a), dot(m[2], a)}; }
+
+Mat transpose(const Mat& m) {
+  Mat t;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) t[i][j] = m[j][i];
+  return t;
+}
+
+Mat operator*(const Mat& a, const Mat& b) {
+  const Mat columns = transpose(b);
+  return transpose({a * columns[0], a * columns[1], a * columns[2]});
+}
+
+Mat identity() { return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
+
+Algebra::Algebra(const Robot& robot) {
+  std::vector<std::string> known;
+  for (const symbolic::Constant& constant : robot.constants) {
+    expander_.add_constant(
+        constant.name,
+        expander_.constant(constant.value, "the constant " + symbolic::in_quotes(constant.name), constant.where));
+    const GiNaC::realsymbol symbol(constant.name);
+    const symbolic::GinacBridge bridge(known, {});
+    GiNaC::exmap own;
+    for (const std::string& name : known) own[bridge.symbol(name)] = constants_.at(name);
+    const ex value = in_numbers(bridge.to_ginac(constant.value, constant.where).subs(own, GiNaC::subs_options::no_pattern));
+    values_[symbol] = value;
+    constants_.emplace(constant.name, symbol);
+    constant_names_.push_back(constant.name);
+    known.push_back(constant.name);
+    for (const int simple : {0, 1, -1})
+      if (sign(symbol - simple) == 0) simple_[symbol] = simple;
+  }
+}
+
+ex Algebra::expression(const Expression& e, const SourceLocation& where) const {
+  const symbolic::GinacBridge bridge(constant_names_, coordinate_names_);
+  GiNaC::exmap own;
+  for (const auto& [name, symbol] : constants_) own[bridge.symbol(name)] = symbol;
+  for (const auto& [name, symbol] : coordinates_) own[bridge.symbol(name)] = symbol;
+  return bridge.to_ginac(e, where).subs(own, GiNaC::subs_options::no_pattern).subs(simple_, GiNaC::subs_options::no_pattern);
+}
+
+ex Algebra::constant(const Expression& e, const SourceLocation& where) const {
+  if (e.kind() == Expression::Kind::number) return symbolic::exact_decimal(e.name());
+  return expression(e, where);
+}
+
+Vec Algebra::vector(const Vector& v, const SourceLocation& where) const {
+  return {constant(v[0], where), constant(v[1], where), constant(v[2], where)};
+}
+
+ex Algebra::coordinate(const std::string& name) {
+  const GiNaC::realsymbol symbol(name);
+  coordinates_.emplace(name, symbol);
+  coordinate_names_.push_back(name);
+  coordinate_symbols_.append(symbol);
+  return symbol;
+}
+
+double Algebra::value(const ex& constant) const { return number_of(in_numbers(constant)); }
+
+int Algebra::sign(const ex& constant) const {
+  constexpr double kPlain = 1e-6;  // far beyond the rounding errors of numbers as robots have them
+  if (is_a<numeric>(constant)) return ex_to<numeric>(constant).csgn();
+  const auto known = signs_.find(constant);
+  if (known != signs_.end()) return known->second;
+  const ex numbers = in_numbers(constant).expand();
+  int result = 0;
+  if (const double plain = number_of(numbers); std::fabs(plain) > kPlain) {
+    result = plain > 0 ? 1 : -1;
+  } else if (is_a<numeric>(numbers)) {
+    result = ex_to<numeric>(numbers).csgn();
+  } else {
+    const symbolic::GinacBridge bridge({}, {});
+    const symbolic::ConstantValue exact = expander_.constant(bridge.to_expression(numbers), "a constant", {});
+    result = exact.without_squared_cosines().is_zero() ? 0 : exact.sign().value_or(0);
+  }
+  signs_.emplace(constant, result);
+  return result;
+}
+
+bool Algebra::is_zero(const Vec& constants) const {
+  return is_zero(constants[0]) && is_zero(constants[1]) && is_zero(constants[2]);
+}
+
+ex Algebra::square_root(const ex& square) const {
+  constexpr int kMaxDenominator = 1000;
+  const double root = std::sqrt(value(square));
+  for (int q = 1; q <= kMaxDenominator && root < 1e6; ++q) {
+    const double p = std::round(root * q);
+    if (std::fabs(root * q - p) > 1e-9 * q) continue;
+    const ex rational = numeric(static_cast<long>(p), q);
+    if (is_zero(square - rational * rational)) return rational;
+    break;
+  }
+  return GiNaC::sqrt(square);
+}
+
+Vec Algebra::unit(const Vec& v) const { return 1 / square_root(dot(v, v).expand()) * v; }
+
+Vec Algebra::perpendicular(const Vec& axis) const {
+  const Vec axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const Vec& e : axes)
+    if (is_zero(dot(axis, e))) return e;
+  // The part across the axis of the coordinate axis that is farthest from it.
+  std::size_t farthest = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (std::fabs(value(axis[i])) < std::fabs(value(axis[farthest]))) farthest = i;
+  const Vec& e = axes[farthest];
+  return unit(e - dot(axis, e) / dot(axis, axis) * axis);
+}
+
+bool Algebra::is_constant(const ex& e) const {
+  for (GiNaC::const_preorder_iterator i = e.preorder_begin(); i != e.preorder_end(); ++i)
+    if (is_a<GiNaC::symbol>(*i) && coordinates_.contains(ex_to<GiNaC::symbol>(*i).get_name())) return false;
+  return true;
+}
+
+namespace {
+
+std::size_t terms(const ex& sum) { return is_a<GiNaC::add>(sum) ? sum.nops() : 1; }
+
+// sin² as 1 − cos².
+struct SquaredSines : GiNaC::map_function {
+  ex operator()(const ex& e) override {
+    const ex inner = e.map(*this);
+    if (!is_a<GiNaC::power>(inner) || !inner.op(1).is_equal(2) || !is_a<GiNaC::function>(inner.op(0))) return inner;
+    const auto function = ex_to<GiNaC::function>(inner.op(0));
+    return function.get_name() == "sin" ? 1 - GiNaC::pow(GiNaC::cos(function.op(0)), 2) : inner;
+  }
+};
+
+}  // namespace
+
+ex Algebra::clean(const ex& e) const {
+  const ex plain = collected(e);
+  SquaredSines squares;
+  const ex replaced = squares(plain);
+  if (replaced.is_equal(plain)) return plain;
+  const ex other = collected(replaced);
+  return terms(other) < terms(plain) ? other : plain;
+}
+
+ex Algebra::collected(const ex& e) const {
+  const ex sum = e.expand();
+  std::map<ex, ex, GiNaC::ex_is_less> coefficients;  // of each product of coordinates
+  const auto add = [&](const ex& term) {
+    ex coefficient = 1, product = 1;
+    const auto factor = [&](const ex& f) { (is_constant(f) ? coefficient : product) *= f; };
+    if (is_a<GiNaC::mul>(term)) {
+      for (const ex& f : term) factor(f);
+    } else {
+      factor(term);
+    }
+    coefficients[product] += coefficient;
+  };
+  if (is_a<GiNaC::add>(sum)) {
+    for (const ex& term : sum) add(term);
+  } else {
+    add(sum);
+  }
+  ex result = 0;
+  for (const auto& [product, coefficient] : coefficients)
+    if (!is_zero(coefficient)) result += coefficient * product;
+  return result;
+}
+
+std::vector<Expression> Algebra::translated(const std::vector<ex>& list) const {
+  const symbolic::GinacBridge bridge(constant_names_, coordinate_names_);
+  GiNaC::exmap theirs;
+  for (const auto& [name, symbol] : constants_) theirs[symbol] = bridge.symbol(name);
+  for (const auto& [name, symbol] : coordinates_) theirs[symbol] = bridge.symbol(name);
+  std::vector<Expression> result;
+  for (const ex& e : list) result.push_back(bridge.to_expression(e.subs(theirs, GiNaC::subs_options::no_pattern)));
+  return result;
+}
+
+}  // namespace corank::kinematics

@@ -1,0 +1,83 @@
+// Exact geometry of a robot: numbers, vectors and rotations whose entries are expressions in its constants and in coordinates
+// that are made along the way. GiNaC works behind it; whoever uses it holds a symbolic::GinacLock.
+//
+// Constants keep their names, so that equations can be read, but those worth 0, 1 or −1 are put in. Whether an expression in
+// constants is zero is decided by their values: rational ones exactly, others by enclosures of 4096 bits; what these cannot
+// tell from zero counts as zero.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "corank/kinematics/robot.h"
+#include "corank/symbolic/polynomial_expander.h"
+
+namespace corank::kinematics {
+
+using GiNaC::ex;
+using Vec = std::array<ex, 3>;
+using Mat = std::array<Vec, 3>;  ///< row by row
+
+Vec operator+(const Vec& a, const Vec& b);
+Vec operator-(const Vec& a, const Vec& b);
+Vec operator*(const ex& s, const Vec& a);
+ex dot(const Vec& a, const Vec& b);
+Vec cross(const Vec& a, const Vec& b);
+Vec operator*(const Mat& m, const Vec& a);
+Mat operator*(const Mat& a, const Mat& b);
+Mat transpose(const Mat& m);
+Mat identity();
+
+class Algebra {
+ public:
+  explicit Algebra(const Robot& robot);
+
+  /// An expression in constants.
+  ex constant(const Expression& e, const SourceLocation& where) const;
+  Vec vector(const Vector& v, const SourceLocation& where) const;
+  /// An expression in constants and coordinates.
+  ex expression(const Expression& e, const SourceLocation& where) const;
+  /// A new coordinate's symbol.
+  ex coordinate(const std::string& name);
+
+  /// Of an expression in constants; 0 where it cannot be told from zero.
+  int sign(const ex& constant) const;
+  bool is_zero(const ex& constant) const { return sign(constant) == 0; }
+  bool is_zero(const Vec& constants) const;
+  bool are_parallel(const Vec& a, const Vec& b) const { return is_zero(cross(a, b)); }
+  double value(const ex& constant) const;
+  /// v/|v| of a constant vector that is not 0.
+  Vec unit(const Vec& v) const;
+  /// A unit vector perpendicular to a constant one, along a coordinate axis where that is possible.
+  Vec perpendicular(const Vec& axis) const;
+  /// The square root of a constant ≥ 0, a rational number where it is one.
+  ex square_root(const ex& square) const;
+
+  /// Expanded, like terms collected, terms that are worth 0 left out; cos² + sin² is 1 where that makes it shorter.
+  ex clean(const ex& e) const;
+  /// No coordinate occurs.
+  bool is_constant(const ex& e) const;
+  bool is_constant(const Vec& v) const { return is_constant(v[0]) && is_constant(v[1]) && is_constant(v[2]); }
+
+  const std::map<std::string, GiNaC::realsymbol>& constants() const { return constants_; }
+  const std::vector<std::string>& coordinate_names() const { return coordinate_names_; }
+  /// In the model language.
+  std::vector<Expression> translated(const std::vector<ex>& list) const;
+
+ private:
+  ex collected(const ex& e) const;
+  ex in_numbers(const ex& constant) const { return constant.subs(values_, GiNaC::subs_options::no_pattern); }
+
+  std::vector<std::string> constant_names_, coordinate_names_;
+  std::map<std::string, GiNaC::realsymbol> constants_, coordinates_;
+  GiNaC::exmap values_, simple_;  // of constants: all values; those that are put in
+  GiNaC::lst coordinate_symbols_;
+  mutable symbolic::PolynomialExpander expander_;
+  mutable std::map<ex, int, GiNaC::ex_is_less> signs_;
+};
+
+}  // namespace corank::kinematics

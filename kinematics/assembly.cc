@@ -1,0 +1,73 @@
+#include "corank/kinematics/assembly.h"
+
+#include <algorithm>
+
+#include "corank/kinematics/planar.h"
+#include "corank/kinematics/spatial.h"
+#include "corank/symbolic/ginac_lock.h"
+
+namespace corank::kinematics {
+namespace {
+
+int freedom(JointKind kind) {
+  switch (kind) {
+    case JointKind::revolute:
+    case JointKind::prismatic: return 1;
+    case JointKind::cylindrical:
+    case JointKind::universal: return 2;
+    case JointKind::spherical:
+    case JointKind::planar: return 3;
+    case JointKind::distance: return 5;
+    case JointKind::distance_variable: return 6;
+    case JointKind::fixed: return 0;
+  }
+  return 0;
+}
+
+int count_mobility(const Bodies& bodies, Space space) {
+  const int full = space == Space::spatial ? 6 : 3;
+  int mobility = full * (static_cast<int>(bodies.size()) - 1);
+  for (const BodyJoint& j : bodies.joints) {
+    const bool is_rod = j.kind == JointKind::distance || j.kind == JointKind::distance_variable;
+    mobility -= is_rod ? 6 - freedom(j.kind) : std::max(0, full - freedom(j.kind));
+  }
+  return mobility;
+}
+
+}  // namespace
+
+const char* to_string(Space space) {
+  switch (space) {
+    case Space::planar: return "planar";
+    case Space::spherical: return "spherical";
+    case Space::spatial: return "spatial";
+  }
+  return "?";
+}
+
+Assembly assemble(const Robot& robot) {
+  const symbolic::GinacLock lock;
+  Algebra algebra(robot);
+  const Bodies bodies = bodies_of(robot, algebra);
+  Draft draft(robot, algebra);
+  const auto normals = plane_of(robot, bodies, algebra);
+  Space space = Space::planar;
+  if (normals) {
+    draft_planar(robot, bodies, *normals, algebra, draft);
+  } else {
+    space = draft_spatial(robot, bodies, algebra, draft) ? Space::spherical : Space::spatial;
+  }
+  Assembly assembly = draft.assembly();
+  assembly.space = space;
+  assembly.mobility_by_joints = count_mobility(bodies, space);
+  assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
+  for (const symbolic::Constraint& c : assembly.mechanism.constraints())
+    assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;
+  assembly.mobility_by_rank = sampled_mobility(assembly.mechanism);
+  if (assembly.mobility_by_rank)  // a joint that is locked by its range would be free
+    for (const symbolic::Coordinate& c : assembly.mechanism.coordinates())
+      *assembly.mobility_by_rank += symbolic::is_fixed(c) ? 1 : 0;
+  return assembly;
+}
+
+}  // namespace corank::kinematics

@@ -1,0 +1,51 @@
+// From a robot's parts to its equations.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/kinematics/robot.h"
+
+namespace corank::kinematics {
+
+/// Where a robot moves: in a plane, about a point, or in space.
+enum class Space { planar, spherical, spatial };
+
+const char* to_string(Space space);
+
+struct Assembly {
+  /// x ↦ R x + p of a link's frame in the world, in the mechanism's coordinates.
+  struct LinkPose {
+    std::string link;
+    Vector origin;
+    std::array<Vector, 3> rotation;
+  };
+  /// The coordinate of a joint; or, where its angle is none, the angle's cosine and sine.
+  struct JointValue {
+    std::string joint;
+    Expression value;
+    std::optional<Expression> sine;
+  };
+
+  symbolic::Mechanism
+      mechanism;  ///< coordinates and equations; velocity equation, inputs and outputs where the robot has such
+  Space space = Space::spatial;
+  int mobility = 0;  ///< coordinates less equations
+  /// What the count says of a robot whose parts are given: 3 (in space 6) for each body but the ground, less what each joint
+  /// takes away (Chebychev, Grübler, Kutzbach).
+  int mobility_by_joints = 0;
+  /// At a configuration that was found by sampling; nothing where none was found. It proves nothing.
+  std::optional<int> mobility_by_rank;
+  std::vector<LinkPose> poses;           ///< of every link
+  std::vector<JointValue> joint_values;  ///< of every joint that has one value
+};
+
+/// The equations of a robot. Throws ModelError where the robot is faulty or can't be assembled; where it has no coordinates.
+Assembly assemble(const Robot& robot);
+
+/// The mobility of a mechanism at a configuration found by Newton's method from random ones (of fixed seeds): its coordinates
+/// less the rank of Φ_q. Nothing where none of the tries ends in a configuration.
+std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism);
+
+}  // namespace corank::kinematics

@@ -1,0 +1,184 @@
+#include "corank/kinematics/bodies.h"
+
+#include <deque>
+#include <optional>
+
+namespace corank::kinematics {
+namespace {
+
+using symbolic::ModelError;
+
+std::string name_of(const Joint& joint) { return std::string(to_string(joint.kind)) + " joint '" + joint.name + "'"; }
+
+/// The orthonormal frame of an axis and a direction across it, as columns.
+Mat axis_frame(const Algebra& algebra, const Vec& axis, const Vec& zero) {
+  return transpose(
+      {axis,
+       zero,
+       {algebra.clean(cross(axis, zero)[0]), algebra.clean(cross(axis, zero)[1]), algebra.clean(cross(axis, zero)[2])}});
+}
+
+class Builder {
+ public:
+  Builder(const Robot& robot, const Algebra& algebra) : robot_(robot), algebra_(algebra) {}
+
+  Bodies run() {
+    orient_links();
+    place_links();
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j)
+      if (robot_.joints[j].kind != JointKind::fixed) add_joint(j);
+    return std::move(out_);
+  }
+
+ private:
+  Vec cleaned(const Vec& v) const { return {algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])}; }
+  Mat cleaned(const Mat& m) const { return {cleaned(m[0]), cleaned(m[1]), cleaned(m[2])}; }
+
+  Mat rotation_of(const Pose& pose, const SourceLocation& where) const {
+    return {algebra_.vector(pose.rotation[0], where), algebra_.vector(pose.rotation[1], where),
+            algebra_.vector(pose.rotation[2], where)};
+  }
+
+  struct LinkEnd {
+    Vec point, axis, zero;
+    bool has_zero = false;
+  };
+  LinkEnd end(const Joint& joint, std::size_t i) const {
+    const JointEnd& e = joint.ends[i];
+    LinkEnd result{
+        algebra_.vector(e.point, joint.where), algebra_.vector(e.axis, joint.where), {0, 0, 0}, e.zero.has_value()};
+    if (algebra_.is_zero(result.axis)) return result;
+    result.axis = cleaned(algebra_.unit(cleaned(result.axis)));
+    if (e.zero) {
+      const Vec zero = algebra_.vector(*e.zero, joint.where);
+      result.zero = cleaned(algebra_.unit(cleaned(zero - dot(zero, result.axis) * result.axis)));
+    } else {
+      result.zero = cleaned(algebra_.perpendicular(result.axis));
+    }
+    return result;
+  }
+
+  /// The rotation of end 1's link in end 0's, which the joint keeps.
+  Mat kept_rotation(const Joint& joint) const {
+    if (joint.kind == JointKind::fixed) return rotation_of(joint.pose, joint.where);
+    const LinkEnd a = end(joint, 0), b = end(joint, 1);
+    if (a.has_zero && b.has_zero)
+      return cleaned(axis_frame(algebra_, a.axis, a.zero) * transpose(axis_frame(algebra_, b.axis, b.zero)));
+    if (algebra_.is_zero(cleaned(a.axis - b.axis))) return identity();
+    throw ModelError(joint.where,
+                     "the " + name_of(joint) +
+                         " does not say how its links are turned to each other: its axis has another "
+                         "direction in '" +
+                         robot_.links[joint.ends[0].link].name + "' than in '" + robot_.links[joint.ends[1].link].name + "'",
+                     "the same direction in both frames, or a zero direction in each");
+  }
+
+  // Rotations of links in their group's frame, which is its first link's.
+  void orient_links() {
+    rotation_.resize(robot_.links.size());
+    link_group_.assign(robot_.links.size(), 0);
+    std::size_t groups = 0;
+    for (std::size_t root = 0; root < robot_.links.size(); ++root) {
+      if (rotation_[root]) continue;
+      rotation_[root] = identity();
+      link_group_[root] = groups++;
+      std::deque<std::size_t> waiting{root};
+      while (!waiting.empty()) {
+        const std::size_t link = waiting.front();
+        waiting.pop_front();
+        for (const Joint& joint : robot_.joints) {
+          if (joint.kind != JointKind::fixed && joint.kind != JointKind::prismatic) continue;
+          for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+            if (joint.ends[side].link != link) continue;
+            const std::size_t other = joint.ends[1 - side].link;
+            const Mat kept = kept_rotation(joint);
+            const Mat rotation = cleaned(*rotation_[link] * (side == 0 ? kept : transpose(kept)));
+            if (!rotation_[other]) {
+              rotation_[other] = rotation;
+              link_group_[other] = link_group_[link];
+              waiting.push_back(other);
+            } else {
+              for (std::size_t r = 0; r < 3; ++r)
+                if (!algebra_.is_zero(cleaned(rotation[r] - (*rotation_[other])[r])))
+                  throw ModelError(joint.where,
+                                   "the " + name_of(joint) + " asks for another orientation of '" +
+                                       robot_.links[other].name + "' than the fixed and prismatic joints before it",
+                                   "joints that agree");
+            }
+          }
+        }
+      }
+    }
+    out_.groups = groups;
+  }
+
+  void place_links() {
+    std::vector<std::optional<Vec>> origin(robot_.links.size());
+    out_.of_link.assign(robot_.links.size(), 0);
+    out_.placement.resize(robot_.links.size());
+    for (std::size_t root = 0; root < robot_.links.size(); ++root) {
+      if (origin[root]) continue;
+      origin[root] = Vec{0, 0, 0};
+      const std::size_t body = out_.group.size();
+      out_.group.push_back(link_group_[root]);
+      out_.of_link[root] = body;
+      std::deque<std::size_t> waiting{root};
+      while (!waiting.empty()) {
+        const std::size_t link = waiting.front();
+        waiting.pop_front();
+        for (const Joint& joint : robot_.joints) {
+          if (joint.kind != JointKind::fixed) continue;
+          const Vec shift = algebra_.vector(joint.pose.translation, joint.where);
+          for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+            if (joint.ends[side].link != link) continue;
+            const std::size_t other = joint.ends[1 - side].link;
+            // x0 = K x1 + p, in group axes o1 = o0 + R0 p.
+            const Vec place =
+                cleaned(side == 0 ? *origin[link] + *rotation_[link] * shift : *origin[link] - *rotation_[other] * shift);
+            if (!origin[other]) {
+              origin[other] = place;
+              out_.of_link[other] = body;
+              waiting.push_back(other);
+            } else if (!algebra_.is_zero(cleaned(place - *origin[other]))) {
+              throw ModelError(joint.where,
+                               "the " + name_of(joint) + " puts '" + robot_.links[other].name +
+                                   "' elsewhere than the fixed joints before it",
+                               "joints that agree");
+            }
+          }
+        }
+      }
+    }
+    for (std::size_t link = 0; link < robot_.links.size(); ++link) out_.placement[link] = {*rotation_[link], *origin[link]};
+  }
+
+  void add_joint(std::size_t index) {
+    const Joint& joint = robot_.joints[index];
+    BodyJoint result{index, joint.kind, {}};
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+      const std::size_t link = joint.ends[i].link;
+      const LinkEnd e = end(joint, i);
+      const Placement& at = out_.placement[link];
+      result.ends[i] = {out_.of_link[link], cleaned(at.translation + at.rotation * e.point), cleaned(at.rotation * e.axis),
+                        cleaned(at.rotation * e.zero)};
+    }
+    if (result.ends[0].body == result.ends[1].body)
+      throw ModelError(joint.where,
+                       "the " + name_of(joint) + " joins '" + robot_.links[joint.ends[0].link].name + "' and '" +
+                           robot_.links[joint.ends[1].link].name + "', which fixed joints make one body",
+                       "a joint between two bodies");
+    out_.joints.push_back(std::move(result));
+  }
+
+  const Robot& robot_;
+  const Algebra& algebra_;
+  Bodies out_;
+  std::vector<std::optional<Mat>> rotation_;
+  std::vector<std::size_t> link_group_;
+};
+
+}  // namespace
+
+Bodies bodies_of(const Robot& robot, const Algebra& algebra) { return Builder(robot, algebra).run(); }
+
+}  // namespace corank::kinematics

@@ -1,0 +1,45 @@
+// The rigid bodies of a robot: links that fixed joints make one, with the joints between them in the bodies' frames. Bodies
+// that only slide on each other keep their relative orientation: together they are a *group*, with one rotation.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "corank/kinematics/algebra.h"
+
+namespace corank::kinematics {
+
+/// A link's frame in its body's: x ↦ R x + p.
+struct Placement {
+  Mat rotation = identity();
+  Vec translation{0, 0, 0};
+};
+
+/// Of a joint on a body, in the body's frame. The frames of the bodies of a group stay parallel.
+struct BodyEnd {
+  std::size_t body = 0;
+  Vec point;
+  Vec axis;  ///< of length 1; 0 for joints without
+  Vec zero;  ///< of length 1, perpendicular to the axis; 0 for joints without axis
+};
+
+struct BodyJoint {
+  std::size_t index = 0;  ///< in Robot::joints
+  JointKind kind = JointKind::revolute;
+  std::array<BodyEnd, 2> ends;
+};
+
+struct Bodies {
+  std::vector<std::size_t> of_link;  ///< body of each link; 0 is the ground
+  std::vector<Placement> placement;  ///< of each link's frame in its body's
+  std::vector<std::size_t> group;    ///< of each body; 0 is the ground's
+  std::size_t groups = 0;
+  std::vector<BodyJoint> joints;  ///< all but the fixed ones
+
+  std::size_t size() const { return group.size(); }
+};
+
+/// Throws ModelError where fixed joints contradict one another, or sliding joints ask one link for two orientations.
+Bodies bodies_of(const Robot& robot, const Algebra& algebra);
+
+}  // namespace corank::kinematics

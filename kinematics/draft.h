@@ -1,0 +1,108 @@
+// A mechanism in the making: coordinates, equations and rates in the algebra of a robot's geometry, turned into the model
+// language's expressions at the end.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/kinematics/algebra.h"
+#include "corank/kinematics/assembly.h"
+#include "corank/symbolic/mechanism.h"
+#include "corank/symbolic/set_definition.h"
+
+namespace corank::kinematics {
+
+class Draft {
+ public:
+  Draft(const Robot& robot, Algebra& algebra) : robot_(robot), algebra_(algebra) {}
+
+  /// Free names: `wanted`, or with underscores where that is taken or no name.
+  std::string free_name(const std::string& wanted);
+
+  ex angle(const std::string& name, const std::optional<Range>& range, const SourceLocation& where);
+  /// Without a range: what the equations leave.
+  ex length(const std::string& name, const std::optional<Range>& range, const SourceLocation& where, bool auxiliary = false);
+  /// Components in [−size, size], defined by equations that the caller adds.
+  Vec vector(const std::string& name, int size, const SourceLocation& where);
+  /// With |w| = 1.
+  Vec unit_vector(const std::string& name, const SourceLocation& where);
+
+  /// e = 0, left out where it is 0 by its constants alone. Throws ModelError where it is a constant that is not 0: `what` then
+  /// cannot be assembled.
+  /// Returns whether there is anything to say.
+  bool equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what = "the loop");
+  void at_least_zero(const ex& e, const std::string& note, const SourceLocation& where);
+
+  ex rate(const std::string& name, symbolic::CoordinateKind kind, symbolic::Role role, const SourceLocation& where);
+  /// Left out where it is 0.
+  void velocity(const ex& e, const std::string& note, const SourceLocation& where);
+
+  // What a solution means, and how it is drawn.
+  struct LinkPose {
+    Vec origin;
+    Mat axes;  ///< R
+  };
+  void pose(const LinkPose& pose) { poses_.push_back(pose); }
+  void joint_value(const std::string& joint, const ex& value) { values_.push_back({joint, value, {}}); }
+  void joint_value(const std::string& joint, const ex& cosine, const ex& sine) { values_.push_back({joint, cosine, sine}); }
+  /// Returns the point's name, `wanted` or one like it.
+  std::string point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity, int dimension);
+  void part(symbolic::DrawingPart::Kind kind, const std::vector<std::string>& points) {
+    parts_.emplace_back();
+    parts_.back().kind = kind;
+    parts_.back().points = points;
+  }
+
+  void input(const ex& coordinate) { inputs_.push_back(coordinate); }
+  void output(const ex& coordinate) { outputs_.push_back(coordinate); }
+
+  /// The mechanism, with the robot's constants, and what its solutions mean.
+  Assembly assembly() const;
+
+ private:
+  struct DraftCoordinate {
+    std::string name;
+    symbolic::CoordinateKind kind;
+    std::optional<Range> range;
+    bool auxiliary, unit;  ///< unit: the first of three that are a unit vector
+    SourceLocation where;
+  };
+  struct DraftEquation {
+    ex value;
+    bool inequality;
+    std::string note;
+    SourceLocation where;
+  };
+  struct DraftRate {
+    std::string name;
+    symbolic::CoordinateKind kind;
+    symbolic::Role role;
+    SourceLocation where;
+  };
+
+  const Robot& robot_;
+  Algebra& algebra_;
+  std::vector<std::string> names_;
+  std::vector<DraftCoordinate> coordinates_;
+  std::vector<DraftEquation> equations_, velocity_;
+  std::vector<DraftRate> rates_;
+  std::vector<ex> inputs_, outputs_;
+  struct JointValue {
+    std::string joint;
+    ex value;  ///< or the cosine
+    std::optional<ex> sine;
+  };
+  struct DraftPoint {
+    std::string name;
+    Vec at;
+    std::optional<Vec> velocity;
+    std::size_t dimension;
+  };
+  std::vector<LinkPose> poses_;
+  std::vector<JointValue> values_;
+  std::vector<DraftPoint> points_;
+  std::vector<symbolic::DrawingPart> parts_;
+};
+
+}  // namespace corank::kinematics

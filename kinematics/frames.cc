@@ -1,0 +1,309 @@
+#include "corank/kinematics/frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corank::kinematics {
+namespace {
+
+using GiNaC::cos;
+using GiNaC::sin;
+using symbolic::ModelError;
+
+bool shares_axis(JointKind kind) {
+  return kind == JointKind::revolute || kind == JointKind::cylindrical || kind == JointKind::planar;
+}
+
+}  // namespace
+
+Frames::Frames(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft)
+    : robot_(robot),
+      bodies_(bodies),
+      algebra_(algebra),
+      draft_(draft),
+      frames_(bodies.groups),
+      axes_(bodies.joints.size()),
+      aligned_(bodies.joints.size(), false),
+      angles_(robot.joints.size()) {
+  const Vec x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  frames_[0] = Frame{{x, y}, {x, y}, z};
+}
+
+bool Frames::is_asked_for(std::size_t index) const {
+  return robot_.joints[index].actuated || std::any_of(robot_.outputs.begin(), robot_.outputs.end(), [&](const Output& o) {
+           return o.kind == Output::Kind::joint && o.joint == index;
+         });
+}
+
+std::string Frames::name_of_group(std::size_t group) const {
+  for (std::size_t l = 0; l < robot_.links.size(); ++l)
+    if (bodies_.group[bodies_.of_link[l]] == group) return robot_.links[l].name;
+  return "link";
+}
+
+// Linear, with two terms at most in each component.
+bool Frames::is_simple(const Vec& v) const {
+  for (const ex& component : v) {
+    const ex e = component.expand();
+    const auto degree = [&](const ex& term) {
+      int sum = 0;
+      const auto count = [&](const ex& f) {
+        if (algebra_.is_constant(f)) return;
+        sum += GiNaC::is_a<GiNaC::power>(f) ? 2 : 1;
+      };
+      if (GiNaC::is_a<GiNaC::mul>(term)) {
+        for (const ex& f : term) count(f);
+      } else {
+        count(term);
+      }
+      return sum;
+    };
+    if (GiNaC::is_a<GiNaC::add>(e)) {
+      if (e.nops() > 2) return false;
+      for (const ex& term : e)
+        if (degree(term) > 1) return false;
+    } else if (degree(e) > 1) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Vec Frames::simplified(const Vec& v, const std::string& name, const SourceLocation& where) {
+  const Vec clean{algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])};
+  if (is_simple(clean)) return clean;
+  const Vec w = draft_.vector(name, 1, where);
+  for (std::size_t i = 0; i < 3; ++i) draft_.equation(w[i] - clean[i], name, where);
+  return w;
+}
+
+Vec Frames::coefficients(std::size_t group, const Vec& v) const {
+  const auto& [g0, g1] = frames_[group]->own;
+  const ex c = algebra_.clean(dot(g0, g1)), a0 = dot(v, g0), a1 = dot(v, g1), a2 = dot(v, cross(g0, g1));
+  if (c.is_zero()) return {algebra_.clean(a0), algebra_.clean(a1), algebra_.clean(a2)};
+  const ex square = 1 - c * c;
+  return {algebra_.clean(a0 - c * a1) / square, algebra_.clean(a1 - c * a0) / square, algebra_.clean(a2) / square};
+}
+
+Vec Frames::direction(std::size_t group, std::size_t i) {
+  Frame& frame = *frames_[group];
+  if (i < 2) return frame.world[i];
+  if (!frame.third) {
+    const Vec product = cross(frame.world[0], frame.world[1]);
+    if (finished_) return product;
+    frame.third = simplified(product, "n_" + name_of_group(group), {});
+  }
+  return *frame.third;
+}
+
+Vec Frames::image(std::size_t group, const Vec& v) {
+  const Vec c = coefficients(group, v);
+  Vec sum{0, 0, 0};
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!algebra_.is_zero(c[i])) sum = sum + c[i] * direction(group, i);
+  return {algebra_.clean(sum[0]), algebra_.clean(sum[1]), algebra_.clean(sum[2])};
+}
+
+Vec Frames::axis(std::size_t j, std::size_t end) {
+  if (!axes_[j]) {
+    const BodyEnd& e = bodies_.joints[j].ends[end];
+    const Joint& of = joint(bodies_.joints[j]);
+    axes_[j] = simplified(image(bodies_.group[e.body], e.axis), "axis_" + of.name, of.where);
+  }
+  return *axes_[j];
+}
+
+std::vector<Frames::Candidate> Frames::candidates(std::size_t group) const {
+  std::vector<Candidate> list;
+  for (std::size_t j = 0; j < bodies_.joints.size(); ++j)
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+      const BodyEnd& e = bodies_.joints[j].ends[end];
+      if (bodies_.group[e.body] == group && !algebra_.is_zero(e.axis)) list.push_back({e.axis, j, end});
+    }
+  // Axes that are known already come first: they need no new coordinates.
+  std::stable_sort(list.begin(), list.end(), [&](const Candidate& a, const Candidate& b) {
+    const auto rank = [&](const Candidate& c) {
+      const BodyJoint& j = bodies_.joints[*c.joint];
+      if (!shares_axis(j.kind)) return 2;
+      return axes_[*c.joint] || has_frame(bodies_.group[j.ends[1 - c.end].body]) ? 0 : 1;
+    };
+    return rank(a) < rank(b);
+  });
+  // Ways between joints, where they are rational: what is a sum of three directions else is a multiple of one.
+  for (const BodyJoint& a : bodies_.joints)
+    for (const BodyEnd& p : a.ends)
+      for (const BodyJoint& b : bodies_.joints)
+        for (const BodyEnd& q : b.ends) {
+          if (&a == &b || p.body != q.body || bodies_.group[p.body] != group) continue;
+          const Vec way = q.point - p.point;
+          if (algebra_.is_zero(way)) continue;
+          const Vec along = algebra_.unit(way);
+          if (std::all_of(along.begin(), along.end(), [](const ex& e) { return GiNaC::is_a<GiNaC::numeric>(e); }))
+            list.push_back({along, {}, 0});
+        }
+  return list;
+}
+
+void Frames::complete(std::size_t group, const Vec& own, const Vec& world, const SourceLocation& where) {
+  const auto finish = [&](const Vec& second_own, const Vec& second_world) {
+    frames_[group] = Frame{{own, second_own}, {world, second_world}, {}};
+  };
+  const auto with_angle_to_first = [&](const Vec& second_own, const Vec& second_world) {
+    draft_.equation(dot(world, second_world) - dot(own, second_own), "angle in " + name_of_group(group), where);
+    finish(second_own, second_world);
+  };
+  for (const Candidate& c : candidates(group)) {
+    if (algebra_.are_parallel(c.own, own)) continue;
+    if (!c.joint || !shares_axis(bodies_.joints[*c.joint].kind)) {
+      with_angle_to_first(c.own, draft_.unit_vector("u_" + name_of_group(group), where));
+      return;
+    }
+    const BodyJoint& j = bodies_.joints[*c.joint];
+    const bool known = axes_[*c.joint].has_value(), far = has_frame(bodies_.group[j.ends[1 - c.end].body]);
+    if (!known && far && bodies_.group[j.ends[1 - c.end].body] != group) axis(*c.joint, 1 - c.end);
+    if (!axes_[*c.joint]) axes_[*c.joint] = draft_.unit_vector("axis_" + joint(j).name, joint(j).where);
+    if (far || known) aligned_[*c.joint] = true;
+    with_angle_to_first(c.own, *axes_[*c.joint]);
+    return;
+  }
+  with_angle_to_first(algebra_.perpendicular(own), draft_.unit_vector("u_" + name_of_group(group), where));
+}
+
+void Frames::start_free(std::size_t group, const SourceLocation& where) {
+  for (const Candidate& c : candidates(group)) {
+    if (c.joint && axes_[*c.joint]) continue;  // known: left for the second
+    if (c.joint && shares_axis(bodies_.joints[*c.joint].kind)) {
+      if (has_frame(bodies_.group[bodies_.joints[*c.joint].ends[1 - c.end].body])) continue;
+      axes_[*c.joint] = draft_.unit_vector("axis_" + joint(bodies_.joints[*c.joint]).name, where);
+      complete(group, c.own, *axes_[*c.joint], where);
+    } else {
+      complete(group, c.own, draft_.unit_vector("w_" + name_of_group(group), where), where);
+    }
+    return;
+  }
+  complete(group, {1, 0, 0}, draft_.unit_vector("w_" + name_of_group(group), where), where);
+}
+
+void Frames::turn_by_angle(const TreeEdge& edge) {
+  const BodyJoint& j = bodies_.joints[edge.joint];
+  const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
+  const std::size_t group = bodies_.group[parent.body];
+  const Joint& of = joint(j);
+  const ex theta = draft_.angle(of.name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
+  angles_[j.index] = theta;
+  const Vec along = axis(edge.joint, edge.from);
+  const int sign = edge.from == 0 ? 1 : -1;
+  const Vec turned =
+      cos(theta) * image(group, parent.zero) + (sign * sin(theta)) * image(group, cross(parent.axis, parent.zero));
+  const std::size_t turned_group = bodies_.group[child.body];
+  frames_[turned_group] =
+      Frame{{child.axis, child.zero}, {along, simplified(turned, "u_" + name_of_group(turned_group), of.where)}, {}};
+  aligned_[edge.joint] = true;
+}
+
+void Frames::turn_by_universal(const TreeEdge& edge) {
+  const BodyJoint& j = bodies_.joints[edge.joint];
+  const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
+  const std::size_t group = bodies_.group[parent.body];
+  const Joint& of = joint(j);
+  const Vec first = image(group, parent.axis);
+  Vec second;
+  if (algebra_.is_constant(first)) {
+    const ex theta = draft_.angle(of.name, {}, of.where);
+    second = simplified(cos(theta) * image(group, parent.zero) + sin(theta) * image(group, cross(parent.axis, parent.zero)),
+                        "axis_" + of.name, of.where);
+  } else {
+    second = draft_.unit_vector("axis_" + of.name, of.where);
+    draft_.equation(dot(first, second), "universal joint", of.where);
+  }
+  complete(bodies_.group[child.body], child.axis, second, of.where);
+}
+
+void Frames::orient(const TreeEdge& edge) {
+  const BodyJoint& j = bodies_.joints[edge.joint];
+  const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
+  const std::size_t group = bodies_.group[parent.body], turned = bodies_.group[child.body];
+  if (has_frame(turned)) return;
+  switch (j.kind) {
+    case JointKind::revolute:
+      if (is_asked_for(j.index) || group == 0) {
+        turn_by_angle(edge);
+        return;
+      }
+      [[fallthrough]];
+    case JointKind::cylindrical:
+    case JointKind::planar: {
+      const Vec along = axis(edge.joint, edge.from);
+      aligned_[edge.joint] = true;
+      complete(turned, child.axis, along, joint(j).where);
+      return;
+    }
+    case JointKind::universal: turn_by_universal(edge); return;
+    default: start_free(turned, joint(j).where);
+  }
+}
+
+void Frames::close(const BodyJoint& j) {
+  const std::size_t index = static_cast<std::size_t>(&j - bodies_.joints.data());
+  const std::size_t g0 = bodies_.group[j.ends[0].body], g1 = bodies_.group[j.ends[1].body];
+  const Joint& of = joint(j);
+  const std::string what = "the joint '" + of.name + "'";
+  if (j.kind == JointKind::universal) {
+    draft_.equation(dot(image(g0, j.ends[0].axis), image(g1, j.ends[1].axis)), "universal joint", of.where, what);
+    return;
+  }
+  if (!shares_axis(j.kind)) return;
+  if (g0 == g1) {
+    for (std::size_t i = 0; i < 3; ++i) draft_.equation(j.ends[0].axis[i] - j.ends[1].axis[i], "axis", of.where, what);
+  } else if (!aligned_[index]) {
+    // Two unit vectors are equal where two components in an orthonormal frame are, and the third, which is not 0, has the
+    // same sign.
+    const Vec a = image(g0, j.ends[0].axis);
+    const auto& own = directions(g1);
+    const Vec e0 = own[0], e2 = algebra_.unit(cross(own[0], own[1])), e1 = cross(e2, e0);
+    const std::array<Vec, 3> basis{e0, e1, e2};
+    std::array<ex, 3> b;
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      b[i] = algebra_.clean(dot(j.ends[1].axis, basis[i]));
+      if (std::fabs(algebra_.value(b[i])) > std::fabs(algebra_.value(b[largest]))) largest = i;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ex component = dot(a, image(g1, basis[i]));
+      if (i == largest) {
+        draft_.at_least_zero(algebra_.sign(b[i]) * component, "axis", of.where);
+      } else {
+        draft_.equation(component - b[i], "axis", of.where, what);
+      }
+    }
+  }
+  if (j.kind != JointKind::revolute || !is_asked_for(j.index)) return;
+  // tan θ by the zeros: x sin θ − y cos θ = 0 and x cos θ + y sin θ ≥ 0, where (x, y) = (cos, sin) at solutions.
+  const ex theta = draft_.angle(of.name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
+  angles_[j.index] = theta;
+  const Vec zero = image(g1, j.ends[1].zero);
+  const ex x = dot(zero, image(g0, j.ends[0].zero)), y = dot(zero, image(g0, cross(j.ends[0].axis, j.ends[0].zero)));
+  draft_.equation(x * sin(theta) - y * cos(theta), "angle", of.where);
+  draft_.at_least_zero(x * cos(theta) + y * sin(theta), "angle", of.where);
+}
+
+void Frames::limit(const BodyJoint& j) {
+  const Joint& of = joint(j);
+  if (of.ranges.empty() || !of.ranges[0] || angles_[j.index]) return;
+  const std::size_t g0 = bodies_.group[j.ends[0].body], g1 = bodies_.group[j.ends[1].body];
+  const ex lower = algebra_.constant(of.ranges[0]->lower, of.where),
+           upper = algebra_.constant(of.ranges[0]->upper, of.where);
+  if (j.kind == JointKind::spherical) {
+    if (algebra_.is_zero(j.ends[0].axis) || algebra_.sign(upper - GiNaC::Pi) >= 0) return;
+    draft_.at_least_zero(dot(image(g0, j.ends[0].axis), image(g1, j.ends[1].axis)) - cos(upper), "cone", of.where);
+    return;
+  }
+  if (j.kind != JointKind::revolute && j.kind != JointKind::cylindrical) return;
+  const ex middle = (lower + upper) / 2, half = (upper - lower) / 2;
+  if (algebra_.sign(half - GiNaC::Pi) >= 0) return;
+  const Vec& zero = j.ends[0].zero;
+  const Vec centre = image(g0, cos(middle) * zero + sin(middle) * cross(j.ends[0].axis, zero));
+  draft_.at_least_zero(dot(centre, image(g1, j.ends[1].zero)) - cos(half), "range", of.where);
+}
+
+}  // namespace corank::kinematics

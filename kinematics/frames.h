@@ -1,0 +1,79 @@
+// The rotations of a spatial robot's groups of bodies, as images of directions in the world.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "corank/kinematics/bodies.h"
+#include "corank/kinematics/draft.h"
+#include "corank/kinematics/spanning_tree.h"
+
+namespace corank::kinematics {
+
+class Frames {
+ public:
+  /// The ground's frame is the world's; every other group gets its own by orient().
+  Frames(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft);
+
+  /// In the world: a constant vector that is fixed in a group which has its frame.
+  Vec image(std::size_t group, const Vec& v);
+  bool has_frame(std::size_t group) const { return frames_[group].has_value(); }
+  /// The frame's own directions in the group (their cross product is the third) and in the world.
+  const std::array<Vec, 2>& directions(std::size_t group) const { return frames_[group]->own; }
+  Vec direction(std::size_t group, std::size_t i);
+  /// Coefficients of v along the two directions and their cross product.
+  Vec coefficients(std::size_t group, const Vec& v) const;
+
+  /// From now on a cross product is written out, so that images add no coordinates to what is complete.
+  void finish() { finished_ = true; }
+
+  /// Gives the far group its frame, by a tree's edge.
+  void orient(const TreeEdge& edge);
+  /// What a joint that closes a loop asks of the orientations of its bodies.
+  void close(const BodyJoint& joint);
+  /// The ranges of angles that are no coordinates.
+  void limit(const BodyJoint& joint);
+
+  /// The angle of a revolute joint, where it is a coordinate.
+  const std::optional<ex>& angle(std::size_t joint) const { return angles_[joint]; }
+  /// Must the joint's angle be a coordinate?
+  bool is_asked_for(std::size_t joint) const;
+
+ private:
+  struct Frame {
+    std::array<Vec, 2> own, world;
+    std::optional<Vec> third;  ///< world[0] × world[1], once it was needed
+  };
+
+  const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
+  std::string name_of_group(std::size_t group) const;
+  bool is_simple(const Vec& v) const;
+  /// v itself where it is simple, else new coordinates that equal it.
+  Vec simplified(const Vec& v, const std::string& name, const SourceLocation& where);
+  /// The world's image of a joint's axis, which both of its links share, as soon as one has its frame.
+  Vec axis(std::size_t joint, std::size_t end);
+  void turn_by_angle(const TreeEdge& edge);
+  void turn_by_universal(const TreeEdge& edge);
+  /// A new unit vector along one of the group's own directions.
+  void start_free(std::size_t group, const SourceLocation& where);
+  /// The second direction of a group that has one: a joint's axis, or any other.
+  void complete(std::size_t group, const Vec& own, const Vec& world, const SourceLocation& where);
+  struct Candidate {
+    Vec own;
+    std::optional<std::size_t> joint;  ///< in Bodies::joints
+    std::size_t end = 0;
+  };
+  std::vector<Candidate> candidates(std::size_t group) const;
+
+  const Robot& robot_;
+  const Bodies& bodies_;
+  Algebra& algebra_;
+  Draft& draft_;
+  bool finished_ = false;
+  std::vector<std::optional<Frame>> frames_;  // of each group
+  std::vector<std::optional<Vec>> axes_;      // of each joint in bodies_, in the world
+  std::vector<bool> aligned_;                 // of each joint in bodies_: both links have the same axis
+  std::vector<std::optional<ex>> angles_;     // of each joint of the robot
+};
+
+}  // namespace corank::kinematics

@@ -1,0 +1,184 @@
+// What the actions of the parts language build: a Robot, statement by statement. Faults ask it what was read last.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "corank/kinematics/constant_scope.h"
+#include "corank/kinematics/robot.h"
+#include "corank/symbolic/model_builder.h"
+
+namespace corank::kinematics {
+
+/// A point as read: `way` from the one before it where it was written + (v).
+struct ReadPoint {
+  Vector at;
+  std::optional<Vector> way;
+  SourceLocation where;
+};
+
+/// The joint, or the spring, being read.
+struct JointDraft {
+  struct Bracket {
+    Expression first;
+    std::optional<Expression> second;
+    SourceLocation where;
+  };
+  /// From where an angle counts: a point, or + (v) for a direction.
+  struct Reference {
+    Vector value;
+    bool is_direction = false;
+    SourceLocation where;
+  };
+  std::string kind, name;  ///< the kind in small letters
+  SourceLocation where, name_where;
+  std::vector<std::size_t> links;
+  std::vector<Bracket> brackets;
+  std::vector<Reference> references;
+  std::vector<Vector> zeros;
+  SourceLocation range_where, zero_where;
+  std::optional<Expression> length;
+  Pose pose;
+  bool actuated = false;
+
+  /// "the revolute joint 'elbow'", or "the revolute joint".
+  std::string described() const;
+};
+
+struct OutputDraft {
+  std::string kind, name, link, frame, point, joint;
+  SourceLocation where, link_where, frame_where, point_where, joint_where;
+  std::optional<Vector> vector;
+};
+
+class PartBuilder : public symbolic::ModelBuilder {
+ public:
+  static constexpr std::size_t kMaxIncludes = 100, kMaxIncludeDepth = 10, kMaxFaces = 64;
+
+  PartBuilder(const std::string& file_, std::optional<std::filesystem::path> folder_);
+
+  Robot robot;
+  ConstantScope scope;
+
+  /// Parses an included text with this builder.
+  std::function<void(const std::string& text)> parse_included;
+  std::string_view text;  ///< the file being read
+
+  // Names.
+  std::string resolve(std::string_view name_read) const;  ///< arm::elbow, with the prefix of the file being read
+  void push_constant(std::string_view name_read, const SourceLocation& where);
+  void define_constant();
+
+  // Points, directions, transformations.
+  std::vector<ReadPoint> points;
+  Vector pop_vector();
+  Expression pop_value();
+  void push_offset(const SourceLocation& where);
+  void push_vertex(std::string_view digits, const SourceLocation& where);
+  void push_named_point(const std::string& point, const SourceLocation& where);
+  std::string transform_name;
+  SourceLocation transform_where;
+  std::size_t values_before_transform = 0;
+  bool transform_is_inverse = false;
+  void finish_transform();
+
+  // Colours.
+  std::array<double, 3> rgb{};
+  double colour_factor = 1;
+  std::string colour, link_colour, shape_colour;
+  void begin_colour();
+  void add_colour(const std::array<double, 3>& part);
+  void finish_colour();
+
+  // Links and shapes.
+  bool in_obstacles = false, hidden = false;
+  std::string quoted;  ///< the name of a file
+  SourceLocation quoted_where;
+  void begin_link(const std::string& name_read, const SourceLocation& where);
+  void finish_named_point();
+  void finish_shape(Shape::Kind shape_kind, std::vector<Vector> shape_points, const Expression& radius);
+  void finish_body();
+  void finish_box();
+  void finish_prism();
+  void finish_sphere();
+  void finish_cylinder();
+  void finish_line();
+  void finish_segments();
+
+  // Joints.
+  JointDraft draft;
+  bool bracket_has_two = false;
+  void begin_joint(std::string_view word, const SourceLocation& where);
+  void joint_link(std::string_view name_read, const SourceLocation& where);
+  void push_bracket(const SourceLocation& where);
+  void push_reference(const Vector& value, bool is_direction, const SourceLocation& where);
+  void push_named_reference(const std::string& point, const SourceLocation& where);
+  void finish_joint();
+  void finish_connector();
+  /// The joint read last, for messages; empty where there is none.
+  std::string last_joint;
+
+  // The other sections.
+  OutputDraft output;
+  void add_input(std::string_view name_read, const SourceLocation& where);
+  void finish_output();
+  void include(const std::string& prefix_read);
+  void read_equations();
+  void pass_over(const std::string& what);
+
+  /// After the whole text.
+  void finish();
+
+  std::vector<std::string> link_names() const;
+  std::vector<std::string> joint_names() const;
+
+ private:
+  struct Body {
+    std::string file;  ///< of a body from a file
+    bool is_read = true;
+    std::vector<Vector> vertices;  ///< what joints may name by number
+  };
+  struct LinkData {
+    std::vector<std::pair<std::string, Vector>> points;
+    std::vector<Body> bodies;
+  };
+  struct NamedInput {
+    std::string joint;
+    SourceLocation where;
+  };
+
+  void add_body(Body body);
+  const LinkData* current() const;
+  const Vector* find_point(std::size_t link, const std::string& point) const;
+  std::size_t require_link(const std::string& link, const SourceLocation& where, const std::string& expectation) const;
+  std::size_t require_joint(const std::string& joint, const SourceLocation& where, const std::string& expectation) const;
+  void set_axes(Joint& joint);
+  void set_ranges(Joint& joint);
+  void require_brackets(std::size_t least, std::size_t most, const std::string& expectation) const;
+  void set_zero_directions();
+  void leave_out_unconnected_links();
+  void couple(const Joint& joint);
+  void resolve_outputs();
+
+  std::optional<std::filesystem::path> folder_;
+  std::string prefix_;
+  std::vector<std::string> open_files_;
+  std::size_t includes_ = 0;
+  bool is_world_;
+  std::optional<std::size_t> link_;  ///< of the points that are read
+  std::vector<LinkData> link_data_;
+  std::vector<NamedInput> named_inputs_;
+  std::vector<OutputDraft> outputs_;
+  std::vector<std::pair<std::string, int>> passed_over_;
+};
+
+/// In small letters.
+std::string small_letters(std::string_view word);
+
+}  // namespace corank::kinematics

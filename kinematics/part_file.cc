@@ -1,0 +1,340 @@
+#include "corank/kinematics/part_file.h"
+
+#include "corank/kinematics/part_builder.h"
+#include "corank/kinematics/part_faults.h"
+#include "corank/kinematics/part_grammar.h"
+#include "corank/symbolic/expression_actions.h"
+#include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/model_file.h"
+
+namespace corank::kinematics {
+namespace {
+
+namespace peg = tao::pegtl;
+using symbolic::in_quotes;
+using symbolic::ModelError;
+using symbolic::place;
+using symbolic::TextInput;
+
+/// What a token means.
+template <typename Rule>
+struct Action : symbolic::ExpressionAction<Rule> {};
+
+#define CORANK_ACTION(rule, ...)                                         \
+  template <>                                                            \
+  struct Action<grammar::rule> {                                         \
+    template <typename ActionInput>                                      \
+    static void apply(const ActionInput& in, PartBuilder& b) __VA_ARGS__ \
+  };
+#define CORANK_ACTION0(rule, ...)                  \
+  template <>                                      \
+  struct Action<grammar::rule> {                   \
+    static void apply0(PartBuilder& b) __VA_ARGS__ \
+  };
+
+template <typename ActionInput>
+void declare(const ActionInput& in, PartBuilder& b) {
+  b.declared = in.string();
+  b.declared_where = place(in, b);
+}
+
+template <typename ActionInput>
+std::string_view text_before(const ActionInput& in, const PartBuilder& b) {
+  return b.text.substr(0, static_cast<std::size_t>(in.begin() - b.text.data()));
+}
+
+/// Does something other than the end of a comment stand before it in its line?
+template <typename ActionInput>
+bool follows_in_line(const ActionInput& in, const PartBuilder& b) {
+  const std::string_view before = text_before(in, b);
+  const std::size_t last = before.find_last_not_of(" \t\r\f\v");
+  if (last == std::string_view::npos || before[last] == '\n' || before[last] == ']') return false;
+  return before[last] != '/' || last == 0 || before[last - 1] != '*';
+}
+
+/// The first character behind the token, blanks left out.
+template <typename ActionInput>
+char next_character(const ActionInput& in, const PartBuilder& b) {
+  const std::size_t next = b.text.find_first_not_of(" \t", static_cast<std::size_t>(in.end() - b.text.data()));
+  return next == std::string_view::npos ? '\n' : b.text[next];
+}
+
+// Expressions.
+CORANK_ACTION(refused_function, {
+  throw ModelError(place(in, b), "the function " + in_quotes(in.string_view()) + " is not supported",
+                   "one of " + symbolic::function_names());
+})
+CORANK_ACTION(function_word, {
+  b.name = small_letters(in.string_view());
+  b.name_where = place(in, b);
+})
+CORANK_ACTION(constant_token, {
+  b.push_constant(in.string_view(), place(in, b));
+  symbolic::end_operand(in, b);
+})
+CORANK_ACTION(constant_name, { declare(in, b); })
+CORANK_ACTION0(constant_end, { b.define_constant(); })
+CORANK_ACTION(unit_name, {
+  if (!b.robot.unit.empty())
+    throw ModelError(place(in, b), "the unit " + in_quotes(b.robot.unit) + " is already given", "one unit of lengths");
+  b.robot.unit = in.string();
+})
+
+// Points.
+CORANK_ACTION(absolute_point, { b.points.push_back({b.pop_vector(), {}, place(in, b)}); })
+CORANK_ACTION(vertex, { b.push_vertex(in.string_view(), place(in, b)); })
+CORANK_ACTION(named_point, { b.push_named_point(in.string(), place(in, b)); })
+CORANK_ACTION(point_offset, { b.push_offset(place(in, b)); })
+
+// Colours.
+CORANK_ACTION0(colour_begin, { b.begin_colour(); })
+CORANK_ACTION(colour_word, {
+  const std::string word = small_letters(in.string_view());
+  const bool bright = word == "white", grey = word == "grey";
+  const auto has = [&](const char* a, const char* c, const char* d) {
+    return bright || word == a || word == c || word == d ? 1.0 : grey ? 0.5 : 0.0;
+  };
+  b.add_colour({has("red", "yellow", "purple"), has("green", "yellow", "cyan"), has("blue", "purple", "cyan")});
+})
+CORANK_ACTION(rgb, {
+  const SourceLocation where = place(in, b);
+  std::array<double, 3> part;
+  for (std::size_t i = 3; i-- > 0;) part[i] = b.scope.approximation(b.pop_value(), "a colour", where);
+  b.add_colour(part);
+})
+CORANK_ACTION(colour_factor, {
+  const SourceLocation where = place(in, b);
+  const Expression factor = Expression::number(symbolic::normal_decimal(in.string_view(), where), where);
+  b.colour_factor *= b.scope.approximation(factor, "a colour", where);
+})
+CORANK_ACTION0(colour_end, { b.finish_colour(); })
+CORANK_ACTION0(link_colour, { b.link_colour = b.colour; })
+CORANK_ACTION0(shape_colour, { b.shape_colour = b.colour; })
+
+// Transformations.
+CORANK_ACTION(transform_word, {
+  b.transform_name = small_letters(in.string_view());
+  b.transform_where = place(in, b);
+  b.values_before_transform = b.values.size();
+})
+CORANK_ACTION0(transform_inverse, { b.transform_is_inverse = true; })
+CORANK_ACTION0(transform_end, { b.finish_transform(); })
+
+// Dynamics.
+CORANK_ACTION0(dynamics_end, {
+  b.values.clear();
+  b.pass_over("dynamics (masses, inertia, velocities, forces …)");
+})
+
+// Shapes.
+CORANK_ACTION(quoted_text, {
+  b.quoted = in.string();
+  b.quoted_where = place(in, b);
+  b.quoted_where.column -= 1;  // the quotation mark
+})
+CORANK_ACTION0(hidden_word, { b.hidden = true; })
+template <void (PartBuilder::*finish)()>
+struct FinishShape {
+  static void apply0(PartBuilder& b) {
+    (b.*finish)();
+    b.points.clear();
+    b.values.clear();
+    b.shape_colour.clear();
+    b.hidden = false;
+  }
+};
+template <>
+struct Action<grammar::body_end> : FinishShape<&PartBuilder::finish_body> {};
+template <>
+struct Action<grammar::box_end> : FinishShape<&PartBuilder::finish_box> {};
+template <>
+struct Action<grammar::prism_end> : FinishShape<&PartBuilder::finish_prism> {};
+template <>
+struct Action<grammar::sphere_end> : FinishShape<&PartBuilder::finish_sphere> {};
+template <>
+struct Action<grammar::cylinder_end> : FinishShape<&PartBuilder::finish_cylinder> {};
+template <>
+struct Action<grammar::line_end> : FinishShape<&PartBuilder::finish_line> {};
+template <>
+struct Action<grammar::segments_end> : FinishShape<&PartBuilder::finish_segments> {};
+CORANK_ACTION(segment_point_end, { b.points.push_back({b.pop_vector(), {}, place(in, b)}); })
+
+// Links.
+CORANK_ACTION0(links_header, { b.in_obstacles = false; })
+CORANK_ACTION(link_name, {
+  const SourceLocation where = place(in, b);
+  const char next = next_character(in, b);
+  if (next != ':' && next != '-' && follows_in_line(in, b) && !b.robot.links.empty())
+    refuse_word_behind_link(in.string(), b.robot.links.back().name, where);
+  b.begin_link(in.string(), where);
+})
+CORANK_ACTION(point_name, { declare(in, b); })
+CORANK_ACTION0(point_end, { b.finish_named_point(); })
+
+// Joints.
+template <typename ActionInput>
+void begin_joint(const ActionInput& in, PartBuilder& b) {
+  b.begin_joint(in.string_view(), place(in, b));
+}
+CORANK_ACTION(axis_kind, { begin_joint(in, b); })
+CORANK_ACTION(point_kind, { begin_joint(in, b); })
+CORANK_ACTION(fixed_kind, { begin_joint(in, b); })
+CORANK_ACTION(connector_kind, { begin_joint(in, b); })
+CORANK_ACTION(refused_kind, {
+  throw ModelError(place(in, b), "joints of the kind " + in_quotes(small_letters(in.string_view())) + " are not supported",
+                   "revolute, prismatic, cylindrical, universal, spherical, planar, fix, sph_sph or sph_prs_sph");
+})
+CORANK_ACTION(joint_name, {
+  b.draft.name = in.string();
+  b.draft.name_where = place(in, b);
+})
+CORANK_ACTION(joint_link, { b.joint_link(in.string_view(), place(in, b)); })
+CORANK_ACTION0(bracket_open, { b.bracket_has_two = false; })
+CORANK_ACTION0(bracket_comma, { b.bracket_has_two = true; })
+CORANK_ACTION(range_bracket, { b.push_bracket(place(in, b)); })
+CORANK_ACTION(reference_tuple, { b.push_reference(b.pop_vector(), false, place(in, b)); })
+CORANK_ACTION(reference_offset, { b.push_reference(b.pop_vector(), true, place(in, b)); })
+CORANK_ACTION(zero_direction, {
+  b.draft.zeros.push_back(b.pop_vector());
+  b.draft.zero_where = place(in, b);
+})
+CORANK_ACTION0(length_end, { b.draft.length = b.pop_value(); })
+CORANK_ACTION0(radius_end, { b.pop_value(); })
+CORANK_ACTION0(weight_end, { b.pop_value(); })
+CORANK_ACTION0(avoid_word, { b.pass_over("limits to be avoided (avoid limits)"); })
+CORANK_ACTION0(actuated_word, { b.draft.actuated = true; })
+CORANK_ACTION0(joint_end, { b.finish_joint(); })
+CORANK_ACTION0(connector_end, { b.finish_connector(); })
+
+// The other sections.
+CORANK_ACTION0(obstacles_header, { b.in_obstacles = true; })
+CORANK_ACTION0(joints_header, {
+  b.in_obstacles = false;
+  b.last_joint.clear();
+})
+CORANK_ACTION0(obstacle_shape, { b.pass_over("obstacles"); })
+CORANK_ACTION0(collision_check, { b.pass_over("collision checks"); })
+CORANK_ACTION(include_name, { declare(in, b); })
+CORANK_ACTION0(include_file, {
+  const std::string prefix = b.declared;
+  b.include(prefix);
+})
+CORANK_ACTION0(equation_file, { b.read_equations(); })
+CORANK_ACTION(input_name, { b.add_input(in.string_view(), place(in, b)); })
+CORANK_ACTION(output_name, {
+  b.output = {};
+  b.output.name = in.string();
+  b.output.where = place(in, b);
+})
+CORANK_ACTION(output_kind, { b.output.kind = small_letters(in.string_view()); })
+CORANK_ACTION0(joint_word, { b.output.kind = "joint"; })
+CORANK_ACTION(output_link, {
+  b.output.link = b.resolve(in.string_view());
+  b.output.link_where = place(in, b);
+})
+CORANK_ACTION(output_frame, {
+  b.output.frame = b.resolve(in.string_view());
+  b.output.frame_where = place(in, b);
+})
+CORANK_ACTION(output_point, {
+  b.output.point = in.string();
+  b.output.point_where = place(in, b);
+})
+CORANK_ACTION(output_joint, {
+  b.output.joint = b.resolve(in.string_view());
+  b.output.joint_where = place(in, b);
+})
+CORANK_ACTION0(output_tuple, { b.output.vector = b.pop_vector(); })
+CORANK_ACTION0(output_end, { b.finish_output(); })
+#undef CORANK_ACTION
+#undef CORANK_ACTION0
+template <>
+struct Action<symbolic::grammar::section_title> {
+  template <typename ActionInput>
+  static void apply(const ActionInput& in, PartBuilder& b) {
+    b.section_title = in.string();
+    b.section_where = place(in, b);
+    b.section_where.column -= 1;  // the bracket
+  }
+};
+
+/// Turns a failed must<Rule> into the ModelError that PartFaultOf<Rule> words.
+template <typename Rule>
+struct Control : peg::normal<Rule> {
+  template <typename AnyInput>
+  [[noreturn]] static void raise(const AnyInput& in, PartBuilder& builder) {
+    const bool unfinished_comment = std::is_same_v<Rule, symbolic::grammar::block_comment_rest>;
+    const SourceLocation where = unfinished_comment ? builder.comment_where : place(in, builder);
+    PartFaultOf<Rule>::raise({{builder, where, std::string_view(in.current(), in.size())}, builder});
+    throw std::logic_error("a fault that says nothing");
+  }
+};
+
+/// In UTF-8, if the text is in Latin 1.
+std::string from_latin_1(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      result += c;
+    } else {
+      result += static_cast<char>(0xC0 | (byte >> 6));
+      result += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return result;
+}
+
+bool is_utf8(std::string_view text) {
+  peg::memory_input<> in(text.data(), text.data() + text.size(), "");
+  return peg::parse<peg::seq<peg::star<peg::utf8::any>, peg::eof>>(in);
+}
+
+void parse_text(std::string_view text, PartBuilder& builder) {
+  if (text.size() > symbolic::kMaxFileBytes) {
+    throw ModelError({builder.file, 0, 0}, "the text has more than " + std::to_string(symbolic::kMaxFileBytes) + " bytes",
+                     "a smaller robot");
+  }
+  std::string converted;  // some of the suite's files are older than UTF-8
+  if (std::filesystem::path(builder.file).extension() == ".world" && !is_utf8(text)) {
+    converted = from_latin_1(text);
+    text = converted;
+  }
+  builder.text = text;
+  TextInput plain(text.data(), text.data() + text.size(), "");
+  peg::parse<symbolic::grammar::plain_text, peg::nothing, Control>(plain, builder);
+  TextInput in(text.data(), text.data() + text.size(), "");
+  if (!peg::parse<grammar::parts, Action, Control>(in, builder))
+    throw std::logic_error("a grammar that fails without a fault");
+}
+
+/// What has_parts() looks for, and what may hold anything else. A quotation mark without its partner is no fault here.
+struct parts_header : peg::sor<grammar::links_header, grammar::include_header> {};
+struct text_in_quotes : peg::seq<peg::one<'"'>, peg::star<peg::not_one<'"', '\n'>>, peg::one<'"'>> {};
+struct other_text : peg::sor<symbolic::grammar::line_comment, grammar::hash_comment,
+                             peg::seq<peg::string<'/', '*'>, peg::until<peg::sor<peg::string<'*', '/'>, peg::eof>>>,
+                             text_in_quotes, peg::any> {};
+struct parts_search : peg::seq<peg::star<peg::not_at<parts_header>, other_text>, parts_header> {};
+
+}  // namespace
+
+bool has_parts(std::string_view text) {
+  peg::memory_input<> in(text.data(), text.data() + text.size(), "");
+  return peg::parse<parts_search>(in);
+}
+
+Robot parse_parts(std::string_view text, const std::string& file, const std::optional<std::filesystem::path>& folder) {
+  PartBuilder builder(file, folder);
+  builder.parse_included = [&](const std::string& included) { parse_text(included, builder); };
+  parse_text(text, builder);
+  builder.finish();
+  return std::move(builder.robot);
+}
+
+Robot read_part_file(const std::filesystem::path& path) {
+  const std::string text = symbolic::read_text(path);
+  const std::filesystem::path folder = path.parent_path();
+  return parse_parts(text, path.string(), folder.empty() ? std::filesystem::path(".") : folder);
+}
+
+}  // namespace corank::kinematics

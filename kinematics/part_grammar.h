@@ -1,0 +1,339 @@
+// The grammar of the parts language, in PEGTL rules: sections of links, joints, inputs, outputs and what is passed over. As in
+// symbolic/model_grammar.h no rule that an action is attached to (part_file.cc) is ever taken back, and what has to follow
+// stands in must<>, whose failure is a fault (part_faults.h).
+//
+// Blanks and line ends are all the same. Keywords may be written in capitals or not; names may not.
+#pragma once
+
+#include <tao/pegtl.hpp>
+
+#include "corank/symbolic/model_grammar.h"
+
+namespace corank::kinematics::grammar {
+
+using namespace tao::pegtl;  // NOLINT: a namespace of grammar rules
+namespace model = symbolic::grammar;
+
+struct hash_comment : seq<one<'#'>, until<at<eolf>>> {};
+struct gap : star<sor<space, model::line_comment, hash_comment, model::block_comment>> {};
+
+template <typename Letters>
+struct word : seq<Letters, not_at<model::name_tail>> {};
+template <typename... Letters>
+struct words : word<sor<Letters...>> {};
+#define CORANK_WORD(name, text) \
+  struct name : word<TAO_PEGTL_ISTRING(text)> {}
+
+// Names. That of a thing in an included file may have its prefix before it: arm::elbow.
+struct simple_name : model::identifier {};
+struct long_name : seq<model::identifier, star<string<':', ':'>, model::identifier>> {};
+
+// Operands of expressions: functions may be written in capitals, and only what is called like a function is a call.
+struct function_word
+    : words<TAO_PEGTL_ISTRING("sin"), TAO_PEGTL_ISTRING("cos"), TAO_PEGTL_ISTRING("tan"), TAO_PEGTL_ISTRING("asin"),
+            TAO_PEGTL_ISTRING("acos"), TAO_PEGTL_ISTRING("atan"), TAO_PEGTL_ISTRING("sqrt"), TAO_PEGTL_ISTRING("exp"),
+            TAO_PEGTL_ISTRING("log"), TAO_PEGTL_ISTRING("abs")> {};
+struct refused_function : words<TAO_PEGTL_ISTRING("atan2"), TAO_PEGTL_ISTRING("cot"), TAO_PEGTL_ISTRING("parameter")> {};
+struct function_open : model::call_open {};
+struct constant_token : long_name {};
+struct call;
+struct parenthesis;
+}  // namespace corank::kinematics::grammar
+
+namespace corank::symbolic::grammar {
+template <>
+struct operand<kinematics::grammar::gap>
+    : seq<star<one<'+'>, kinematics::grammar::gap>,
+          sor<number_operand, kinematics::grammar::refused_function, kinematics::grammar::call,
+              kinematics::grammar::constant_token, kinematics::grammar::parenthesis>> {};
+}  // namespace corank::symbolic::grammar
+
+namespace corank::kinematics::grammar {
+struct call : seq<function_word, gap, must<model::call_open>, gap, model::terms<gap>, gap, must<model::group_close>> {};
+struct parenthesis : seq<model::group_open, gap, model::terms<gap>, gap, must<model::group_close>> {};
+struct expression : model::expression<gap> {};
+
+// Points and directions.
+struct tuple_open : one<'('> {};
+struct tuple_comma : one<','> {};
+struct tuple_close : one<')'> {};
+struct tuple_rest : seq<gap, expression, gap, must<tuple_comma>, gap, expression, gap, must<tuple_comma>, gap, expression,
+                        gap, must<tuple_close>> {};
+struct tuple : seq<tuple_open, tuple_rest> {};
+struct absolute_point : tuple {};
+struct offset_vector : tuple {};
+struct direction : tuple {};
+struct vertex : seq<plus<digit>, not_at<sor<model::name_tail, one<'.'>>>,
+                    opt<gap, one<':'>, gap, plus<digit>, not_at<sor<model::name_tail, one<'.'>>>>> {};
+struct named_point : simple_name {};
+struct point : sor<absolute_point, vertex, named_point> {};
+struct point_offset : seq<one<'+'>, gap, must<offset_vector>> {};
+struct second_point : sor<point_offset, point> {};
+
+// Colours: 0.5*red + color (r, g, b)
+struct colour_word : words<TAO_PEGTL_ISTRING("red"), TAO_PEGTL_ISTRING("green"), TAO_PEGTL_ISTRING("blue"),
+                           TAO_PEGTL_ISTRING("purple"), TAO_PEGTL_ISTRING("cyan"), TAO_PEGTL_ISTRING("yellow"),
+                           TAO_PEGTL_ISTRING("white"), TAO_PEGTL_ISTRING("black"), TAO_PEGTL_ISTRING("grey")> {};
+CORANK_WORD(rgb_word, "color");
+struct rgb : seq<rgb_word, gap, must<tuple>> {};
+struct colour_factor : model::decimal {};
+struct colour_times : one<'*'> {};
+struct colour_atom : sor<colour_word, rgb> {};
+struct colour_term : seq<star<colour_factor, gap, must<colour_times>, gap>, must<colour_atom>> {};
+struct colour_begin : at<sor<digit, one<'.'>, colour_word, rgb_word>> {};
+struct colour_end : success {};
+struct colour : seq<colour_begin, colour_term, star<gap, one<'+'>, gap, colour_term>, colour_end> {};
+
+// Rigid transformations: Txyz(1, 0, 0)*Rz(pi/2)
+struct transform_word
+    : words<TAO_PEGTL_ISTRING("txyz"), TAO_PEGTL_ISTRING("tx"), TAO_PEGTL_ISTRING("ty"), TAO_PEGTL_ISTRING("tz"),
+            TAO_PEGTL_ISTRING("rx"), TAO_PEGTL_ISTRING("ry"), TAO_PEGTL_ISTRING("rz"), TAO_PEGTL_ISTRING("tr")> {};
+CORANK_WORD(identity_word, "id");
+struct transform_open : one<'('> {};
+struct transform_close : one<')'> {};
+struct transform_inverse : seq<one<'^'>, gap, one<'-'>, gap, one<'1'>> {};
+struct transform_end : success {};
+struct transform_call
+    : seq<transform_word, gap, must<transform_open>, gap, expression, star<gap, one<',', ';'>, gap, expression>, gap,
+          must<transform_close>, opt<gap, transform_inverse>, transform_end> {};
+struct transform : sor<identity_word, transform_call> {};
+struct transforms : seq<must<transform>, star<gap, one<'*'>, gap, must<transform>>> {};
+
+// What concerns dynamics: passed over.
+struct dynamics_end : success {};
+struct number_list : seq<expression, star<gap, one<','>, gap, expression>> {};
+CORANK_WORD(inertia_word, "inertia");
+CORANK_WORD(matrix_word, "matrix");
+CORANK_WORD(inertial_word, "inertial");
+CORANK_WORD(frame_word, "frame");
+CORANK_WORD(solid_word, "solid");
+struct inertia_shape
+    : words<TAO_PEGTL_ISTRING("rod_x"), TAO_PEGTL_ISTRING("rod_y"), TAO_PEGTL_ISTRING("rod_z"),
+            TAO_PEGTL_ISTRING("cylinder_x"), TAO_PEGTL_ISTRING("cylinder_y"), TAO_PEGTL_ISTRING("cylinder_z"),
+            TAO_PEGTL_ISTRING("sphere"), TAO_PEGTL_ISTRING("box"), TAO_PEGTL_ISTRING("ellipsoid")> {};
+struct inertia : seq<inertia_word, gap, must<matrix_word>, gap, opt<solid_word, gap>, opt<inertia_shape, gap>, number_list,
+                     dynamics_end> {};
+struct inertial_frame : seq<inertial_word, gap, must<frame_word>, gap, transforms, dynamics_end> {};
+struct dynamics_word : words<TAO_PEGTL_ISTRING("mass"), TAO_PEGTL_ISTRING("velocity"), TAO_PEGTL_ISTRING("acceleration"),
+                             TAO_PEGTL_ISTRING("effort"), TAO_PEGTL_ISTRING("torque"), TAO_PEGTL_ISTRING("force"),
+                             TAO_PEGTL_ISTRING("cost"), TAO_PEGTL_ISTRING("friction"), TAO_PEGTL_ISTRING("damping"),
+                             TAO_PEGTL_ISTRING("rest"), TAO_PEGTL_ISTRING("stiffness")> {};
+struct dynamics_number : seq<dynamics_word, gap, expression, dynamics_end> {};
+struct dynamics : sor<inertia, inertial_frame, dynamics_number> {};
+
+// Shapes.
+struct quote : one<'"'> {};
+struct quoted_text : plus<not_one<'"', '\n', '\r'>> {};
+struct quoted : seq<one<'"'>, must<quoted_text>, must<quote>> {};
+CORANK_WORD(granularity_word, "granularity");
+CORANK_WORD(hidden_word, "hidden");
+CORANK_WORD(decoration_word, "decoration");
+struct integer : plus<digit> {};
+struct granularity : seq<granularity_word, gap, must<integer>> {};
+struct shape_colour : colour {};
+struct shape_tail : star<gap, sor<shape_colour, granularity, hidden_word, decoration_word>> {};
+CORANK_WORD(body_word, "body");
+CORANK_WORD(box_word, "box");
+CORANK_WORD(prism_word, "prism");
+CORANK_WORD(sphere_word, "sphere");
+CORANK_WORD(cylinder_word, "cylinder");
+CORANK_WORD(line_word, "line");
+CORANK_WORD(segments_word, "segments");
+struct body_end : success {};
+struct box_end : success {};
+struct prism_end : success {};
+struct sphere_end : success {};
+struct cylinder_end : success {};
+struct line_end : success {};
+struct segments_end : success {};
+struct body_file : quoted {};
+struct segments_open : one<'('> {};
+struct segments_comma : one<','> {};
+struct segments_close : one<')'> {};
+struct segment_point_end : success {};
+struct segment_point : seq<expression, gap, must<segments_comma>, gap, expression, gap, must<segments_comma>, gap,
+                           expression, segment_point_end> {};
+struct body : seq<body_word, gap, must<body_file>, shape_tail, body_end> {};
+struct box : seq<box_word, gap, must<point>, gap, must<second_point>, shape_tail, box_end> {};
+struct prism
+    : seq<prism_word, gap, must<point>, gap, must<point>, gap, must<point>, gap, expression, shape_tail, prism_end> {};
+struct sphere : seq<sphere_word, gap, expression, gap, must<point>, shape_tail, sphere_end> {};
+struct cylinder : seq<cylinder_word, gap, expression, gap, must<point>, gap, must<second_point>, shape_tail, cylinder_end> {
+};
+struct line : seq<line_word, gap, must<point>, gap, must<second_point>, shape_tail, line_end> {};
+struct segments : seq<segments_word, gap, must<segments_open>, gap, segment_point, star<gap, one<';'>, gap, segment_point>,
+                      gap, must<segments_close>, shape_tail, segments_end> {};
+struct shape : sor<body, box, prism, sphere, cylinder, line, segments> {};
+
+// Section headers, and what may begin one.
+template <typename... Letters>
+struct header : seq<one<'['>, star<model::blank_character>, Letters..., star<model::blank_character>, one<']'>> {};
+struct constants_header : header<TAO_PEGTL_ISTRING("constants")> {};
+struct links_header : header<TAO_PEGTL_ISTRING("links")> {};
+struct joints_header : header<TAO_PEGTL_ISTRING("joints")> {};
+struct obstacles_header : header<TAO_PEGTL_ISTRING("obstacles")> {};
+struct collisions_header : header<TAO_PEGTL_ISTRING("collisions")> {};
+struct include_header : header<TAO_PEGTL_ISTRING("include")> {};
+struct equations_header : header<TAO_PEGTL_ISTRING("equations")> {};
+struct inputs_header : header<TAO_PEGTL_ISTRING("inputs")> {};
+struct outputs_header : header<TAO_PEGTL_ISTRING("outputs")> {};
+struct known_section : failure {};
+struct unknown_section : if_must<one<'['>, model::section_title, model::section_close, known_section> {};
+struct section_or_end : sor<eof, one<'['>> {};
+struct capital_header : header<upper, star<sor<upper, model::blank_character>>> {};
+
+// [CONSTANTS]  name := expression, print name, unit mm
+struct colon : one<':'> {};
+struct constant_name : simple_name {};
+struct assign : string<':', '='> {};
+struct constant_end : success {};
+CORANK_WORD(print_word, "print");
+CORANK_WORD(unit_word, "unit");
+struct unit_name : simple_name {};
+struct printed_name : simple_name {};
+struct print_statement : seq<seq<print_word, gap, at<simple_name>>, printed_name> {};
+struct unit_statement : seq<seq<unit_word, gap, at<simple_name>>, unit_name> {};
+struct definition : seq<must<constant_name>, gap, must<assign>, gap, expression, constant_end, opt<gap, one<';'>>> {};
+struct constants_section
+    : seq<constants_header, star<gap, not_at<section_or_end>, sor<print_statement, unit_statement, definition>>> {};
+
+// [LINKS]  name, name : colour shapes points masses, or with '-' for ':' (the suite's end effector)
+struct link_name : simple_name {};
+struct link_separator : one<':', '-'> {};
+struct link_colour : colour {};
+CORANK_WORD(point_word, "point");
+struct point_name : simple_name {};
+struct point_close : success {};
+struct point_end : success {};
+struct point_statement : seq<seq<point_word, gap, at<simple_name, gap, one<'('>>>, point_name, gap, must<tuple>, point_end> {
+};
+struct link_part : sor<shape, point_statement, dynamics> {};
+struct link_begin : success {};
+struct link : seq<must<link_name>, link_begin, opt<gap, link_separator, opt<gap, link_colour>, star<gap, link_part>>> {};
+struct links_section : seq<links_header, star<gap, not_at<section_or_end>, link>> {};
+
+// [JOINTS]
+struct axis_kind : words<TAO_PEGTL_ISTRING("revolute"), TAO_PEGTL_ISTRING("crevolute"), TAO_PEGTL_ISTRING("prismatic"),
+                         TAO_PEGTL_ISTRING("universal"), TAO_PEGTL_ISTRING("cylindrical"), TAO_PEGTL_ISTRING("planar")> {};
+struct point_kind : words<TAO_PEGTL_ISTRING("spherical"), TAO_PEGTL_ISTRING("sph_prs_sph"), TAO_PEGTL_ISTRING("sph_sph")> {};
+struct fixed_kind : words<TAO_PEGTL_ISTRING("fix")> {};
+struct connector_kind : words<TAO_PEGTL_ISTRING("c_spring"), TAO_PEGTL_ISTRING("c_cable"), TAO_PEGTL_ISTRING("c_leg")> {};
+struct refused_kind : words<TAO_PEGTL_ISTRING("in_patch"), TAO_PEGTL_ISTRING("spring"), TAO_PEGTL_ISTRING("xyspring")> {};
+struct any_kind : sor<axis_kind, point_kind, fixed_kind, connector_kind, refused_kind> {};
+struct joint_name : simple_name {};
+struct joint_link : long_name {};
+struct joint_colon : colon {};
+struct joint_end : success {};
+
+CORANK_WORD(limits_word, "limits");
+CORANK_WORD(range_word, "range");
+CORANK_WORD(reference_word, "reference");
+CORANK_WORD(zero_word, "zero");
+CORANK_WORD(length_word, "length");
+CORANK_WORD(radius_word, "radius");
+CORANK_WORD(avoid_word, "avoid");
+CORANK_WORD(actuated_word, "actuated");
+struct option_word : sor<limits_word, range_word, reference_word, zero_word, length_word, radius_word, avoid_word,
+                         actuated_word, dynamics_word, inertia_word, inertial_word, granularity_word, hidden_word,
+                         decoration_word, colour_word, rgb_word> {};
+struct bracket_begin : success {};
+struct bracket_open : one<'['> {};
+struct bracket_close : one<']'> {};
+struct bracket_comma : one<','> {};
+struct bracket : seq<bracket_open, gap, expression, gap, opt<bracket_comma, gap, expression, gap>, must<bracket_close>> {};
+struct range_bracket : bracket {};
+struct reference_tuple : tuple {};
+struct reference_offset : seq<one<'+'>, gap, must<offset_vector>> {};
+struct reference_point : seq<not_at<sor<any_kind, option_word>>, named_point> {};
+struct reference : sor<reference_tuple, reference_offset, reference_point> {};
+struct range_option : seq<sor<range_word, limits_word>, gap, must<range_bracket>,
+                          star<gap, sor<seq<not_at<capital_header>, range_bracket>, reference_word, reference>>> {};
+struct reference_option : seq<reference_word, gap, must<reference>, gap, must<reference>> {};
+struct zero_direction : direction {};
+struct zero_option : seq<zero_word, gap, must<zero_direction>, gap, must<zero_direction>> {};
+struct length_end : success {};
+struct length_option : seq<length_word, gap, expression, length_end> {};
+struct radius_end : success {};
+struct radius_option : seq<radius_word, gap, expression, radius_end> {};
+struct weight_end : success {};
+struct weight : seq<not_at<sor<any_kind, option_word>>, at<sor<digit, one<'.'>, one<'('>, one<'-'>, model::name_head>>,
+                    expression, weight_end> {};
+struct avoid_option : seq<avoid_word, gap, must<limits_word>, opt<gap, weight>> {};
+struct joint_option : sor<range_option, reference_option, zero_option, length_option, radius_option, avoid_option,
+                          actuated_word, dynamics, shape_colour, granularity, hidden_word, decoration_word> {};
+struct joint_options : star<gap, joint_option> {};
+template <typename Kind>
+struct joint_head : seq<Kind, gap, opt<joint_name, gap>, must<joint_colon>, gap> {};
+struct axis_end : seq<must<joint_link>, gap, must<point>, gap, must<second_point>> {};
+struct point_joint_end : seq<must<joint_link>, gap, must<point>, opt<gap, point_offset>> {};
+struct axis_joint : seq<joint_head<axis_kind>, axis_end, gap, axis_end, joint_options, joint_end> {};
+struct point_joint : seq<joint_head<point_kind>, point_joint_end, gap, point_joint_end, joint_options, joint_end> {};
+struct fixed_joint
+    : seq<joint_head<fixed_kind>, must<joint_link>, gap, must<joint_link>, gap, transforms, joint_options, joint_end> {};
+struct connector_end : success {};
+struct connector : seq<joint_head<connector_kind>, point_joint_end, gap, point_joint_end, joint_options, connector_end> {};
+struct joint : sor<axis_joint, point_joint, fixed_joint, connector, refused_kind> {};
+struct joints_section : seq<joints_header, star<gap, not_at<section_or_end>, must<joint>>> {};
+
+// [OBSTACLES] and [COLLISIONS]: passed over.
+struct obstacle_name : simple_name {};
+struct obstacle_shape : shape {};
+struct obstacle : seq<must<obstacle_name>, gap, must<colon>, gap, must<obstacle_shape>> {};
+struct obstacles_section : seq<obstacles_header, star<gap, not_at<section_or_end>, obstacle>> {};
+struct checked_name : long_name {};
+struct check_word : seq<opt<TAO_PEGTL_ISTRING("do"), plus<space>, TAO_PEGTL_ISTRING("not"), plus<space>>,
+                        TAO_PEGTL_ISTRING("check"), not_at<model::name_tail>> {};
+struct collision_check
+    : seq<must<check_word>, gap, must<colon>, gap, must<checked_name>, opt<gap, one<','>, gap, must<checked_name>>> {};
+struct collisions_section : seq<collisions_header, star<gap, not_at<section_or_end>, collision_check>> {};
+
+// [INCLUDE]  prefix : "file"      [EQUATIONS]  eqfile : "file"
+struct include_name : simple_name {};
+struct include_file : quoted {};
+struct include_section
+    : seq<include_header, star<gap, not_at<section_or_end>, must<include_name>, gap, must<colon>, gap, must<include_file>>> {
+};
+CORANK_WORD(eqfile_word, "eqfile");
+struct equation_file : quoted {};
+struct equations_section
+    : seq<equations_header,
+          star<gap, not_at<section_or_end>, must<eqfile_word>, gap, must<colon>, gap, must<equation_file>>> {};
+
+// [INPUTS]  joint, joint …
+struct input_name : long_name {};
+struct inputs_section
+    : seq<inputs_header, gap, must<input_name>, star<gap, not_at<section_or_end>, opt<one<','>, gap>, must<input_name>>> {};
+
+// [OUTPUTS]  name : what of which
+struct output_name : simple_name {};
+struct output_link : long_name {};
+struct output_frame : long_name {};
+struct output_point : simple_name {};
+struct output_joint : long_name {};
+CORANK_WORD(of_word, "of");
+CORANK_WORD(position_word, "position");
+CORANK_WORD(pose_word, "pose");
+CORANK_WORD(orientation_word, "orientation");
+CORANK_WORD(direction_word, "direction");
+CORANK_WORD(joint_word, "joint");
+struct in_word : seq<word<TAO_PEGTL_ISTRING("in")>, not_at<gap, one<':'>>> {};
+struct output_tuple : tuple {};
+struct output_of : seq<must<of_word>, gap, must<output_link>,
+                       opt<sor<seq<gap, one<'.'>, gap, must<output_point>>, seq<gap, output_tuple>>>> {};
+struct output_in : opt<gap, in_word, gap, must<output_frame>> {};
+struct output_end : success {};
+struct output_kind : sor<position_word, pose_word, orientation_word, direction_word> {};
+struct output_what : sor<seq<output_kind, gap, output_of, output_in>, seq<joint_word, gap, must<output_joint>>> {};
+struct output : seq<must<output_name>, gap, must<colon>, gap, must<output_what>, output_end> {};
+struct outputs_section : seq<outputs_header, star<gap, not_at<section_or_end>, output>> {};
+
+struct section_start : at<one<'['>> {};
+struct section
+    : seq<must<section_start>, sor<constants_section, links_section, joints_section, obstacles_section, collisions_section,
+                                   include_section, equations_section, inputs_section, outputs_section, unknown_section>> {};
+struct file_end : eof {};
+struct parts : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
+
+#undef CORANK_WORD
+
+}  // namespace corank::kinematics::grammar

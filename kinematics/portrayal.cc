@@ -1,0 +1,155 @@
+#include "corank/kinematics/portrayal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace corank::kinematics {
+namespace {
+
+using Part = symbolic::DrawingPart::Kind;
+
+class Portrayal {
+ public:
+  Portrayal(const Robot& robot, const Bodies& bodies, const Algebra& algebra, Draft& draft, Space space,
+            const std::function<Motion(std::size_t, const Vec&)>& place)
+      : robot_(robot),
+        bodies_(bodies),
+        algebra_(algebra),
+        draft_(draft),
+        space_(space),
+        place_(place),
+        corners_(bodies.size()) {}
+
+  void run() {
+    for (const BodyJoint& j : bodies_.joints) {
+      const std::string& name = robot_.joints[j.index].name;
+      const std::string at = corner(j.ends[0].body, local(j.ends[0]), name);
+      if (!points_coincide(j.kind)) {
+        corner(j.ends[1].body, local(j.ends[1]), name);
+      } else if (!known(j.ends[1].body, local(j.ends[1]))) {
+        corners_[j.ends[1].body].push_back({local(j.ends[1]), at});
+      }
+    }
+    for (const Output& output : robot_.outputs)
+      if (output.kind == Output::Kind::position || output.kind == Output::Kind::pose) {
+        const Placement& at = bodies_.placement[output.link];
+        effectors_.push_back(corner(bodies_.of_link[output.link],
+                                    at.translation + at.rotation * algebra_.vector(output.point, output.where),
+                                    output.name));
+      }
+    for (std::size_t body = 1; body < bodies_.size(); ++body) add_body(body);
+    for (const BodyJoint& j : bodies_.joints) add_joint(j);
+    if (!effectors_.empty()) draft_.part(Part::effector, effectors_);
+  }
+
+ private:
+  struct Corner {
+    Vec local;
+    std::string name;
+  };
+
+  static bool points_coincide(JointKind kind) {
+    return kind == JointKind::revolute || kind == JointKind::universal || kind == JointKind::spherical;
+  }
+
+  /// Where a joint is drawn: of a spherical robot, whose axes meet, on a sphere.
+  Vec local(const BodyEnd& end) const { return space_ == Space::spherical ? end.point + end.axis : end.point; }
+
+  const Corner* known(std::size_t body, const Vec& local) const {
+    for (const Corner& c : corners_[body]) {
+      const Vec way = c.local - local;
+      if (algebra_.is_zero(Vec{algebra_.clean(way[0]), algebra_.clean(way[1]), algebra_.clean(way[2])})) return &c;
+    }
+    return nullptr;
+  }
+
+  std::string corner(std::size_t body, const Vec& local, const std::string& wanted = "P") {
+    if (const Corner* same = known(body, local)) return same->name;
+    const Motion motion = place_(body, local);
+    const std::string name = draft_.point(wanted, motion.at, motion.velocity, space_ == Space::planar ? 2 : 3);
+    corners_[body].push_back({local, name});
+    return name;
+  }
+
+  std::array<double, 3> value(const Vec& v) const {
+    return {algebra_.value(v[0]), algebra_.value(v[1]), algebra_.value(v[2])};
+  }
+
+  /// Around their middle, as seen along the direction in which they are flattest.
+  std::vector<std::string> in_order(const std::vector<Corner>& corners) const {
+    std::vector<std::array<double, 3>> at;
+    std::array<double, 3> middle{0, 0, 0}, normal{0, 0, 0};
+    for (const Corner& c : corners) at.push_back(value(c.local));
+    for (const auto& p : at)
+      for (std::size_t i = 0; i < 3; ++i) middle[i] += p[i] / static_cast<double>(at.size());
+    const auto product = [&](const auto& a, const auto& b) {
+      return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    const auto from_middle = [&](std::size_t k) {
+      return std::array<double, 3>{at[k][0] - middle[0], at[k][1] - middle[1], at[k][2] - middle[2]};
+    };
+    const auto length = [](const auto& v) { return std::hypot(v[0], v[1], v[2]); };
+    for (std::size_t a = 0; a < at.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (const auto n = product(from_middle(a), from_middle(b)); length(n) > length(normal)) normal = n;
+    const auto first = from_middle(0), across = product(normal, first);
+    const auto dot_of = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    std::vector<std::pair<double, std::string>> sorted;
+    for (std::size_t k = 0; k < at.size(); ++k)
+      sorted.emplace_back(
+          std::atan2(dot_of(from_middle(k), across) / (length(normal) + 1e-300), dot_of(from_middle(k), first)),
+          corners[k].name);
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::string> names;
+    for (const auto& [angle, name] : sorted) names.push_back(name);
+    return names;
+  }
+
+  void add_body(std::size_t body) {
+    std::vector<Corner> corners;
+    for (const Corner& c : corners_[body])
+      if (std::none_of(corners.begin(), corners.end(), [&](const Corner& other) { return other.name == c.name; }))
+        corners.push_back(c);
+    if (corners.size() < 2) return;
+    if (corners.size() == 2) {
+      draft_.part(Part::link, {corners[0].name, corners[1].name});
+    } else {
+      draft_.part(Part::platform, in_order(corners));
+    }
+  }
+
+  void add_joint(const BodyJoint& j) {
+    const BodyEnd& e = j.ends[0];
+    const std::string at = corner(e.body, local(e)), far = corner(j.ends[1].body, local(j.ends[1]));
+    const bool grounded = e.body == 0 || j.ends[1].body == 0;
+    switch (j.kind) {
+      case JointKind::distance:
+      case JointKind::distance_variable:
+        draft_.part(Part::link, {at, far});
+        for (const BodyEnd& end : j.ends)
+          draft_.part(end.body == 0 ? Part::ground : Part::joint, {corner(end.body, local(end))});
+        break;
+      case JointKind::prismatic: draft_.part(Part::link, {at, far}); break;
+      default: draft_.part(grounded ? Part::ground : Part::joint, {at});
+    }
+  }
+
+  const Robot& robot_;
+  const Bodies& bodies_;
+  const Algebra& algebra_;
+  Draft& draft_;
+  Space space_;
+  const std::function<Motion(std::size_t, const Vec&)>& place_;
+  std::vector<std::vector<Corner>> corners_;  // of each body
+  std::vector<std::string> effectors_;
+};
+
+}  // namespace
+
+void draw(const Robot& robot, const Bodies& bodies, const Algebra& algebra, Draft& draft, Space space,
+          const std::function<Motion(std::size_t, const Vec&)>& place) {
+  Portrayal(robot, bodies, algebra, draft, space, place).run();
+}
+
+}  // namespace corank::kinematics

@@ -1,0 +1,248 @@
+// Robot::validate(): every comparison is made in the exact arithmetic of constants. Where enclosures leave a sign open, the
+// number may be 0: an axis or a length is then refused, an equation (of a rotation matrix) accepted.
+#include <numeric>
+#include <set>
+
+#include "corank/kinematics/constant_scope.h"
+#include "corank/kinematics/robot.h"
+#include "corank/kinematics/vectors.h"
+#include "corank/symbolic/expression_words.h"
+
+namespace corank::kinematics {
+namespace {
+
+using symbolic::in_quotes;
+using symbolic::ModelError;
+
+std::size_t most_ranges(JointKind kind) {
+  switch (kind) {
+    case JointKind::revolute:
+    case JointKind::prismatic:
+    case JointKind::spherical:
+    case JointKind::distance_variable: return 1;
+    case JointKind::cylindrical:
+    case JointKind::universal: return 2;
+    default: return 0;
+  }
+}
+
+bool has_axis(const Joint& joint) {
+  switch (joint.kind) {
+    case JointKind::revolute:
+    case JointKind::prismatic:
+    case JointKind::cylindrical:
+    case JointKind::universal:
+    case JointKind::planar: return true;
+    case JointKind::spherical: return !joint.ranges.empty() && joint.ranges[0];  // of the cone
+    default: return false;
+  }
+}
+
+class RobotValidator {
+ public:
+  explicit RobotValidator(const Robot& robot) : robot_(robot), scope_(robot.constants) {}
+
+  void check_links() const {
+    if (robot_.links.empty()) throw ModelError(whole(), "the robot has no links", "at least one, in [LINKS]");
+    std::set<std::string> taken;
+    for (const Link& link : robot_.links) {
+      if (!taken.insert(link.name).second)
+        throw ModelError(at(link.where), "there are two links " + in_quotes(link.name), "another name for one of them");
+    }
+    taken.clear();
+    for (const Joint& joint : robot_.joints) {
+      if (!taken.insert(joint.name).second)
+        throw ModelError(at(joint.where), "there are two joints " + in_quotes(joint.name), "another name for one of them");
+    }
+    taken.clear();
+    for (const Output& output : robot_.outputs) {
+      if (!taken.insert(output.name).second)
+        throw ModelError(at(output.where), "there are two outputs " + in_quotes(output.name),
+                         "another name for one of them");
+    }
+  }
+
+  void check_shapes() {
+    for (const Link& link : robot_.links) {
+      const std::string owner = "a shape of the link " + in_quotes(link.name);
+      for (const Shape& shape : link.shapes) {
+        for (const Vector& point : shape.points) check(point, owner, shape.where);
+        if (shape.kind == Shape::Kind::polygon) continue;
+        require_positive(shape.radius, "the radius of " + owner, "a positive radius", shape.where);
+      }
+    }
+  }
+
+  void check_joint(const Joint& joint) {
+    const std::string what = described(joint);
+    const symbolic::SourceLocation where = at(joint.where);
+    for (const JointEnd& end : joint.ends) {
+      if (end.link >= robot_.links.size())
+        throw ModelError(where, what + " has an end on a link that is not there", "two of the robot's links");
+    }
+    const std::string& first = robot_.links[joint.ends[0].link].name;
+    if (joint.ends[0].link == joint.ends[1].link)
+      throw ModelError(where, what + " connects the link " + in_quotes(first) + " with itself", "two different links");
+    for (const JointEnd& end : joint.ends) check_end(joint, end, what, where);
+    check_ranges(joint, what, where);
+    if (joint.kind == JointKind::fixed) check_pose(joint.pose, what, where);
+    if (joint.kind == JointKind::distance)
+      require_positive(joint.length, "the length of " + what, "a length above 0", where);
+    const bool cannot_be_driven = joint.kind == JointKind::fixed || joint.kind == JointKind::distance ||
+                                  joint.kind == JointKind::spherical || joint.kind == JointKind::planar;
+    if (joint.actuated && cannot_be_driven) {
+      throw ModelError(where, what + " cannot be actuated: it has no angle or way of its own",
+                       "an actuated joint of the kind revolute, prismatic, cylindrical, universal or sph_prs_sph");
+    }
+  }
+
+  void check_output(const Output& output) {
+    const std::string what = "the output " + in_quotes(output.name);
+    const symbolic::SourceLocation where = at(output.where);
+    if (output.kind == Output::Kind::joint) {
+      if (output.joint >= robot_.joints.size())
+        throw ModelError(where, what + " is of a joint that is not there", "a joint of the robot");
+      const Joint& joint = robot_.joints[output.joint];
+      if (most_ranges(joint.kind) == 0 || joint.kind == JointKind::spherical) {
+        throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or way of its own",
+                         "a revolute, prismatic, cylindrical, universal or sph_prs_sph joint");
+      }
+      return;
+    }
+    const std::size_t links = robot_.links.size();
+    if (output.link >= links || output.relative_to >= links)
+      throw ModelError(where, what + " is of a link that is not there", "a link of the robot");
+    if (output.link == output.relative_to) {
+      throw ModelError(where, what + " is of the link " + in_quotes(robot_.links[output.link].name) + " in itself",
+                       "two different links; without `in` an output is measured in the first link, the ground");
+    }
+    check(output.point, what, where);
+    if (output.kind == Output::Kind::direction) require_direction(output.point, "the direction of " + what, where);
+  }
+
+  void check_connections() const {
+    std::vector<std::size_t> root(robot_.links.size());
+    std::iota(root.begin(), root.end(), std::size_t{0});
+    const auto find = [&](std::size_t i) {
+      while (root[i] != i) i = root[i] = root[root[i]];
+      return i;
+    };
+    for (const Joint& joint : robot_.joints) root[find(joint.ends[0].link)] = find(joint.ends[1].link);
+    for (std::size_t i = 1; i < root.size(); ++i) {
+      if (find(i) == find(0)) continue;
+      throw ModelError(at(robot_.links[i].where),
+                       "no joint connects the link " + in_quotes(robot_.links[i].name) + " with the first link, " +
+                           in_quotes(robot_.links[0].name) + ", which is the ground",
+                       "joints from every link to the ground, directly or through other links");
+    }
+  }
+
+ private:
+  symbolic::SourceLocation whole() const { return {robot_.file.empty() ? robot_.name : robot_.file, 0, 0}; }
+  symbolic::SourceLocation at(const symbolic::SourceLocation& where) const { return where.line > 0 ? where : whole(); }
+
+  std::string described(const Joint& joint) const {
+    const std::string kind = to_string(joint.kind);
+    std::string links;
+    for (const JointEnd& end : joint.ends) {
+      if (end.link < robot_.links.size()) links += (links.empty() ? "" : "–") + robot_.links[end.link].name;
+    }
+    return "the " + kind + " joint " + in_quotes(joint.is_named ? joint.name : links);
+  }
+
+  void check(const Vector& v, const std::string& owner, const symbolic::SourceLocation& where) {
+    for (const Expression& e : v) scope_.check(e, owner, where);
+  }
+
+  void require_positive(const Expression& e, const std::string& what, const std::string& expectation,
+                        const symbolic::SourceLocation& where) {
+    const std::optional<int> sign = scope_.sign(e, what, where);
+    if (sign == 1) return;
+    const std::string problem = sign == 0 ? " is 0" : sign == -1 ? " is negative" : " cannot be told from 0";
+    throw ModelError(where, what + ", " + in_quotes(e.text()) + ", " + problem.substr(1), expectation);
+  }
+
+  void require_direction(const Vector& v, const std::string& what, const symbolic::SourceLocation& where) {
+    for (const Expression& e : v) {
+      const std::optional<int> sign = scope_.sign(e, what, where);
+      if (sign && *sign != 0) return;
+    }
+    throw ModelError(where, what + " has the length 0", "a direction such as (0, 0, 1)");
+  }
+
+  void check_end(const Joint& joint, const JointEnd& end, const std::string& what, const symbolic::SourceLocation& where) {
+    const std::string on = " of " + what + " on the link " + in_quotes(robot_.links[end.link].name);
+    check(end.point, "the point" + on, where);
+    check(end.axis, "the axis" + on, where);
+    if (has_axis(joint)) require_direction(end.axis, "the axis" + on, where);
+    if (!end.zero) return;
+    const std::string zero = "the zero direction" + on;
+    require_direction(*end.zero, zero, where);
+    if (!has_axis(joint)) return;
+    for (const Expression& e : cross(end.axis, *end.zero)) {
+      const std::optional<int> sign = scope_.sign(e, zero, where);
+      if (sign && *sign != 0) return;
+    }
+    throw ModelError(where, zero + " lies along the axis", "a direction across the axis");
+  }
+
+  void check_ranges(const Joint& joint, const std::string& what, const symbolic::SourceLocation& where) {
+    const std::size_t most = most_ranges(joint.kind);
+    if (joint.ranges.size() > most) {
+      throw ModelError(where, what + " has " + std::to_string(joint.ranges.size()) + " ranges",
+                       most == 0   ? std::string("none for this kind of joint")
+                       : most == 1 ? std::string("at most one")
+                                   : std::string("at most two"));
+    }
+    for (const std::optional<Range>& range : joint.ranges) {
+      if (!range) continue;
+      const std::string of = "the range of " + what;
+      scope_.check(range->lower, of, where);
+      if (scope_.sign(folded_difference(range->upper, range->lower), of, where) == -1) {
+        throw ModelError(where,
+                         of + " is empty: " + in_quotes(range->lower.text()) + " is above " + in_quotes(range->upper.text()),
+                         "[lower, upper]");
+      }
+      const bool is_size = joint.kind == JointKind::spherical || joint.kind == JointKind::distance_variable;
+      if (is_size && scope_.sign(range->lower, of, where) == -1) {
+        throw ModelError(where, of + " begins with " + in_quotes(range->lower.text()) + ", which is negative",
+                         joint.kind == JointKind::spherical ? "[half angle]" : "the range of a length");
+      }
+    }
+  }
+
+  void check_pose(const Pose& pose, const std::string& what, const symbolic::SourceLocation& where) {
+    const std::string of = "the pose of " + what;
+    check(pose.translation, of, where);
+    const auto require_equal = [&](const Expression& a, int b, const std::string& problem) {
+      const std::optional<int> sign = scope_.sign(folded_difference(a, b), of, where);
+      if (sign && *sign != 0)
+        throw ModelError(where, of + " is no rotation and translation: " + problem, "a rotation matrix");
+    };
+    const auto& r = pose.rotation;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string row = "row " + std::to_string(i + 1);
+      require_equal(dot(r[i], r[i]), 1, row + " has not the length 1");
+      for (std::size_t j = 0; j < i; ++j)
+        require_equal(dot(r[i], r[j]), 0, row + " is not perpendicular to row " + std::to_string(j + 1));
+    }
+    if (scope_.sign(dot(cross(r[0], r[1]), r[2]), of, where) == -1)
+      throw ModelError(where, of + " is no rotation and translation: the matrix is a reflection", "a determinant of 1");
+  }
+
+  const Robot& robot_;
+  ConstantScope scope_;
+};
+
+}  // namespace
+
+void Robot::validate() const {
+  RobotValidator validator(*this);
+  validator.check_links();
+  for (const Joint& joint : joints) validator.check_joint(joint);
+  for (const Output& output : outputs) validator.check_output(output);
+  validator.check_connections();
+  validator.check_shapes();
+}
+
+}  // namespace corank::kinematics

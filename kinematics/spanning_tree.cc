@@ -1,0 +1,105 @@
+#include "corank/kinematics/spanning_tree.h"
+
+#include <deque>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+namespace corank::kinematics {
+namespace {
+
+bool is_rod(JointKind kind) { return kind == JointKind::distance || kind == JointKind::distance_variable; }
+
+class Forest {
+ public:
+  explicit Forest(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  bool join(std::size_t a, std::size_t b) {
+    a = root(a), b = root(b);
+    parent_[a] = b;
+    return a != b;
+  }
+
+ private:
+  std::size_t root(std::size_t x) const {
+    while (parent_[x] != x) x = parent_[x];
+    return x;
+  }
+  std::vector<std::size_t> parent_;
+};
+
+}  // namespace
+
+SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra,
+                           const std::vector<bool>& first) {
+  const std::size_t n = bodies.joints.size();
+  std::vector<bool> in_forest(n, false), reached(bodies.size(), false);
+  Forest forest(bodies.size());
+  for (std::size_t j = 0; j < n; ++j)
+    if (first[j]) in_forest[j] = forest.join(bodies.joints[j].ends[0].body, bodies.joints[j].ends[1].body);
+
+  SpanningTree tree;
+  std::vector<bool> used(n, false);
+  std::deque<std::size_t> waiting;
+  const auto take = [&](std::size_t j, std::size_t from) {
+    used[j] = true;
+    tree.edges.push_back({j, from});
+    const std::size_t body = bodies.joints[j].ends[1 - from].body;
+    reached[body] = true;
+    waiting.push_back(body);
+  };
+  // All that hang on a body by joints of one sort.
+  const auto extend = [&](std::size_t body, auto&& wanted) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto& ends = bodies.joints[j].ends;
+      for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
+        if (!used[j] && ends[side].body == body && !reached[ends[1 - side].body] && wanted(j)) take(j, side);
+    }
+  };
+  reached[0] = true;
+  waiting.push_back(0);
+  for (;;) {
+    while (!waiting.empty()) {
+      // What the forest carries comes along at once, so that no shorter way takes it elsewhere.
+      std::deque<std::size_t> whole{waiting.front()};
+      waiting.pop_front();
+      std::vector<std::size_t> together;
+      while (!whole.empty()) {
+        const std::size_t body = whole.front();
+        whole.pop_front();
+        together.push_back(body);
+        const std::size_t before = waiting.size();
+        extend(body, [&](std::size_t j) { return in_forest[j]; });
+        for (std::size_t i = before; i < waiting.size(); ++i) whole.push_back(waiting[i]);
+        waiting.resize(before);
+      }
+      for (const std::size_t body : together)
+        extend(body, [&](std::size_t j) { return !first[j] && !is_rod(bodies.joints[j].kind); });
+    }
+    std::optional<TreeEdge> shortest;
+    double length = 0;
+    for (std::size_t j = 0; j < n; ++j)
+      for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+        const BodyJoint& rod = bodies.joints[j];
+        if (used[j] || !is_rod(rod.kind) || !reached[rod.ends[side].body] || reached[rod.ends[1 - side].body]) continue;
+        const Joint& of = robot.joints[rod.index];
+        const double own = rod.kind == JointKind::distance ? algebra.value(algebra.constant(of.length, of.where))
+                                                           : std::numeric_limits<double>::infinity();
+        if (shortest && !(own < length)) continue;
+        shortest = TreeEdge{j, side};
+        length = own;
+      }
+    if (shortest) take(shortest->joint, shortest->from);
+    if (waiting.empty()) break;
+  }
+  for (std::size_t link = 0; link < robot.links.size(); ++link)
+    if (!reached[bodies.of_link[link]])
+      throw symbolic::ModelError(
+          robot.links[link].where,
+          "no joint connects the link '" + robot.links[link].name + "' with the ground '" + robot.links[0].name + "'",
+          "one robot");
+  for (std::size_t j = 0; j < n; ++j)
+    if (!used[j]) tree.chords.push_back(j);
+  return tree;
+}
+
+}  // namespace corank::kinematics

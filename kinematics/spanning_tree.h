@@ -1,0 +1,26 @@
+// Which joints carry the bodies and which close loops.
+#pragma once
+
+#include <vector>
+
+#include "corank/kinematics/bodies.h"
+
+namespace corank::kinematics {
+
+/// A joint by which a body is reached from its parent.
+struct TreeEdge {
+  std::size_t joint = 0;  ///< in Bodies::joints
+  std::size_t from = 0;   ///< which end is the parent's
+};
+
+struct SpanningTree {
+  std::vector<TreeEdge> edges;      ///< from the ground outwards, each parent before its children
+  std::vector<std::size_t> chords;  ///< joints that close loops
+};
+
+/// Joints that `first` tells (sliding ones, those whose angle is a coordinate) are taken before the others; rods carry a body
+/// only where nothing else does, the shortest of constant length first. Among the rest the ways to the ground are as short as possible. Throws ModelError, naming a
+/// link, where a body is not connected with the ground.
+SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra, const std::vector<bool>& first);
+
+}  // namespace corank::kinematics

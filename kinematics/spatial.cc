@@ -1,0 +1,291 @@
+#include "corank/kinematics/spatial.h"
+
+#include <algorithm>
+
+#include "corank/kinematics/frames.h"
+#include "corank/kinematics/portrayal.h"
+#include "corank/kinematics/twists.h"
+
+namespace corank::kinematics {
+namespace {
+
+using symbolic::ModelError;
+
+Vec cleaned(const Algebra& algebra, const Vec& v) { return {algebra.clean(v[0]), algebra.clean(v[1]), algebra.clean(v[2])}; }
+
+class SpatialRobot {
+ public:
+  SpatialRobot(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft)
+      : robot_(robot), bodies_(bodies), algebra_(algebra), draft_(draft), frames_(robot, bodies, algebra, draft) {
+    positions_.origins.resize(bodies.size());
+    positions_.origins[0] = Vec{0, 0, 0};
+    positions_.coordinate.resize(robot.joints.size());
+  }
+
+  void run() {
+    std::vector<bool> first;
+    for (const BodyJoint& j : bodies_.joints)
+      first.push_back(j.kind == JointKind::prismatic || (j.kind == JointKind::revolute && frames_.is_asked_for(j.index)));
+    tree_ = spanning_tree(robot_, bodies_, algebra_, first);
+    for (const TreeEdge& edge : tree_.edges) frames_.orient(edge);
+    for (const std::size_t j : tree_.chords) frames_.close(bodies_.joints[j]);
+    for (const TreeEdge& edge : tree_.edges) reach(edge);
+    for (const std::size_t j : tree_.chords) close(bodies_.joints[j]);
+    for (const BodyJoint& j : bodies_.joints) frames_.limit(j);
+    bool moves = false;
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      if (!positions_.coordinate[j] && frames_.angle(j)) positions_.coordinate[j] = frames_.angle(j);
+      if (!robot_.joints[j].actuated) continue;
+      moves = true;
+      if (positions_.coordinate[j]) draft_.input(*positions_.coordinate[j]);
+    }
+    for (const Output& output : robot_.outputs) add(output);
+    std::optional<Twists> twists;
+    if (moves || !robot_.outputs.empty()) {
+      twists.emplace(robot_, bodies_, tree_, frames_, positions_, algebra_, draft_);
+      twists->run();
+    }
+    frames_.finish();
+    draw(robot_, bodies_, algebra_, draft_, is_spherical() ? Space::spherical : Space::spatial,
+         [&](std::size_t body, const Vec& point) -> Motion {
+           const Vec at = place({body, point, {}, {}});
+           return {at, twists ? std::optional(twists->velocity(body, at)) : std::nullopt};
+         });
+    report();
+  }
+
+  bool is_spherical() const {
+    return !translates_ && !tree_.chords.empty() &&
+           std::all_of(bodies_.joints.begin(), bodies_.joints.end(), [](const BodyJoint& j) {
+             return j.kind == JointKind::revolute || j.kind == JointKind::universal || j.kind == JointKind::spherical;
+           });
+  }
+
+ private:
+  const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
+  std::optional<Range> range(const BodyJoint& j, std::size_t i = 0) const {
+    return joint(j).ranges.size() > i ? joint(j).ranges[i] : std::nullopt;
+  }
+  std::size_t group(std::size_t body) const { return bodies_.group[body]; }
+  Vec place(const BodyEnd& end) {
+    return cleaned(algebra_, *positions_.origins[end.body] + frames_.image(group(end.body), end.point));
+  }
+
+  /// A way of end 1's point from end 0's, in the world, with its coordinates.
+  Vec way(const BodyJoint& j) {
+    const Joint& of = joint(j);
+    const BodyEnd& e = j.ends[0];
+    switch (j.kind) {
+      case JointKind::prismatic:
+      case JointKind::cylindrical: {
+        const ex d = draft_.length(j.kind == JointKind::prismatic ? of.name : of.name + "_way",
+                                   range(j, j.kind == JointKind::prismatic ? 0 : 1), of.where);
+        positions_.coordinate[j.index] = d;
+        return d * frames_.image(group(e.body), e.axis);
+      }
+      case JointKind::planar:
+        return draft_.length(of.name + "_x", {}, of.where) * frames_.image(group(e.body), e.zero) +
+               draft_.length(of.name + "_y", {}, of.where) * frames_.image(group(e.body), cross(e.axis, e.zero));
+      default: return {0, 0, 0};
+    }
+  }
+
+  void reach(const TreeEdge& edge) {
+    const BodyJoint& j = bodies_.joints[edge.joint];
+    const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
+    Vec at = place(parent);
+    if (j.kind == JointKind::distance || j.kind == JointKind::distance_variable) {
+      at = at + hang(j, edge, child.body);
+    } else {
+      at = edge.from == 0 ? at + way(j) : at - way(j);
+    }
+    positions_.origins[child.body] = cleaned(algebra_, at - frames_.image(group(child.body), child.point));
+  }
+
+  ex length_of(const BodyJoint& j) {
+    const Joint& of = joint(j);
+    if (j.kind == JointKind::distance) return algebra_.constant(of.length, of.where);
+    positions_.coordinate[j.index] = draft_.length(of.name, range(j), of.where);
+    return *positions_.coordinate[j.index];
+  }
+
+  /// A body that only rods carry: the vector along the first of them is a coordinate.
+  Vec hang(const BodyJoint& j, const TreeEdge& edge, std::size_t body) {
+    const ex length = length_of(j);
+    Vec p;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::optional<Range> limits = rod_range(j);
+      p[i] = draft_.length("P_" + joint(j).name + "_" + "xyz"[i], limits, joint(j).where);
+    }
+    const ex square = j.kind == JointKind::distance ? algebra_.clean(length * length) : ex(length * length);
+    draft_.equation(dot(p, p) - square, "rod", joint(j).where);
+    hung_.push_back({edge.joint, body, p, square, {}});
+    return p;
+  }
+
+  /// A rod's component is no longer than the rod.
+  std::optional<Range> rod_range(const BodyJoint& j) const {
+    const Joint& of = joint(j);
+    if (j.kind == JointKind::distance) return Range{-of.length, of.length};
+    if (range(j)) return Range{-range(j)->upper, range(j)->upper};
+    return std::nullopt;
+  }
+
+  struct Hung {
+    std::size_t joint;  ///< in bodies_.joints
+    std::size_t body;
+    Vec p;                                  ///< along the rod, towards the body
+    ex square;                              ///< of its length
+    std::array<std::optional<ex>, 3> seen;  ///< p along the body's directions, once they were needed
+  };
+
+  /// |p + R b − a|² = |p|² + |b|² + |a|² + 2 p·R b − 2 p·a − 2 a·R b, where |p|² is known and q = Rᵀp are coordinates: so the
+  /// difference of two legs' equations is linear in them.
+  ex squared_distance(Hung& hung, const Vec& b, const Vec& a) {
+    const std::size_t g = group(hung.body);
+    const Vec c = frames_.coefficients(g, b);
+    ex along = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (algebra_.is_zero(c[i])) continue;
+      if (!hung.seen[i]) {
+        const Joint& of = joint(bodies_.joints[hung.joint]);
+        const ex q = draft_.length("q_" + of.name + "_" + std::to_string(i + 1), rod_range(bodies_.joints[hung.joint]),
+                                   of.where, true);
+        draft_.equation(q - dot(hung.p, frames_.direction(g, i)), "q", of.where);
+        hung.seen[i] = q;
+      }
+      along += c[i] * *hung.seen[i];
+    }
+    return hung.square + dot(b, b) + dot(a, a) + 2 * along - 2 * dot(hung.p, a) - 2 * dot(a, frames_.image(g, b));
+  }
+
+  void close_rod(const BodyJoint& j) {
+    const Joint& of = joint(j);
+    const ex length = length_of(j);
+    for (Hung& hung : hung_) {
+      const BodyJoint& first = bodies_.joints[hung.joint];
+      for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+        if (j.ends[end].body != hung.body) continue;
+        const std::size_t far = first.ends[0].body == hung.body ? 0 : 1;
+        const Vec b = j.ends[end].point - first.ends[far].point;
+        const Vec a = cleaned(algebra_, place(j.ends[1 - end]) - place(first.ends[1 - far]));
+        if (depends_on(a, hung)) continue;
+        draft_.equation(squared_distance(hung, cleaned(algebra_, b), a) - length * length, "rod", of.where,
+                        "the rod '" + of.name + "'");
+        return;
+      }
+    }
+    const Vec gap = cleaned(algebra_, place(j.ends[1]) - place(j.ends[0]));
+    draft_.equation(dot(gap, gap) - length * length, "rod", of.where, "the rod '" + of.name + "'");
+  }
+
+  /// Does a hang on the same rod?
+  bool depends_on(const Vec& a, const Hung& hung) const {
+    for (const ex& component : a)
+      for (const ex& p : hung.p)
+        if (component.has(p)) return true;
+    return false;
+  }
+
+  void close(const BodyJoint& j) {
+    const Joint& of = joint(j);
+    const std::string what = "the loop that the joint '" + of.name + "' closes";
+    if (j.kind == JointKind::distance || j.kind == JointKind::distance_variable) {
+      close_rod(j);
+      return;
+    }
+    const Vec gap = place(j.ends[1]) - place(j.ends[0]);
+    if (j.kind == JointKind::planar) {
+      draft_.equation(dot(gap, frames_.image(group(j.ends[0].body), j.ends[0].axis)), "plane", of.where, what);
+      return;
+    }
+    const Vec open = gap - way(j);
+    for (const ex& component : open)
+      if (draft_.equation(component, "loop", of.where, what)) translates_ = true;
+  }
+
+  /// Poses of links and values of joints, for whoever wants to know them of a solution.
+  void report() {
+    for (std::size_t l = 0; l < robot_.links.size(); ++l) {
+      const std::size_t body = bodies_.of_link[l];
+      const Placement& at = bodies_.placement[l];
+      const Mat columns = transpose(at.rotation);
+      Mat axes;
+      for (std::size_t i = 0; i < 3; ++i) axes[i] = frames_.image(group(body), columns[i]);
+      draft_.pose({place({body, at.translation, {}, {}}), transpose(axes)});
+    }
+    for (const BodyJoint& j : bodies_.joints) {
+      if (positions_.coordinate[j.index]) {
+        draft_.joint_value(joint(j).name, *positions_.coordinate[j.index]);
+      } else if (j.kind == JointKind::revolute) {
+        const BodyEnd &a = j.ends[0], &b = j.ends[1];
+        const Vec zero = frames_.image(group(b.body), b.zero);
+        draft_.joint_value(joint(j).name, dot(zero, frames_.image(group(a.body), a.zero)),
+                           dot(zero, frames_.image(group(a.body), cross(a.axis, a.zero))));
+      }
+    }
+  }
+
+  void add(const Output& output) {
+    const bool place_wanted = output.kind == Output::Kind::position || output.kind == Output::Kind::pose;
+    if (output.kind == Output::Kind::joint) {
+      if (!positions_.coordinate[output.joint])
+        throw ModelError(output.where, "the joint '" + robot_.joints[output.joint].name + "' has no coordinate",
+                         "a revolute or prismatic joint, or a rod of variable length");
+      draft_.output(*positions_.coordinate[output.joint]);
+      return;
+    }
+    if (bodies_.of_link[output.relative_to] != 0)
+      throw ModelError(output.where,
+                       "the output '" + output.name + "' is relative to '" + robot_.links[output.relative_to].name + "'",
+                       "for a robot in space: relative to the ground '" + robot_.links[0].name + "'");
+    if (place_wanted) add_components(output, point_of(output));
+    if (output.kind == Output::Kind::direction) {
+      const Placement& at = bodies_.placement[output.link];
+      add_components(
+          output,
+          frames_.image(group(bodies_.of_link[output.link]),
+                        cleaned(algebra_, algebra_.unit(at.rotation * algebra_.vector(output.point, output.where)))));
+    }
+  }
+
+  Vec point_of(const Output& output) {
+    const Placement& at = bodies_.placement[output.link];
+    const std::size_t body = bodies_.of_link[output.link];
+    const Vec local = cleaned(algebra_, at.translation + at.rotation * algebra_.vector(output.point, output.where));
+    const Vec p = cleaned(algebra_, *positions_.origins[body] + frames_.image(group(body), local));
+    positions_.output_points.emplace(output.name, p);
+    return p;
+  }
+
+  void add_components(const Output& output, const Vec& value) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ex clean = algebra_.clean(value[i]);
+      if (algebra_.is_constant(clean)) continue;
+      const ex coordinate = draft_.length(
+          output.name + "_" + "xyz" [i], {}, output.where);
+      draft_.equation(coordinate - clean, "output", output.where);
+      draft_.output(coordinate);
+    }
+  }
+
+  const Robot& robot_;
+  const Bodies& bodies_;
+  Algebra& algebra_;
+  Draft& draft_;
+  Frames frames_;
+  SpanningTree tree_;
+  Positions positions_;
+  std::vector<Hung> hung_;
+  bool translates_ = false;  // a loop's positions say something
+};
+
+}  // namespace
+
+bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft) {
+  SpatialRobot spatial(robot, bodies, algebra, draft);
+  spatial.run();
+  return spatial.is_spherical();
+}
+
+}  // namespace corank::kinematics

@@ -1,0 +1,83 @@
+// The velocity equation of a spatial robot, by twists: rates of the joints, and of bodies that only rods carry; rows for each
+// joint that closes a loop and for each rod.
+//
+//   Σ_k ω_k a_k = 0 and Σ_k ω_k a_k × (c − c_k) + v_k a_k = 0 over a loop's joints; (p₁ − p₀)·(v₁ − v₀) = l l̇ of a rod.
+//
+// Davies, "Kirchhoff's circulation law applied to multi-loop kinematic chains", 1981 (key Davies1981). The rows are the
+// derivatives of the loop's conditions along a motion, written in independent rates: at every configuration they have the
+// same feasible motions as Φ_q, so both forms name the same singular configurations (doc/theory.md).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/kinematics/frames.h"
+
+namespace corank::kinematics {
+
+/// Where things are, in the world.
+struct Positions {
+  std::vector<std::optional<Vec>> origins;    ///< of each body's frame
+  std::vector<std::optional<ex>> coordinate;  ///< of each joint of the robot: its angle, way or length
+  std::map<std::string, Vec> output_points;   ///< by the output's name
+};
+
+/// One rate's part of a body's motion.
+struct Screw {
+  ex rate;
+  Vec axis;   ///< of turning, or the direction of sliding
+  Vec point;  ///< that it turns about; unused where it slides
+  bool turns = true;
+};
+
+class Twists {
+ public:
+  Twists(const Robot& robot, const Bodies& bodies, const SpanningTree& tree, Frames& frames, const Positions& positions,
+         Algebra& algebra, Draft& draft)
+      : robot_(robot),
+        bodies_(bodies),
+        tree_(tree),
+        frames_(frames),
+        positions_(positions),
+        algebra_(algebra),
+        draft_(draft),
+        motion_(bodies.size()) {}
+
+  /// Declares the rates and adds the rows.
+  void run();
+  /// Of a body's point that is at c, in the rates.
+  Vec velocity(std::size_t body, const Vec& c) const;
+
+ private:
+  const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
+  std::size_t group(std::size_t body) const { return bodies_.group[body]; }
+  Vec cleaned(const Vec& v) const;
+  Vec place(const BodyEnd& end);
+  Vec axis(const BodyJoint& j, std::size_t end);
+  symbolic::Role role(std::size_t joint) const;
+  ex angular(const BodyJoint& j, const std::string& suffix = "");
+  ex linear(const BodyJoint& j, const std::string& suffix = "");
+  std::size_t link_of(std::size_t body) const;
+  /// The screws of a joint, as motions of end 1's body relative to end 0's.
+  std::vector<Screw> screws(const BodyJoint& j);
+  void reach(const TreeEdge& edge);
+  void add_velocity(Vec& sum, const std::vector<Screw>& screws, const Vec& c, int sign) const;
+  Vec turning(std::size_t body) const;
+  void row(const ex& e, const Joint& of);
+  void rows(const Vec& v, const Joint& of);
+  void close(const BodyJoint& j);
+  void add(const Output& output);
+
+  const Robot& robot_;
+  const Bodies& bodies_;
+  const SpanningTree& tree_;
+  Frames& frames_;
+  const Positions& positions_;
+  Algebra& algebra_;
+  Draft& draft_;
+  std::vector<std::vector<Screw>> motion_;  // of each body, relative to the ground
+};
+
+}  // namespace corank::kinematics

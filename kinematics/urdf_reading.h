@@ -1,0 +1,58 @@
+// What the readers of a URDF document's parts share: attributes with their faults, poses, notices.
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "corank/kinematics/urdf_document.h"
+#include "corank/kinematics/urdf_number.h"
+
+namespace corank::kinematics {
+
+class UrdfReading {
+ public:
+  explicit UrdfReading(const UrdfDocument& read) : document(read) {}
+
+  const UrdfDocument& document;
+
+  SourceLocation where(const pugi::xml_node& element) const { return document.where(element); }
+  SourceLocation where(const pugi::xml_attribute& attribute) const { return document.where(attribute); }
+
+  /// The attribute's text; `owner` is what lacks it, "a joint".
+  std::string_view required(const pugi::xml_node& element, const char* attribute, const std::string& owner) const;
+  /// The only child of that name, none where there is none.
+  pugi::xml_node only_child(const pugi::xml_node& element, const char* name) const;
+  /// Throws for an attribute with a name that is none of these. Names with a prefix (drake:x) are others' business.
+  void allow_attributes(const pugi::xml_node& element, std::initializer_list<std::string_view> names) const;
+  /// Passes over children with other names, with a notice; throws where one looks like a slip of the pen for one of these.
+  void allow_children(const pugi::xml_node& element, std::initializer_list<std::string_view> names);
+
+  /// A number of an attribute that need not be there.
+  std::optional<UrdfNumber> number(const pugi::xml_node& element, const char* attribute, const std::string& what) const;
+  std::optional<UrdfNumber> angle(const pugi::xml_node& element, const char* attribute, const std::string& what);
+  /// The element's <origin>; the identity where there is none. R = Rz(yaw) Ry(pitch) Rx(roll).
+  Pose origin(const pugi::xml_node& element, const std::string& owner);
+
+  /// Says a sentence once, with the number of times.
+  void notice(const std::string& sentence, int times = 1);
+  std::vector<std::string> notices() const;
+
+ private:
+  std::vector<std::pair<std::string, int>> notices_;
+  std::map<std::string, std::size_t, std::less<>> notice_index_;
+};
+
+/// The point of a frame whose pose is given: R x + p. The direction: R x.
+Vector moved_point(const Pose& pose, const Vector& point);
+Vector turned(const Pose& pose, const Vector& direction);
+
+/// The name most like the one given, where one is like it; else empty.
+std::string nearest_name(std::string_view name, const std::vector<std::string_view>& names);
+/// "did you mean 'x'? …", or the second sentence alone.
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& names, const std::string& otherwise);
+
+}  // namespace corank::kinematics

@@ -1,0 +1,424 @@
+#include "corank/kinematics/urdf_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "corank/kinematics/urdf_reading.h"
+#include "corank/kinematics/urdf_visual.h"
+#include "corank/symbolic/expression_words.h"
+
+namespace corank::kinematics {
+namespace {
+
+using symbolic::in_quotes;
+using symbolic::ModelError;
+
+constexpr std::size_t kMaxLinks = 10'000;
+constexpr int kWholeTurn = 720;  ///< in half degrees
+constexpr const char* kCloseLoops = "URDF is a tree: close loops in a .loops file";
+
+// Names as URDF has them, and what they are called in the model: identifiers, each once.
+class Names {
+ public:
+  Names(UrdfReading& reading, std::string what) : reading_(reading), what_(std::move(what)) {}
+
+  std::size_t add(const pugi::xml_node& element) {
+    const std::string_view name = reading_.required(element, "name", "a " + what_);
+    const auto [at, is_new] = index_.try_emplace(name, list_.size());
+    if (!is_new) {
+      throw ModelError(reading_.where(element.attribute("name")), "a second " + what_ + " called " + in_quotes(name),
+                       "each name once; the first stands in line " + std::to_string(lines_[at->second]));
+    }
+    list_.push_back(name);
+    lines_.push_back(reading_.where(element).line);
+    return list_.size() - 1;
+  }
+
+  // The one that an attribute names.
+  std::size_t find(const pugi::xml_node& element, const char* attribute, const std::string& owner) const {
+    const std::string_view name = reading_.required(element, attribute, owner);
+    const auto found = index_.find(name);
+    if (found != index_.end()) return found->second;
+    throw ModelError(reading_.where(element.attribute(attribute)), "there is no " + what_ + " " + in_quotes(name),
+                     suggestion(name, list_, "the name of a <" + what_ + "> of this file"));
+  }
+
+  // Once all are there: those that are identifiers keep their names.
+  std::vector<std::string> identifiers() {
+    std::set<std::string, std::less<>> taken;
+    std::map<std::string, int> numbers;
+    for (std::string_view name : list_)
+      if (is_fit(name)) taken.emplace(name);
+    std::vector<std::string> result;
+    for (std::string_view name : list_) {
+      if (is_fit(name)) {
+        result.emplace_back(name);
+        continue;
+      }
+      std::string fit;
+      for (const char c : name) fit += symbolic::is_identifier(std::string("_") + c) ? c : '_';
+      if (!is_fit(fit)) fit = what_ + "_" + fit;
+      const std::string base = fit;
+      int& number = numbers[base];
+      while (!taken.insert(fit).second) fit = base + "_" + std::to_string(++number + 1);
+      reading_.notice("the " + what_ + " " + in_quotes(name) + " is called " + fit);
+      result.push_back(std::move(fit));
+    }
+    return result;
+  }
+
+  std::size_t size() const { return list_.size(); }
+  std::string_view operator[](std::size_t i) const { return list_[i]; }
+
+ private:
+  static bool is_fit(std::string_view name) { return symbolic::is_identifier(name) && !symbolic::is_reserved(name); }
+
+  UrdfReading& reading_;
+  std::string what_;
+  std::vector<std::string_view> list_;
+  std::vector<int> lines_;
+  std::map<std::string_view, std::size_t> index_;
+};
+
+// A <joint> and its place in the tree. Links are counted as in the file.
+struct Edge {
+  pugi::xml_node element;
+  std::size_t parent, child;
+  int joint = -1;  ///< in the robot; −1 where it is none there
+};
+
+class TreeReader {
+ public:
+  TreeReader(const UrdfDocument& document, const std::string& file, bool closed)
+      : reading_(document), top_(document.robot()), closed_(closed) {
+    robot_.file = file;
+    robot_.unit = "m";
+  }
+
+  Robot read() {
+    read_robot();
+    read_names();
+    const std::size_t root = find_root();
+    check_cycles();
+    read_links(root);
+    for (std::size_t i = 0; i < edges_.size(); ++i) read_joint(i);
+    read_actuators();
+    robot_.notices = reading_.notices();
+    return std::move(robot_);
+  }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  void read_robot() {
+    const std::string name(reading_.required(top_, "name", "the robot"));
+    robot_.name = name;
+    if (const pugi::xml_attribute version = top_.attribute("version")) {
+      const std::string_view text = version.value();
+      if (text != "1" && !text.starts_with("1."))
+        throw ModelError(reading_.where(version), "the version of URDF is " + in_quotes(text), "1.0");
+    }
+    refuse_other_loops();
+    reading_.allow_children(top_, {"link", "joint", "material", "transmission", "ros2_control", "gazebo"});
+    for (const pugi::xml_node& gazebo : top_.children("gazebo")) {
+      reading_.notice("<gazebo> passed over");
+      if (gazebo.child("joint"))
+        reading_.notice("a <gazebo> holds a joint; if it closes a loop, a .loops file has to say so");
+    }
+  }
+
+  // Other readers' ways to close a loop (<loop_joint>, <drake:ball_constraint>): without it the mechanism is another one.
+  void refuse_other_loops() const {
+    if (closed_) return;
+    for (const pugi::xml_node& child : top_.children()) {
+      const std::string_view name = child.name();
+      if (name.find("loop") == std::string_view::npos && name.find("constraint") == std::string_view::npos) continue;
+      throw ModelError(reading_.where(child), "<" + symbolic::shortened(name) + "> is not URDF's and may close a loop",
+                       "the loop in a .loops file; with one given this is passed over");
+    }
+  }
+
+  void read_names() {
+    std::vector<pugi::xml_node> joints;
+    for (const pugi::xml_node& link : top_.children("link")) {
+      if (links_.size() == kMaxLinks)
+        throw ModelError(reading_.where(link), "there are too many links", "at most " + std::to_string(kMaxLinks));
+      links_.add(link);
+      link_elements_.push_back(link);
+    }
+    if (links_.size() == 0) throw ModelError(reading_.where(top_), "the robot has no links", "<link> elements");
+    for (const pugi::xml_node& joint : top_.children("joint")) {
+      joints_.add(joint);
+      joints.push_back(joint);
+    }
+    parent_edge_.assign(links_.size(), kNone);
+    for (const pugi::xml_node& joint : joints) add_edge(joint);
+    link_names_ = links_.identifiers();
+    joint_names_ = joints_.identifiers();
+  }
+
+  std::string joint_text(std::size_t i) const { return "joint " + in_quotes(joints_[i]); }
+
+  std::size_t linked(const pugi::xml_node& joint, const char* side) const {
+    const pugi::xml_node element = reading_.only_child(joint, side);
+    const std::string owner = "joint " + in_quotes(joint.attribute("name").value());
+    if (!element)
+      throw ModelError(reading_.where(joint), owner + " has no " + side, "<" + std::string(side) + " link=\"…\">");
+    reading_.allow_attributes(element, {"link"});
+    return links_.find(element, "link", "the " + std::string(side) + " of " + owner);
+  }
+
+  void add_edge(const pugi::xml_node& joint) {
+    const Edge edge{joint, linked(joint, "parent"), linked(joint, "child")};
+    const SourceLocation where = reading_.where(joint.child("child").attribute("link"));
+    const std::string child = in_quotes(links_[edge.child]);
+    if (edge.parent == edge.child)
+      throw ModelError(where, joint_text(edges_.size()) + " joins the link " + child + " with itself", "two links");
+    std::size_t& parent = parent_edge_[edge.child];
+    if (parent != kNone) {
+      throw ModelError(where,
+                       "the link " + child + " is the child of two joints, " + in_quotes(joints_[parent]) + " and " +
+                           in_quotes(joints_[edges_.size()]),
+                       kCloseLoops);
+    }
+    parent = edges_.size();
+    edges_.push_back(edge);
+  }
+
+  std::size_t find_root() const {
+    std::size_t root = kNone;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (parent_edge_[i] != kNone) continue;
+      if (root != kNone) {
+        throw ModelError(reading_.where(link_elements_[i]),
+                         "two links are no joint's child, " + in_quotes(links_[root]) + " and " + in_quotes(links_[i]),
+                         "one root, which is the ground");
+      }
+      root = i;
+    }
+    if (root == kNone) {
+      throw ModelError(reading_.where(link_elements_[0]), "every link is a joint's child, so none is the ground",
+                       kCloseLoops);
+    }
+    return root;
+  }
+
+  // Every link has at most one parent: whoever does not come to the root goes round.
+  void check_cycles() const {
+    std::vector<std::size_t> seen(links_.size(), kNone);
+    for (std::size_t start = 0; start < links_.size(); ++start) {
+      std::size_t link = start;
+      while (seen[link] == kNone) {
+        seen[link] = start;
+        const std::size_t edge = parent_edge_[link];
+        if (edge == kNone) break;
+        link = edges_[edge].parent;
+        if (seen[link] == start) {
+          throw ModelError(reading_.where(edges_[edge].element), joint_text(edge) + " closes a cycle of links", kCloseLoops);
+        }
+      }
+    }
+  }
+
+  void read_links(std::size_t root) {
+    const UrdfColours colours = read_urdf_colours(reading_);
+    position_.assign(links_.size(), 0);
+    for (std::size_t i = 0; i < links_.size(); ++i) position_[i] = i == root ? 0 : i < root ? i + 1 : i;
+    robot_.links.resize(links_.size());
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const pugi::xml_node& element = link_elements_[i];
+      Link& link = robot_.links[position_[i]];
+      link.name = link_names_[i];
+      link.where = reading_.where(element);
+      reading_.allow_children(element, {"visual", "collision", "inertial"});
+      for (const pugi::xml_node& visual : element.children("visual")) read_urdf_visual(reading_, visual, colours, link);
+      pass_over(element, "inertial", "dynamics (mass, inertia) passed over");
+      pass_over(element, "collision", "collision geometry passed over");
+    }
+  }
+
+  void pass_over(const pugi::xml_node& element, const char* child, const std::string& sentence) {
+    for ([[maybe_unused]] const pugi::xml_node& found : element.children(child)) reading_.notice(sentence);
+  }
+
+  void read_joint(std::size_t index) {
+    Edge& edge = edges_[index];
+    const std::string_view type = reading_.required(edge.element, "type", joint_text(index));
+    const SourceLocation type_where = reading_.where(edge.element.attribute("type"));
+    reading_.allow_children(edge.element, {"origin", "parent", "child", "axis", "limit", "mimic", "dynamics", "calibration",
+                                           "safety_controller"});
+    refuse_mimic(edge.element, index);
+    pass_over(edge.element, "dynamics", "dynamics (damping, friction) of joints passed over");
+    pass_over(edge.element, "calibration", "calibration of joints passed over");
+    pass_over(edge.element, "safety_controller", "safety controllers of joints passed over");
+    if (type == "floating") {
+      pass_floating(index, type_where);
+      return;
+    }
+    Joint joint;
+    joint.name = joint_names_[index];
+    joint.is_named = true;
+    joint.where = reading_.where(edge.element);
+    joint.ends[0].link = position_[edge.parent];
+    joint.ends[1].link = position_[edge.child];
+    joint.kind = kind_of(type, type_where);
+    const Pose pose = reading_.origin(edge.element, joint_text(index));
+    if (joint.kind == JointKind::fixed) {
+      joint.pose = pose;
+    } else {
+      place_axis(index, pose, joint);
+    }
+    if (type == "revolute" || type == "prismatic") {
+      joint.ranges = {read_range(index, type == "revolute")};
+    } else if (edge.element.child("limit")) {
+      reading_.notice("limits of joints that are " + std::string(type) + " passed over");
+    }
+    edge.joint = static_cast<int>(robot_.joints.size());
+    robot_.joints.push_back(std::move(joint));
+  }
+
+  static JointKind kind_of(std::string_view type, const SourceLocation& where) {
+    if (type == "revolute" || type == "continuous") return JointKind::revolute;
+    if (type == "prismatic") return JointKind::prismatic;
+    if (type == "fixed") return JointKind::fixed;
+    if (type == "planar") return JointKind::planar;
+    const std::vector<std::string_view> types{"revolute", "continuous", "prismatic", "fixed", "planar", "floating"};
+    throw ModelError(where, "a joint's type is " + in_quotes(type),
+                     suggestion(type, types, "one of revolute, continuous, prismatic, fixed, planar, floating"));
+  }
+
+  void refuse_mimic(const pugi::xml_node& element, std::size_t index) const {
+    const pugi::xml_node mimic = reading_.only_child(element, "mimic");
+    if (!mimic) return;
+    throw ModelError(
+        reading_.where(mimic),
+        joint_text(index) + " mimics " + in_quotes(mimic.attribute("joint").value()) + ", which no linkage does",
+        "no <mimic>: the linkage behind it, its loop closed in a .loops file, or a fixed joint");
+  }
+
+  void pass_floating(std::size_t index, const SourceLocation& where) {
+    const std::string child = in_quotes(links_[edges_[index].child]);
+    if (!closed_) {
+      throw ModelError(where, joint_text(index) + " is floating: nothing holds the link " + child,
+                       "a fixed joint, or a .loops file whose joints hold it");
+    }
+    reading_.notice(joint_text(index) + " is floating, so no joint: loops have to hold the link " + child);
+  }
+
+  void place_axis(std::size_t index, const Pose& pose, Joint& joint) {
+    std::array<UrdfNumber, 3> axis = urdf_numbers("1 0 0", {}, "axis", urdf_number);
+    if (const pugi::xml_node element = reading_.only_child(edges_[index].element, "axis")) {
+      reading_.allow_attributes(element, {"xyz"});
+      reading_.required(element, "xyz", "the axis of " + joint_text(index));
+      const pugi::xml_attribute xyz = element.attribute("xyz");
+      axis = urdf_numbers(xyz.value(), reading_.where(xyz), "the axis of " + joint_text(index), urdf_number);
+      if (std::all_of(axis.begin(), axis.end(), [](const UrdfNumber& x) { return x.is_zero; }))
+        throw ModelError(reading_.where(xyz), "the axis of " + joint_text(index) + " is 0", "a direction");
+    } else {
+      reading_.notice("a joint has no <axis>: x, as URDF has it");
+    }
+    const Vector direction{axis[0].value, axis[1].value, axis[2].value};
+    const Vector zero = perpendicular(axis);
+    joint.ends[0].point = pose.translation;
+    joint.ends[0].axis = turned(pose, direction);
+    joint.ends[0].zero = turned(pose, zero);
+    joint.ends[1].axis = direction;
+    joint.ends[1].zero = zero;
+  }
+
+  // With a_k the largest component and n the next one cyclically: a_k e_n − a_n e_k. Of x it is y, of y z, of z x.
+  static Vector perpendicular(const std::array<UrdfNumber, 3>& a) {
+    std::size_t k = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+      if (std::fabs(a[i].approximate) > std::fabs(a[k].approximate)) k = i;
+    const std::size_t n = (k + 1) % 3;
+    Vector result{0, 0, 0};
+    result[n] = a[k].value;
+    result[k] = tidy_negation(a[n].value);
+    return result;
+  }
+
+  std::optional<Range> read_range(std::size_t index, bool is_angle) {
+    const pugi::xml_node limit = reading_.only_child(edges_[index].element, "limit");
+    const char* otherwise =
+        is_angle ? "<limit lower=\"…\" upper=\"…\">, or the type continuous" : "<limit lower=\"…\" upper=\"…\">";
+    if (!limit) throw ModelError(reading_.where(edges_[index].element), joint_text(index) + " has no limits", otherwise);
+    reading_.allow_attributes(limit, {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"});
+    for (const char* passed : {"effort", "velocity", "acceleration", "deceleration", "jerk"}) {
+      if (!limit.attribute(passed)) continue;
+      reading_.notice("limits of effort and velocity passed over");
+      break;
+    }
+    const auto read = [&](const char* attribute) {
+      const std::string what = std::string(attribute) + " of " + joint_text(index);
+      return is_angle ? reading_.angle(limit, attribute, what) : reading_.number(limit, attribute, what);
+    };
+    const std::optional<UrdfNumber> written_lower = read("lower"), written_upper = read("upper");
+    if (!written_lower && !written_upper) {
+      throw ModelError(reading_.where(limit),
+                       joint_text(index) + " has neither a lower nor an upper limit, which URDF takes for 0", otherwise);
+    }
+    const UrdfNumber zero = urdf_angle("0", {}, "0");
+    const UrdfNumber lower = written_lower.value_or(zero), upper = written_upper.value_or(zero);
+    if (lower.approximate > upper.approximate) {
+      throw ModelError(reading_.where(limit),
+                       "the lower limit of " + joint_text(index) + " is above the upper one, " + lower.value.text() + " > " +
+                           upper.value.text(),
+                       "lower <= upper");
+    }
+    if (is_angle && covers_circle(lower, upper)) {
+      reading_.notice("limits of a whole turn or more are none");
+      return {};
+    }
+    return Range{lower.value, upper.value};
+  }
+
+  // A configuration knows no turns: what is allowed at some number of them is allowed.
+  static bool covers_circle(const UrdfNumber& lower, const UrdfNumber& upper) {
+    if (lower.half_degrees && upper.half_degrees) return *upper.half_degrees - *lower.half_degrees >= kWholeTurn;
+    return upper.approximate - lower.approximate >= 2 * std::numbers::pi;
+  }
+
+  void read_actuators() {
+    int actuated = 0;
+    const auto mark = [&](const pugi::xml_node& element, const std::string& owner) {
+      const std::size_t index = joints_.find(element, "name", "the joint of a " + owner);
+      const int joint = edges_[index].joint;
+      if (joint < 0 || robot_.joints[joint].kind == JointKind::fixed) {
+        throw ModelError(
+            reading_.where(element),
+            "a " + owner + " drives " + joint_text(index) + ", which is " + edges_[index].element.attribute("type").value(),
+            "a joint that moves");
+      }
+      robot_.joints[joint].actuated = true;
+      ++actuated;
+    };
+    for (const pugi::xml_node& transmission : top_.children("transmission"))
+      for (const pugi::xml_node& joint : transmission.children("joint")) mark(joint, "<transmission>");
+    for (const pugi::xml_node& control : top_.children("ros2_control"))
+      for (const pugi::xml_node& joint : control.children("joint"))
+        if (joint.child("command_interface")) mark(joint, "<ros2_control>");
+    if (actuated == 0) reading_.notice("no <transmission> says which joints are actuated: [INPUTS] of a .loops file does");
+  }
+
+  UrdfReading reading_;
+  pugi::xml_node top_;
+  bool closed_;
+  Robot robot_;
+  Names links_{reading_, "link"}, joints_{reading_, "joint"};
+  std::vector<pugi::xml_node> link_elements_;
+  std::vector<Edge> edges_;  ///< one for each <joint>, in their order
+  std::vector<std::size_t> parent_edge_;
+  std::vector<std::string> link_names_, joint_names_;
+  std::vector<std::size_t> position_;  ///< of the file's links in the robot
+};
+
+}  // namespace
+
+Robot read_urdf_tree(const UrdfDocument& document, const std::string& file, bool closed) {
+  return TreeReader(document, file, closed).read();
+}
+
+}  // namespace corank::kinematics

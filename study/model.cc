@@ -1,0 +1,79 @@
+#include "corank/study/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "corank/kinematics/part_file.h"
+#include "corank/kinematics/urdf.h"
+#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model_text.h"
+
+namespace corank::study {
+namespace {
+
+using symbolic::ModelError;
+
+// A .cuik file in the parts language?
+bool is_in_parts(const std::filesystem::path& path) {
+  if (path.extension() == ".world") return true;
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return kinematics::has_parts(text);
+}
+
+void put_in(const std::vector<result::ConstantOverride>& overrides, kinematics::Robot& robot) {
+  for (const result::ConstantOverride& o : overrides) {
+    const auto known = std::find_if(robot.constants.begin(), robot.constants.end(), [&](const auto& c) { return c.name == o.name; });
+    if (known == robot.constants.end())
+      throw ModelError({robot.file, 0, 0}, "there is no constant '" + o.name + "'", "a constant of the robot");
+    known->value = symbolic::parse_expression(o.expression, "-D " + o.name);
+  }
+}
+
+// Joints that leave other freedom than they count for, and whether the equations are as many as the robot's freedom.
+std::optional<std::string> paradox(const kinematics::Assembly& assembly) {
+  if (!assembly.mobility_by_rank || *assembly.mobility_by_rank <= assembly.mobility) return std::nullopt;
+  const int more = *assembly.mobility_by_rank - assembly.mobility;
+  return fmt::format(
+      "its equations leave {} degree{} of freedom by their count, but {} at sampled configurations: {} of them follow{} from "
+      "the others there (a paradoxical or over-constrained linkage), so boxes are proven for independent equations only "
+      "(partial)",
+      assembly.mobility, assembly.mobility == 1 ? "" : "s", *assembly.mobility_by_rank, more, more == 1 ? "s" : "");
+}
+
+Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOverride>& constants) {
+  put_in(constants, robot);
+  if (!robot.missing.empty()) throw ModelError({robot.file, 0, 0}, robot.missing.front(), "all files that the robot names");
+  Model model{symbolic::Mechanism(robot.name), kinematics::assemble(robot), robot.notices};
+  model.mechanism = model.assembly->mechanism;
+  const std::string file = std::filesystem::path(robot.file).filename().string();
+  if (!model.mechanism.coordinates().empty())
+    model.mechanism.set_source_text("% The equations of " + file + ": " + describe(*model.assembly) + ".\n" +
+                                    symbolic::to_model(model.mechanism));
+  if (const auto special = paradox(*model.assembly)) model.notices.push_back(*special);
+  return model;
+}
+
+}  // namespace
+
+std::string describe(const kinematics::Assembly& assembly) {
+  std::string text = fmt::format("{}, {} links, mobility {}", to_string(assembly.space), assembly.poses.size(), assembly.mobility);
+  if (assembly.mobility_by_joints != assembly.mobility)
+    text += fmt::format(" (by its joints alone {})", assembly.mobility_by_joints);
+  return text;
+}
+
+Model read_model(const std::filesystem::path& path, const std::vector<result::ConstantOverride>& constants,
+                 const std::optional<std::filesystem::path>& loops) {
+  if (path.extension() == ".urdf") return from_robot(kinematics::read_urdf(path, loops), constants);
+  if (loops) throw ModelError({path.string(), 0, 0}, "only a URDF file has a companion with its loops", "a file that ends in .urdf");
+  if (is_in_parts(path)) return from_robot(kinematics::read_part_file(path), constants);
+  Model model{symbolic::read_model(path), {}, {}};
+  result::put_in(constants, model.mechanism);
+  return model;
+}
+
+}  // namespace corank::study

@@ -1,0 +1,100 @@
+// What the tokens of an expression mean, to any grammar that has expressions (model_file.cc, kinematics/part_file.cc).
+#pragma once
+
+#include <string>
+#include <tao/pegtl.hpp>
+
+#include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/model_builder.h"
+#include "corank/symbolic/model_grammar.h"
+
+namespace corank::symbolic {
+
+using TextInput = tao::pegtl::memory_input<tao::pegtl::tracking_mode::eager, tao::pegtl::eol::lf_crlf, const char*>;
+
+template <typename AnyInput>
+SourceLocation place(const AnyInput& in, const ModelBuilder& builder) {
+  const tao::pegtl::position p = in.position();
+  return {builder.file, static_cast<int>(p.line), static_cast<int>(p.column)};
+}
+
+/// The place that an expression keeps.
+template <typename AnyInput>
+SourceLocation expression_place(const AnyInput& in, const ModelBuilder& builder) {
+  return builder.keep_places ? place(in, builder) : SourceLocation{};
+}
+
+template <typename ActionInput>
+void end_operand(const ActionInput& in, ModelBuilder& b) {
+  b.token_end = place(in, b);
+  b.token_end.column += static_cast<int>(in.size());
+  b.equation_is_empty = false;
+}
+
+/// To be inherited by an Action that means more.
+template <typename Rule>
+struct ExpressionAction : tao::pegtl::nothing<Rule> {};
+
+#define CORANK_EXPRESSION_ACTION(rule, ...)                               \
+  template <>                                                             \
+  struct ExpressionAction<grammar::rule> {                                \
+    template <typename ActionInput>                                       \
+    static void apply(const ActionInput& in, ModelBuilder& b) __VA_ARGS__ \
+  };
+#define CORANK_EXPRESSION_ACTION0(rule, ...)        \
+  template <>                                       \
+  struct ExpressionAction<grammar::rule> {          \
+    static void apply0(ModelBuilder& b) __VA_ARGS__ \
+  };
+
+CORANK_EXPRESSION_ACTION(block_comment_open, { b.comment_where = place(in, b); })
+
+CORANK_EXPRESSION_ACTION0(expression_begin, { b.expressions.begin(); })
+CORANK_EXPRESSION_ACTION0(expression_end, { b.values.push_back(b.expressions.end()); })
+CORANK_EXPRESSION_ACTION(number_token, {
+  const std::string decimal =
+      normal_decimal(in.string_view(), place(in, b));  // a fault has a place even where nodes have none
+  b.expressions.number(decimal, expression_place(in, b));
+  end_operand(in, b);
+})
+CORANK_EXPRESSION_ACTION(name_token, {
+  b.name = in.string();
+  b.name_where = place(in, b);
+  end_operand(in, b);
+})
+CORANK_EXPRESSION_ACTION0(symbol_end, {
+  if (is_function_name(b.name)) {
+    throw ModelError(b.name_where, "the function " + in_quotes(b.name) + " stands without an argument", b.name + "(…)");
+  }
+  b.expressions.symbol(b.name, b.keep_places ? b.name_where : SourceLocation{});
+})
+CORANK_EXPRESSION_ACTION(group_open, {
+  b.expressions.open_group(place(in, b));
+  b.equation_is_empty = false;
+})
+CORANK_EXPRESSION_ACTION(call_open, {
+  if (!is_function_name(b.name)) {
+    throw ModelError(b.name_where, "unknown function " + in_quotes(b.name),
+                     "an operator behind the name, or one of " + function_names());
+  }
+  b.expressions.open_call(b.name, b.keep_places ? b.name_where : SourceLocation{}, place(in, b));
+})
+CORANK_EXPRESSION_ACTION(group_close, {
+  b.expressions.close_group();
+  end_operand(in, b);
+})
+CORANK_EXPRESSION_ACTION0(exponent_sign, { b.expressions.sign(ExpressionBuilder::SignOf::exponent); })
+CORANK_EXPRESSION_ACTION0(factor_sign, { b.expressions.sign(ExpressionBuilder::SignOf::factor); })
+CORANK_EXPRESSION_ACTION0(term_sign, {
+  b.expressions.sign(ExpressionBuilder::SignOf::term);
+  b.equation_is_empty = false;
+})
+CORANK_EXPRESSION_ACTION0(minus_sign, { b.expressions.sign(ExpressionBuilder::SignOf::term); })
+CORANK_EXPRESSION_ACTION0(divide, { b.expressions.division(); })
+CORANK_EXPRESSION_ACTION0(power_end, { b.expressions.end_power(); })
+CORANK_EXPRESSION_ACTION0(term_end, { b.expressions.end_term(); })
+
+#undef CORANK_EXPRESSION_ACTION
+#undef CORANK_EXPRESSION_ACTION0
+
+}  // namespace corank::symbolic
