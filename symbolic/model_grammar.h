@@ -146,8 +146,8 @@ struct names : seq<gap, must<listed_name>, star<gap, sor<if_must<one<','>, gap, 
                    opt<gap, one<';'>>, gap, must<list_end>> {};
 struct names_section : seq<sor<inputs_header, outputs_header>, names> {};
 
-// [DRAWING]  point P = (x, y), also with moves (u, v) behind it, or another word and the names of points, a radius, a colour;
-// each ends with its line.
+// [DRAWING]  point P = (x, y), also with moves (u, v) behind it, or another word and the names of points, a radius, a
+// colour; each ends with its line.
 struct point_word : word<TAO_PEGTL_STRING("point")> {};
 struct unit_word : word<TAO_PEGTL_STRING("unit")> {};
 struct slider_word : word<TAO_PEGTL_STRING("slider")> {};
