@@ -16,8 +16,7 @@ namespace {
 
 ExitStatus derive(QuestionOptions options, const std::string& format) {
   study::Question question = load(options);
-  if (question.assembly)
-    fmt::print("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
+  if (question.assembly) fmt::print("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
   if (question.assembly && question.model.constraints().empty()) {
     fmt::print("It has no loops and no outputs: every value of its joints is a configuration.\n");
     return kDone;

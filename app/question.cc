@@ -10,7 +10,8 @@ namespace corank::app {
 
 void QuestionOptions::add_options(CLI::App& command) {
   command.add_option("FILE", file, "The model: equations (.cuik), parts (.world, or .cuik with [LINKS]) or URDF (.urdf)");
-  command.add_option("--loops", loops, "Of a URDF file: its companion, with the joints that close loops, inputs and outputs")
+  command
+      .add_option("--loops", loops, "Of a URDF file: its companion, with the joints that close loops, inputs and outputs")
       ->type_name("FILE.loops")
       ->check(CLI::ExistingFile);
   command.add_option("--set", set, "The set of a mechanism: " + symbolic::names_of_sets())->check(CLI::IsMember(kSets));
@@ -61,7 +62,8 @@ study::Question load(const QuestionOptions& options) {
   std::optional<std::filesystem::path> loops;
   if (!options.loops.empty()) loops = options.loops;
   study::Model model = study::read_model(options.file, constants, loops);
-  for (const std::string& notice : model.notices) fmt::print(stderr, "{}: note: {}\n", options.file, result::printable(notice));
+  for (const std::string& notice : model.notices)
+    fmt::print(stderr, "{}: note: {}\n", options.file, result::printable(notice));
   return {.model = std::move(model.mechanism),
           .kernel = symbolic::kernel_side_from_string(options.kernel),
           .corank = options.corank,

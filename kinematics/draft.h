@@ -48,8 +48,13 @@ class Draft {
   void joint_value(const std::string& joint, const ex& cosine, const ex& sine) { values_.push_back({joint, cosine, sine}); }
   /// Returns the point's name, `wanted` or one like it.
   std::string point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity, int dimension);
-  void part(symbolic::DrawingPart::Kind kind, const std::vector<std::string>& points) {
-    parts_.push_back({kind, points, {}});
+  void part(symbolic::DrawingPart::Kind kind, const std::vector<std::string>& points, const Expression& radius = {},
+            const std::string& colour = "") {
+    symbolic::DrawingPart& part = parts_.emplace_back();
+    part.kind = kind;
+    part.points = points;
+    part.radius = radius;
+    part.colour = colour;
   }
 
   void input(const ex& coordinate) { inputs_.push_back(coordinate); }

@@ -38,7 +38,9 @@ class Portrayal {
                                     at.translation + at.rotation * algebra_.vector(output.point, output.where),
                                     output.name));
       }
-    for (std::size_t body = 1; body < bodies_.size(); ++body) add_body(body);
+    const bool solid = add_shapes();
+    for (std::size_t body = 1; body < bodies_.size(); ++body)
+      if (!solid || !has_shapes(body)) add_body(body);
     for (const BodyJoint& j : bodies_.joints) add_joint(j);
     if (!effectors_.empty()) draft_.part(Part::effector, effectors_);
   }
@@ -106,6 +108,35 @@ class Portrayal {
     return names;
   }
 
+  bool has_shapes(std::size_t body) const {
+    for (std::size_t l = 0; l < robot_.links.size(); ++l)
+      if (bodies_.of_link[l] == body && !robot_.links[l].shapes.empty()) return true;
+    return false;
+  }
+
+  /// The solids of the robot's file, unless they are too many to move smoothly.
+  bool add_shapes() {
+    constexpr std::size_t kMostShapes = 150;
+    std::size_t count = 0;
+    for (const Link& link : robot_.links) count += link.shapes.size();
+    if (count == 0 || count > kMostShapes) return false;
+    for (std::size_t l = 0; l < robot_.links.size(); ++l)
+      for (const Shape& shape : robot_.links[l].shapes) {
+        std::vector<std::string> names;
+        for (const Vector& p : shape.points) {
+          const Placement& at = bodies_.placement[l];
+          const Motion motion = place_(bodies_.of_link[l], at.translation + at.rotation * algebra_.vector(p, shape.where));
+          names.push_back(draft_.point("s", motion.at, {}, space_ == Space::planar ? 2 : 3));
+        }
+        switch (shape.kind) {
+          case Shape::Kind::sphere: draft_.part(Part::sphere, names, shape.radius, shape.colour); break;
+          case Shape::Kind::cylinder: draft_.part(Part::cylinder, names, shape.radius, shape.colour); break;
+          case Shape::Kind::polygon: draft_.part(names.size() < 3 ? Part::link : Part::platform, names, {}, shape.colour);
+        }
+      }
+    return true;
+  }
+
   void add_body(std::size_t body) {
     std::vector<Corner> corners;
     for (const Corner& c : corners_[body])
@@ -131,6 +162,14 @@ class Portrayal {
           draft_.part(end.body == 0 ? Part::ground : Part::joint, {corner(end.body, local(end))});
         break;
       case JointKind::prismatic: draft_.part(Part::link, {at, far}); break;
+      case JointKind::spherical: draft_.part(space_ == Space::planar ? Part::joint : Part::ball, {at}); break;
+      case JointKind::revolute:
+        if (space_ == Space::spatial) {
+          const Motion along = place_(e.body, e.point + e.axis);
+          draft_.part(Part::hinge, {at, draft_.point(robot_.joints[j.index].name + "_axis", along.at, {}, 3)});
+          break;
+        }
+        [[fallthrough]];
       default: draft_.part(grounded ? Part::ground : Part::joint, {at});
     }
   }

@@ -140,6 +140,7 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page.set("hasCut", truth(!cut.empty()));
   page["unit"] = mechanism.drawing().unit;
   page.set("hasUnit", truth(!mechanism.drawing().unit.empty()));
+  page.set("inSpace", truth(mechanism.drawing().dimension() == 3));
   page.set("sets", cards);
   page["points"] = points_html(views);
   page["derivation"] = derivation_html(mechanism, derivation, views);

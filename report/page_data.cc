@@ -63,7 +63,10 @@ Json drawing(const symbolic::Mechanism& mechanism) {
   for (const symbolic::DrawingPart& part : d.parts) {
     Json points = Json::array();
     for (const std::string& name : part.points) points.push_back(d.find(name));
-    json["parts"].push_back({{"kind", to_string(part.kind)}, {"points", points}});
+    Json entry = {{"kind", to_string(part.kind)}, {"points", points}};
+    if (part.has_radius()) entry["radius"] = Json::parse(drawing_tree(part.radius, constants));
+    if (!part.colour.empty()) entry["colour"] = part.colour;
+    json["parts"].push_back(std::move(entry));
   }
   return json;
 }
@@ -125,6 +128,16 @@ Json points(const result::Result& result) {
   return list;
 }
 
+/// Of each self-motion the boxes that lie on it.
+Json motions(const Cover& cover) {
+  Json list = Json::array();
+  for (const SelfMotionRecord& motion : cover.self_motions)
+    list.push_back({{"dimension", motion.dimension}, {"boxes", Json::array()}});
+  for (std::size_t i = 0; i < cover.boxes.size(); ++i)
+    if (cover.boxes[i].motion >= 0) list[static_cast<std::size_t>(cover.boxes[i].motion)]["boxes"].push_back(i);
+  return list;
+}
+
 Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
   const result::Result& result = view.result;
   Json names = Json::array(), domains = Json::array();
@@ -140,7 +153,8 @@ Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& de
               {"columns", columns},
               {"scales", kernel_scales(result, columns.size())},
               {"equations", polynomials(view.system.equations)},
-              {"points", points(result)}});
+              {"points", points(result)},
+              {"motions", motions(result.cover)}});
   return set;
 }
 

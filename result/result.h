@@ -71,7 +71,7 @@ struct RobotState {
   };
   struct LinkPose {
     std::string link;
-    std::array<double, 3> position{};               ///< of the link's frame in the ground's
+    std::array<double, 3> position{};                 ///< of the link's frame in the ground's
     std::array<std::array<double, 3>, 3> rotation{};  ///< R, row by row: x ↦ R x + position
   };
   std::vector<JointValue> joints;

@@ -34,7 +34,8 @@ void add_state(Json& entry, const RobotState& state) {
   entry["joints"] = Json::object();
   for (const auto& joint : state.joints) entry["joints"][joint.joint] = joint.value;
   entry["links"] = Json::object();
-  for (const auto& link : state.links) entry["links"][link.link] = {{"position", link.position}, {"rotation", link.rotation}};
+  for (const auto& link : state.links)
+    entry["links"][link.link] = {{"position", link.position}, {"rotation", link.rotation}};
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ bool is_in_parts(const std::filesystem::path& path) {
 
 void put_in(const std::vector<result::ConstantOverride>& overrides, kinematics::Robot& robot) {
   for (const result::ConstantOverride& o : overrides) {
-    const auto known = std::find_if(robot.constants.begin(), robot.constants.end(), [&](const auto& c) { return c.name == o.name; });
+    const auto known =
+        std::find_if(robot.constants.begin(), robot.constants.end(), [&](const auto& c) { return c.name == o.name; });
     if (known == robot.constants.end())
       throw ModelError({robot.file, 0, 0}, "there is no constant '" + o.name + "'", "a constant of the robot");
     known->value = symbolic::parse_expression(o.expression, "-D " + o.name);
@@ -38,7 +39,8 @@ std::optional<std::string> paradox(const kinematics::Assembly& assembly) {
   if (!assembly.mobility_by_rank || *assembly.mobility_by_rank <= assembly.mobility) return std::nullopt;
   const int more = *assembly.mobility_by_rank - assembly.mobility;
   return fmt::format(
-      "its equations leave {} degree{} of freedom by their count, but {} at sampled configurations: {} of them follow{} from "
+      "its equations leave {} degree{} of freedom by their count, but {} at sampled configurations: {} of them follow{} "
+      "from "
       "the others there (a paradoxical or over-constrained linkage), so boxes are proven for independent equations only "
       "(partial)",
       assembly.mobility, assembly.mobility == 1 ? "" : "s", *assembly.mobility_by_rank, more, more == 1 ? "s" : "");
@@ -60,7 +62,8 @@ Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOver
 }  // namespace
 
 std::string describe(const kinematics::Assembly& assembly) {
-  std::string text = fmt::format("{}, {} links, mobility {}", to_string(assembly.space), assembly.poses.size(), assembly.mobility);
+  std::string text =
+      fmt::format("{}, {} links, mobility {}", to_string(assembly.space), assembly.poses.size(), assembly.mobility);
   if (assembly.mobility_by_joints != assembly.mobility)
     text += fmt::format(" (by its joints alone {})", assembly.mobility_by_joints);
   return text;
@@ -69,7 +72,8 @@ std::string describe(const kinematics::Assembly& assembly) {
 Model read_model(const std::filesystem::path& path, const std::vector<result::ConstantOverride>& constants,
                  const std::optional<std::filesystem::path>& loops) {
   if (path.extension() == ".urdf") return from_robot(kinematics::read_urdf(path, loops), constants);
-  if (loops) throw ModelError({path.string(), 0, 0}, "only a URDF file has a companion with its loops", "a file that ends in .urdf");
+  if (loops)
+    throw ModelError({path.string(), 0, 0}, "only a URDF file has a companion with its loops", "a file that ends in .urdf");
   if (is_in_parts(path)) return from_robot(kinematics::read_part_file(path), constants);
   Model model{symbolic::read_model(path), {}, {}};
   result::put_in(constants, model.mechanism);

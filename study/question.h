@@ -17,7 +17,7 @@ struct Question {
   std::optional<symbolic::KernelSide> kernel{};       ///< nothing: the default of symbolic::singularity_system
   int corank = 1;                                     ///< the kernel's dimension, at least, of the configurations asked for
   std::vector<result::ConstantOverride> constants{};  ///< those that were put in, for the record
-  std::optional<kinematics::Assembly> assembly{};  ///< of a robot from parts: results say where its links are
+  std::optional<kinematics::Assembly> assembly{};     ///< of a robot from parts: results say where its links are
   std::optional<double> tolerance{};  ///< of coefficients, relative; nothing: printed_tolerance() of a plain system, else 0
 };
 

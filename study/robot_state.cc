@@ -10,7 +10,8 @@ namespace corank::study {
 void describe_states(const kinematics::Assembly& assembly, result::Result& result) {
   result.states.clear();
   std::map<std::string, double> constants;
-  for (const symbolic::Constant& c : assembly.mechanism.constants()) constants[c.name] = symbolic::evaluate(c.value, constants);
+  for (const symbolic::Constant& c : assembly.mechanism.constants())
+    constants[c.name] = symbolic::evaluate(c.value, constants);
   for (const CoverBox& point : result.cover.points) {
     std::map<std::string, double> values = constants;
     for (std::size_t v = 0; v < point.box.size(); ++v) values[result.variables[v].name] = point.box[v].mid();

@@ -27,11 +27,19 @@ struct DrawingPart {
     joint,     ///< revolute joints
     slider,    ///< three points P, A, B: a block (prismatic joint) at P on a rail from A to B
     ground,    ///< joints fixed to the ground
-    effector   ///< the points that do the work
+    effector,  ///< the points that do the work
+    hinge,     ///< two points A, B: a revolute joint at A with the axis AB; in space only
+    ball,      ///< spherical joints
+    sphere,    ///< a solid about one point
+    cylinder   ///< a solid from one point to another
   };
   Kind kind = Kind::link;
   std::vector<std::string> points;
   SourceLocation where;
+  Expression radius{};   ///< of a sphere or cylinder: constants, not negative; in the model's unit of length
+  std::string colour{};  ///< of a link, platform, sphere or cylinder: "#rrggbb"; empty: the picture's own
+
+  bool has_radius() const { return kind == Kind::sphere || kind == Kind::cylinder; }
 };
 
 const char* to_string(DrawingPart::Kind kind);  ///< "link", "platform" …
@@ -47,8 +55,9 @@ struct Drawing {
   /// Index of a point, −1 where there is none.
   int find(const std::string& point) const;
   /// Throws ModelError, with the place, for: a point named twice, with one or more than three coordinates, or with another
-  /// number of them than the first, or a velocity with another number; a part with an unknown point, a point twice, or too
-  /// few.
+  /// number of them than the first, or a velocity with another number; a part with an unknown point, a point twice, too few
+  /// or too many; a hinge in the plane; a colour that is none, or of a part that has none. Radii are the matter of
+  /// Mechanism::validate().
   void validate() const;
 };
 

@@ -249,6 +249,7 @@ void Mechanism::validate() const {
   for (const Constraint& c : constraints_) validator.check_constraint(c);
   for (const Constraint& c : implied_) validator.check_constraint(c);
   for (const DrawingPoint& p : drawing_.points) validator.check_point(p);
+  for (const DrawingPart& p : drawing_.parts) validator.check_part(p);
   drawing_.validate();
   validate_rates(validator);
   if (coordinates_.empty()) throw ModelError({name_, 0, 0}, "the model has no variables", "at least one, in [SYSTEM VARS]");

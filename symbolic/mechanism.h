@@ -141,10 +141,10 @@ class Mechanism {
   int find_rate(const std::string& name) const;
 
   /// Throws ModelError, with the place, for: a name in a constant, range, constraint that is not declared (before, for
-  /// constants); a coordinate in a constant or range; an absurd power (9^9^9^9); no coordinates; no constraints; a faulty
-  /// drawing (Drawing::validate), or one with an angle outside sin, cos and tan; rates without velocity equations or the
-  /// other way round, a velocity equation that is not linear and homogeneous in the rates, and another mobility by rates
-  /// than by coordinates.
+  /// constants); a coordinate in a constant, range or radius; an absurd power (9^9^9^9); no coordinates; no constraints; a
+  /// faulty drawing (Drawing::validate), or one with an angle outside sin, cos and tan or a radius below 0; rates without
+  /// velocity equations or the other way round, a velocity equation that is not linear and homogeneous in the rates, and
+  /// another mobility by rates than by coordinates.
   void validate() const;
 
  private:

@@ -159,6 +159,11 @@ void ModelBuilder::begin_part(DrawingPart::Kind part, const SourceLocation& wher
   drawing.parts.push_back({part, {}, where});
 }
 
+void ModelBuilder::finish_radius() {
+  drawing.parts.back().radius = values.at(0);
+  values.clear();
+}
+
 void ModelBuilder::finish(const SourceLocation& end) {
   const bool is_empty = mechanism.constants().empty() && drawing.empty() && inputs.empty() && outputs.empty();
   const bool has_equations = !mechanism.constraints().empty();

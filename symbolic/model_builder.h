@@ -97,6 +97,7 @@ struct ModelBuilder {
   void finish_equation();
   void finish_point();
   void begin_part(DrawingPart::Kind part, const SourceLocation& where);
+  void finish_radius();  ///< of the part begun last
   /// After the whole text: inputs, outputs, and the checks of Mechanism::validate().
   void finish(const SourceLocation& end);
 };

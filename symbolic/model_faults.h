@@ -85,8 +85,11 @@ CORANK_FAULT(moves_close, fault.found_instead_of("an operator, or ')' behind two
 CORANK_FAULT(unit_name, fault.found_instead_of("the name of a unit of length, such as mm"))
 CORANK_FAULT(along_word, fault.found_instead_of("slider P along A B"))
 CORANK_FAULT(part_point, fault.found_instead_of("the name of a point"))
+CORANK_FAULT(radius_word, fault.found_instead_of("radius and an expression in constants behind the solid's points"))
+CORANK_FAULT(colour_digits, fault.found_instead_of("six hexadecimal digits behind '#', #rrggbb"))
 CORANK_FAULT(drawing_statement,
-             fault.found_instead_of("point, link, platform, joint, slider, ground, effector or unit, or a section"))
+             fault.found_instead_of("point, link, platform, joint, hinge, ball, slider, ground, effector, "
+                                    "sphere, cylinder or unit, or a section"))
 CORANK_FAULT(drawing_line_end, fault.found_instead_of("the end of the line"))
 CORANK_FAULT(search_order, fault.no_search_order())
 CORANK_FAULT(search_end, fault.found_instead_of("a section behind the search order"))

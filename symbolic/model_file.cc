@@ -84,13 +84,18 @@ CORANK_ACTION0(moves_word, { b.point_coordinates = b.values.size(); })
 CORANK_ACTION0(point_end, { b.finish_point(); })
 CORANK_ACTION(unit_name, { b.drawing.unit = in.string(); })
 CORANK_ACTION(slider_word, { b.begin_part(DrawingPart::Kind::slider, place(in, b)); })
+CORANK_ACTION(hinge_word, { b.begin_part(DrawingPart::Kind::hinge, place(in, b)); })
+CORANK_ACTION(sphere_word, { b.begin_part(DrawingPart::Kind::sphere, place(in, b)); })
+CORANK_ACTION(cylinder_word, { b.begin_part(DrawingPart::Kind::cylinder, place(in, b)); })
 CORANK_ACTION(part_word, {
   for (const auto part : {DrawingPart::Kind::link, DrawingPart::Kind::platform, DrawingPart::Kind::joint,
-                          DrawingPart::Kind::ground, DrawingPart::Kind::effector}) {
+                          DrawingPart::Kind::ground, DrawingPart::Kind::effector, DrawingPart::Kind::ball}) {
     if (in.string_view() == to_string(part)) b.begin_part(part, place(in, b));
   }
 })
 CORANK_ACTION(part_point, { b.drawing.parts.back().points.push_back(in.string()); })
+CORANK_ACTION0(part_radius, { b.finish_radius(); })
+CORANK_ACTION(colour_digits, { b.drawing.parts.back().colour = "#" + in.string(); })
 #undef CORANK_ACTION
 #undef CORANK_ACTION0
 

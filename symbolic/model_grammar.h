@@ -146,14 +146,18 @@ struct names : seq<gap, must<listed_name>, star<gap, sor<if_must<one<','>, gap, 
                    opt<gap, one<';'>>, gap, must<list_end>> {};
 struct names_section : seq<sor<inputs_header, outputs_header>, names> {};
 
-// [DRAWING]  point P = (x, y), also with moves (u, v) behind it, or another word and the names of points; each ends with its
-// line.
+// [DRAWING]  point P = (x, y), also with moves (u, v) behind it, or another word and the names of points, a radius, a
+// colour; each ends with its line.
 struct point_word : word<TAO_PEGTL_STRING("point")> {};
 struct unit_word : word<TAO_PEGTL_STRING("unit")> {};
 struct slider_word : word<TAO_PEGTL_STRING("slider")> {};
 struct along_word : word<TAO_PEGTL_STRING("along")> {};
 struct part_word : word<sor<TAO_PEGTL_STRING("link"), TAO_PEGTL_STRING("platform"), TAO_PEGTL_STRING("joint"),
-                            TAO_PEGTL_STRING("ground"), TAO_PEGTL_STRING("effector")>> {};
+                            TAO_PEGTL_STRING("ground"), TAO_PEGTL_STRING("effector"), TAO_PEGTL_STRING("ball")>> {};
+struct hinge_word : word<TAO_PEGTL_STRING("hinge")> {};
+struct sphere_word : word<TAO_PEGTL_STRING("sphere")> {};
+struct cylinder_word : word<TAO_PEGTL_STRING("cylinder")> {};
+struct radius_word : word<TAO_PEGTL_STRING("radius")> {};
 struct point_name : identifier {};
 struct point_equals : one<'='> {};
 struct point_open : one<'('> {};
@@ -162,6 +166,9 @@ struct point_close : one<')'> {};
 struct point_end : success {};
 struct unit_name : identifier {};
 struct part_point : identifier {};
+struct part_radius : success {};
+struct colour_digits : sor<seq<rep<6, xdigit>, not_at<name_tail>>, failure> {};
+struct colour : seq<line_gap, if_must<one<'#'>, colour_digits>> {};
 struct drawing_line_end : sor<at<eolf>, one<';'>> {};
 struct third_coordinate : seq<one<','>, gap, expression<gap>, gap> {};
 struct moves_word : word<TAO_PEGTL_STRING("moves")> {};
@@ -176,8 +183,14 @@ struct drawing_point : seq<point_word, line_gap, must<point_name>, line_gap, mus
 struct drawing_unit : seq<unit_word, line_gap, must<unit_name>> {};
 struct drawing_slider : seq<slider_word, line_gap, must<part_point>, line_gap, must<along_word>, line_gap, must<part_point>,
                             line_gap, must<part_point>> {};
+struct drawing_hinge : seq<hinge_word, line_gap, must<part_point>, line_gap, must<part_point>> {};
+struct drawing_radius : seq<line_gap, must<radius_word>, line_gap, expression<line_gap>, part_radius> {};
+struct drawing_sphere : seq<sphere_word, line_gap, must<part_point>, drawing_radius> {};
+struct drawing_cylinder : seq<cylinder_word, line_gap, must<part_point>, line_gap, must<part_point>, drawing_radius> {};
 struct drawing_part : seq<part_word, line_gap, must<part_point>, star<line_gap, part_point>> {};
-struct drawing_statement : sor<drawing_point, drawing_unit, drawing_slider, drawing_part> {};
+struct drawing_statement
+    : sor<drawing_point, drawing_unit,
+          seq<sor<drawing_slider, drawing_hinge, drawing_sphere, drawing_cylinder, drawing_part>, opt<colour>>> {};
 struct drawing_section
     : seq<drawing_header, star<gap, not_at<section_or_end>, must<drawing_statement>, line_gap, must<drawing_line_end>>> {};
 

@@ -138,6 +138,8 @@ class Writer {
       std::vector<std::string> words{to_string(part.kind)};
       words.insert(words.end(), part.points.begin(), part.points.end());
       if (part.kind == DrawingPart::Kind::slider) words.insert(words.begin() + 2, "along");
+      if (part.has_radius()) words.push_back("radius " + part.radius.text());
+      if (!part.colour.empty()) words.push_back(part.colour);
       line(section, joined(words, " "));
     }
   }

@@ -138,6 +138,14 @@ std::optional<int> ModelValidator::rate_degree(const Expression& e, int wanted) 
   return std::nullopt;
 }
 
+void ModelValidator::check_part(const DrawingPart& part) const {
+  if (!part.has_radius()) return;
+  const std::string owner = std::string("the radius of the ") + to_string(part.kind);
+  const Size size = check(part.radius, {owner, true, part.where});
+  if (size.value >= 0 && std::isfinite(size.value)) return;
+  throw ModelError(place(part.radius, part.where), owner + " is " + in_quotes(part.radius.text()), "a length of 0 or more");
+}
+
 // Angles that differ by a whole turn are the same, and so must be what is drawn.
 void ModelValidator::require_angles_inside_functions(const Expression& e, const Context& context) const {
   const bool is_function = e.kind() == Expression::Kind::function;

@@ -32,6 +32,8 @@ class ModelValidator {
   /// A point of the drawing: constants and coordinates, angles inside sin, cos and tan only; of its velocity, all components
   /// are 0 or linear and homogeneous in the rates.
   void check_point(const DrawingPoint& point) const;
+  /// A part of the drawing: the radius of a solid is not negative, and no coordinate stands in it.
+  void check_part(const DrawingPart& part) const;
 
  private:
   /// What an expression could grow to.

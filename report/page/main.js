@@ -1,6 +1,7 @@
 // Puts the page together.
 import {readModel} from "./data.js";
-import {drawMechanism, drawingWindow, drawnPoints} from "./mechanism.js";
+import {drawnPoints} from "./mechanism.js";
+import {mechanismPicture} from "./mechanism_picture.js";
 import {pointOfBox} from "./newton.js";
 import {Panel} from "./panel.js";
 import {Portrait} from "./portrait.js";
@@ -57,22 +58,26 @@ function main() {
     filled = (test = () => true) => model.sets.find((set) => set.count > 0 && test(set));
   const samples = sampleConfigurations(model, filled((set) => !set.singular) || filled(), 300);
   const everywhere = model.sets.flatMap((set) => sampleConfigurations(model, set, 150));
-  const view = drawingWindow(
-    model,
-    everywhere.map(({values}) => values),
-  );
-  const hero = document.querySelector("#mechanism svg"),
-    typical = clearest(model, samples);
-  if (typical && model.drawing.points.length > 0)
-    drawMechanism(hero, model, typical.values, null, drawingWindow(model, [typical.values]), {unit: 0.9});
-  else document.body.classList.add("undrawn");
+  const typical = clearest(model, samples);
+  let hero = null;
+  if (typical && model.drawing.points.length > 0) {
+    hero = mechanismPicture(document.querySelector("#mechanism svg"), model, [typical.values], 0.9);
+    hero.show(typical.values, null);
+  } else {
+    document.body.classList.add("undrawn");
+  }
 
   const order = axisOrder(model),
     views = [];
-  const panel = new Panel(model, document.getElementById("panel"), view, (configuration) => {
-    for (const portrait of views) portrait.show(configuration);
-    if (space) space.mark(configuration);
-  });
+  const panel = new Panel(
+    model,
+    document.getElementById("panel"),
+    everywhere.map(({values}) => values),
+    (configuration) => {
+      for (const portrait of views) portrait.show(configuration);
+      if (space) space.mark(configuration);
+    },
+  );
   const listener = {
     hover: (candidates, place, portrait) => panel.hover(candidates, place, portrait),
     pin: (candidates, place, portrait) => panel.pin(candidates, place, portrait),
@@ -105,11 +110,12 @@ function main() {
   followTheme(() => {
     for (const portrait of views) portrait.draw();
     if (space) space.build();
+    for (const picture of [hero, panel.picture].filter(Boolean)) picture.redraw();
   });
 
   const first = clearest(model, sampleConfigurations(model, filled((set) => set.locked.includes("input")) || filled(), 100));
   if (first) panel.offer([{set: first.set, box: first.box}]);
-  window.corank = {model, panel, portraits: views, space};
+  window.corank = {model, panel, hero, portraits: views, space};
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 }
 

@@ -47,10 +47,12 @@ export function evaluateTree(tree, values, rates) {
   }
 }
 
-// Points of the drawing, flattened to the plane: spatial ones are seen from above a corner.
+// Points of the drawing, flattened to the plane: spatial ones are seen from above a corner. Their own coordinates are in `place` and
+// `motion`.
 export function drawnPoints(model, values, rates = {}) {
-  // The ends of rails have no meaning of their own.
-  const named = new Set(model.drawing.parts.flatMap(({kind, points}) => (kind === "slider" ? points.slice(0, 1) : points)));
+  // The ends of rails, of axes and of solids have no meaning of their own.
+  const meant = {slider: 1, hinge: 1, sphere: 0, cylinder: 0};
+  const named = new Set(model.drawing.parts.flatMap(({kind, points}) => points.slice(0, meant[kind] ?? points.length)));
   // Where the model has rates of its own a point may move by an expression in them; those that are locked are 0.
   const own = model.rates && {...values, ...Object.fromEntries(model.rates.map((name) => [name, rates[name] || 0]))};
   return model.drawing.points.map((point, i) => {
@@ -62,7 +64,8 @@ export function drawnPoints(model, values, rates = {}) {
       at.length === 2
         ? [at[0][k], at[1][k]]
         : [0.866 * (at[0][k] - at[1][k]), at[2][k] - 0.5 * (at[0][k] + at[1][k]) * 0.577];
-    return {label: point.label, named: named.has(i), position: flat(0), velocity: flat(1)};
+    const [place, motion] = [0, 1].map((k) => at.map((dual) => dual[k]));
+    return {label: point.label, named: named.has(i), position: flat(0), velocity: flat(1), place, motion};
   });
 }
 
@@ -112,15 +115,27 @@ export function drawMechanism(svg, model, values, rates, view, options = {}) {
   } of parts("slider"))
     svgElement(svg, "polyline", {points: path([a, b]), class: "rail"});
   for (const part of parts("ground")) for (const i of part.points) drawGround(svg, at[i], unit);
-  for (const part of parts("platform")) svgElement(svg, "polygon", {points: path(part.points), class: "platform"});
+  for (const part of parts("platform"))
+    coloured(svgElement(svg, "polygon", {points: path(part.points), class: "platform"}), part, ["stroke", "fill"]);
   for (const name of ["casing", "link"]) {
     for (const part of parts("link")) {
-      svgElement(svg, "polyline", {
+      const line = svgElement(svg, "polyline", {
         points: path(part.points),
         class: name,
         "stroke-width": (name === "link" ? 7 : 10) * unit,
       });
+      if (name === "link") coloured(line, part, ["stroke"]);
     }
+  }
+  for (const part of parts("cylinder")) {
+    const width = 2 * part.radius * scale;
+    coloured(svgElement(svg, "polyline", {points: path(part.points), class: "cylinder", "stroke-width": width}), part, [
+      "stroke",
+    ]);
+  }
+  for (const part of parts("sphere")) {
+    const [x, y] = at[part.points[0]];
+    coloured(svgElement(svg, "circle", {cx: x, cy: y, r: part.radius * scale, class: "sphere"}), part, ["fill"]);
   }
   for (const {
     points: [p, a, b],
@@ -138,6 +153,8 @@ export function drawMechanism(svg, model, values, rates, view, options = {}) {
   }
   for (const part of parts("ground")) for (const i of part.points) circle(i, 6, "joint");
   for (const part of parts("joint")) for (const i of part.points) circle(i, 5, "joint");
+  for (const part of parts("ball")) for (const i of part.points) circle(i, 5, "ball");
+  for (const part of parts("hinge")) drawHinge(svg, at, part.points, unit);
   for (const part of parts("effector")) {
     for (const i of part.points) {
       circle(i, 9, "effector-ring");
@@ -150,6 +167,30 @@ export function drawMechanism(svg, model, values, rates, view, options = {}) {
     .flatMap(({points: ends}) => ends.slice(1).map((b, k) => [at[ends[k]], at[b]]));
   const pedestals = parts("ground").flatMap((part) => part.points.map((i) => [at[i], [at[i][0], at[i][1] + 22 * unit]]));
   drawLabels(svg, points, at, [...bars, ...arrows, ...pedestals], unit, width, height);
+}
+
+// A part's own colour; a sheet's is thin.
+function coloured(element, {colour}, properties) {
+  if (!colour) return;
+  for (const property of properties) element.style[property] = colour;
+  if (properties.includes("stroke") && properties.includes("fill")) element.style.fillOpacity = 0.25;
+}
+
+// A joint with its axis, of a length that depends on the point of view only.
+function drawHinge(svg, at, [a, b], unit) {
+  const [dx, dy] = [at[b][0] - at[a][0], at[b][1] - at[a][1]],
+    length = Math.hypot(dx, dy),
+    half = length > 1e-9 ? (12 * unit) / length : 0;
+  const [x, y] = at[a];
+  svgElement(svg, "line", {
+    x1: x - half * dx,
+    y1: y - half * dy,
+    x2: x + half * dx,
+    y2: y + half * dy,
+    class: "hinge",
+    "stroke-width": 3 * unit,
+  });
+  svgElement(svg, "circle", {cx: x, cy: y, r: 5 * unit, class: "joint"});
 }
 
 function drawGround(svg, [x, y], unit) {
@@ -190,8 +231,9 @@ function drawVelocities(svg, points, at, scale, unit, width) {
   return arrows;
 }
 
-// Each label goes to the side of its point where the other points are not; of points in one place the first is labelled for all.
-function drawLabels(svg, points, at, obstacles, unit, width, height) {
+// Each label goes to the side of its point where the other points are not; of points in one place the first is labelled for all. `sides`
+// remembers the sides: a label stays where it is while another place is hardly better.
+export function drawLabels(svg, points, at, obstacles, unit, width, height, sides = []) {
   const done = [],
     taken = [];
   points.forEach((point, i) => {
@@ -210,8 +252,10 @@ function drawLabels(svg, points, at, obstacles, unit, width, height) {
       for (const other of taken)
         room = Math.min(room, Math.hypot((place[0] - other[0]) * 0.8, place[1] - other[1]) - 14 * unit);
       for (const [a, b] of obstacles) room = Math.min(room, distanceToLine(place, a, b));
-      if (!best || room > best.room + 1e-6) best = {room, place};
+      if (k === sides[i]) room += 8;
+      if (!best || room > best.room + 1e-6) best = {room, place, side: k};
     }
+    sides[i] = best.side;
     taken.push(best.place);
     const text = svgElement(svg, "text", {x: best.place[0], y: best.place[1], class: "point-label", "font-size": 17 * unit});
     svgElement(text, "tspan", {class: "symbol"}, point.label[0]);

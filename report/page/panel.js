@@ -1,16 +1,17 @@
 // The panel beside the portraits: the mechanism at the configuration that is pointed at or pinned, the assembly modes over that
 // place, and what is known of it.
-import {drawMechanism} from "./mechanism.js";
+import {mechanismPicture} from "./mechanism_picture.js";
 import {pointOfBoxes} from "./newton.js";
+import {Player} from "./player.js";
 import {coordinateValues, groupedText, htmlLabel, htmlUnit, isAngle, numberText} from "./values.js";
 
 export class Panel {
-  // `onShow(configuration)` is told what is drawn: {set, box, x}, or null.
-  constructor(model, root, view, onShow) {
+  // The picture has room for all `configurations`; `onShow(configuration)` is told what is drawn: {set, box, x}, or null.
+  constructor(model, root, configurations, onShow) {
     this.model = model;
-    this.view = view;
     this.onShow = onShow;
-    this.drawing = root.querySelector("svg");
+    this.picture = mechanismPicture(root.querySelector("svg"), model, configurations);
+    this.player = new Player(this, root.querySelector(".player"));
     this.modes = root.querySelector(".modes");
     this.text = root.querySelector(".text");
     this.state = root.querySelector(".state");
@@ -31,6 +32,7 @@ export class Panel {
     this.offer(candidates, place, portrait);
     this.pinned = candidates.length > 0;
     this.showState();
+    if (this.pinned) this.player.locate();
   }
 
   // A configuration that is named elsewhere: a point of a table, a pick in space.
@@ -39,12 +41,15 @@ export class Panel {
   }
 
   unpin() {
+    this.player.stop();
     this.pinned = false;
     this.showState();
   }
 
   step(direction) {
-    if (this.candidates.length > 0) this.choose((this.chosen + direction + this.candidates.length) % this.candidates.length);
+    if (this.candidates.length === 0) return;
+    this.choose((this.chosen + direction + this.candidates.length) % this.candidates.length);
+    if (this.pinned) this.player.locate();
   }
 
   offer(candidates, place, portrait) {
@@ -60,6 +65,7 @@ export class Panel {
       button.addEventListener("click", () => {
         this.pinned = true;
         this.choose(k);
+        this.player.locate();
       });
       this.modes.append(button);
     });
@@ -72,7 +78,9 @@ export class Panel {
     [...this.modes.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === k)));
     const candidate = this.candidates[k],
       {set, box, boxes = [box]} = candidate;
+    this.player.stop();
     this.show({set, ...pointOfBoxes(set, boxes, this.conditions(candidate))});
+    this.player.offer(this.current);
   }
 
   // Over a surface the configuration is the one at the pointer: two equations more, x = value, or c sin θ − s cos θ = 0.
@@ -92,7 +100,7 @@ export class Panel {
     const {set, x} = configuration;
     this.current = configuration;
     const values = coordinateValues(this.model, x);
-    drawMechanism(this.drawing, this.model, values, this.velocity(set, x), this.view);
+    this.picture.show(values, this.velocity(set, x));
     this.text.innerHTML = this.describe(configuration, values);
     this.showState();
     this.onShow(configuration);
@@ -132,7 +140,9 @@ export class Panel {
   }
 
   showNothing(place, portrait) {
-    this.drawing.replaceChildren();
+    this.player.stop();
+    this.player.offer(null);
+    this.picture.clear();
     this.current = null;
     const cspace = this.model.sets.find((set) => !set.singular);
     const proven = cspace && cspace.complete && cspace.dimension > 1;

@@ -1,15 +1,8 @@
 // The 3-D view: C-space and loci in any three coordinates, as points or boxes, by three.js.
 import {boxCloud, nameSprite, pointCloud, ringSprite, setDetail} from "./cloud.js";
+import {Orbit, offersSpace} from "./orbit.js";
 import {pageColours} from "./picture.js";
-import {
-  coordinateInterval,
-  coordinateValue,
-  fullTurn,
-  groupedText,
-  isAngle,
-  plainLabel,
-  wrapped,
-} from "./values.js";
+import {coordinateInterval, coordinateValue, fullTurn, groupedText, isAngle, plainLabel, wrapped} from "./values.js";
 
 export class Space {
   constructor(model, root, axes, onPick) {
@@ -32,22 +25,16 @@ export class Space {
   }
 
   start() {
-    try {
-      this.renderer = new THREE.WebGLRenderer({antialias: false, alpha: true, preserveDrawingBuffer: true});
-    } catch {
+    const height = (width) => Math.max(300, Math.round(Math.min(0.62 * width, 560)));
+    const fov = (aspect) => (aspect > 1.2 ? 24 : 29); // a narrow window would cut the sides off
+    const onDraw = () => (this.root.dataset.frames = Number(this.root.dataset.frames || 0) + 1);
+    if (!offersSpace()) {
       this.frame.innerHTML = `<p class="fallback">This browser offers no WebGL, which the view in space needs. All else on this page works without.</p>`;
       this.root.dataset.webgl = "none";
       return false;
     }
+    this.orbit = new Orbit(this.frame, {height, fov, onTurn: (turning) => this.turn(turning), onDraw});
     this.root.dataset.webgl = "yes";
-    this.frame.append(this.renderer.domElement);
-    this.camera = new THREE.PerspectiveCamera(32, 1, 0.05, 50);
-    this.camera.up.set(0, 0, 1);
-    this.camera.position.set(2.0, -3.1, 1.75);
-    this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
-    this.controls.addEventListener("change", () => this.render());
-    this.controls.addEventListener("start", () => this.turn(true));
-    this.controls.addEventListener("end", () => this.turn(false));
     this.listen();
     return true;
   }
@@ -79,9 +66,8 @@ export class Space {
   }
 
   build() {
-    if (!this.renderer) return;
+    if (!this.orbit) return;
     this.measure();
-    this.discard();
     this.scene = new THREE.Scene();
     this.colours = pageColours(this.root);
     this.clouds = this.model.sets.filter((set) => !this.hidden.has(set.name) && set.count > 0).map((set) => this.cloud(set));
@@ -90,18 +76,9 @@ export class Space {
     this.marker = ringSprite(this.colours.ink, this.colours.card);
     this.marker.visible = false;
     this.scene.add(this.marker);
+    this.orbit.show(this.scene);
     this.mark(this.shown);
     this.resize(true);
-  }
-
-  // Gives back what the former scene holds of the graphics card.
-  discard() {
-    if (!this.scene) return;
-    this.scene.traverse(({geometry, material}) => {
-      if (geometry) geometry.dispose();
-      if (material && material.map) material.map.dispose();
-      if (material) material.dispose();
-    });
   }
 
   // Middles and extents of a set's boxes in the cube; what was not searched is left out.
@@ -164,35 +141,16 @@ export class Space {
   }
 
   resize(force) {
-    const width = this.frame.clientWidth,
-      height = Math.round(Math.min(0.62 * width, 560));
-    if (!width || (!force && width === this.width)) return;
-    this.width = width;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio || 1, 2));
-    this.renderer.setSize(width, Math.max(height, 300));
-    this.camera.aspect = width / Math.max(height, 300);
-    // A narrow window would cut the sides off.
-    this.camera.fov = this.camera.aspect > 1.2 ? 24 : 29;
-    this.camera.updateProjectionMatrix();
+    if (!this.orbit.resize(force)) return;
     for (const {object} of this.clouds) {
-      if (object.material.uniforms) object.material.uniforms.pixels.value = 0.5 * this.renderer.domElement.height;
+      if (object.material.uniforms) object.material.uniforms.pixels.value = 0.5 * this.orbit.renderer.domElement.height;
     }
-    this.render();
+    this.orbit.render();
   }
 
   turn(turning) {
     for (const {set, owners, object} of this.clouds) setDetail(set, object, owners.length, turning);
-    this.render();
-  }
-
-  render() {
-    if (!this.renderer || this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
-      this.renderer.render(this.scene, this.camera);
-      this.root.dataset.frames = Number(this.root.dataset.frames || 0) + 1;
-    });
+    this.orbit.render();
   }
 
   mark(configuration) {
@@ -201,17 +159,17 @@ export class Space {
     this.marker.visible = Boolean(configuration);
     if (configuration)
       this.marker.position.set(...this.axes.map((axis, k) => this.toCube(coordinateValue(configuration.x, axis), k)));
-    this.render();
+    this.orbit.render(true);
   }
 
   // The box whose middle is nearest to a place of the canvas, singular ones first; null where none is within some pixels.
   nearest(px, py) {
-    const {clientWidth: width, clientHeight: height} = this.renderer.domElement,
+    const {clientWidth: width, clientHeight: height} = this.orbit.renderer.domElement,
       at = new THREE.Vector3();
     let best = null;
     for (const {set, owners, middles} of this.clouds) {
       for (let i = 0; i < owners.length; ++i) {
-        at.set(middles[3 * i], middles[3 * i + 1], middles[3 * i + 2]).project(this.camera);
+        at.set(middles[3 * i], middles[3 * i + 1], middles[3 * i + 2]).project(this.orbit.camera);
         const distance = Math.hypot(((at.x + 1) / 2) * width - px, ((1 - at.y) / 2) * height - py);
         if (distance > 10) continue;
         // Nearer to the eye wins among boxes at about the same place.
@@ -223,7 +181,7 @@ export class Space {
   }
 
   listen() {
-    const canvas = this.renderer.domElement;
+    const canvas = this.orbit.renderer.domElement;
     let pressed = null;
     canvas.addEventListener("pointerdown", (event) => (pressed = [event.clientX, event.clientY]));
     canvas.addEventListener("click", (event) => {
@@ -233,28 +191,5 @@ export class Space {
       this.note.textContent = found ? `Picked: ${found.set.title}, box ${groupedText(found.box + 1)}` : "";
       if (found) this.onPick(found.set, found.box);
     });
-    this.frame.addEventListener("keydown", (event) => this.key(event));
-  }
-
-  // Arrow keys turn the view, + and − zoom.
-  key(event) {
-    const turns = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
-    const position = this.camera.position,
-      radius = position.length();
-    let around = Math.atan2(position.y, position.x),
-      down = Math.acos(position.z / radius),
-      far = radius;
-    if (turns[event.key]) {
-      around += 0.1 * turns[event.key][0];
-      down = Math.min(Math.PI - 0.05, Math.max(0.05, down + 0.08 * turns[event.key][1]));
-    } else if (event.key === "+" || event.key === "-") {
-      far *= event.key === "+" ? 0.9 : 1.1;
-    } else {
-      return;
-    }
-    position.set(far * Math.sin(down) * Math.cos(around), far * Math.sin(down) * Math.sin(around), far * Math.cos(down));
-    this.controls.update();
-    this.render();
-    event.preventDefault();
   }
 }

@@ -17,7 +17,7 @@ def find():
 class Browser:
     """One page. Everything the page asks of the network is in `requests`, what it prints or throws in `messages`."""
 
-    def __init__(self, width=1280, height=900, dark=False, scale=1, touch=False):
+    def __init__(self, width=1280, height=900, dark=False, scale=1, touch=False, calm=False, flags=()):
         self.folder = tempfile.mkdtemp(prefix="corank-chromium-")
         command_read, command_write = os.pipe()
         answer_read, answer_write = os.pipe()
@@ -30,7 +30,7 @@ class Browser:
         command_read, answer_write = (self._above(command_read), self._above(answer_write))
         self.process = subprocess.Popen(
             [find(), "--headless=new", "--remote-debugging-pipe", "--no-first-run", "--hide-scrollbars", "--mute-audio",
-             "--disable-background-networking", "--disable-component-update", "--enable-unsafe-swiftshader",
+             "--disable-background-networking", "--disable-component-update", "--enable-unsafe-swiftshader", *flags,
              f"--user-data-dir={self.folder}", *(["--no-sandbox"] if os.geteuid() == 0 else []), "about:blank"],
             preexec_fn=pipes, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(command_read)
@@ -45,7 +45,9 @@ class Browser:
         for domain in ("Page", "Network", "Runtime", "Log"):
             self.call(f"{domain}.enable")
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=touch)
-        self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        self.call("Emulation.setEmulatedMedia", features=[
+            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
+            {"name": "prefers-reduced-motion", "value": "reduce" if calm else "no-preference"}])
         if touch:
             self.call("Emulation.setTouchEmulationEnabled", enabled=True)
 

@@ -14,14 +14,6 @@ class Family(page_case.PageCase):
     def setUp(self):
         self.run_js("corank.family.choose(0)")
 
-    def middle(self, selector):
-        return self.run_js(f"""(() => {{
-          const element = document.querySelector({selector!r});
-          element.scrollIntoView({{block: "center"}});
-          const box = element.getBoundingClientRect();
-          return [box.left + box.width / 2, box.top + box.height / 2];
-        }})()""")
-
     def current(self):
         """What every part of the page says is shown; they have to agree."""
         state = self.run_js("""(() => ({

@@ -5,6 +5,7 @@ Dextar: l2 = l3 = l4 = l5 = 0.9, J5 = (0, 0), J1 = (1.18, 0). J3 reaches the poi
 import math
 import sys
 
+import chromium
 import page_case
 
 REACH, BASE = 1.8, 1.18
@@ -171,6 +172,48 @@ class Dextar(page_case.PageCase):
         self.run_js("document.getElementById('theme').click()")
         self.assertEqual(self.run_js(paper), light)
 
+    def test_a_planar_mechanism_is_drawn_flat(self):
+        self.assertEqual(self.run_js("document.querySelectorAll('.solid').length"), 0)
+        for picture in ("#mechanism", "#panel .picture"):
+            self.assertGreater(self.run_js(f"document.querySelectorAll('{picture} svg .link').length"), 3)
+
+    def test_the_mechanism_moves_along_a_curve_of_singularities(self):
+        self.run_js("corank.panel.pinBox(corank.model.sets.find((s) => s.name === 'cspace'), 5)")
+        self.assertTrue(self.run_js("document.querySelector('.player').hidden"), "C-space is no curve")
+        self.run_js("corank.panel.pinBox(corank.model.sets.find((s) => s.name === 'forward'), 5)")
+        before = self.shown()
+        lines = "[...document.querySelectorAll('#panel svg .link')].map((line) => line.getAttribute('points')).join()"
+        drawn = self.run_js(lines)
+        self.browser.click(*self.middle(".player .play"))
+        self.run_js("new Promise((done) => { const look = () => corank.panel.player.t > 0.05 ? done() : setTimeout(look, 20); look(); })")
+        self.assertNotEqual(self.run_js(lines), drawn)
+        self.assertEqual(self.arrows(), 1)
+        # Links 3 and 4 are in one line all the way.
+        for share in (0.1, 0.3, 0.5, 0.7, 0.9):
+            self.run_js(f"(() => {{ const s = document.querySelector('.player input'); s.value = {1000 * share}; s.dispatchEvent(new Event('input')); }})()")
+            self.assertFalse(self.run_js("corank.panel.player.playing"), "moving the slider stops it")
+            now = self.shown()
+            self.assertEqual(now["set"], "forward")
+            c3, s3, c4, s4 = now["x"][4:8]
+            self.assertAlmostEqual(c3 * s4 - s3 * c4, 0, delta=1e-6)
+            self.assertGreater(math.dist(now["x"][:10], before["x"][:10]), 1e-3)
+
+    def test_a_pick_stops_the_motion(self):
+        self.run_js("corank.panel.pinBox(corank.model.sets.find((s) => s.name === 'forward'), 5)")
+        self.browser.click(*self.middle(".player .play"))
+        self.assertTrue(self.run_js("corank.panel.player.playing"))
+        self.browser.click(*self.place(0, 0.6, 0.5))
+        self.assertFalse(self.run_js("corank.panel.player.playing"))
+        self.assertEqual(self.shown()["set"], "cspace")
+
+    def test_who_asks_for_less_motion_has_the_slider_only(self):
+        with chromium.Browser(1360, 1000, calm=True) as browser:
+            browser.open(page_case.PAGE)
+            browser.drawn()
+            browser.run("corank.panel.pinBox(corank.model.sets.find((s) => s.name === 'forward'), 5)")
+            self.assertTrue(browser.run("document.querySelector('.player .play').hidden"))
+            self.assertFalse(browser.run("document.querySelector('.player').hidden"))
+
     def test_space_orbits_and_picks(self):
         if self.run_js("document.getElementById('space').dataset.webgl") == "none":
             self.assertIn("WebGL", self.run_js("document.querySelector('#space .frame').textContent"))
@@ -178,7 +221,7 @@ class Dextar(page_case.PageCase):
         self.run_js("document.querySelector('#space .frame').scrollIntoView({block: 'center'})")
         self.browser.drawn()
         painted = """(() => {
-          const from = corank.space.renderer.domElement, canvas = document.createElement("canvas");
+          const from = corank.space.orbit.renderer.domElement, canvas = document.createElement("canvas");
           [canvas.width, canvas.height] = [from.width, from.height];
           const context = canvas.getContext("2d");
           context.drawImage(from, 0, 0);
@@ -188,20 +231,20 @@ class Dextar(page_case.PageCase):
           return count / (canvas.width * canvas.height);
         })()"""
         self.assertGreater(self.run_js(painted), 0.02)
-        left, top, width, height = self.run_js("(() => { const b = corank.space.renderer.domElement.getBoundingClientRect(); "
+        left, top, width, height = self.run_js("(() => { const b = corank.space.orbit.renderer.domElement.getBoundingClientRect(); "
                                                "return [b.left, b.top, b.width, b.height]; })()")
-        eye = self.run_js("corank.space.camera.position.toArray()")
+        eye = self.run_js("corank.space.orbit.camera.position.toArray()")
         self.browser.drag(left + width / 2, top + height / 2, 120, 40)
         self.browser.drawn()
-        self.assertNotEqual(self.run_js("corank.space.camera.position.toArray()"), eye)
-        far = self.run_js("corank.space.camera.position.length()")
+        self.assertNotEqual(self.run_js("corank.space.orbit.camera.position.toArray()"), eye)
+        far = self.run_js("corank.space.orbit.camera.position.length()")
         self.browser.mouse("mouseWheel", left + width / 2, top + height / 2, deltaX=0, deltaY=-240)
         self.browser.drawn()
-        self.assertLess(self.run_js("corank.space.camera.position.length()"), far)
+        self.assertLess(self.run_js("corank.space.orbit.camera.position.length()"), far)
         # Where some box of the forward locus is seen, a click picks a singular configuration.
         x, y = self.run_js("""(() => {
           const {middles} = corank.space.clouds.find(({set}) => set.name === "forward");
-          const at = new THREE.Vector3(middles[0], middles[1], middles[2]).project(corank.space.camera);
+          const at = new THREE.Vector3(middles[0], middles[1], middles[2]).project(corank.space.orbit.camera);
           return [(at.x + 1) / 2, (1 - at.y) / 2];
         })()""")
         self.browser.click(left + x * width, top + y * height)

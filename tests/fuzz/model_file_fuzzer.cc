@@ -38,6 +38,9 @@ void check(const Mechanism& mechanism) {
   for (const corank::symbolic::DrawingPoint& p : mechanism.drawing().points) {
     for (const Expression& e : p.coordinates) round_trip(e);
   }
+  for (const corank::symbolic::DrawingPart& p : mechanism.drawing().parts) {
+    if (p.has_radius()) round_trip(p.radius);
+  }
   mechanism.validate();
 }
 

@@ -132,6 +132,28 @@ TEST(PageModel, GivesTheModelsOwnRatesAndHowPointsMoveByThem) {
   EXPECT_FALSE(json::parse(page_model(slider(), derive(slider()), {})).contains("rates"));
 }
 
+TEST(PageModel, HoldsRadiiAndColoursOfParts) {
+  const Mechanism mechanism = symbolic::parse_model(
+      "[CONSTANTS]\nr := 1/4\n[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n[INPUTS] x\n"
+      "[OUTPUTS] y\n[DRAWING]\npoint A = (x, y, 0)\npoint B = (x, y, 1)\nsphere A radius 2*r #102030\nhinge A B\n",
+      "m.cuik");
+  const json drawing = json::parse(page_model(mechanism, derive(mechanism), {}))["drawing"];
+  EXPECT_EQ(drawing["dimension"], 3);
+  EXPECT_EQ(drawing["parts"][0], json({{"kind", "sphere"}, {"points", {0}}, {"radius", 0.5}, {"colour", "#102030"}}));
+  EXPECT_EQ(drawing["parts"][1], json({{"kind", "hinge"}, {"points", {0, 1}}}));
+}
+
+TEST(PageModel, NamesTheBoxesOfASelfMotion) {
+  const Mechanism rhombus = symbolic::read_model(CORANK_SOURCE_DIR "/tests/data/rhombus.cuik");
+  const result::Result forward = solved(rhombus, SingularitySet::forward);
+  const json set = json::parse(page_model(rhombus, derive(rhombus), {set_view(rhombus, forward)}))["sets"][0];
+  ASSERT_EQ(set["motions"].size(), forward.cover.self_motions.size());
+  ASSERT_FALSE(set["motions"].empty());
+  EXPECT_EQ(set["motions"][0]["dimension"], 1);
+  for (const json& box : set["motions"][0]["boxes"]) EXPECT_EQ(forward.cover.boxes[box.get<std::size_t>()].motion, 0);
+  EXPECT_GT(set["motions"][0]["boxes"].size(), 10u);
+}
+
 TEST(PageModel, RefusesAResultOfAnotherMechanism) {
   EXPECT_THROW(set_view(slider(), result::sample_result()), result::ResultFileError);
   result::Result plain = solved(slider(), SingularitySet::cspace);

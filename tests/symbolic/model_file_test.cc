@@ -167,6 +167,49 @@ TEST(ModelFile, ReadsTheModelsOfTheRepository) {
   EXPECT_EQ(slider.constraints()[0].relation.text(), "y_A^2 + x_C^2 = L1^2");
 }
 
+TEST(ModelFile, ReadsSolidsHingesAndColours) {
+  const Mechanism m = parse_model(R"([CONSTANTS]
+r := 0.1
+[SYSTEM VARS]
+x : [0, 1]
+[SYSTEM EQS]
+x = 1;
+[DRAWING]
+point A = (x, 0, 0)
+point B = (x, 0, 1)
+hinge A B
+ball A B
+link A B #0aF9c3
+sphere A radius 2*r #102030; cylinder A B radius r /* no colour */
+)",
+                                  "solids.cuik");
+  const std::vector<DrawingPart>& parts = m.drawing().parts;
+  ASSERT_EQ(parts.size(), 5u);
+  EXPECT_EQ(parts[0].kind, DrawingPart::Kind::hinge);
+  EXPECT_THAT(parts[0].points, ElementsAre("A", "B"));
+  EXPECT_EQ(parts[1].kind, DrawingPart::Kind::ball);
+  EXPECT_EQ(parts[2].colour, "#0aF9c3");
+  EXPECT_EQ(parts[3].kind, DrawingPart::Kind::sphere);
+  EXPECT_EQ(parts[3].radius.text(), "2*r");
+  EXPECT_EQ(parts[3].colour, "#102030");
+  EXPECT_EQ(parts[4].kind, DrawingPart::Kind::cylinder);
+  EXPECT_THAT(parts[4].points, ElementsAre("A", "B"));
+  EXPECT_EQ(parts[4].radius.text(), "r");
+  EXPECT_EQ(parts[4].colour, "");
+}
+
+TEST(Drawing, RefusesAColourThatIsNone) {
+  Mechanism m = parse_model("[SYSTEM VARS] x : [0, 1]\n[SYSTEM EQS] x = 1;\n[DRAWING]\npoint A = (x, 0)\n", "m.cuik");
+  Drawing drawing = m.drawing();
+  drawing.parts.push_back({DrawingPart::Kind::sphere, {"A"}, {}, "1", "#12\"456"});
+  EXPECT_THROW(drawing.validate(), ModelError);
+  drawing.parts.back().colour = "#124456";
+  EXPECT_NO_THROW(drawing.validate());
+  drawing.parts.back().radius = "-1";
+  m.drawing(drawing);
+  EXPECT_THROW(m.validate(), ModelError);
+}
+
 TEST(ModelFile, ReadsTheExampleOfTheDocumentation) {
   const std::string page = read_file(CORANK_SOURCE_DIR "/doc/model_language.md");
   const std::string fence = "```\n";

@@ -33,7 +33,9 @@ bool same(const Rate& a, const Rate& b) { return a.name == b.name && a.kind == b
 bool same(const DrawingPoint& a, const DrawingPoint& b) {
   return a.name == b.name && same(a.coordinates, b.coordinates) && same(a.velocity, b.velocity);
 }
-bool same(const DrawingPart& a, const DrawingPart& b) { return a.kind == b.kind && a.points == b.points; }
+bool same(const DrawingPart& a, const DrawingPart& b) {
+  return a.kind == b.kind && a.points == b.points && a.colour == b.colour && same_tree(a.radius, b.radius);
+}
 template <class T>
 bool same(const std::vector<T>& a, const std::vector<T>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return same(x, y); });
