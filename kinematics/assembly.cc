@@ -46,6 +46,13 @@ const char* to_string(Space space) {
 }
 
 Assembly assemble(const Robot& robot) {
+  if (!robot.missing.empty()) {
+    const std::size_t more = robot.missing.size() - 1;
+    throw symbolic::ModelError({robot.file.empty() ? robot.name : robot.file, 0, 0},
+                               "part of the robot is missing: " + robot.missing.front() +
+                                   (more > 0 ? ", and " + std::to_string(more) + " more" : ""),
+                               "a robot that is known whole, for questions about its motion");
+  }
   const symbolic::GinacLock lock;
   Algebra algebra(robot);
   const Bodies bodies = bodies_of(robot, algebra);

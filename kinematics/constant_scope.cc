@@ -1,6 +1,7 @@
 #include "corank/kinematics/constant_scope.h"
 
 #include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/ginac_lock.h"
 #include "corank/symbolic/model_validator.h"
 #include "corank/symbolic/polynomial_expander.h"
 
@@ -11,6 +12,7 @@ using symbolic::ModelError;
 using symbolic::SourceLocation;
 
 struct ConstantScope::State {
+  symbolic::GinacLock lock;       ///< released after the values, which are GiNaC's
   symbolic::Mechanism constants;  ///< which knows what a name may be
   symbolic::ModelValidator validator{symbolic::Mechanism()};
   symbolic::PolynomialExpander values;

@@ -12,6 +12,7 @@ namespace corank::kinematics {
 
 /// Every function throws ModelError for a name that is no constant defined before, an absurd power, and what is no real
 /// number; with the expression's place where it has one, else `where`. Messages call the expression `owner`.
+/// A scope holds a GinacLock while it lives, and dies in the thread that made it.
 class ConstantScope {
  public:
   ConstantScope();

@@ -134,8 +134,8 @@ struct Robot {
   /// Throws ModelError, with the place, for: no links; names that are taken; a joint of a link with itself or with a link
   /// that is not there; an axis or a zero direction that is 0, a zero along the axis; a range that is empty, or too many of
   /// them; a pose that is no rotation; a rod's length that is not positive; an actuated joint without a motion of one
-  /// coordinate; an output of what is not there; a link that no joint connects with the ground; and for an expression that
-  /// is no number in the robot's constants.
+  /// coordinate; an output of what is not there, or of an actuated joint; a link that no joint connects with the ground;
+  /// and for an expression that is no number in the robot's constants.
   void validate() const;
 };
 

@@ -107,6 +107,10 @@ class RobotValidator {
         throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or way of its own",
                          "a revolute, prismatic, cylindrical, universal or sph_prs_sph joint");
       }
+      if (joint.actuated) {
+        throw ModelError(where, what + " is of " + described(joint) + ", which is actuated: its coordinate is an input",
+                         "a joint that no actuator drives");
+      }
       return;
     }
     const std::size_t links = robot_.links.size();

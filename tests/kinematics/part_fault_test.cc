@@ -181,6 +181,8 @@ std::vector<FaultCase> faults() {
        "did you mean 'turn'?"},
       {"OutputOfAFixedJoint", sections("[OUTPUTS] t : joint hold"), "6:11",
        "the output 't' is of the fix joint 'hold', which has no angle or way of its own", "a revolute"},
+      {"OutputOfAnActuatedJoint", sections("[INPUTS] turn [OUTPUTS] t : joint turn"), "6:25",
+       "the output 't' is of the revolute joint 'turn', which is actuated", "a joint that no actuator drives"},
       {"OutputOfAnUnknownLink", sections("[OUTPUTS] p : position of harm.P"), "6:27", "there is no link 'harm'",
        "did you mean 'arm'?"},
       {"OutputOfAnUnknownPoint", sections("[OUTPUTS] p : position of arm.Q"), "6:31", "the link 'arm' has no point 'Q'",

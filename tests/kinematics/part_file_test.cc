@@ -8,6 +8,7 @@
 #include <fstream>
 #include <tao/pegtl/contrib/analyze.hpp>
 
+#include "corank/kinematics/assembly.h"
 #include "corank/kinematics/part_grammar.h"
 
 namespace corank::kinematics {
@@ -41,32 +42,34 @@ upper : point S (0, 0, 0)
         point E (upper_length, 0, 0)
         cylinder 5 S E blue
 fore : point E (0, 0, 0)  point H (200, 0, 0)
+pen
 [JOINTS]
 revolute shoulder : base S + (0, 0, 1)  upper S + (0, 0, 1)  actuated  limits [-pi/2, pi/2]
 REVOLUTE elbow : upper E + (0, 0, 1)  fore E + (0, 0, 1)
+revolute wrist : fore H + (0, 0, 1)  pen (0, 0, 0) (0, 0, 1)
 [INPUTS] elbow
 [OUTPUTS]
 hand : position of fore.H
 turn : orientation of fore in upper
 all  : pose of fore.H in base
 w    : direction of fore (1, 0, 0)
-t    : joint elbow
+t    : joint wrist
 )";
 
 TEST(PartFile, ReadsNamedPointsAndJointsInputsAndOutputs) {
   const Robot robot = parse(kArm);
   EXPECT_EQ(robot.unit, "mm");
   EXPECT_EQ(robot.name, "r");
-  ASSERT_EQ(robot.links.size(), 3u);
+  ASSERT_EQ(robot.links.size(), 4u);
   EXPECT_EQ(robot.links[1].name, "upper");
-  ASSERT_EQ(robot.joints.size(), 2u);
+  ASSERT_EQ(robot.joints.size(), 3u);
   const Joint& shoulder = robot.joints[0];
   EXPECT_EQ(shoulder.name, "shoulder");
   EXPECT_TRUE(shoulder.is_named);
   EXPECT_TRUE(shoulder.actuated);
   ASSERT_EQ(shoulder.ranges.size(), 1u);
   EXPECT_EQ(shoulder.ranges[0]->lower.text(), "-pi/2");
-  EXPECT_EQ(shoulder.where.line, 15);
+  EXPECT_EQ(shoulder.where.line, 16);
   const Joint& elbow = robot.joints[1];
   EXPECT_TRUE(elbow.actuated) << "[INPUTS] says so";
   EXPECT_EQ(elbow.ends[0].link, 1u);
@@ -83,7 +86,7 @@ TEST(PartFile, ReadsNamedPointsAndJointsInputsAndOutputs) {
   EXPECT_EQ(robot.outputs[2].kind, Output::Kind::pose);
   EXPECT_EQ(robot.outputs[3].kind, Output::Kind::direction);
   EXPECT_EQ(robot.outputs[4].kind, Output::Kind::joint);
-  EXPECT_EQ(robot.outputs[4].joint, 1u);
+  EXPECT_EQ(robot.outputs[4].joint, 2u);
   EXPECT_THAT(robot.notices, IsEmpty());
   EXPECT_THAT(robot.missing, IsEmpty());
 }
@@ -222,6 +225,24 @@ TEST(PartFile, SaysWhatIsMissingAndReadsTheRest) {
                                          HasSubstr("r.cuik:4:1: a cable (c_cable)"),
                                          HasSubstr("r.cuik:5:21: the equations of 'more.cuik'")));
   EXPECT_EQ(robot.joints.size(), 2u);
+  try {
+    assemble(robot);
+    FAIL() << "assembled";
+  } catch (const symbolic::ModelError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("r.cuik: part of the robot is missing: r.cuik:3:1: the coupling"));
+    EXPECT_THAT(error.what(), HasSubstr("and 2 more"));
+  }
+}
+
+TEST(PartFile, ReadsWhatCanBeAssembled) {
+  std::string text = kArm;  // but for what is an input too, twice there, or an output in space only
+  for (const char* const output : {"turn :", "all  :", "w    :"}) {
+    const std::size_t line = text.find(output);
+    text.erase(line, text.find('\n', line) - line);
+  }
+  const Assembly assembly = assemble(parse(text));
+  EXPECT_EQ(assembly.space, Space::planar);
+  EXPECT_EQ(assembly.mobility, 3);
 }
 
 TEST(PartFile, KeepsTheFramesOfAPrismaticJointParallelInAWorldFile) {
