@@ -53,6 +53,7 @@ Assembly assemble(const Robot& robot) {
                                    (more > 0 ? ", and " + std::to_string(more) + " more" : ""),
                                "a robot that is known whole, for questions about its motion");
   }
+  robot.validate();
   const symbolic::GinacLock lock;
   Algebra algebra(robot);
   const Bodies bodies = bodies_of(robot, algebra);

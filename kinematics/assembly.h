@@ -44,8 +44,8 @@ struct Assembly {
 /// The equations of a robot. Throws ModelError where the robot is faulty or can't be assembled; where it has no coordinates.
 Assembly assemble(const Robot& robot);
 
-/// The mobility of a mechanism at a configuration found by Newton's method from random ones (of fixed seeds): its coordinates
-/// less the rank of Φ_q. Nothing where none of the tries ends in a configuration.
+/// The mobility of a mechanism at a configuration found by Newton's method from random ones (of fixed seeds): its
+/// coordinates less the rank of Φ_q. Nothing where none of the tries ends in a configuration.
 std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism);
 
 }  // namespace corank::kinematics

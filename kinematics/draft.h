@@ -28,9 +28,8 @@ class Draft {
   /// With |w| = 1.
   Vec unit_vector(const std::string& name, const SourceLocation& where);
 
-  /// e = 0, left out where it is 0 by its constants alone. Throws ModelError where it is a constant that is not 0: `what` then
-  /// cannot be assembled.
-  /// Returns whether there is anything to say.
+  /// e = 0, left out where it is 0 by its constants alone. Throws ModelError where it is a constant that is not 0: `what`
+  /// then cannot be assembled. Returns whether there is anything to say.
   bool equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what = "the loop");
   void at_least_zero(const ex& e, const std::string& note, const SourceLocation& where);
 

@@ -290,21 +290,36 @@ void Frames::close(const BodyJoint& j) {
 
 void Frames::limit(const BodyJoint& j) {
   const Joint& of = joint(j);
-  if (of.ranges.empty() || !of.ranges[0] || angles_[j.index]) return;
   const std::size_t g0 = bodies_.group[j.ends[0].body], g1 = bodies_.group[j.ends[1].body];
-  const ex lower = algebra_.constant(of.ranges[0]->lower, of.where),
-           upper = algebra_.constant(of.ranges[0]->upper, of.where);
-  if (j.kind == JointKind::spherical) {
-    if (algebra_.is_zero(j.ends[0].axis) || algebra_.sign(upper - GiNaC::Pi) >= 0) return;
-    draft_.at_least_zero(dot(image(g0, j.ends[0].axis), image(g1, j.ends[1].axis)) - cos(upper), "cone", of.where);
-    return;
+  const BodyEnd &e0 = j.ends[0], &e1 = j.ends[1];
+  const auto range = [&](std::size_t i) { return of.ranges.size() > i ? of.ranges[i] : std::nullopt; };
+  // cos(θ − middle) ≥ cos(half), where θ turns `zero` of group g about `axis` to the image of `turned`, sense −1: the
+  // other way.
+  const auto keep = [&](const Range& limits, std::size_t g, const Vec& axis, const Vec& zero, int sense, const Vec& turned) {
+    const ex lower = algebra_.constant(limits.lower, of.where), upper = algebra_.constant(limits.upper, of.where);
+    const ex middle = (lower + upper) / 2, half = (upper - lower) / 2;
+    if (algebra_.sign(half - GiNaC::Pi) >= 0) return;
+    const Vec centre = image(g, cos(middle) * zero + (sense * sin(middle)) * cross(axis, zero));
+    draft_.at_least_zero(dot(centre, turned) - cos(half), "range", of.where);
+  };
+  switch (j.kind) {
+    case JointKind::spherical: {
+      if (!range(0) || algebra_.is_zero(e0.axis)) return;
+      const ex upper = algebra_.constant(range(0)->upper, of.where);
+      if (algebra_.sign(upper - GiNaC::Pi) < 0)
+        draft_.at_least_zero(dot(image(g0, e0.axis), image(g1, e1.axis)) - cos(upper), "cone", of.where);
+      return;
+    }
+    case JointKind::revolute:
+    case JointKind::cylindrical:
+      if (range(0) && !angles_[j.index]) keep(*range(0), g0, e0.axis, e0.zero, 1, image(g1, e1.zero));
+      return;
+    case JointKind::universal:
+      if (range(0)) keep(*range(0), g0, e0.axis, e0.zero, 1, image(g1, e1.axis));
+      if (range(1)) keep(*range(1), g1, e1.axis, e1.zero, -1, image(g0, e0.axis));
+      return;
+    default: return;
   }
-  if (j.kind != JointKind::revolute && j.kind != JointKind::cylindrical) return;
-  const ex middle = (lower + upper) / 2, half = (upper - lower) / 2;
-  if (algebra_.sign(half - GiNaC::Pi) >= 0) return;
-  const Vec& zero = j.ends[0].zero;
-  const Vec centre = image(g0, cos(middle) * zero + sin(middle) * cross(j.ends[0].axis, zero));
-  draft_.at_least_zero(dot(centre, image(g1, j.ends[1].zero)) - cos(half), "range", of.where);
 }
 
 }  // namespace corank::kinematics

@@ -34,9 +34,10 @@ class Portrayal {
     for (const Output& output : robot_.outputs)
       if (output.kind == Output::Kind::position || output.kind == Output::Kind::pose) {
         const Placement& at = bodies_.placement[output.link];
-        effectors_.push_back(corner(bodies_.of_link[output.link],
-                                    at.translation + at.rotation * algebra_.vector(output.point, output.where),
-                                    output.name));
+        const std::string effector =
+            corner(bodies_.of_link[output.link], at.translation + at.rotation * algebra_.vector(output.point, output.where),
+                   output.name);
+        if (std::find(effectors_.begin(), effectors_.end(), effector) == effectors_.end()) effectors_.push_back(effector);
       }
     const bool solid = add_shapes();
     for (std::size_t body = 1; body < bodies_.size(); ++body)

@@ -139,8 +139,8 @@ class SpatialRobot {
     std::array<std::optional<ex>, 3> seen;  ///< p along the body's directions, once they were needed
   };
 
-  /// |p + R b − a|² = |p|² + |b|² + |a|² + 2 p·R b − 2 p·a − 2 a·R b, where |p|² is known and q = Rᵀp are coordinates: so the
-  /// difference of two legs' equations is linear in them.
+  /// |p + R b − a|² = |p|² + |b|² + |a|² + 2 p·R b − 2 p·a − 2 a·R b, where |p|² is known and q = Rᵀp are coordinates: so
+  /// the difference of two legs' equations is linear in them.
   ex squared_distance(Hung& hung, const Vec& b, const Vec& a) {
     const std::size_t g = group(hung.body);
     const Vec c = frames_.coefficients(g, b);

@@ -1,5 +1,5 @@
-// The velocity equation of a spatial robot, by twists: rates of the joints, and of bodies that only rods carry; rows for each
-// joint that closes a loop and for each rod.
+// The velocity equation of a spatial robot, by twists: rates of the joints, and of bodies that only rods carry; rows for
+// each joint that closes a loop and for each rod.
 //
 //   Σ_k ω_k a_k = 0 and Σ_k ω_k a_k × (c − c_k) + v_k a_k = 0 over a loop's joints; (p₁ − p₀)·(v₁ − v₀) = l l̇ of a rod.
 //

@@ -17,9 +17,9 @@ struct Model {
   std::vector<std::string> notices;              ///< what of a robot's file was passed over, and what is special about it
 };
 
-/// Reads a file, with these constants put in. A robot's equations depend on them (parallel axes make it a planar one): so its
-/// text, which results keep, is that of a model file with the equations that belong to these values.
-/// `loops`: the companion of a URDF file. Throws symbolic::ModelError.
+/// Reads a file, with these constants put in. A robot's equations depend on them (parallel axes make it a planar one): so
+/// its text, which results keep, is that of a model file with the equations that belong to these values. `loops`: the
+/// companion of a URDF file. Throws symbolic::ModelError.
 Model read_model(const std::filesystem::path& path, const std::vector<result::ConstantOverride>& constants = {},
                  const std::optional<std::filesystem::path>& loops = {});
 

@@ -1,5 +1,5 @@
 // GiNaC counts references without atomics, so one thread at a time may use it. Every public function of symbolic/ that calls
-// GiNaC holds a GinacLock until its last GiNaC object is gone; nothing outside symbolic/ ever sees one.
+// GiNaC holds a GinacLock until its last GiNaC object is gone; nothing outside symbolic/ and kinematics/ ever sees one.
 #pragma once
 
 #include <mutex>

@@ -50,7 +50,7 @@ struct LibraryRule {
 };
 const std::vector<LibraryRule>& library_rules() {
   static const std::vector<LibraryRule> rules{
-      {std::regex("^(ginac|cln)/"), {"symbolic"}, false},
+      {std::regex("^(ginac|cln)/"), {"symbolic", "kinematics"}, false},
       {std::regex("^(mpfr|mpfi|gmp|mpf2mpfr|mpfi_io)(xx)?\\.h|^boost/multiprecision/"
                   "(mpfr|mpfi|gmp|eigen)|^(arb|acb|arf|mag|arblib)"),
        {"core", "certify", kChecker},
