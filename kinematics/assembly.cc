@@ -71,7 +71,7 @@ Assembly assemble(const Robot& robot) {
   assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())
     assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;
-  assembly.mobility_by_rank = sampled_mobility(assembly.mechanism);
+  if (!assembly.mechanism.constraints().empty()) assembly.mobility_by_rank = sampled_mobility(assembly.mechanism);
   if (assembly.mobility_by_rank)  // a joint that is locked by its range would be free
     for (const symbolic::Coordinate& c : assembly.mechanism.coordinates())
       *assembly.mobility_by_rank += symbolic::is_fixed(c) ? 1 : 0;
