@@ -105,6 +105,13 @@ Vec Frames::image(std::size_t group, const Vec& v) {
   return {algebra_.clean(sum[0]), algebra_.clean(sum[1]), algebra_.clean(sum[2])};
 }
 
+std::array<Vec, 2> Frames::across(std::size_t group, const Vec& v) {
+  const auto& own = directions(group);
+  const Vec& b = algebra_.are_parallel(own[1], v) ? own[0] : own[1];
+  const ex c = algebra_.named(algebra_.clean(dot(v, b)));
+  return {image(group, cross(v, b)), image(group, c * v - b)};
+}
+
 Vec Frames::axis(std::size_t j, std::size_t end) {
   if (!axes_[j]) {
     const BodyEnd& e = bodies_.joints[j].ends[end];

@@ -24,6 +24,10 @@ class Frames {
   /// Coefficients of v along the two directions and their cross product.
   Vec coefficients(std::size_t group, const Vec& v) const;
 
+  /// Two directions of the group in the world that are perpendicular to v, a unit vector there, and never parallel to each
+  /// other: v × b and (v·b) v − b, b another of the group's own directions.
+  std::array<Vec, 2> across(std::size_t group, const Vec& v);
+
   /// From now on a cross product is written out, so that images add no coordinates to what is complete.
   void finish() { finished_ = true; }
 

@@ -154,6 +154,11 @@ void Twists::close(const BodyJoint& j) {
     row(dot(n, moved), of);
     return;
   }
+  if (j.kind == JointKind::revolute && role(j.index) == Role::passive) {
+    for (const Vec& across : frames_.across(group(b1), j.ends[1].axis)) row(dot(turned, across), of);
+    rows(moved, of);
+    return;
+  }
   const std::vector<Screw> own = screws(j);
   add_turning(turned, own, -1);
   add_velocity(moved, own, c, -1);
@@ -175,14 +180,15 @@ void Twists::add(const Output& output) {
   switch (output.kind) {
     case Output::Kind::joint: return;
     case Output::Kind::direction: {
-      // ẇ = ω × w, and w·ẇ = 0 in a row of its own: with τ = w·ẇ these are as many independent rows as rates more.
+      // ẇ = ω × w is 0 where ω has no part across w.
       const Placement& at = bodies_.placement[output.link];
-      const Vec w =
-          frames_.image(group(body), cleaned(algebra_.unit(at.rotation * algebra_.vector(output.point, output.where))));
-      const Vec own = rates("v", CoordinateKind::angle);
-      const ex tie = draft_.rate("t_" + output.name, CoordinateKind::angle, Role::passive, output.where);
-      defined(own, cross(turning(body), w) + tie * w);
-      draft_.velocity(dot(w, own), "output " + output.name, output.where);
+      const Vec d = cleaned(algebra_.unit(at.rotation * algebra_.vector(output.point, output.where)));
+      int i = 0;
+      for (const Vec& across : frames_.across(group(body), d))
+        draft_.velocity(
+            draft_.rate("w_" + output.name + "_" + std::to_string(++i), CoordinateKind::angle, Role::output, output.where) -
+                dot(turning(body), across),
+            "output " + output.name, output.where);
       return;
     }
     default: break;

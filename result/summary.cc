@@ -160,10 +160,11 @@ std::string sigma_text(const Sigma& sigma) {
 
 std::string along_set_text(const Cover& cover) {
   if (cover.observed_dimension <= cover.dimension) return "along a curve, or a larger set, of degenerate solutions";
-  return fmt::format("along a set of dimension {}, as samples show, larger than expected; not proven: {}",
-                     cover.observed_dimension,
-                     cover.self_motions.empty() ? "no linear relations were found on it that make its equations dependent"
-                                                : "the linear relations that were found do not prove it there");
+  return fmt::format(
+      "along a set of dimension {}, as samples show, larger than expected; not proven: {}", cover.observed_dimension,
+      cover.self_motions.empty() ? "no linear relations were found on it that make its equations dependent; with "
+                                   "--tolerance 1e-6 independent ones among its equations are proven (partial)"
+                                 : "the linear relations that were found do not prove it there");
 }
 
 namespace {
