@@ -27,11 +27,8 @@ class Eliminator {
 
   PassiveRates run() {
     PassiveRates result;
-    std::vector<bool> gone(columns_.size(), false);
     for (std::size_t j = 0; j < columns_.size(); ++j)
-      gone[j] = (mechanism_.has_own_velocity_equation() && give(j)) || (roles_[j] == Role::passive && eliminate(j));
-    for (std::size_t j = 0; j < columns_.size(); ++j)
-      if (gone[j]) result.eliminated.push_back(j);
+      if (roles_[j] == Role::passive && eliminate(j)) result.eliminated.push_back(j);
     if (result.eliminated.size() == columns_.size()) result.eliminated.clear();
     if (result.eliminated.empty()) return result;
     result.matrix.columns = columns_;
@@ -78,23 +75,6 @@ class Eliminator {
       }
       if (!found) return false;
     }
-    return true;
-  }
-
-  // A rate with numbers for factors: one of its rows gives it, the others become free of it.
-  bool give(std::size_t j) {
-    std::vector<Entry> entries;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (rows_[i][j].is_zero()) continue;
-      const auto value = number(rows_[i][j]);
-      if (!value || value->is_zero()) return false;
-      entries.push_back({i, rows_[i][j]});
-    }
-    const auto own = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return !used_[e.row]; });
-    if (own == entries.end()) return false;
-    take_away(j, *own, entries);
-    used_[own->row] = true;
-    notes_[own->row].gives = columns_[j];
     return true;
   }
 

@@ -27,10 +27,9 @@ struct PassiveRates {
   std::vector<RowNote> notes;
 };
 
-/// Eliminates what it can of the passive coordinates' columns: those whose entries are constants times the sine and the
-/// cosine of one coordinate, α in one row and ±α in another after sums with constant factors, α a rational number ≠ 0. Where
-/// the model brings its own rates, those of any role go whose entries are all rational numbers: a body's twist, say, which
-/// the joints' rates give. `eliminated` is empty where there are none.
+/// Eliminates what it can of the passive columns: those whose entries are constants times the sine and the
+/// cosine of one coordinate, α in one row and ±α in another after sums with constant factors, α a rational number ≠ 0.
+/// `eliminated` is empty where there are none.
 PassiveRates eliminate_passive_rates(const Mechanism& mechanism, const ExpressionMatrix& matrix);
 
 }  // namespace corank::symbolic
