@@ -59,8 +59,7 @@ Algebra::Algebra(const Robot& robot) {
     constants_.emplace(constant.name, symbol);
     constant_names_.push_back(constant.name);
     known.push_back(constant.name);
-    for (const int simple : {0, 1, -1})
-      if (sign(symbol - simple) == 0) simple_[symbol] = simple;
+    if (sign(symbol) == 0) zeros_[symbol] = 0;
   }
 }
 
@@ -69,7 +68,7 @@ ex Algebra::expression(const Expression& e, const SourceLocation& where) const {
   GiNaC::exmap own;
   for (const auto& [name, symbol] : constants_) own[bridge.symbol(name)] = symbol;
   for (const auto& [name, symbol] : coordinates_) own[bridge.symbol(name)] = symbol;
-  return bridge.to_ginac(e, where).subs(own, GiNaC::subs_options::no_pattern).subs(simple_, GiNaC::subs_options::no_pattern);
+  return bridge.to_ginac(e, where).subs(own, GiNaC::subs_options::no_pattern).subs(zeros_, GiNaC::subs_options::no_pattern);
 }
 
 ex Algebra::constant(const Expression& e, const SourceLocation& where) const {

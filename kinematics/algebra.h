@@ -1,9 +1,9 @@
 // Exact geometry of a robot: numbers, vectors and rotations whose entries are expressions in its constants and in
 // coordinates that are made along the way. GiNaC works behind it; whoever uses it holds a symbolic::GinacLock.
 //
-// Constants keep their names, so that equations can be read, but those worth 0, 1 or −1 are put in. Whether an expression
-// in constants is zero is decided by their values: rational ones exactly, others by enclosures of 4096 bits; what these
-// cannot tell from zero counts as zero.
+// Constants keep their names, so that equations can be read, but those worth 0 are put in. Whether an expression in constants
+// is zero is decided by their values: rational ones exactly, others by enclosures of 4096 bits; what these cannot tell from
+// zero counts as zero.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -80,7 +80,7 @@ class Algebra {
 
   std::vector<std::string> constant_names_, coordinate_names_;
   std::map<std::string, GiNaC::realsymbol> constants_, coordinates_;
-  GiNaC::exmap values_, simple_;  // of constants: all values; those that are put in
+  GiNaC::exmap values_, zeros_;  // of constants: all values; those that are put in
   GiNaC::lst coordinate_symbols_;
   mutable symbolic::PolynomialExpander expander_;
   mutable std::map<ex, int, GiNaC::ex_is_less> signs_;

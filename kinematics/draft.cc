@@ -137,7 +137,7 @@ Assembly Draft::assembly() const {
   auto next = translated.begin();
   for (const DraftEquation& e : equations_) {
     const Expression left = *next++;
-    mechanism.constrain(e.inequality ? left >= Expression(0) : left == Expression(0), e.where);
+    mechanism.constrain(e.inequality ? left >= Expression(0) : left == Expression(0), e.where, e.note);
   }
   for (const DraftRate& r : rates_) mechanism.rate(r.name, r.kind, r.role, r.where);
   for (const DraftEquation& e : velocity_) mechanism.velocity(*next++ == Expression(0), e.where);

@@ -1,0 +1,160 @@
+// From parts to equations: which class a robot is of, what its equations are, what can't be assembled.
+#include "corank/kinematics/assembly.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "corank/kinematics/part_file.h"
+#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model_text.h"
+
+namespace corank::kinematics {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> equations(const Assembly& a) {
+  std::vector<std::string> texts;
+  for (const symbolic::Constraint& c : a.mechanism.constraints()) texts.push_back(c.relation.text());
+  return texts;
+}
+
+std::vector<std::string> coordinates(const Assembly& a) {
+  std::vector<std::string> names;
+  for (const symbolic::Coordinate& c : a.mechanism.coordinates()) names.push_back(c.name);
+  return names;
+}
+
+std::string fault(const std::string& parts) {
+  try {
+    assemble(parse_parts(parts, "r.cuik"));
+  } catch (const symbolic::ModelError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+Assembly of(const std::string& parts) { return assemble(parse_parts(parts, "r.cuik")); }
+
+constexpr const char* kFourBar =
+    "[CONSTANTS]\na := 1\nb := 3\nc := 2\nd := 5/2\n"
+    "[LINKS]\nground\ncrank\ncoupler\nrocker\n[JOINTS]\n"
+    "revolute t1 : ground (0,0,0)+(0,0,1) crank (0,0,0)+(0,0,1) actuated\n"
+    "revolute A : crank (a,0,0)+(0,0,1) coupler (0,0,0)+(0,0,1)\n"
+    "revolute B : coupler (b,0,0)+(0,0,1) rocker (c,0,0)+(0,0,1)\n"
+    "revolute t2 : ground (d,0,0)+(0,0,1) rocker (0,0,0)+(0,0,1)\n"
+    "[OUTPUTS]\nt : joint t2\n";
+
+TEST(Assembly, MakesAFourBarOfThreeAnglesAndTwoEquations) {
+  const Assembly a = of(kFourBar);
+  EXPECT_EQ(a.space, Space::planar);
+  EXPECT_THAT(coordinates(a), ElementsAre("t1", "t2", "phi_coupler"));
+  EXPECT_THAT(equations(a), ElementsAre("-a*cos(t1) - b*cos(phi_coupler) + c*cos(t2) + d = 0",
+                                        "-a*sin(t1) - b*sin(phi_coupler) + c*sin(t2) = 0"));
+  EXPECT_EQ(a.mobility, 1);
+  EXPECT_EQ(a.mobility_by_joints, 1);
+  EXPECT_EQ(a.mobility_by_rank, 1);
+  EXPECT_THAT(a.mechanism.inputs(), ElementsAre("t1"));
+  EXPECT_THAT(a.mechanism.outputs(), ElementsAre("t2"));
+}
+
+// The same robot with its plane turned: axes along y, then along (1, 2, 2)/3.
+TEST(Assembly, FindsThePlaneWhereverItIs) {
+  std::string text = kFourBar;
+  for (std::size_t at = 0; (at = text.find("(0,0,1)", at)) != std::string::npos;) text.replace(at, 7, "(0,3,0)");
+  const Assembly a = of(text);
+  EXPECT_EQ(a.space, Space::planar);
+  EXPECT_EQ(equations(a).size(), 2u);
+}
+
+TEST(Assembly, TellsParallelAxesByTheirConstantsValues) {
+  std::string text = kFourBar;
+  text.replace(text.find("d := 5/2"), 8, "d := 5/2\nx := 0");
+  text.replace(text.rfind("(d,0,0)+(0,0,1)"), 15, "(d,0,0)+(x,0,1)");
+  EXPECT_EQ(of(text).space, Space::planar);
+  Robot tilted = parse_parts(text, "r.cuik");
+  for (symbolic::Constant& c : tilted.constants)
+    if (c.name == "x") c.value = symbolic::Expression("1/10");
+  EXPECT_EQ(assemble(tilted).space, Space::spatial);
+}
+
+TEST(Assembly, ReadsBackTheTextOfItsMechanism) {
+  const Assembly a = of(kFourBar);
+  const symbolic::Mechanism again = symbolic::parse_model(symbolic::to_model(a.mechanism), "again.cuik");
+  ASSERT_EQ(again.constraints().size(), a.mechanism.constraints().size());
+  for (std::size_t i = 0; i < again.constraints().size(); ++i)
+    EXPECT_EQ(again.constraints()[i].relation.text(), equations(a)[i]);
+}
+
+TEST(Assembly, KeepsThreeSlidersAsTheirEquations) {
+  const Assembly a = of(
+      "[CONSTANTS]\nL1 := 1\nL2 := 4/5\n[LINKS]\nground\nA\nB\nC\n[JOINTS]\n"
+      "prismatic y_A : ground (0,0,0)+(0,1,0) A (0,0,0)+(0,1,0) actuated\n"
+      "prismatic y_B : ground (0,0,0)+(0,1,0) B (0,0,0)+(0,1,0)\n"
+      "prismatic x_C : ground (0,0,0)+(1,0,0) C (0,0,0)+(1,0,0)\n"
+      "sph_sph p : A (0,0,0) C (0,0,0) length L1\nsph_sph q : B (0,0,0) C (0,0,0) length L2\n[OUTPUTS]\ny : joint y_B\n");
+  EXPECT_EQ(a.space, Space::planar);
+  EXPECT_THAT(equations(a), ElementsAre("-L1^2 + y_A^2 + x_C^2 = 0", "-L2^2 + y_B^2 + x_C^2 = 0"));
+}
+
+TEST(Assembly, KnowsASphericalRobotByItsAxes) {
+  const Assembly a = of(
+      "[LINKS]\nground\na\nb\n c\n[JOINTS]\n"
+      "revolute j1 : ground (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1) actuated\n"
+      "revolute j2 : a (0,0,0)+(0,3/5,4/5) b (0,0,0)+(0,0,1)\n"
+      "revolute j3 : b (0,0,0)+(0,1,0) c (0,0,0)+(0,0,1)\n"
+      "revolute j4 : c (0,0,0)+(3/5,0,4/5) ground (0,0,0)+(1,0,0)\n[OUTPUTS]\nt : joint j4\n");
+  EXPECT_EQ(a.space, Space::spherical);
+  EXPECT_EQ(a.mobility, 1);
+  EXPECT_EQ(a.mobility_by_joints, 1);
+}
+
+// Bennett 1903: sin(alpha)/a = sin(beta)/b; here a = 1, alpha = 30°, b = sqrt(3), beta = 60°.
+TEST(Assembly, SeesThatABennettLinkageMovesThoughTheCountSaysNo) {
+  const Assembly a = of(
+      "[CONSTANTS]\nh := sqrt(3)/2\n[LINKS]\ng\na\nb\nc\n[JOINTS]\n"
+      "revolute j1 : g (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1)\n"
+      "revolute j2 : a (1,0,0)+(0,-1/2,h) b (0,0,0)+(0,0,1)\n"
+      "revolute j3 : b (sqrt(3),0,0)+(0,-h,1/2) c (0,0,0)+(0,0,1)\n"
+      "revolute j4 : c (1,0,0)+(0,-1/2,h) g (-sqrt(3),0,0)+(0,h,1/2)\n");
+  EXPECT_EQ(a.space, Space::spatial);
+  EXPECT_EQ(a.mobility, -2);
+  EXPECT_EQ(a.mobility_by_joints, -2);
+  EXPECT_EQ(a.mobility_by_rank, 1);
+}
+
+TEST(Assembly, RefusesWhatDoesNotFitTogether) {
+  const std::string chain =
+      "[LINKS]\nground\na\nb\n[JOINTS]\nrevolute j1 : ground (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1)\n"
+      "revolute j2 : a (1,0,0)+(0,0,1) b (0,0,0)+(0,0,1)\n";
+  EXPECT_THAT(fault(chain + "revolute j3 : b (1,0,0)+(0,0,1) ground (1,0,2)+(0,0,1)\n"),
+              HasSubstr("the loop that the joint 'j2' closes leaves the plane and can never close"));
+  EXPECT_THAT(fault(chain + "fix : a b Tx(1)\nfix : a b Tx(2)\n"), HasSubstr("'b' elsewhere than the fixed joints before it"));
+  EXPECT_THAT(fault(chain + "fix : a b Rz(1)\nfix : a b Rz(2)\n"), HasSubstr("another orientation of 'b'"));
+  EXPECT_THAT(fault(chain + "fix : a b id\n"), HasSubstr("which fixed joints make one body"));
+  EXPECT_THAT(fault(chain + "prismatic s : b (0,0,0)+(1,0,0) ground (0,0,0)+(0,1,0)\n"), HasSubstr("prismatic"));
+}
+
+TEST(Assembly, LocksAJointByARangeOfOneValue) {
+  std::string text = kFourBar;
+  text.replace(text.find("actuated"), 8, "actuated limits [1, 1]");
+  const Assembly a = of(text);
+  EXPECT_EQ(a.mobility, 1);
+  EXPECT_EQ(a.mobility_by_rank, 1) << "the locked joint counts as free";
+}
+
+// Twelve numbers of a pose and a joint's value, at a configuration that is known.
+TEST(Assembly, SaysWhereLinksAre) {
+  const Assembly a = of(kFourBar);
+  ASSERT_EQ(a.poses.size(), 4u);
+  EXPECT_EQ(a.poses[1].link, "crank");
+  EXPECT_EQ(a.poses[1].rotation[1][0].text(), "sin(t1)");
+  EXPECT_EQ(a.poses[2].origin[0].text(), "a*cos(t1)");
+  ASSERT_EQ(a.joint_values.size(), 4u);
+  EXPECT_EQ(a.joint_values[0].value.text(), "t1");
+  EXPECT_TRUE(a.joint_values[1].sine.has_value()) << "the angle of A is no coordinate";
+}
+
+}  // namespace
+}  // namespace corank::kinematics
