@@ -1,9 +1,12 @@
 #include "corank/kinematics/algebra.h"
 
 #include <cmath>
+#include <numbers>
+#include <sstream>
 
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/ginac_bridge.h"
+#include "corank/symbolic/polynomial_expander.h"
 
 namespace corank::kinematics {
 namespace {
@@ -12,9 +15,30 @@ using GiNaC::ex_to;
 using GiNaC::is_a;
 using GiNaC::numeric;
 
-double number_of(const ex& e) {
-  const ex value = e.evalf();
-  return is_a<numeric>(value) ? ex_to<numeric>(value).to_double() : std::nan("");
+ConstantFunction function_of(const ex& e) {
+  static const std::map<std::string, ConstantFunction> kFunctions = {
+      {"sin", ConstantFunction::sin},   {"cos", ConstantFunction::cos},   {"tan", ConstantFunction::tan},
+      {"asin", ConstantFunction::asin}, {"acos", ConstantFunction::acos}, {"atan", ConstantFunction::atan},
+      {"exp", ConstantFunction::exp},   {"log", ConstantFunction::log},   {"abs", ConstantFunction::abs}};
+  const auto known = kFunctions.find(ex_to<GiNaC::function>(e).get_name());
+  if (known == kFunctions.end()) throw std::domain_error("no function of constants");
+  return known->second;
+}
+
+double apply(ConstantFunction f, double x) {
+  switch (f) {
+    case ConstantFunction::sqrt: return std::sqrt(x);
+    case ConstantFunction::sin: return std::sin(x);
+    case ConstantFunction::cos: return std::cos(x);
+    case ConstantFunction::tan: return std::tan(x);
+    case ConstantFunction::asin: return std::asin(x);
+    case ConstantFunction::acos: return std::acos(x);
+    case ConstantFunction::atan: return std::atan(x);
+    case ConstantFunction::exp: return std::exp(x);
+    case ConstantFunction::log: return std::log(x);
+    case ConstantFunction::abs: return std::fabs(x);
+  }
+  return std::nan("");
 }
 
 }  // namespace
@@ -45,22 +69,21 @@ Mat operator*(const Mat& a, const Mat& b) {
 Mat identity() { return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
 
 Algebra::Algebra(const Robot& robot) {
-  std::vector<std::string> known;
+  symbolic::PolynomialExpander values;  // words the faults
   for (const symbolic::Constant& constant : robot.constants) {
-    expander_.add_constant(
-        constant.name,
-        expander_.constant(constant.value, "the constant " + symbolic::in_quotes(constant.name), constant.where));
-    const GiNaC::realsymbol symbol(constant.name);
-    const symbolic::GinacBridge bridge(known, {});
-    GiNaC::exmap own;
-    for (const std::string& name : known) own[bridge.symbol(name)] = constants_.at(name);
-    const ex value = in_numbers(bridge.to_ginac(constant.value, constant.where).subs(own, GiNaC::subs_options::no_pattern));
-    values_[symbol] = value;
-    constants_.emplace(constant.name, symbol);
-    constant_names_.push_back(constant.name);
-    known.push_back(constant.name);
-    if (sign(symbol) == 0) zeros_[symbol] = 0;
+    const symbolic::ConstantValue value =
+        values.constant(constant.value, "the constant " + symbolic::in_quotes(constant.name), constant.where);
+    values.add_constant(constant.name, value);
+    add_constant(constant.name, value.exact());
+    if (value.sign().value_or(0) == 0) zeros_[constants_.at(constant.name)] = 0;
   }
+}
+
+void Algebra::add_constant(const std::string& name, const ExactNumber& value) {
+  constants_.emplace(name, GiNaC::realsymbol(name));
+  constant_names_.push_back(name);
+  exact_.emplace(name, value);
+  plain_.emplace(name, value.enclose().mid());
 }
 
 ex Algebra::expression(const Expression& e, const SourceLocation& where) const {
@@ -88,24 +111,44 @@ ex Algebra::coordinate(const std::string& name) {
   return symbol;
 }
 
-double Algebra::value(const ex& constant) const { return number_of(in_numbers(constant)); }
+double Algebra::value(const ex& e) const {
+  if (is_a<numeric>(e)) return ex_to<numeric>(e).to_double();
+  if (is_a<GiNaC::symbol>(e)) return plain_.at(ex_to<GiNaC::symbol>(e).get_name());
+  if (e.is_equal(GiNaC::Pi)) return std::numbers::pi;
+  if (is_a<GiNaC::power>(e)) return std::pow(value(e.op(0)), value(e.op(1)));
+  if (is_a<GiNaC::function>(e)) return apply(function_of(e), value(e.op(0)));
+  double result = is_a<GiNaC::add>(e) ? 0 : 1;
+  for (const ex& part : e) is_a<GiNaC::add>(e) ? result += value(part) : result *= value(part);
+  return result;
+}
+
+ExactNumber Algebra::exact(const ex& e) const {
+  if (is_a<numeric>(e)) {
+    std::ostringstream text;
+    text << e;
+    return ExactNumber::rational(text.str());
+  }
+  if (is_a<GiNaC::symbol>(e)) return exact_.at(ex_to<GiNaC::symbol>(e).get_name());
+  if (e.is_equal(GiNaC::Pi)) return ExactNumber::pi();
+  if (is_a<GiNaC::power>(e)) {
+    const numeric n = ex_to<numeric>(e.op(1));
+    if (n.is_integer()) return pow(exact(e.op(0)), n.to_int());
+    return pow(ExactNumber::apply(ConstantFunction::sqrt, exact(e.op(0))), (n * 2).to_int());  // all that geometry makes
+  }
+  if (is_a<GiNaC::function>(e)) return ExactNumber::apply(function_of(e), exact(e.op(0)));
+  ExactNumber result = is_a<GiNaC::add>(e) ? 0 : 1;
+  for (const ex& part : e) result = is_a<GiNaC::add>(e) ? result + exact(part) : result * exact(part);
+  return result;
+}
 
 int Algebra::sign(const ex& constant) const {
   constexpr double kPlain = 1e-6;  // far beyond the rounding errors of numbers as robots have them
+  constexpr int kBits = 512;
   if (is_a<numeric>(constant)) return ex_to<numeric>(constant).csgn();
   const auto known = signs_.find(constant);
   if (known != signs_.end()) return known->second;
-  const ex numbers = in_numbers(constant).expand();
-  int result = 0;
-  if (const double plain = number_of(numbers); std::fabs(plain) > kPlain) {
-    result = plain > 0 ? 1 : -1;
-  } else if (is_a<numeric>(numbers)) {
-    result = ex_to<numeric>(numbers).csgn();
-  } else {
-    const symbolic::GinacBridge bridge({}, {});
-    const symbolic::ConstantValue exact = expander_.constant(bridge.to_expression(numbers), "a constant", {});
-    result = exact.without_squared_cosines().is_zero() ? 0 : exact.sign().value_or(0);
-  }
+  const double plain = value(constant);
+  const int result = std::fabs(plain) > kPlain ? (plain > 0 ? 1 : -1) : exact(constant).sign(kBits).value_or(0);
   signs_.emplace(constant, result);
   return result;
 }
@@ -168,14 +211,10 @@ ex Algebra::named(const ex& constant) {
   std::string name;
   do name = "k" + std::to_string(++numbered_);
   while (constants_.contains(name));
-  const GiNaC::realsymbol symbol(name);
-  values_[symbol] = in_numbers(constant);
-  expander_.add_constant(name, expander_.constant(symbolic::GinacBridge({}, {}).to_expression(values_[symbol]), name, {}));
-  constants_.emplace(name, symbol);
-  constant_names_.push_back(name);
+  add_constant(name, exact(constant));
   named_.emplace_back(name, constant);
-  names_of_.emplace(constant, symbol);
-  return symbol;
+  names_of_.emplace(constant, constants_.at(name));
+  return constants_.at(name);
 }
 
 std::vector<symbolic::Constant> Algebra::named_constants() const {

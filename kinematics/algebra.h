@@ -2,7 +2,7 @@
 // coordinates that are made along the way. GiNaC works behind it; whoever uses it holds a symbolic::GinacLock.
 //
 // Constants keep their names, so that equations can be read, but those worth 0 are put in. Whether an expression in constants
-// is zero is decided by their values: rational ones exactly, others by enclosures of 4096 bits; what these cannot tell from
+// is zero is decided by their values: rational ones exactly, others by enclosures of 512 bits; what these cannot tell from
 // zero counts as zero.
 #pragma once
 
@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "corank/core/exact_number.h"
 #include "corank/kinematics/robot.h"
-#include "corank/symbolic/polynomial_expander.h"
 
 namespace corank::kinematics {
 
@@ -76,13 +76,16 @@ class Algebra {
 
  private:
   ex collected(const ex& e) const;
-  ex in_numbers(const ex& constant) const { return constant.subs(values_, GiNaC::subs_options::no_pattern); }
+  void add_constant(const std::string& name, const ExactNumber& value);
+  /// Enclosed tighter than doubles, constants put in.
+  ExactNumber exact(const ex& constant) const;
 
   std::vector<std::string> constant_names_, coordinate_names_;
   std::map<std::string, GiNaC::realsymbol> constants_, coordinates_;
-  GiNaC::exmap values_, zeros_;  // of constants: all values; those that are put in
+  GiNaC::exmap zeros_;                        // of constants that are put in
+  std::map<std::string, ExactNumber> exact_;  // values of the constants, which share what they are made of
+  std::map<std::string, double> plain_;       // the same in doubles
   GiNaC::lst coordinate_symbols_;
-  mutable symbolic::PolynomialExpander expander_;
   mutable std::map<ex, int, GiNaC::ex_is_less> signs_;
   std::map<ex, ex, GiNaC::ex_is_less> names_of_;  // of constants that were given a name
   std::vector<std::pair<std::string, ex>> named_;

@@ -36,11 +36,11 @@ ex Draft::length(const std::string& name, const std::optional<Range>& range, con
   return algebra_.coordinate(free);
 }
 
-Vec Draft::vector(const std::string& name, int size, const SourceLocation& where) {
+Vec Draft::vector(const std::string& name, const SourceLocation& where) {
   Vec v;
   for (std::size_t i = 0; i < 3; ++i)
     v[i] = length(
-        name + "_" + "xyz" [i], Range { Expression(-size), Expression(size) }, where, true);
+        name + "_" + "xyz" [i], Range { "-11/10", "11/10" }, where, true);
   return v;
 }
 
@@ -123,7 +123,7 @@ Assembly Draft::assembly() const {
   };
   for (const DraftPoint& p : points_) {
     add(p.at, p.dimension);
-    if (p.velocity) add(*p.velocity, p.dimension);
+    if (p.velocity && !velocity_.empty()) add(*p.velocity, p.dimension);
   }
   for (const LinkPose& p : poses_) {
     add(p.origin, 3);
@@ -139,7 +139,9 @@ Assembly Draft::assembly() const {
     const Expression left = *next++;
     mechanism.constrain(e.inequality ? left >= Expression(0) : left == Expression(0), e.where, e.note);
   }
-  for (const DraftRate& r : rates_) mechanism.rate(r.name, r.kind, r.role, r.where);
+  // Rates alone say nothing: an open chain without outputs.
+  for (const DraftRate& r : velocity_.empty() ? std::vector<DraftRate>{} : rates_)
+    mechanism.rate(r.name, r.kind, r.role, r.where);
   for (const DraftEquation& e : velocity_) mechanism.velocity(*next++ == Expression(0), e.where);
   const auto list = [&](std::size_t n) {
     std::vector<Expression> symbols(next, next + static_cast<std::ptrdiff_t>(n));
@@ -157,7 +159,7 @@ Assembly Draft::assembly() const {
     symbolic::DrawingPoint& point = drawing.points.emplace_back();
     point.name = p.name;
     point.coordinates = list(p.dimension);
-    if (p.velocity) point.velocity = list(p.dimension);
+    if (p.velocity && !velocity_.empty()) point.velocity = list(p.dimension);
   }
   mechanism.drawing(drawing);
   for (std::size_t l = 0; l < poses_.size(); ++l) {

@@ -23,8 +23,8 @@ class Draft {
   ex angle(const std::string& name, const std::optional<Range>& range, const SourceLocation& where);
   /// Without a range: what the equations leave.
   ex length(const std::string& name, const std::optional<Range>& range, const SourceLocation& where, bool auxiliary = false);
-  /// Components in [−size, size], defined by equations that the caller adds.
-  Vec vector(const std::string& name, int size, const SourceLocation& where);
+  /// No longer than 1, by equations that the caller adds. Its range is a little wider: the set is to reach no end of it.
+  Vec vector(const std::string& name, const SourceLocation& where);
   /// With |w| = 1.
   Vec unit_vector(const std::string& name, const SourceLocation& where);
 

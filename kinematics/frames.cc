@@ -72,7 +72,7 @@ bool Frames::is_simple(const Vec& v) const {
 Vec Frames::simplified(const Vec& v, const std::string& name, const SourceLocation& where) {
   const Vec clean{algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])};
   if (is_simple(clean)) return clean;
-  const Vec w = draft_.vector(name, 1, where);
+  const Vec w = draft_.vector(name, where);
   for (std::size_t i = 0; i < 3; ++i) draft_.equation(w[i] - clean[i], name, where);
   return w;
 }

@@ -123,11 +123,12 @@ class SpatialRobot {
     return p;
   }
 
-  /// A rod's component is no longer than the rod.
+  /// A rod's component is no longer than the rod; the range is a little wider, so that the set reaches no end of it.
   std::optional<Range> rod_range(const BodyJoint& j) const {
     const Joint& of = joint(j);
-    if (j.kind == JointKind::distance) return Range{-of.length, of.length};
-    if (range(j)) return Range{-range(j)->upper, range(j)->upper};
+    const Expression wider("11/10");
+    if (j.kind == JointKind::distance) return Range{-(wider * of.length), wider * of.length};
+    if (range(j)) return Range{-(wider * range(j)->upper), wider * range(j)->upper};
     return std::nullopt;
   }
 

@@ -253,7 +253,8 @@ void Mechanism::validate() const {
   drawing_.validate();
   validate_rates(validator);
   if (coordinates_.empty()) throw ModelError({name_, 0, 0}, "the model has no variables", "at least one, in [SYSTEM VARS]");
-  if (constraints_.empty()) throw ModelError({name_, 0, 0}, "the model has no equations", "at least one, in [SYSTEM EQS]");
+  if (constraints_.empty() && rates_.empty())
+    throw ModelError({name_, 0, 0}, "the model has no equations", "at least one, in [SYSTEM EQS]");
 }
 
 }  // namespace corank::symbolic

@@ -171,7 +171,8 @@ void ModelBuilder::finish(const SourceLocation& end) {
     throw ModelError(end, "the model is empty", "sections such as [SYSTEM VARS] and [SYSTEM EQS]");
   }
   if (mechanism.coordinates().empty()) throw ModelError(end, "the model has no variables", "at least one, in [SYSTEM VARS]");
-  if (!has_equations) throw ModelError(end, "the model has no equations", "at least one, in [SYSTEM EQS]");
+  if (!has_equations && mechanism.rates().empty())
+    throw ModelError(end, "the model has no equations", "at least one, in [SYSTEM EQS]");
   mechanism.inputs(inputs);
   mechanism.outputs(outputs);
   mechanism.drawing(std::move(drawing));

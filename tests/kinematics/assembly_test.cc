@@ -88,23 +88,23 @@ TEST(Assembly, ReadsBackTheTextOfItsMechanism) {
 }
 
 TEST(Assembly, KeepsThreeSlidersAsTheirEquations) {
-  const Assembly a = of(
-      "[CONSTANTS]\nL1 := 1\nL2 := 4/5\n[LINKS]\nground\nA\nB\nC\n[JOINTS]\n"
-      "prismatic y_A : ground (0,0,0)+(0,1,0) A (0,0,0)+(0,1,0) actuated\n"
-      "prismatic y_B : ground (0,0,0)+(0,1,0) B (0,0,0)+(0,1,0)\n"
-      "prismatic x_C : ground (0,0,0)+(1,0,0) C (0,0,0)+(1,0,0)\n"
-      "sph_sph p : A (0,0,0) C (0,0,0) length L1\nsph_sph q : B (0,0,0) C (0,0,0) length L2\n[OUTPUTS]\ny : joint y_B\n");
+  const Assembly a =
+      of("[CONSTANTS]\nL1 := 1\nL2 := 4/5\n[LINKS]\nground\nA\nB\nC\n[JOINTS]\n"
+         "prismatic y_A : ground (0,0,0)+(0,1,0) A (0,0,0)+(0,1,0) actuated\n"
+         "prismatic y_B : ground (0,0,0)+(0,1,0) B (0,0,0)+(0,1,0)\n"
+         "prismatic x_C : ground (0,0,0)+(1,0,0) C (0,0,0)+(1,0,0)\n"
+         "sph_sph p : A (0,0,0) C (0,0,0) length L1\nsph_sph q : B (0,0,0) C (0,0,0) length L2\n[OUTPUTS]\ny : joint y_B\n");
   EXPECT_EQ(a.space, Space::planar);
   EXPECT_THAT(equations(a), ElementsAre("-L1^2 + y_A^2 + x_C^2 = 0", "-L2^2 + y_B^2 + x_C^2 = 0"));
 }
 
 TEST(Assembly, KnowsASphericalRobotByItsAxes) {
-  const Assembly a = of(
-      "[LINKS]\nground\na\nb\n c\n[JOINTS]\n"
-      "revolute j1 : ground (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1) actuated\n"
-      "revolute j2 : a (0,0,0)+(0,3/5,4/5) b (0,0,0)+(0,0,1)\n"
-      "revolute j3 : b (0,0,0)+(0,1,0) c (0,0,0)+(0,0,1)\n"
-      "revolute j4 : c (0,0,0)+(3/5,0,4/5) ground (0,0,0)+(1,0,0)\n[OUTPUTS]\nt : joint j4\n");
+  const Assembly a =
+      of("[LINKS]\nground\na\nb\n c\n[JOINTS]\n"
+         "revolute j1 : ground (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1) actuated\n"
+         "revolute j2 : a (0,0,0)+(0,3/5,4/5) b (0,0,0)+(0,0,1)\n"
+         "revolute j3 : b (0,0,0)+(0,1,0) c (0,0,0)+(0,0,1)\n"
+         "revolute j4 : c (0,0,0)+(3/5,0,4/5) ground (0,0,0)+(1,0,0)\n[OUTPUTS]\nt : joint j4\n");
   EXPECT_EQ(a.space, Space::spherical);
   EXPECT_EQ(a.mobility, 1);
   EXPECT_EQ(a.mobility_by_joints, 1);
@@ -112,12 +112,12 @@ TEST(Assembly, KnowsASphericalRobotByItsAxes) {
 
 // Bennett 1903: sin(alpha)/a = sin(beta)/b; here a = 1, alpha = 30°, b = sqrt(3), beta = 60°.
 TEST(Assembly, SeesThatABennettLinkageMovesThoughTheCountSaysNo) {
-  const Assembly a = of(
-      "[CONSTANTS]\nh := sqrt(3)/2\n[LINKS]\ng\na\nb\nc\n[JOINTS]\n"
-      "revolute j1 : g (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1)\n"
-      "revolute j2 : a (1,0,0)+(0,-1/2,h) b (0,0,0)+(0,0,1)\n"
-      "revolute j3 : b (sqrt(3),0,0)+(0,-h,1/2) c (0,0,0)+(0,0,1)\n"
-      "revolute j4 : c (1,0,0)+(0,-1/2,h) g (-sqrt(3),0,0)+(0,h,1/2)\n");
+  const Assembly a =
+      of("[CONSTANTS]\nh := sqrt(3)/2\n[LINKS]\ng\na\nb\nc\n[JOINTS]\n"
+         "revolute j1 : g (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1)\n"
+         "revolute j2 : a (1,0,0)+(0,-1/2,h) b (0,0,0)+(0,0,1)\n"
+         "revolute j3 : b (sqrt(3),0,0)+(0,-h,1/2) c (0,0,0)+(0,0,1)\n"
+         "revolute j4 : c (1,0,0)+(0,-1/2,h) g (-sqrt(3),0,0)+(0,h,1/2)\n");
   EXPECT_EQ(a.space, Space::spatial);
   EXPECT_EQ(a.mobility, -2);
   EXPECT_EQ(a.mobility_by_joints, -2);
@@ -130,7 +130,8 @@ TEST(Assembly, RefusesWhatDoesNotFitTogether) {
       "revolute j2 : a (1,0,0)+(0,0,1) b (0,0,0)+(0,0,1)\n";
   EXPECT_THAT(fault(chain + "revolute j3 : b (1,0,0)+(0,0,1) ground (1,0,2)+(0,0,1)\n"),
               HasSubstr("the loop that the joint 'j2' closes leaves the plane and can never close"));
-  EXPECT_THAT(fault(chain + "fix : a b Tx(1)\nfix : a b Tx(2)\n"), HasSubstr("'b' elsewhere than the fixed joints before it"));
+  EXPECT_THAT(fault(chain + "fix : a b Tx(1)\nfix : a b Tx(2)\n"),
+              HasSubstr("'b' elsewhere than the fixed joints before it"));
   EXPECT_THAT(fault(chain + "fix : a b Rz(1)\nfix : a b Rz(2)\n"), HasSubstr("another orientation of 'b'"));
   EXPECT_THAT(fault(chain + "fix : a b id\n"), HasSubstr("which fixed joints make one body"));
   EXPECT_THAT(fault(chain + "prismatic s : b (0,0,0)+(1,0,0) ground (0,0,0)+(0,1,0)\n"), HasSubstr("prismatic"));
