@@ -22,15 +22,11 @@ class Portrayal {
         corners_(bodies.size()) {}
 
   void run() {
-    for (const BodyJoint& j : bodies_.joints) {
-      const std::string& name = robot_.joints[j.index].name;
-      const std::string at = corner(j.ends[0].body, local(j.ends[0]), name);
-      if (!points_coincide(j.kind)) {
-        corner(j.ends[1].body, local(j.ends[1]), name);
-      } else if (!known(j.ends[1].body, local(j.ends[1]))) {
-        corners_[j.ends[1].body].push_back({local(j.ends[1]), at});
-      }
-    }
+    // Joints that turn name the points that others share with them.
+    for (const BodyJoint& j : bodies_.joints)
+      if (points_coincide(j.kind)) add_corners(j);
+    for (const BodyJoint& j : bodies_.joints)
+      if (!points_coincide(j.kind)) add_corners(j);
     for (const Output& output : robot_.outputs)
       if (output.kind == Output::Kind::position || output.kind == Output::Kind::pose) {
         const Placement& at = bodies_.placement[output.link];
@@ -54,6 +50,16 @@ class Portrayal {
 
   static bool points_coincide(JointKind kind) {
     return kind == JointKind::revolute || kind == JointKind::universal || kind == JointKind::spherical;
+  }
+
+  void add_corners(const BodyJoint& j) {
+    const std::string& name = robot_.joints[j.index].name;
+    const std::string at = corner(j.ends[0].body, local(j.ends[0]), name);
+    if (!points_coincide(j.kind)) {
+      corner(j.ends[1].body, local(j.ends[1]), name);
+    } else if (!known(j.ends[1].body, local(j.ends[1]))) {
+      corners_[j.ends[1].body].push_back({local(j.ends[1]), at});
+    }
   }
 
   /// Where a joint is drawn: of a spherical robot, whose axes meet, on a sphere.
