@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "corank/tests/app/program.h"
 
@@ -371,6 +372,26 @@ TEST(PartsDocumentation, ShowsTheEquationsThatAreDerived) {
     ++shown;
   }
   EXPECT_EQ(shown, 4);
+}
+
+TEST(PartsDocumentation, OfTheReadmeIsWhatIsPrinted) {
+  const TemporaryFolder folder;
+  const std::string readme = read_text(CORANK_SOURCE_DIR "/README.md");
+  std::size_t at = readme.find("<!-- readme_parts");
+  ASSERT_NE(at, std::string::npos);
+  std::array<std::string, 2> blocks;  // the robot, and lines of the output
+  for (std::string& block : blocks) {
+    at = readme.find("\n```\n", at) + 5;
+    const std::size_t end = readme.find("\n```\n", at);
+    block = readme.substr(at, end + 1 - at);
+    at = end + 5;
+  }
+  const std::string file = folder.write("rssr.cuik", blocks[0]);
+  const std::string out = "\n" + run_corank({"derive", file}).out + run_corank({"solve", file, "--set", "forward"}).out;
+  std::istringstream lines(blocks[1]);
+  int shown = 0;
+  for (std::string line; std::getline(lines, line); ++shown) EXPECT_THAT(out, HasSubstr("\n" + line + "\n"));
+  EXPECT_EQ(shown, 8);
 }
 
 }  // namespace
