@@ -33,8 +33,8 @@ struct QuestionOptions {
   void add_definitions(CLI::App& command);
 };
 
-/// Reads the model and puts the constants of the options in: the question, but for its set. Tells the notices about the file,
-/// without those that were `said` before. Throws ModelError, UsageError.
+/// Reads the model and puts the constants of the options in: the question, but for its set. Tells the notices about the
+/// file, without those that were `said` before. Throws ModelError, UsageError.
 study::Question load(const QuestionOptions& options, std::set<std::string>* said = nullptr);
 
 /// The set that is asked for: nothing for a plain system. Throws UsageError where a mechanism is given and no set, or a set
