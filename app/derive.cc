@@ -1,41 +1,79 @@
 // corank derive: the equations, for people (text, latex) and for programs (cuik); the model itself (model).
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/printable.h"
+#include "corank/result/result_file.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/model_error.h"
 #include "corank/symbolic/model_text.h"
 #include "corank/symbolic/printer.h"
 
 namespace corank::app {
 namespace {
 
-ExitStatus derive(QuestionOptions options, const std::string& format) {
+struct DeriveCommand {
+  QuestionOptions question;
+  std::string format = "text", path;
+};
+
+/// Of what corank derive wrote into a file in the model language, which it may write again.
+constexpr std::string_view kMark = "% Derived by corank from ";
+
+/// Throws UsageError where the path is that of an input, a model's file that was not made here among them.
+void check_path(const std::string& path, const std::string& model) {
+  const std::filesystem::path file = path;
+  if (path.empty() || !std::filesystem::exists(file)) return;
+  std::error_code ignored;
+  const std::string extension = file.extension().string();
+  bool kept = std::filesystem::equivalent(file, model, ignored);
+  for (const char* input : {".world", ".urdf", ".loops", ".param"}) kept = kept || extension == input;
+  if (extension == ".cuik" && !kept) {
+    std::string begin(kMark.size(), '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    kept = begin != kMark;
+  }
+  if (kept) throw UsageError(path + ": not written over, it was not made by corank derive; remove it first");
+}
+
+std::string derivation(QuestionOptions options, const std::string& format) {
   study::Question question = load(options);
-  if (question.assembly) fmt::print("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
-  if (question.assembly && question.model.constraints().empty()) {
-    fmt::print("It has no loops and no outputs: every value of its joints is a configuration.\n");
-    return kDone;
-  }
-  if (format == "model") {
-    fmt::print("{}", result::printable(symbolic::to_model(question.model)));
-    return kDone;
-  }
+  std::string head;
+  if (question.assembly)
+    head = fmt::format("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
+  if (question.assembly && question.model.constraints().empty())
+    return head + "It has no loops and no outputs: every value of its joints is a configuration.\n";
+  if (format == "model") return head + symbolic::to_model(question.model);
   if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
   question.set = chosen_set(options, question.model);
   const symbolic::TrigonometricSystem system = study::equations(question);
   if (!system.claimed.empty()) static_cast<void>(study::system(question, system));  // refuses what does not follow
-  if (format == "cuik") {
-    fmt::print("{}", result::printable(symbolic::to_cuik(symbolic::algebrize(system))));
-  } else {
-    const symbolic::Derivation derivation = symbolic::derive(question.model);
-    fmt::print("{}", result::printable(format == "latex" ? symbolic::to_latex(derivation, system)
-                                                         : symbolic::to_text(derivation, system)));
+  if (format == "cuik") return head + symbolic::to_cuik(symbolic::algebrize(system));
+  const symbolic::Derivation derivation = symbolic::derive(question.model);
+  return head + (format == "latex" ? symbolic::to_latex(derivation, system) : symbolic::to_text(derivation, system));
+}
+
+ExitStatus derive(const DeriveCommand& command) {
+  check_path(command.path, command.question.file);
+  const std::string text = derivation(command.question, command.format);
+  if (command.path.empty()) {
+    fmt::print("{}", result::printable(text));
+    return kDone;
   }
+  const bool is_model = command.format == "cuik" || command.format == "model";
+  if (is_model && text.find("\n[SYSTEM VARS]") == std::string::npos)
+    throw symbolic::ModelError({command.question.file, 0, 0},
+                               "there are no equations to write: the robot has no loops and no outputs",
+                               "a robot with a loop or an output");
+  const std::string name = std::filesystem::path(command.question.file).filename().string();
+  result::write_text(command.path, (is_model ? std::string(kMark) + result::printable_line(name) + ".\n" : "") + text);
   return kDone;
 }
 
@@ -43,19 +81,19 @@ ExitStatus derive(QuestionOptions options, const std::string& format) {
 
 void add_derive(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("derive", "Print the constraints, their Jacobian blocks and a system");
-  const auto question = std::make_shared<QuestionOptions>();
-  const auto format = std::make_shared<std::string>("text");
-  question->add_options(*command);
+  const auto options = std::make_shared<DeriveCommand>();
+  options->question.add_options(*command);
   command
-      ->add_option("--format", *format,
+      ->add_option("--format", options->format,
                    "text or latex: with sines and cosines; cuik: polynomials, a file that corank solve accepts;\n"
                    "model: the model itself in order, whatever --set")
       ->check(CLI::IsMember({"text", "latex", "cuik", "model"}))
       ->capture_default_str();
+  command->add_option("-o", options->path, "Write it to this file in place of standard output")->type_name("FILE");
   command->footer(
       "The set is cspace where --set is not given.\n\n"
       "Example:\n  corank derive models/dextar.cuik --set inverse --format latex");
-  command->callback([=, &action] { action = [=] { return derive(*question, *format); }; });
+  command->callback([=, &action] { action = [=] { return derive(*options); }; });
 }
 
 }  // namespace corank::app

@@ -9,11 +9,7 @@
 namespace corank::app {
 
 void QuestionOptions::add_options(CLI::App& command) {
-  command.add_option("FILE", file, "The model: equations (.cuik), parts (.world, or .cuik with [LINKS]) or URDF (.urdf)");
-  command
-      .add_option("--loops", loops, "Of a URDF file: its companion, with the joints that close loops, inputs and outputs")
-      ->type_name("FILE.loops")
-      ->check(CLI::ExistingFile);
+  add_model(command);
   command.add_option("--set", set, "The set of a mechanism: " + symbolic::names_of_sets())->check(CLI::IsMember(kSets));
   command
       .add_option("--kernel", kernel,
@@ -22,6 +18,14 @@ void QuestionOptions::add_options(CLI::App& command) {
       ->check(CLI::IsMember({"right", "left"}));
   add_corank(command);
   add_definitions(command);
+}
+
+void QuestionOptions::add_model(CLI::App& command) {
+  command.add_option("FILE", file, "The model: equations (.cuik), parts (.world, or .cuik with [LINKS]) or URDF (.urdf)");
+  command
+      .add_option("--loops", loops, "Of a URDF file: its companion, with the joints that close loops, inputs and outputs")
+      ->type_name("FILE.loops")
+      ->check(CLI::ExistingFile);
 }
 
 void QuestionOptions::add_corank(CLI::App& command) {
@@ -56,14 +60,14 @@ std::vector<result::ConstantOverride> overrides(const QuestionOptions& question)
 
 }  // namespace
 
-study::Question load(const QuestionOptions& options) {
+study::Question load(const QuestionOptions& options, std::set<std::string>* said) {
   if (options.file.empty()) throw UsageError("FILE is required; corank --help tells more");
   std::vector<result::ConstantOverride> constants = overrides(options);
   std::optional<std::filesystem::path> loops;
   if (!options.loops.empty()) loops = options.loops;
   study::Model model = study::read_model(options.file, constants, loops);
   for (const std::string& notice : model.notices)
-    fmt::print(stderr, "{}: note: {}\n", options.file, result::printable(notice));
+    if (!said || said->insert(notice).second) fmt::print(stderr, "{}: note: {}\n", options.file, result::printable(notice));
   return {.model = std::move(model.mechanism),
           .kernel = symbolic::kernel_side_from_string(options.kernel),
           .corank = options.corank,

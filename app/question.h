@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,16 @@ struct QuestionOptions {
 
   /// FILE, --loops, --set, --kernel, --corank and -D.
   void add_options(CLI::App& command);
+  /// FILE and --loops.
+  void add_model(CLI::App& command);
   void add_corank(CLI::App& command);
   /// -D alone.
   void add_definitions(CLI::App& command);
 };
 
-/// Reads the model and puts the constants of the options in: the question, but for its set. Throws ModelError, UsageError.
-study::Question load(const QuestionOptions& options);
+/// Reads the model and puts the constants of the options in: the question, but for its set. Tells the notices about the
+/// file, without those that were `said` before. Throws ModelError, UsageError.
+study::Question load(const QuestionOptions& options, std::set<std::string>* said = nullptr);
 
 /// The set that is asked for: nothing for a plain system. Throws UsageError where a mechanism is given and no set, or a set
 /// of a plain system is asked for.

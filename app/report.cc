@@ -159,7 +159,7 @@ ExitStatus write_report(ReportCommand command) {
 void add_report(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand("report", "Solve all sets of a mechanism and write a page about them");
   const auto command = std::make_shared<ReportCommand>();
-  sub->add_option("FILE", command->question.file, "The model file (.cuik) of a mechanism");
+  command->question.add_model(*sub);
   command->search.add_sets(*sub);
   command->question.add_corank(*sub);
   command->question.add_definitions(*sub);

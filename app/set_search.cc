@@ -65,6 +65,7 @@ solve::Options SetSearch::options(const System& system, SingularitySet set) cons
 
 std::string SetSearch::command_line(const std::string& subcommand, const QuestionOptions& question) const {
   std::string text = "corank " + subcommand + " " + std::filesystem::path(question.file).filename().string();
+  if (!question.loops.empty()) text += " --loops " + std::filesystem::path(question.loops).filename().string();
   if (sigma) text += fmt::format(" --sigma {:g}", *sigma);
   if (cspace_sigma) text += fmt::format(" --cspace-sigma {:g}", *cspace_sigma);
   if (question.corank != 1) text += fmt::format(" --corank {}", question.corank);

@@ -43,7 +43,18 @@ solve::Options options_of(const SolveCommand& command) {
   return options;
 }
 
+// As cuik does: the parameters that stand beside a mechanism file of the suite.
+std::string parameters_beside(const std::string& model) {
+  std::filesystem::path path = model;
+  if (path.extension() != ".world" || !std::filesystem::exists(path.replace_extension(".param"))) return "";
+  fmt::print(
+      stderr, "{}: note: {}\n", result::printable_line(model),
+      result::printable_line(fmt::format("with the parameters of {}, where the command line has none", path.string())));
+  return path.string();
+}
+
 void apply_parameters(SolveCommand& command, const System& system) {
+  if (command.param_path.empty()) command.param_path = parameters_beside(command.question.file);
   if (command.param_path.empty()) return;
   const result::CuikParameters parameters = result::read_param(command.param_path);
   if (!command.sigma) command.sigma = result::sigma_for(parameters, system);
@@ -162,7 +173,8 @@ void add_solve(CLI::App& program, Action& action) {
                   "where its name ends in .sol")
       ->type_name("RESULT.h5|.sol");
   sub->add_option("--param", command->param_path,
-                  "A parameter file of the CUIK suite; its SIGMA and N_SOLUTIONS give way to --sigma and --max-solutions")
+                  "A parameter file of the CUIK suite; its SIGMA and N_SOLUTIONS give way to --sigma and --max-solutions;\n"
+                  "default: for NAME.world NAME.param, where that exists")
       ->type_name("FILE.param");
   CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
       "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "corank/app/family.h"
 #include "corank/app/figures.h"
@@ -15,6 +16,7 @@
 #include "corank/report/page_words.h"
 #include "corank/result/result_file.h"
 #include "corank/study/answer.h"
+#include "corank/study/model.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_error.h"
 
@@ -37,21 +39,36 @@ struct Plan {
   std::vector<System> systems;  ///< of the sets
 };
 
-Plan plan(const SweepCommand& command, const Family& family, std::size_t k) {
-  QuestionOptions options = command.question;
-  options.definitions = definitions_of(family, k, command.question.definitions);
-  Plan p{family.values[k], load(options), {}};
-  for (const std::string& name : command.search.sets) {
-    p.question.set = symbolic::singularity_set_from_string(name);
-    p.systems.push_back(study::system(p.question));
-  }
-  return p;
+/// A robot's equations depend on its constants: at special values its axes are parallel, and it has other coordinates.
+void check_alike(const std::string& constant, const Plan& first, const Plan& other) {
+  const auto names = [](const Plan& p) {
+    std::vector<std::string> list;
+    for (const symbolic::Coordinate& c : p.question.model.coordinates()) list.push_back(c.name);
+    return list;
+  };
+  if (names(first) == names(other)) return;
+  const auto words = [](const Plan& p) {
+    return p.question.assembly ? study::describe(*p.question.assembly)
+                               : fmt::format("{} coordinates", p.question.model.coordinates().size());
+  };
+  throw UsageError(fmt::format("at {} = {} the mechanism has other coordinates ({}) than at {} ({}); a sweep needs the same",
+                               constant, other.value, words(other), first.value, words(first)));
 }
 
 /// All of them before the first search, so that a value that makes no mechanism is known at once.
 std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
   std::vector<Plan> plans;
-  for (std::size_t k = 0; k < family.values.size(); ++k) plans.push_back(plan(command, family, k));
+  std::set<std::string> said;
+  for (std::size_t k = 0; k < family.values.size(); ++k) {
+    QuestionOptions options = command.question;
+    options.definitions = definitions_of(family, k, command.question.definitions);
+    Plan& p = plans.emplace_back(Plan{family.values[k], load(options, &said), {}});
+    check_alike(family.constant, plans.front(), p);
+    for (const std::string& name : command.search.sets) {
+      p.question.set = symbolic::singularity_set_from_string(name);
+      p.systems.push_back(study::system(p.question));
+    }
+  }
   return plans;
 }
 
@@ -145,7 +162,7 @@ ExitStatus write_sweep(SweepCommand command) {
 void add_sweep(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand("sweep", "Solve a family of mechanisms that differ in one constant, on one page");
   const auto command = std::make_shared<SweepCommand>();
-  sub->add_option("FILE", command->question.file, "The model file (.cuik) of a mechanism");
+  command->question.add_model(*sub);
   sub->add_option("-D", command->question.definitions,
                   "NAME=FROM:TO:COUNT: the constant that runs through COUNT equally spaced values, ends included;\n"
                   "NAME=EXPR: another value for a constant, for all of them. May be repeated")

@@ -195,9 +195,11 @@ class PlanarRobot {
     const SourceLocation& where = joint(j).where;
     const Turn& base = *turns_[group(parent.body)];
     const bool from_ground = base.angle.is_zero();
-    if (j.kind != JointKind::revolute || !(is_asked_for(j.index) || from_ground))
-      return {{1, 0}, draft_.angle(angle_name(child.body), {}, where)};
     const bool named = is_asked_for(j.index) || joint(j).is_named;
+    // A joint that is told from the link to the ground counts the link's angle backwards: it needs a reason to be it.
+    const bool is_link_angle = from == 0 || named || range(j);
+    if (j.kind != JointKind::revolute || !(is_asked_for(j.index) || (from_ground && is_link_angle)))
+      return {{1, 0}, draft_.angle(angle_name(child.body), {}, where)};
     const ex theta = draft_.angle(named ? joint(j).name : angle_name(child.body), range(j), where);
     coordinate_[j.index] = theta;
     const Complex z0 = in_plane(group(parent.body), parent.zero), z1 = in_plane(group(child.body), child.zero);

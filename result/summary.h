@@ -24,9 +24,11 @@ std::string to_table(const Result& result);
 /// inside of. `range_ends` is a list of {variable, reached}: declared ranges whose ends the set reaches (proven), or may
 /// reach. `ranges_found` has name: {lo, hi} of each variable without a declared range.
 /// `points` is null where the dimension is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel
-/// unknowns as they are, angles in radians in place of their sines and cosines. `kernel` is null where its dimension is not
-/// known, else at_most{bound: boxes}, without undecided boxes that hold no known point, and points, where the dimension is
-/// known to be 2 or more: a list of {dimension, exact{name: text}}. Every double reads back as the same double.
+/// unknowns as they are, angles in radians in place of their sines and cosines; of a robot from parts also
+/// joints{name: value} and links{name: {position, rotation}}, poses in the world at the middle of the point's box. `kernel`
+/// is null where its dimension is not known, else at_most{bound: boxes}, without undecided boxes that hold no known point,
+/// and points, where the dimension is known to be 2 or more: a list of {dimension, exact{name: text}}. Every double reads
+/// back as the same double.
 std::string to_json(const Result& result);
 
 }  // namespace corank::result

@@ -1,11 +1,13 @@
 #!/bin/bash
-# Makes doc/images/ anew: photographs of Dextar's report and of its family's page in a headless Chromium.
+# Makes doc/images/ anew: photographs of Dextar's report, of its family's page, and of the report of the tutorial on parts, in a headless
+# Chromium.
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
 build_release corank
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$build/app/corank" report "$root/models/dextar.cuik" -o "$work"
 "$build/app/corank" sweep "$root/models/dextar.cuik" -D l2=1.6:0.9:8 -o "$work/family"
+(cd "$work" && PATH="$build/app:$PATH" bash -euc "$(sed -n '/^```sh$/,/^```$/{/^```/!p}' "$root/doc/tutorial_parts.md")")
 PYTHONPATH="$root/tests/browser" python3 -B - "$work/index.html" "$root/doc/images" <<'PYTHON'
 import pathlib
 import sys
@@ -23,4 +25,7 @@ with Browser(1240, 1000) as browser:
     browser.run("corank.family.choose(2)")
     browser.drawn()
     browser.photograph(".family-stage", folder / "dextar_family.png")
+    browser.open(pathlib.Path(page).parent / "five_bar/index.html")
+    browser.drawn()
+    browser.photograph(".stage", folder / "five_bar_parts.png")
 PYTHON

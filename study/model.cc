@@ -19,6 +19,8 @@ using symbolic::ModelError;
 // A .cuik file in the parts language?
 bool is_in_parts(const std::filesystem::path& path) {
   if (path.extension() == ".world") return true;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // what can't be read, or only once
   std::ifstream in(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   return kinematics::has_parts(text);

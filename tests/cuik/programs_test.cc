@@ -1,9 +1,10 @@
-// cuik, cuikplot3d, cuikatan2 and the subcommands behind them, as a user runs them.
+// cuikequations, cuik, cuikplot3d, cuikatan2 and the subcommands behind them, as a user runs them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "corank/result/cuik_sol.h"
 #include "corank/tests/cuik/shell.h"
+#include "corank/tests/cuik/suite_files.h"
 
 namespace corank::cuik {
 namespace {
@@ -118,6 +119,131 @@ TEST(Cuik, EndsAfterAsManySolutionsAsTheParametersAskFor) {
   folder.write("circle.param", "SIGMA = 0.01\nN_SOLUTIONS = 0\n");
   EXPECT_EQ(folder.run("cuik circle").status, 0);
   EXPECT_GT(regular(), 500);
+}
+
+// A four-bar linkage of our own lengths whose crank turns round: 0.8 + 2 < 1.75 + 1.5.
+constexpr const char* kFourBar =
+    "[CONSTANTS]\nd := 2\nc := 0.8\nk := 1.75\nr := 1.5\n"
+    "[LINKS]\nground\ncrank\ncoupler\nrocker\n"
+    "[JOINTS]\nREVOLUTE: ground (0, 0, 0) (0, 0, 1) crank (0, 0, 0) (0, 0, 1)\n"
+    "REVOLUTE: crank (c, 0, 0) (c, 0, 1) coupler (0, 0, 0) (0, 0, 1)\n"
+    "REVOLUTE: coupler (k, 0, 0) (k, 0, 1) rocker (r, 0, 0) (r, 0, 1)\n"
+    "REVOLUTE: rocker (0, 0, 0) (0, 0, 1) ground (d, 0, 0) (d, 0, 1)\n";
+
+bool covers(const SolFile& file, const std::vector<std::pair<std::string, double>>& angles) {
+  return std::any_of(file.boxes.begin(), file.boxes.end(), [&](const result::SolBox& b) {
+    return std::all_of(angles.begin(), angles.end(), [&](const auto& angle) {
+      const auto side = [&](const char* kind) { return b.box.at(static_cast<std::size_t>(file.find(kind + angle.first))); };
+      const Interval c = side("c_"), s = side("s_");
+      return c.lo() - 1e-9 <= std::cos(angle.second) && std::cos(angle.second) <= c.hi() + 1e-9 &&
+             s.lo() - 1e-9 <= std::sin(angle.second) && std::sin(angle.second) <= s.hi() + 1e-9;
+    });
+  });
+}
+
+TEST(Cuikequations, WritesEquationsThatCuikSolvesAndCuikplot3dDraws) {
+  const Folder folder;
+  folder.write("fourbar.world", kFourBar);
+  folder.write("fourbar.param", "SIGMA = 0.05\n");
+  const Outcome run = folder.run("cuikequations fourbar && cuik fourbar && cuikplot3d fourbar 1 2 3 0 fourbar");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, HasSubstr("6 variables, 5 equations, 0 inequalities; dimension 1\nsigma 0.05\ncomplete"));
+  EXPECT_THAT(folder.read("fourbar.cuik"), HasSubstr("% planar, 4 links, mobility 1\n"));
+  EXPECT_THAT(folder.read("fourbar.gcl"), HasSubstr("OFF "));
+  const SolFile file = result::read_sol(folder.file("fourbar.sol"));
+  EXPECT_LE(widest(file), 0.0501);
+  for (int degree = 0; degree < 360; degree += 5) {
+    const double t = degree * kPi / 180, x = 0.8 * std::cos(t) - 2, y = 0.8 * std::sin(t), q = std::hypot(x, y);
+    for (const int side : {-1, 1}) {  // the triangle of rocker and coupler over their feet's distance q
+      const double rocker = std::atan2(y, x) + side * std::acos((1.5 * 1.5 + q * q - 1.75 * 1.75) / (2 * 1.5 * q));
+      const double coupler = std::atan2(1.5 * std::sin(rocker) - y, 1.5 * std::cos(rocker) - x);
+      EXPECT_TRUE(covers(file, {{"phi_crank", t}, {"phi_rocker", rocker}, {"phi_coupler", coupler}})) << degree;
+    }
+  }
+}
+
+TEST(Cuikequations, WritesAllConfigurationsWhateverTheInputs) {
+  const Folder folder;
+  folder.write("a.world", std::string(kFourBar) + "[OUTPUTS]\nP : position of coupler (1, 0, 0)\n");
+  EXPECT_EQ(folder.run("corank solve a.world").status, 2) << "a mechanism has sets";
+  const Outcome run = folder.run("cuikequations a.world && cuik a --sigma 0.1");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("8 variables, 7 equations"));
+  EXPECT_EQ(folder.run("cuikequations a -D c=0.5").status, 0) << "it may write its own file again";
+  EXPECT_THAT(folder.read("a.cuik"), HasSubstr("0.5*c_phi_crank"));
+}
+
+TEST(Cuikequations, NeverWritesOverAModel) {
+  const Folder folder;
+  folder.write("a.world", kFourBar);
+  folder.write("a.cuik", kCircle);
+  const Outcome kept = folder.run("cuikequations a");
+  EXPECT_EQ(kept.status, 2);
+  EXPECT_THAT(kept.err, HasSubstr("cuikequations: a.cuik: not written over"));
+  EXPECT_EQ(folder.read("a.cuik"), kCircle);
+  for (const char* input : {"a.world", "a.cuik", "./a.world"})
+    EXPECT_EQ(folder.run(std::string("corank derive a.world --format cuik -o ") + input).status, 2) << input;
+  EXPECT_EQ(folder.read("a.world"), kFourBar);
+  EXPECT_EQ(folder.run("corank derive a.world -o a.txt && corank derive a.world --format latex -o a.txt").status, 0);
+}
+
+TEST(Cuikequations, HasTheExitStatusesOfCorankDerive) {
+  const Folder folder;
+  EXPECT_EQ(folder.run("cuikequations").status, 2);
+  EXPECT_EQ(folder.run("cuikequations --help").status, 0);
+  EXPECT_EQ(folder.run("cuikequations nothing").status, 1);
+  folder.write("open.world", "[LINKS]\nground\narm\n[JOINTS]\nrevolute: ground (0,0,0)(0,0,1) arm (0,0,0)(0,0,1)\n");
+  const Outcome open = folder.run("cuikequations open");
+  EXPECT_EQ(open.status, 1);
+  EXPECT_THAT(open.err, HasSubstr("open.world: there are no equations to write"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("open.cuik")));
+  folder.write("wrong.world", "[LINKS]\nground\narm\n[JOINTS]\nrevolute: ground (0,0,0)(0,0,1) amr (0,0,0)(0,0,1)\n");
+  const Outcome wrong = folder.run("cuikequations wrong");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("cuikequations: wrong.world:5:"));
+}
+
+TEST(CorankSolve, TakesTheParametersBesideAWorld) {
+  const Folder folder;
+  folder.write("fourbar.world", kFourBar);
+  const auto run = [&](const std::string& options) { return folder.run("corank solve fourbar.world " + options); };
+  EXPECT_THAT(run("").err, Not(HasSubstr("param")));
+  folder.write("fourbar.param", "SIGMA = 0.07\n");
+  folder.write("other.param", "SIGMA = 0.09\n");
+  const Outcome beside = run("");
+  EXPECT_EQ(beside.status, 0) << beside.err;
+  EXPECT_THAT(beside.out, HasSubstr("sigma 0.07\n"));
+  EXPECT_EQ(beside.err, "fourbar.world: note: with the parameters of fourbar.param, where the command line has none\n");
+  EXPECT_THAT(run("--sigma 0.08").out, HasSubstr("sigma 0.08\n"));
+  const Outcome other = run("--param other.param");
+  EXPECT_THAT(other.out, HasSubstr("sigma 0.09\n"));
+  EXPECT_EQ(other.err, "");
+  folder.write("fourbar.param", "SIGMA = \n");
+  EXPECT_EQ(run("").status, 1);
+}
+
+// With four equal bars the C-space is three circles that cross where all bars are on one line.
+TEST(SuiteTutorial, FourBarsRuns) {
+  SKIP_WITHOUT_SUITE_FILES();
+  const std::filesystem::path source = suite_folder() / "worlds/FourBars";
+  if (!std::filesystem::exists(source)) GTEST_SKIP() << "no mechanism files in " << suite_folder();
+  const Folder folder;
+  for (const char* name : {"FourBars.world", "FourBars.param"}) folder.write(name, read_text(source / name));
+  const Outcome run = folder.run("cuikequations FourBars && cuik FourBars && cuikplot3d FourBars 1 3 5 0 fb.gcl");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(folder.read("fb.gcl"), HasSubstr("OFF "));
+  const SolFile file = result::read_sol(folder.file("FourBars.sol"));
+  EXPECT_LE(widest(file), 0.0501);
+  for (int degree = 0; degree < 360; degree += 5) {
+    const double t = degree * kPi / 180;
+    EXPECT_TRUE(covers(file, {{"phi_link2", kPi}, {"phi_link3", t + kPi}, {"phi_link4", t}})) << degree;
+    EXPECT_TRUE(covers(file, {{"phi_link2", t}, {"phi_link3", kPi}, {"phi_link4", t + kPi}})) << degree;
+    EXPECT_TRUE(covers(file, {{"phi_link2", t}, {"phi_link3", t + kPi}, {"phi_link4", kPi}})) << degree;
+  }
+  const auto undecided = std::count_if(file.boxes.begin(), file.boxes.end(),
+                                       [](const result::SolBox& b) { return b.verdict == Verdict::undecided; });
+  EXPECT_LE(undecided, 20) << "at the three crossings";
 }
 
 TEST(CorankSolve, WritesSolByItsExtensionAndNeverOverInputs) {

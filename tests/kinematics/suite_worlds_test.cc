@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 
+#include "corank/kinematics/assembly.h"
 #include "corank/kinematics/part_file.h"
 #include "corank/tests/cuik/suite_files.h"
 
@@ -55,12 +56,41 @@ TEST(SuiteWorlds, AreReadOrRefusedByNameAsTheDocumentationSays) {
       result = "refused: " + why_refused(error.what());
     }
     const std::string name = fs::relative(path, cuik::suite_folder() / "worlds").generic_string();
-    const std::string line = "| " + name + " | " + result + " |\n";
+    const std::string line = "\n| " + name + " | " + result + " |";
     EXPECT_NE(doc.str().find(line), std::string::npos) << "doc/cuik.md lacks " << line;
   }
   EXPECT_EQ(files.size(), 122u);
   EXPECT_EQ(read, 102u);
   std::cout << read << " of " << files.size() << " mechanism files are read\n";
+}
+
+std::string how_it_moves(const Robot& robot) {
+  const Assembly assembly = assemble(robot);
+  std::string text = std::string(to_string(assembly.space)) + ", mobility " + std::to_string(assembly.mobility);
+  if (assembly.mobility_by_rank && *assembly.mobility_by_rank > assembly.mobility)
+    text += ", " + std::to_string(*assembly.mobility_by_rank) + " by the rank";
+  return text;
+}
+
+TEST(SuiteWorlds, MoveAsTheDocumentationSays) {
+  SKIP_WITHOUT_SUITE_FILES();
+  if (!fs::exists(cuik::suite_folder() / "worlds")) GTEST_SKIP() << "no mechanism files in " << cuik::suite_folder();
+  std::ifstream doc(CORANK_SOURCE_DIR "/doc/cuik.md");
+  static const std::regex row("\\| (\\S+\\.world) \\| (read: [^|]*) \\| ([^|]*)\\|");
+  std::size_t read = 0, assembled = 0;
+  for (std::string line; std::getline(doc, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, row)) continue;
+    ++read;
+    const std::string what = match[2], moves = match[3];
+    const bool whole = what.find("missing") == std::string::npos;
+    EXPECT_EQ(whole, !moves.empty()) << line;
+    if (!whole) continue;
+    ++assembled;
+    EXPECT_EQ(how_it_moves(read_part_file(cuik::suite_folder() / "worlds" / match[1].str())) + " ", moves) << line;
+  }
+  EXPECT_EQ(read, 102u);
+  EXPECT_EQ(assembled, 86u);
 }
 
 // The number of coordinates less that of constraints, six for each link: what the suite prints for some of its mechanisms.

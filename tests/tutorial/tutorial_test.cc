@@ -1,4 +1,4 @@
-// doc/tutorial.md does what it says.
+// doc/tutorial.md and doc/tutorial_parts.md do what they say.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,10 +14,10 @@ namespace {
 using result::SolFile;
 using ::testing::HasSubstr;
 
-// The sh blocks of the tutorial, one after the other.
-std::string commands() {
-  const std::string text = read_text(CORANK_SOURCE_DIR "/doc/tutorial.md");
-  const std::string open = "\n```sh\n", close = "\n```\n";
+// The blocks of a tutorial in this language, one after the other.
+std::string blocks(const std::string& tutorial, const std::string& language) {
+  const std::string text = read_text(CORANK_SOURCE_DIR "/doc/" + tutorial);
+  const std::string open = "\n```" + language + "\n", close = "\n```\n";
   std::string commands;
   for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
     at += open.size();
@@ -27,6 +27,8 @@ std::string commands() {
   }
   return commands;
 }
+
+std::string commands() { return blocks("tutorial.md", "sh"); }
 
 bool covers(const SolFile& file, const std::vector<std::pair<std::string, double>>& point) {
   return std::any_of(file.boxes.begin(), file.boxes.end(), [&](const result::SolBox& box) {
@@ -95,6 +97,27 @@ TEST(Tutorial, TheInputPortraitHoldsTheAnglesOfTheOutputPortrait) {
   const double x = kD / 2, y = 1.0, r = std::hypot(x, y), base = std::atan2(y, x), knee = std::acos(r / (2 * kL));
   const double theta5 = base + knee, theta2 = std::numbers::pi - theta5;
   EXPECT_TRUE(covers(file, {{"J3x", x}, {"J3y", y}, {"7", theta2}, {"8", theta5}}));
+}
+
+// What is shown of the output are whole lines of it.
+TEST(PartsTutorial, RunsWordForWordAndShowsWhatItPrints) {
+  const Folder folder;
+  const Outcome run = folder.run(blocks("tutorial_parts.md", "sh"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string out = "\n" + run.out;
+  std::istringstream shown(blocks("tutorial_parts.md", "text"));
+  int lines = 0;
+  for (std::string line; std::getline(shown, line);) {
+    if (line.empty()) continue;
+    EXPECT_THAT(out, HasSubstr("\n" + line + "\n"));
+    ++lines;
+  }
+  EXPECT_GE(lines, 30);
+  EXPECT_THAT(folder.read("fourbar.gcl"), HasSubstr("OFF "));
+  for (const char* page : {"fourbar/index.html", "five_bar/index.html"})
+    EXPECT_GT(folder.read(page).size(), 100'000u) << page;
+  for (const char* result : {"inverse.h5", "forward.h5"})
+    EXPECT_EQ(folder.run(std::string("corank verify ") + result).status, 0) << result;
 }
 
 }  // namespace

@@ -1,0 +1,398 @@
+// Robots from their parts on the command line: .cuik with [LINKS], .world, URDF with --loops.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "corank/tests/app/program.h"
+
+namespace corank::app {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+// Lengths and angles of the robots here are our own choice.
+
+// Two bars on a base, sides 3, 4, 5: a structure whose tip is at (3, ±4).
+constexpr const char* kTriangle =
+    "[LINKS]\nbase : point A (0, 0, 0)  point B (3, 0, 0)\nlong : point T (5, 0, 0)\nshort : point T (4, 0, 0)\n"
+    "[JOINTS]\nrevolute left : base A + (0, 0, 1)  long (0, 0, 0) + (0, 0, 1)\n"
+    "revolute right : base B + (0, 0, 1)  short (0, 0, 0) + (0, 0, 1)\n"
+    "revolute tip : long T + (0, 0, 1)  short T + (0, 0, 1)\n";
+
+// A spherical triangle: its axes make the angles pi/2, pi/3, pi/3.
+constexpr const char* kSpherical =
+    "[LINKS]\nbase : point O (0, 0, 0)\none : point O (0, 0, 0)\ntwo : point O (0, 0, 0)\n"
+    "[JOINTS]\nrevolute a : base O + (0, 0, 1)  one O + (0, 0, 1)\n"
+    "revolute b : one O + (sqrt(3)/2, 0, 1/2)  two O + (0, 0, 1)\n"
+    "revolute c : two O + (sqrt(3)/2, 0, 1/2)  base O + (1, 0, 0)\n";
+
+// A crank about the z axis whose end a rod ties to the ground, at a height of its own, and a hand that a universal joint
+// holds and two rods: a structure in space.
+constexpr const char* kSpatial =
+    "[LINKS]\nbase : point S (0, 0, 0)  point A (2, 0, 1)  point B (0, 3, 1)  point C (3, 2, 1)\n"
+    "crank : point S (0, 0, 0)  point E (1, 0, 1/2)\nhand : point E (0, 0, 0)  point P (1, 0, 0)  point Q (0, 1, 1)\n"
+    "[JOINTS]\nrevolute turn : base S + (0, 0, 1)  crank S + (0, 0, 1)\n"
+    "universal wrist : crank E + (0, 0, 1)  hand E + (0, 1, 0)\n"
+    "sph_sph r1 : base A  crank E  length 3/2\nsph_sph r2 : base B  hand P  length 2\nsph_sph r3 : base C  hand Q  length "
+    "2\n";
+
+constexpr const char* kUrdf =
+    "<robot name=\"triangle\"><link name=\"base\"/><link name=\"long\"/><link name=\"short\"/>\n"
+    "<joint name=\"left\" type=\"continuous\"><parent link=\"base\"/><child link=\"long\"/><axis xyz=\"0 0 1\"/></joint>\n"
+    "<joint name=\"right\" type=\"continuous\"><origin xyz=\"0.3 0 0\" rpy=\"0 0 1.5708\"/><parent link=\"base\"/>"
+    "<child link=\"short\"/><axis xyz=\"0 0 1\"/></joint>\n</robot>\n";
+constexpr const char* kLoops = "[LOOPS]\nrevolute tip : long (0.5, 0, 0)+(0, 0, 1)  short (0.4, 0, 0)+(0, 0, 1)\n";
+
+constexpr const char* kFourBar =
+    "[CONSTANTS]\nc := 0.8\n[LINKS]\nground\ncrank\ncoupler\nrocker\n"
+    "[JOINTS]\nrevolute drive : ground (0, 0, 0) (0, 0, 1) crank (0, 0, 0) (0, 0, 1)\n"
+    "REVOLUTE: crank (c, 0, 0) (c, 0, 1) coupler (0, 0, 0) (0, 0, 1)\n"
+    "REVOLUTE: coupler (1.75, 0, 0) (1.75, 0, 1) rocker (1.5, 0, 0) (1.5, 0, 1)\n"
+    "revolute swing : ground (2, 0, 0) (2, 0, 1) rocker (0, 0, 0) (0, 0, 1)\n"
+    "[INPUTS] drive\n[OUTPUTS] swing : joint swing\n";
+
+// The second axis leans by tilt.
+constexpr const char* kArm =
+    "[CONSTANTS]\ntilt := 0\n[LINKS]\nbase : point S (0, 0, 0)\nupper : point E (2, 0, 0)\nfore : point H (1, 0, 0)\n"
+    "[JOINTS]\nrevolute shoulder : base S + (0, 0, 1)  upper (0, 0, 0) + (0, 0, 1)  actuated\n"
+    "revolute elbow : upper E + (0, sin(tilt), cos(tilt))  fore (0, 0, 0) + (0, 0, 1)  actuated\n"
+    "[OUTPUTS]\nhand : position of fore.H\n";
+
+using Vector3 = std::array<double, 3>;
+
+Vector3 image(const json& link, const Vector3& v, bool is_point = true) {
+  Vector3 w{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    w[i] = is_point ? link["position"][i].get<double>() : 0;
+    for (std::size_t k = 0; k < 3; ++k) w[i] += link["rotation"][i][k].get<double>() * v[k];
+  }
+  return w;
+}
+
+double distance(const Vector3& a, const Vector3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+struct End {
+  const char* link;
+  Vector3 point, axis;
+};
+
+/// Of a revolute joint: its points and its axes coincide; of a rod, which has no axes: its length.
+void expect_joined(const json& links, const End& a, const End& b, double length = 0) {
+  EXPECT_NEAR(distance(image(links[a.link], a.point), image(links[b.link], b.point)), length, 1e-9) << a.link << b.link;
+  EXPECT_NEAR(distance(image(links[a.link], a.axis, false), image(links[b.link], b.axis, false)), 0, 1e-9);
+}
+
+void expect_rotation(const json& link) {
+  const Vector3 x = image(link, {1, 0, 0}, false), y = image(link, {0, 1, 0}, false), z = image(link, {0, 0, 1}, false);
+  const Vector3 product{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+  EXPECT_NEAR(distance(product, z), 0, 1e-9);
+  EXPECT_NEAR(std::hypot(x[0], x[1], x[2]), 1, 1e-9);
+}
+
+json solved(const std::vector<std::string>& args) {
+  std::vector<std::string> all{"solve"};
+  all.insert(all.end(), args.begin(), args.end());
+  all.emplace_back("--json");
+  const Outcome outcome = run_corank(all);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.status == 0 ? json::parse(outcome.out) : json::object();
+}
+
+const Vector3 kZ{0, 0, 1}, kNone{};
+
+TEST(Parts, PointsOfAPlanarStructureHavePosesThatFitItsJoints) {
+  const TemporaryFolder folder;
+  const json result = solved({folder.write("triangle.cuik", kTriangle)});
+  ASSERT_EQ(result["points"].size(), 2u);
+  for (const json& point : result["points"]) {
+    const json& links = point["links"];
+    ASSERT_EQ(links.size(), 3u);
+    for (const json& link : links) expect_rotation(link);
+    expect_joined(links, {"base", {0, 0, 0}, kZ}, {"long", {0, 0, 0}, kZ});
+    expect_joined(links, {"base", {3, 0, 0}, kZ}, {"short", {0, 0, 0}, kZ});
+    expect_joined(links, {"long", {5, 0, 0}, kZ}, {"short", {4, 0, 0}, kZ});
+    const double left = point["joints"]["left"], right = point["joints"]["right"], tip = point["joints"]["tip"];
+    EXPECT_NEAR(std::cos(left), 0.6, 1e-9);
+    EXPECT_NEAR(std::fabs(right), std::numbers::pi / 2, 1e-9);
+    EXPECT_NEAR(std::remainder(left + tip - right, 2 * std::numbers::pi), 0, 1e-9) << "the short bar's angle, both ways";
+  }
+}
+
+TEST(Parts, PointsOfASphericalStructureHavePosesThatFitItsJoints) {
+  const TemporaryFolder folder;
+  const json result = solved({folder.write("spherical.cuik", kSpherical)});
+  ASSERT_EQ(result["points"].size(), 2u);
+  for (const json& point : result["points"]) {
+    const json& links = point["links"];
+    for (const json& link : links) expect_rotation(link);
+    const Vector3 leaning{std::sqrt(3) / 2, 0, 0.5};
+    expect_joined(links, {"base", kNone, kZ}, {"one", kNone, kZ});
+    expect_joined(links, {"one", kNone, leaning}, {"two", kNone, kZ});
+    expect_joined(links, {"two", kNone, leaning}, {"base", kNone, {1, 0, 0}});
+    ASSERT_EQ(point["joints"].size(), 3u);
+    const double a = point["joints"]["a"];  // turns one's second axis; base's x axis is pi/3 away from it
+    EXPECT_NEAR(std::sqrt(3) / 2 * std::cos(a), 0.5, 1e-9);
+  }
+}
+
+TEST(Parts, PointsOfASpatialStructureHavePosesThatFitItsJoints) {
+  const TemporaryFolder folder;
+  const json result = solved({folder.write("spatial.cuik", kSpatial)});
+  ASSERT_GE(result["points"].size(), 2u);
+  for (const json& point : result["points"]) {
+    const json& links = point["links"];
+    for (const json& link : links) expect_rotation(link);
+    expect_joined(links, {"base", kNone, kZ}, {"crank", kNone, kZ});
+    expect_joined(links, {"crank", {1, 0, 0.5}, kNone}, {"hand", kNone, kNone});
+    const Vector3 first = image(links["crank"], kZ, false), second = image(links["hand"], {0, 1, 0}, false);
+    EXPECT_NEAR(first[0] * second[0] + first[1] * second[1] + first[2] * second[2], 0, 1e-9);
+    expect_joined(links, {"base", {2, 0, 1}, kNone}, {"crank", {1, 0, 0.5}, kNone}, 1.5);
+    expect_joined(links, {"base", {0, 3, 1}, kNone}, {"hand", {1, 0, 0}, kNone}, 2);
+    expect_joined(links, {"base", {3, 2, 1}, kNone}, {"hand", {0, 1, 1}, kNone}, 2);
+  }
+}
+
+TEST(Parts, OfUrdfAreJoinedByTheirCompanion) {
+  const TemporaryFolder folder;
+  const std::string urdf = folder.write("triangle.urdf", kUrdf), loops = folder.write("triangle.loops", kLoops);
+  const json result = solved({urdf, "--loops", loops});
+  ASSERT_EQ(result["points"].size(), 2u);
+  for (const json& point : result["points"]) {
+    const json& links = point["links"];
+    expect_joined(links, {"base", kNone, kZ}, {"long", kNone, kZ});
+    expect_joined(links, {"base", {0.3, 0, 0}, kZ}, {"short", kNone, kZ});
+    expect_joined(links, {"long", {0.5, 0, 0}, kZ}, {"short", {0.4, 0, 0}, kZ});
+    const double right = point["joints"]["right"];  // counted from the y axis
+    EXPECT_NEAR(std::sin(right), 0, 1e-9);
+  }
+  EXPECT_THAT(run_corank({"derive", urdf, "--loops", loops}).out, HasSubstr("planar, 3 links, mobility 0"));
+}
+
+// Exit status 4: verified, but without the proof that nothing is missing.
+TEST(Parts, ResultsAreVerifiedFromTheirFilesAlone) {
+  const TemporaryFolder folder;
+  std::string urdf = folder.write("triangle.urdf", kUrdf), loops = folder.write("triangle.loops", kLoops);
+  const std::vector<std::vector<std::string>> models{
+      {folder.write("triangle.cuik", kTriangle)},
+      {folder.write("spherical.cuik", kSpherical)},
+      {urdf, "--loops", loops},
+      {folder.write("bar.world", kFourBar), "--set", "forward", "-D", "c=0.7"},
+      {folder.file("bar.world"), "--set", "inverse"}};
+  const std::string file = folder.file("result.h5");
+  for (const std::vector<std::string>& model : models) {
+    std::vector<std::string> solve{"solve"};
+    solve.insert(solve.end(), model.begin(), model.end());
+    solve.insert(solve.end(), {"-o", file});
+    ASSERT_EQ(run_corank(solve).status, 0) << model[0];
+    EXPECT_EQ(run_corank({"verify", file}).status, 4) << model[0];
+    solve.emplace_back("--proof");
+    ASSERT_EQ(run_corank(solve).status, 0) << model[0];
+    const Outcome verified = run_corank({"verify", file});
+    EXPECT_EQ(verified.status, 0) << model[0] << verified.out << verified.err;
+  }
+}
+
+// Crank and coupler on one line: dead centres of the rocker's drive; rocker and coupler on one line, which a crank that
+// turns round never meets.
+TEST(Parts, SetsOfAWorldWithInputsAndOutputs) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("bar.world", kFourBar);
+  EXPECT_EQ(solved({file, "--set", "forward"})["points"].size(), 0u);
+  const json inverse = solved({file, "--set", "inverse"});
+  ASSERT_EQ(inverse["points"].size(), 4u);
+  for (const json& point : inverse["points"]) {
+    const double drive = point["joints"]["drive"];
+    const Vector3 crank = image(point["links"]["crank"], {0.8, 0, 0}), tip = image(point["links"]["coupler"], {1.75, 0, 0});
+    EXPECT_NEAR(crank[0] * tip[1] - crank[1] * tip[0], 0, 1e-9);
+    EXPECT_NEAR(crank[0], 0.8 * std::cos(drive), 1e-9);
+  }
+  EXPECT_EQ(solved({file, "--set", "forward", "-D", "c=1.5"})["points"].size(), 2u) << "a crank that is no crank any more";
+}
+
+TEST(Parts, ConstantsDecideWhereARobotMoves) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("arm.cuik", kArm);
+  EXPECT_THAT(run_corank({"derive", file}).out, StartsWith("Robot: planar, 3 links, mobility 2\n"));
+  EXPECT_THAT(run_corank({"derive", file, "-D", "tilt=pi/6"}).out, StartsWith("Robot: spatial, 3 links, mobility 2\n"));
+  EXPECT_THAT(run_corank({"derive", file, "-D", "tilt=pi"}).out, StartsWith("Robot: planar, 3 links, mobility 2\n"));
+  const Outcome text = run_corank({"derive", file, "--format", "model", "-D", "tilt=pi/6"});
+  EXPECT_THAT(text.out, StartsWith("% spatial, 3 links, mobility 2\n"));
+  EXPECT_THAT(text.out, HasSubstr("tilt := pi/6"));
+  EXPECT_THAT(text.out, HasSubstr("[VELOCITY EQS]"));
+  const Outcome unknown = run_corank({"derive", file, "-D", "tlit=1"});
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_THAT(unknown.err, HasSubstr("arm.cuik: there is no constant 'tlit'"));
+}
+
+// Bennett, "A new mechanism", Engineering 76, 1903: four revolute joints in space that move where opposite links are equal
+// and their lengths are as the sines of their twists.
+std::string bennett(const std::string& b) {
+  return "[CONSTANTS]\na := 1\nb := " + b +
+         "\n[LINKS]\nbase\ncrank\ncoupler\nrocker\n[JOINTS]\n"
+         "revolute : base (a, 0, 0) + (0, -1/2, sqrt(3)/2)  crank (0, 0, 0) + (0, 0, 1)\n"
+         "revolute : crank (b, 0, 0) + (0, -1, 0)  coupler (0, 0, 0) + (0, 0, 1)\n"
+         "revolute : coupler (a, 0, 0) + (0, -1/2, sqrt(3)/2)  rocker (0, 0, 0) + (0, 0, 1)\n"
+         "revolute : rocker (b, 0, 0) + (0, -1, 0)  base (0, 0, 0) + (0, 0, 1)\n";
+}
+
+TEST(Parts, AMobilityThatIsNotTheCountIsSaid) {
+  const TemporaryFolder folder;
+  const Outcome moves = run_corank({"derive", folder.write("bennett.cuik", bennett("2"))});
+  EXPECT_EQ(moves.status, 0) << moves.err;
+  EXPECT_THAT(moves.out, StartsWith("Robot: spatial, 4 links, mobility -2\n"));
+  EXPECT_THAT(moves.err, HasSubstr("leave -2 degrees of freedom by their count, but 1 at sampled configurations"));
+  const json result = solved({folder.file("bennett.cuik")});
+  EXPECT_EQ(result["system"]["dimension"], 1);
+  EXPECT_GT(result["boxes"]["partial"], 0);
+  EXPECT_EQ(result["boxes"]["regular"], 0) << "its equations follow from one another";
+  // Other lengths, and it only lies flat, in two ways.
+  const Outcome stuck = run_corank({"solve", folder.write("stuck.cuik", bennett("3")), "--json"});
+  EXPECT_EQ(stuck.status, 0) << stuck.err;
+  EXPECT_THAT(stuck.err, HasSubstr("but 0 at sampled configurations"));
+  const json boxes = json::parse(stuck.out)["boxes"];
+  EXPECT_EQ(boxes["partial"].get<int>() + boxes["isolated"].get<int>(), 2);
+  EXPECT_EQ(boxes["undecided"], 0);
+}
+
+// Sarrus's linkage: two hinged legs at a right angle lead a plate along a line. One row of each loop is 0 by the constants
+// alone and left out, and the joints' own count is told beside.
+TEST(Parts, AMobilityThatTheJointsDoNotCountIsTold) {
+  const TemporaryFolder folder;
+  std::string text = "[LINKS]\nbase : point A (1, 0, 0)  point B (0, 1, 0)\na1\na2\nb1\nb2\nplate\n[JOINTS]\n";
+  for (const auto& [leg, foot, axis] : {std::array{"a", "(1, 0, 0)", "(0, 1, 0)"}, {"b", "(0, 1, 0)", "(1, 0, 0)"}}) {
+    const std::string lower = std::string(leg) + "1", upper = std::string(leg) + "2", along = std::string(" + ") + axis;
+    text += "revolute : base " + (foot + along) + "  " + lower + " (0, 0, 0)" + along + "\nrevolute : " + lower +
+            " (0, 0, 1)" + along + "  " + upper + " (0, 0, 0)" + along + "\nrevolute : " + upper + " (0, 0, 3/2)" + along +
+            "  plate " + foot + along + "\n";
+  }
+  const Outcome outcome = run_corank({"derive", folder.write("sarrus.cuik", text)});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, StartsWith("Robot: spatial, 6 links, mobility 1 (by its joints alone 0)\n"));
+}
+
+TEST(Parts, FaultsNameTheFileAndTheLine) {
+  const TemporaryFolder folder;
+  std::string text = kTriangle;
+  text.replace(text.find("short T +"), 5, "shrot");
+  for (const char* command : {"derive", "solve", "report"}) {
+    const Outcome outcome = run_corank({command, folder.write("wrong.cuik", text)});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("wrong.cuik:8:"));
+    EXPECT_THAT(outcome.err, HasSubstr("there is no link 'shrot'"));
+    EXPECT_THAT(outcome.err, HasSubstr("did you mean 'short'?"));
+  }
+  const std::string urdf = folder.write("triangle.urdf", kUrdf);
+  const std::string loops =
+      folder.write("wrong.loops", "[LOOPS]\nrevolute tip : lnog (0,0,0)+(0,0,1) short (0,0,0)+(0,0,1)\n");
+  const Outcome companion = run_corank({"solve", urdf, "--loops", loops});
+  EXPECT_EQ(companion.status, 1);
+  EXPECT_THAT(companion.err, HasSubstr("wrong.loops:2:"));
+  std::string apart = kTriangle;  // a tip that cannot be reached: heights differ
+  apart.replace(apart.find("short : point T (4, 0, 0)"), 25, "short : point T (4, 0, 1)");
+  const Outcome open = run_corank({"derive", folder.write("apart.cuik", apart)});
+  EXPECT_EQ(open.status, 1);
+  EXPECT_THAT(open.err, HasSubstr("apart.cuik:8:"));
+  EXPECT_THAT(open.err, HasSubstr("'tip'"));
+}
+
+TEST(Parts, ExitStatuses) {
+  const TemporaryFolder folder;
+  const std::string arm = folder.write("arm.cuik", kArm), bar = folder.write("bar.world", kFourBar);
+  EXPECT_EQ(run_corank({"solve", arm}).status, 2) << "a mechanism has sets";
+  EXPECT_EQ(run_corank({"solve", folder.write("triangle.cuik", kTriangle), "--set", "forward"}).status, 2);
+  EXPECT_EQ(run_corank({"solve", bar, "--set", "cspace", "--sigma", "0.001", "--max-boxes", "3"}).status, 3);
+  EXPECT_EQ(run_corank({"solve", folder.write("a.urdf", kUrdf), "--loops", folder.file("none.loops")}).status, 2);
+  EXPECT_EQ(run_corank({"solve", arm, "--loops", folder.write("a.loops", kLoops)}).status, 1) << "no URDF";
+  EXPECT_EQ(run_corank({"derive", folder.file("none.urdf")}).status, 1);
+}
+
+TEST(Parts, AreReported) {
+  const TemporaryFolder folder;
+  const std::string page = folder.file("page");
+  const Outcome bar = run_corank({"report", folder.write("bar.world", kFourBar), "-o", page});
+  EXPECT_EQ(bar.status, 0) << bar.err;
+  EXPECT_THAT(bar.out, HasSubstr("page/index.html"));
+  EXPECT_EQ(run_corank({"verify", page + "/inverse.h5"}).status, 4);
+  const std::string data = std::string(CORANK_SOURCE_DIR) + "/tests/data/urdf/";
+  const Outcome urdf = run_corank({"report", data + "five_bar.urdf", "--loops", data + "five_bar.loops", "--sets",
+                                   "forward,inverse", "--sigma", "0.1", "-o", page});
+  EXPECT_EQ(urdf.status, 0) << urdf.err;
+  EXPECT_THAT(read_text(page + "/index.html"), HasSubstr("corank report five_bar.urdf --loops five_bar.loops --sigma 0.1"));
+  EXPECT_EQ(run_corank({"report", "--results", page + "/forward.h5", "-o", folder.file("again")}).status, 0)
+      << "a result holds the equations";
+}
+
+TEST(Parts, AreSweptWhereTheirCoordinatesStayTheSame) {
+  const TemporaryFolder folder;
+  const std::string page = folder.file("page"), bar = folder.write("bar.world", kFourBar);
+  const Outcome swept =
+      run_corank({"sweep", bar, "-D", "c=0.5:0.8:2", "--sigma", "0.1", "--cspace-sigma", "0.2", "-o", page});
+  EXPECT_EQ(swept.status, 0) << swept.err;
+  EXPECT_THAT(swept.out, HasSubstr("c = 0.5, "));
+  const Outcome other = run_corank({"sweep", folder.write("arm.cuik", kArm), "-D", "tilt=0:pi/6:2", "-o", page});
+  EXPECT_EQ(other.status, 2) << other.err;
+  EXPECT_THAT(other.err, HasSubstr("(spatial, 3 links, mobility 2) than at 0 (planar, 3 links, mobility 2)"));
+  const std::string data = std::string(CORANK_SOURCE_DIR) + "/tests/data/urdf/";
+  const Outcome urdf =
+      run_corank({"sweep", data + "five_bar.urdf", "--loops", data + "five_bar.loops", "-D", "l=1:2:2", "-o", page});
+  EXPECT_EQ(urdf.status, 1) << "URDF has no constants";
+  EXPECT_THAT(urdf.err, HasSubstr("there is no constant 'l'"));
+}
+
+// The chapter of doc/parts.md shows robots and their equations, as corank derive --format model prints them.
+TEST(PartsDocumentation, ShowsTheEquationsThatAreDerived) {
+  const TemporaryFolder folder;
+  const std::string doc = read_text(CORANK_SOURCE_DIR "/doc/parts.md");
+  std::size_t at = doc.find("\n## From parts to equations\n");
+  ASSERT_NE(at, std::string::npos);
+  const auto block = [&](const std::string& open) {
+    const std::size_t start = doc.find(open, at);
+    if (start == std::string::npos) return std::string();
+    const std::size_t end = doc.find("\n```\n", start + open.size());
+    at = end + 1;
+    return doc.substr(start + open.size(), end + 1 - start - open.size());
+  };
+  int shown = 0;
+  for (std::string robot = block("\n```\n[LINKS]\n"); !robot.empty(); robot = block("\n```\n[LINKS]\n")) {
+    const std::string equations = block("\n```text\n");
+    const std::string file = folder.write("robot.cuik", "[LINKS]\n" + robot);
+    const Outcome outcome = run_corank({"derive", file, "--format", "model"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_GT(equations.size(), 100u);
+    EXPECT_THAT(outcome.out, StartsWith(equations));
+    ++shown;
+  }
+  EXPECT_EQ(shown, 4);
+}
+
+TEST(PartsDocumentation, OfTheReadmeIsWhatIsPrinted) {
+  const TemporaryFolder folder;
+  const std::string readme = read_text(CORANK_SOURCE_DIR "/README.md");
+  std::size_t at = readme.find("<!-- readme_parts");
+  ASSERT_NE(at, std::string::npos);
+  std::array<std::string, 2> blocks;  // the robot, and lines of the output
+  for (std::string& block : blocks) {
+    at = readme.find("\n```\n", at) + 5;
+    const std::size_t end = readme.find("\n```\n", at);
+    block = readme.substr(at, end + 1 - at);
+    at = end + 5;
+  }
+  const std::string file = folder.write("rssr.cuik", blocks[0]);
+  const std::string out = "\n" + run_corank({"derive", file}).out + run_corank({"solve", file, "--set", "forward"}).out;
+  std::istringstream lines(blocks[1]);
+  int shown = 0;
+  for (std::string line; std::getline(lines, line); ++shown) EXPECT_THAT(out, HasSubstr("\n" + line + "\n"));
+  EXPECT_EQ(shown, 8);
+}
+
+}  // namespace
+}  // namespace corank::app
