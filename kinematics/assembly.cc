@@ -72,9 +72,9 @@ Assembly assemble(const Robot& robot) {
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())
     assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;
   if (!assembly.mechanism.constraints().empty()) assembly.mobility_by_rank = sampled_mobility(assembly.mechanism);
-  if (assembly.mobility_by_rank)  // a joint that is locked by its range would be free
+  if (assembly.mobility_by_rank)  // the samples have no angle that is locked by its range, but it counts; lengths they have
     for (const symbolic::Coordinate& c : assembly.mechanism.coordinates())
-      *assembly.mobility_by_rank += symbolic::is_fixed(c) ? 1 : 0;
+      *assembly.mobility_by_rank += c.kind == symbolic::CoordinateKind::angle && symbolic::is_fixed(c) ? 1 : 0;
   return assembly;
 }
 
