@@ -21,6 +21,7 @@ struct ReadPoint {
   Vector at;
   std::optional<Vector> way;
   SourceLocation where;
+  std::string name{};  ///< where it was written by its name
 };
 
 /// The joint, or the spring, being read.

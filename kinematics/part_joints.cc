@@ -87,6 +87,7 @@ void PartBuilder::set_axes(Joint& joint) {
     const ReadPoint& first = points[each * i];
     joint.ends[i].link = draft.links[i];
     joint.ends[i].point = first.at;
+    joint.ends[i].label = first.name;
     if (each < 2) continue;
     const ReadPoint& second = points[each * i + 1];
     joint.ends[i].axis = second.way ? *second.way : second.at - first.at;

@@ -49,6 +49,7 @@ void PartBuilder::push_offset(const SourceLocation& where) {
 void PartBuilder::shift_point() {
   const Vector way = pop_vector();
   points.back().at = points.back().at + way;
+  points.back().name.clear();
 }
 
 void PartBuilder::refuse_point(std::size_t link, const std::string& point, const SourceLocation& where) const {
@@ -110,7 +111,7 @@ const Vector* PartBuilder::find_point(std::size_t link, const std::string& point
 void PartBuilder::push_named_point(const std::string& point, const SourceLocation& where) {
   if (!link_) throw ModelError(where, "the point " + in_quotes(point) + " belongs to no link", "(x, y, z)");
   if (const Vector* at = find_point(*link_, point)) {
-    points.push_back({*at, {}, where});
+    points.push_back({*at, {}, where, point});
     return;
   }
   const std::string& owner = robot.links[*link_].name;

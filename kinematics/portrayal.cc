@@ -53,13 +53,30 @@ class Portrayal {
   }
 
   void add_corners(const BodyJoint& j) {
-    const std::string& name = robot_.joints[j.index].name;
-    const std::string at = corner(j.ends[0].body, local(j.ends[0]), name);
+    if (is_on_rail(j)) {
+      const std::size_t block = block_of(j);
+      corner(j.ends[block].body, local(j.ends[block]), label(j, block));
+      return;
+    }
+    const std::string at = corner(j.ends[0].body, local(j.ends[0]), label(j, 0));
     if (!points_coincide(j.kind)) {
-      corner(j.ends[1].body, local(j.ends[1]), name);
+      corner(j.ends[1].body, local(j.ends[1]), label(j, 1));
     } else if (!known(j.ends[1].body, local(j.ends[1]))) {
       corners_[j.ends[1].body].push_back({local(j.ends[1]), at});
     }
+  }
+
+  /// A block that slides along the ground.
+  bool is_on_rail(const BodyJoint& j) const {
+    return space_ == Space::planar && j.kind == JointKind::prismatic && (j.ends[0].body == 0 || j.ends[1].body == 0);
+  }
+  static std::size_t block_of(const BodyJoint& j) { return j.ends[0].body == 0 ? 1 : 0; }
+
+  /// As the point is called, of an end or of the other one, or as the joint is.
+  std::string label(const BodyJoint& j, std::size_t end) const {
+    const Joint& joint = robot_.joints[j.index];
+    if (points_coincide(j.kind) && joint.ends[end].label.empty()) end = 1 - end;
+    return joint.ends[end].label.empty() ? joint.name : joint.ends[end].label;
   }
 
   /// Where a joint is drawn: of a spherical robot, whose axes meet, on a sphere.
@@ -157,7 +174,47 @@ class Portrayal {
     }
   }
 
+  /// The largest length from one place to another on a body, or of a rod; 1 where there is none. Sizes a rail without end.
+  double size() const {
+    double largest = 0;
+    for (const auto& corners : corners_)
+      for (const Corner& a : corners)
+        for (const Corner& b : corners) {
+          const std::array<double, 3> p = value(a.local), q = value(b.local);
+          largest = std::max(largest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+        }
+    for (const Joint& joint : robot_.joints)
+      if (joint.kind == JointKind::distance)
+        largest = std::max(largest, algebra_.value(algebra_.constant(joint.length, joint.where)));
+    return largest > 0 ? largest : 1;
+  }
+
+  /// A rail as long as the joint's range and the block; about the ground's point where the joint has no range.
+  void add_block(const BodyJoint& j) {
+    const Joint& joint = robot_.joints[j.index];
+    const std::size_t block = block_of(j);
+    const BodyEnd& ground = j.ends[1 - block];
+    const int side = block == 1 ? 1 : -1;
+    const double typical = size();
+    double low = -typical, high = typical;
+    if (!joint.ranges.empty() && joint.ranges[0]) {
+      low = algebra_.value(algebra_.constant(joint.ranges[0]->lower, joint.where));
+      high = algebra_.value(algebra_.constant(joint.ranges[0]->upper, joint.where));
+    }
+    const double over = 0.1 * std::max(high - low, typical);  // beyond the block's last places
+    const double step =
+        std::pow(10, std::floor(std::log10(typical)) - 2);  // a round one: a picture's point is a short number
+    const auto end = [&](double way) {
+      const ex rounded = side * GiNaC::numeric(std::lround(way / step)) *
+                         GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(std::lround(std::log10(step))));
+      return draft_.point(joint.name + "_rail", place_(0, ground.point + rounded * ground.axis).at, {}, 2);
+    };
+    const std::string from = end(low - over), to = end(high + over);
+    draft_.part(Part::slider, {corner(j.ends[block].body, local(j.ends[block])), from, to});
+  }
+
   void add_joint(const BodyJoint& j) {
+    if (is_on_rail(j)) return add_block(j);
     const BodyEnd& e = j.ends[0];
     const std::string at = corner(e.body, local(e)), far = corner(j.ends[1].body, local(j.ends[1]));
     const bool grounded = e.body == 0 || j.ends[1].body == 0;

@@ -62,7 +62,8 @@ struct JointEnd {
   Vector point{0, 0, 0};
   Vector axis{0, 0, 0};  ///< a direction, of any length but 0; without meaning for fixed, spherical and the rods
   std::optional<Vector>
-      zero;  ///< a direction that is no multiple of the axis: the angle is measured between the ends' zeros
+      zero;             ///< a direction that is no multiple of the axis: the angle is measured between the ends' zeros
+  std::string label{};  ///< what a picture calls the point; empty: as the joint is called
 };
 
 struct Range {

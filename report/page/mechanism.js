@@ -165,8 +165,9 @@ export function drawMechanism(svg, model, values, rates, view, options = {}) {
   const bars = ["link", "platform"]
     .flatMap((kind) => parts(kind))
     .flatMap(({points: ends}) => ends.slice(1).map((b, k) => [at[ends[k]], at[b]]));
+  const rails = parts("slider").map(({points: [, a, b]}) => [at[a], at[b]]);
   const pedestals = parts("ground").flatMap((part) => part.points.map((i) => [at[i], [at[i][0], at[i][1] + 22 * unit]]));
-  drawLabels(svg, points, at, [...bars, ...arrows, ...pedestals], unit, width, height);
+  drawLabels(svg, points, at, [...bars, ...rails, ...arrows, ...pedestals], unit, width, height);
 }
 
 // A part's own colour; a sheet's is thin.
