@@ -346,6 +346,13 @@ TEST(Parts, AreSweptWhereTheirCoordinatesStayTheSame) {
       run_corank({"sweep", data + "five_bar.urdf", "--loops", data + "five_bar.loops", "-D", "l=1:2:2", "-o", page});
   EXPECT_EQ(urdf.status, 1) << "URDF has no constants";
   EXPECT_THAT(urdf.err, HasSubstr("there is no constant 'l'"));
+  std::string companion = read_text(data + "five_bar.loops");
+  companion.replace(companion.find("(0.090"), 6, "(l");
+  const Outcome with = run_corank({"sweep", data + "five_bar.urdf", "--loops",
+                                   folder.write("l.loops", "[CONSTANTS]\nl := 0.090\n" + companion), "-D", "l=0.09:0.1:2",
+                                   "--sets", "forward", "--sigma", "0.1", "-o", page});
+  EXPECT_EQ(with.status, 0) << with.err;
+  EXPECT_THAT(with.out, HasSubstr("l = 0.1, "));
 }
 
 // The chapter of doc/parts.md shows robots and their equations, as corank derive --format model prints them.
