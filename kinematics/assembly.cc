@@ -72,9 +72,10 @@ Assembly assemble(const Robot& robot) {
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())
     assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;
   if (!assembly.mechanism.constraints().empty()) assembly.mobility_by_rank = sampled_mobility(assembly.mechanism);
-  if (assembly.mobility_by_rank)  // a joint that is locked by its range would be free
+  // An angle that is locked by its range would be free; such a length is free there, as a variable like others.
+  if (assembly.mobility_by_rank)
     for (const symbolic::Coordinate& c : assembly.mechanism.coordinates())
-      *assembly.mobility_by_rank += symbolic::is_fixed(c) ? 1 : 0;
+      *assembly.mobility_by_rank += symbolic::is_fixed(c) && c.kind == symbolic::CoordinateKind::angle ? 1 : 0;
   return assembly;
 }
 
