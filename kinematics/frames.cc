@@ -225,13 +225,14 @@ void Frames::keep(std::size_t group, const Mat& rotation, const std::string& nam
   std::array<ex, 3> c, s;
   for (std::size_t i = 0; i < 3; ++i) {
     const ex angle = draft_.angle(
-        name + "_turn_" + "zyx" [i], Range{0, 0}, where);
+        name + "_turn_" + "zyx" [i], Range { 0, 0 }, where);
     c[i] = cos(angle), s[i] = sin(angle);
   }
   const Mat turn{Vec{c[0] * c[1], c[0] * s[1] * s[2] - s[0] * c[2], c[0] * s[1] * c[2] + s[0] * s[2]},
                  Vec{s[0] * c[1], s[0] * s[1] * s[2] + c[0] * c[2], s[0] * s[1] * c[2] - c[0] * s[2]},
                  Vec{-s[1], c[1] * s[2], c[1] * c[2]}};
-  const Mat columns = transpose(Mat{algebra_.named(rotation[0]), algebra_.named(rotation[1]), algebra_.named(rotation[2])} * turn);
+  const Mat columns =
+      transpose(Mat{algebra_.named(rotation[0]), algebra_.named(rotation[1]), algebra_.named(rotation[2])} * turn);
   frames_[group] = Frame{{Vec{1, 0, 0}, Vec{0, 1, 0}}, {columns[0], columns[1]}, columns[2]};
   kept_[group] = true;
 }

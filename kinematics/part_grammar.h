@@ -332,7 +332,8 @@ struct kept_end : success {};
 struct output_keeps : seq<keeps_word, gap, transforms, kept_end> {};
 struct output_options : star<gap, sor<output_range, output_keeps>> {};
 struct output_kind : sor<position_word, pose_word, orientation_word, direction_word> {};
-struct output_what : sor<seq<output_kind, gap, output_of, output_in, output_options>, seq<joint_word, gap, must<output_joint>>> {};
+struct output_what
+    : sor<seq<output_kind, gap, output_of, output_in, output_options>, seq<joint_word, gap, must<output_joint>>> {};
 struct output : seq<must<output_name>, gap, must<colon>, gap, must<output_what>, output_end> {};
 struct outputs_section : seq<outputs_header, star<gap, not_at<section_or_end>, output>> {};
 

@@ -129,7 +129,8 @@ class RobotValidator {
     for (std::size_t i = 0; i < 3; ++i) {
       if (!output.ranges[i]) continue;
       if (output.kind != Output::Kind::position && output.kind != Output::Kind::pose)
-        throw ModelError(where, what + " has a range, but no components that are lengths", "a range of a position or a pose");
+        throw ModelError(where, what + " has a range, but no components that are lengths",
+                         "a range of a position or a pose");
       check_range(*output.ranges[i], std::string("the range of ") + "xyz"[i] + " of " + what, where);
     }
     if (!output.kept) return;
@@ -141,7 +142,8 @@ class RobotValidator {
     check_pose(*output.kept, what, where);
     for (const Expression& e : output.kept->translation)
       if (scope_.sign(e, what, where).value_or(1) != 0)
-        throw ModelError(where, "what " + what + " keeps is no rotation alone", "a product of Rx Ry Rz, or TR without a way");
+        throw ModelError(where, "what " + what + " keeps is no rotation alone",
+                         "a product of Rx Ry Rz, or TR without a way");
   }
 
   void check_connections() const {

@@ -74,13 +74,10 @@ std::size_t count_lost(const Solved& s, const std::vector<std::string>& variable
 
 // Points of random lines between a and b where f changes its sign; nothing where f is not defined.
 using Function = std::function<std::optional<double>(const Vector3d&)>;
-std::vector<Vector3d> zeros(const Vector3d& a, const Vector3d& b, const Function& f, std::size_t count,
-                            int lines = 40'000) {
+std::vector<Vector3d> zeros(const Vector3d& a, const Vector3d& b, const Function& f, std::size_t count, int lines = 40'000) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0, 1);
-  const auto any = [&]() -> Vector3d {
-    return a + Vector3d(unit(random), unit(random), unit(random)).cwiseProduct(b - a);
-  };
+  const auto any = [&]() -> Vector3d { return a + Vector3d(unit(random), unit(random), unit(random)).cwiseProduct(b - a); };
   std::vector<Vector3d> found;
   for (int line = 0; line < lines && found.size() < count; ++line) {
     Vector3d p = any(), q = any();
@@ -145,8 +142,7 @@ TEST(PlatformSingularities, OfADeltaInOnePlaneAreEnclosedAndProven) {
         const Vector3d q = p - 0.5 * out;
         const double x = q.dot(out), z = -q.z(), along = (q.squaredNorm() + 1 - 1.44) / 2, reach = std::hypot(x, z);
         if (std::fabs(along) >= reach) return std::nullopt;
-        const double a =
-            std::remainder(std::atan2(z, x) + (mode >> i & 1 ? 1 : -1) * std::acos(along / reach), 2 * kPi);
+        const double a = std::remainder(std::atan2(z, x) + (mode >> i & 1 ? 1 : -1) * std::acos(along / reach), 2 * kPi);
         if (a < -kPi / 3 || a > kPi / 2) return std::nullopt;
         angles[static_cast<std::size_t>(i)] = a;
         rods.row(i) = (q - std::cos(a) * out + std::sin(a) * Vector3d::UnitZ()).transpose();
