@@ -22,6 +22,7 @@ Frames::Frames(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft
       algebra_(algebra),
       draft_(draft),
       frames_(bodies.groups),
+      kept_(bodies.groups, false),
       axes_(bodies.joints.size()),
       aligned_(bodies.joints.size(), false),
       angles_(robot.joints.size()) {
@@ -227,11 +228,30 @@ void Frames::turn_by_universal(const TreeEdge& edge) {
   complete(bodies_.group[child.body], child.axis, second, of.where);
 }
 
+void Frames::keep(std::size_t group, const Mat& rotation, const std::string& name, const SourceLocation& where) {
+  std::array<ex, 3> c, s;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ex angle = draft_.angle(
+        name + "_turn_" + "zyx" [i], Range { 0, 0 }, where);
+    c[i] = cos(angle), s[i] = sin(angle);
+  }
+  const Mat turn{Vec{c[0] * c[1], c[0] * s[1] * s[2] - s[0] * c[2], c[0] * s[1] * c[2] + s[0] * s[2]},
+                 Vec{s[0] * c[1], s[0] * s[1] * s[2] + c[0] * c[2], s[0] * s[1] * c[2] - c[0] * s[2]},
+                 Vec{-s[1], c[1] * s[2], c[1] * c[2]}};
+  const Mat columns =
+      transpose(Mat{algebra_.named(rotation[0]), algebra_.named(rotation[1]), algebra_.named(rotation[2])} * turn);
+  frames_[group] = Frame{{Vec{1, 0, 0}, Vec{0, 1, 0}}, {columns[0], columns[1]}, columns[2]};
+  kept_[group] = true;
+}
+
 void Frames::orient(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
   const std::size_t group = bodies_.group[parent.body], turned = bodies_.group[child.body];
-  if (has_frame(turned)) return;
+  if (has_frame(turned)) {
+    if (is_kept(turned) && turned != group) close(j);
+    return;
+  }
   switch (j.kind) {
     case JointKind::revolute:
       if (is_asked_for(j.index) || group == 0) {

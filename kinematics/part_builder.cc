@@ -127,6 +127,14 @@ void PartBuilder::add_input(std::string_view name_read, const SourceLocation& wh
   named_inputs_.push_back({joint, where});
 }
 
+void PartBuilder::finish_output_range(const SourceLocation& where) {
+  const std::string of = std::string("the range of ") + "xyz"[output_axis] + " of the output " + in_quotes(output.name);
+  if (!bracket_has_two) throw ModelError(where, of + " has one number", "[lower, upper]");
+  const Expression upper = pop_value(), lower = pop_value();
+  if (output.ranges[output_axis]) throw ModelError(where, of + " is given twice", "one range for each component");
+  output.ranges[output_axis] = Range{lower, upper};
+}
+
 void PartBuilder::finish_output() {
   output.name = resolve(output.name);
   outputs_.push_back(output);
@@ -158,6 +166,8 @@ void PartBuilder::resolve_outputs() {
     if (result.kind == Output::Kind::direction && !read.point.empty())
       throw ModelError(read.where, "the direction of " + in_quotes(read.name) + " is given as a point",
                        "direction of link (x, y, z)");
+    result.ranges = read.ranges;
+    result.kept = read.kept;
     if (read.vector) result.point = *read.vector;
     if (!read.point.empty()) {
       const Vector* const at = find_point(result.link, read.point);

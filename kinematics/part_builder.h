@@ -56,6 +56,8 @@ struct OutputDraft {
   std::string kind, name, link, frame, point, joint;
   SourceLocation where, link_where, frame_where, point_where, joint_where;
   std::optional<Vector> vector;
+  std::array<std::optional<Range>, 3> ranges;
+  std::optional<Pose> kept;
 };
 
 class PartBuilder : public symbolic::ModelBuilder {
@@ -132,7 +134,9 @@ class PartBuilder : public symbolic::ModelBuilder {
 
   // The other sections.
   OutputDraft output;
+  std::size_t output_axis = 0;
   void add_input(std::string_view name_read, const SourceLocation& where);
+  void finish_output_range(const SourceLocation& where);
   void finish_output();
   void include(const std::string& prefix_read);
   void read_equations();

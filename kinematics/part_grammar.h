@@ -323,8 +323,17 @@ struct output_of : seq<must<of_word>, gap, must<output_link>,
                        opt<sor<seq<gap, one<'.'>, gap, must<output_point>>, seq<gap, output_tuple>>>> {};
 struct output_in : opt<gap, in_word, gap, must<output_frame>> {};
 struct output_end : success {};
+CORANK_WORD(keeps_word, "keeps");
+struct output_axis : one<'x', 'y', 'z', 'X', 'Y', 'Z'> {};
+struct output_bracket : bracket {};
+struct output_axis_range : seq<at<one<'x', 'y', 'z', 'X', 'Y', 'Z'>, gap, one<'['>>, output_axis, gap, output_bracket> {};
+struct output_range : seq<sor<range_word, limits_word>, gap, must<output_axis_range>, star<gap, output_axis_range>> {};
+struct kept_end : success {};
+struct output_keeps : seq<keeps_word, gap, transforms, kept_end> {};
+struct output_options : star<gap, sor<output_range, output_keeps>> {};
 struct output_kind : sor<position_word, pose_word, orientation_word, direction_word> {};
-struct output_what : sor<seq<output_kind, gap, output_of, output_in>, seq<joint_word, gap, must<output_joint>>> {};
+struct output_what
+    : sor<seq<output_kind, gap, output_of, output_in, output_options>, seq<joint_word, gap, must<output_joint>>> {};
 struct output : seq<must<output_name>, gap, must<colon>, gap, must<output_what>, output_end> {};
 struct outputs_section : seq<outputs_header, star<gap, not_at<section_or_end>, output>> {};
 

@@ -277,6 +277,9 @@ class PlanarRobot {
   Vec world(const PlanePoint& p) const { return p.x() * basis_[0][0] + p.y() * basis_[0][1] + p.height * basis_[0][2]; }
 
   void add(const Output& output) {
+    if (output.kept)
+      throw ModelError(output.where, "the output '" + output.name + "' keeps an orientation in a plane",
+                       "for a robot that moves in a plane: range [a, a] of a joint's angle");
     const std::size_t body = bodies_.of_link[output.link], base = bodies_.of_link[output.relative_to];
     switch (output.kind) {
       case Output::Kind::joint:
@@ -322,8 +325,7 @@ class PlanarRobot {
     for (std::size_t i = 0; i < 3; ++i) {
       const ex value = algebra_.clean(components[i]);
       if (algebra_.is_constant(value)) continue;
-      const ex coordinate = draft_.length(
-          output.name + "_" + "xyz" [i], {}, output.where);
+      const ex coordinate = draft_.length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
       draft_.equation(coordinate - value, "output", output.where);
       draft_.output(coordinate);
       moves = true;

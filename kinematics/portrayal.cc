@@ -132,6 +132,24 @@ class Portrayal {
     return names;
   }
 
+  /// Without those next to the middle of four or more, such as a platform's centre, which are no corners of a solid.
+  std::vector<Corner> outer(const std::vector<Corner>& corners) const {
+    if (corners.size() < 4) return corners;
+    std::array<double, 3> middle{0, 0, 0};
+    for (const Corner& c : corners)
+      for (std::size_t i = 0; i < 3; ++i) middle[i] += value(c.local)[i] / static_cast<double>(corners.size());
+    const auto distance = [&](const Corner& c) {
+      const std::array<double, 3> p = value(c.local);
+      return std::hypot(p[0] - middle[0], p[1] - middle[1], p[2] - middle[2]);
+    };
+    double farthest = 0;
+    for (const Corner& c : corners) farthest = std::max(farthest, distance(c));
+    std::vector<Corner> list;
+    for (const Corner& c : corners)
+      if (distance(c) > 0.2 * farthest) list.push_back(c);
+    return list.size() < 3 ? corners : list;
+  }
+
   bool has_shapes(std::size_t body) const {
     for (std::size_t l = 0; l < robot_.links.size(); ++l)
       if (bodies_.of_link[l] == body && !robot_.links[l].shapes.empty()) return true;
@@ -170,7 +188,7 @@ class Portrayal {
     if (corners.size() == 2) {
       draft_.part(Part::link, {corners[0].name, corners[1].name});
     } else {
-      draft_.part(Part::platform, in_order(corners));
+      draft_.part(Part::platform, in_order(outer(corners)));
     }
   }
 

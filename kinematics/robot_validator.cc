@@ -122,6 +122,28 @@ class RobotValidator {
     }
     check(output.point, what, where);
     if (output.kind == Output::Kind::direction) require_direction(output.point, "the direction of " + what, where);
+    check_slice(output, what, where);
+  }
+
+  void check_slice(const Output& output, const std::string& what, const symbolic::SourceLocation& where) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!output.ranges[i]) continue;
+      if (output.kind != Output::Kind::position && output.kind != Output::Kind::pose)
+        throw ModelError(where, what + " has a range, but no components that are lengths",
+                         "a range of a position or a pose");
+      check_range(*output.ranges[i], std::string("the range of ") + "xyz"[i] + " of " + what, where);
+    }
+    if (!output.kept) return;
+    if (output.kind != Output::Kind::orientation && output.kind != Output::Kind::pose)
+      throw ModelError(where, what + " keeps an orientation, but is none", "keeps behind an orientation or a pose");
+    if (output.relative_to != 0)
+      throw ModelError(where, what + " keeps an orientation relative to " + in_quotes(robot_.links[output.relative_to].name),
+                       "one in the ground " + in_quotes(robot_.links[0].name));
+    check_pose(*output.kept, what, where);
+    for (const Expression& e : output.kept->translation)
+      if (scope_.sign(e, what, where).value_or(1) != 0)
+        throw ModelError(where, "what " + what + " keeps is no rotation alone",
+                         "a product of Rx Ry Rz, or TR without a way");
   }
 
   void check_connections() const {
@@ -201,17 +223,21 @@ class RobotValidator {
     for (const std::optional<Range>& range : joint.ranges) {
       if (!range) continue;
       const std::string of = "the range of " + what;
-      scope_.check(range->lower, of, where);
-      if (scope_.sign(folded_difference(range->upper, range->lower), of, where) == -1) {
-        throw ModelError(where,
-                         of + " is empty: " + in_quotes(range->lower.text()) + " is above " + in_quotes(range->upper.text()),
-                         "[lower, upper]");
-      }
+      check_range(*range, of, where);
       const bool is_size = joint.kind == JointKind::spherical || joint.kind == JointKind::distance_variable;
       if (is_size && scope_.sign(range->lower, of, where) == -1) {
         throw ModelError(where, of + " begins with " + in_quotes(range->lower.text()) + ", which is negative",
                          joint.kind == JointKind::spherical ? "[half angle]" : "the range of a length");
       }
+    }
+  }
+
+  void check_range(const Range& range, const std::string& of, const symbolic::SourceLocation& where) {
+    scope_.check(range.lower, of, where);
+    if (scope_.sign(folded_difference(range.upper, range.lower), of, where) == -1) {
+      throw ModelError(where,
+                       of + " is empty: " + in_quotes(range.lower.text()) + " is above " + in_quotes(range.upper.text()),
+                       "[lower, upper]");
     }
   }
 

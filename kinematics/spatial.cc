@@ -27,6 +27,7 @@ class SpatialRobot {
     for (const BodyJoint& j : bodies_.joints)
       first.push_back(j.kind == JointKind::prismatic || (j.kind == JointKind::revolute && frames_.is_asked_for(j.index)));
     tree_ = spanning_tree(robot_, bodies_, algebra_, first);
+    keep_orientations();
     for (const TreeEdge& edge : tree_.edges) frames_.orient(edge);
     for (const std::size_t j : tree_.chords) frames_.close(bodies_.joints[j]);
     for (const TreeEdge& edge : tree_.edges) reach(edge);
@@ -69,6 +70,21 @@ class SpatialRobot {
   std::size_t group(std::size_t body) const { return bodies_.group[body]; }
   Vec place(const BodyEnd& end) {
     return cleaned(algebra_, *positions_.origins[end.body] + frames_.image(group(end.body), end.point));
+  }
+
+  /// Of links that are looked at in one orientation only.
+  void keep_orientations() {
+    for (const Output& output : robot_.outputs) {
+      if (!output.kept) continue;
+      Mat kept;
+      for (std::size_t i = 0; i < 3; ++i) kept[i] = algebra_.vector(output.kept->rotation[i], output.where);
+      const Mat rotation = kept * transpose(bodies_.placement[output.link].rotation);
+      const std::size_t g = group(bodies_.of_link[output.link]);
+      if (frames_.has_frame(g))
+        throw ModelError(output.where, "the orientation of '" + robot_.links[output.link].name + "' is given already",
+                         g == 0 ? "a link that turns" : "one output that keeps it");
+      frames_.keep(g, rotation, output.name, output.where);
+    }
   }
 
   /// A way of end 1's point from end 0's, in the world, with its coordinates.
@@ -263,8 +279,7 @@ class SpatialRobot {
     for (std::size_t i = 0; i < 3; ++i) {
       const ex clean = algebra_.clean(value[i]);
       if (algebra_.is_constant(clean)) continue;
-      const ex coordinate = draft_.length(
-          output.name + "_" + "xyz" [i], {}, output.where);
+      const ex coordinate = draft_.length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
       draft_.equation(coordinate - clean, "output", output.where);
       draft_.output(coordinate);
     }
