@@ -37,10 +37,12 @@ ex Draft::length(const std::string& name, const std::optional<Range>& range, con
 }
 
 Vec Draft::vector(const std::string& name, int size, const SourceLocation& where) {
+  // A little wider than what the equations leave: a component that is 1 is not at an end of what was searched.
+  const Expression end = Expression(size) + Expression(1) / Expression(100);
   Vec v;
   for (std::size_t i = 0; i < 3; ++i)
     v[i] = length(
-        name + "_" + "xyz" [i], Range { Expression(-size), Expression(size) }, where, true);
+        name + "_" + "xyz" [i], Range { -end, end }, where, true);
   return v;
 }
 

@@ -224,7 +224,11 @@ void Frames::orient(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
   const std::size_t group = bodies_.group[parent.body], turned = bodies_.group[child.body];
-  if (has_frame(turned)) return;
+  if (has_frame(turned)) {
+    // Reached before, by another body of its group: the joint says how the two are turned, as one that closes a loop does.
+    close(j);
+    return;
+  }
   switch (j.kind) {
     case JointKind::revolute:
       if (is_asked_for(j.index) || group == 0) {
