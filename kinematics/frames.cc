@@ -249,7 +249,8 @@ void Frames::orient(const TreeEdge& edge) {
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
   const std::size_t group = bodies_.group[parent.body], turned = bodies_.group[child.body];
   if (has_frame(turned)) {
-    if (is_kept(turned) && turned != group) close(j);
+    // Reached before, by another body of its group, or kept turned as an output says: the joint says how the two are turned, as one that closes a loop does.
+    close(j);
     return;
   }
   switch (j.kind) {
