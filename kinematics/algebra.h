@@ -1,9 +1,9 @@
 // Exact geometry of a robot: numbers, vectors and rotations whose entries are expressions in its constants and in
 // coordinates that are made along the way. GiNaC works behind it; whoever uses it holds a symbolic::GinacLock.
 //
-// Constants keep their names, so that equations can be read, but those worth 0 are put in. Whether an expression in constants
-// is zero is decided by their values: rational ones exactly, others by enclosures of 512 bits; what these cannot tell from
-// zero counts as zero.
+// Constants keep their names, so that equations can be read, but those worth 0 are put in. Whether an expression in
+// constants is zero is decided by their values: rational ones exactly, others by enclosures of 512 bits; what these cannot
+// tell from zero counts as zero.
 #pragma once
 
 #include <ginac/ginac.h>

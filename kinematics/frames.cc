@@ -22,7 +22,6 @@ Frames::Frames(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft
       algebra_(algebra),
       draft_(draft),
       frames_(bodies.groups),
-      kept_(bodies.groups, false),
       axes_(bodies.joints.size()),
       aligned_(bodies.joints.size(), false),
       angles_(robot.joints.size()) {
@@ -241,7 +240,6 @@ void Frames::keep(std::size_t group, const Mat& rotation, const std::string& nam
   const Mat columns =
       transpose(Mat{algebra_.named(rotation[0]), algebra_.named(rotation[1]), algebra_.named(rotation[2])} * turn);
   frames_[group] = Frame{{Vec{1, 0, 0}, Vec{0, 1, 0}}, {columns[0], columns[1]}, columns[2]};
-  kept_[group] = true;
 }
 
 void Frames::orient(const TreeEdge& edge) {
@@ -249,7 +247,8 @@ void Frames::orient(const TreeEdge& edge) {
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
   const std::size_t group = bodies_.group[parent.body], turned = bodies_.group[child.body];
   if (has_frame(turned)) {
-    // Reached before, by another body of its group, or kept turned as an output says: the joint says how the two are turned, as one that closes a loop does.
+    // Reached before, by another body of its group, or kept turned as an output says: the joint says how the two are
+    // turned, as one that closes a loop does.
     close(j);
     return;
   }

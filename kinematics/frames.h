@@ -33,7 +33,6 @@ class Frames {
 
   /// Gives a group a frame R Rz Ry Rx by three angles, whose ranges are [0, 0]: so it is found where it is R, and turns.
   void keep(std::size_t group, const Mat& rotation, const std::string& name, const SourceLocation& where);
-  bool is_kept(std::size_t group) const { return kept_[group]; }
   /// Gives the far group its frame, by a tree's edge.
   void orient(const TreeEdge& edge);
   /// What a joint that closes a loop asks of the orientations of its bodies.
@@ -78,7 +77,6 @@ class Frames {
   Draft& draft_;
   bool finished_ = false;
   std::vector<std::optional<Frame>> frames_;  // of each group
-  std::vector<bool> kept_;                    // of each group
   std::vector<std::optional<Vec>> axes_;      // of each joint in bodies_, in the world
   std::vector<bool> aligned_;                 // of each joint in bodies_: both links have the same axis
   std::vector<std::optional<ex>> angles_;     // of each joint of the robot

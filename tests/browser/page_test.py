@@ -57,9 +57,9 @@ class Dextar(page_case.PageCase):
           const panel = corank.panel, model = panel.model, set = model.sets.find((s) => s.name === "inverse");
           panel.pinBox(set, 0);
           const points = model.drawing.points.map((p) => ({...p, moves: p.name === "J3" ? ["v", 0] : [0, "locked"]}));
-          const own = Object.assign(Object.create(Object.getPrototypeOf(panel)), panel, {
-            model: {...model, rates: ["locked", "v"], drawing: {...model.drawing, points}},
-          });
+          const like = (thing, changes) => Object.assign(Object.create(Object.getPrototypeOf(thing)), thing, changes);
+          const moved = {...model, rates: ["locked", "v"], drawing: {...model.drawing, points}};
+          const own = like(panel, {model: moved, picture: like(panel.picture, {model: moved})});
           const x = panel.current.x.map((value, k) => (k === set.configuration ? 0.5 : value));
           own.show({...panel.current, x, set: {...set, columns: [1], scales: [2]}});
           const arrows = document.querySelectorAll("#panel svg .velocity").length;
