@@ -15,6 +15,7 @@ std::string element(const char* tag, const std::string& inside) {
 std::string row(const std::string& inside) { return element("mrow", inside); }
 std::string sign(const char* text) { return element("mo", text); }
 const char* const kInvisibleTimes = "&#x2062;";
+constexpr const char* kThinSpace = "<mspace width=\"0.17em\"/>";
 const char* const kApply = "&#x2061;";
 
 std::string in_parentheses(const std::string& inside) { return row(sign("(") + inside + sign(")")); }
@@ -48,7 +49,7 @@ std::string print_function(const Expression& e, const std::string& exponent = ""
   const std::string name = element("mi", arc ? "arc" + e.name().substr(1) : e.name());
   const std::string head = exponent.empty() ? name : element("msup", name + exponent);
   const bool bare = argument.kind() == Kind::symbol;
-  return row(head + sign(kApply) + (bare ? "<mspace width=\"0.17em\"/>" : "") + in_parentheses_if(!bare, argument));
+  return row(head + sign(kApply) + (bare ? kThinSpace : "") + in_parentheses_if(!bare, argument));
 }
 
 std::string print_power(const Expression& e) {
@@ -82,6 +83,10 @@ bool begins_with_a_number(const Expression& e) {
   return goes_on && begins_with_a_number(e.operands()[0]);
 }
 
+bool begins_with_a_function(const Expression& e) {
+  return is_named_function(e) || (e.kind() == Kind::power && is_named_function(e.operands()[0]));
+}
+
 std::string print_product(const Expression& e) {
   std::string text;
   const Expression* left = nullptr;
@@ -89,6 +94,7 @@ std::string print_product(const Expression& e) {
     // Behind a function the argument would seem to go on, behind a letter a number would seem to be its index.
     const bool dot = left && (is_named_function(*left) ? !is_named_function(factor) : begins_with_a_number(factor));
     if (left) text += sign(dot ? "·" : kInvisibleTimes);
+    if (left && !dot && begins_with_a_function(factor)) text += kThinSpace;  // "rb cos", not "rbcos"
     text += in_parentheses_if(is_sum_or_negation(factor) || (left && factor.kind() == Kind::product), factor);
     left = &factor;
   }

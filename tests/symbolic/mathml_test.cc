@@ -56,5 +56,13 @@ TEST(DisplayName, EscapesAndSplitsNames) {
   EXPECT_EQ(html_text("a<b & \"c\""), "a&lt;b &amp; &quot;c&quot;");
 }
 
+TEST(MathMl, KeepsAFunctionApartFromTheFactorBeforeIt) {
+  const std::string gap = "&#x2062;</mo><mspace width=\"0.17em\"/>";
+  EXPECT_NE(mathml(Expression("r*cos(p)")).find(gap), std::string::npos);
+  EXPECT_NE(mathml(Expression("cos(p)*sin(q)")).find(gap), std::string::npos);
+  EXPECT_NE(mathml(Expression("r*cos(p)^2")).find(gap), std::string::npos);
+  EXPECT_EQ(mathml(Expression("r*p")).find(gap), std::string::npos);
+}
+
 }  // namespace
 }  // namespace corank::symbolic
