@@ -18,6 +18,14 @@ inline const std::vector<std::string> kSets = [] {
   return names;
 }();
 
+/// Those of them that a report has unless it is told which.
+inline const std::vector<std::string> kUsualSets = [] {
+  std::vector<std::string> names;
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions())
+    if (set.is_usual()) names.emplace_back(set.name);
+  return names;
+}();
+
 /// What the options say, not yet checked.
 struct QuestionOptions {
   std::string file, set, kernel, loops;

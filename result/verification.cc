@@ -15,6 +15,7 @@
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
+#include "corank/symbolic/velocity_blocks.h"
 
 namespace corank::result {
 namespace {
@@ -138,6 +139,13 @@ System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   return system;
 }
 
+std::optional<VelocityBlocks> blocks_of(const Result& result) {
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (result.cover.types.asked == 0 || !set) return std::nullopt;
+  return symbolic::velocity_blocks(model_of(result), *set, symbolic::kernel_side_from_string(result.options.kernel),
+                                   result.options.corank);
+}
+
 Verification verify(const Result& result, const check::Options& options) {
   return verify(result, system_of(result), options);
 }
@@ -145,7 +153,9 @@ Verification verify(const Result& result, const check::Options& options) {
 Verification verify(const Result& result, const System& system, const check::Options& options) {
   Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
   // Boxes of another system are not worth a check.
-  if (verification.contradictions.empty()) verification.report = check::check(system, result.cover, options);
+  if (!verification.contradictions.empty()) return verification;
+  const auto blocks = blocks_of(result);
+  verification.report = check::check(system, result.cover, options, blocks ? &*blocks : nullptr);
   return verification;
 }
 

@@ -7,9 +7,23 @@
 #include <span>
 #include <string>
 
+#include "corank/core/singularity_types.h"
+
 namespace corank::symbolic {
 
-enum class SingularitySet { cspace, forward, inverse, cspace_singular };
+enum class SingularitySet {
+  cspace,
+  forward,
+  inverse,
+  cspace_singular,
+  forward_inverse,  ///< where both are singular at once
+  ro,               ///< those of one type (core/singularity_types.h) …
+  rpm,
+  ii,
+  ri,
+  io,
+  iim
+};
 enum class KernelSide { right, left };  ///< M ξ = 0 or Mᵀ ξ = 0
 /// Of a coordinate: whose rate is it? Inputs are the actuators', passive is the rest.
 enum class Role { input, output, passive };
@@ -27,7 +41,12 @@ struct SetDefinition {
   const char* name;                   ///< on command lines and in result files: "forward"
   const char* matrix = "";            ///< what M is called, "L_y"; empty: the set has no kernel
   std::span<const Role> locked{};     ///< the rates that are 0: which columns of L go
-  KernelSide side{};                  ///< of the kernel, where none is asked for
+  KernelSide side{};                  ///< of the kernel of a square M, where none is asked for
+  bool one_side = false;              ///< no other kernel gives this set
+  std::span<const Role> also_locked{};  ///< of a second matrix that is singular as well: its kernel's vector is eta
+  const char* also_matrix = "";
+  /// The set is that of a type: of the kernel's configurations those where the type is not excluded.
+  std::optional<SingularityType> type{};
 
   const char* title;      ///< "Forward singularities"
   const char* member;     ///< one of them, "Forward singularity"
@@ -46,6 +65,8 @@ struct SetDefinition {
   bool has_kernel() const { return *matrix != '\0'; }
   /// All configurations of a mechanism, among which those of the other sets are.
   bool is_cspace() const { return set && !has_kernel(); }
+  /// Of those that a report shows unless it is told which.
+  bool is_usual() const { return !type && also_locked.empty(); }
 };
 
 /// The sets of a mechanism, in the order of a report.
@@ -55,7 +76,7 @@ const SetDefinition& definition(std::optional<SingularitySet> set);
 /// By name; a plain system's where no set is called so.
 const SetDefinition& definition(const std::string& name);
 
-/// "cspace, forward, inverse or cspace-singular"; those that have a kernel, or all.
+/// "cspace, forward … or iim"; those that have a kernel, or all.
 std::string names_of_sets(bool with_kernel_only = false);
 /// "forward singularities of corank 2"; "forward" where the corank is 1.
 std::string set_with_corank(const std::string& set, int corank);

@@ -16,8 +16,18 @@ TEST(SetDefinitions, AreFoundByTheirNamesAndByTheirSets) {
     EXPECT_EQ(&definition(std::string(d.name)), &d);
     EXPECT_EQ(singularity_set_from_string(to_string(*d.set)), d.set);
   }
-  EXPECT_EQ(names_of_sets(), "cspace, forward, inverse or cspace-singular");
-  EXPECT_EQ(names_of_sets(true), "forward, inverse or cspace-singular");
+  const std::string kernels = "forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io or iim";
+  EXPECT_EQ(names_of_sets(), "cspace, " + kernels);
+  EXPECT_EQ(names_of_sets(true), kernels);
+}
+
+TEST(SetDefinitions, OfTypesAndOfTwoKernelsAreShownOnDemandOnly) {
+  int usual = 0;
+  for (const SetDefinition& d : set_definitions()) {
+    usual += d.is_usual();
+    if (d.type || !d.also_locked.empty()) EXPECT_FALSE(d.is_usual()) << d.name;
+  }
+  EXPECT_EQ(usual, 4);
 }
 
 TEST(SetDefinitions, KnowAPlainSystemUnderAnyOtherName) {

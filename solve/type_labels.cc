@@ -1,0 +1,75 @@
+#include "corank/solve/type_labels.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "corank/certify/type_bounds.h"
+#include "corank/core/rounding.h"
+
+namespace corank::solve {
+namespace {
+
+constexpr int kDepth = 4;  // halvings of a box in which nothing was settled
+
+// Is the box's only solution the exact point that it names?
+bool is_its_point(const CoverBox& box, const Cover& cover) {
+  if (box.point < 0 || (box.verdict != Verdict::exact && box.verdict != Verdict::isolated)) return false;
+  const auto& coordinates = cover.exact_points[static_cast<std::size_t>(box.point)].coordinates;
+  return std::none_of(coordinates.begin(), coordinates.end(), [](const RationalPolynomial& x) { return x.empty(); });
+}
+
+}  // namespace
+
+void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& cover, Control& control) {
+  const System& system = prepared.system;
+  if (system.coefficient_tolerance > 0) return;
+  const InStage stage(control, Stage::kernel);
+  const auto start = std::chrono::steady_clock::now();
+  cover.types = {blocks.asked, blocks.of_set, 0};
+  const certify::TypeBounds bounds(system, blocks);
+  const auto stopped = [&control] { return control.ended(); };
+  for (ExactPoint& point : cover.exact_points) {
+    const UpwardRounding rounding;
+    point.types = bounds.at(point, stopped);
+  }
+  const auto label = [&](CoverBox& box) {
+    const UpwardRounding rounding;
+    if (box.verdict == Verdict::pending || stopped()) return;
+    if (is_its_point(box, cover)) box.types = cover.exact_points[static_cast<std::size_t>(box.point)].types;
+    if (box.types == TypeLabels{}) box.types = bounds.in(box.box);
+    if (!box.types.settle(blocks.of_set)) box.types = bounds.in(box.box, kDepth);
+  };
+  tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
+  arena.execute([&] {
+    for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
+      tbb::parallel_for(std::size_t{0}, list->size(), [&](std::size_t i) { label((*list)[i]); });
+  });
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  cover.statistics.seconds_total += seconds;
+  cover.statistics.seconds_certify += seconds;
+}
+
+void keep_only(SingularityType type, Cover& cover) {
+  const auto excluded = [type](const CoverBox& box) { return (box.types.excluded & bit(type)) != 0; };
+  cover.types.left_out = static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), excluded));
+  std::erase_if(cover.boxes, excluded);
+  std::erase_if(cover.points, excluded);
+  if (cover.types.left_out == 0) return;
+  cover.proof.reset();
+  std::vector<int> place(cover.regions.size(), -1);
+  std::vector<Box> regions;
+  for (CoverBox& box : cover.boxes)
+    if (box.region >= 0 && place[static_cast<std::size_t>(box.region)] < 0) {
+      place[static_cast<std::size_t>(box.region)] = static_cast<int>(regions.size());
+      regions.push_back(std::move(cover.regions[static_cast<std::size_t>(box.region)]));
+    }
+  for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
+    for (CoverBox& box : *list)
+      if (box.region >= 0) box.region = place[static_cast<std::size_t>(box.region)];
+  cover.regions = std::move(regions);
+}
+
+}  // namespace corank::solve
