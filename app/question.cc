@@ -14,7 +14,7 @@ void QuestionOptions::add_options(CLI::App& command) {
   command
       .add_option("--kernel", kernel,
                   "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
-                  "default: right where the matrix M is square, else left")
+                  "default: right where the matrix M is square or tall, else left")
       ->check(CLI::IsMember({"right", "left"}));
   add_corank(command);
   add_definitions(command);

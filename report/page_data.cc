@@ -210,6 +210,14 @@ std::string verdict_payload(const result::Result& result) {
   return base64(bytes);
 }
 
+// Of each box the types that its solutions are proven to be of, as bits; nothing where none were asked for.
+std::string types_payload(const Cover& cover) {
+  if (cover.types.asked == 0) return "";
+  std::vector<std::uint8_t> bytes;
+  for (const CoverBox& b : cover.boxes) bytes.push_back(holds_a_solution(b) ? b.types.proven : TypeSet{});
+  return base64(bytes);
+}
+
 std::string set_description(const SetView& view) {
   Json locked = Json::array();
   for (const symbolic::Role role : view.set->locked) locked.push_back(to_string(role));
@@ -222,6 +230,7 @@ std::string set_description(const SetView& view) {
               {"dot", view.set->dot},
               {"dimension", cover.dimension},
               {"sigma", cover.sigma.largest()},
+              {"types", types_payload(cover)},
               {"complete", cover.complete()},
               {"count", cover.boxes.size()}}
       .dump();

@@ -6,8 +6,8 @@
 
 #include "corank/result/motion_words.h"
 #include "corank/result/number_text.h"
-#include "corank/result/tallies.h"
 #include "corank/result/summary.h"
+#include "corank/result/tallies.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 #include "corank/symbolic/set_definition.h"
