@@ -9,15 +9,14 @@
 namespace corank::certify {
 namespace {
 
-using Ranks = std::array<int, kBlocks>;
-
 std::size_t index(Block block) { return static_cast<std::size_t>(block); }
 
 // Each rank is in lo … hi.
 class Range {
  public:
-  Range(const VelocityBlocks& blocks, Ranks lo, Ranks hi) : blocks_(blocks), lo_(lo), hi_(hi) { narrow(); }
+  Range(const VelocityBlocks& blocks, const RankBounds& lo, const RankBounds& hi) : blocks_(blocks), lo_(lo), hi_(hi) { narrow(); }
 
+  const RankBounds& lower() const { return lo_; }
   int lo(Block block) const { return lo_[index(block)]; }
   int hi(Block block) const { return hi_[index(block)]; }
   void raise(Block block, int rank) {
@@ -63,7 +62,7 @@ class Range {
   }
 
   const VelocityBlocks& blocks_;
-  Ranks lo_, hi_;
+  RankBounds lo_, hi_;
 };
 
 }  // namespace
@@ -73,10 +72,10 @@ TypeBounds::TypeBounds(const System& system, const VelocityBlocks& blocks) : sys
     if (!blocks.matrices[b].entries.empty()) bounds_[b].emplace(system, blocks.matrices[b]);
 }
 
-TypeLabels TypeBounds::in(const Box& box, int halvings) const {
+RankBounds TypeBounds::ranks(const Box& box, int halvings, const RankBounds& known) const {
   using enum Block;
   CORANK_CHECK(UpwardRounding::active());
-  Range range(blocks_, Ranks{}, blocks_.at_most);
+  Range range(blocks_, known, blocks_.at_most);
   const auto raise = [&](Block block) {
     const auto& bound = bounds_[index(block)];
     if (bound && range.lo(block) < range.hi(block))
@@ -87,11 +86,13 @@ TypeLabels TypeBounds::in(const Box& box, int halvings) const {
   // Only where a type may be excluded by it.
   if (range.hi(forward) >= std::min(blocks_.outputs + range.hi(passive), range.hi(all) - range.hi(input_ties))) raise(forward);
   if (range.hi(inverse) >= std::min(blocks_.inputs + range.hi(passive), range.hi(all) - range.hi(output_ties))) raise(inverse);
-  return range.labels();
+  return range.lower();
 }
 
+TypeLabels TypeBounds::labels(const RankBounds& ranks) const { return Range(blocks_, ranks, blocks_.at_most).labels(); }
+
 TypeLabels TypeBounds::at(const ExactPoint& point, const Ended& ended) const {
-  Ranks ranks{};
+  RankBounds ranks{};
   for (std::size_t b = 0; b < ranks.size(); ++b) {
     if (blocks_.matrices[b].entries.empty()) continue;
     const std::optional<int> rank = exact_rank(system_, blocks_.matrices[b], point, ended);

@@ -19,13 +19,20 @@
 
 namespace corank::certify {
 
+/// Of each block.
+using RankBounds = std::array<int, kBlocks>;
+
 class TypeBounds {
  public:
   /// Both have to outlive this.
   TypeBounds(const System& system, const VelocityBlocks& blocks);
 
-  /// Of every solution of the system in the box, whose sides may be halved so many times. Requires UpwardRounding::active().
-  TypeLabels in(const Box& box, int halvings = 0) const;
+  /// Lower bounds of the blocks' ranks all over the box, as far as types rest on them; the sides may be halved so many times.
+  /// `known`: bounds in a larger box, which hold in this one. Requires UpwardRounding::active().
+  RankBounds ranks(const Box& box, int halvings = 0, const RankBounds& known = {}) const;
+  /// Of every solution of the system in a box with these lower bounds.
+  TypeLabels labels(const RankBounds& ranks) const;
+  TypeLabels in(const Box& box, int halvings = 0) const { return labels(ranks(box, halvings)); }
   /// Of an exact solution, or a configuration whose kernel is continuous: the ranks themselves, by exact elimination
   /// (exact_rank). Nothing is proven where they cannot be decided, or once `ended` is true.
   TypeLabels at(const ExactPoint& point, const Ended& ended = {}) const;

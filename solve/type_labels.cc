@@ -12,7 +12,14 @@
 namespace corank::solve {
 namespace {
 
-constexpr int kDepth = 4;  // halvings of a box in which nothing was settled
+constexpr int kDepth = 4;        // halvings of a box in which not all was settled
+constexpr int kRegionDepth = 6;  // of a region, which is wide, and speaks for many boxes
+
+bool contains(const Box& outer, const Box& inner, int sides) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(sides); ++j)
+    if (!outer[j].contains(inner[j])) return false;
+  return true;
+}
 
 // Is the box's only solution the exact point that it names?
 bool is_its_point(const CoverBox& box, const Cover& cover) {
@@ -35,15 +42,28 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
     const UpwardRounding rounding;
     point.types = bounds.at(point, stopped);
   }
+  // A rank that is shown all over a region is shown in the boxes that were cut from it: most need no look of their own.
+  const bool shared = cover.regions.size() < cover.boxes.size();
+  std::vector<certify::RankBounds> of_regions(cover.regions.size());
   const auto label = [&](CoverBox& box) {
     const UpwardRounding rounding;
     if (box.verdict == Verdict::pending || stopped()) return;
     if (is_its_point(box, cover)) box.types = cover.exact_points[static_cast<std::size_t>(box.point)].types;
-    if (box.types == TypeLabels{}) box.types = bounds.in(box.box);
-    if (!box.types.settle(blocks.of_set)) box.types = bounds.in(box.box, kDepth);
+    if (box.types != TypeLabels{}) return;
+    certify::RankBounds known{};
+    if (const auto r = static_cast<std::size_t>(box.region);
+        box.region >= 0 && contains(cover.regions[r], box.box, system.configuration_size))
+      known = of_regions[r];
+    box.types = bounds.labels(known);
+    if (!box.types.settle(blocks.asked)) box.types = bounds.labels(known = bounds.ranks(box.box, 0, known));
+    if (!box.types.settle(blocks.of_set)) box.types = bounds.labels(bounds.ranks(box.box, kDepth, known));
   };
   tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
   arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, shared ? of_regions.size() : 0, [&](std::size_t r) {
+      const UpwardRounding rounding;
+      if (!stopped()) of_regions[r] = bounds.ranks(cover.regions[r], kRegionDepth);
+    });
     for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
       tbb::parallel_for(std::size_t{0}, list->size(), [&](std::size_t i) { label((*list)[i]); });
   });

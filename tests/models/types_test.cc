@@ -184,7 +184,7 @@ TEST(RedundantMechanisms, AnArmOfFourJointsIsSingularWhereItsLinksAreParallel) {
   for (const CoverBox& box : r.cover.boxes) {
     const Interval &x = box.box[end[0]], &y = box.box[end[1]];
     EXPECT_TRUE(radius_fits(std::hypot(x.mig(), y.mig()), std::hypot(x.mag(), y.mag()))) << x << ' ' << y;
-    EXPECT_EQ(box.verdict, Verdict::regular);
+    EXPECT_TRUE(box.verdict == Verdict::regular || box.verdict == Verdict::boundary) << "the half-space of xi";
     EXPECT_TRUE(box.types.proven & bit(io));
     EXPECT_TRUE(box.types.excluded & bit(iim));
   }
@@ -201,7 +201,6 @@ TEST(RedundantMechanisms, AnArmOfFourJointsIsSingularWhereItsLinksAreParallel) {
     }
   EXPECT_TRUE(verified(r));
   EXPECT_TRUE(solved(model, SingularitySet::forward).cover.boxes.empty());
-  EXPECT_TRUE(solved(model, SingularitySet::rpm, {}, {}).cover.boxes.empty());
 }
 
 /// |P - s_i r_i (cos psi, sin psi) - A_i| = l_i, i = 1, 2, 3, by Newton's method from many starts; (P, psi) with psi in [0, π).
@@ -284,6 +283,7 @@ TEST(RedundantMechanisms, HaveOneKernelThatTellsAnything) {
   EXPECT_THAT(refusal(arms, SingularitySet::forward, KernelSide::left),
               HasSubstr("so every configuration has a left kernel; expected the right kernel"));
   EXPECT_THAT(refusal(arms, SingularitySet::ii), HasSubstr("so every configuration is one of the set ii; expected the set ro"));
+  EXPECT_THAT(refusal(arm, SingularitySet::rpm), HasSubstr("there are no passive coordinates, so L_p has no columns"));
   EXPECT_EQ(refusal(arms, SingularitySet::ro), "none");
   EXPECT_EQ(refusal(arm, SingularitySet::io), "none");
   EXPECT_THAT(refusal(arms, SingularitySet::ro, KernelSide::left), HasSubstr("every configuration has a left kernel"));
