@@ -14,7 +14,9 @@ std::size_t index(Block block) { return static_cast<std::size_t>(block); }
 // Each rank is in lo … hi.
 class Range {
  public:
-  Range(const VelocityBlocks& blocks, const RankBounds& lo, const RankBounds& hi) : blocks_(blocks), lo_(lo), hi_(hi) { narrow(); }
+  Range(const VelocityBlocks& blocks, const RankBounds& lo, const RankBounds& hi) : blocks_(blocks), lo_(lo), hi_(hi) {
+    narrow();
+  }
 
   const RankBounds& lower() const { return lo_; }
   int lo(Block block) const { return lo_[index(block)]; }
@@ -84,8 +86,10 @@ RankBounds TypeBounds::ranks(const Box& box, int halvings, const RankBounds& kno
   for (const Block block : {passive, input_ties, output_ties}) raise(block);
   raise(all);
   // Only where a type may be excluded by it.
-  if (range.hi(forward) >= std::min(blocks_.outputs + range.hi(passive), range.hi(all) - range.hi(input_ties))) raise(forward);
-  if (range.hi(inverse) >= std::min(blocks_.inputs + range.hi(passive), range.hi(all) - range.hi(output_ties))) raise(inverse);
+  if (range.hi(forward) >= std::min(blocks_.outputs + range.hi(passive), range.hi(all) - range.hi(input_ties)))
+    raise(forward);
+  if (range.hi(inverse) >= std::min(blocks_.inputs + range.hi(passive), range.hi(all) - range.hi(output_ties)))
+    raise(inverse);
   return range.lower();
 }
 

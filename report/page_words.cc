@@ -234,7 +234,8 @@ namespace {
 const char* meaning_of(SingularityType type) {
   switch (type) {
     case SingularityType::ro: return "redundant output: with the actuators locked the output can still move";
-    case SingularityType::rpm: return "redundant passive motion: with actuators and output locked passive joints can still move";
+    case SingularityType::rpm:
+      return "redundant passive motion: with actuators and output locked passive joints can still move";
     case SingularityType::ii: return "impossible input: some velocity of the actuators cannot be had";
     case SingularityType::ri: return "redundant input: the actuators can move while the output stands still";
     case SingularityType::io: return "impossible output: some velocity of the output cannot be had";
@@ -248,10 +249,11 @@ void say_types(const Cover& cover, SetWords& words) {
   const result::TypeTally tally = result::type_tally(cover);
   for (const auto& [type, n] : tally.proven)
     if (n > 0)
-      words.proven.push_back(fmt::format("{} ({}), at every solution in {}.", to_string(type), meaning_of(type), boxes_text(n)));
+      words.proven.push_back(
+          fmt::format("{} ({}), at every solution in {}.", to_string(type), meaning_of(type), boxes_text(n)));
   if (tally.proven.empty() || tally.unproven == 0) return;
-  words.unproven.push_back(fmt::format("Which types {} hold is not settled, or whether they hold a solution.",
-                                       boxes_text(tally.unproven)));
+  words.unproven.push_back(
+      fmt::format("Which types {} hold is not settled, or whether they hold a solution.", boxes_text(tally.unproven)));
 }
 
 }  // namespace

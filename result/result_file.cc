@@ -248,7 +248,8 @@ class ResultReader {
       if (proven.size() != list->size() || excluded.size() != list->size())
         refuse(std::string(group) + "/types_proven or _excluded has another length than the list of boxes");
       for (std::size_t i = 0; i < list->size(); ++i) {
-        if (proven[i] > kAllTypes || excluded[i] > kAllTypes) refuse(std::string(group) + "/types_proven or _excluded is out of range");
+        if (proven[i] > kAllTypes || excluded[i] > kAllTypes)
+          refuse(std::string(group) + "/types_proven or _excluded is out of range");
         (*list)[i].types = {proven[i], excluded[i]};
       }
     }

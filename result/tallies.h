@@ -33,7 +33,8 @@ std::vector<Value> values(const Result& result, const CoverBox& box, int variabl
 
 /// Boxes by what is proven of the types of the solutions in them.
 struct TypeTally {
-  std::map<SingularityType, std::size_t> proven;  ///< boxes that hold solutions, all of this type; of each that was asked for
+  std::map<SingularityType, std::size_t>
+      proven;                ///< boxes that hold solutions, all of this type; of each that was asked for
   std::size_t unproven = 0;  ///< boxes that may hold none, or where a type that makes up the set is not settled
 };
 /// No types where none were asked for.

@@ -141,8 +141,9 @@ constexpr std::array<SetDefinition, 12> kSets{{
      .title = "Impossible input",
      .member = "Impossible input (II)",
      .label = "impossible input",
-     .meaning = "some velocity of the actuators cannot be had; all of these configurations are here, others only where a box "
-                "says that its type is not known",
+     .meaning =
+         "some velocity of the actuators cannot be had; all of these configurations are here, others only where a box "
+         "says that its type is not known",
      .of_corank = "the same, where the kernel has dimension {} at least",
      .none = "There is none in the search domain: the actuators can have every velocity.",
      .print = {0.80, 0.11, 0.14},
@@ -160,8 +161,9 @@ constexpr std::array<SetDefinition, 12> kSets{{
      .title = "Redundant input",
      .member = "Redundant input (RI)",
      .label = "redundant input",
-     .meaning = "the actuators can move, to first order, while the output stands still; all of these configurations are here, "
-                "others only where a box says that its type is not known",
+     .meaning =
+         "the actuators can move, to first order, while the output stands still; all of these configurations are here, "
+         "others only where a box says that its type is not known",
      .of_corank = "the same, in at least {} independent ways",
      .none = "There is none in the search domain: where the output stands still, so do the actuators.",
      .print = {0.09, 0.33, 0.75},
@@ -179,8 +181,9 @@ constexpr std::array<SetDefinition, 12> kSets{{
      .title = "Impossible output",
      .member = "Impossible output (IO)",
      .label = "impossible output",
-     .meaning = "some velocity of the output cannot be had; all of these configurations are here, others only where a box says "
-                "that its type is not known",
+     .meaning =
+         "some velocity of the output cannot be had; all of these configurations are here, others only where a box says "
+         "that its type is not known",
      .of_corank = "the same, where the kernel has dimension {} at least",
      .none = "There is none in the search domain: the output can have every velocity.",
      .print = {0.09, 0.33, 0.75},
@@ -197,7 +200,8 @@ constexpr std::array<SetDefinition, 12> kSets{{
      .title = "Increased instantaneous mobility",
      .member = "Increased instantaneous mobility (IIM)",
      .label = "increased mobility",
-     .meaning = "the velocity equation loses rank: to first order the mechanism can move in more ways than its mobility says",
+     .meaning =
+         "the velocity equation loses rank: to first order the mechanism can move in more ways than its mobility says",
      .of_corank = "the velocity equation loses at least {} of its ranks",
      .none = "There is none in the search domain: the velocity equation has full rank there.",
      .print = {0.52, 0.18, 0.68},

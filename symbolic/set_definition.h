@@ -37,12 +37,12 @@ std::optional<KernelSide> kernel_side_from_string(const std::string& text);
 
 /// { q : Φ(q) = 0 and, where there is a matrix, ker M or ker Mᵀ ≠ 0 }, M = L without the columns of the locked rates.
 struct SetDefinition {
-  std::optional<SingularitySet> set;  ///< nothing: the solutions of a plain system
-  const char* name;                   ///< on command lines and in result files: "forward"
-  const char* matrix = "";            ///< what M is called, "L_y"; empty: the set has no kernel
-  std::span<const Role> locked{};     ///< the rates that are 0: which columns of L go
-  KernelSide side{};                  ///< of the kernel of a square M, where none is asked for
-  bool one_side = false;              ///< no other kernel gives this set
+  std::optional<SingularitySet> set;    ///< nothing: the solutions of a plain system
+  const char* name;                     ///< on command lines and in result files: "forward"
+  const char* matrix = "";              ///< what M is called, "L_y"; empty: the set has no kernel
+  std::span<const Role> locked{};       ///< the rates that are 0: which columns of L go
+  KernelSide side{};                    ///< of the kernel of a square M, where none is asked for
+  bool one_side = false;                ///< no other kernel gives this set
   std::span<const Role> also_locked{};  ///< of a second matrix that is singular as well: its kernel's vector is eta
   const char* also_matrix = "";
   /// The set is that of a type: of the kernel's configurations those where the type is not excluded.

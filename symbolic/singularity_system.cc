@@ -361,8 +361,8 @@ KernelQuestion question_of(const Mechanism& mechanism, const VelocityEquation& v
     check_chosen(mechanism, velocity, set);
   }
   if (kernel.matrix.columns.empty())
-    throw ModelError(model_place(mechanism), "there are no passive " + counted(velocity).column + "s, so " + name +
-                                                 " has no columns",
+    throw ModelError(model_place(mechanism),
+                     "there are no passive " + counted(velocity).column + "s, so " + name + " has no columns",
                      "passive " + counted(velocity).column + "s");
   kernel.side = side_of(mechanism, kernel, ties.size(), side);
   // Lemma (doc/theory.md): a matrix and the same without rows of zeros have the same right kernel, which passes them over; a

@@ -89,9 +89,9 @@ std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, Singul
   blocks.outputs = static_cast<int>(velocity.names_of(Role::output).size());
   blocks.passive = static_cast<int>(velocity.names_of(Role::passive).size());
   blocks.asked = asked_types(velocity, blocks.inputs, blocks.outputs);
-  const std::array<ExpressionMatrix, kBlocks> matrices{
-      velocity.without({}),      velocity.without(kInputs),      velocity.without(kOutputs),
-      velocity.without(kChosen), ties_of(velocity, Role::input), ties_of(velocity, Role::output)};
+  const std::array<ExpressionMatrix, kBlocks> matrices{velocity.without({}),           velocity.without(kInputs),
+                                                       velocity.without(kOutputs),     velocity.without(kChosen),
+                                                       ties_of(velocity, Role::input), ties_of(velocity, Role::output)};
   std::vector<Expression> entries;
   for (const ExpressionMatrix& m : matrices)
     for (const auto& row : m.rows) entries.insert(entries.end(), row.begin(), row.end());
@@ -113,8 +113,7 @@ std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, Singul
   }
   const auto lower = [&](const KernelQuestion& kernel, std::span<const Role> locked) {
     const Block block = block_of(locked);
-    const std::size_t unknowns =
-        kernel.side == KernelSide::right ? kernel.matrix.columns.size() : kernel.matrix.rows.size();
+    const std::size_t unknowns = kernel.side == KernelSide::right ? kernel.matrix.columns.size() : kernel.matrix.rows.size();
     int& most = blocks.at_most[at(block)];
     most = std::min(most, static_cast<int>(unknowns) - corank);
     ExpressionMatrix square = kernel.matrix;

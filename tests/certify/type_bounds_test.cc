@@ -202,6 +202,32 @@ TEST(TypeBounds, SayNothingOfTypesThatWereNotAskedFor) {
   EXPECT_EQ(bounds.at(origin()), (TypeLabels{0, bit(iim)}));
 }
 
+// Columns u, v, p: L = [0 1 x; 1 0 0]. Its L_y = [0 x; 1 0] is singular at x = 0, since the passive column is 0 there.
+TEST(TypeBounds, LeaveOpenWhetherAKernelMovesTheOutputWhereThePassiveColumnsMayLoseRank) {
+  const Family f{(MatrixXd(2, 3) << 0, 1, 0, 1, 0, 0).finished(), (MatrixXd(2, 3) << 0, 0, 1, 0, 0, 0).finished(), 1, 1, 1};
+  VelocityBlocks blocks = blocks_of(f);
+  blocks.at_most[static_cast<std::size_t>(Block::forward)] = 1;
+  const System system = of_one_length();
+  const UpwardRounding rounding;
+  const TypeBounds bounds(system, blocks);
+  const TypeLabels labels = bounds.in({Interval(-0.1, 0.1)}, 3);
+  EXPECT_EQ(labels.proven & (bit(ro) | bit(rpm)), 0);
+  EXPECT_EQ(labels.excluded & (bit(ro) | bit(rpm)), 0);
+  EXPECT_EQ(labels.proven & (bit(ii) | bit(iim)), bit(ii)) << "the columns of u and v are independent";
+  EXPECT_EQ(bounds.at(origin()).proven & (bit(ro) | bit(rpm) | bit(ii)), bit(rpm) | bit(ii));
+}
+
+TEST(TypeBounds, SayNothingOfAPointThatIsNotKnownWhole) {
+  const Family f{(MatrixXd(2, 3) << 0, 1, 1, 1, 0, 0).finished(), (MatrixXd(2, 3) << 1, 0, 0, 0, 0, 0).finished(), 1, 1, 1};
+  const VelocityBlocks blocks = blocks_of(f);
+  const System system = of_one_length();
+  ExactPoint point = origin();
+  const UpwardRounding rounding;
+  EXPECT_NE(TypeBounds(system, blocks).at(point), TypeLabels{});
+  point.coordinates[0].clear();
+  EXPECT_EQ(TypeBounds(system, blocks).at(point), TypeLabels{});
+}
+
 // Inputs v1, v2 with the tie v1' + x v2' = 0 in the first row: II asks for inputs that the tie allows only.
 TEST(TypeBounds, CountTiesOfInputs) {
   VelocityBlocks blocks;
@@ -214,9 +240,12 @@ TEST(TypeBounds, CountTiesOfInputs) {
     return m;
   };
   // Columns u, v1, v2; rows: v1 + x v2 = 0, u = v1.
-  blocks.matrices = {matrix(2, 3, {"0", "1", "x", "1", "-1", "0"}), matrix(2, 1, {"0", "1"}),
-                     matrix(2, 2, {"1", "x", "-1", "0"}),           {},
-                     matrix(1, 2, {"1", "x"}),                      {}};
+  blocks.matrices = {matrix(2, 3, {"0", "1", "x", "1", "-1", "0"}),
+                     matrix(2, 1, {"0", "1"}),
+                     matrix(2, 2, {"1", "x", "-1", "0"}),
+                     {},
+                     matrix(1, 2, {"1", "x"}),
+                     {}};
   blocks.outputs = 1;
   blocks.inputs = 2;
   blocks.asked = blocks.of_set = kAllTypes;

@@ -48,8 +48,8 @@ Result solved(const std::string& model, const std::string& set, double sigma, st
   solve::Control control;
   if (set != "cspace")
     solve::label_types(solve::prepare(system, options, control),
-                       *symbolic::velocity_blocks(model_of(result), *symbolic::singularity_set_from_string(set)), result.cover,
-                       control);
+                       *symbolic::velocity_blocks(model_of(result), *symbolic::singularity_set_from_string(set)),
+                       result.cover, control);
   result.options.sigma = result.cover.sigma;
   return result;
 }
@@ -367,8 +367,18 @@ const std::vector<Tampering>& tamperings() {
        }},
       {"a type that is not so", "that its solutions are RI is not shown", curve,
        [](Result& r) { label(r, r.cover.boxes.size() / 2).proven |= bit(SingularityType::ri); }},
+      {"an output said to be impossible that is not", "that its solutions are IO is not shown", curve,
+       [](Result& r) { label(r, 5).proven |= bit(SingularityType::io); }},
+      {"an input that is impossible said not to be", "that its solutions are not II is not shown", curve,
+       [](Result& r) {
+         label(r, 9) = {0, bit(SingularityType::ii)};
+       }},
+      {"increased mobility where there is none", "that its solutions are IIM is not shown", curve,
+       [](Result& r) { label(r, 13).proven |= bit(SingularityType::iim); }},
       {"a type that is proven said to be excluded", "that its solutions are not RO is not shown", curve,
-       [](Result& r) { label(r, 7) = {0, bit(SingularityType::ro)}; }},
+       [](Result& r) {
+         label(r, 7) = {0, bit(SingularityType::ro)};
+       }},
       {"a type excluded that boxes near by have", "that its solutions are not RI is not shown", crossing,
        [](Result& r) { label(r, 3).excluded |= bit(SingularityType::ri); }},
       {"passive motion where there is none", "that its solutions are RPM is not shown", curve,

@@ -80,9 +80,7 @@ TEST(GivenVelocity, IsAskedForAsManyInputRatesAsTheMobilitySays) {
   EXPECT_EQ(forward(crank("a ~ output\nb ~ passive\n", "a = b;\n")),
             "crank.cuik: the model names no input rates, which the forward singularities need; expected a line `name ~ "
             "input` in [RATES]");
-  EXPECT_EQ(forward(crank("a ~ input\nb ~ input\nc ~ passive\n", "a = b + c;\nb = c;\n")),
-            "none")
-      << "redundantly actuated";
+  EXPECT_EQ(forward(crank("a ~ input\nb ~ input\nc ~ passive\n", "a = b + c;\nb = c;\n")), "none") << "redundantly actuated";
   EXPECT_EQ(forward(crank("a ~ input\nb ~ input\nc ~ passive\n", "a = b;\nb = c;\n")), "none") << "tied";
   EXPECT_EQ(forward(crank("a ~ input\nb ~ output\nc ~ output\n", "a = b + c;\nb = c + a;\n")),
             "crank.cuik:14:1: the mechanism has 3 rates and 2 velocity equations, so mobility 1, but 2 output rates: "

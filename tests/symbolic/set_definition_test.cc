@@ -25,7 +25,7 @@ TEST(SetDefinitions, OfTypesAndOfTwoKernelsAreShownOnDemandOnly) {
   int usual = 0;
   for (const SetDefinition& d : set_definitions()) {
     usual += d.is_usual();
-    if (d.type || !d.also_locked.empty()) EXPECT_FALSE(d.is_usual()) << d.name;
+    EXPECT_EQ(d.is_usual(), !d.type && d.also_locked.empty()) << d.name;
   }
   EXPECT_EQ(usual, 4);
 }

@@ -322,8 +322,9 @@ TEST(Ties, ThatNeedPassiveCoordinatesAreAskedFor) {
                             "[INPUTS] p\n[OUTPUTS] u, v");
   const auto [line, message] = error_of([&] { singularity_system(m, SingularitySet::inverse); });
   EXPECT_EQ(line, 11);
-  EXPECT_THAT(message, HasSubstr("so mobility 1, but 2 outputs: they are not independent; expected 1 output, or 1 equation in "
-                                 "outputs alone that ties them"));
+  EXPECT_THAT(message,
+              HasSubstr("so mobility 1, but 2 outputs: they are not independent; expected 1 output, or 1 equation in "
+                        "outputs alone that ties them"));
 }
 
 TEST(SingularitySystem, RefusesOutputsThatLeaveNothingToMove) {
