@@ -10,6 +10,8 @@
 namespace corank::certify {
 namespace {
 
+constexpr int kMostTries = 3;  // sizes of a submatrix of a given matrix: its rank is full, or nearly, or of no use
+
 std::vector<Polynomial> entries(const KernelMatrix& matrix) {
   std::vector<Polynomial> list;
   for (const auto& row : matrix.rows) list.insert(list.end(), row.begin(), row.end());
@@ -29,6 +31,7 @@ KernelBound::KernelBound(const System& system, const PolynomialMatrix& matrix)
     : rows_(matrix.rows),
       columns_(matrix.columns),
       least_(std::max(0, matrix.columns - matrix.rows)),
+      most_tries_(kMostTries),
       compiled_(system, matrix.entries) {
   note_arguments(matrix.entries);
 }
@@ -50,11 +53,16 @@ bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<i
     for (int j = 0; j < s; ++j) middle(i, j) = entry(i, j).mid();
   const Eigen::MatrixXd y = middle.inverse();  // any real matrix will do
   if (!y.allFinite()) return false;
+  std::vector<std::vector<int>> filled(
+      static_cast<std::size_t>(s));  // of each column the rows that are not 0: large M are sparse
+  for (int j = 0; j < s; ++j)
+    for (int b = 0; b < s; ++b)
+      if (entry(b, j).mag() > 0) filled[static_cast<std::size_t>(j)].push_back(b);
   for (int i = 0; i < s; ++i) {
     double sum = 0;
     for (int j = 0; j < s; ++j) {
       Interval e(i == j ? 1.0 : 0.0);
-      for (int b = 0; b < s; ++b) e -= Interval(y(i, b)) * entry(b, j);
+      for (const int b : filled[static_cast<std::size_t>(j)]) e -= Interval(y(i, b)) * entry(b, j);
       sum += e.mag();  // upward
     }
     if (!(sum < 1)) return false;
@@ -101,7 +109,7 @@ int KernelBound::at_most_in_one(const Box& box) const {
       if (lu.permutationP().indices()(r) == i) row_order.push_back(r);
     column_order.push_back(lu.permutationQ().indices()(i));
   }
-  while (!row_order.empty()) {
+  for (int tries = 0; !row_order.empty() && tries < most_tries_; ++tries) {
     if (is_regular(m, row_order, column_order)) return k - static_cast<int>(row_order.size());
     row_order.pop_back();
     column_order.pop_back();

@@ -7,6 +7,7 @@
 // ξ = 0, ‖ξ‖ = 1 it is at least 1: where the bound is 1, the dimension is proven.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
@@ -25,7 +26,7 @@ class KernelBound {
   /// False: the system has no kernel equations.
   bool applies() const { return rows_ > 0; }
   /// No q in the box has a kernel of larger dimension. The largest s for which the theorem applies to the submatrix that
-  /// elimination at the midpoint picks; k where none does. Where that is above the least that a kernel may have (1, of
+  /// elimination at the midpoint picks; k where none does, of another matrix none of the three largest. Where that is above the least that a kernel may have (1, of
   /// another matrix the columns that it has more than rows), the largest bound of the box's parts: its sides that M depends on are halved, the widest first,
   /// `halvings` times at most. Requires applies() and UpwardRounding::active().
   int at_most(const Box& box, int halvings = 0) const;
@@ -35,7 +36,7 @@ class KernelBound {
   bool is_regular(const std::vector<Interval>& m, const std::vector<int>& rows, const std::vector<int>& columns) const;
   void note_arguments(const std::vector<Polynomial>& entries);
 
-  int rows_ = 0, columns_ = 0, least_ = 0;
+  int rows_ = 0, columns_ = 0, least_ = 0, most_tries_ = std::numeric_limits<int>::max();
   std::vector<int> arguments_;  // variables in M
   CompiledSystem compiled_;     // value rows: M's entries, row by row
 };

@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 #include "corank/certify/type_bounds.h"
@@ -13,7 +14,7 @@ namespace corank::solve {
 namespace {
 
 constexpr int kDepth = 4;        // halvings of a box in which not all was settled
-constexpr int kRegionDepth = 6;  // of a region, which is wide, and speaks for many boxes
+constexpr int kRegionDepth = 6;  // of a region, which is wide, and speaks for many boxes; less where for few
 
 bool contains(const Box& outer, const Box& inner, int sides) {
   for (std::size_t j = 0; j < static_cast<std::size_t>(sides); ++j)
@@ -43,7 +44,8 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
     point.types = bounds.at(point, stopped);
   }
   // A rank that is shown all over a region is shown in the boxes that were cut from it: most need no look of their own.
-  const bool shared = cover.regions.size() < cover.boxes.size();
+  const std::size_t shared = cover.regions.empty() ? 0 : cover.boxes.size() / cover.regions.size();
+  const int depth = std::min(kRegionDepth, static_cast<int>(std::bit_width(shared)));
   std::vector<certify::RankBounds> of_regions(cover.regions.size());
   const auto label = [&](CoverBox& box) {
     const UpwardRounding rounding;
@@ -60,9 +62,9 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
   };
   tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, shared ? of_regions.size() : 0, [&](std::size_t r) {
+    tbb::parallel_for(std::size_t{0}, shared > 1 ? of_regions.size() : 0, [&](std::size_t r) {
       const UpwardRounding rounding;
-      if (!stopped()) of_regions[r] = bounds.ranks(cover.regions[r], kRegionDepth);
+      if (!stopped()) of_regions[r] = bounds.ranks(cover.regions[r], depth);
     });
     for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
       tbb::parallel_for(std::size_t{0}, list->size(), [&](std::size_t i) { label((*list)[i]); });
@@ -78,6 +80,11 @@ void keep_only(SingularityType type, Cover& cover) {
   std::erase_if(cover.boxes, excluded);
   std::erase_if(cover.points, excluded);
   if (cover.types.left_out == 0) return;
+  std::erase_if(cover.points, [&](const CoverBox& point) {  // clusters of which no box is left
+    return point.verdict == Verdict::undecided &&
+           std::none_of(cover.boxes.begin(), cover.boxes.end(),
+                        [&](const CoverBox& box) { return contains(point.box, box.box, static_cast<int>(box.box.size())); });
+  });
   cover.proof.reset();
   std::vector<int> place(cover.regions.size(), -1);
   std::vector<Box> regions;
