@@ -74,7 +74,7 @@ TypeBounds::TypeBounds(const System& system, const VelocityBlocks& blocks) : sys
     if (!blocks.matrices[b].entries.empty()) bounds_[b].emplace(system, blocks.matrices[b]);
 }
 
-RankBounds TypeBounds::ranks(const Box& box, int halvings, const RankBounds& known) const {
+RankBounds TypeBounds::ranks(const Box& box, int halvings, const RankBounds& known, TypeSet wanted) const {
   using enum Block;
   CORANK_CHECK(UpwardRounding::active());
   Range range(blocks_, known, blocks_.at_most);
@@ -86,9 +86,11 @@ RankBounds TypeBounds::ranks(const Box& box, int halvings, const RankBounds& kno
   for (const Block block : {passive, input_ties, output_ties}) raise(block);
   raise(all);
   // Only where a type may be excluded by it.
-  if (range.hi(forward) >= std::min(blocks_.outputs + range.hi(passive), range.hi(all) - range.hi(input_ties)))
+  if ((wanted & (bit(SingularityType::ro) | bit(SingularityType::ii))) != 0 &&
+      range.hi(forward) >= std::min(blocks_.outputs + range.hi(passive), range.hi(all) - range.hi(input_ties)))
     raise(forward);
-  if (range.hi(inverse) >= std::min(blocks_.inputs + range.hi(passive), range.hi(all) - range.hi(output_ties)))
+  if ((wanted & (bit(SingularityType::ri) | bit(SingularityType::io))) != 0 &&
+      range.hi(inverse) >= std::min(blocks_.inputs + range.hi(passive), range.hi(all) - range.hi(output_ties)))
     raise(inverse);
   return range.lower();
 }

@@ -1,7 +1,7 @@
 // Labels of boxes and exact points: the types of singularity that every solution has, or none (core/singularity_types.h).
 //
-// Each type is an inequality between ranks. At a solution no block's rank is above VelocityBlocks::at_most; that a rank is not
-// below r all over a box, KernelCheck shows. Besides, whatever the ranks are,
+// Each type is an inequality between ranks. At a solution no block's rank is above VelocityBlocks::at_most; that a rank is
+// not below r all over a box, KernelCheck shows. Besides, whatever the ranks are,
 //   rk L_p ≤ rk L_y ≤ n_u + rk L_p,   rk L_y + rk g_v ≤ rk L,   and the same with z, n_v and g_u.
 // A label is confirmed where these bounds leave no other case. Of an exact point the ranks themselves are found.
 #pragma once

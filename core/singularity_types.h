@@ -1,5 +1,5 @@
-// The six types of singular configurations (Zlatanov1994), as statements about ranks of blocks of the velocity equation L m =
-// 0, m = (output, input, passive rates).
+// The six types of singular configurations (Zlatanov1994), as statements about ranks of blocks of the velocity equation L m
+// = 0, m = (output, input, passive rates).
 //
 //   L_y = L without the input columns      L_z = L without the output columns      L_p = the passive columns alone
 //   g_v, g_u: the rows of L that are 0 but in the input (output) columns, those columns alone: the ties of the inputs

@@ -28,9 +28,9 @@ std::string to_table(const Result& result);
 /// joints{name: value} and links{name: {position, rotation}}, poses in the world at the middle of the point's box. `kernel`
 /// is null where its dimension is not known, else at_most{bound: boxes}, without undecided boxes that hold no known point,
 /// and points, where the dimension is known to be 2 or more: a list of {dimension, exact{name: text}, types}.
-/// `types` is null where none were asked for, else RO, RPM, II, RI, IO, IIM: boxes in which every solution is of the type (null: it is
-/// of no interest in this mechanism), and unproven: boxes that may hold no solution, or where a type that makes up the set is
-/// neither proven nor excluded. A point has the list `types` of those that are proven, and `typed`. `left_out`, where there
+/// `types` is null where none were asked for, else RO, RPM, II, RI, IO, IIM: boxes in which every solution is of the type
+/// (null: of no interest in this mechanism), and unproven: boxes that may hold no solution, or where a type that makes up
+/// the set is neither proven nor excluded. A point has the list `types` of those that are proven, and `typed`. `left_out`, where there
 /// are such: boxes of the kernel's set without a solution of the type that the set is of. Every double reads back as the
 /// same double.
 std::string to_json(const Result& result);

@@ -16,6 +16,8 @@ namespace {
 constexpr int kDepth = 4;        // halvings of a box in which not all was settled
 constexpr int kRegionDepth = 6;  // of a region, which is wide, and speaks for many boxes; less where for few
 
+constexpr int kSmall = 12;  // rows of L
+
 bool contains(const Box& outer, const Box& inner, int sides) {
   for (std::size_t j = 0; j < static_cast<std::size_t>(sides); ++j)
     if (!outer[j].contains(inner[j])) return false;
@@ -46,6 +48,8 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
   // A rank that is shown all over a region is shown in the boxes that were cut from it: most need no look of their own.
   const std::size_t shared = cover.regions.empty() ? 0 : cover.boxes.size() / cover.regions.size();
   const int depth = std::min(kRegionDepth, static_cast<int>(std::bit_width(shared)));
+  // Where L is large a rank takes longer than the search takes for a box: then only the types that make up the set.
+  const TypeSet wanted = blocks.matrices[static_cast<std::size_t>(Block::all)].rows > kSmall ? blocks.of_set : blocks.asked;
   std::vector<certify::RankBounds> of_regions(cover.regions.size());
   const auto label = [&](CoverBox& box) {
     const UpwardRounding rounding;
@@ -57,14 +61,14 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
         box.region >= 0 && contains(cover.regions[r], box.box, system.configuration_size))
       known = of_regions[r];
     box.types = bounds.labels(known);
-    if (!box.types.settle(blocks.asked)) box.types = bounds.labels(known = bounds.ranks(box.box, 0, known));
-    if (!box.types.settle(blocks.of_set)) box.types = bounds.labels(bounds.ranks(box.box, kDepth, known));
+    if (!box.types.settle(wanted)) box.types = bounds.labels(known = bounds.ranks(box.box, 0, known, wanted));
+    if (!box.types.settle(blocks.of_set)) box.types = bounds.labels(bounds.ranks(box.box, kDepth, known, wanted));
   };
   tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, shared > 1 ? of_regions.size() : 0, [&](std::size_t r) {
       const UpwardRounding rounding;
-      if (!stopped()) of_regions[r] = bounds.ranks(cover.regions[r], depth);
+      if (!stopped()) of_regions[r] = bounds.ranks(cover.regions[r], depth, {}, wanted);
     });
     for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
       tbb::parallel_for(std::size_t{0}, list->size(), [&](std::size_t i) { label((*list)[i]); });

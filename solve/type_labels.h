@@ -8,8 +8,8 @@
 
 namespace corank::solve {
 
-/// CoverBox::types of every box and point, ExactPoint::types, Cover::types (certify::TypeBounds, on parts of the box where it
-/// must). What is left once the control has ended stays without, and so does all of a system with a tolerance.
+/// CoverBox::types of every box and point, ExactPoint::types, Cover::types (certify::TypeBounds, on parts of the box where
+/// it must). What is left once the control has ended stays without, and so does all of a system with a tolerance.
 void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& cover, Control& control);
 
 /// Takes out the boxes and points in which no solution has the type, and counts them (Cover::types). Every solution of that

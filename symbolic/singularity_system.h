@@ -76,7 +76,8 @@ KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion 
 /// over one q. With a square M these are c² equations more than there are components of the vectors: the set's expected
 /// dimension is that of C-space less c². Where that is below 0 the system is over-determined.
 /// Throws ModelError where inputs or outputs are missing, there are, less their ties, fewer inputs or more outputs than the
-/// mobility, the columns of L less its rows, a kernel is asked for that there is everywhere, or a corank that is not in 1 … the number of the kernel's unknowns (1 for cspace, which has none).
+/// mobility, the columns of L less its rows, a kernel is asked for that there is everywhere, or a corank that is
+/// not in 1 … the number of the kernel's unknowns (1 for cspace, which has none).
 TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt,
                                        const std::vector<std::string>& scales = {}, int corank = 1);

@@ -207,7 +207,7 @@ TEST(RedundantMechanisms, AnArmOfFourJointsIsSingularWhereItsLinksAreParallel) {
   EXPECT_TRUE(solved(model, SingularitySet::forward).cover.boxes.empty());
 }
 
-/// |P - s_i r_i (cos psi, sin psi) - A_i| = l_i, i = 1, 2, 3, by Newton's method from many starts; (P, psi) with psi in [0, π).
+/// |P - s_i r_i (cos psi, sin psi) - A_i| = l_i, i = 1, 2, 3, by Newton's method from many starts; (P, psi), psi in [0, π).
 std::vector<Eigen::Vector3d> parallel_rods() {
   const std::array<Eigen::Vector2d, 3> base{Eigen::Vector2d(0, 0), Eigen::Vector2d(1.25, 0.2), Eigen::Vector2d(0.5, 1.2)};
   const std::array<double, 3> crank{0.8, 0.7, 0.75}, rod{0.9, 1, 0.85};
