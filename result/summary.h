@@ -30,7 +30,8 @@ std::string to_table(const Result& result);
 /// and points, where the dimension is known to be 2 or more: a list of {dimension, exact{name: text}, types}.
 /// `types` is null where none were asked for, else RO, RPM, II, RI, IO, IIM: boxes in which every solution is of the type
 /// (null: of no interest in this mechanism), and unproven: boxes that may hold no solution, or where a type that makes up
-/// the set is neither proven nor excluded. A point has the list `types` of those that are proven, and `typed`. `left_out`, where there
+/// the set is neither proven nor excluded. A point has the list `types` of those that are proven, and `typed`.
+/// `left_out`, where there
 /// are such: boxes of the kernel's set without a solution of the type that the set is of. Every double reads back as the
 /// same double.
 std::string to_json(const Result& result);
