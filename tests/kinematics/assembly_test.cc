@@ -111,8 +111,8 @@ TEST(Assembly, KnowsASphericalRobotByItsAxes) {
   EXPECT_EQ(a.mobility_by_joints, 1);
 }
 
-// The same robot with its joints where they would be built, each link's frame elsewhere: axes meet in (1, 2, 3) of the ground,
-// (2, 0, 0) of a, (0, 0, -1) of b and (0, 5, 0) of c, and a joint's two points are as far from there as each other.
+// The same robot with its joints where they would be built, each link's frame elsewhere: axes meet in (1, 2, 3) of the
+// ground, (2, 0, 0) of a, (0, 0, -1) of b and (0, 5, 0) of c, and a joint's two points are as far from there as each other.
 constexpr const char* kJointsOnASphere =
     "[CONSTANTS]\nr := 1/3\n[LINKS]\nground\na\nb\nc\n[JOINTS]\n"
     "revolute j1 : ground (1,2,3+r)+(0,0,1) a (2,0,r)+(0,0,1) actuated\n"

@@ -1,5 +1,5 @@
-// The postures of a seven-revolute arm with its third joint locked, against their closed form; and the arm's joints against its
-// Denavit-Hartenberg table.
+// The postures of a seven-revolute arm with its third joint locked, against their closed form; and the arm's joints against
+// its Denavit-Hartenberg table.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

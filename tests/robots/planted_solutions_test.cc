@@ -1,5 +1,5 @@
-// Random robots, solved: the configuration about which each was built has to lie in a box, and what a box is proven to hold has
-// to satisfy the joints, by their geometry alone.
+// Random robots, solved: the configuration about which each was built has to lie in a box, and what a box is proven to hold
+// has to satisfy the joints, by their geometry alone.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -69,8 +69,8 @@ double open_by(const kinematics::Robot& robot, const Assembly& assembly, const V
   return gap;
 }
 
-/// The planted configuration in all variables. Where the links stand does not say all of them: one may be the angle of an axis
-/// that no pose is written with. Newton's method finds such ones from the equations, with the others held.
+/// The planted configuration in all variables. Where the links stand does not say all of them: one may be the angle of an
+/// axis that no pose is written with. Newton's method finds such ones from the equations, with the others held.
 std::optional<VectorXd> configuration(const Planted& planted, const Assembly& assembly, const NumericMechanism& numeric) {
   auto x = coordinates(planted, assembly);
   if (!x || numeric.values(*x).lpNorm<Eigen::Infinity>() < 1e-10) return x;

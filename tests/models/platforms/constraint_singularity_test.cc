@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// How many independent motions the joints of the three legs have together where the platform, in the base's orientation, is at
-// p: of rates (two of each universal joint, one of each slide) those that give all legs' ends the same twist.
+// How many independent motions the joints of the three legs have together where the platform, in the base's orientation, is
+// at p: of rates (two of each universal joint, one of each slide) those that give all legs' ends the same twist.
 int mobility(const Vector3d& p) {
   Eigen::Matrix<double, 12, 15> loops = Eigen::Matrix<double, 12, 15>::Zero();
   for (int leg = 0; leg < 3; ++leg) {
