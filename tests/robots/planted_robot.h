@@ -100,8 +100,12 @@ class Planted {
     const int bodies = planted.number(3, 5);
     for (int i = 0; i < bodies; ++i) planted.add_link(i == 0 ? planted.upright(0) : planted.rotation(), false);
     const Point centre = planted.point();
+    std::vector<Point> axes;  // no two alike: hinges on one line may ask for nothing
     const auto hinge = [&](std::size_t a, std::size_t b) {
-      const Point axis = column(planted.rotation(), 0);
+      Point axis = column(planted.rotation(), 0);
+      const auto is_along = [&](const Point& other) { return dot(cross(axis, other), cross(axis, other)) == 0; };
+      while (std::any_of(axes.begin(), axes.end(), is_along)) axis = column(planted.rotation(), 0);
+      axes.push_back(axis);
       planted.hinge(a, b, centre + Rational(planted.number(-4, 4), 2) * axis, axis, planted.number(-4, 4));
     };
     for (std::size_t i = 0; i < planted.rotations.size(); ++i) hinge(i, (i + 1) % planted.rotations.size());
