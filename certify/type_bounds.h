@@ -27,8 +27,8 @@ class TypeBounds {
   /// Both have to outlive this.
   TypeBounds(const System& system, const VelocityBlocks& blocks);
 
-  /// Lower bounds of the blocks' ranks all over the box, as far as types rest on them; the sides may be halved so many times.
-  /// `known`: bounds in a larger box, which hold in this one; `wanted`: the types of interest. Requires
+  /// Lower bounds of the blocks' ranks all over the box, as far as types rest on them; the sides may be halved so many
+  /// times. `known`: bounds in a larger box, which hold in this one; `wanted`: the types of interest. Requires
   /// UpwardRounding::active().
   RankBounds ranks(const Box& box, int halvings = 0, const RankBounds& known = {}, TypeSet wanted = kAllTypes) const;
   /// Of every solution of the system in a box with these lower bounds.
