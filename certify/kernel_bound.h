@@ -26,9 +26,10 @@ class KernelBound {
   /// False: the system has no kernel equations.
   bool applies() const { return rows_ > 0; }
   /// No q in the box has a kernel of larger dimension. The largest s for which the theorem applies to the submatrix that
-  /// elimination at the midpoint picks; k where none does, of another matrix none of the three largest. Where that is above the least that a kernel may have (1, of
-  /// another matrix the columns that it has more than rows), the largest bound of the box's parts: its sides that M depends on are halved, the widest first,
-  /// `halvings` times at most. Requires applies() and UpwardRounding::active().
+  /// elimination at the midpoint picks (of another matrix only the three largest s are tried); k where none does. Where that
+  /// is above the least that a kernel may have (1; of another matrix the columns that it has more than rows), the largest
+  /// bound of the box's parts: its sides that M depends on are halved, the widest first, `halvings` times at most. Requires
+  /// applies() and UpwardRounding::active().
   int at_most(const Box& box, int halvings = 0) const;
 
  private:
