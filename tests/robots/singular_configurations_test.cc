@@ -351,6 +351,82 @@ TEST(SphericalFourBar, HasTheSingularitiesOfItsDeterminants) {
   }
 }
 
+// --- the Agile Eye, by its legs' wrenches ---------------------------------------------------------------------------------
+
+struct Eye {
+  Eigen::Matrix3d rotation;  ///< columns: the axes on the platform
+  std::array<double, 3> theta;
+  /// Across the motor's axis, where the crank's end is.
+  Vector3d end(int leg) const {
+    const Vector3d u = Vector3d::Unit((leg + 1) % 3), v = Vector3d::Unit((leg + 2) % 3);
+    // Motors 1 and 3 turn from y to z and from x to y, motor 2 from z to x.
+    return std::cos(theta[static_cast<std::size_t>(leg)]) * u + std::sin(theta[static_cast<std::size_t>(leg)]) * v;
+  }
+  Vector3d wrench(int leg) const { return end(leg).cross(rotation.col(leg)); }
+  double inverse() const {
+    double product = 1;
+    for (int leg = 0; leg < 3; ++leg) product *= wrench(leg)[leg];
+    return product;
+  }
+  double forward() const { return determinant(wrench(0), wrench(1), wrench(2)); }
+  Configuration configuration() const {
+    Configuration q;
+    for (int leg = 0; leg < 3; ++leg) {
+      q["theta" + std::to_string(leg + 1)] = theta[static_cast<std::size_t>(leg)];
+      for (int i = 0; i < 3; ++i)
+        q[std::array{"axis_v1_", "axis_v2_", "n_eye_"}[static_cast<std::size_t>(leg)] + std::string(1, "xyz"[i])] =
+            rotation(i, leg);
+    }
+    return q;
+  }
+};
+
+// The curves of one leg, stretched and folded: its motor is held, the eye turns about it in two ways, and each of the other
+// legs has two postures.
+TEST(AgileEye, IsSingularOnTwoCurvesForEachLeg) {
+  constexpr double kNear = 2.9, kHeld = 0.5;
+  for (int leg = 0; leg < 3; ++leg) {
+    SCOPED_TRACE(leg + 1);
+    std::vector<Configuration> samples;
+    for (int k = 0; k < kSamples / 8; ++k) {
+      const double t = -M_PI + 2 * M_PI * (k + 0.5) / (kSamples / 8);
+      for (int way = 0; way < 4; ++way) {
+        const double sign = way & 1 ? 1 : -1, other = way & 2 ? 1 : -1;
+        Vector3d diagonal;
+        diagonal[leg] = sign;
+        diagonal[(leg + 1) % 3] = other;
+        diagonal[(leg + 2) % 3] = sign * other;
+        Eye eye{Eigen::AngleAxisd(t, Vector3d::Unit(leg)).toRotationMatrix() * diagonal.asDiagonal(), {}};
+        if (eye.rotation.diagonal().squaredNorm() > kNear) continue;
+        for (int posture = 0; posture < 4; ++posture) {
+          for (int i = 0; i < 3; ++i) {
+            const Vector3d v = eye.rotation.col(i);
+            eye.theta[static_cast<std::size_t>(i)] =
+                std::atan2(-v[(i + 1) % 3], v[(i + 2) % 3]) + (posture >> (i == (leg + 1) % 3) & 1) * M_PI;
+          }
+          eye.theta[static_cast<std::size_t>(leg)] = kHeld;
+          for (int i = 0; i < 3; ++i) ASSERT_NEAR(eye.end(i).dot(eye.rotation.col(i)), 0, 1e-12) << "the links' angles";
+          ASSERT_NEAR(eye.inverse(), 0, 1e-12);
+          ASSERT_NEAR(eye.forward(), 0, 1e-12);
+          samples.push_back(eye.configuration());
+        }
+      }
+    }
+    const std::string number = std::to_string(leg + 1);
+    for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse}) {
+      SCOPED_TRACE(to_string(set));
+      const Answer answer =
+          solved("spatial/agile_eye", set, {{"near", "2.9"}, {"lo" + number, "1/2"}, {"up" + number, "1/2"}}, 0.1);
+      expect_all(answer, samples);
+      EXPECT_EQ(answer.cover.dimension, 1);
+      EXPECT_EQ(answer.cover.count(Verdict::undecided), 0u);
+      // It is singular nowhere else: every box has the leg's axes on one line.
+      const int along = answer.system.find(std::array{"axis_v1_x", "axis_v2_y", "n_eye_z"}[static_cast<std::size_t>(leg)]);
+      for (const CoverBox& b : answer.cover.boxes) ASSERT_NEAR(std::fabs(b.box[along].mid()), 1, 0.01);
+    }
+  }
+}
+
 // --- RSSR: the rod's line against the cranks' circles --------------------------------------------------------------------
 
 TEST(RssrOfParts, HasTheSingularitiesOfItsRodsLine) {
