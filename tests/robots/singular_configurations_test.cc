@@ -229,6 +229,37 @@ TEST(Puma560, IsSingularAtElbowShoulderAndWrist) {
   expect_near_zero(bent, product, 0.02);
 }
 
+// Joints 2, 3 and 5 are free, within ranges: the sets are surfaces, which cross.
+TEST(Puma560, IsSingularOnThreeSurfaces) {
+  std::mt19937 random(1);
+  const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); };
+  const auto covered = [&](const std::vector<result::ConstantOverride>& ranges) {
+    Answer answer = solved("serial/puma_560", SingularitySet::inverse, ranges, 0.2);
+    EXPECT_EQ(answer.cover.dimension, 2);
+    return answer;
+  };
+  const auto sample = [](double t2, double t3, double t5) {
+    return Configuration{{"theta2", t2}, {"theta3", t3}, {"theta5", t5}};
+  };
+  std::vector<Configuration> elbow, shoulder, wrist;
+  while (elbow.size() < kSamples || shoulder.size() < kSamples) {
+    const double t2 = between(0, 2), t5 = between(0.5, 1);
+    for (const double t3 : zeros([&](double t) { return puma(t2, t, t5).elbow; }, 40))
+      if (t3 > -3 && t3 < 0) elbow.push_back(sample(t2, t3, t5));
+    for (const double t3 : zeros([&](double t) { return puma(t2, t, t5).shoulder; }, 40))
+      if (t3 > -3 && t3 < 0) shoulder.push_back(sample(t2, t3, t5));
+  }
+  const Answer arm = covered({{"lo2", "0"}, {"up2", "2"}, {"lo3", "-3"}, {"up3", "0"}, {"lo5", "1/2"}, {"up5", "1"}});
+  expect_all(arm, elbow);
+  expect_all(arm, shoulder);
+  for (int k = 0; k < kSamples; ++k) {
+    const double t2 = between(0, 1), t3 = between(-1, -0.5);
+    for (const double t5 : {0.0, M_PI}) wrist.push_back(sample(t2, t3, t5));
+  }
+  const Answer hand = covered({{"lo2", "0"}, {"up2", "1"}, {"lo3", "-1"}, {"up3", "-1/2"}});
+  expect_all(hand, wrist);
+}
+
 TEST(Ur5, IsSingularAtElbowWristAndShoulder) {
   const double quarter = M_PI / 2;
   const std::vector<Row> arm{{0, 0.089159, quarter}, {-0.425, 0, 0},         {-0.39225, 0, 0},
