@@ -23,9 +23,12 @@ class Algebrizer {
  public:
   explicit Algebrizer(const TrigonometricSystem& system) : in_(system) {}
   System run();
+  std::vector<Polynomial> polynomials(const std::vector<Expression>& expressions);
 
  private:
+  void add_names();
   void add_constants();
+  void add_coordinates();
   void add_length(const Coordinate& coordinate);
   void add_angle(const Coordinate& coordinate);
   void add_kernel_unknowns();
@@ -181,18 +184,25 @@ void Algebrizer::add_inequality(const TrigonometricSystem::Equation& inequality)
   out_.inequalities.push_back(std::move(polynomial));
 }
 
-System Algebrizer::run() {
-  out_.name = in_.name;
+void Algebrizer::add_names() {
   for (const Constant& constant : in_.constants) names_.insert(constant.name);
   for (const Coordinate& coordinate : in_.coordinates) names_.insert(coordinate.name);
   names_.insert(in_.kernel_unknowns.begin(), in_.kernel_unknowns.end());
+}
 
-  add_constants();
+void Algebrizer::add_coordinates() {
   for (const Coordinate& coordinate : in_.coordinates) {
     const auto first = out_.variables.size();
     coordinate.kind == CoordinateKind::angle ? add_angle(coordinate) : add_length(coordinate);
     for (auto v = first; v < out_.variables.size(); ++v) out_.variables[v].auxiliary = coordinate.auxiliary;
   }
+}
+
+System Algebrizer::run() {
+  out_.name = in_.name;
+  add_names();
+  add_constants();
+  add_coordinates();
   out_.configuration_size = out_.size();
   out_.kernel_vectors = in_.corank;
   out_.kernel_scales = in_.kernel_scales;
@@ -218,12 +228,31 @@ System Algebrizer::run() {
   return std::move(out_);
 }
 
-}  // namespace
+std::vector<Polynomial> Algebrizer::polynomials(const std::vector<Expression>& expressions) {
+  add_names();
+  add_constants();
+  add_coordinates();
+  add_kernel_unknowns();
+  const int variables = out_.size();
+  expander_.length_functions().start(variables);
+  std::vector<Polynomial> result;
+  for (const Expression& expression : expressions) {
+    const std::string what = in_quotes(expression.text());
+    result.push_back(expander_.polynomial(expression, what, {in_.name, 0, 0}).compile(what));
+    for (const Monomial& monomial : result.back().monomials)
+      for (const Factor& factor : monomial.factors)
+        if (factor.variable >= variables)
+          throw ModelError({in_.name, 0, 0}, what + " holds a sine or cosine of a length", "a polynomial in lengths");
+  }
+  return result;
+}
 
-System algebrize(const TrigonometricSystem& system) {
+// Whatever GiNaC and CLN throw becomes a ModelError.
+template <typename Make>
+auto guarded(const TrigonometricSystem& system, const Make& make) {
   const GinacLock lock;
   try {
-    return Algebrizer(system).run();
+    return make(Algebrizer(system));
   } catch (const ModelError&) {
     throw;
   } catch (const InvariantError&) {
@@ -233,6 +262,16 @@ System algebrize(const TrigonometricSystem& system) {
   } catch (const std::exception& error) {
     throw ModelError({system.name, 0, 0}, std::string("the system cannot be made polynomial: ") + error.what());
   }
+}
+
+}  // namespace
+
+System algebrize(const TrigonometricSystem& system) {
+  return guarded(system, [](Algebrizer algebrizer) { return algebrizer.run(); });
+}
+
+std::vector<Polynomial> polynomials(const TrigonometricSystem& system, const std::vector<Expression>& expressions) {
+  return guarded(system, [&](Algebrizer algebrizer) { return algebrizer.polynomials(expressions); });
 }
 
 }  // namespace corank::symbolic

@@ -72,6 +72,23 @@ TEST(Algebrizer, GivesTheSameSystemForAMechanismBuiltInCpp) {
   }
 }
 
+TEST(Algebrizer, MakesPolynomialsInTheVariablesOfItsSystem) {
+  const auto text = [](const std::string& model, const std::vector<std::string>& expressions) {
+    const TrigonometricSystem system = plain_system(parse_model(model, "m.cuik"));
+    std::vector<Expression> parsed;
+    for (const std::string& e : expressions) parsed.push_back(parse_expression(e, "test"));
+    std::vector<std::string> result;
+    for (const Polynomial& p : polynomials(system, parsed)) result.push_back(canonical(p));
+    return result;
+  };
+  const std::string fixed =
+      "[CONSTANTS]\nl := 3/2\n[SYSTEM VARS]\nx : [-2, 2]\na ~ [-pi, pi]\nb ~ [pi/3, pi/3]\n"
+      "[SYSTEM EQS]\nx = l*cos(a)+sin(b);\n";
+  EXPECT_THAT(text(fixed, {"l*sin(2*a)", "x^2-1", "0", "cos(a+b)"}),
+              ElementsAre(" + 3·x1^1·x2^1", " + -1 + 1·x0^2", "", " + 1/2·x1^1 + -1/2*sqrt(3)·x2^1"));
+  EXPECT_THROW(text("[SYSTEM VARS]\nx : [-2, 2]\n[SYSTEM EQS]\nx = 1/2;\n", {"sin(x)"}), ModelError);
+}
+
 TEST(Algebrizer, RenamesAVariableWhoseNameIsTaken) {
   const System s = compile(
       "[CONSTANTS]\ns_theta := 2\n[SYSTEM VARS]\ntheta ~ [-pi, pi]\nc_theta : [0, 1]\n[SYSTEM EQS]\nc_theta = cos(theta);");
