@@ -18,6 +18,17 @@ inline const std::vector<std::string> kSets = [] {
   return names;
 }();
 
+/// Those that a report has unless others are asked for: cusps and nodes take their time, and few mechanisms have both.
+inline const std::vector<std::string> kLoci = [] {
+  std::vector<std::string> names;
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions())
+    if (set.part == symbolic::LocusPart::all) names.emplace_back(set.name);
+  return names;
+}();
+
+/// What --set calls symbolic::nodes_of().
+inline constexpr const char* kNodes = "nodes";
+
 /// What the options say, not yet checked.
 struct QuestionOptions {
   std::string file, set, kernel, loops;

@@ -32,7 +32,7 @@ constexpr std::uint64_t kDefaultMaxFound = 200'000;
 
 struct ReportCommand {
   QuestionOptions question;
-  SetSearch search{1, kSets, {}, {}, {.max_found = kDefaultMaxFound, .time_limit = kDefaultTimeLimit}};
+  SetSearch search{1, kLoci, {}, {}, {.max_found = kDefaultMaxFound, .time_limit = kDefaultTimeLimit}};
   std::vector<std::string> results;
   std::string folder;
 };

@@ -9,7 +9,18 @@
 
 namespace corank::symbolic {
 
-enum class SingularitySet { cspace, forward, inverse, cspace_singular };
+enum class SingularitySet {
+  cspace,
+  forward,
+  inverse,
+  cspace_singular,
+  forward_cusps,
+  inverse_cusps,
+  forward_nodes,
+  inverse_nodes
+};
+/// What of a locus is asked for: all of it, or where its image among the locked coordinates has a cusp or crosses itself.
+enum class LocusPart { all, cusps, nodes };
 enum class KernelSide { right, left };  ///< M ξ = 0 or Mᵀ ξ = 0
 /// Of a coordinate: whose rate is it? Inputs are the actuators', passive is the rest.
 enum class Role { input, output, passive };
@@ -28,6 +39,7 @@ struct SetDefinition {
   const char* matrix = "";            ///< what M is called, "L_y"; empty: the set has no kernel
   std::span<const Role> locked{};     ///< the rates that are 0: which columns of L go
   KernelSide side{};                  ///< of the kernel, where none is asked for
+  LocusPart part = LocusPart::all;    ///< cusps and nodes: cusp_system.h, node_system.h
 
   const char* title;      ///< "Forward singularities"
   const char* member;     ///< one of them, "Forward singularity"
@@ -43,9 +55,11 @@ struct SetDefinition {
   int layer = 0;                   ///< higher ones are drawn over lower ones
   double dot = 0;                  ///< radius of an isolated point on a page, in pixels
 
-  bool has_kernel() const { return *matrix != '\0'; }
+  /// Is it all configurations where M has a kernel, whose side and corank can be asked for?
+  bool has_kernel() const { return is_singular() && part == LocusPart::all; }
+  bool is_singular() const { return *matrix != '\0'; }
   /// All configurations of a mechanism, among which those of the other sets are.
-  bool is_cspace() const { return set && !has_kernel(); }
+  bool is_cspace() const { return set && !is_singular(); }
 };
 
 /// The sets of a mechanism, in the order of a report.
