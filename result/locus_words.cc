@@ -1,0 +1,82 @@
+#include "corank/result/locus_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "corank/core/exact_number.h"
+#include "corank/symbolic/node_system.h"
+
+namespace corank::result {
+namespace {
+
+using symbolic::LocusPart;
+
+struct Words {
+  const char *locus, *modes, *locked;
+};
+
+Words words_of(const symbolic::SetDefinition& set) {
+  return set.locked.front() == symbolic::Role::input ? Words{"forward", "assembly modes", "inputs"}
+                                                     : Words{"inverse", "postures", "outputs"};
+}
+
+std::string cusps_text(const Words& words, std::size_t proven, std::size_t open, bool complete) {
+  if (proven > 0) {
+    return fmt::format("around {} {} can be changed without {} {} singularity: proven",
+                       proven == 1 ? "this cusp" : fmt::format("these {} cusps", proven), words.modes,
+                       *words.locus == 'i' ? "an" : "a", words.locus);
+  }
+  if (open > 0) return "no cusp is proven";
+  if (!complete) return "no cusp was found in what was searched";
+  return fmt::format(
+      "there is no cusp in the search domain, so none around which {} could be changed without a singularity; other such "
+      "changes are not excluded",
+      words.modes);
+}
+
+std::string nodes_text(const Words& words, std::size_t proven, std::size_t open, bool complete) {
+  const std::string crossing =
+      fmt::format("two singular configurations with the same {}, whose images cross: proven", words.locked);
+  if (proven > 0) return fmt::format("{} node{}: {}", proven, proven == 1 ? "" : "s", crossing);
+  if (open > 0) return "no node is proven";
+  return complete ? "there is no node in the search domain" : "no node was found in what was searched";
+}
+
+}  // namespace
+
+std::optional<double> node_distance(const Result& result) {
+  if (symbolic::definition(result.set).part != LocusPart::nodes) return std::nullopt;
+  return ExactNumber::rational(symbolic::kNodeDistance).enclose().mid();
+}
+
+std::string locus_sentence(const Result& result) {
+  const symbolic::SetDefinition& set = symbolic::definition(result.set);
+  if (set.part == LocusPart::all) return "";
+  const Words words = words_of(set);
+  const bool nodes = set.part == LocusPart::nodes;
+  const std::string noun = nodes ? "node" : "cusp";
+  std::string text;
+  const Cover& cover = result.cover;
+  if (cover.dimension == 0 || cover.boxes.empty()) {
+    const auto with = [&](Verdict verdict) {
+      return static_cast<std::size_t>(
+          std::count_if(cover.points.begin(), cover.points.end(), [&](const CoverBox& p) { return p.verdict == verdict; }));
+    };
+    const std::size_t proven = with(Verdict::isolated), open = cover.points.size() - proven;
+    text = nodes ? nodes_text(words, proven, open, cover.complete()) : cusps_text(words, proven, open, cover.complete());
+    if (open > 0) text += fmt::format("; {} {} where that is open", open, open == 1 ? "place is left" : "places are left");
+    if (!cover.complete() && proven + open > 0) text += "; what was not searched may hold more";
+  } else {
+    text = fmt::format("{}s along a set of dimension {}; what follows from them is not proven", noun, cover.dimension);
+  }
+  if (nodes) {
+    text += fmt::format(
+        "; pairs of configurations closer than {} (a length counts in its typical size, an angle by its sine and cosine) "
+        "were not looked for",
+        symbolic::kNodeDistance);
+  }
+  return text;
+}
+
+}  // namespace corank::result
