@@ -21,13 +21,13 @@ Words words_of(const symbolic::SetDefinition& set) {
                                                      : Words{"inverse", "postures", "outputs"};
 }
 
-std::string cusps_text(const Words& words, std::size_t proven, std::size_t open, bool complete) {
+std::string cusps_text(const Words& words, std::size_t proven, std::size_t open, bool complete, bool none) {
   if (proven > 0) {
     return fmt::format("around {} {} can be changed without {} {} singularity: proven",
                        proven == 1 ? "this cusp" : fmt::format("these {} cusps", proven), words.modes,
                        *words.locus == 'i' ? "an" : "a", words.locus);
   }
-  if (open > 0) return "no cusp is proven";
+  if (open > 0 || !none) return "no cusp is proven";
   if (!complete) return "no cusp was found in what was searched";
   return fmt::format(
       "there is no cusp in the search domain, so none around which {} could be changed without a singularity; other such "
@@ -35,12 +35,19 @@ std::string cusps_text(const Words& words, std::size_t proven, std::size_t open,
       words.modes);
 }
 
-std::string nodes_text(const Words& words, std::size_t proven, std::size_t open, bool complete) {
+std::string nodes_text(const Words& words, std::size_t proven, std::size_t open, bool complete, bool none) {
   const std::string crossing =
       fmt::format("two singular configurations with the same {}, whose images cross: proven", words.locked);
   if (proven > 0) return fmt::format("{} node{}: {}", proven, proven == 1 ? "" : "s", crossing);
-  if (open > 0) return "no node is proven";
+  if (open > 0 || !none) return "no node is proven";
   return complete ? "there is no node in the search domain" : "no node was found in what was searched";
+}
+
+// Boxes that are about a point: those on a self-motion, of which there is none in the list of points, are not.
+std::size_t with_points(const Cover& cover) {
+  return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const CoverBox& b) {
+    return b.motion < 0 && b.verdict != Verdict::pending;
+  }));
 }
 
 }  // namespace
@@ -64,8 +71,14 @@ std::string locus_sentence(const Result& result) {
           std::count_if(cover.points.begin(), cover.points.end(), [&](const CoverBox& p) { return p.verdict == verdict; }));
     };
     const std::size_t proven = with(Verdict::isolated), open = cover.points.size() - proven;
-    text = nodes ? nodes_text(words, proven, open, cover.complete()) : cusps_text(words, proven, open, cover.complete());
+    const std::size_t along = cover.boxes.size() - with_points(cover);
+    text = nodes ? nodes_text(words, proven, open, cover.complete(), along == 0)
+                 : cusps_text(words, proven, open, cover.complete(), along == 0);
     if (open > 0) text += fmt::format("; {} {} where that is open", open, open == 1 ? "place is left" : "places are left");
+    if (along > 0) {
+      text += fmt::format("; the equations hold, or may hold, along larger sets, in {} box{}, of which nothing is said",
+                          along, along == 1 ? "" : "es");
+    }
     if (!cover.complete() && proven + open > 0) text += "; what was not searched may hold more";
   } else {
     text = fmt::format("{}s along a set of dimension {}; what follows from them is not proven", noun, cover.dimension);

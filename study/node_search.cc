@@ -15,12 +15,10 @@ using symbolic::SingularitySet;
 
 // The locus with the kernel's scales and half-space of the doubled system.
 System locus_of(const symbolic::Mechanism& mechanism, SingularitySet nodes) {
-  const SingularitySet locus =
-      nodes == SingularitySet::forward_nodes ? SingularitySet::forward : SingularitySet::inverse;
+  const SingularitySet locus = nodes == SingularitySet::forward_nodes ? SingularitySet::forward : SingularitySet::inverse;
   std::vector<std::string> scales = symbolic::kernel_scales(mechanism, nodes);
   if (!scales.empty()) scales.pop_back();
-  return symbolic::algebrize(
-      symbolic::singularity_system(mechanism, locus, symbolic::KernelSide::right, scales));
+  return symbolic::algebrize(symbolic::singularity_system(mechanism, locus, symbolic::KernelSide::right, scales));
 }
 
 // By names: an angle's sine and cosine are those of the second angle.

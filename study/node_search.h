@@ -10,8 +10,8 @@ namespace corank::study {
 
 /// What a search for nodes starts from: certify::pairs of the locus's cover.
 struct NodeSearch {
-  std::vector<Box> roots;           ///< none: the whole domain is to be searched, since the pairs are too many
-  std::uint64_t processed = 0;      ///< boxes, for the locus
+  std::vector<Box> roots;       ///< none: the whole domain is to be searched, since the pairs are too many
+  std::uint64_t processed = 0;  ///< boxes, for the locus
 };
 
 /// `system`: study::system(question), of forward_nodes or inverse_nodes.

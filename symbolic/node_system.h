@@ -5,7 +5,7 @@
 //   Φ(w, y) = 0,  Φ(w, y′) = 0,  M(q) ξ = 0,  M(q′) ξ′ = 0,  ‖ξ‖ = ‖ξ′‖ = 1,  a·ξ ≥ 0,  a·ξ′ ≥ 0;
 // as many equations as unknowns less the mobility and 2. The whole locus solves it with y = y′; so pairs are asked for whose
 // distance is
-//   ‖y − y′‖ ≥ δ = 1/10,
+//   ‖y − y′‖ ≥ δ = 1/20,
 // where a length counts in its typical size (half of its range as the constraints leave it) and an angle by its sine and
 // cosine. *Closer pairs are not looked for.* Of (q, q′) and (q′, q) the one with b·(y − y′) ≥ 0 stays, b fixed and generic.
 #pragma once
@@ -15,7 +15,7 @@
 namespace corank::symbolic {
 
 /// δ, as the model language writes it.
-inline constexpr const char* kNodeDistance = "1/10";
+inline constexpr const char* kNodeDistance = "1/20";
 
 /// What y′'s coordinates are called behind those of y: "x_2", or more underscores where that is taken.
 std::string second_name(const Mechanism& mechanism, const std::string& coordinate);
