@@ -43,7 +43,7 @@ std::vector<Place> cusps_of(const std::vector<Sample>& curve) {
   return list;
 }
 
-// Where two pieces of it cross, once in each order of the configurations; not where both are in the band about the curve whose image is a point.
+// Where two pieces of it cross; not in the band about the curve whose image is a point.
 std::vector<std::array<Place, 2>> nodes_of(const std::vector<std::vector<Sample>>& curves, double d3, double d4,
                                            double band) {
   struct Piece {

@@ -133,10 +133,11 @@ TEST(Planar3Rpr, HasCuspsThatTheCheckerConfirmsUnlessTheyWereMoved) {
     question.set = set;
     study::Options options;
     options.search.proof = set == SingularitySet::forward_cusps;
-    const result::Result result = study::answer(question, options);
+    result::Result result = study::answer(question, options);
     const result::Verification verification = result::verify(result);
     EXPECT_TRUE(verification.verified());
     EXPECT_EQ(verification.complete(), options.search.proof);
+    result.cover.proof.reset();  // of what follows the boxes' claims are enough
     result::Result other = result;
     other.set = set == SingularitySet::forward_cusps ? "inverse-cusps" : "inverse-nodes";
     EXPECT_FALSE(result::verify(other).verified());
