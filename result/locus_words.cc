@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "corank/core/exact_number.h"
+#include "corank/symbolic/model_error.h"
 #include "corank/symbolic/node_system.h"
+#include "corank/symbolic/velocity_equation.h"
 
 namespace corank::result {
 namespace {
@@ -48,6 +51,34 @@ std::size_t with_points(const Cover& cover) {
   return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const CoverBox& b) {
     return b.motion < 0 && b.verdict != Verdict::pending;
   }));
+}
+
+// Coordinates with a range of one value.
+std::vector<std::string> held_coordinates(const Result& result) {
+  std::vector<std::string> names;
+  for (const Angle& a : result.angles)
+    if (!(a.range.lo() < a.range.hi())) names.push_back(a.name);
+  for (int v = 0; v < result.configuration_size; ++v) {
+    const ResultVariable& variable = result.variables[static_cast<std::size_t>(v)];
+    const Interval& x = variable.domain;  // encloses the value
+    if (variable.kind == VariableKind::length && x.hi() <= std::nextafter(std::nextafter(x.lo(), HUGE_VAL), HUGE_VAL))
+      names.push_back(variable.name);
+  }
+  return names;
+}
+
+// Such a coordinate that is not among the locked ones: the theorem says nothing then. Its name, or "" where there is none.
+std::string held_and_not_locked(const Result& result, symbolic::Role locked) {
+  const std::vector<std::string> held = held_coordinates(result);
+  if (held.empty()) return "";
+  try {
+    const symbolic::Mechanism model = model_of(result);
+    for (const std::string& name : held)
+      if (role_of(model, name) != locked) return name;
+    return "";
+  } catch (const symbolic::ModelError&) {  // one that was built in C++ has no text
+    return held.front();
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The systems of cusps and nodes: how many equations they have, what they are called, and what is refused.
 #include <gmock/gmock.h>
 
+#include "corank/result/locus_words.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/regular_locus.h"
@@ -67,6 +68,23 @@ TEST(CuspsAndNodes, NeedAMobilityOfTwoAndNoOtherCorank) {
               HasSubstr("2 scales"));
   EXPECT_THAT(error_of([&] { symbolic::singularity_system(dextar, SingularitySet::forward_cusps, {}, {}, 2); }),
               HasSubstr("no corank"));
+}
+
+// Two of the six have their end on the first axis, where joint 1 turns in vain: no cusps.
+TEST(Cusps, AreNotClaimedWhereACoordinateIsHeldThatIsNotLocked) {
+  const result::Result arm = ask("serial/orthogonal_3r", SingularitySet::inverse_cusps);
+  EXPECT_EQ(arm.cover.points.size(), 6u);
+  EXPECT_THAT(result::locus_sentence(arm),
+              HasSubstr("6 solutions of the equations of cusps where theta1 is held; that each"));
+  EXPECT_THAT(result::locus_sentence(ask("planar/3rpr_innocenti", SingularitySet::forward_cusps)),
+              HasSubstr("around these 5 cusps assembly modes can be changed without a forward singularity: proven"));
+}
+
+// All of Dextar's links are equally long: with an arm folded it has self-motions.
+TEST(Cusps, AreNeitherClaimedNorDeniedAlongLargerSets) {
+  const result::Result dextar = ask("dextar", SingularitySet::forward_cusps);
+  EXPECT_THAT(result::locus_sentence(dextar),
+              HasSubstr("no cusp is proven; the equations hold, or may hold, along larger sets"));
 }
 
 TEST(Nodes, AreThoseOfTheLocusThatIsNotEmptyForAPlainReason) {
