@@ -105,6 +105,13 @@ std::string locus_sentence(const Result& result) {
     const std::size_t along = cover.boxes.size() - with_points(cover);
     text = nodes ? nodes_text(words, proven, open, cover.complete(), along == 0)
                  : cusps_text(words, proven, open, cover.complete(), along == 0);
+    if (const std::string held = held_and_not_locked(result, set.locked.front()); proven > 0 && !held.empty()) {
+      text = fmt::format(
+          "{0} solution{1} of the equations of {2}s where {3} is held; that {4} a {2} is proven only where no coordinate "
+          "but "
+          "{5} is held",
+          proven, proven == 1 ? "" : "s", noun, held, proven == 1 ? "it is" : "each is", words.locked);
+    }
     if (open > 0) text += fmt::format("; {} {} where that is open", open, open == 1 ? "place is left" : "places are left");
     if (along > 0) {
       text += fmt::format("; the equations hold, or may hold, along larger sets, in {} box{}, of which nothing is said",

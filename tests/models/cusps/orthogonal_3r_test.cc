@@ -1,6 +1,7 @@
 // Cusps and nodes of orthogonal 3R arms against the traced image of their inverse locus, in doubles and without any of
 // corank's equations.
 #include "corank/result/locus_words.h"
+#include "corank/result/verification.h"
 #include "corank/tests/models/cusps/asking.h"
 
 namespace corank::test {
@@ -119,6 +120,17 @@ TEST_P(Orthogonal3R, HasTheNodesOfItsTracedLocusOnceEach) {
     }
     EXPECT_EQ(n, 1u);
   }
+}
+
+TEST(Orthogonal3RArm, HasCuspsWhoseCompletenessIsReplayed) {
+  study::Question question;
+  question.constants = {{"d3", "0.91"}, {"d4", "0.5"}, {"r2", "1.15"}};
+  question.model =
+      study::read_model(CORANK_SOURCE_DIR "/models/serial/orthogonal_3r_section.cuik", question.constants).mechanism;
+  question.set = SingularitySet::inverse_cusps;
+  study::Options options;
+  options.search.proof = true;
+  EXPECT_TRUE(result::verify(study::answer(question, options)).complete());
 }
 
 INSTANTIATE_TEST_SUITE_P(Arms, Orthogonal3R,
