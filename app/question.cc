@@ -5,12 +5,19 @@
 #include "corank/app/exit_status.h"
 #include "corank/result/printable.h"
 #include "corank/study/model.h"
+#include "corank/symbolic/regular_locus.h"
 
 namespace corank::app {
 
 void QuestionOptions::add_options(CLI::App& command) {
   add_model(command);
-  command.add_option("--set", set, "The set of a mechanism: " + symbolic::names_of_sets())->check(CLI::IsMember(kSets));
+  std::vector<std::string> sets = kSets;
+  sets.emplace_back(kNodes);
+  command
+      .add_option("--set", set,
+                  "The set of a mechanism: " + symbolic::names_of_sets() +
+                      ";\nnodes: those of the one locus that is not empty for a plain reason")
+      ->check(CLI::IsMember(sets));
   command
       .add_option("--kernel", kernel,
                   "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
@@ -84,6 +91,7 @@ std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& questi
   if (question.set.empty()) {
     throw UsageError(fmt::format("{} is a mechanism: --set is required ({})", question.file, symbolic::names_of_sets()));
   }
+  if (question.set == kNodes) return symbolic::nodes_of(mechanism);
   return symbolic::singularity_set_from_string(question.set);
 }
 

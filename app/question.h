@@ -26,6 +26,9 @@ inline const std::vector<std::string> kUsualSets = [] {
   return names;
 }();
 
+/// What --set calls symbolic::nodes_of().
+inline constexpr const char* kNodes = "nodes";
+
 /// What the options say, not yet checked.
 struct QuestionOptions {
   std::string file, set, kernel, loops;

@@ -224,7 +224,7 @@ std::string set_description(const SetView& view) {
   const Cover& cover = view.result.cover;
   return Json{{"name", view.set->name},
               {"title", view.set->member},
-              {"singular", view.set->has_kernel()},
+              {"singular", view.set->is_singular()},
               {"locked", locked},
               {"layer", view.set->layer},
               {"dot", view.set->dot},

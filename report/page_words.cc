@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
+#include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/number_text.h"
 #include "corank/result/summary.h"
@@ -274,6 +276,10 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
     const char* const none = given_velocity_equation && set.given_none ? set.given_none : set.none;
     words.proven.emplace_back(result.options.corank == 1 ? none : symbolic::definition(std::nullopt).none);
     return words;
+  }
+  if (std::string meaning = result::locus_sentence(result); !meaning.empty()) {
+    meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
+    (cover.dimension == 0 ? words.proven : words.unproven).push_back(meaning + ".");
   }
   if (cover.complete()) {
     words.proven.push_back("Every one in the search domain lies in a box: all else is excluded with outward rounding.");

@@ -7,6 +7,7 @@
 #include "corank/certify/algebraic_number.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/exact_angle.h"
+#include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/number_text.h"
 #include "corank/result/tallies.h"
@@ -243,6 +244,7 @@ std::string to_table(const Result& result) {
   for (const std::string& sentence : range_end_sentences(result.domain)) text += sentence + "\n";
   if (cover.boxes.empty()) {
     text += fmt::format("\nnone: there is no solution in the search domain   ({} processed)\n", cover.statistics.processed);
+    if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += meaning + "\n";
     return text + seconds_text(cover);
   }
   text += fmt::format("\n  {:<10}  {:>10}\n", "verdict", "boxes");
@@ -290,6 +292,7 @@ std::string to_table(const Result& result) {
     if (!cover.points.empty()) text += points_table(result);
     if (!cover.decimals.empty()) text += decimals_text(result);
   }
+  if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += "\n" + meaning + "\n";
   text += kernel_text(result) + types_text(cover);
   return text + seconds_text(cover);
 }

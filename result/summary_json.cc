@@ -3,6 +3,7 @@
 #include "corank/certify/algebraic_number.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/exact_angle.h"
+#include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/summary.h"
 #include "corank/result/tallies.h"
@@ -132,6 +133,10 @@ std::string to_json(const Result& result) {
       json["points"].push_back(std::move(entry));
     }
   }
+  const std::string meaning = locus_sentence(result);
+  json["meaning"] = meaning.empty() ? Json() : Json(meaning);
+  const auto distance = node_distance(result);
+  json["node_distance"] = distance ? Json(*distance) : Json();
   json["kernel"] = kernel_json(result);
   json["types"] = types_json(cover);
   if (cover.types.left_out > 0) json["left_out"] = cover.types.left_out;

@@ -172,6 +172,7 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const I
     const double at = near->x[static_cast<std::size_t>(j)], room = 2 * share * system.scales()[static_cast<std::size_t>(j)];
     if (at < x[j].lo() - room || at > x[j].hi() + room) return std::nullopt;
   }
+  if (breaks_inequality(problem_, near->x, share)) return std::nullopt;
   return near;
 }
 

@@ -8,6 +8,7 @@
 #include "corank/solve/decimals.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/type_labels.h"
+#include "corank/study/node_search.h"
 #include "corank/study/robot_state.h"
 #include "corank/symbolic/printer.h"
 #include "corank/symbolic/velocity_blocks.h"
@@ -68,13 +69,20 @@ result::Result answer(const Question& question, const Options& options) {
 }
 
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control) {
-  const solve::Prepared prepared = solve::prepare(system, options.search, control);
+  solve::Options searched = options.search;
+  NodeSearch nodes;
+  if (symbolic::definition(question.set).part == symbolic::LocusPart::nodes && !searched.proof && searched.roots.empty()) {
+    nodes = node_search(question, system, searched, control);
+    searched.roots = std::move(nodes.roots);
+  }
+  const solve::Prepared prepared = solve::prepare(system, searched, control);
   result::Result result;
   result.model = question.model.name();
   result.model_text = question.model.source_text();
   result.set = symbolic::definition(question.set).name;
   result.system_text = symbolic::to_cuik(system);
   result.cover = solve::solve(prepared, control);
+  result.cover.statistics.processed += nodes.processed;
   control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
   solve::prove_exactly(prepared, result.cover, control);
   describe_types(question, prepared, control, result.cover);

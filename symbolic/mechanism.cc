@@ -22,6 +22,15 @@ SourceLocation place(const Expression& e, const SourceLocation& otherwise) {
 
 bool is_fixed(const Coordinate& coordinate) { return coordinate.has_range && same_tree(coordinate.lower, coordinate.upper); }
 
+Mechanism Mechanism::without_rates() const {
+  Mechanism result = *this;
+  for (const Rate& rate : rates_) result.names_.erase(rate.name);
+  result.rates_.clear();
+  result.velocity_equations_.clear();
+  result.drawing_ = {};
+  return result;
+}
+
 void Mechanism::declare(const std::string& name, Declared kind, const SourceLocation& where) {
   const std::string expectation = kind == Declared::constant ? "another name for the constant"
                                   : kind == Declared::rate   ? "another name for the rate"

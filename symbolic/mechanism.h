@@ -130,6 +130,8 @@ class Mechanism {
   /// Where the inputs (outputs) were named first.
   const SourceLocation& inputs_where() const { return inputs_where_; }
   const SourceLocation& outputs_where() const { return outputs_where_; }
+  /// The same with the derivative of its constraints as velocity equation, and nothing to draw.
+  Mechanism without_rates() const;
   /// No inputs and no outputs, neither coordinates nor rates.
   bool is_plain_system() const;
   /// Index of a coordinate, −1 where there is none.

@@ -188,6 +188,8 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
         << ", " << coordinate.upper.text() << "]" << (coordinate.has_range ? "" : "   % found from the equations") << "\n";
   for (const auto* names : {&system.kernel_unknowns, &system.second_unknowns})
     for (const std::string& name : *names) out << "  " << name << " : [-1, 1]\n";
+  for (const auto& [name, lower, upper] : system.further_unknowns)
+    out << "  " << name << " : [" << lower << ", " << upper << "]\n";
   std::vector<std::pair<std::string, std::string>> lines = relation_lines(system.equations);
   const auto inequalities = relation_lines(system.inequalities);
   lines.insert(lines.end(), inequalities.begin(), inequalities.end());

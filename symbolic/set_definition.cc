@@ -1,6 +1,7 @@
 #include "corank/symbolic/set_definition.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace corank::symbolic {
 namespace {
@@ -9,7 +10,7 @@ constexpr std::array kInput{Role::input}, kOutput{Role::output};
 constexpr std::array kBoth{Role::input, Role::output};
 
 // Colours of a page are Okabe and Ito's vermilion and blue, which the colour-blind tell apart.
-constexpr std::array<SetDefinition, 12> kSets{{
+constexpr std::array<SetDefinition, 16> kSets{{
     {.set = SingularitySet::cspace,
      .name = "cspace",
      .title = "C-space",
@@ -209,6 +210,82 @@ constexpr std::array<SetDefinition, 12> kSets{{
      .on_dark = "#c39af0",
      .layer = 10,
      .dot = 6.2},
+    {.set = SingularitySet::forward_cusps,
+     .name = "forward-cusps",
+     .matrix = "L_y",
+     .locked = kInput,
+     .side = KernelSide::right,
+     .part = LocusPart::cusps,
+     .title = "Cusps of the forward locus",
+     .member = "Cusp of the forward locus",
+     .label = "forward cusps",
+     .meaning = "where the locus has a cusp among the inputs: around it assembly modes can be changed without a "
+                "singularity",
+     .of_corank = "",
+     .none = "The locus has no cusp among the inputs in the search domain; that alone excludes no change of "
+             "assembly modes without a singularity.",
+     .print = {0.52, 0.05, 0.09},
+     .on_light = "#8a2b00",
+     .on_dark = "#ffb08a",
+     .layer = 14,
+     .dot = 7.5},
+    {.set = SingularitySet::inverse_cusps,
+     .name = "inverse-cusps",
+     .matrix = "L_z",
+     .locked = kOutput,
+     .side = KernelSide::right,
+     .part = LocusPart::cusps,
+     .title = "Cusps of the inverse locus",
+     .member = "Cusp of the inverse locus",
+     .label = "inverse cusps",
+     .meaning = "where the locus has a cusp among the outputs: around it postures can be changed without a "
+                "singularity",
+     .of_corank = "",
+     .none = "The locus has no cusp among the outputs in the search domain; that alone excludes no change of "
+             "postures without a singularity.",
+     .print = {0.04, 0.18, 0.48},
+     .on_light = "#063f70",
+     .on_dark = "#a5d8ff",
+     .layer = 13,
+     .dot = 7.5},
+    {.set = SingularitySet::forward_nodes,
+     .name = "forward-nodes",
+     .matrix = "L_y",
+     .locked = kInput,
+     .side = KernelSide::right,
+     .part = LocusPart::nodes,
+     .title = "Nodes of the forward locus",
+     .member = "Node of the forward locus",
+     .label = "forward nodes",
+     .meaning = "where the locus crosses itself among the inputs: two singular configurations with the same "
+                "inputs",
+     .of_corank = "",
+     .none = "The locus does not cross itself among the inputs in the search domain, but for pairs of "
+             "configurations too close to be told apart.",
+     .print = {0.62, 0.36, 0.10},
+     .on_light = "#7a5200",
+     .on_dark = "#e8c07a",
+     .layer = 12,
+     .dot = 7.5},
+    {.set = SingularitySet::inverse_nodes,
+     .name = "inverse-nodes",
+     .matrix = "L_z",
+     .locked = kOutput,
+     .side = KernelSide::right,
+     .part = LocusPart::nodes,
+     .title = "Nodes of the inverse locus",
+     .member = "Node of the inverse locus",
+     .label = "inverse nodes",
+     .meaning = "where the locus crosses itself among the outputs: two singular configurations with the same "
+                "outputs",
+     .of_corank = "",
+     .none = "The locus does not cross itself among the outputs in the search domain, but for pairs of "
+             "configurations too close to be told apart.",
+     .print = {0.05, 0.42, 0.45},
+     .on_light = "#00666b",
+     .on_dark = "#7fdde0",
+     .layer = 11,
+     .dot = 7.5},
     {.set = std::nullopt,
      .name = "system",
      .title = "Solutions",
@@ -249,10 +326,11 @@ const SetDefinition& definition(const std::string& name) {
 }
 
 std::string names_of_sets(bool with_kernel_only) {
-  std::string text;
+  std::vector<std::string> names;
   for (const SetDefinition& d : set_definitions())
-    if (d.has_kernel() || !with_kernel_only)
-      text += (text.empty() ? "" : &d == &set_definitions().back() ? " or " : ", ") + std::string(d.name);
+    if (d.has_kernel() || !with_kernel_only) names.emplace_back(d.name);
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : &name == &names.back() ? " or " : ", ") + name;
   return text;
 }
 

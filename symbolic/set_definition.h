@@ -22,8 +22,14 @@ enum class SingularitySet {
   ii,
   ri,
   io,
-  iim
+  iim,
+  forward_cusps,
+  inverse_cusps,
+  forward_nodes,
+  inverse_nodes
 };
+/// What of a locus is asked for: all of it, or where its image among the locked coordinates has a cusp or crosses itself.
+enum class LocusPart { all, cusps, nodes };
 enum class KernelSide { right, left };  ///< M ξ = 0 or Mᵀ ξ = 0
 /// Of a coordinate: whose rate is it? Inputs are the actuators', passive is the rest.
 enum class Role { input, output, passive };
@@ -47,6 +53,7 @@ struct SetDefinition {
   const char* also_matrix = "";
   /// The set is that of a type: of the kernel's configurations those where the type is not excluded.
   std::optional<SingularityType> type{};
+  LocusPart part = LocusPart::all;  ///< cusps and nodes: cusp_system.h, node_system.h
 
   const char* title;      ///< "Forward singularities"
   const char* member;     ///< one of them, "Forward singularity"
@@ -62,11 +69,13 @@ struct SetDefinition {
   int layer = 0;                   ///< higher ones are drawn over lower ones
   double dot = 0;                  ///< radius of an isolated point on a page, in pixels
 
-  bool has_kernel() const { return *matrix != '\0'; }
+  /// Is it all configurations where M has a kernel, whose side and corank can be asked for?
+  bool has_kernel() const { return is_singular() && part == LocusPart::all; }
+  bool is_singular() const { return *matrix != '\0'; }
   /// All configurations of a mechanism, among which those of the other sets are.
-  bool is_cspace() const { return set && !has_kernel(); }
-  /// Of those that a report shows unless it is told which.
-  bool is_usual() const { return !type && also_locked.empty(); }
+  bool is_cspace() const { return set && !is_singular(); }
+  /// Of those that a report shows unless it is told which: the others take their time, and few mechanisms have them all.
+  bool is_usual() const { return !type && also_locked.empty() && part == LocusPart::all; }
 };
 
 /// The sets of a mechanism, in the order of a report.

@@ -5,20 +5,13 @@
 #include <ranges>
 
 #include "corank/core/exact_number.h"
+#include "corank/symbolic/cusp_system.h"
 #include "corank/symbolic/found_ranges.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/kernel_vector.h"
+#include "corank/symbolic/node_system.h"
 
 namespace corank::symbolic {
 namespace {
-
-using Kind = Expression::Kind;
-
-// The place that speaks for the whole model where no line does.
-SourceLocation model_place(const Mechanism& mechanism) {
-  for (const Constraint& constraint : mechanism.constraints())
-    if (!constraint.where.file.empty()) return {constraint.where.file, 0, 0};
-  return {mechanism.name(), 0, 0};
-}
 
 std::string count(std::size_t n, const std::string& noun) {
   return n == 0 ? "no " + noun + "s" : std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
@@ -153,72 +146,12 @@ KernelSide side_of(const Mechanism& mechanism, const KernelQuestion& kernel, std
   return only;
 }
 
-// Of one vector with n components, or of several.
-std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n, std::size_t vectors,
-                                      const std::string& stem) {
-  for (std::string prefix = stem;; prefix += "_") {
-    std::vector<std::string> names;
-    for (std::size_t v = 0; v < vectors; ++v)
-      for (std::size_t i = 0; i < n; ++i)
-        names.push_back(prefix + (vectors > 1 ? std::to_string(v + 1) + "_" : "") + std::to_string(i + 1));
-    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
-          return mechanism.has_constant(name) || mechanism.find_coordinate(name) >= 0 || mechanism.find_rate(name) >= 0;
-        }))
-      return names;
-  }
-}
-
 constexpr const char* kStem = "xi";
-
-Expression times(const Expression& entry, const Expression& unknown) {
-  if (same_tree(entry, Expression(1))) return unknown;
-  if (entry.kind() == Kind::negation) return -times(entry.operands()[0], unknown);
-  return entry * unknown;
-}
-
-// A scale of 0 would make every configuration singular.
-Expression positive_number(const std::string& text, const std::string& unknown) {
-  bool positive = false;
-  try {
-    positive = ExactNumber::rational(text).sign() == 1;
-  } catch (const std::exception&) {  // no number
-  }
-  if (!positive) throw ModelError({"scale of " + unknown, 0, 0}, "'" + text + "' is no scale", "a positive rational number");
-  return parse_expression(text, "scale of " + unknown);
-}
-
-// s_j ξ_j of each unknown.
-std::vector<Expression> scaled(const std::vector<std::string>& unknowns, const std::vector<std::string>& scales) {
-  std::vector<Expression> result;
-  for (std::size_t j = 0; j < unknowns.size(); ++j) {
-    const Expression unknown = Expression::symbol(unknowns[j]);
-    const bool plain = scales.empty() || scales[j] == "1";
-    result.push_back(plain ? unknown : positive_number(scales[j], unknowns[j]) * unknown);
-  }
-  return result;
-}
-
-// Σ entries[j]·s_j ξ_j, term by term in order; nothing where all entries are 0.
-std::optional<Expression> kernel_row(const std::vector<Expression>& entries, const std::vector<Expression>& unknowns) {
-  std::vector<Expression> terms;
-  for (std::size_t j = 0; j < entries.size(); ++j)
-    if (!same_tree(entries[j], Expression(0))) terms.push_back(times(entries[j], unknowns[j]));
-  if (terms.empty()) return std::nullopt;
-  return Expression::node(Kind::sum, terms);
-}
-
-// Component i of the fixed generic vector a of one kernel vector: 0.3 + 0.7·frac((i + 1)·golden ratio) to four digits, so
-// that no mechanism's symmetry makes a·ξ = 0 on a whole piece of a singularity set.
-Expression generic_component(std::size_t i) {
-  const unsigned long fraction = (i + 1) * 618'034UL % 1'000'000UL;
-  const std::string digits = std::to_string(3000 + 7 * fraction / 1000);  // in 3000 … 9999
-  return Expression::number("0." + digits);
-}
 
 // Component i of a_j, of several vectors: 3/100 more than the inverse of i + 29 j + 1 modulo 97, in hundredths. The sequence
 // above would not do: its differences repeat, and a_1 and a_2 were orthogonal to the same kernels. Few digits keep the
 // numbers small in which exact points are sought.
-Expression generic_component(std::size_t j, std::size_t i) {
+Expression generic_component_of(std::size_t j, std::size_t i) {
   constexpr unsigned long kPrime = 97;
   const unsigned long k = (i + 29 * j) % (kPrime - 1) + 1;
   unsigned long inverse = 1;
@@ -226,9 +159,6 @@ Expression generic_component(std::size_t j, std::size_t i) {
   const std::string digits = std::to_string(100 + 3 + inverse).substr(1);
   return Expression::number("0." + digits);
 }
-
-// Σ terms_i, term by term.
-Expression sum_of(const std::vector<Expression>& terms) { return Expression::node(Kind::sum, terms); }
 
 // The unknowns of each vector; fills in what the system says of them.
 std::vector<std::vector<Expression>> add_unknowns(TrigonometricSystem& system, const Mechanism& mechanism,
@@ -261,7 +191,7 @@ void add_normalization(TrigonometricSystem& system, const SourceLocation& where,
   const auto dot_generic = [&](std::size_t i, std::size_t j) {  // a_i·ξʲ
     std::vector<Expression> terms;
     for (std::size_t k = 0; k < xi[j].size(); ++k)
-      terms.push_back((xi.size() == 1 ? generic_component(k) : generic_component(i, k)) * xi[j][k]);
+      terms.push_back((xi.size() == 1 ? generic_component(k) : generic_component_of(i, k)) * xi[j][k]);
     return sum_of(terms);
   };
   for (std::size_t j = 0; j < xi.size(); ++j) {
@@ -414,6 +344,8 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySe
   if (corank != 1)
     throw ModelError(model_place(mechanism), std::string(definition(set).title) + " has no kernel, so no corank",
                      names_of_sets(true));
+  if (definition(set).part == LocusPart::cusps) return cusp_system(mechanism, set, scales);
+  if (definition(set).part == LocusPart::nodes) return node_system(mechanism, set, scales);
   TrigonometricSystem system = plain_system(mechanism);
   system.name += std::string(" ") + definition(set).name;
   return system;

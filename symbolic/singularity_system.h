@@ -28,6 +28,11 @@ struct TrigonometricSystem {
   std::vector<std::string> kernel_scales;  ///< as given to singularity_system
   int corank = 1;                          ///< likewise: the number of kernel vectors
   bool passive_rates_eliminated = false;   ///< KernelQuestion::passive has some
+  struct Unknown {
+    std::string name;
+    int lower = -1, upper = 1;
+  };
+  std::vector<Unknown> further_unknowns;  ///< of cusps and nodes, in place of kernel unknowns
   struct Equation {
     Relation relation;
     std::string source;  ///< "dextar.cuik:17", "row 3 of L_y xi = 0", "norm of xi" …
