@@ -164,8 +164,8 @@ Rotation BallMaker::orientation() const {
   throw error("whose orientation is meant is not said", "--orientation-of " + names);
 }
 
-// A turn by α at most of R0, trace(R0ᵀR) ≥ 1 + 2 cos α, turns no axis by more than α and moves no entry by more than
-// 2 sin(α/2): these follow, and are quicker to use.
+// A turn by α at most of R0, trace(R0ᵀR) ≥ 1 + 2 cos α, moves no entry by more than 2 sin(α/2): that follows, and is quicker
+// to use.
 void BallMaker::limit_orientation() {
   if (!options_.orientation_range) {
     if (options_.orientation) throw error("the orientation has a value and no range", "--orientation-range 15deg");
@@ -186,15 +186,8 @@ void BallMaker::limit_orientation() {
     throw error("an orientation with one value has no range", "a model that keeps it: pose of LINK keeps R");
   const Rotation r = orientation(), &r0 = *options_.orientation;
   std::vector<Expression> trace;
-  for (std::size_t j = 0; j < 3; ++j) {
-    std::vector<Expression> axis;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (same_tree(r0[i][j], Expression(0))) continue;
-      axis.push_back(r0[i][j] * r[i][j]);
-    }
-    trace.insert(trace.end(), axis.begin(), axis.end());
-    model_.constrain(Expression::node(Expression::Kind::sum, axis) >= cos(alpha), {}, "range of the orientation");
-  }
+  for (std::size_t k = 0; k < 9; ++k)
+    if (!same_tree(r0[k / 3][k % 3], Expression(0))) trace.push_back(r0[k / 3][k % 3] * r[k / 3][k % 3]);
   model_.constrain(Expression::node(Expression::Kind::sum, trace) >= Expression(1) + 2 * cos(alpha), {},
                    "range of the orientation");
   for (std::size_t k = 0; k < 9; ++k) {

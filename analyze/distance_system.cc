@@ -50,11 +50,48 @@ Variable around(const std::string& name, const Interval& x) {
 
 }  // namespace
 
+namespace {
+
+// Of several variables, not all of them kernel unknowns.
+bool is_joint(const Polynomial& f, const System& system) {
+  bool configuration = false;
+  int variables = 0;
+  for (int j = 0; j < system.size(); ++j) {
+    if (!certify::mentions(f, j)) continue;
+    ++variables;
+    configuration = configuration || system.variables[static_cast<std::size_t>(j)].kind != VariableKind::kernel;
+  }
+  return configuration && variables > 1;
+}
+
+// g ≥ 0 becomes g = s, s ≥ 0: where the nearest solution is on the edge of what is allowed, the distance hardly depends on the
+// other variables once s is one that Newton's steps may leave free.
+void add_slack(System& system) {
+  std::vector<Polynomial> rest;
+  for (const Polynomial& g : std::vector<Polynomial>(std::move(system.inequalities))) {
+    const Interval range = is_joint(g, system) ? certify::evaluate(g, system.domain()) : Interval(-1);
+    if (range.hi() <= 0) {
+      rest.push_back(g);
+      continue;
+    }
+    const double most = range.hi() * (1 + 1e-3);
+    system.variables.emplace_back("slack_" + std::to_string(system.size()), VariableKind::auxiliary, 0,
+                                  ExactNumber::dyadic(most));
+    system.variables.back().auxiliary = true;
+    system.equations.push_back(certify::sum(variable(system.size() - 1), -1, g));
+    system.equations.back().source = g.source;
+  }
+  system.inequalities = std::move(rest);
+}
+
+}  // namespace
+
 DistanceSystem distance_system(const certify::Reduction& reduction, const std::vector<Polynomial>& differences) {
   const UpwardRounding rounding;
   DistanceSystem result{reduction.system, 0, {}};
   for (const auto& definition : reduction.definitions) result.values.push_back(definition.value);
   System& system = result.system;
+  add_slack(system);
   std::vector<Interval> domain = system.domain();
   Polynomial squares;
   Interval most;

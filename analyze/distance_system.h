@@ -8,7 +8,7 @@
 
 namespace corank::analyze {
 
-/// The reduced system, d_k = its k-th difference, which is linear, and t = Σ d_k²; for each of its solutions those d and t are
+/// The reduced system, its inequalities between configuration variables as equations with a slack variable each, d_k = its k-th difference, which is linear, and t = Σ d_k²; for each of its solutions those slacks, d and t are
 /// unique, so the solutions correspond one to one.
 struct DistanceSystem {
   System system;

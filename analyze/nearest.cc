@@ -1,9 +1,13 @@
 #include "corank/analyze/nearest.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <queue>
+#include <memory>
 #include <random>
 
 #include "corank/analyze/distance_system.h"
@@ -18,12 +22,12 @@ namespace corank::analyze {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFinest = 1e-10;       // of typical sizes: doubles resolve little more
-constexpr double kMargin = 1e-7;        // of a side: so far inside the domain a solution is sought that is to be proven
-constexpr int kTries = 6;               // to prove a solution beside one that resists
-constexpr double kFirstTry = 1e-4;      // how far beside, of the typical sizes; each next one is as much farther again
-constexpr double kClose = 1e-6;         // of the typical sizes: what solves the equations nearly
-constexpr std::uint64_t kReport = 256;  // boxes between two calls of the progress function
+constexpr double kFinest = 1e-10;   // of typical sizes: doubles resolve little more
+constexpr double kMargin = 1e-7;    // of a side: so far inside the domain a solution is sought that is to be proven
+constexpr int kTries = 6;           // to prove a solution beside one that resists
+constexpr double kFirstTry = 1e-4;  // how far beside, of the typical sizes; each next one is as much farther again
+constexpr double kClose = 1e-9;     // of their typical sizes: what solves the equations nearly
+constexpr std::size_t kBatch = 32;  // boxes that are processed at once, whatever the number of threads
 
 double root_below(double square) { return square <= 0 ? 0 : square_root(Interval(square))->lo(); }
 double root_above(double square) { return square <= 0 ? 0 : square_root(Interval(square))->hi(); }
@@ -43,7 +47,21 @@ class Search {
   // No solution farther away, in squares, matters.
   void set_cutoff();
   void search(Nearest& result);
-  void process(Node node);
+  // What is left of a box: its halves, or the bound of one that is not divided any more.
+  struct Parts {
+    std::vector<Node> nodes;
+    double stuck = kInfinity;
+  };
+  struct Worker {
+    Worker(const certify::CompiledSystem& system, const Ended& ended)
+        : preconditioners(system, ended), contractor(system, preconditioners, workspace) {}
+    solve::PreconditionerFactory preconditioners;
+    certify::NewtonWorkspace workspace;
+    solve::Contractor contractor;
+    Statistics statistics;
+  };
+  Parts process(Node node, Worker& worker) const;
+  void process_batch();
   // Looks for a solution near the middle of x, and keeps it where it is proven and nearer than all before.
   void improve(std::span<const Interval> x);
   void try_point(const std::vector<double>& point);
@@ -59,11 +77,16 @@ class Search {
   const solve::BranchingRule branching_;
   solve::PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
-  solve::Contractor contractor_;
-  Box inner_;  // where solutions are sought
-  std::vector<double> limits_;
-  std::priority_queue<Node> waiting_;
-  double stuck_ = kInfinity;  // the least bound of boxes that are not divided any more
+  tbb::task_arena arena_;
+  std::vector<std::unique_ptr<Worker>> workers_;  // one for each thread
+  Box inner_;                                     // where solutions are sought
+  std::vector<double> limits_, equation_sizes_;
+  void push(Node node);
+  Node pop();
+  const Node& next() const { return waiting_.front(); }
+
+  std::vector<Node> waiting_;  // a heap
+  double stuck_ = kInfinity;   // the least bound of boxes that are not divided any more
   double cutoff_ = kInfinity, upper_ = kInfinity, unproven_square_ = kInfinity;
   std::optional<Witness> best_;
   std::vector<double> unproven_;
@@ -81,8 +104,12 @@ Search::Search(const solve::Prepared& prepared, const std::vector<Polynomial>& d
       compiled_(extended_.system, extended_.values),
       branching_(extended_.system),
       preconditioners_(compiled_, [&control] { return control.ended(); }),
-      contractor_(compiled_, preconditioners_, workspace_) {
-  compiled_.set_scales(solve::typical_sizes(compiled_, extended_.system.domain()).variables);
+      arena_(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency()) {
+  for (int k = 0; k < arena_.max_concurrency(); ++k)
+    workers_.push_back(std::make_unique<Worker>(compiled_, [this] { return control_.ended(); }));
+  solve::TypicalSizes sizes = solve::typical_sizes(compiled_, extended_.system.domain());
+  compiled_.set_scales(std::move(sizes.variables));
+  equation_sizes_ = std::move(sizes.equations);
   for (const double size : compiled_.scales()) limits_.push_back(2 * kFinest * size);
   const std::vector<certify::ImpliedSides> implied = certify::implied_domains(extended_.system);
   for (std::size_t j = 0; j < implied.size(); ++j) {
@@ -91,6 +118,18 @@ Search::Search(const solve::Prepared& prepared, const std::vector<Polynomial>& d
                  upper = side.hi() + (implied[j].upper ? room : -room);
     inner_.push_back(lower < upper ? Interval(lower, upper) : side);
   }
+}
+
+void Search::push(Node node) {
+  waiting_.push_back(std::move(node));
+  std::push_heap(waiting_.begin(), waiting_.end());
+}
+
+Search::Node Search::pop() {
+  std::pop_heap(waiting_.begin(), waiting_.end());
+  Node node = std::move(waiting_.back());
+  waiting_.pop_back();
+  return node;
 }
 
 void Search::set_cutoff() {
@@ -108,15 +147,9 @@ Box Search::lifted(const Box& x) const {
 }
 
 bool Search::nearly_solves(const std::vector<double>& point) const {
-  std::vector<double> j(static_cast<std::size_t>(compiled_.entries()));
-  compiled_.approximate_jacobian(point.data(), j.data());
-  for (int row = 0; row < compiled_.equations(); ++row) {
-    double size = 0;
-    for (int k = compiled_.row_begin(row); k < compiled_.row_begin(row + 1); ++k)
-      size = std::max(size, std::fabs(j[static_cast<std::size_t>(k)]) *
-                                compiled_.scales()[static_cast<std::size_t>(compiled_.column(k))]);
-    if (compiled_.evaluate_at(row, point.data()).mag() > kClose * std::max(size, kClose)) return false;
-  }
+  for (int row = 0; row < compiled_.equations(); ++row)
+    if (compiled_.evaluate_at(row, point.data()).mag() > kClose * equation_sizes_[static_cast<std::size_t>(row)])
+      return false;
   return true;
 }
 
@@ -148,53 +181,73 @@ void Search::improve(std::span<const Interval> x) {
     try_point(*point);
 }
 
-void Search::process(Node node) {
+Search::Parts Search::process(Node node, Worker& worker) const {
+  const UpwardRounding rounding;
+  Parts parts;
   Box& x = node.x;
   const auto squared = static_cast<std::size_t>(extended_.squared);
-  if (!x[squared].intersect(Interval(-kInfinity, cutoff_))) return;
-  if (!contractor_.run(x, statistics_)) return;
-  const double bound = std::max(node.bound, x[squared].lo());
-  if (bound >= cutoff_) return;
-  const std::uint64_t n = statistics_.processed;
-  if ((n & (n - 1)) == 0) {  // 1, 2, 4, 8 …
-    improve(x);
-    if (bound >= cutoff_) return;
-  }
-  const int j = branching_.choose(compiled_, x, limits_, contractor_.step() ? &*contractor_.step() : nullptr);
+  if (!x[squared].intersect(Interval(-kInfinity, cutoff_))) return parts;
+  if (!worker.contractor.run(x, worker.statistics)) return parts;
+  node.bound = std::max(node.bound, x[squared].lo());
+  if (node.bound >= cutoff_) return parts;
+  const auto& step = worker.contractor.step();
+  const int j = branching_.choose(compiled_, x, limits_, step ? &*step : nullptr);
   const auto where = j < 0 ? std::nullopt : solve::split_point(x[static_cast<std::size_t>(j)]);
   if (!where) {
-    stuck_ = std::min(stuck_, bound);
-    return;
+    parts.stuck = node.bound;
+    return parts;
   }
-  Node upper{bound, x};
-  upper.x[static_cast<std::size_t>(j)] = Interval(*where, x[static_cast<std::size_t>(j)].hi());
-  x[static_cast<std::size_t>(j)] = Interval(x[static_cast<std::size_t>(j)].lo(), *where);
-  node.bound = bound;
-  waiting_.push(std::move(upper));
-  waiting_.push(std::move(node));
+  const Interval side = x[static_cast<std::size_t>(j)];
+  parts.nodes = {node, std::move(node)};
+  parts.nodes[0].x[static_cast<std::size_t>(j)] = Interval(side.lo(), *where);
+  parts.nodes[1].x[static_cast<std::size_t>(j)] = Interval(*where, side.hi());
+  return parts;
+}
+
+void Search::process_batch() {
+  std::vector<Node> batch;
+  while (!waiting_.empty() && next().bound < cutoff_ && batch.size() < kBatch && control_.count_box())
+    batch.push_back(pop());
+  std::vector<Parts> parts(batch.size());
+  arena_.execute([&] {
+    tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
+      parts[i] =
+          process(std::move(batch[i]), *workers_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
+    });
+  });
+  const std::uint64_t before = statistics_.processed;
+  statistics_.processed += batch.size();
+  for (Parts& part : parts) {
+    stuck_ = std::min(stuck_, part.stuck);
+    for (Node& node : part.nodes) push(std::move(node));
+  }
+  // Now and then, ever more seldom.
+  if (std::bit_width(before) < std::bit_width(statistics_.processed) && !waiting_.empty()) improve(Box(next().x));
 }
 
 void Search::search(Nearest& result) {
-  if (prepared_.reduction.consistent) waiting_.push({0, extended_.system.domain()});
+  if (prepared_.reduction.consistent) push({0, extended_.system.domain()});
   result.complete = true;
-  while (!waiting_.empty() && waiting_.top().bound < cutoff_) {
+  while (!waiting_.empty() && next().bound < cutoff_) {
     // Beside a point that resists proof nothing better is to be had.
     const double r = (1 - options_.precision) * root_below(unproven_square_);
-    if (upper_ > unproven_square_ && unproven_square_ < kInfinity && waiting_.top().bound >= r * r) {
+    if (upper_ > unproven_square_ && unproven_square_ < kInfinity && next().bound >= r * r) {
       result.complete = false;
       break;
     }
-    if (control_.search_ended() || !control_.count_box()) {
+    const std::uint64_t before = statistics_.processed;
+    if (control_.search_ended()) {
       result.complete = false;
       break;
     }
-    ++statistics_.processed;
-    if (options_.progress && statistics_.processed % kReport == 0)
-      options_.progress(root_below(waiting_.top().bound), best_ ? std::optional(root_above(upper_)) : std::nullopt,
+    if (options_.progress)
+      options_.progress(root_below(next().bound), best_ ? std::optional(root_above(upper_)) : std::nullopt,
                         statistics_.processed);
-    Node node = waiting_.top();
-    waiting_.pop();
-    process(std::move(node));
+    process_batch();
+    if (statistics_.processed == before) {
+      result.complete = false;
+      break;
+    }
   }
 }
 
@@ -204,11 +257,12 @@ Nearest Search::run() {
   Nearest result;
   set_cutoff();
   search(result);
-  const double left = std::min(stuck_, waiting_.empty() ? kInfinity : waiting_.top().bound);
+  const double left = std::min(stuck_, waiting_.empty() ? kInfinity : next().bound);
   const double lower = std::min(left, cutoff_);
   result.empty = lower == kInfinity;
   result.lower = result.empty ? kInfinity : root_below(lower);
   result.complete = result.complete && (result.empty || stuck_ >= cutoff_);
+  for (const auto& worker : workers_) statistics_.newton_steps += worker->statistics.newton_steps;
   result.statistics = statistics_;
   if (best_) {
     result.upper = root_above(upper_);

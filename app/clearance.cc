@@ -1,5 +1,5 @@
 // corank clearance: the largest ball without a singularity about a configuration.
-#include "corank/analyze/clearance.h"
+#include "corank/analyze/claims.h"
 
 #include <fmt/format.h>
 
@@ -21,9 +21,10 @@ namespace {
 
 struct ClearanceCommand {
   QuestionOptions question;
-  SearchLimits limits{.threads = 1};
+  SearchLimits limits{};  // one thread for each core
   std::vector<std::string> at, in, ranges;
   std::string orientation, orientation_range, orientation_of;
+  std::string proof_stem;
   double precision = 0.01;
   std::optional<std::string> json_path;  ///< "": standard output
 };
@@ -118,6 +119,24 @@ ExitStatus say(const ClearanceCommand& command, const analyze::Clearance& cleara
   return kIncomplete;
 }
 
+std::string free_file(const ClearanceCommand& command) { return command.proof_stem + "-free.h5"; }
+std::string nearest_file(const ClearanceCommand& command) { return command.proof_stem + "-nearest.h5"; }
+
+// Writes what corank verify checks. False: not all of it could be proven again in that form.
+bool write_claims(const ClearanceCommand& command, const analyze::Clearance& clearance, const solve::Options& search,
+                  solve::Control& control) {
+  if (command.proof_stem.empty()) return true;
+  const result::Result free = claim_free(clearance, search, control);
+  result::write_result(free_file(command), free);
+  const bool is_free = free.cover.complete() && free.cover.boxes.empty();
+  if (!is_free) fmt::print(stderr, "corank: {}: boxes are left, it does not prove the lower bound\n", free_file(command));
+  if (!clearance.nearest.upper) return is_free;
+  const auto nearest = claim_nearest(clearance, control);
+  if (nearest) result::write_result(nearest_file(command), *nearest);
+  if (!nearest) fmt::print(stderr, "corank: the nearest singularity was not proven again for {}\n", nearest_file(command));
+  return is_free && nearest;
+}
+
 ExitStatus run_clearance(ClearanceCommand command) {
   if (command.question.file.empty() && command.json_path && !command.json_path->empty())
     command.question.file.swap(*command.json_path);
@@ -129,6 +148,10 @@ ExitStatus run_clearance(ClearanceCommand command) {
   if (command.question.set.empty() && !question.model.is_plain_system()) command.question.set = "forward";
   question.set = chosen_set(command.question, question.model);
   check_output(command.json_path.value_or(""));
+  if (!command.proof_stem.empty()) {
+    check_output(free_file(command));
+    check_output(nearest_file(command));
+  }
   const Interrupt interrupt;
   ProgressLine line;
   analyze::ClearanceOptions options{.precision = command.precision};
@@ -137,8 +160,11 @@ ExitStatus run_clearance(ClearanceCommand command) {
                     : fmt::format("radius at least {:.5g}, {} boxes", lower, processed));
   };
   const analyze::Clearance clearance = analyze::clearance(question, ball, options, search, control);
+  line.show("writing what corank verify checks");
+  const bool proven = write_claims(command, clearance, search, control);
   line.clear();
-  return say(command, clearance);
+  const ExitStatus status = say(command, clearance);
+  return proven ? status : kIncomplete;
 }
 
 }  // namespace
@@ -173,6 +199,11 @@ void add_clearance(CLI::App& program, Action& action) {
   sub->add_option("--precision", command->precision, "How close the bounds of the radius are to be, relative to it")
       ->check(CLI::Range(1e-6, 0.9))
       ->capture_default_str();
+  sub->add_option(
+         "--proof", command->proof_stem,
+         "Write NAME-free.h5, no singularity within the lower bound, with the script of a search that found none, and\n"
+         "NAME-nearest.h5, one within the upper bound: corank verify checks both")
+      ->type_name("NAME");
   command->limits.add_options(*sub, "the search");
   CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
       "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },
