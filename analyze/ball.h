@@ -30,13 +30,13 @@ using Rotation = std::array<std::array<symbolic::Expression, 3>, 3>;
 Rotation parse_rotation(const std::string& text);
 
 struct BallOptions {
-  std::vector<NamedValue> at;      ///< those of `in`, and others that keep their value, or stay near it
-  std::vector<std::string> in;     ///< the ball's coordinates
-  std::vector<NamedRange> ranges;  ///< coordinates that are kept within another range than the model's
+  std::vector<NamedValue> at{};      ///< those of `in`, and others that keep their value, or stay near it
+  std::vector<std::string> in{};     ///< the ball's coordinates
+  std::vector<NamedRange> ranges{};  ///< coordinates that are kept within another range than the model's
   /// Angles among the outputs that have a value and are not in the ball stay within so much of it; likewise the orientation.
-  std::optional<symbolic::Expression> orientation_range;
-  std::optional<Rotation> orientation;  ///< of a spatial robot
-  std::string orientation_of;           ///< its link or rotation matrix; empty: the one there is
+  std::optional<symbolic::Expression> orientation_range{};
+  std::optional<Rotation> orientation{};  ///< of a spatial robot
+  std::string orientation_of{};           ///< its link or rotation matrix; empty: the one there is
 };
 
 struct Ball {

@@ -8,8 +8,9 @@
 
 namespace corank::analyze {
 
-/// The reduced system, its inequalities between configuration variables as equations with a slack variable each, d_k = its k-th difference, which is linear, and t = Σ d_k²; for each of its solutions those slacks, d and t are
-/// unique, so the solutions correspond one to one.
+/// The reduced system; its inequalities between configuration variables as equations with a slack variable each; d_k = its
+/// k-th difference, which is linear; and t = Σ d_k². For each of its solutions slacks, d and t are unique, so the solutions
+/// correspond one to one.
 struct DistanceSystem {
   System system;
   int squared = 0;                 ///< t, the last variable
