@@ -1,9 +1,9 @@
-// The question about a ball: which coordinates it lies in, where its centre is, and what the others may do meanwhile. It makes
-// the model that has the configurations in question and no others; a singularity keeps its meaning there.
+// The question about a ball: which coordinates it lies in, where its centre is, and what the others may do meanwhile. It
+// makes the model that has the configurations in question and no others; a singularity keeps its meaning there.
 //
-// Distance: sqrt of the sum of (x_i − a_i)², a_i the centre; an angle counts in radians, and the shorter way round. So that
-// the distance is an expression in coordinates, such an angle becomes a length in [a_i − pi, a_i + pi], of which the equations
-// take the sine and cosine as before.
+// Distance: sqrt of the sum of (x_i − a_i)², a_i the centre; an angle counts in radians, and the shorter way round. So
+// that the distance is an expression in coordinates, such an angle becomes a length in [a_i − pi, a_i + pi], of which the
+// equations take the sine and cosine as before.
 #pragma once
 
 #include <array>

@@ -15,6 +15,8 @@
 namespace corank::analyze {
 namespace {
 
+constexpr double kSigma = 1e-3;  // a witness is far narrower
+
 // The number as a decimal, which a model's text shows.
 symbolic::Expression decimal(double x) { return symbolic::parse_expression(fmt::format("{:.17g}", x), "radius"); }
 
@@ -67,6 +69,7 @@ std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::C
   for (const int j : witness->free) box.free.push_back(reduction.kept[static_cast<std::size_t>(j)]);
   box.verdict = box.free.empty() ? Verdict::isolated : Verdict::regular;
   box.region = 0;
+  result.cover.sigma = result.options.sigma = {kSigma, kSigma};
   result.cover.boxes.push_back(box);
   result.cover.regions.push_back(lifted(witness->sheet.region));
   result.cover.reduction = reduction.steps;

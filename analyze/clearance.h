@@ -1,5 +1,5 @@
-// Clearance: the largest ball about a configuration, in coordinates of choice, that holds no singularity, with bounds that are
-// proven from both sides.
+// Clearance: the largest ball about a configuration, in coordinates of choice, that holds no singularity, with bounds that
+// are proven from both sides.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,8 @@ struct Clearance {
   std::string stopped;                                    ///< what ended the search early; empty: nothing
   double seconds = 0;
 
-  /// No singularity among the configurations in question is nearer: where there is none at all, the ball's room, which may be infinite.
+  /// No singularity among the configurations in question is nearer: where there is none at all, the ball's room, which may
+  /// be infinite.
   double lower() const { return nearest.empty ? ball.room : nearest.lower; }
 };
 
@@ -45,8 +46,9 @@ Clearance clearance(const study::Question& question, const BallOptions& ball, co
 
 /// A few lines for a terminal.
 std::string to_table(const Clearance& clearance);
-/// {"model", "set", "at": {name: value}, "in": [names], "radius": {"lo", "hi" (null: none was proven)}, "nearest" (null, or {name: {"lo",
-/// "hi"}}), "empty", "room" (null: infinite), "center", "complete", "stopped", "precision", "processed", "seconds", "version"}.
+/// {"model", "set", "at": {name: value}, "in": [names], "radius": {"lo", "hi" (null: none was proven)}, "nearest" (null, or
+/// {name: {"lo", "hi"}}), "empty", "room" (null: infinite), "seemingly" (null, or {"distance", "values"}), "center",
+/// "complete", "stopped", "precision", "processed", "seconds"}.
 std::string to_json(const Clearance& clearance);
 
 }  // namespace corank::analyze

@@ -64,8 +64,8 @@ bool is_joint(const Polynomial& f, const System& system) {
   return configuration && variables > 1;
 }
 
-// g ≥ 0 becomes g = s, s ≥ 0: where the nearest solution is on the edge of what is allowed, the distance hardly depends on the
-// other variables once s is one that Newton's steps may leave free.
+// g ≥ 0 becomes g = s, s ≥ 0: where the nearest solution is on the edge of what is allowed, the distance hardly depends on
+// the other variables once s is one that Newton's steps may leave free.
 void add_slack(System& system) {
   std::vector<Polynomial> rest;
   for (const Polynomial& g : std::vector<Polynomial>(std::move(system.inequalities))) {

@@ -29,6 +29,12 @@ constexpr double kFirstTry = 1e-4;  // how far beside, of the typical sizes; eac
 constexpr double kClose = 1e-9;     // of their typical sizes: what solves the equations nearly
 constexpr std::size_t kBatch = 32;  // boxes that are processed at once, whatever the number of threads
 
+std::vector<double> midpoint(std::span<const Interval> x) {
+  std::vector<double> result;
+  for (const Interval& side : x) result.push_back(side.mid());
+  return result;
+}
+
 double root_below(double square) { return square <= 0 ? 0 : square_root(Interval(square))->lo(); }
 double root_above(double square) { return square <= 0 ? 0 : square_root(Interval(square))->hi(); }
 
@@ -50,7 +56,7 @@ class Search {
   // What is left of a box: its halves, or the bound of one that is not divided any more.
   struct Parts {
     std::vector<Node> nodes;
-    double stuck = kInfinity;
+    std::optional<Node> stuck;
   };
   struct Worker {
     Worker(const certify::CompiledSystem& system, const Ended& ended)
@@ -174,8 +180,7 @@ void Search::try_point(const std::vector<double>& point) {
 }
 
 void Search::improve(std::span<const Interval> x) {
-  std::vector<double> start;
-  for (int j = 0; j < compiled_.variables(); ++j) start.push_back(x[static_cast<std::size_t>(j)].mid());
+  const std::vector<double> start = midpoint(x);
   if (const auto point =
           solve::local_minimum(compiled_, extended_.squared, inner_, start, [this] { return control_.ended(); }))
     try_point(*point);
@@ -194,7 +199,7 @@ Search::Parts Search::process(Node node, Worker& worker) const {
   const int j = branching_.choose(compiled_, x, limits_, step ? &*step : nullptr);
   const auto where = j < 0 ? std::nullopt : solve::split_point(x[static_cast<std::size_t>(j)]);
   if (!where) {
-    parts.stuck = node.bound;
+    parts.stuck = std::move(node);
     return parts;
   }
   const Interval side = x[static_cast<std::size_t>(j)];
@@ -218,7 +223,10 @@ void Search::process_batch() {
   const std::uint64_t before = statistics_.processed;
   statistics_.processed += batch.size();
   for (Parts& part : parts) {
-    stuck_ = std::min(stuck_, part.stuck);
+    if (part.stuck) {
+      stuck_ = std::min(stuck_, part.stuck->bound);
+      try_point(midpoint(part.stuck->x));
+    }
     for (Node& node : part.nodes) push(std::move(node));
   }
   // Now and then, ever more seldom.

@@ -1,9 +1,9 @@
 // The distance of a system's solution set from a centre, in proven bounds, by best-first branch and bound.
 //
 // From below: boxes wait with a lower bound of the distance of the solutions in them, and the one that is least is divided
-// next; a box goes where certify/ proves that it holds no solution within the distance that is sought. So no solution is nearer than the
-// least bound of the boxes that are left. From above: certify::newton_prove shows a solution in a small box, whose farthest point
-// bounds the distance. (Branch and bound with interval arithmetic: Hansen and Walster, key Hansen2004.)
+// next; a box goes where certify/ proves that it holds no solution within the distance that is sought. So no solution is
+// nearer than the least bound of the boxes that are left. From above: certify::newton_prove shows a solution in a small box,
+// whose farthest point bounds the distance. (Branch and bound with interval arithmetic: Hansen and Walster, key Hansen2004.)
 #pragma once
 
 #include <functional>
@@ -26,7 +26,8 @@ struct Nearest {
   std::optional<double> upper;  ///< one is no farther; nothing where none was proven
   bool empty = false;           ///< proven: there is no solution in the search domain
   bool complete = false;        ///< as precise as was asked for, or empty
-  /// In all variables of the system: a box that holds the solution of `upper`, exactly one for the values of its free variables, which are points.
+  /// In all variables of the system: a box that holds the solution of `upper`, exactly one for the values of its free
+  /// variables, which are points.
   Box box;
   std::vector<int> free;         ///< those, variables of the system
   std::vector<double> unproven;  ///< in all variables: a seemingly nearer point where nothing could be proven; else empty

@@ -10,8 +10,8 @@
 
 namespace corank::analyze {
 
-/// In the search domain and satisfying the inequalities: for its free variables' values, which are points, exactly one solution in
-/// the sheet's region, and it lies in the image (certify::newton_prove).
+/// In the search domain and satisfying the inequalities: for its free variables' values, which are points, exactly one
+/// solution in the sheet's region, and it lies in the image (certify::newton_prove).
 struct Witness {
   certify::Sheet sheet;
   std::vector<int> free;

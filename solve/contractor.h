@@ -1,5 +1,5 @@
-// What shrinks a box of a search: propagation and interval Newton in turns. Heuristic in its order; all that deletes or shrinks
-// is a call into certify/.
+// What shrinks a box of a search: propagation and interval Newton in turns. Heuristic in its order; all that deletes or
+// shrinks is a call into certify/.
 #pragma once
 
 #include <optional>

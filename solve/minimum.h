@@ -1,5 +1,5 @@
-// The least value of a variable among the solutions of a system, found by Ipopt (key WaechterBiegler2006). Heuristic: a start
-// for a proof.
+// The least value of a variable among the solutions of a system, found by Ipopt (key WaechterBiegler2006). Heuristic: a
+// start for a proof.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace corank::solve {
 
-/// A local minimum of x_variable among the solutions in the box, from a start in it. Nothing where Ipopt finds no solution, or
-/// `ended` is true before.
+/// A local minimum of x_variable among the solutions in the box, from a start in it. Nothing where Ipopt finds no solution,
+/// or `ended` is true before.
 std::optional<std::vector<double>> local_minimum(const certify::CompiledSystem& system, int variable, const Box& box,
                                                  const std::vector<double>& start, const Ended& ended = {});
 
