@@ -15,6 +15,7 @@
 namespace corank::analyze {
 namespace {
 
+constexpr double kRoom = 1e-6;   // of the radius: so much of it the claims give away, for their own rounding
 constexpr double kSigma = 1e-3;  // a witness is far narrower
 
 // The number as a decimal, which a model's text shows.
@@ -29,7 +30,7 @@ study::Question within(const Clearance& clearance, double radius) {
 }  // namespace
 
 result::Result claim_free(const Clearance& clearance, const solve::Options& search, solve::Control& control) {
-  const study::Question question = within(clearance, clearance.nearest.lower * (1 - 1e-9));
+  const study::Question question = within(clearance, clearance.nearest.lower * (1 - kRoom));
   study::Options options{search, 0};
   options.search.proof = true;
   return study::answer(question, study::system(question), options, control);
@@ -37,7 +38,7 @@ result::Result claim_free(const Clearance& clearance, const solve::Options& sear
 
 std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::Control& control) {
   if (!clearance.nearest.upper) return std::nullopt;
-  const study::Question question = within(clearance, *clearance.nearest.upper * (1 + 1e-9));
+  const study::Question question = within(clearance, *clearance.nearest.upper * (1 + kRoom));
   const System system = study::system(question);
   const solve::Prepared prepared = solve::prepare(system, {}, control);
   const certify::Reduction& reduction = prepared.reduction;

@@ -1,5 +1,5 @@
-// What a clearance claims, as results that corank verify checks like any other: with code that shares nothing with the
-// search.
+// What a clearance claims, but for a millionth of the radius, as results that corank verify checks like any other: with code
+// that shares nothing with the search.
 #pragma once
 
 #include <optional>
