@@ -7,6 +7,7 @@
 #include "corank/analyze/witness.h"
 #include "corank/core/rounding.h"
 #include "corank/result/motion_words.h"
+#include "corank/result/verification.h"
 #include "corank/solve/propagation.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/model_file.h"
@@ -39,7 +40,20 @@ result::Result claim_free(const Clearance& clearance, const solve::Options& sear
 std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::Control& control) {
   if (!clearance.nearest.upper) return std::nullopt;
   const study::Question question = within(clearance, *clearance.nearest.upper * (1 + kRoom));
-  const System system = study::system(question);
+  // Narrower ranges would scale the kernel vector otherwise; the point that is known is in the scales of the search.
+  const System searched = study::system(clearance.ball.question);
+  result::Result result;
+  result.model = question.model.name();
+  result.model_text = question.model.source_text();
+  const symbolic::SetDefinition& set = symbolic::definition(question.set);
+  result.set = set.name;
+  result.options.kernel = set.has_kernel() ? to_string(question.kernel.value_or(set.side)) : "";
+  result.options.kernel_scales = searched.kernel_scales;
+  result.options.tolerance = searched.coefficient_tolerance;
+  result.options.corank = searched.kernel_vectors;
+  result.options.passive_rates_eliminated = searched.passive_rates_eliminated;
+  const System system = result::system_of(question.model, result);
+  result.system_text = symbolic::to_cuik(system);
   const solve::Prepared prepared = solve::prepare(system, {}, control);
   const certify::Reduction& reduction = prepared.reduction;
   std::vector<Polynomial> values;
@@ -60,11 +74,6 @@ std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::C
     for (int k = 0; k < compiled.values(); ++k) sides.push_back(compiled.evaluate(compiled.value_row(k), x));
     return reduction.lift(sides);
   };
-  result::Result result;
-  result.model = question.model.name();
-  result.model_text = question.model.source_text();
-  result.set = symbolic::definition(question.set).name;
-  result.system_text = symbolic::to_cuik(system);
   CoverBox box;
   box.box = lifted(witness->sheet.image);
   for (const int j : witness->free) box.free.push_back(reduction.kept[static_cast<std::size_t>(j)]);
@@ -78,12 +87,6 @@ std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::C
   result::describe_system(system, result);
   result.cover.dimension = reduction.system.dimension();
   result::describe_in_words(question.model, system, result);
-  const symbolic::SetDefinition& set = symbolic::definition(question.set);
-  result.options.kernel = set.has_kernel() ? to_string(question.kernel.value_or(set.side)) : "";
-  result.options.kernel_scales = system.kernel_scales;
-  result.options.tolerance = system.coefficient_tolerance;
-  result.options.corank = system.kernel_vectors;
-  result.options.passive_rates_eliminated = system.passive_rates_eliminated;
   result.stopped = "the first solution that was asked for";
   return result;
 }

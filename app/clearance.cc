@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <regex>
 
@@ -131,6 +132,7 @@ bool write_claims(const ClearanceCommand& command, const analyze::Clearance& cle
   const bool is_free = free.cover.complete() && free.cover.boxes.empty();
   if (!is_free) fmt::print(stderr, "corank: {}: boxes are left, it does not prove the lower bound\n", free_file(command));
   if (!clearance.nearest.upper) return is_free;
+  std::filesystem::remove(nearest_file(command));  // of a former run
   const auto nearest = claim_nearest(clearance, control);
   if (nearest) result::write_result(nearest_file(command), *nearest);
   if (!nearest) fmt::print(stderr, "corank: the nearest singularity was not proven again for {}\n", nearest_file(command));

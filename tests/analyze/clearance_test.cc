@@ -283,6 +283,13 @@ TEST(Claims, AreVerifiedAndFailWhereTheyAreFalse) {
   EXPECT_TRUE(result::verify(*nearest).verified());
   EXPECT_FALSE(result::verify(*nearest).complete());
 
+  // Narrower ranges scale a kernel vector otherwise: the claim keeps the scales of the search.
+  const Clearance turning = of(model("planar/3rpr.cuik"), {.at = {{"pose_x", "0.8"}, {"pose_y", "0.5"}, {"pose_phi", "0.1"}},
+                                                           .in = {"pose_x", "pose_y", "pose_phi"}});
+  const auto in_turning = claim_nearest(turning, control);
+  ASSERT_TRUE(in_turning);
+  EXPECT_TRUE(result::verify(*in_turning).verified());
+
   // A larger ball is not free, and says so; no singularity is in a smaller one.
   Clearance wrong = c;
   wrong.nearest.lower = 1.02 * *c.nearest.upper;
