@@ -37,10 +37,9 @@ ex Draft::length(const std::string& name, const std::optional<Range>& range, con
 }
 
 Vec Draft::vector(const std::string& name, const SourceLocation& where) {
+  const Range wider{"-11/10", "11/10"};
   Vec v;
-  for (std::size_t i = 0; i < 3; ++i)
-    v[i] = length(
-        name + "_" + "xyz" [i], Range { "-11/10", "11/10" }, where, true);
+  for (std::size_t i = 0; i < 3; ++i) v[i] = length(name + "_" + "xyz"[i], wider, where, true);
   return v;
 }
 
