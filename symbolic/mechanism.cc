@@ -199,6 +199,23 @@ void Mechanism::set_constant(const std::string& name, const Expression& value) {
   constants_[names_.at(name).index].value = value;
 }
 
+void Mechanism::set_range(const std::string& coordinate, const Expression& lower, const Expression& upper) {
+  const int index = find_coordinate(coordinate);
+  const auto holds = [&](const Composite& c) {
+    return std::find(c.components.begin(), c.components.end(), coordinate) != c.components.end();
+  };
+  if (index < 0 || std::any_of(composites_.begin(), composites_.end(), holds))
+    throw ModelError({name_, 0, 0}, in_quotes(coordinate) + " has no range of its own",
+                     "a coordinate that is no part of a unit vector or rotation matrix");
+  Coordinate& c = coordinates_[static_cast<std::size_t>(index)];
+  c.lower = lower, c.upper = upper, c.has_range = true;
+}
+
+void Mechanism::unroll(const std::string& angle, const Expression& lower, const Expression& upper) {
+  set_range(angle, lower, upper);
+  coordinates_[static_cast<std::size_t>(find_coordinate(angle))].kind = CoordinateKind::length;
+}
+
 int Mechanism::find_coordinate(const std::string& name) const {
   const auto found = names_.find(name);
   return found == names_.end() || found->second.kind != Declared::coordinate ? -1 : static_cast<int>(found->second.index);

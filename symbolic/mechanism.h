@@ -110,6 +110,11 @@ class Mechanism {
   /// Replaces the value of a declared constant (`-D L2=1`). Throws ModelError where there is no such constant.
   void set_constant(const std::string& name, const Expression& value);
 
+  /// Gives a declared coordinate that is no component of a composite another range. Throws ModelError where there is none.
+  void set_range(const std::string& coordinate, const Expression& lower, const Expression& upper);
+  /// The same, and an angle becomes a length: the real number in that range of which the equations take the sine and cosine.
+  void unroll(const std::string& angle, const Expression& lower, const Expression& upper);
+
   const std::string& name() const { return name_; }
   /// The model's text as read, empty for a mechanism built in C++.
   const std::string& source_text() const { return source_text_; }
