@@ -36,6 +36,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   add_report(program, action);
   add_sweep(program, action);
   add_topology(program, action);
+  add_aspects(program, action);
   add_angles(program, action);
 
   try {

@@ -37,14 +37,16 @@ IntervalMatrix congruent(const IntervalMatrix& m, const Matrix& p, int columns) 
   return result;
 }
 
-// A basis of ker A as columns; nothing where the theorem's hypothesis is not shown.
-std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a) {
+}  // namespace
+
+std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::vector<int>& dependent) {
+  CORANK_CHECK(static_cast<int>(dependent.size()) == a.rows && UpwardRounding::active());
   const int m = a.rows, n = a.columns;
   const Eigen::MatrixXd middle_a = middle(a);
   if (!middle_a.allFinite() || m > n) return std::nullopt;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(middle_a);
-  std::vector<int> dependent, free;
-  for (int k = 0; k < n; ++k) (k < m ? dependent : free).push_back(qr.colsPermutation().indices()(k));
+  std::vector<int> free;
+  for (int k = 0; k < n; ++k)
+    if (std::find(dependent.begin(), dependent.end(), k) == dependent.end()) free.push_back(k);
   Eigen::MatrixXd a_d(m, m);
   for (int k = 0; k < m; ++k) a_d.col(k) = middle_a.col(dependent[static_cast<std::size_t>(k)]);
   const Eigen::MatrixXd y = a_d.inverse();  // any real matrix will do
@@ -82,8 +84,6 @@ std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a) {
   return basis;
 }
 
-}  // namespace
-
 std::optional<Inertia> inertia(const IntervalMatrix& h) {
   CORANK_CHECK(h.rows == h.columns && UpwardRounding::active());
   const Eigen::MatrixXd middle_h = middle(h);
@@ -104,7 +104,12 @@ std::optional<Inertia> inertia(const IntervalMatrix& h) {
 
 std::optional<Inertia> inertia_on_kernel(const IntervalMatrix& h, const IntervalMatrix& a) {
   CORANK_CHECK(h.rows == h.columns && h.rows == a.columns && UpwardRounding::active());
-  const std::optional<IntervalMatrix> basis = kernel_basis(a);
+  const Eigen::MatrixXd middle_a = middle(a);
+  if (!middle_a.allFinite() || a.rows > a.columns) return std::nullopt;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(middle_a);
+  std::vector<int> dependent;
+  for (int k = 0; k < a.rows; ++k) dependent.push_back(qr.colsPermutation().indices()(k));
+  const std::optional<IntervalMatrix> basis = kernel_basis(a, dependent);
   if (!basis) return std::nullopt;
   return inertia(congruent(h, *basis, basis->columns));
 }
