@@ -46,7 +46,7 @@ class PieceCounter {
       join_over_border(c);
       control_.report(c, cells_.cells().size());
     }
-    join_where_they_touch();
+    join_at_ends();
     upper_bound(result);
     lower_bound(result);
     return result;
@@ -85,8 +85,9 @@ class PieceCounter {
           add_part(c, signs, Kind::unknown, false);
         } else if (cell.mixed.size() > 1) {
           add_part(c, signs, Kind::passage, false);
-        } else if (cells_.part_of_one(cell, signs[static_cast<std::size_t>(cell.mixed.front())]) > 0) {
-          add_part(c, signs, Kind::connected, true);
+        } else {
+          const int part = cells_.part_of_one(cell, signs[static_cast<std::size_t>(cell.mixed.front())]);
+          if (part >= 0) add_part(c, signs, part > 0 ? Kind::connected : Kind::passage, part > 0);
         }
       }
     }
@@ -100,66 +101,68 @@ class PieceCounter {
     return true;
   }
 
-  // All parts that hold the point are of one piece.
+  // All parts that hold the point are of one piece. Those of cells that end there, but for rounding, may be.
   void join_at(const Box& point) {
+    constexpr double kGap = 1e-9;
     const Signs signs = cells_.signs(point);
     if (std::find(signs.begin(), signs.end(), 0) != signs.end()) return;
     std::optional<std::size_t> first;
-    tree_->for_each_overlapping(point, 0.0, [&](std::size_t c) {
+    std::vector<std::size_t> near;
+    tree_->for_each_overlapping(point, kGap, [&](std::size_t c) {
       const auto part = part_of_[c].find(signs);
-      if (part == part_of_[c].end() || !is_in(point, c)) return;
+      if (part == part_of_[c].end()) return;
       Part& p = parts_[part->second];
-      p.holds_solution = true;
-      if (!p.solution) p.solution = point;
+      const bool inside = is_in(point, c);
+      if (inside) p.holds_solution = true;
+      if (inside && !p.solution) p.solution = point;
       if (p.kind != Kind::connected) return;
+      if (!inside) {
+        near.push_back(part->second);
+        return;
+      }
       if (first) proven_.union_set(*first, part->second);
       first = part->second;
     });
+    if (!first) return;
+    for (const std::size_t q : near)
+      if (proven_.find_set(*first) != proven_.find_set(q)) ends_.push_back({*first, q, point});
   }
 
-  // The middles of the faces of X_F and, where a function is mixed, its corners.
+  // Points on the border of X_F: the middles of its faces and, where a function is mixed, its corners and a row of points
+  // on each face.
   void join_over_border(std::size_t c) {
     const UpwardRounding rounding;
     const SignCell& cell = cells_.cells()[c];
     const std::vector<int>& frees = cells_.free(cell);
+    std::vector<double> along{0.5};
+    if (!cell.mixed.empty() && frees.size() > 1) along = {0.5, 0, 0.02, 0.1, 0.3, 0.7, 0.9, 0.98, 1};
     Box at = cells_.region(cell);
-    const auto side = [&](std::size_t f) -> const Interval& { return cell.sides[static_cast<std::size_t>(frees[f])]; };
-    const auto visit = [&] {
-      if (const std::optional<Box> point = test_.solution_in(at, cell.sides)) join_at(*point);
-    };
     for (std::size_t face = 0; face < frees.size(); ++face)
-      for (const bool upper : {false, true}) {
-        for (std::size_t f = 0; f < frees.size(); ++f)
-          at[static_cast<std::size_t>(frees[f])] = Interval(f != face ? side(f).mid() : upper ? side(f).hi() : side(f).lo());
-        visit();
-      }
-    if (frees.size() < 2 || frees.size() > 4) return;
-    for (unsigned corner = 0; corner < 1U << frees.size(); ++corner) {
-      for (std::size_t f = 0; f < frees.size(); ++f)
-        at[static_cast<std::size_t>(frees[f])] = Interval((corner >> f & 1U) != 0 ? side(f).hi() : side(f).lo());
-      visit();
-    }
+      for (const bool upper : {false, true})
+        for (const double share : along) {
+          for (std::size_t f = 0; f < frees.size(); ++f) {
+            const Interval& side = cell.sides[static_cast<std::size_t>(frees[f])];
+            const double inside = std::clamp(side.lo() + share * (side.hi() - side.lo()), side.lo(), side.hi());
+            at[static_cast<std::size_t>(frees[f])] = Interval(f != face ? inside : upper ? side.hi() : side.lo());
+          }
+          if (const std::optional<Box> point = test_.solution_in(at, cell.sides)) join_at(*point);
+        }
   }
 
-  // What is still apart although cells touch: a solution about there may be in both.
-  void join_where_they_touch() {
+  // Where two cells end at one point, a small piece about it may meet both.
+  void join_at_ends() {
     const UpwardRounding rounding;
-    for_each_pair([&](std::size_t p, std::size_t q) {
-      if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected) return;
-      if (proven_.find_set(p) == proven_.find_set(q)) return;
-      const SignCell &a = cells_.cells()[parts_[p].cell], &b = cells_.cells()[parts_[q].cell];
-      Box near = a.sides;
-      for (std::size_t j = 0; j < near.size(); ++j)
-        if (!near[j].intersect(b.sides[j])) return;
-      for (const double radius : {1e-2, 1e-4, 1e-6}) {
-        const std::optional<Box> piece = test_.piece_about(near, radius);
-        if (!piece || cells_.signs(*piece) != parts_[p].signs) continue;
-        if (meets(*piece, a) && meets(*piece, b)) {
-          proven_.union_set(p, q);
-          return;
-        }
+    for (const End& end : ends_) {
+      if (proven_.find_set(end.part) == proven_.find_set(end.other)) continue;
+      for (const double radius : {1e-3, 1e-5, 1e-7}) {
+        const std::optional<Box> piece = test_.piece_about(end.point, radius);
+        if (!piece || cells_.signs(*piece) != parts_[end.part].signs) continue;
+        if (!meets(*piece, cells_.cells()[parts_[end.part].cell]) || !meets(*piece, cells_.cells()[parts_[end.other].cell]))
+          continue;
+        proven_.union_set(end.part, end.other);
+        break;
       }
-    });
+    }
   }
 
   // Is a solution in the piece and in the cell proven?
@@ -204,8 +207,8 @@ class PieceCounter {
         const SignCell& cell = cells_.cells()[parts_[p].cell];
         const SignCell& first = cells_.cells()[parts_[list.front()].cell];
         const bool same = cell.box == first.box && cell.mixed == first.mixed;
-        const int product = parts_[p].signs[static_cast<std::size_t>(cell.mixed[0])] *
-                            parts_[p].signs[static_cast<std::size_t>(cell.mixed[1])];
+        const int product = parts_[p].signs[static_cast<std::size_t>(cell.mixed.front())] *
+                            parts_[p].signs[static_cast<std::size_t>(cell.mixed.back())];
         common &= same || list.size() == 1 ? cell.directions[product > 0 ? 1 : 0] : 0;
       }
       if (common == 0) hidden = true;
@@ -221,7 +224,8 @@ class PieceCounter {
     boost::disjoint_sets_with_storage<> classes(parts_.size());
     for (std::size_t p = 0; p < parts_.size(); ++p) classes.make_set(p);
     std::map<std::size_t, std::size_t> first;
-    for (std::size_t p = 0; p < parts_.size(); ++p) classes.union_set(p, first.emplace(proven_.find_set(p), p).first->second);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      classes.union_set(p, first.emplace(proven_.find_set(p), p).first->second);
     for_each_pair([&](std::size_t p, std::size_t q) { classes.union_set(p, q); });
     std::map<std::size_t, std::size_t> known;  // a part of each class, one without mixed functions where there is one
     for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -241,12 +245,18 @@ class PieceCounter {
     for (const auto& [root, p] : known) {
       const SignCell& cell = cells_.cells()[parts_[p].cell];
       Box at = cells_.region(cell);
-      for (const int f : cells_.free(cell)) at[static_cast<std::size_t>(f)] = Interval(cell.sides[static_cast<std::size_t>(f)].mid());
+      for (const int f : cells_.free(cell))
+        at[static_cast<std::size_t>(f)] = Interval(cell.sides[static_cast<std::size_t>(f)].mid());
       std::optional<Box> point = cell.mixed.empty() ? test_.solution_in(at, cell.sides) : parts_[p].solution;
       result.representatives.push_back(point.value_or(cell.sides));
       result.signs.push_back(parts_[p].signs);
     }
   }
+
+  struct End {
+    std::size_t part, other;
+    Box point;
+  };
 
   SignCells& cells_;
   certify::MeetingTest test_;
@@ -254,6 +264,7 @@ class PieceCounter {
   std::vector<Part> parts_;
   std::vector<std::map<Signs, std::size_t>> part_of_;  // of each cell
   std::optional<BoxTree> tree_;
+  std::vector<End> ends_;
   boost::disjoint_sets_with_storage<> proven_;
 };
 
@@ -281,9 +292,10 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   solve::Options search;
   search.threads = options.threads;
   const std::vector<Interval> domain = result.system.domain();
-  search.sigma = 2 * std::max_element(domain.begin(), domain.end(), [](const Interval& a, const Interval& b) {
-                        return a.width() < b.width();
-                      })->width() + 2;  // sheets are not cut
+  search.sigma = 2 * std::max_element(domain.begin(), domain.end(),
+                                      [](const Interval& a, const Interval& b) { return a.width() < b.width(); })
+                         ->width() +
+                 2;  // sheets are not cut
   const Cover cover = solve::solve(solve::prepare(result.system, search, control), control);
   for (const CoverBox& box : cover.boxes)
     if (box.verdict != Verdict::regular) {
@@ -299,7 +311,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     if (std::none_of(forward.begin(), forward.end(), [&](const auto& f) { return same_tree(e, f); })) both.push_back(e);
   const auto count = [&](const std::vector<symbolic::Expression>& functions) {
     SignCells cells(result.system, cover, symbolic::polynomials(equations, functions));
-    cells.refine(options.halvings, control);
+    cells.refine(options.halvings, options.rounds, control);
     return pieces(cells, control);
   };
   result.aspects = count(both);

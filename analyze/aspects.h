@@ -4,8 +4,8 @@
 //   assembly modes  pieces of C-space without forward singularities
 //   working modes   pieces of C-space without inverse singularities
 //
-// Counted on cells (sign_cells.h) of a smooth C-space without boundary in the search domain. In each piece the factors of the determinants of L_y
-// and L_z keep their signs.
+// Counted on cells (sign_cells.h) of a smooth C-space without boundary in the search domain. In each piece the factors of
+// the determinants of L_y and L_z keep their signs.
 #pragma once
 
 #include <string>
@@ -28,9 +28,9 @@ struct Pieces {
   bool exact() const { return at_most && *at_most == at_least; }
 };
 
-/// The pieces of the cells' set without the zeros of their functions.
-/// at_most: the classes of parts of cells that are not empty, joined where a solution in two parts is proven; nothing where some part may hide
-/// another piece. at_least: those classes, joined where cells touch and have parts of the same signs.
+/// The pieces of the cells' set without the zeros of their functions. at_most: the classes of parts of cells that are not
+/// empty, joined where a solution in two parts is proven; nothing where some part may hide another piece. at_least: those
+/// classes, joined where cells touch and have parts of the same signs.
 Pieces pieces(SignCells& cells, solve::Control& control);
 
 struct Aspects {
@@ -43,6 +43,7 @@ struct Aspects {
 struct AspectsOptions {
   int threads = 1;
   int halvings = 16;  ///< of a cover's box, at most
+  int rounds = 16;    ///< SignCells::refine
 };
 
 /// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.

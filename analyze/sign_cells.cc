@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "corank/certify/inertia.h"
 #include "corank/certify/preconditioning.h"
+#include "corank/core/box_tree.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 
@@ -31,6 +33,25 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
     evaluate(cell);
     cells_.push_back(std::move(cell));
   }
+  std::vector<const Box*> sides;
+  for (const CoverBox& box : cover.boxes) sides.push_back(&box.box);
+  if (!sides.empty()) boxes_.emplace(std::move(sides), cover.boxes.front().box.size());
+}
+
+// Do all of the cell's solutions lie in a box that comes before its own? That box's cells hold them, too.
+bool SignCells::is_covered_before(const SignCell& cell) const {
+  bool covered = false;
+  boxes_->for_each_overlapping(cell.sides, 0.0, [&](std::size_t b) {
+    if (covered || static_cast<int>(b) >= cell.box) return;
+    const CoverBox& other = cover_.boxes[b];
+    const Box& other_region = cover_.regions[static_cast<std::size_t>(other.region)];
+    for (std::size_t j = 0; j < cell.sides.size(); ++j)
+      if (!other_region[j].contains(cell.sides[j])) return;
+    for (const int f : other.free)
+      if (!other.box[static_cast<std::size_t>(f)].contains(cell.sides[static_cast<std::size_t>(f)])) return;
+    covered = true;
+  });
+  return covered;
 }
 
 const Box& SignCells::region(const SignCell& cell) const {
@@ -66,8 +87,8 @@ void SignCells::evaluate(SignCell& cell) {
   cell.resolved = resolve(cell);
 }
 
-// Theorem: at a solution the sheet's tangent space is the kernel of the equations' Jacobian J; with V its basis whose free block is the
-// identity (certify::kernel_basis), ∂g/∂f along the sheet is ∇g·V_f.
+// Theorem: at a solution the sheet's tangent space is the kernel of the equations' Jacobian J; with V its basis whose free
+// block is the identity (certify::kernel_basis), ∂g/∂f along the sheet is ∇g·V_f.
 bool SignCells::slopes(const SignCell& cell, Slopes& result) {
   const int m = compiled_.equations(), n = system_.size();
   const auto dense = [&](int row, auto&& set) {
@@ -139,24 +160,31 @@ std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) con
   return result;
 }
 
-bool SignCells::resolve(SignCell& cell) {
-  if (cell.mixed.empty()) return true;
-  if (cell.mixed.size() == 1) return part_of_one(cell, 1) != 0 && part_of_one(cell, -1) != 0;
-  if (cell.mixed.size() > 2) return false;
+// Lemma 3; false: there are none for some choice of signs.
+bool SignCells::find_directions(SignCell& cell) {
   Slopes s;
-  if (!slopes(cell, s)) return false;
   cell.directions = {};
+  if (cell.mixed.size() > 2 || !slopes(cell, s)) return false;
   std::uint64_t bit = 1;
   for (const std::vector<double>& d : directions(cell)) {
-    Interval first, second;
-    for (std::size_t f = 0; f < d.size(); ++f) {
-      first += Interval(d[f]) * s.of[0][f];
-      second += Interval(d[f]) * s.of[1][f];
+    std::vector<int> signs;
+    for (const std::vector<Interval>& slope : s.of) {
+      Interval along;
+      for (std::size_t f = 0; f < d.size(); ++f) along += Interval(d[f]) * slope[f];
+      signs.push_back(sign_of(along));
     }
-    if (const int product = sign_of(first) * sign_of(second); product != 0) cell.directions[product > 0 ? 1 : 0] |= bit;
+    const int product = signs.front() * signs.back();
+    if (product != 0 && (signs.size() == 1 || product < 0)) cell.directions[0] |= bit;
+    if (product > 0) cell.directions[1] |= bit;
     bit <<= 1;
   }
   return cell.directions[0] != 0 && cell.directions[1] != 0;
+}
+
+bool SignCells::resolve(SignCell& cell) {
+  if (cell.mixed.empty()) return true;
+  if (cell.mixed.size() == 1) return part_of_one(cell, 1) != 0 && part_of_one(cell, -1) != 0;
+  return find_directions(cell);
 }
 
 std::vector<int> SignCells::signs(const Box& box) const {
@@ -165,7 +193,60 @@ std::vector<int> SignCells::signs(const Box& box) const {
   return result;
 }
 
-void SignCells::refine(int halvings, solve::Control& control) {
+// Cut where the functions vary most; nothing where rounding leaves no room.
+std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
+  Slopes s;
+  const std::vector<int>& frees = free(cell);
+  const bool known = slopes(cell, s);
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t f = 0; f < frees.size(); ++f) {
+    const double width = cell.sides[static_cast<std::size_t>(frees[f])].width();
+    double variation = known ? 0 : width;
+    if (known)
+      for (const auto& slope : s.of) variation = std::max(variation, slope[f].mag() * width);
+    if (variation > most) most = variation, best = f;
+  }
+  const auto j = static_cast<std::size_t>(frees[best]);
+  const Interval side = cell.sides[j];
+  const double cut = side.lo() + 0.47 * (side.hi() - side.lo());
+  if (!(side.lo() < cut && cut < side.hi())) return std::nullopt;
+  std::vector<SignCell> result;
+  for (const Interval& half : {Interval(side.lo(), cut), Interval(cut, side.hi())}) {
+    SignCell child{cell.box, cell.sides, {}, {}, false, {}};
+    child.sides[j] = half;
+    evaluate(child);
+    if (!is_covered_before(child)) result.push_back(std::move(child));
+  }
+  return result;
+}
+
+// Those of two mixed functions in groups that share no direction.
+std::vector<std::size_t> SignCells::touching_passages() const {
+  std::vector<std::size_t> cells, result;
+  std::vector<const Box*> sides;
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    if (cells_[c].resolved && cells_[c].mixed.size() == 2) {
+      cells.push_back(c);
+      sides.push_back(&cells_[c].sides);
+    }
+  if (cells.empty()) return result;
+  const std::vector<std::size_t> group = BoxTree(sides, sides.front()->size()).groups(0, {});
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t k = 0; k < cells.size(); ++k) members[group[k]].push_back(cells[k]);
+  for (const auto& [number, list] : members) {
+    const SignCell& first = cells_[list.front()];
+    std::array<std::uint64_t, 2> common = first.directions;
+    for (const std::size_t c : list)
+      for (std::size_t k = 0; k < 2; ++k)
+        common[k] &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[k] : 0;
+    if (list.size() > 1 && (common[0] == 0 || common[1] == 0)) result.insert(result.end(), list.begin(), list.end());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+void SignCells::refine(int halvings, int rounds, solve::Control& control) {
   struct Waiting {
     SignCell cell;
     int depth;
@@ -174,41 +255,35 @@ void SignCells::refine(int halvings, solve::Control& control) {
   std::vector<Waiting> waiting;
   std::vector<SignCell> done;
   for (SignCell& cell : cells_) cell.resolved ? done.push_back(std::move(cell)) : waiting.push_back({std::move(cell), 0});
-  while (!waiting.empty()) {
-    Waiting now = std::move(waiting.back());
-    waiting.pop_back();
-    if (now.cell.resolved || now.depth == halvings || control.ended()) {
+  const auto work = [&] {
+    while (!waiting.empty()) {
+      Waiting now = std::move(waiting.back());
+      waiting.pop_back();
+      if (!now.cell.resolved && now.depth < halvings && !control.ended())
+        if (auto parts = halves(now.cell)) {
+          for (SignCell& part : *parts) waiting.push_back({std::move(part), now.depth + 1});
+          continue;
+        }
+      // A corner on the zeros themselves: the third lemma does.
+      if (!now.cell.resolved) now.cell.resolved = find_directions(now.cell);
       done.push_back(std::move(now.cell));
-      continue;
     }
-    // Where the functions vary most.
-    Slopes s;
-    const std::vector<int>& frees = free(now.cell);
-    const bool known = slopes(now.cell, s);
-    std::size_t best = 0;
-    double most = -1;
-    for (std::size_t f = 0; f < frees.size(); ++f) {
-      const double width = now.cell.sides[static_cast<std::size_t>(frees[f])].width();
-      double variation = known ? 0 : width;
-      if (known)
-        for (const auto& slope : s.of) variation = std::max(variation, slope[f].mag() * width);
-      if (variation > most) most = variation, best = f;
+    cells_ = std::move(done);
+    done.clear();
+  };
+  work();
+  for (int round = 0; round < rounds && !control.ended(); ++round) {
+    const std::vector<std::size_t> touching = touching_passages();
+    if (touching.empty()) return;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      std::optional<std::vector<SignCell>> parts;
+      if (std::binary_search(touching.begin(), touching.end(), c)) parts = halves(cells_[c]);
+      if (!parts) done.push_back(std::move(cells_[c]));
+      if (parts)
+        for (SignCell& part : *parts) waiting.push_back({std::move(part), halvings / 2});
     }
-    const auto j = static_cast<std::size_t>(frees[best]);
-    const Interval side = now.cell.sides[j];
-    const double cut = side.lo() + 0.47 * (side.hi() - side.lo());
-    if (!(side.lo() < cut && cut < side.hi())) {
-      done.push_back(std::move(now.cell));
-      continue;
-    }
-    for (const Interval& half : {Interval(side.lo(), cut), Interval(cut, side.hi())}) {
-      SignCell child{now.cell.box, now.cell.sides, {}, {}, false};
-      child.sides[j] = half;
-      evaluate(child);
-      waiting.push_back({std::move(child), now.depth + 1});
-    }
+    work();
   }
-  cells_ = std::move(done);
 }
 
 }  // namespace corank::analyze

@@ -49,12 +49,15 @@ std::string to_text(const study::Question& question, const analyze::Aspects& a) 
   if (!a.reason.empty()) return text + "  not known: " + a.reason + "\n";
   text += fmt::format("  aspects         {}\n  assembly modes  {}\n  working modes   {}\n", bounds(a.aspects),
                       bounds(a.assembly_modes), bounds(a.working_modes));
-  text += fmt::format("  det L_y = 0 where {}\n", a.forward_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.forward_factors, " = 0 or ")));
-  text += fmt::format("  det L_z = 0 where {}\n", a.inverse_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.inverse_factors, " = 0 or ")));
+  text += fmt::format("  det L_y = 0 where {}\n",
+                      a.forward_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.forward_factors, " = 0 or ")));
+  text += fmt::format("  det L_z = 0 where {}\n",
+                      a.inverse_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.inverse_factors, " = 0 or ")));
   text += "A configuration of each aspect:\n";
   for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {
     text += fmt::format("  {:>3}", k + 1);
-    for (const Value& v : values(a.system, a.aspects.representatives[k])) text += fmt::format("  {} {:.4f}", v.name, v.value.mid());
+    for (const Value& v : values(a.system, a.aspects.representatives[k]))
+      text += fmt::format("  {} {:.4f}", v.name, v.value.mid());
     text += "\n";
   }
   return text;
@@ -63,7 +66,9 @@ std::string to_text(const study::Question& question, const analyze::Aspects& a) 
 std::string to_json(const study::Question& question, const analyze::Aspects& a, bool complete) {
   using Json = nlohmann::ordered_json;
   const auto or_null = [](const std::optional<int>& x) { return x ? Json(*x) : Json(); };
-  const auto bounds = [&](const analyze::Pieces& p) { return Json{{"at_least", p.at_least}, {"at_most", or_null(p.at_most)}}; };
+  const auto bounds = [&](const analyze::Pieces& p) {
+    return Json{{"at_least", p.at_least}, {"at_most", or_null(p.at_most)}};
+  };
   const auto number = [](const analyze::Pieces& p) { return p.exact() ? Json(p.at_least) : Json(); };
   Json json;
   json["model"] = question.model.name();
@@ -95,8 +100,7 @@ ExitStatus aspects(const AspectsCommand& command) {
   const analyze::Aspects result = analyze::aspects(question, command.options, control);
   line.clear();
   const bool complete = !control.ended();
-  fmt::print("{}", command.json ? to_json(question, result, complete) + "\n"
-                                : result::printable(to_text(question, result)));
+  fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
   if (complete) return kDone;
   fmt::print(stderr, "corank: stopped by {}; what is said is proven, but more could be\n", to_string(*control.ending()));
   return kIncomplete;
@@ -110,7 +114,8 @@ void add_aspects(CLI::App& program, Action& action) {
   const auto command = std::make_shared<AspectsCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
-  sub->add_option("--threads", command->options.threads, "Threads of the search; 0: one for each core")->capture_default_str();
+  sub->add_option("--threads", command->options.threads, "Threads of the search; 0: one for each core")
+      ->capture_default_str();
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);

@@ -17,7 +17,8 @@ Preconditioner midpoint_preconditioner(const CompiledSystem& system, const std::
   Eigen::MatrixXd j = Eigen::MatrixXd::Zero(m, m);
   for (int i = 0; i < m; ++i)
     for (int k = system.row_begin(i); k < system.row_begin(i + 1); ++k)
-      if (const int a = place[static_cast<std::size_t>(system.column(k))]; a >= 0) j(i, a) += entries[static_cast<std::size_t>(k)];
+      if (const int a = place[static_cast<std::size_t>(system.column(k))]; a >= 0)
+        j(i, a) += entries[static_cast<std::size_t>(k)];
   Eigen::MatrixXd y = j.inverse();
   if (!y.allFinite()) y.setZero();
   Preconditioner p;

@@ -1,4 +1,5 @@
-// A preconditioner for given dependent variables: any choice is valid (certify/newton.h), this one serves pieces whose chart is known.
+// A preconditioner for given dependent variables: any choice is valid (certify/newton.h), this one serves pieces whose
+// chart is known.
 #pragma once
 
 #include <vector>
@@ -7,7 +8,8 @@
 
 namespace corank::certify {
 
-/// All m equations, these m dependents, Y the inverse of their Jacobian at the point, in floating point; 0 where it has none.
+/// All m equations, these m dependents, Y the inverse of their Jacobian at the point, in floating point; 0 where it has
+/// none.
 Preconditioner midpoint_preconditioner(const CompiledSystem& system, const std::vector<double>& point,
                                        const std::vector<int>& dependent);
 

@@ -3,9 +3,9 @@
 //   h(q) = Σ a_i cos θ_i + b_i sin θ_i + Σ c_j x_j     with fixed generic a, b, c
 //   Φ(q) = 0,   Φ_qᵀ λ + μ ∇h = 0,   ‖(λ, μ)‖ = 1
 //
-// On a C-space where Φ_q has full rank everywhere μ ≠ 0, and these are the points where h does not vary to first order along
-// C-space. There the second-order form of h along C-space is that of (μ h + λᵀΦ)/μ on the kernel of Φ_q (Milnor, "Morse Theory",
-// 1963, § 2; Lagrange).
+// On a C-space where Φ_q has full rank everywhere μ ≠ 0, and these are the points where h does not vary to first order
+// along C-space. There the second-order form of h along C-space is that of (μ h + λᵀΦ)/μ on the kernel of Φ_q (Milnor,
+// "Morse Theory", 1963, § 2; Lagrange).
 #pragma once
 
 #include <string>

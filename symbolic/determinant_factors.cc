@@ -44,8 +44,9 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
   const std::size_t n = matrix.rows.size();
   const SourceLocation where{mechanism.name(), 0, 0};
   if (n != matrix.columns.size())
-    throw ModelError(where, "a matrix with " + std::to_string(n) + " rows and " + std::to_string(matrix.columns.size()) + " columns",
-                     "a square one");
+    throw ModelError(
+        where, "a matrix with " + std::to_string(n) + " rows and " + std::to_string(matrix.columns.size()) + " columns",
+        "a square one");
   if (n > kLargest)
     throw ModelError(where, "a determinant of " + std::to_string(n) + " rows", "at most " + std::to_string(kLargest));
   const GinacLock lock;
@@ -70,8 +71,12 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
     add(determinant);
   }
   std::vector<Expression> result;
-  for (const GiNaC::ex& e : factors) result.push_back(bridge.to_expression(e));
-  // GiNaC's order is its own: the text's is the model's.
+  // GiNaC's order and signs are its own: these are the text's.
+  for (const GiNaC::ex& e : factors) {
+    const Expression plus = bridge.to_expression(e), minus = bridge.to_expression(-e);
+    result.push_back(
+        std::make_pair(plus.text().size(), plus.text()) < std::make_pair(minus.text().size(), minus.text()) ? plus : minus);
+  }
   std::sort(result.begin(), result.end(), [](const Expression& a, const Expression& b) { return a.text() < b.text(); });
   return result;
 }

@@ -108,9 +108,9 @@ TEST(Topology, OfTheThreeSlidersIsTwoCurvesOrOneThatCrossesItself) {
   EXPECT_FALSE(of(equal).smooth);
 }
 
-// Dimensions of the homology of the C-space of a planar pentagon with these sides, by the count of short sets of sides that
-// hold the longest one: b_k = a_k + a_(2−k) (Farber, Schütz, "Homology of planar polygon spaces", Geom. Dedicata 125, 2007). Its
-// components are b_0.
+// Dimensions of the homology of the C-space of a planar pentagon with these sides, by the count of short sets of sides
+// that hold the longest one: b_k = a_k + a_(2−k) (Farber, Schütz, "Homology of planar polygon spaces", Geom. Dedicata 125,
+// 2007). Its components are b_0.
 std::array<int, 3> betti_numbers(const std::vector<int>& sides) {
   const auto longest = std::max_element(sides.begin(), sides.end()) - sides.begin();
   int all = 0;
