@@ -36,6 +36,8 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   add_report(program, action);
   add_sweep(program, action);
   add_clearance(program, action);
+  add_topology(program, action);
+  add_aspects(program, action);
   add_angles(program, action);
 
   try {

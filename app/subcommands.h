@@ -18,6 +18,8 @@ void add_plot(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
 void add_clearance(CLI::App& program, Action& action);
+void add_aspects(CLI::App& program, Action& action);
+void add_topology(CLI::App& program, Action& action);
 void add_angles(CLI::App& program, Action& action);
 
 }  // namespace corank::app

@@ -158,6 +158,24 @@ Sizes right_sizes(const Mechanism& mechanism, const KernelQuestion& kernel, cons
   return sizes;
 }
 
+std::vector<double> equation_sizes(const Mechanism& mechanism, const Configurations& all) {
+  const UpwardRounding rounding;
+  std::vector<Interval> entries(static_cast<std::size_t>(all.system.entries()));
+  all.system.jacobian(all.box, entries);
+  const auto& constraints = mechanism.constraints();
+  const auto equations = std::count_if(constraints.begin(), constraints.end(),
+                                       [](const Constraint& c) { return c.relation.kind == Relation::Kind::equal; });
+  std::vector<double> sizes;
+  for (int row = 0; row < static_cast<int>(equations); ++row) {
+    double largest = 0;
+    for (int k = all.system.row_begin(row); k < all.system.row_begin(row + 1); ++k)
+      largest = std::max(largest, entries[static_cast<std::size_t>(k)].mag() *
+                                      size_of(all.box[static_cast<std::size_t>(all.system.column(k))]));
+    sizes.push_back(largest > 0 && std::isfinite(largest) ? largest : 1);
+  }
+  return sizes;
+}
+
 // A length's typical size is its scale times this.
 std::string size_per_scale(const Mechanism& mechanism, const KernelQuestion& kernel) {
   const Configurations all = configurations(algebrize(plain_system(mechanism)));
@@ -168,23 +186,18 @@ std::string size_per_scale(const Mechanism& mechanism, const KernelQuestion& ker
 
 }  // namespace
 
+std::vector<double> equation_sizes(const Mechanism& mechanism) {
+  return equation_sizes(mechanism, configurations(algebrize(plain_system(mechanism))));
+}
+
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel) {
   const Configurations all = configurations(algebrize(plain_system(mechanism)));
   if (mechanism.has_own_velocity_equation()) return scales_of_rates(mechanism, kernel, all.box);
   std::vector<double> scales;  // 0: an angle's
   if (kernel.side == KernelSide::left) {
-    const UpwardRounding rounding;
-    std::vector<Interval> entries(static_cast<std::size_t>(all.system.entries()));
-    all.system.jacobian(all.box, entries);
-    const std::size_t equations = kernel.matrix.rows.size() + kernel.dropped.size();
-    for (int row = 0; row < static_cast<int>(equations); ++row) {
-      if (std::binary_search(kernel.dropped.begin(), kernel.dropped.end(), static_cast<std::size_t>(row))) continue;
-      double largest = 0;
-      for (int k = all.system.row_begin(row); k < all.system.row_begin(row + 1); ++k)
-        largest = std::max(largest, entries[static_cast<std::size_t>(k)].mag() *
-                                        size_of(all.box[static_cast<std::size_t>(all.system.column(k))]));
-      scales.push_back(largest > 0 && std::isfinite(largest) ? 1 / largest : 1);
-    }
+    const std::vector<double> sizes = equation_sizes(mechanism, all);
+    for (std::size_t row = 0; row < sizes.size(); ++row)
+      if (!std::binary_search(kernel.dropped.begin(), kernel.dropped.end(), row)) scales.push_back(1 / sizes[row]);
     return texts(scales, 1);
   }
   const auto [of_columns, largest, angles] = right_sizes(mechanism, kernel, all.box);

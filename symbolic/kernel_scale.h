@@ -32,4 +32,8 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySe
                                        std::optional<KernelSide> side = std::nullopt);
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel);
 
+/// Of each of the mechanism's equations max_j |∂Φ_i/∂q_j| s_j over those ranges, s_j half the range of a variable; 1 where
+/// that is 0 or unbounded.
+std::vector<double> equation_sizes(const Mechanism& mechanism);
+
 }  // namespace corank::symbolic

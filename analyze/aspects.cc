@@ -1,0 +1,323 @@
+#include "corank/analyze/aspects.h"
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <map>
+#include <set>
+
+#include "corank/certify/meeting.h"
+#include "corank/core/box_tree.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/solve.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/determinant_factors.h"
+
+namespace corank::analyze {
+namespace {
+
+using Signs = std::vector<int>;
+
+bool contains(const Box& outer, const Box& inner) {
+  for (std::size_t j = 0; j < outer.size(); ++j)
+    if (!outer[j].contains(inner[j])) return false;
+  return true;
+}
+
+// Parts of cells, joined to pieces.
+class PieceCounter {
+ public:
+  PieceCounter(SignCells& cells, solve::Control& control) : cells_(cells), test_(cells.system()), control_(control) {
+    add_parts();
+    std::vector<const Box*> sides;
+    for (const SignCell& cell : cells_.cells()) sides.push_back(&cell.sides);
+    if (!sides.empty()) tree_.emplace(sides, sides.front()->size());
+  }
+
+  Pieces count() {
+    Pieces result;
+    result.cells = cells_.cells().size();
+    if (!tree_) {
+      result.at_most = 0;
+      return result;
+    }
+    proven_ = boost::disjoint_sets_with_storage<>(parts_.size());
+    for (std::size_t p = 0; p < parts_.size(); ++p) proven_.make_set(p);
+    for (std::size_t c = 0; c < cells_.cells().size() && !control_.ended(); ++c) {
+      join_over_border(c);
+      control_.report(c, cells_.cells().size());
+    }
+    join_at_ends();
+    upper_bound(result);
+    lower_bound(result);
+    return result;
+  }
+
+ private:
+  enum class Kind { connected, passage, unknown };
+  struct Part {
+    std::size_t cell;
+    Signs signs;
+    Kind kind;
+    bool holds_solution;  // proven
+    std::optional<Box> solution{};
+  };
+
+  void add_part(std::size_t cell, Signs signs, Kind kind, bool holds) {
+    part_of_[cell].emplace(signs, parts_.size());
+    parts_.push_back({cell, std::move(signs), kind, holds});
+  }
+
+  void add_parts() {
+    const UpwardRounding rounding;
+    part_of_.resize(cells_.cells().size());
+    for (std::size_t c = 0; c < cells_.cells().size(); ++c) {
+      const SignCell& cell = cells_.cells()[c];
+      Signs signs;
+      for (const Interval& g : cell.range) signs.push_back(g.lo() > 0 ? 1 : -1);
+      if (cell.mixed.empty()) {
+        add_part(c, signs, Kind::connected, true);
+        continue;
+      }
+      for (std::uint64_t choice = 0; choice < std::uint64_t{1} << std::min<std::size_t>(cell.mixed.size(), 16); ++choice) {
+        for (std::size_t k = 0; k < cell.mixed.size(); ++k)
+          signs[static_cast<std::size_t>(cell.mixed[k])] = (choice >> k & 1) != 0 ? 1 : -1;
+        if (!cell.resolved) {
+          add_part(c, signs, Kind::unknown, false);
+        } else if (cell.mixed.size() > 1) {
+          add_part(c, signs, Kind::passage, false);
+        } else {
+          const int part = cells_.part_of_one(cell, signs[static_cast<std::size_t>(cell.mixed.front())]);
+          if (part >= 0) add_part(c, signs, part > 0 ? Kind::connected : Kind::passage, part > 0);
+        }
+      }
+    }
+  }
+
+  bool is_in(const Box& point, std::size_t c) const {
+    const SignCell& cell = cells_.cells()[c];
+    if (!contains(cells_.region(cell), point)) return false;
+    for (const int f : cells_.free(cell))
+      if (!cell.sides[static_cast<std::size_t>(f)].contains(point[static_cast<std::size_t>(f)])) return false;
+    return true;
+  }
+
+  // All parts that hold the point are of one piece. Those of cells that end there, but for rounding, may be.
+  void join_at(const Box& point) {
+    constexpr double kGap = 1e-9;
+    const Signs signs = cells_.signs(point);
+    if (std::find(signs.begin(), signs.end(), 0) != signs.end()) return;
+    std::optional<std::size_t> first;
+    std::vector<std::size_t> near;
+    tree_->for_each_overlapping(point, kGap, [&](std::size_t c) {
+      const auto part = part_of_[c].find(signs);
+      if (part == part_of_[c].end()) return;
+      Part& p = parts_[part->second];
+      const bool inside = is_in(point, c);
+      if (inside) p.holds_solution = true;
+      if (inside && !p.solution) p.solution = point;
+      if (p.kind != Kind::connected) return;
+      if (!inside) {
+        near.push_back(part->second);
+        return;
+      }
+      if (first) proven_.union_set(*first, part->second);
+      first = part->second;
+    });
+    if (!first) return;
+    for (const std::size_t q : near)
+      if (proven_.find_set(*first) != proven_.find_set(q)) ends_.push_back({*first, q, point});
+  }
+
+  // Points on the border of X_F: the middles of its faces and, where a function is mixed, its corners and a row of points
+  // on each face.
+  void join_over_border(std::size_t c) {
+    const UpwardRounding rounding;
+    const SignCell& cell = cells_.cells()[c];
+    const std::vector<int>& frees = cells_.free(cell);
+    std::vector<double> along{0.5};
+    if (!cell.mixed.empty() && frees.size() > 1) along = {0.5, 0, 0.02, 0.1, 0.3, 0.7, 0.9, 0.98, 1};
+    Box at = cells_.region(cell);
+    for (std::size_t face = 0; face < frees.size(); ++face)
+      for (const bool upper : {false, true})
+        for (const double share : along) {
+          for (std::size_t f = 0; f < frees.size(); ++f) {
+            const Interval& side = cell.sides[static_cast<std::size_t>(frees[f])];
+            const double inside = std::clamp(side.lo() + share * (side.hi() - side.lo()), side.lo(), side.hi());
+            at[static_cast<std::size_t>(frees[f])] = Interval(f != face ? inside : upper ? side.hi() : side.lo());
+          }
+          if (const std::optional<Box> point = test_.solution_in(at, cell.sides)) join_at(*point);
+        }
+  }
+
+  // Where two cells end at one point, a small piece about it may meet both.
+  void join_at_ends() {
+    const UpwardRounding rounding;
+    for (const End& end : ends_) {
+      if (proven_.find_set(end.part) == proven_.find_set(end.other)) continue;
+      for (const double radius : {1e-3, 1e-5, 1e-7}) {
+        const std::optional<Box> piece = test_.piece_about(end.point, radius);
+        if (!piece || cells_.signs(*piece) != parts_[end.part].signs) continue;
+        if (!meets(*piece, cells_.cells()[parts_[end.part].cell]) || !meets(*piece, cells_.cells()[parts_[end.other].cell]))
+          continue;
+        proven_.union_set(end.part, end.other);
+        break;
+      }
+    }
+  }
+
+  // Is a solution in the piece and in the cell proven?
+  bool meets(const Box& piece, const SignCell& cell) {
+    Box common = cells_.region(cell);
+    for (const int f : cells_.free(cell)) common[static_cast<std::size_t>(f)] = cell.sides[static_cast<std::size_t>(f)];
+    for (std::size_t j = 0; j < common.size(); ++j)
+      if (!common[j].intersect(piece[j])) return false;
+    return test_.solution_in(common, common).has_value();
+  }
+
+  // Parts of like signs in cells that touch.
+  template <class Visit>
+  void for_each_pair(const Visit& visit) {
+    for (std::size_t c = 0; c < cells_.cells().size() && !control_.ended(); ++c)
+      tree_->for_each_overlapping(cells_.cells()[c].sides, 0.0, [&](std::size_t d) {
+        if (d <= c) return;
+        for (const auto& [signs, part] : part_of_[c])
+          if (const auto other = part_of_[d].find(signs); other != part_of_[d].end()) visit(part, other->second);
+      });
+  }
+
+  void upper_bound(Pieces& result) {
+    bool hidden = control_.ended();
+    for (const SignCell& cell : cells_.cells()) result.unresolved += !cell.resolved;
+    if (result.unresolved > 0) {
+      result.reason = std::to_string(result.unresolved) + " cells next to singularities that are not resolved";
+      return;
+    }
+    // Passages that touch: a piece may hide in them together, but where they share a direction.
+    boost::disjoint_sets_with_storage<> clusters(parts_.size());
+    for (std::size_t p = 0; p < parts_.size(); ++p) clusters.make_set(p);
+    for_each_pair([&](std::size_t p, std::size_t q) {
+      if (parts_[p].kind == Kind::passage && parts_[q].kind == Kind::passage) clusters.union_set(p, q);
+    });
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (parts_[p].kind == Kind::passage) members[clusters.find_set(p)].push_back(p);
+    for (const auto& [root, list] : members) {
+      std::uint64_t common = ~std::uint64_t{0};
+      for (const std::size_t p : list) {
+        const SignCell& cell = cells_.cells()[parts_[p].cell];
+        const SignCell& first = cells_.cells()[parts_[list.front()].cell];
+        const bool same = cell.box == first.box && cell.mixed == first.mixed;
+        const int product = parts_[p].signs[static_cast<std::size_t>(cell.mixed.front())] *
+                            parts_[p].signs[static_cast<std::size_t>(cell.mixed.back())];
+        common &= same || list.size() == 1 ? cell.directions[product > 0 ? 1 : 0] : 0;
+      }
+      if (common == 0) hidden = true;
+    }
+    std::set<std::size_t> classes;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (parts_[p].kind == Kind::connected) classes.insert(proven_.find_set(p));
+    if (!hidden) result.at_most = static_cast<int>(classes.size());
+    if (hidden) result.reason = "cells about a crossing of singularity loci in which a piece might hide";
+  }
+
+  void lower_bound(Pieces& result) {
+    boost::disjoint_sets_with_storage<> classes(parts_.size());
+    for (std::size_t p = 0; p < parts_.size(); ++p) classes.make_set(p);
+    std::map<std::size_t, std::size_t> first;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      classes.union_set(p, first.emplace(proven_.find_set(p), p).first->second);
+    for_each_pair([&](std::size_t p, std::size_t q) { classes.union_set(p, q); });
+    std::map<std::size_t, std::size_t> known;  // a part of each class, one without mixed functions where there is one
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (!parts_[p].holds_solution) continue;
+      const auto [place, fresh] = known.emplace(classes.find_set(p), p);
+      const auto mixed = [&](std::size_t k) { return cells_.cells()[parts_[k].cell].mixed.size(); };
+      if (!fresh && mixed(p) < mixed(place->second)) place->second = p;
+    }
+    if (control_.ended()) {
+      result.reason = "the analysis was ended by a limit";
+      result.at_least = known.empty() ? 0 : 1;
+    } else {
+      result.at_least = static_cast<int>(known.size());
+    }
+    if (result.at_most && !result.exact()) result.reason = "links or gaps between cells that could not be shown";
+    const UpwardRounding rounding;
+    for (const auto& [root, p] : known) {
+      const SignCell& cell = cells_.cells()[parts_[p].cell];
+      Box at = cells_.region(cell);
+      for (const int f : cells_.free(cell))
+        at[static_cast<std::size_t>(f)] = Interval(cell.sides[static_cast<std::size_t>(f)].mid());
+      std::optional<Box> point = cell.mixed.empty() ? test_.solution_in(at, cell.sides) : parts_[p].solution;
+      result.representatives.push_back(point.value_or(cell.sides));
+      result.signs.push_back(parts_[p].signs);
+    }
+  }
+
+  struct End {
+    std::size_t part, other;
+    Box point;
+  };
+
+  SignCells& cells_;
+  certify::MeetingTest test_;
+  solve::Control& control_;
+  std::vector<Part> parts_;
+  std::vector<std::map<Signs, std::size_t>> part_of_;  // of each cell
+  std::optional<BoxTree> tree_;
+  std::vector<End> ends_;
+  boost::disjoint_sets_with_storage<> proven_;
+};
+
+std::vector<symbolic::Expression> factors(const study::Question& question, symbolic::SingularitySet set) {
+  const symbolic::Derivation derivation = symbolic::derive(question.model);
+  symbolic::ExpressionMatrix matrix =
+      symbolic::kernel_question(question.model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
+  return symbolic::determinant_factors(question.model, matrix);
+}
+
+}  // namespace
+
+Pieces pieces(SignCells& cells, solve::Control& control) { return PieceCounter(cells, control).count(); }
+
+Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control) {
+  Aspects result;
+  question.set = symbolic::SingularitySet::cspace;
+  const symbolic::TrigonometricSystem equations = study::equations(question);
+  result.system = study::system(question, equations);
+  const std::vector<symbolic::Expression> forward = factors(question, symbolic::SingularitySet::forward);
+  const std::vector<symbolic::Expression> inverse = factors(question, symbolic::SingularitySet::inverse);
+  for (const auto& e : forward) result.forward_factors.push_back(e.text());
+  for (const auto& e : inverse) result.inverse_factors.push_back(e.text());
+
+  solve::Options search;
+  search.threads = options.threads;
+  const std::vector<Interval> domain = result.system.domain();
+  search.sigma = 2 * std::max_element(domain.begin(), domain.end(),
+                                      [](const Interval& a, const Interval& b) { return a.width() < b.width(); })
+                         ->width() +
+                 2;  // sheets are not cut
+  const Cover cover = solve::solve(solve::prepare(result.system, search, control), control);
+  for (const CoverBox& box : cover.boxes)
+    if (box.verdict != Verdict::regular) {
+      result.reason = "C-space is not shown to be smooth and without boundary in the search domain";
+      return result;
+    }
+  if (!cover.complete() || static_cast<int>(result.system.equations.size()) + cover.dimension != result.system.size()) {
+    result.reason = "C-space could not be covered";
+    return result;
+  }
+  std::vector<symbolic::Expression> both = forward;
+  for (const auto& e : inverse)
+    if (std::none_of(forward.begin(), forward.end(), [&](const auto& f) { return same_tree(e, f); })) both.push_back(e);
+  const auto count = [&](const std::vector<symbolic::Expression>& functions) {
+    SignCells cells(result.system, cover, symbolic::polynomials(equations, functions));
+    cells.refine(options.halvings, options.rounds, control);
+    return pieces(cells, control);
+  };
+  result.aspects = count(both);
+  result.assembly_modes = count(forward);
+  result.working_modes = count(inverse);
+  return result;
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,52 @@
+// The pieces into which its singularities divide a C-space.
+//
+//   aspects         pieces of C-space without forward and inverse singularities (Wenger, Chablat 1997)
+//   assembly modes  pieces of C-space without forward singularities
+//   working modes   pieces of C-space without inverse singularities
+//
+// Counted on cells (sign_cells.h) of a smooth C-space without boundary in the search domain. In each piece the factors of
+// the determinants of L_y and L_z keep their signs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corank/analyze/sign_cells.h"
+#include "corank/study/question.h"
+
+namespace corank::analyze {
+
+struct Pieces {
+  int at_least = 0;
+  std::optional<int> at_most;
+  /// Of each piece known to be there a box with a solution of it; of pieces not known to differ one box each.
+  std::vector<Box> representatives;
+  std::vector<std::vector<int>> signs;  ///< of the factors in each representative
+  std::size_t cells = 0, unresolved = 0;
+  std::string reason;  ///< why the bounds are apart; empty where they are not
+
+  bool exact() const { return at_most && *at_most == at_least; }
+};
+
+/// The pieces of the cells' set without the zeros of their functions. at_most: the classes of parts of cells that are not
+/// empty, joined where a solution in two parts is proven; nothing where some part may hide another piece. at_least: those
+/// classes, joined where cells touch and have parts of the same signs.
+Pieces pieces(SignCells& cells, solve::Control& control);
+
+struct Aspects {
+  Pieces aspects, assembly_modes, working_modes;
+  std::vector<std::string> forward_factors, inverse_factors;  ///< of det L_y, det L_z
+  System system;                                              ///< C-space: the variables of the boxes
+  std::string reason;                                         ///< why nothing is known; empty where something is
+};
+
+struct AspectsOptions {
+  int threads = 1;
+  int halvings = 16;  ///< of a cover's box, at most
+  int rounds = 16;    ///< SignCells::refine
+};
+
+/// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.
+Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control);
+
+}  // namespace corank::analyze

@@ -1,0 +1,204 @@
+#include "corank/analyze/components.h"
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <map>
+#include <set>
+
+#include "corank/certify/meeting.h"
+#include "corank/core/box_tree.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/solve.h"
+
+namespace corank::analyze {
+namespace {
+
+bool is_proven(Verdict v) { return v == Verdict::regular || v == Verdict::isolated || v == Verdict::exact; }
+
+bool contains(const Box& outer, const Box& inner) {
+  for (std::size_t j = 0; j < outer.size(); ++j)
+    if (!outer[j].contains(inner[j])) return false;
+  return true;
+}
+
+// Is it proven that two boxes that touch have no solution in common?
+class Separation {
+ public:
+  Separation(const System& system, solve::Control& control)
+      : control_(control), prepared_(solve::prepare(system, {}, control)) {}
+
+  bool apart(const Box& a, const Box& b) {
+    constexpr std::uint64_t kMost = 200;  // boxes of a search: what takes more is not known
+    Box common = a;
+    for (std::size_t j = 0; j < common.size(); ++j)
+      if (!common[j].intersect(b[j])) return true;
+    prepared_.options.roots = {common};
+    const Cover cover = solve::solve(prepared_, control_, kMost);
+    return cover.boxes.empty() && cover.complete();
+  }
+
+ private:
+  solve::Control& control_;
+  solve::Prepared prepared_;
+};
+
+// The groups of boxes that may hang together, those with a proven solution.
+int groups_with_solutions(const System& system, const Cover& cover, const std::vector<int>& piece_of_box,
+                          solve::Control& control) {
+  const std::size_t n = cover.boxes.size();
+  if (n == 0) return 0;
+  std::vector<const Box*> sides;
+  for (const CoverBox& b : cover.boxes) sides.push_back(&b.box);
+  boost::disjoint_sets_with_storage<> groups(n);
+  for (std::size_t i = 0; i < n; ++i) groups.make_set(i);
+  std::map<int, std::size_t> first;  // box of each piece
+  for (std::size_t i = 0; i < n; ++i)
+    if (piece_of_box[i] >= 0) groups.union_set(i, first.emplace(piece_of_box[i], i).first->second);
+  Separation separation(system, control);
+  const BoxTree tree(sides, sides.front()->size());
+  for (std::size_t i = 0; i < n; ++i)
+    tree.for_each_overlapping(*sides[i], 0.0, [&](std::size_t k) {
+      if (k <= i || groups.find_set(i) == groups.find_set(k)) return;
+      if (control.ended() || !separation.apart(*sides[i], *sides[k])) groups.union_set(i, k);
+    });
+  std::set<std::size_t> proven;
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_proven(cover.boxes[i].verdict)) proven.insert(groups.find_set(i));
+  return static_cast<int>(proven.size());
+}
+
+std::string other_boxes(const Cover& cover) {
+  std::string text;
+  for (const Verdict v : {Verdict::boundary, Verdict::undecided, Verdict::exact, Verdict::partial, Verdict::pending})
+    if (const std::size_t n = cover.count(v); n > 0)
+      text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + to_string(v);
+  return text;
+}
+
+// The hull of the boxes that a region's proof speaks of.
+Box hull(const std::vector<int>& boxes, const Cover& cover) {
+  Box result = cover.boxes[static_cast<std::size_t>(boxes.front())].box;
+  for (const int i : boxes)
+    for (std::size_t j = 0; j < result.size(); ++j)
+      result[j] = Interval::hull(result[j], cover.boxes[static_cast<std::size_t>(i)].box[j]);
+  return result;
+}
+
+// The pieces that the regions of regular boxes make.
+class Linker {
+ public:
+  Linker(const System& system, const Cover& cover) : cover_(cover), test_(system) {
+    for (std::size_t i = 0; i < cover.boxes.size(); ++i)
+      if (cover.boxes[i].verdict == Verdict::regular) boxes_of_[cover.boxes[i].region].push_back(static_cast<int>(i));
+    for (const auto& [region, boxes] : boxes_of_) {
+      index_[region] = regions_.size();
+      regions_.push_back(&cover.regions[static_cast<std::size_t>(region)]);
+      hulls_.push_back(hull(boxes, cover));
+      free_.push_back(cover.boxes[static_cast<std::size_t>(boxes.front())].free);
+    }
+    sets_ = boost::disjoint_sets_with_storage<>(regions_.size());
+    for (std::size_t r = 0; r < regions_.size(); ++r) sets_.make_set(r);
+  }
+
+  void link(solve::Control& control) {
+    if (regions_.empty()) return;
+    const BoxTree tree(regions_, regions_.front()->size());
+    const UpwardRounding rounding;
+    for (std::size_t r = 0; r < regions_.size() && !control.ended(); ++r) {
+      link_over_faces(r, tree);
+      control.report(r, 2 * regions_.size());
+    }
+    for (std::size_t r = 0; r < regions_.size() && !control.ended(); ++r) {
+      link_where_they_overlap(r, tree);
+      control.report(regions_.size() + r, 2 * regions_.size());
+    }
+  }
+
+  void number(Components& result) {
+    std::map<std::size_t, int> numbers;
+    result.piece_of_box.assign(cover_.boxes.size(), -1);
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i) {
+      if (cover_.boxes[i].verdict != Verdict::regular) continue;
+      const std::size_t set = sets_.find_set(index_.at(cover_.boxes[i].region));
+      result.piece_of_box[i] = numbers.emplace(set, static_cast<int>(numbers.size())).first->second;
+    }
+    result.pieces = static_cast<int>(numbers.size());
+  }
+
+ private:
+  // A point of the piece over the middle of a face of its free sides lies in some other box, whose region may hold it, too.
+  void link_over_faces(std::size_t r, const BoxTree& tree) {
+    for (const int face : free_[r])
+      for (const bool upper : {false, true}) {
+        Box at = *regions_[r];
+        for (const int f : free_[r]) {
+          const Interval& side = hulls_[r][static_cast<std::size_t>(f)];
+          at[static_cast<std::size_t>(f)] = Interval(f != face ? side.mid() : upper ? side.hi() : side.lo());
+        }
+        const std::optional<Box> point = test_.solution_in(at, at);
+        if (!point) continue;
+        tree.for_each_overlapping(*point, 0.0, [&](std::size_t s) {
+          if (contains(*regions_[s], *point)) sets_.union_set(r, s);
+        });
+      }
+  }
+
+  void link_where_they_overlap(std::size_t r, const BoxTree& tree) {
+    tree.for_each_overlapping(*regions_[r], 0.0, [&](std::size_t s) {
+      if (s <= r || sets_.find_set(r) == sets_.find_set(s)) return;
+      Box near = hulls_[r];
+      for (std::size_t j = 0; j < near.size(); ++j)
+        if (!near[j].intersect(hulls_[s][j])) near[j] = Interval::hull(hulls_[r][j], hulls_[s][j]);
+      if (test_.meet(*regions_[r], *regions_[s], near) || bridge(r, s, near)) sets_.union_set(r, s);
+    });
+  }
+
+  // Where both regions end where they touch, a small piece about that place may meet both.
+  bool bridge(std::size_t r, std::size_t s, const Box& near) {
+    for (const double radius : {1e-2, 1e-4, 1e-6})
+      if (const std::optional<Box> piece = test_.piece_about(near, radius))
+        if (test_.meet(*piece, *regions_[r], *piece) && test_.meet(*piece, *regions_[s], *piece)) return true;
+    return false;
+  }
+
+  const Cover& cover_;
+  certify::MeetingTest test_;
+  std::map<int, std::vector<int>> boxes_of_;  // of each region
+  std::map<int, std::size_t> index_;          // of each region in the lists below
+  std::vector<const Box*> regions_;
+  std::vector<Box> hulls_;
+  std::vector<std::vector<int>> free_;
+  boost::disjoint_sets_with_storage<> sets_;
+};
+
+}  // namespace
+
+Components components(const System& system, const Cover& cover, solve::Control& control) {
+  Components result;
+  if (cover.dimension == 0) {
+    result.at_least = static_cast<int>(
+        std::count_if(cover.points.begin(), cover.points.end(), [](const CoverBox& p) { return is_proven(p.verdict); }));
+    result.pieces = result.at_least;
+    result.piece_of_box.assign(cover.boxes.size(), -1);
+    if (static_cast<std::size_t>(result.at_least) == cover.points.size() && cover.complete())
+      result.at_most = result.at_least;
+    else
+      result.reason = "points that are not proven";
+    return result;
+  }
+  Linker linker(system, cover);
+  // Where there are more equations, or fewer, regions are not those of a square system's graphs.
+  if (static_cast<int>(system.equations.size()) + cover.dimension == system.size()) linker.link(control);
+  linker.number(result);
+  result.at_least = groups_with_solutions(system, cover, result.piece_of_box, control);
+  const std::string others = other_boxes(cover);
+  if (others.empty()) {
+    result.at_most = result.pieces;
+    if (!result.exact()) result.reason = "links or gaps between boxes that could not be shown";
+  } else {
+    result.reason = "boxes that are not regular: " + others;
+  }
+  return result;
+}
+
+}  // namespace corank::analyze

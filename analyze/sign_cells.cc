@@ -1,0 +1,289 @@
+#include "corank/analyze/sign_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "corank/certify/inertia.h"
+#include "corank/certify/preconditioning.h"
+#include "corank/core/box_tree.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+
+namespace corank::analyze {
+namespace {
+
+int sign_of(const Interval& x) { return x.lo() > 0 ? 1 : x.hi() < 0 ? -1 : 0; }
+
+std::vector<int> dependent_of(const std::vector<int>& free, int variables) {
+  std::vector<int> result;
+  for (int j = 0; j < variables; ++j)
+    if (std::find(free.begin(), free.end(), j) == free.end()) result.push_back(j);
+  return result;
+}
+
+}  // namespace
+
+SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions)
+    : system_(system), cover_(cover), compiled_(system, functions) {
+  const UpwardRounding rounding;
+  for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
+    CORANK_CHECK(cover.boxes[i].verdict == Verdict::regular);
+    SignCell cell{static_cast<int>(i), cover.boxes[i].box, {}, {}, false};
+    evaluate(cell);
+    cells_.push_back(std::move(cell));
+  }
+  std::vector<const Box*> sides;
+  for (const CoverBox& box : cover.boxes) sides.push_back(&box.box);
+  if (!sides.empty()) boxes_.emplace(std::move(sides), cover.boxes.front().box.size());
+}
+
+// Do all of the cell's solutions lie in a box that comes before its own? That box's cells hold them, too.
+bool SignCells::is_covered_before(const SignCell& cell) const {
+  bool covered = false;
+  boxes_->for_each_overlapping(cell.sides, 0.0, [&](std::size_t b) {
+    if (covered || static_cast<int>(b) >= cell.box) return;
+    const CoverBox& other = cover_.boxes[b];
+    const Box& other_region = cover_.regions[static_cast<std::size_t>(other.region)];
+    for (std::size_t j = 0; j < cell.sides.size(); ++j)
+      if (!other_region[j].contains(cell.sides[j])) return;
+    for (const int f : other.free)
+      if (!other.box[static_cast<std::size_t>(f)].contains(cell.sides[static_cast<std::size_t>(f)])) return;
+    covered = true;
+  });
+  return covered;
+}
+
+const Box& SignCells::region(const SignCell& cell) const {
+  return cover_.regions[static_cast<std::size_t>(cover_.boxes[static_cast<std::size_t>(cell.box)].region)];
+}
+
+certify::Preconditioner SignCells::preconditioner(const SignCell& cell, const Box& sides) const {
+  std::vector<double> c;
+  for (const Interval& side : sides) c.push_back(side.mid());
+  return certify::midpoint_preconditioner(compiled_, c, dependent_of(free(cell), system_.size()));
+}
+
+// Shrinks the dependent sides and bounds the function over the sheet's solutions there.
+Interval SignCells::range(const SignCell& cell, int function, Box& sides) {
+  const certify::NewtonStep step = certify::tighten_sheet(compiled_, preconditioner(cell, sides), sides, workspace_);
+  Interval value = step.value_at_zeros(compiled_.value_row(function), sides);
+  CORANK_CHECK(value.intersect(compiled_.evaluate(compiled_.value_row(function), sides)));
+  return value;
+}
+
+void SignCells::evaluate(SignCell& cell) {
+  certify::tighten_sheet(compiled_, preconditioner(cell, cell.sides), cell.sides, workspace_);
+  const certify::NewtonStep step =
+      certify::tighten_sheet(compiled_, preconditioner(cell, cell.sides), cell.sides, workspace_);
+  cell.range.clear();
+  cell.mixed.clear();
+  for (int k = 0; k < functions(); ++k) {
+    Interval value = step.value_at_zeros(compiled_.value_row(k), cell.sides);
+    CORANK_CHECK(value.intersect(compiled_.evaluate(compiled_.value_row(k), cell.sides)));
+    if (sign_of(value) == 0) cell.mixed.push_back(k);
+    cell.range.push_back(value);
+  }
+  cell.resolved = resolve(cell);
+}
+
+// Theorem: at a solution the sheet's tangent space is the kernel of the equations' Jacobian J; with V its basis whose free
+// block is the identity (certify::kernel_basis), ∂g/∂f along the sheet is ∇g·V_f.
+bool SignCells::slopes(const SignCell& cell, Slopes& result) {
+  const int m = compiled_.equations(), n = system_.size();
+  const auto dense = [&](int row, auto&& set) {
+    std::vector<Interval> entries(static_cast<std::size_t>(compiled_.entries()));
+    compiled_.jacobian(row, cell.sides, entries);
+    for (int k = compiled_.row_begin(row); k < compiled_.row_begin(row + 1); ++k)
+      set(compiled_.column(k), entries[static_cast<std::size_t>(k)]);
+  };
+  certify::IntervalMatrix jacobian(m, n);
+  for (int i = 0; i < m; ++i) dense(i, [&](int j, const Interval& e) { jacobian(i, j) += e; });
+  const auto basis = certify::kernel_basis(jacobian, dependent_of(free(cell), n));
+  if (!basis) return false;
+  result.of.clear();
+  for (const int g : cell.mixed) {
+    std::vector<Interval>& by_free = result.of.emplace_back(static_cast<std::size_t>(basis->columns));
+    dense(compiled_.value_row(g), [&](int j, const Interval& e) {
+      for (int f = 0; f < basis->columns; ++f) by_free[static_cast<std::size_t>(f)] += e * (*basis)(j, f);
+    });
+  }
+  return true;
+}
+
+// Lemma 2, from the whole of X_F to its faces. `open`: the free variables that still have their sides.
+int SignCells::connected(const SignCell& cell, int function, int sign, const std::vector<Interval>& slope, Box sides,
+                         std::vector<int> open) {
+  const Interval value = range(cell, function, sides);
+  if (sign_of(value) == sign) return 1;
+  if (sign_of(value) == -sign) return -1;
+  const std::vector<int>& frees = free(cell);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const auto f = static_cast<std::size_t>(std::find(frees.begin(), frees.end(), open[i]) - frees.begin());
+    const int growth = sign * sign_of(slope[f]);
+    if (growth == 0) continue;
+    Interval& side = sides[static_cast<std::size_t>(open[i])];
+    side = Interval(growth > 0 ? side.hi() : side.lo());
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+    return connected(cell, function, sign, slope, std::move(sides), std::move(open));
+  }
+  return 0;
+}
+
+int SignCells::part_of_one(const SignCell& cell, int sign) {
+  CORANK_CHECK(cell.mixed.size() == 1 && UpwardRounding::active());
+  Slopes s;
+  if (!slopes(cell, s)) return 0;
+  return connected(cell, cell.mixed.front(), sign, s.of.front(), cell.sides, free(cell));
+}
+
+// Along free variables and between two of them, in shares of their sides of the cover's box.
+std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) const {
+  std::vector<std::vector<double>> result;
+  const std::vector<int>& frees = free(cell);
+  const auto width = [&](std::size_t f) {
+    return cover_.boxes[static_cast<std::size_t>(cell.box)].box[static_cast<std::size_t>(frees[f])].width();
+  };
+  for (std::size_t a = 0; a < frees.size(); ++a) {
+    std::vector<double> d(frees.size(), 0.0);
+    d[a] = width(a);
+    result.push_back(d);
+    for (std::size_t b = 0; b < a; ++b)
+      for (const double share : {-4.0, -2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+        d[b] = share * width(b);
+        result.push_back(d);
+        d[b] = 0;
+      }
+  }
+  constexpr std::size_t kBits = 64;
+  if (result.size() > kBits) result.resize(kBits);
+  return result;
+}
+
+// Lemma 3; false: there are none for some choice of signs.
+bool SignCells::find_directions(SignCell& cell) {
+  Slopes s;
+  cell.directions = {};
+  if (cell.mixed.size() > 2 || !slopes(cell, s)) return false;
+  std::uint64_t bit = 1;
+  for (const std::vector<double>& d : directions(cell)) {
+    std::vector<int> signs;
+    for (const std::vector<Interval>& slope : s.of) {
+      Interval along;
+      for (std::size_t f = 0; f < d.size(); ++f) along += Interval(d[f]) * slope[f];
+      signs.push_back(sign_of(along));
+    }
+    const int product = signs.front() * signs.back();
+    if (product != 0 && (signs.size() == 1 || product < 0)) cell.directions[0] |= bit;
+    if (product > 0) cell.directions[1] |= bit;
+    bit <<= 1;
+  }
+  return cell.directions[0] != 0 && cell.directions[1] != 0;
+}
+
+bool SignCells::resolve(SignCell& cell) {
+  if (cell.mixed.empty()) return true;
+  if (cell.mixed.size() == 1) return part_of_one(cell, 1) != 0 && part_of_one(cell, -1) != 0;
+  return find_directions(cell);
+}
+
+std::vector<int> SignCells::signs(const Box& box) const {
+  std::vector<int> result;
+  for (int k = 0; k < functions(); ++k) result.push_back(sign_of(compiled_.evaluate(compiled_.value_row(k), box)));
+  return result;
+}
+
+// Cut where the functions vary most; nothing where rounding leaves no room.
+std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
+  Slopes s;
+  const std::vector<int>& frees = free(cell);
+  const bool known = slopes(cell, s);
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t f = 0; f < frees.size(); ++f) {
+    const double width = cell.sides[static_cast<std::size_t>(frees[f])].width();
+    double variation = known ? 0 : width;
+    if (known)
+      for (const auto& slope : s.of) variation = std::max(variation, slope[f].mag() * width);
+    if (variation > most) most = variation, best = f;
+  }
+  const auto j = static_cast<std::size_t>(frees[best]);
+  const Interval side = cell.sides[j];
+  const double cut = side.lo() + 0.47 * (side.hi() - side.lo());
+  if (!(side.lo() < cut && cut < side.hi())) return std::nullopt;
+  std::vector<SignCell> result;
+  for (const Interval& half : {Interval(side.lo(), cut), Interval(cut, side.hi())}) {
+    SignCell child{cell.box, cell.sides, {}, {}, false, {}};
+    child.sides[j] = half;
+    evaluate(child);
+    if (!is_covered_before(child)) result.push_back(std::move(child));
+  }
+  return result;
+}
+
+// Those of two mixed functions in groups that share no direction.
+std::vector<std::size_t> SignCells::touching_passages() const {
+  std::vector<std::size_t> cells, result;
+  std::vector<const Box*> sides;
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    if (cells_[c].resolved && cells_[c].mixed.size() == 2) {
+      cells.push_back(c);
+      sides.push_back(&cells_[c].sides);
+    }
+  if (cells.empty()) return result;
+  const std::vector<std::size_t> group = BoxTree(sides, sides.front()->size()).groups(0, {});
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t k = 0; k < cells.size(); ++k) members[group[k]].push_back(cells[k]);
+  for (const auto& [number, list] : members) {
+    const SignCell& first = cells_[list.front()];
+    std::array<std::uint64_t, 2> common = first.directions;
+    for (const std::size_t c : list)
+      for (std::size_t k = 0; k < 2; ++k)
+        common[k] &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[k] : 0;
+    if (list.size() > 1 && (common[0] == 0 || common[1] == 0)) result.insert(result.end(), list.begin(), list.end());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+void SignCells::refine(int halvings, int rounds, solve::Control& control) {
+  struct Waiting {
+    SignCell cell;
+    int depth;
+  };
+  const UpwardRounding rounding;
+  std::vector<Waiting> waiting;
+  std::vector<SignCell> done;
+  for (SignCell& cell : cells_) cell.resolved ? done.push_back(std::move(cell)) : waiting.push_back({std::move(cell), 0});
+  const auto work = [&] {
+    while (!waiting.empty()) {
+      Waiting now = std::move(waiting.back());
+      waiting.pop_back();
+      if (!now.cell.resolved && now.depth < halvings && !control.ended())
+        if (auto parts = halves(now.cell)) {
+          for (SignCell& part : *parts) waiting.push_back({std::move(part), now.depth + 1});
+          continue;
+        }
+      // A corner on the zeros themselves: the third lemma does.
+      if (!now.cell.resolved) now.cell.resolved = find_directions(now.cell);
+      done.push_back(std::move(now.cell));
+    }
+    cells_ = std::move(done);
+    done.clear();
+  };
+  work();
+  for (int round = 0; round < rounds && !control.ended(); ++round) {
+    const std::vector<std::size_t> touching = touching_passages();
+    if (touching.empty()) return;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      std::optional<std::vector<SignCell>> parts;
+      if (std::binary_search(touching.begin(), touching.end(), c)) parts = halves(cells_[c]);
+      if (!parts) done.push_back(std::move(cells_[c]));
+      if (parts)
+        for (SignCell& part : *parts) waiting.push_back({std::move(part), halvings / 2});
+    }
+    work();
+  }
+}
+
+}  // namespace corank::analyze

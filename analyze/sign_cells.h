@@ -1,0 +1,94 @@
+// A smooth set in cells on which given functions have known signs or are monotone: the pieces of the set without the
+// functions' zeros are counted on them.
+//
+// A cell is the part of a proven sheet over a box X_F of its free variables; g_1 … g_r are functions on it. Its *parts*
+// are the sets of its points where the g_k have given signs, none 0.
+//   Lemma 1: where every g_k has one sign all over the cell, its one part is the cell, which is connected.
+// Lemma 2: let one function g have both signs, s be one of them, and s·∂g/∂f > 0 all over the cell (derivatives along the
+// sheet) for a free
+// variable f or < 0. Then the part of sign s is connected or empty where its part on the face of X_F at f's end where s·g
+// is larger is; and
+// each of its points is joined to one of that face. Proof: along f from any point s·g grows until the face. So the part
+// contracts onto its
+// part on the face. On the face the lemma may be used again, with its other free variables; a face where s·g > 0 all over
+// is connected.
+// Lemma 3: let there be a direction d of free variables with s_k·∂g_k/∂d > 0 all over the cell for each g_k that has not
+// one sign there. Then
+// each point of the part of signs s is joined in it to a point on the cell's border, which is another cell's, too: the
+// part adds no piece.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "corank/analyze/components.h"
+#include "corank/certify/compiled_system.h"
+#include "corank/certify/newton.h"
+#include "corank/core/box_tree.h"
+
+namespace corank::analyze {
+
+struct SignCell {
+  int box = 0;                  ///< of the cover
+  Box sides;                    ///< all variables; the free ones' are X_F
+  std::vector<Interval> range;  ///< of each function
+  std::vector<int> mixed;       ///< functions that have not one sign, as far as is known
+  bool resolved = false;        ///< one of the lemmas holds for each choice of signs; of one mixed function the second
+  /// Of one or two mixed functions: the directions of lemma 3, as bits, for unlike and for like signs. They are the same
+  /// for all cells of one box of the cover: where neighbours share one, no piece hides in them together.
+  std::array<std::uint64_t, 2> directions{};
+};
+
+/// Cells of a cover all of whose boxes are `regular`.
+class SignCells {
+ public:
+  /// `functions`: in the system's variables.
+  SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions);
+
+  /// Divides cells until they are resolved, or the number of halvings of a box is reached; then, so many times, those that
+  /// the third lemma resolves and that touch others of their kind with which they share no direction.
+  void refine(int halvings, int rounds, solve::Control& control);
+
+  const std::vector<SignCell>& cells() const { return cells_; }
+  const Cover& cover() const { return cover_; }
+  const System& system() const { return system_; }
+  int functions() const { return compiled_.values(); }
+  const std::vector<int>& free(const SignCell& cell) const { return cover_.boxes[static_cast<std::size_t>(cell.box)].free; }
+  const Box& region(const SignCell& cell) const;
+
+  /// Signs ±1 of the functions in the box, in which the solutions are meant; 0 where one is not known.
+  std::vector<int> signs(const Box& box) const;
+  /// Lemma 2 for the one mixed function of a cell and a sign: is the part proven to be connected and not empty (1), empty
+  /// (−1), or neither (0)?
+  int part_of_one(const SignCell& cell, int sign);
+
+ private:
+  struct Slopes {
+    std::vector<std::vector<Interval>> of;  // of each mixed function by each free variable
+  };
+
+  void evaluate(SignCell& cell);
+  // False: nothing is known.
+  bool slopes(const SignCell& cell, Slopes& result);
+  bool resolve(SignCell& cell);
+  std::optional<std::vector<SignCell>> halves(const SignCell& cell);
+  bool is_covered_before(const SignCell& cell) const;
+  std::vector<std::size_t> touching_passages() const;
+  bool find_directions(SignCell& cell);
+  std::vector<std::vector<double>> directions(const SignCell& cell) const;
+  int connected(const SignCell& cell, int function, int sign, const std::vector<Interval>& slope, Box sides,
+                std::vector<int> open);
+  Interval range(const SignCell& cell, int function, Box& sides);
+  certify::Preconditioner preconditioner(const SignCell& cell, const Box& sides) const;
+
+  const System& system_;
+  const Cover& cover_;
+  certify::CompiledSystem compiled_;  // value rows: the functions
+  certify::NewtonWorkspace workspace_;
+  std::vector<SignCell> cells_;
+  std::optional<BoxTree> boxes_;  // of the cover
+};
+
+}  // namespace corank::analyze

@@ -1,0 +1,224 @@
+#include "corank/analyze/topology.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "corank/certify/compiled_system.h"
+#include "corank/certify/inertia.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/exactness.h"
+#include "corank/solve/solve.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/critical_points.h"
+
+namespace corank::analyze {
+namespace {
+
+constexpr int kUnknown = -1;
+constexpr int kHeights = 6;  // that are tried for two which say something
+
+struct Solved {
+  System system;
+  Cover cover;
+};
+
+// `most`: ends the search after so many boxes; 0: never.
+Cover solved(const System& system, std::optional<double> sigma, int threads, solve::Control& control,
+             std::uint64_t most = 0) {
+  solve::Options options;
+  options.sigma = sigma;
+  options.threads = threads;
+  const solve::Prepared prepared = solve::prepare(system, options, control);
+  Cover cover = solve::solve(prepared, control, most);
+  if (cover.dimension == 0) solve::prove_exactly(prepared, cover, control);
+  return cover;
+}
+
+// Wider than every sheet: they are not cut.
+double whole_sheets(const System& system) {
+  double widest = 1;
+  for (const Interval& side : system.domain()) widest = std::max(widest, side.width());
+  return 2 * widest;
+}
+
+// Signs of the second-order form of h at the critical points.
+class Indices {
+ public:
+  Indices(const symbolic::CriticalPoints& critical, const System& system)
+      : n_(static_cast<int>(critical.names.size())),
+        m_(static_cast<int>(critical.jacobian.rows.size())),
+        compiled_(system, symbolic::polynomials(critical.system, entries(critical))) {}
+
+  /// kUnknown where no inertia, or no sign of μ, is proven in the box.
+  int index(const Box& box) const {
+    const Interval mu = value(n_ * n_ + m_ * n_, box);
+    if (mu.contains_zero()) return kUnknown;
+    certify::IntervalMatrix hessian(n_, n_), jacobian(m_, n_);
+    for (int k = 0; k < n_ * n_; ++k) hessian.entries[static_cast<std::size_t>(k)] = value(k, box);
+    for (int k = 0; k < m_ * n_; ++k) jacobian.entries[static_cast<std::size_t>(k)] = value(n_ * n_ + k, box);
+    const std::optional<certify::Inertia> inertia = certify::inertia_on_kernel(hessian, jacobian);
+    if (!inertia) return kUnknown;
+    return mu.lo() > 0 ? inertia->negative : inertia->positive;
+  }
+
+ private:
+  static std::vector<symbolic::Expression> entries(const symbolic::CriticalPoints& critical) {
+    std::vector<symbolic::Expression> list;
+    for (const auto* matrix : {&critical.hessian, &critical.jacobian})
+      for (const auto& row : matrix->rows) list.insert(list.end(), row.begin(), row.end());
+    list.push_back(critical.multiplier);
+    return list;
+  }
+  Interval value(int k, const Box& box) const { return compiled_.evaluate(compiled_.value_row(k), box); }
+
+  int n_, m_;
+  certify::CompiledSystem compiled_;
+};
+
+// The piece on whose region the point lies, −1 where none is known to.
+int piece_of(const Box& point, const Solved& space, const Components& components) {
+  for (std::size_t i = 0; i < space.cover.boxes.size(); ++i) {
+    const CoverBox& box = space.cover.boxes[i];
+    if (box.verdict != Verdict::regular) continue;
+    const Box& region = space.cover.regions[static_cast<std::size_t>(box.region)];
+    bool inside = true;
+    for (std::size_t j = 0; inside && j < region.size(); ++j) inside = region[j].contains(point[j]);
+    if (inside) return components.piece_of_box[i];
+  }
+  return -1;
+}
+
+HeightCount count_critical_points(const study::Question& question, int height, const Solved& space,
+                                  const Components& components, const TopologyOptions& options, std::uint64_t& processed,
+                                  solve::Control& control) {
+  HeightCount result;
+  result.by_index.assign(static_cast<std::size_t>(space.cover.dimension) + 1, 0);
+  const symbolic::CriticalPoints critical = symbolic::critical_points(question.model, height);
+  const System system = study::system(question, critical.system);
+  const Cover cover = solved(system, std::nullopt, options.threads, control, options.most_for_a_height);
+  processed += cover.statistics.processed;
+  if (!cover.complete()) {
+    result.problem = "the search for critical points was ended by a limit";
+    return result;
+  }
+  const UpwardRounding rounding;
+  const Indices indices(critical, system);
+  // −ξ is no solution where a·ξ > 0: where it is 0, a point may be counted twice.
+  const certify::CompiledSystem compiled(system);
+  std::vector<int> euler(static_cast<std::size_t>(components.pieces), 0);
+  bool placed = true;
+  for (const CoverBox& point : cover.points) {
+    const bool proven = point.verdict == Verdict::isolated || point.verdict == Verdict::exact;
+    const int index = proven ? indices.index(point.box) : kUnknown;
+    bool apart = true;
+    for (int row = compiled.equations(); row < compiled.rows(); ++row)
+      apart = apart && compiled.evaluate(row, point.box).lo() > 0;
+    if (index == kUnknown || !apart) {
+      result.problem = proven ? "a critical point that may be degenerate" : "a critical point that is not proven";
+      return result;
+    }
+    ++result.by_index[static_cast<std::size_t>(index)];
+    const int piece = piece_of(point.box, space, components);
+    placed = placed && piece >= 0;
+    if (piece >= 0) euler[static_cast<std::size_t>(piece)] += index % 2 == 0 ? 1 : -1;
+  }
+  if (placed) result.euler_of_piece = euler;
+  return result;
+}
+
+// Components with σ as fine as it takes.
+Components refined_components(Solved& space, const TopologyOptions& options, std::uint64_t& processed,
+                              solve::Control& control) {
+  double sigma = whole_sheets(space.system);
+  Components best;
+  for (int k = 0; k <= options.refinements; ++k, sigma /= k == 1 ? 16 : 2) {
+    Cover cover = solved(space.system, sigma, options.threads, control);
+    processed += cover.statistics.processed;
+    const Components found = components(space.system, cover, control);
+    if (k > 0 && !cover.complete()) break;
+    const bool better =
+        k == 0 || found.exact() ||
+        (found.at_most.value_or(1 << 30) <= best.at_most.value_or(1 << 30) && found.at_least >= best.at_least);
+    if (better) {
+      best = found;
+      space.cover = std::move(cover);
+    }
+    if (best.exact() || !best.at_most || best.piece_of_box.empty() || control.ended()) break;
+  }
+  return best;
+}
+
+void find_shape(const study::Question& question, const Solved& space, const TopologyOptions& options, Topology& result,
+                solve::Control& control) {
+  const bool odd = space.cover.dimension % 2 != 0;
+  if (odd) result.euler_characteristic = 0;  // Poincaré duality
+  std::string problem;
+  for (int height = 0; height < kHeights && result.heights.size() < 2 && !control.ended(); ++height) {
+    HeightCount count =
+        count_critical_points(question, height, space, result.components, options, result.processed, control);
+    problem = count.problem;
+    if (count.problem.empty()) result.heights.push_back(std::move(count));
+    if (odd && !problem.empty()) break;  // nothing but the number of critical points is left to know
+  }
+  if (result.heights.empty()) {
+    result.reason = problem;
+    return;
+  }
+  // Both are proven: they cannot differ.
+  for (const HeightCount& h : result.heights)
+    CORANK_CHECK(h.euler_characteristic() == result.heights.front().euler_characteristic());
+  result.euler_characteristic = result.heights.front().euler_characteristic();
+  Components& components = result.components;
+  for (const HeightCount& h : result.heights)
+    if (components.at_most) components.at_most = std::min(*components.at_most, h.by_index.front());
+  if (space.cover.dimension != 2 || !components.exact()) return;
+  if (components.at_least == 1) {
+    result.genus = {1 - *result.euler_characteristic / 2};
+  } else if (const auto& euler = result.heights.front().euler_of_piece;
+             static_cast<int>(euler.size()) == components.at_least) {
+    for (const int chi : euler) result.genus.push_back(1 - chi / 2);
+    std::sort(result.genus.begin(), result.genus.end());
+  } else {
+    result.reason = "a critical point on no known component";
+  }
+}
+
+}  // namespace
+
+int HeightCount::points() const { return std::accumulate(by_index.begin(), by_index.end(), 0); }
+
+int HeightCount::euler_characteristic() const {
+  int sum = 0;
+  for (std::size_t k = 0; k < by_index.size(); ++k) sum += k % 2 == 0 ? by_index[k] : -by_index[k];
+  return sum;
+}
+
+Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control) {
+  Topology result;
+  question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
+  question.corank = 1;
+  question.tolerance = 0;
+  Solved space{study::system(question), {}};
+  result.components = refined_components(space, options, result.processed, control);
+  result.dimension = space.cover.dimension;
+  const auto counts = space.cover.counts();
+  const std::size_t regular = counts[static_cast<std::size_t>(Verdict::regular)];
+  result.smooth = space.cover.complete() && result.dimension > 0 && regular == space.cover.boxes.size();
+  if (space.cover.boxes.empty() && space.cover.complete()) {
+    result.smooth = true;
+    result.euler_characteristic = 0;
+    return result;
+  }
+  if (!result.smooth) {
+    result.reason = result.dimension == 0 ? "a set of points" : "not shown to be a manifold: " + result.components.reason;
+    if (result.dimension == 0 && result.components.at_most) result.euler_characteristic = result.components.at_least;
+    return result;
+  }
+  find_shape(question, space, options, result, control);
+  return result;
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,58 @@
+// The shape of a C-space, or of the solutions of a plain system: pieces, Euler characteristic, genus; each number proven.
+//
+// Theorem (Morse; Milnor, "Morse Theory", 1963, §§ 3, 5): let M be a compact smooth manifold without boundary and h a
+// smooth function all of whose critical points are nondegenerate. Then χ(M) = Σ (−1)^index over them, and every component
+// holds a minimum.
+//   M is smooth: every point of it lies in a `regular` box, where the Jacobian of the equations has full rank.
+//   M is compact and has no boundary in the search domain: `regular` pieces lie within it.
+// The critical points are all there, and distinct: the points of a complete cover, each `isolated` or `exact`; with two
+// kernel vectors ±ξ told apart by
+//   its half-space, where the points' a·ξ is not 0.
+//   Each is nondegenerate, with that index: certify/inertia.h on the kernel of Φ_q.
+// A closed manifold of odd dimension has χ = 0 (Poincaré duality). M is the regular level set of Φ in a product of circles
+// and lines, so it is orientable, and a closed surface of genus 1 − χ/2 where its dimension is 2 and it is connected.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/analyze/components.h"
+#include "corank/study/question.h"
+
+namespace corank::analyze {
+
+/// What one height says.
+struct HeightCount {
+  std::vector<int> by_index;  ///< number of critical points of index 0, 1 … dimension
+  std::vector<int>
+      euler_of_piece;   ///< Σ (−1)^index over the points on each piece; empty where some point is on no known one
+  std::string problem;  ///< why nothing follows; empty where something does
+
+  int points() const;
+  int euler_characteristic() const;
+};
+
+struct Topology {
+  int dimension = 0;
+  bool smooth = false;  ///< proven: a manifold without boundary in the search domain
+  Components components;
+  std::optional<int> euler_characteristic;
+  /// Of each component, ascending; of surfaces only, where the components' number is exact.
+  std::vector<int> genus;
+  std::vector<HeightCount> heights;  ///< two that agree, where the characteristic is known
+  std::string reason;                ///< what is not known, and why; empty where all is
+  std::uint64_t processed = 0;       ///< boxes of all searches
+};
+
+struct TopologyOptions {
+  int threads = 1;
+  int refinements = 6;                          ///< σ is halved so often while links or gaps are missing
+  std::uint64_t most_for_a_height = 2'000'000;  ///< boxes processed in a search for critical points
+};
+
+/// Of the configurations (Question::set is ignored) of a mechanism, or of the solutions of a plain system. Where the
+/// control ends it early, what is proven so far. Throws symbolic::ModelError as study::system does.
+Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control);
+
+}  // namespace corank::analyze

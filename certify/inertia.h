@@ -1,0 +1,46 @@
+// How many eigenvalues of a symmetric matrix are positive and negative, on all of space or on the kernel of another matrix:
+// the index of a critical point, the sign of a second-order form.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "corank/core/interval.h"
+
+namespace corank::certify {
+
+struct Inertia {
+  int positive = 0, negative = 0;
+  friend bool operator==(const Inertia&, const Inertia&) = default;
+};
+
+/// Row-major, rows × columns.
+struct IntervalMatrix {
+  int rows = 0, columns = 0;
+  std::vector<Interval> entries;
+
+  IntervalMatrix(int r, int c) : rows(r), columns(c), entries(static_cast<std::size_t>(r) * static_cast<std::size_t>(c)) {}
+  Interval& operator()(int i, int j) { return entries[static_cast<std::size_t>(i * columns + j)]; }
+  const Interval& operator()(int i, int j) const { return entries[static_cast<std::size_t>(i * columns + j)]; }
+};
+
+/// The inertia that every symmetric matrix in H has, none of whose eigenvalues is 0 then; nothing where it is not shown.
+/// Requires UpwardRounding::active(). Theorem (Sylvester, Gershgorin): let Q be any real matrix and T = QᵀHQ have |T_ii| >
+/// Σ_{j≠i} |T_ij| in each row. Then T, and each diag(T) + t·(T − diag(T)) with 0 ≤ t ≤ 1, is regular: its eigenvalues keep
+/// their signs from t = 0 on, where they are T's diagonal. T is regular, so Q is, and H has T's inertia.
+std::optional<Inertia> inertia(const IntervalMatrix& h);
+
+/// A basis of ker A as the columns of an interval matrix, n×(n − m), the dependent rows of a vector expressed by the
+/// others, whose block is the identity, in ascending order: what every A in the interval matrix has. Nothing where A_D is
+/// not shown to be regular. Theorem: let A_D be the m dependent columns of A, A_F the others, Y real with ‖I − Y·A_D‖∞ = α
+/// < 1. Then A_D is regular, and the columns of V, V_F = I and V_D = −A_D⁻¹A_F, are a basis of ker A. X = A_D⁻¹A_F obeys X
+/// = R + (I − Y·A_D)X with R = Y·A_F, so ‖X‖∞ ≤ ‖R‖∞/(1 − α) column by column, and X ∈ R + |I − Y·A_D|·‖R‖∞/(1 − α)·[−1,
+/// 1].
+std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::vector<int>& dependent);
+
+/// The inertia of the form v ↦ vᵀHv on ker A, for every H and A in the interval matrices (n×n symmetric, m×n): ker A has
+/// the dimension n − m then. Nothing where it is not shown. Requires UpwardRounding::active(). The form's matrix in the
+/// basis V of kernel_basis() is VᵀHV.
+std::optional<Inertia> inertia_on_kernel(const IntervalMatrix& h, const IntervalMatrix& a);
+
+}  // namespace corank::certify

@@ -1,0 +1,125 @@
+#include "corank/certify/meeting.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+
+namespace corank::certify {
+namespace {
+
+bool contains(const Box& outer, const std::vector<Interval>& inner) {
+  for (std::size_t j = 0; j < outer.size(); ++j)
+    if (!outer[j].contains(inner[j])) return false;
+  return true;
+}
+
+Eigen::MatrixXd jacobian(const CompiledSystem& system, const std::vector<double>& c) {
+  std::vector<double> entries(static_cast<std::size_t>(system.entries()));
+  system.approximate_jacobian(c.data(), entries.data());
+  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(system.equations(), system.variables());
+  for (int i = 0; i < system.equations(); ++i)
+    for (int k = system.row_begin(i); k < system.row_begin(i + 1); ++k)
+      j(i, system.column(k)) += entries[static_cast<std::size_t>(k)];
+  return j;
+}
+
+}  // namespace
+
+bool MeetingTest::project(const Box& within, std::vector<double>& c) {
+  constexpr int kSteps = 8;
+  constexpr double kSmall = 1e-13;
+  const int m = system_.equations(), n = system_.variables();
+  Eigen::VectorXd weights(n), f(m);
+  for (int j = 0; j < n; ++j) weights(j) = within[static_cast<std::size_t>(j)].width();
+  for (int step = 0; step < kSteps; ++step) {
+    for (int i = 0; i < m; ++i) f(i) = system_.evaluate_at(i, c.data()).mid();
+    // The least change, in widths of the sides.
+    const Eigen::VectorXd change =
+        weights.asDiagonal() * (jacobian(system_, c) * weights.asDiagonal()).completeOrthogonalDecomposition().solve(-f);
+    if (!change.allFinite()) return false;
+    double largest = 0;
+    for (int j = 0; j < n; ++j) {
+      c[static_cast<std::size_t>(j)] += change(j);
+      largest = std::max(largest, std::fabs(change(j)) / system_.scales()[static_cast<std::size_t>(j)]);
+    }
+    if (largest < kSmall) break;
+  }
+  for (std::size_t j = 0; j < within.size(); ++j)
+    if (!within[j].contains(c[j])) return false;
+  return true;
+}
+
+Sheet MeetingTest::prove(std::vector<Interval> x, const std::vector<double>& c, const std::vector<double>& weights) {
+  constexpr double kRadius = 1e-10;
+  const int m = system_.equations();
+  const Eigen::MatrixXd j = jacobian(system_, c);
+  const Eigen::Map<const Eigen::VectorXd> w(weights.data(), static_cast<Eigen::Index>(weights.size()));
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(j * w.asDiagonal());
+  if (qr.rank() < m) return {};
+  Preconditioner p;
+  Eigen::MatrixXd j_d(m, m);
+  for (int a = 0; a < m; ++a) {
+    p.equations.push_back(a);
+    p.dependent.push_back(qr.colsPermutation().indices()(a));
+    j_d.col(a) = j.col(p.dependent.back());
+  }
+  const Eigen::MatrixXd y = j_d.inverse();
+  if (!y.allFinite()) return {};
+  for (int a = 0; a < m; ++a)
+    for (int b = 0; b < m; ++b) p.y.push_back(y(a, b));
+  for (const int d : p.dependent) {
+    const auto k = static_cast<std::size_t>(d);
+    const double r = std::max(kRadius * system_.scales()[k], 0.5 * x[k].width());
+    x[k] = Interval(c[k] - r, c[k] + r);
+  }
+  return newton_prove(system_, p, x, workspace_);
+}
+
+std::optional<Box> MeetingTest::solution_in(const Box& box, const Box& near) {
+  CORANK_CHECK(UpwardRounding::active());
+  // From the middle, then from points on the way to the ends of its sides.
+  for (const double share : {0.5, 0.2, 0.8, 0.05, 0.95}) {
+    std::vector<double> c;
+    for (std::size_t j = 0; j < box.size(); ++j) {
+      Interval side = near[j];
+      if (!side.intersect(box[j])) side = box[j];
+      c.push_back(std::clamp(side.lo() + share * side.width(), box[j].lo(), box[j].hi()));
+    }
+    if (!project(box, c)) continue;
+    std::vector<double> widths;
+    for (const Interval& side : box) widths.push_back(side.width());
+    Sheet sheet = prove({c.begin(), c.end()}, c, widths);
+    if (sheet.proven && contains(box, sheet.image)) return std::move(sheet.image);
+  }
+  return std::nullopt;
+}
+
+std::optional<Box> MeetingTest::piece_about(const Box& near, double radius) {
+  CORANK_CHECK(UpwardRounding::active());
+  std::vector<double> c;
+  Box around;
+  const std::vector<double>& scales = system_.scales();
+  for (std::size_t j = 0; j < near.size(); ++j) {
+    c.push_back(near[j].mid());
+    around.emplace_back(c[j] - scales[j], c[j] + scales[j]);
+  }
+  if (!project(around, c)) return std::nullopt;
+  std::vector<Interval> x;
+  for (std::size_t j = 0; j < c.size(); ++j) x.emplace_back(c[j] - radius * scales[j], c[j] + radius * scales[j]);
+  Sheet sheet = prove(x, c, scales);
+  if (!sheet.proven) return std::nullopt;
+  return std::move(sheet.region);
+}
+
+bool MeetingTest::meet(const Box& a, const Box& b, const Box& near) {
+  Box common = a;
+  for (std::size_t j = 0; j < common.size(); ++j)
+    if (!common[j].intersect(b[j])) return false;
+  return solution_in(common, near).has_value();
+}
+
+}  // namespace corank::certify
