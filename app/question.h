@@ -18,10 +18,19 @@ inline const std::vector<std::string> kSets = [] {
   return names;
 }();
 
+/// Those of one system each, which pages show unless others are asked for.
+inline const std::vector<std::string> kUsualSets = [] {
+  std::vector<std::string> names;
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions())
+    if (!set.of_parts) names.emplace_back(set.name);
+  return names;
+}();
+
 /// What the options say, not yet checked.
 struct QuestionOptions {
   std::string file, set, kernel, loops;
   std::vector<std::string> definitions;  ///< each "NAME=EXPR"
+  std::vector<std::string> outputs;      ///< in place of the model's, for the workspace's boundary
   int corank = 1;                        ///< of the sets with a kernel
 
   /// FILE, --loops, --set, --kernel, --corank and -D.
@@ -29,6 +38,7 @@ struct QuestionOptions {
   /// FILE and --loops.
   void add_model(CLI::App& command);
   void add_corank(CLI::App& command);
+  void add_outputs(CLI::App& command);
   /// -D alone.
   void add_definitions(CLI::App& command);
 };

@@ -78,7 +78,7 @@ void write_file(const std::string& path, const result::Result& result) {
 // The system of the set, and what else the options have to say about it.
 System system_to_solve(SolveCommand& command, const study::Question& question) {
   System system = study::system(question);
-  apply_parameters(command, system);
+  if (!question.part || question.part->active.empty()) apply_parameters(command, system);
   options_of(command).validate(system);
   if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
     throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
@@ -115,7 +115,9 @@ ExitStatus solve_model(SolveCommand command) {
   study::Question question = load(command.question);
   question.set = chosen_set(command.question, question.model);
   question.tolerance = command.tolerance;
-  const System system = system_to_solve(command, question);
+  const std::vector<study::Question> parts = study::parts_of(question);
+  std::vector<System> systems;
+  for (const study::Question& part : parts) systems.push_back(system_to_solve(command, part));
   check_output(command.result_path);
   check_output(command.json_path.value_or(""));
   control.ended();  // notes the stage
@@ -125,7 +127,7 @@ ExitStatus solve_model(SolveCommand command) {
   ProgressLine line;
   line.follow(control);
   stage.reset();
-  const result::Result result = study::answer(question, system, options, control);
+  const result::Result result = study::answer(parts, systems, options, control);
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result);
   line.clear();

@@ -9,6 +9,7 @@
 //                                 dimension 2 or more, in the box
 //   partial, pending              not checkable
 // besides, CoverBox::kernel_at_most: the bound of the kernel's dimension, see check/kernel.h;
+// CoverBox::passage and side: whether the output can pass, see check/passage.h;
 // and that the reduction is legal, isolated boxes are disjoint, points belong to boxes, boxes are sorted and in bounds.
 #pragma once
 

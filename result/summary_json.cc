@@ -30,6 +30,30 @@ Json kernel_json(const Result& result) {
   return json;
 }
 
+Json passages_json(const Result& result) {
+  const auto counts = passages(result.cover);
+  Json json = Json::object();
+  for (const Passage passage : {Passage::barrier, Passage::traversable, Passage::unproven})
+    json[to_string(passage)] = counts[static_cast<std::size_t>(passage)];
+  json["outputs"] = result.outputs;
+  return json;
+}
+
+Json parts_json(const Result& result) {
+  Json list = Json::array();
+  for (const Result& part : result.parts) {
+    Json entry = {{"part", part.part}, {"boxes", part.cover.boxes.size()}};
+    const auto counts = part.cover.counts();
+    for (const Verdict verdict : kVerdictsInOrder)
+      if (const std::size_t n = counts[static_cast<std::size_t>(verdict)]; n > 0) entry[to_string(verdict)] = n;
+    entry["boundary"] = passages_json(part);
+    entry["boundary"].erase("outputs");
+    entry["seconds"] = part.cover.statistics.seconds_total;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 void add_state(Json& entry, const RobotState& state) {
   entry["joints"] = Json::object();
   for (const auto& joint : state.joints) entry["joints"][joint.joint] = joint.value;
@@ -112,6 +136,8 @@ std::string to_json(const Result& result) {
     }
   }
   json["kernel"] = kernel_json(result);
+  if (!result.outputs.empty()) json["boundary"] = passages_json(result);
+  if (!result.parts.empty()) json["parts"] = parts_json(result);
   json["seconds"] = {{"total", cover.statistics.seconds_total},
                      {"search", cover.statistics.seconds_search},
                      {"certify", cover.statistics.seconds_certify}};

@@ -8,7 +8,7 @@ namespace {
 constexpr std::array kInput{Role::input}, kOutput{Role::output};
 
 // Colours of a page are Okabe and Ito's vermilion and blue, which the colour-blind tell apart.
-constexpr std::array<SetDefinition, 5> kSets{{
+constexpr std::array<SetDefinition, 6> kSets{{
     {.set = SingularitySet::cspace,
      .name = "cspace",
      .title = "C-space",
@@ -73,6 +73,23 @@ constexpr std::array<SetDefinition, 5> kSets{{
      .on_dark = "#c39af0",
      .layer = 3,
      .dot = 6.2},
+    {.set = SingularitySet::boundary,
+     .name = "boundary",
+     .matrix = "Phi_z",
+     .locked = kOutput,
+     .side = KernelSide::left,
+     .title = "Workspace boundary",
+     .member = "Boundary configuration",
+     .label = "workspace boundary",
+     .meaning = "within its limits the output cannot move in some direction, to first order",
+     .of_corank = "within its limits the output cannot move, to first order, in at least {} independent directions",
+     .none = "There is none in the search domain.",
+     .print = {0.05, 0.42, 0.36},
+     .on_light = "#00765f",
+     .on_dark = "#35c4a5",
+     .layer = 4,
+     .dot = 5,
+     .of_parts = true},
     {.set = std::nullopt,
      .name = "system",
      .title = "Solutions",

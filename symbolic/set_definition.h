@@ -9,12 +9,12 @@
 
 namespace corank::symbolic {
 
-enum class SingularitySet { cspace, forward, inverse, cspace_singular };
+enum class SingularitySet { cspace, forward, inverse, cspace_singular, boundary };
 enum class KernelSide { right, left };  ///< M ξ = 0 or Mᵀ ξ = 0
 /// Of a coordinate: whose rate is it? Inputs are the actuators', passive is the rest.
 enum class Role { input, output, passive };
 
-const char* to_string(SingularitySet set);  ///< "cspace", "forward", "inverse", "cspace-singular"
+const char* to_string(SingularitySet set);  ///< SetDefinition::name
 const char* to_string(KernelSide side);
 const char* to_string(Role role);
 /// Nothing for another word.
@@ -42,6 +42,9 @@ struct SetDefinition {
   const char *on_light, *on_dark;  ///< on a page, in CSS
   int layer = 0;                   ///< higher ones are drawn over lower ones
   double dot = 0;                  ///< radius of an isolated point on a page, in pixels
+
+  /// Its result consists of parts, each the solutions of a system of its own (boundary.h).
+  bool of_parts = false;
 
   bool has_kernel() const { return *matrix != '\0'; }
   /// All configurations of a mechanism, among which those of the other sets are.
