@@ -65,8 +65,9 @@ Tally expect_found(const result::Result& result, const std::vector<Sample>& samp
       if (sample.passage == Passage::unproven || box->passage == Passage::unproven) continue;
       said = true;
       EXPECT_EQ(box->passage, sample.passage) << sample.part;
-      if (sample.passage == Passage::barrier && box->side.size() == 2)
+      if (sample.passage == Passage::barrier && box->side.size() == 2) {
         EXPECT_GT(box->side[0] * sample.side[0] + box->side[1] * sample.side[1], 0) << sample.part;
+      }
     }
     EXPECT_TRUE(found) << sample.part << " lost a configuration";
     if (sample.passage == Passage::unproven) continue;
