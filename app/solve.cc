@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "corank/analyze/workspace_area.h"
 #include "corank/app/box_files.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
@@ -17,6 +18,7 @@
 #include "corank/result/result_file.h"
 #include "corank/result/summary.h"
 #include "corank/study/answer.h"
+#include "corank/symbolic/boundary.h"
 
 namespace corank::app {
 namespace {
@@ -87,16 +89,32 @@ System system_to_solve(SolveCommand& command, const study::Question& question) {
   return system;
 }
 
-ExitStatus say(const SolveCommand& command, const result::Result& result) {
+// Of a boundary in the plane of two lengths.
+std::optional<Interval> area_of(const study::Question& question, const result::Result& result, const solve::Control& control) {
+  if (result.parts.empty() || result.outputs.size() != 2 || result.options.tolerance > 0) return std::nullopt;
+  const System system = symbolic::configurations(question.model);
+  const int x = system.find(result.outputs[0]), y = system.find(result.outputs[1]);
+  if (x < 0 || y < 0) return std::nullopt;  // an angle
+  const analyze::AreaBounds bounds =
+      analyze::workspace_area(system, x, y, {.stop = [&control] { return control.ended(); }});
+  return Interval(bounds.lo, bounds.hi);
+}
+
+ExitStatus say(const SolveCommand& command, const result::Result& result, const std::optional<Interval>& area) {
   if (command.json_path) {
-    const std::string json = result::to_json(result) + "\n";
+    const std::string json = result::to_json(result, area) + "\n";
     if (command.json_path->empty()) {
       fmt::print("{}", json);
     } else {
       result::write_text(*command.json_path, json);
     }
   }
-  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", result::printable(result::to_table(result)));
+  if (!command.json_path || !command.json_path->empty()) {
+    fmt::print("{}", result::printable(result::to_table(result)));
+    constexpr double kRoom = 1e-6;  // more than what the digits round
+    if (area)
+      fmt::print("area of the workspace: from {:.7g} to {:.7g}\n", area->lo() * (1 - kRoom), area->hi() * (1 + kRoom));
+  }
   if (result.cover.complete() && result.stopped.empty()) return kDone;
   fmt::print(stderr, "corank: {}; {}\n", study::stopped_words(result),
              result.cover.complete() ? "the cover is complete, but less is proven of it than could be"
@@ -130,8 +148,9 @@ ExitStatus solve_model(SolveCommand command) {
   const result::Result result = study::answer(parts, systems, options, control);
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result);
+  const std::optional<Interval> area = area_of(question, result, control);
   line.clear();
-  return say(command, result);
+  return say(command, result, area);
 }
 
 CLI::Validator tolerance() {

@@ -9,7 +9,7 @@
 namespace corank::check {
 namespace {
 
-constexpr int kMostParts = 2000;
+constexpr int kMostParts = 500;
 
 // Are all pivots of sign·S positive? Elimination with intervals encloses those of every matrix within.
 bool definite(std::vector<Sides> s, int sign) {

@@ -64,7 +64,7 @@ void add_state(Json& entry, const RobotState& state) {
 
 }  // namespace
 
-std::string to_json(const Result& result) {
+std::string to_json(const Result& result, const std::optional<Interval>& area) {
   const Cover& cover = result.cover;
   Json json;
   json["model"] = result.model;
@@ -137,6 +137,7 @@ std::string to_json(const Result& result) {
   }
   json["kernel"] = kernel_json(result);
   if (!result.outputs.empty()) json["boundary"] = passages_json(result);
+  if (area) json["area"] = {{"lo", area->lo()}, {"hi", area->hi()}};
   if (!result.parts.empty()) json["parts"] = parts_json(result);
   json["seconds"] = {{"total", cover.statistics.seconds_total},
                      {"search", cover.statistics.seconds_search},

@@ -177,7 +177,7 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
   out << "\n";
   print_matrix(out, derivation.velocity.given ? "L (given)" : "Φ_q", derivation.velocity.matrix);
   for (const SetDefinition& set : set_definitions()) {
-    if (set.locked.empty()) continue;
+    if (set.locked.empty() || set.of_parts) continue;
     out << "\n";
     print_matrix(out, set.matrix, derivation.velocity.without(set.locked));
     print_ties(out, std::string(to_string(set.locked.front())) + "s", derivation.velocity.ties(set.locked));
@@ -207,7 +207,7 @@ std::string to_latex(const Derivation& derivation, const TrigonometricSystem& sy
   if (derivation.velocity.given) out << "% The velocity equation L m = 0 as the model gives it\n";
   print_latex_matrix(out, derivation.velocity.given ? "L" : "\\Phi_q", derivation.velocity.matrix);
   for (const SetDefinition& set : set_definitions())
-    if (!set.locked.empty()) print_latex_matrix(out, set.matrix, derivation.velocity.without(set.locked));
+    if (!set.locked.empty() && !set.of_parts) print_latex_matrix(out, set.matrix, derivation.velocity.without(set.locked));
   out << "% System " << one_line(system.name) << "\n";
   lines.clear();
   for (const auto& equation : system.equations) lines.push_back(latex(equation.relation, "&"));

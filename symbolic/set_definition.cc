@@ -1,6 +1,7 @@
 #include "corank/symbolic/set_definition.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace corank::symbolic {
 namespace {
@@ -129,11 +130,13 @@ const SetDefinition& definition(const std::string& name) {
   return *std::find_if(kSets.begin(), kSets.end() - 1, [&](const SetDefinition& d) { return name == d.name; });
 }
 
-std::string names_of_sets(bool with_kernel_only) {
-  std::string text;
+std::string names_of_sets(bool with_corank_only) {
+  std::vector<std::string> names;
   for (const SetDefinition& d : set_definitions())
-    if (d.has_kernel() || !with_kernel_only)
-      text += (text.empty() ? "" : &d == &set_definitions().back() ? " or " : ", ") + std::string(d.name);
+    if ((d.has_kernel() && !d.of_parts) || !with_corank_only) names.emplace_back(d.name);
+  std::string text;
+  for (const std::string& name : names)
+    text += (text.empty() ? "" : &name == &names.back() ? " or " : ", ") + name;
   return text;
 }
 

@@ -58,8 +58,8 @@ const SetDefinition& definition(std::optional<SingularitySet> set);
 /// By name; a plain system's where no set is called so.
 const SetDefinition& definition(const std::string& name);
 
-/// "cspace, forward, inverse or cspace-singular"; those that have a kernel, or all.
-std::string names_of_sets(bool with_kernel_only = false);
+/// "cspace, forward … or boundary": all, or those that are asked for of a corank.
+std::string names_of_sets(bool with_corank_only = false);
 /// "forward singularities of corank 2"; "forward" where the corank is 1.
 std::string set_with_corank(const std::string& set, int corank);
 

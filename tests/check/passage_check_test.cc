@@ -23,7 +23,7 @@ bool holds(const test::PlantedPassage& p, double radius, Passage passage, const 
 TEST(PassageCheck, AcceptsWhatIsPlantedAndNothingElse) {
   test::PassagePlanter planter(11);
   int barriers = 0, traversable = 0, neither = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const auto kernel = static_cast<std::size_t>(planter.number(0, 3)), limits = static_cast<std::size_t>(planter.number(kernel == 0, 2));
     const test::PlantedPassage p = planter.plant(static_cast<std::size_t>(planter.number(1, 4)), kernel, limits,
                                                  std::min<std::size_t>(planter.number(0, 3) == 0, kernel + limits));
@@ -33,9 +33,9 @@ TEST(PassageCheck, AcceptsWhatIsPlantedAndNothingElse) {
     EXPECT_EQ(holds(p, 1e-8, Passage::traversable, side), p.is_traversable());
     ++(p.is_barrier() ? barriers : p.is_traversable() ? traversable : neither);
   }
-  EXPECT_GT(barriers, 30);
-  EXPECT_GT(traversable, 30);
-  EXPECT_GT(neither, 5);
+  EXPECT_GT(barriers, 10);
+  EXPECT_GT(traversable, 10);
+  EXPECT_GT(neither, 2);
 }
 
 TEST(PassageCheck, RejectsSidesThatAreNone) {

@@ -16,7 +16,7 @@ TEST(SetDefinitions, AreFoundByTheirNamesAndByTheirSets) {
     EXPECT_EQ(&definition(std::string(d.name)), &d);
     EXPECT_EQ(singularity_set_from_string(to_string(*d.set)), d.set);
   }
-  EXPECT_EQ(names_of_sets(), "cspace, forward, inverse or cspace-singular");
+  EXPECT_EQ(names_of_sets(), "cspace, forward, inverse, cspace-singular or boundary");
   EXPECT_EQ(names_of_sets(true), "forward, inverse or cspace-singular");
 }
 
