@@ -199,7 +199,8 @@ class Measure {
       double radius = 1e-9;
       for (const std::size_t v : {x_, y_}) {
         double slope = 0;
-        for (Eigen::Index k = 0; k < m; ++k) slope += p->y[static_cast<std::size_t>(a * m + k)] * j(k, static_cast<Eigen::Index>(v));
+        for (Eigen::Index k = 0; k < m; ++k)
+          slope += p->y[static_cast<std::size_t>(a * m + k)] * j(k, static_cast<Eigen::Index>(v));
         radius += std::fabs(slope) * box[v].width();
       }
       const auto d = static_cast<std::size_t>(p->dependent[static_cast<std::size_t>(a)]);

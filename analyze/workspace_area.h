@@ -16,9 +16,9 @@
 namespace corank::analyze {
 
 struct AreaOptions {
-  double share = 0.02;           ///< the bounds may differ by so much of the upper one
-  std::size_t max_cells = 6000;  ///< that are examined
-  std::function<bool()> stop{};  ///< ends the work, with what is proven so far
+  double share = 0.02;             ///< the bounds may differ by so much of the upper one
+  std::size_t max_cells = 20'000;  ///< that are examined
+  std::function<bool()> stop{};    ///< ends the work, with what is proven so far
 };
 
 struct AreaBounds {

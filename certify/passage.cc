@@ -17,7 +17,8 @@ std::vector<Polynomial> values_of(const System& system) {
   std::vector<Polynomial> list;
   if (!system.passage) return list;
   const PassageForm& f = *system.passage;
-  for (const auto* part : {&f.jacobian, &f.hessian, &f.slack, &f.normal}) list.insert(list.end(), part->begin(), part->end());
+  for (const auto* part : {&f.jacobian, &f.hessian, &f.slack, &f.normal})
+    list.insert(list.end(), part->begin(), part->end());
   return list;
 }
 
@@ -32,7 +33,9 @@ Eigen::MatrixXd middle(const std::vector<Interval>& form, std::size_t k) {
 // Tᵀ S T, T with k rows.
 std::vector<Interval> congruent(const std::vector<Interval>& s, std::size_t k, const Eigen::MatrixXd& t) {
   const auto columns = static_cast<std::size_t>(t.cols());
-  const auto at = [&](std::size_t i, std::size_t j) { return t(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)); };
+  const auto at = [&](std::size_t i, std::size_t j) {
+    return t(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  };
   std::vector<Interval> st(k * columns), result(columns * columns);
   for (std::size_t i = 0; i < k; ++i)
     for (std::size_t j = 0; j < columns; ++j)
@@ -62,7 +65,9 @@ int PassageTest::hessian(int j, int k) const {
   const int m = form_->columns;
   return form_->equations * m + j * m - j * (j - 1) / 2 + (k - j);
 }
-int PassageTest::slack(int i) const { return form_->equations * form_->columns + static_cast<int>(form_->hessian.size()) + i; }
+int PassageTest::slack(int i) const {
+  return form_->equations * form_->columns + static_cast<int>(form_->hessian.size()) + i;
+}
 int PassageTest::normal(int i) const { return slack(static_cast<int>(form_->slack.size())) + i; }
 
 // Hypothesis (2): which row is passed over, and which columns N has. Any choice is valid where the tests that follow succeed.
@@ -114,7 +119,9 @@ bool PassageTest::reduce(const Box& box, const Basis& basis, std::vector<Interva
       }
     const Eigen::MatrixXd y = mid.inverse();  // any real matrix will do
     if (!y.allFinite()) return false;
-    const auto y_at = [&](std::size_t i, std::size_t j) { return y(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)); };
+    const auto y_at = [&](std::size_t i, std::size_t j) {
+      return y(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    };
     std::vector<double> excess(r, 0);
     double beta = 0;
     for (std::size_t i = 0; i < r; ++i) {
@@ -133,8 +140,8 @@ bool PassageTest::reduce(const Box& box, const Basis& basis, std::vector<Interva
         for (std::size_t b = 0; b < r; ++b) yb[i] -= scale(y_at(i, b), entry(b, basis.others[a]));
         norm = std::max(norm, yb[i].mag());
       }
-      const double room = -(beta - 1);                // at most 1 − β: the rounding is upward
-      const double bound = norm / room;               // upward
+      const double room = -(beta - 1);   // at most 1 − β: the rounding is upward
+      const double bound = norm / room;  // upward
       for (std::size_t i = 0; i < r; ++i) {
         const double radius = excess[i] * bound;  // upward
         if (!std::isfinite(radius)) return false;
@@ -145,7 +152,8 @@ bool PassageTest::reduce(const Box& box, const Basis& basis, std::vector<Interva
   std::vector<Interval> h(static_cast<std::size_t>(columns * columns));
   for (int i = 0; i < columns; ++i)
     for (int j = i; j < columns; ++j)
-      h[static_cast<std::size_t>(i * columns + j)] = h[static_cast<std::size_t>(j * columns + i)] = value(hessian(i, j), box);
+      h[static_cast<std::size_t>(i * columns + j)] = h[static_cast<std::size_t>(j * columns + i)] =
+          value(hessian(i, j), box);
   form.assign(k * k, Interval());
   for (std::size_t b = 0; b < k; ++b) {
     std::vector<Interval> hw(static_cast<std::size_t>(columns));

@@ -39,8 +39,8 @@ ex Draft::length(const std::string& name, const std::optional<Range>& range, con
 void Draft::limit_last() {
   DraftCoordinate& c = coordinates_.back();
   // A range of one value is a part of the motion that is looked at.
-  c.limited = c.range && algebra_.sign(algebra_.constant(c.range->upper, c.where) -
-                                       algebra_.constant(c.range->lower, c.where)) != 0;
+  c.limited =
+      c.range && algebra_.sign(algebra_.constant(c.range->upper, c.where) - algebra_.constant(c.range->lower, c.where)) != 0;
 }
 
 Vec Draft::vector(const std::string& name, const SourceLocation& where) {

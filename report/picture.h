@@ -73,9 +73,9 @@ struct PictureHatch {
 };
 
 struct Picture {
-  std::vector<PictureAxis> axes;     ///< two or three
+  std::vector<PictureAxis> axes;           ///< two or three
   std::vector<PictureHatch> hatches = {};  ///< where the axes are outputs of a workspace boundary
-  std::vector<PictureLayer> layers;  ///< in the order of drawing: C-space before its subsets
+  std::vector<PictureLayer> layers;        ///< in the order of drawing: C-space before its subsets
 };
 
 /// What the colours tell apart: sets, verdicts, or nothing (all blue).

@@ -241,7 +241,8 @@ class ResultReader {
     const std::vector<std::uint8_t> passages = file_.enumeration(group + "/passage", passage_words());
     const std::vector<double> sides = file_.doubles(group + "/side", boxes.size(), n);
     const bool has_parts = file_.has(group + "/part");
-    const std::vector<std::int64_t> parts = has_parts ? file_.integers(group + "/part") : std::vector<std::int64_t>(boxes.size(), -1);
+    const std::vector<std::int64_t> parts =
+        has_parts ? file_.integers(group + "/part") : std::vector<std::int64_t>(boxes.size(), -1);
     if (passages.size() != boxes.size() || parts.size() != boxes.size()) refuse(group + " differ in length");
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       boxes[i].passage = static_cast<Passage>(passages[i]);

@@ -156,7 +156,8 @@ std::string passages_text(const Result& result) {
   for (const Result& part : result.parts) width = std::max(width, part.cover.boxes.empty() ? 0 : part.part.size());
   for (const Result& part : result.parts) {
     empty += part.cover.boxes.empty();
-    if (!part.cover.boxes.empty()) text += fmt::format("  {:<{}}  {:>8}\n", part.part, width, plural(part.cover.boxes.size(), "box"));
+    if (!part.cover.boxes.empty())
+      text += fmt::format("  {:<{}}  {:>8}\n", part.part, width, plural(part.cover.boxes.size(), "box"));
   }
   if (empty > 0) text += fmt::format("  {} without a solution\n", plural(empty, "part"));
   return text;

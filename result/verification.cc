@@ -238,7 +238,8 @@ Verification verify(const Result& result, const check::Options& options) {
 
 Verification verify(const Result& result, const System& system, const check::Options& options) {
   Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
-  if (!result.parts.empty() || symbolic::definition(result.set).of_parts) return verify_parts(result, std::move(verification), options);
+  if (!result.parts.empty() || symbolic::definition(result.set).of_parts)
+    return verify_parts(result, std::move(verification), options);
   // Boxes of another system are not worth a check.
   if (verification.contradictions.empty()) verification.report = check::check(system, result.cover, options);
   return verification;

@@ -37,7 +37,8 @@ bool is_effective(const Limit& limit, const Coordinate& coordinate, Values& valu
   const std::optional<int> width = (upper - lower).sign();
   if (width == -1) throw ModelError(limit.where, text + " is empty", "a lower end that is below the upper one");
   if (width.value_or(0) == 0)
-    throw ModelError(limit.where, text + " is one value", "a lower end that is below the upper one, or a range of one value");
+    throw ModelError(limit.where, text + " is one value",
+                     "a lower end that is below the upper one, or a range of one value");
   if (!lower.exact().enclose().is_bounded() || !upper.exact().enclose().is_bounded())
     throw ModelError(limit.where, text + " is unbounded", "ends within double precision's range");
   const bool angle = coordinate.kind == CoordinateKind::angle;

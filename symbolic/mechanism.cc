@@ -192,7 +192,8 @@ Mechanism Mechanism::without_rates() const {
 void Mechanism::replace_outputs(const std::vector<Expression>& symbols, const SourceLocation& where) {
   std::vector<std::string> chosen;
   choose("output", symbols, where, chosen, "input", {});
-  std::erase_if(inputs_, [&](const std::string& name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); });
+  std::erase_if(inputs_,
+                [&](const std::string& name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); });
   outputs_ = std::move(chosen);
   outputs_where_ = where;
 }
@@ -202,10 +203,10 @@ void Mechanism::limit(const std::string& coordinate, const Expression& lower, co
   if (find_coordinate(coordinate) < 0)
     throw ModelError(where,
                      "the limit of " + in_quotes(coordinate) +
-                         (has_constant(coordinate)       ? ", which is a constant"
-                          : find_composite(coordinate)   ? ", which is no single coordinate"
-                          : find_rate(coordinate) >= 0   ? ", which is a rate"
-                                                         : ", which is not declared"),
+                         (has_constant(coordinate)     ? ", which is a constant"
+                          : find_composite(coordinate) ? ", which is no single coordinate"
+                          : find_rate(coordinate) >= 0 ? ", which is a rate"
+                                                       : ", which is not declared"),
                      "a variable of the model");
   for (const Limit& other : limits_)
     if (other.coordinate == coordinate)

@@ -211,8 +211,9 @@ struct search_end : at<section_or_end> {};
 struct search_section : seq<search_header, gap, must<search_order>, gap, must<search_end>> {};
 
 struct section_start : at<one<'['>> {};
-struct section : seq<must<section_start>, sor<constants_section, variables_section, rates_section, equations_section,
-                                              names_section, limits_section, drawing_section, search_section, unknown_section>> {};
+struct section
+    : seq<must<section_start>, sor<constants_section, variables_section, rates_section, equations_section, names_section,
+                                   limits_section, drawing_section, search_section, unknown_section>> {};
 struct file_end : eof {};
 struct model : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
 

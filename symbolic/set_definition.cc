@@ -135,8 +135,7 @@ std::string names_of_sets(bool with_corank_only) {
   for (const SetDefinition& d : set_definitions())
     if ((d.has_kernel() && !d.of_parts) || !with_corank_only) names.emplace_back(d.name);
   std::string text;
-  for (const std::string& name : names)
-    text += (text.empty() ? "" : &name == &names.back() ? " or " : ", ") + name;
+  for (const std::string& name : names) text += (text.empty() ? "" : &name == &names.back() ? " or " : ", ") + name;
   return text;
 }
 

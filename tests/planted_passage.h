@@ -14,8 +14,8 @@
 namespace corank::test {
 
 struct PlantedPassage {
-  System system;             ///< variables: t, then λ; everything is as planted at t = 0
-  std::vector<double> at;    ///< the solution
+  System system;                                   ///< variables: t, then λ; everything is as planted at t = 0
+  std::vector<double> at;                          ///< the solution
   bool plus = false, minus = false, zero = false;  ///< signs among the numbers of the form
   std::vector<double> normal;
 
@@ -71,7 +71,8 @@ class PassagePlanter {
     // H = Tᵀ K T, where K ends in the form: that of a diagonal in other coordinates.
     const Matrix c = unimodular(kernel);
     std::vector<int> diagonal;
-    for (std::size_t i = 0; i < kernel + limits; ++i) diagonal.push_back(zeros > i ? 0 : number(1, 3) * (number(0, 1) ? 1 : -1));
+    for (std::size_t i = 0; i < kernel + limits; ++i)
+      diagonal.push_back(zeros > i ? 0 : number(1, 3) * (number(0, 1) ? 1 : -1));
     if (number(0, 1)) {  // half of them definite
       for (int& d : diagonal) d = std::abs(d);
     }

@@ -19,7 +19,8 @@ Count count(double radius, std::size_t zeros, unsigned seed, int halvings = 0) {
   const UpwardRounding rounding;
   Count c;
   for (int i = 0; i < 300; ++i) {
-    const auto equations = static_cast<std::size_t>(planter.number(1, 4)), kernel = static_cast<std::size_t>(planter.number(0, 3)),
+    const auto equations = static_cast<std::size_t>(planter.number(1, 4)),
+               kernel = static_cast<std::size_t>(planter.number(0, 3)),
                limits = static_cast<std::size_t>(planter.number(kernel == 0 ? 1 : 0, 2));
     const test::PlantedPassage p = planter.plant(equations, kernel, limits, std::min(zeros, kernel + limits));
     const PassageTest::Finding found = PassageTest(p.system).of(p.box(radius), halvings);

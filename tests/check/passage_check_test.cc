@@ -24,7 +24,8 @@ TEST(PassageCheck, AcceptsWhatIsPlantedAndNothingElse) {
   test::PassagePlanter planter(11);
   int barriers = 0, traversable = 0, neither = 0;
   for (int i = 0; i < 60; ++i) {
-    const auto kernel = static_cast<std::size_t>(planter.number(0, 3)), limits = static_cast<std::size_t>(planter.number(kernel == 0, 2));
+    const auto kernel = static_cast<std::size_t>(planter.number(0, 3)),
+               limits = static_cast<std::size_t>(planter.number(kernel == 0, 2));
     const test::PlantedPassage p = planter.plant(static_cast<std::size_t>(planter.number(1, 4)), kernel, limits,
                                                  std::min<std::size_t>(planter.number(0, 3) == 0, kernel + limits));
     const std::vector<double> side = p.side(), other{-side[0], -side[1]};

@@ -8,7 +8,9 @@
 #include <map>
 #include <numbers>
 
+#include "corank/analyze/workspace_area.h"
 #include "corank/study/answer.h"
+#include "corank/symbolic/boundary.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank {
@@ -45,7 +47,8 @@ Tally expect_found(const result::Result& result, const std::vector<Sample>& samp
   EXPECT_TRUE(result.cover.complete());
   EXPECT_FALSE(samples.empty());
   std::map<std::string, std::vector<const CoverBox*>> boxes;
-  for (const CoverBox& box : result.cover.boxes) boxes[result.parts[static_cast<std::size_t>(box.part)].part].push_back(&box);
+  for (const CoverBox& box : result.cover.boxes)
+    boxes[result.parts[static_cast<std::size_t>(box.part)].part].push_back(&box);
   for (const Sample& sample : samples) {
     std::vector<double> p;
     for (const result::ResultVariable& v : result.variables) {
@@ -123,7 +126,8 @@ struct Arm {
     for (std::size_t i = 0; i < size(); ++i) {
       s.at["t" + std::to_string(i + 1)] = t[i];
       if (at[i] != 0) {
-        s.part += (s.part.empty() ? "t" : ", t") + std::to_string(i + 1) + " at its " + (at[i] > 0 ? "upper" : "lower") + " limit";
+        s.part +=
+            (s.part.empty() ? "t" : ", t") + std::to_string(i + 1) + " at its " + (at[i] > 0 ? "upper" : "lower") + " limit";
         continue;
       }
       moving.push_back(i);
@@ -219,9 +223,12 @@ TEST(WorkspaceBoundary, OfAThreeLinkArmHasBarriersAndPassagesWhereTheFormSaysSo)
     for (const double t : steps(arm.lower[1], arm.upper[1], 40))
       for (const double folded : {0.0, kPi}) add({end_of(0, side), t, folded}, {side, 0, 0});
     for (const int other : {-1, 1}) {
-      for (const double t : steps(arm.lower[0], arm.upper[0], 40)) add({t, end_of(1, side), end_of(2, other)}, {0, side, other});
-      for (const double t : steps(arm.lower[1], arm.upper[1], 40)) add({end_of(0, side), t, end_of(2, other)}, {side, 0, other});
-      for (const double t : steps(arm.lower[2], arm.upper[2], 40)) add({end_of(0, side), end_of(1, other), t}, {side, other, 0});
+      for (const double t : steps(arm.lower[0], arm.upper[0], 40))
+        add({t, end_of(1, side), end_of(2, other)}, {0, side, other});
+      for (const double t : steps(arm.lower[1], arm.upper[1], 40))
+        add({end_of(0, side), t, end_of(2, other)}, {side, 0, other});
+      for (const double t : steps(arm.lower[2], arm.upper[2], 40))
+        add({end_of(0, side), end_of(1, other), t}, {side, other, 0});
     }
   }
   const result::Result result = boundary_of("planar/arm_3r_limits.cuik");
@@ -315,7 +322,8 @@ TEST(WorkspaceBoundary, OfAPlatformOnLegsWithRangesHasEverySampledConfiguration)
             const double distance = (d - c).norm(), x = (r * r - s * s + distance * distance) / (2 * distance);
             if (x * x > r * r) continue;
             const Vector2d e = (d - c) / distance;
-            for (const double sign : {-1.0, 1.0}) add(c + x * e + sign * std::sqrt(r * r - x * x) * Arm::turned(e), phi, both);
+            for (const double sign : {-1.0, 1.0})
+              add(c + x * e + sign * std::sqrt(r * r - x * x) * Arm::turned(e), phi, both);
           }
         }
     }
@@ -340,7 +348,8 @@ TEST(WorkspaceBoundary, OfDextarWithLimitedInputsHasEverySampledConfiguration) {
     const double t2 = angle(j2 - base1), t5 = angle(j4 - base5);
     if (t2 < -1e-9 || t5 < -1e-9) return;
     Sample s;
-    s.at = {{"J3x", p[0]}, {"J3y", p[1]}, {"theta2", t2}, {"theta3", angle(p - j2)}, {"theta4", angle(j4 - p)}, {"theta5", t5}};
+    s.at = {{"J3x", p[0]}, {"J3y", p[1]}, {"theta2", t2}, {"theta3", angle(p - j2)}, {"theta4", angle(j4 - p)},
+            {"theta5", t5}};
     s.part = part;
     const bool two = part.find("theta2") != std::string::npos, five = part.find("theta5") != std::string::npos;
     const auto clear = [](double t) { return t > 0.02 && t < kPi - 0.02; };
@@ -374,14 +383,81 @@ TEST(WorkspaceBoundary, OfDextarWithLimitedInputsHasEverySampledConfiguration) {
       for (const Vector2d& j2 : elbows(base1, p)) add(p, j2, j4, "theta5" + word, 1, n, along);
     }
     // An arm stretched: J3 can only come closer.
-    for (const Vector2d& j4 : elbows(base5, base1 + 2 * bar(t))) add(base1 + 2 * bar(t), base1 + bar(t), j4, "no limit", -1, bar(t), 1);
-    for (const Vector2d& j2 : elbows(base1, base5 + 2 * bar(t))) add(base5 + 2 * bar(t), j2, base5 + bar(t), "no limit", -1, bar(t), 1);
+    for (const Vector2d& j4 : elbows(base5, base1 + 2 * bar(t)))
+      add(base1 + 2 * bar(t), base1 + bar(t), j4, "no limit", -1, bar(t), 1);
+    for (const Vector2d& j2 : elbows(base1, base5 + 2 * bar(t)))
+      add(base5 + 2 * bar(t), j2, base5 + bar(t), "no limit", -1, bar(t), 1);
   }
   const result::Result result = boundary_of("dextar_limits.cuik");
   EXPECT_EQ(result.parts.size(), 5u);
   const Tally tally = expect_found(result, samples);
   EXPECT_GT(tally.barriers, 300u);
   EXPECT_LE(tally.unproven, tally.proven / 50);
+}
+
+// The area by samples on a grid, wrong by less than the cells along the boundary.
+double sampled_area(double reach, int n, const std::function<bool(const Vector2d&)>& reaches) {
+  int inside = 0;
+  const double step = 2 * reach / n;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) inside += reaches({-reach + (i + 0.5) * step, -reach + (j + 0.5) * step});
+  return inside * step * step;
+}
+
+TEST(WorkspaceArea, IsBetweenItsBounds) {
+  const symbolic::Mechanism arm = symbolic::read_model(CORANK_SOURCE_DIR "/models/planar/arm_2r_limits.cuik");
+  const double sampled = sampled_area(2, 800, [](const Vector2d& p) {
+    const double c = (p.squaredNorm() - 1.64) / 1.6;
+    if (std::fabs(c) > 1) return false;
+    for (const double t2 : {std::acos(c), -std::acos(c)}) {
+      const double t1 = wrapped(std::atan2(p[1], p[0]) - std::atan2(0.8 * std::sin(t2), 1 + 0.8 * std::cos(t2)));
+      if (t2 >= -kPi / 4 && t2 <= 3 * kPi / 4 && t1 >= -kPi / 6 && t1 <= kPi / 2) return true;
+    }
+    return false;
+  });
+  const System system = symbolic::configurations(arm);
+  analyze::AreaBounds before{0, 100, 0};
+  for (const std::size_t cells : {200u, 800u, 3200u}) {
+    const analyze::AreaBounds bounds = analyze::workspace_area(system, 0, 1, {.max_cells = cells});
+    EXPECT_LT(bounds.lo, sampled * 1.002);
+    EXPECT_GT(bounds.hi, sampled * 0.998);
+    EXPECT_GE(bounds.lo, before.lo);
+    EXPECT_LE(bounds.hi, before.hi);
+    before = bounds;
+  }
+  EXPECT_GT(before.lo, 0.75 * before.hi);
+}
+
+TEST(WorkspaceArea, OfAnUnlimitedTwoLinkArmIsThatOfItsRing) {
+  symbolic::Mechanism arm("arm");
+  const auto x = arm.length("x", -2, 2), y = arm.length("y", -2, 2), t1 = arm.angle("t1"), t2 = arm.angle("t2");
+  using symbolic::cos, symbolic::sin, symbolic::Expression;
+  arm.constrain(x == cos(t1) + Expression("1/2") * cos(t2));
+  arm.constrain(y == sin(t1) + Expression("1/2") * sin(t2));
+  const analyze::AreaBounds bounds = analyze::workspace_area(symbolic::configurations(arm), 0, 1, {.max_cells = 3000});
+  EXPECT_LT(bounds.lo, 2 * kPi);
+  EXPECT_GT(bounds.hi, 2 * kPi);
+  EXPECT_GT(bounds.lo, 0.7 * 2 * kPi);
+  EXPECT_LT(bounds.hi, 1.2 * 2 * kPi);
+}
+
+TEST(WorkspaceArea, OfNothingIsZero) {
+  symbolic::Mechanism none("none");
+  const auto x = none.length("x", -2, 2), y = none.length("y", -2, 2), t = none.angle("t");
+  none.constrain(x == symbolic::Expression(3) + symbolic::cos(t) / symbolic::Expression(2));
+  none.constrain(y == symbolic::sin(t));
+  const analyze::AreaBounds bounds = analyze::workspace_area(symbolic::configurations(none), 0, 1);
+  EXPECT_EQ(bounds.lo, 0);
+  EXPECT_EQ(bounds.hi, 0);
+}
+
+TEST(WorkspaceArea, EndsWhenItIsAskedTo) {
+  const symbolic::Mechanism arm = symbolic::read_model(CORANK_SOURCE_DIR "/models/planar/arm_2r_limits.cuik");
+  const analyze::AreaBounds bounds =
+      analyze::workspace_area(symbolic::configurations(arm), 0, 1, {.stop = [] { return true; }});
+  EXPECT_EQ(bounds.cells, 0u);
+  EXPECT_EQ(bounds.lo, 0);
+  EXPECT_GT(bounds.hi, 2.9);
 }
 
 }  // namespace

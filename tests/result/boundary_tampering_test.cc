@@ -121,12 +121,15 @@ TEST(TamperedBoundary, IsRejectedWhereASideIsTheOther) {
                 for (double& x : first(r, Passage::barrier).side) x = -x;
               }),
               testing::HasSubstr("a barrier there, on that side, is not shown"));
-  EXPECT_THAT(rejection_of([](Result& r) { first(r, Passage::barrier).side = {0.6, 0.6}; }),
+  EXPECT_THAT(rejection_of([](Result& r) {
+                first(r, Passage::barrier).side = {0.6, 0.6};
+              }),
               testing::HasSubstr("its side is no unit vector"));
 }
 
 TEST(TamperedBoundary, IsRejectedWhereAPartIsMissingOrAnother) {
-  EXPECT_THAT(rejection_of([](Result& r) { r.parts.pop_back(); }), testing::HasSubstr("the parts are not those of the model's set"));
+  EXPECT_THAT(rejection_of([](Result& r) { r.parts.pop_back(); }),
+              testing::HasSubstr("the parts are not those of the model's set"));
   EXPECT_THAT(rejection_of([](Result& r) { std::swap(r.parts[1].part, r.parts[2].part); }),
               testing::HasSubstr("the parts are not those of the model's set"));
   EXPECT_THAT(rejection_of([](Result& r) { std::swap(r.parts[1].cover, r.parts[2].cover); }), testing::Not(""));

@@ -16,7 +16,8 @@ using testing::HasSubstr;
 
 // Lines of [LIMITS] from line 13 on.
 std::string rod(const std::string& limits) {
-  return "[CONSTANTS]\nl := 2\n[SYSTEM VARS]\nx : [-5, 5]\ny : [-5, 5]\nt ~\ns ~ [-1, 1]\n[SYSTEM EQS]\nx = l*cos(t);\ny = l*sin(t) + sin(s);\n"
+  return "[CONSTANTS]\nl := 2\n[SYSTEM VARS]\nx : [-5, 5]\ny : [-5, 5]\nt ~\ns ~ [-1, 1]\n[SYSTEM EQS]\nx = l*cos(t);\ny = "
+         "l*sin(t) + sin(s);\n"
          "[OUTPUTS] x, y\n[LIMITS]\n" +
          limits;
 }
@@ -64,7 +65,9 @@ TEST(Limits, ComeBackFromTheModelsText) {
 }
 
 TEST(Limits, StandBeforeTheVariablesToo) {
-  EXPECT_EQ(parse_model("[LIMITS]\nx : [0, 1]\n[SYSTEM VARS]\nx : [-5, 5]\n[SYSTEM EQS]\nx^2 = 1;\n", "m.cuik").limits().size(), 1u);
+  EXPECT_EQ(
+      parse_model("[LIMITS]\nx : [0, 1]\n[SYSTEM VARS]\nx : [-5, 5]\n[SYSTEM EQS]\nx^2 = 1;\n", "m.cuik").limits().size(),
+      1u);
 }
 
 TEST(Limits, ReportFaultsWithTheirLine) {
@@ -77,7 +80,8 @@ TEST(Limits, ReportFaultsWithTheirLine) {
   EXPECT_THAT(fault("x : [0, 6]\n"), HasSubstr("m.cuik:13:1: the limit of 'x', [0, 6], reaches beyond the declared range"));
   EXPECT_THAT(fault("s : [0, pi/2]\n"), HasSubstr("m.cuik:13:1: the limit of 's', [0, pi/2], reaches beyond"));
   EXPECT_THAT(fault("x ~ [0, 1]\n"), HasSubstr("m.cuik:13:3: found '~'; expected ':' behind the variable's name"));
-  EXPECT_THAT(fault("x : 3\n"), HasSubstr("m.cuik:13:5: found '3' where the limits of 'x' should stand; expected [lower, upper]"));
+  EXPECT_THAT(fault("x : 3\n"),
+              HasSubstr("m.cuik:13:5: found '3' where the limits of 'x' should stand; expected [lower, upper]"));
   EXPECT_THAT(fault("3\n"), HasSubstr("m.cuik:13:1: found '3'; expected a limit, name : [lower, upper]"));
 }
 
@@ -98,10 +102,11 @@ TEST(BoundaryParts, NeedOutputs) {
   Mechanism m = parse_model(rod("t : [0, pi]\n"), "m.cuik");
   m.replace_outputs({});
   EXPECT_THROW(boundary_parts(m), ModelError);
-  EXPECT_THROW(boundary_parts(parse_model("[SYSTEM VARS]\nx : [-5, 5]\ny : [-5, 5]\nz : [-5, 5]\n[SYSTEM EQS]\nx + y + z = 1;\n"
-                                          "x = y*z;\n[OUTPUTS] x, y\n",
-                                          "m.cuik")),
-               ModelError)
+  EXPECT_THROW(
+      boundary_parts(parse_model("[SYSTEM VARS]\nx : [-5, 5]\ny : [-5, 5]\nz : [-5, 5]\n[SYSTEM EQS]\nx + y + z = 1;\n"
+                                 "x = y*z;\n[OUTPUTS] x, y\n",
+                                 "m.cuik")),
+      ModelError)
       << "more than its mobility";
 }
 
