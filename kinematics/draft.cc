@@ -44,10 +44,9 @@ void Draft::limit_last() {
 }
 
 Vec Draft::vector(const std::string& name, const SourceLocation& where) {
+  const Range wider{"-11/10", "11/10"};
   Vec v;
-  for (std::size_t i = 0; i < 3; ++i)
-    v[i] = length(
-        name + "_" + "xyz" [i], Range { "-11/10", "11/10" }, where, true);
+  for (std::size_t i = 0; i < 3; ++i) v[i] = length(name + "_" + "xyz"[i], wider, where, true);
   return v;
 }
 

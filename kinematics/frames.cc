@@ -229,10 +229,10 @@ void Frames::turn_by_universal(const TreeEdge& edge) {
 }
 
 void Frames::keep(std::size_t group, const Mat& rotation, const std::string& name, const SourceLocation& where) {
+  const Range held{0, 0};
   std::array<ex, 3> c, s;
   for (std::size_t i = 0; i < 3; ++i) {
-    const ex angle = draft_.angle(
-        name + "_turn_" + "zyx" [i], Range { 0, 0 }, where);
+    const ex angle = draft_.angle(name + "_turn_" + "zyx"[i], held, where);
     c[i] = cos(angle), s[i] = sin(angle);
   }
   const Mat turn{Vec{c[0] * c[1], c[0] * s[1] * s[2] - s[0] * c[2], c[0] * s[1] * c[2] + s[0] * s[2]},

@@ -15,11 +15,19 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A polynomial in doubles.
+// A polynomial in doubles, of variables in their own units, divided by its largest coefficient: so the model's unit of
+// length makes no difference.
 class Numeric {
  public:
-  explicit Numeric(const Polynomial& f) {
-    for (const Monomial& m : f.monomials) terms_.push_back({m.enclosure.mid(), m.factors});
+  Numeric(const Polynomial& f, const VectorXd& units) {
+    double largest = 0;
+    for (const Monomial& m : f.monomials) {
+      double coefficient = m.enclosure.mid();
+      for (const Factor& factor : m.factors) coefficient *= std::pow(units[factor.variable], factor.power);
+      terms_.push_back({coefficient, m.factors});
+      largest = std::max(largest, std::fabs(coefficient));
+    }
+    for (Term& term : terms_) term.coefficient /= largest;
   }
   double value(const VectorXd& x) const {
     double sum = 0;
@@ -56,19 +64,24 @@ std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism) {
   constexpr int kTries = 30, kEnough = 4, kSteps = 50;
   constexpr double kZero = 1e-10, kRank = 1e-7, kFar = 1e6;
   const System system = symbolic::algebrize(symbolic::plain_system(mechanism));
+  const auto n = static_cast<Eigen::Index>(system.variables.size()), m = static_cast<Eigen::Index>(system.equations.size());
+  VectorXd low(n), high(n), units(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Interval& domain = system.variables[static_cast<std::size_t>(i)].domain;
+    low[i] = std::max(domain.lo(), -1e3);
+    high[i] = std::min(domain.hi(), 1e3);
+    units[i] = std::max(std::fabs(low[i]), std::fabs(high[i]));
+    if (!(units[i] > 0)) units[i] = 1;
+  }
   std::vector<Numeric> equations, inequalities;
-  for (const Polynomial& f : system.equations) equations.emplace_back(f);
-  for (const Polynomial& f : system.inequalities) inequalities.emplace_back(f);
-  const auto n = static_cast<Eigen::Index>(system.variables.size()), m = static_cast<Eigen::Index>(equations.size());
+  for (const Polynomial& f : system.equations) equations.emplace_back(f, units);
+  for (const Polynomial& f : system.inequalities) inequalities.emplace_back(f, units);
   std::mt19937 random(1);
   std::optional<int> mobility;
   for (int attempt = 0, found = 0; attempt < kTries && found < kEnough; ++attempt) {
     VectorXd x(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Interval& domain = system.variables[static_cast<std::size_t>(i)].domain;
-      const double lo = std::max(domain.lo(), -1e3), hi = std::min(domain.hi(), 1e3);
-      x[i] = lo + (hi - lo) * std::uniform_real_distribution<>(0, 1)(random);
-    }
+    for (Eigen::Index i = 0; i < n; ++i)
+      x[i] = (low[i] + (high[i] - low[i]) * std::uniform_real_distribution<>(0, 1)(random)) / units[i];
     double residual = 1;
     MatrixXd jacobian;
     Eigen::Index rank = 0;

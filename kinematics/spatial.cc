@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corank/kinematics/concentric.h"
 #include "corank/kinematics/frames.h"
 #include "corank/kinematics/portrayal.h"
 #include "corank/kinematics/twists.h"
@@ -13,10 +14,23 @@ using symbolic::ModelError;
 
 Vec cleaned(const Algebra& algebra, const Vec& v) { return {algebra.clean(v[0]), algebra.clean(v[1]), algebra.clean(v[2])}; }
 
+bool same_points(const Bodies& a, const Bodies& b) {
+  for (std::size_t j = 0; j < a.joints.size(); ++j)
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+      for (std::size_t i = 0; i < 3; ++i)
+        if (!a.joints[j].ends[end].point[i].is_equal(b.joints[j].ends[end].point[i])) return false;
+  return true;
+}
+
 class SpatialRobot {
  public:
   SpatialRobot(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft)
-      : robot_(robot), bodies_(bodies), algebra_(algebra), draft_(draft), frames_(robot, bodies, algebra, draft) {
+      : robot_(robot),
+        given_(bodies),
+        bodies_(about_centres(robot, bodies, algebra)),
+        algebra_(algebra),
+        draft_(draft),
+        frames_(robot, bodies_, algebra, draft) {
     positions_.origins.resize(bodies.size());
     positions_.origins[0] = Vec{0, 0, 0};
     positions_.coordinate.resize(robot.joints.size());
@@ -47,7 +61,8 @@ class SpatialRobot {
       twists->run();
     }
     frames_.finish();
-    draw(robot_, bodies_, algebra_, draft_, is_spherical() ? Space::spherical : Space::spatial,
+    const bool on_a_sphere = is_spherical() && same_points(given_, bodies_);
+    draw(robot_, given_, algebra_, draft_, on_a_sphere ? Space::spherical : Space::spatial,
          [&](std::size_t body, const Vec& point) -> Motion {
            const Vec at = place({body, point, {}, {}});
            return {at, twists ? std::optional(twists->velocity(body, at)) : std::nullopt};
@@ -288,7 +303,8 @@ class SpatialRobot {
   }
 
   const Robot& robot_;
-  const Bodies& bodies_;
+  const Bodies& given_;  // joints where the robot has them, for pictures
+  const Bodies bodies_;  // joints about the centres of spherical loops
   Algebra& algebra_;
   Draft& draft_;
   Frames frames_;

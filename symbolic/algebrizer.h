@@ -22,8 +22,8 @@ namespace corank::symbolic {
 System algebrize(const TrigonometricSystem& system);
 
 /// Expressions in the coordinates, kernel unknowns and constants of a system as polynomials in the variables of
-/// algebrize(system), such as the entries of a matrix whose rank is asked for over a cover's boxes. An angle's sine and cosine
-/// are its variables, whatever they are in the equations: where it has one value, a constant. Throws ModelError as
+/// algebrize(system), such as the entries of a matrix whose rank is asked for over a cover's boxes. An angle's sine and
+/// cosine are its variables, whatever they are in the equations: where it has one value, a constant. Throws ModelError as
 /// algebrize() does, and for a sine or cosine of a length.
 std::vector<Polynomial> polynomials(const TrigonometricSystem& system, const std::vector<Expression>& expressions);
 

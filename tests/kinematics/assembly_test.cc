@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "corank/kinematics/part_file.h"
+#include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/model_text.h"
 
@@ -108,6 +109,96 @@ TEST(Assembly, KnowsASphericalRobotByItsAxes) {
   EXPECT_EQ(a.space, Space::spherical);
   EXPECT_EQ(a.mobility, 1);
   EXPECT_EQ(a.mobility_by_joints, 1);
+}
+
+// The same robot with its joints where they would be built, each link's frame elsewhere: axes meet in (1, 2, 3) of the
+// ground, (2, 0, 0) of a, (0, 0, -1) of b and (0, 5, 0) of c, and a joint's two points are as far from there as each other.
+constexpr const char* kJointsOnASphere =
+    "[CONSTANTS]\nr := 1/3\n[LINKS]\nground\na\nb\nc\n[JOINTS]\n"
+    "revolute j1 : ground (1,2,3+r)+(0,0,1) a (2,0,r)+(0,0,1) actuated\n"
+    "revolute j2 : a (2,9/5,12/5)+(0,3/5,4/5) b (0,0,2)+(0,0,1)\n"
+    "revolute j3 : b (0,-sqrt(2),-1)+(0,1,0) c (0,5,-sqrt(2))+(0,0,1)\n"
+    "revolute j4 : c (3/5,5,4/5)+(3/5,0,4/5) ground (2,2,3)+(1,0,0)\n[OUTPUTS]\nt : joint j4\n";
+constexpr const char* kJointsAtTheCentre =
+    "[LINKS]\nground\na\nb\nc\n[JOINTS]\n"
+    "revolute j1 : ground (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1) actuated\n"
+    "revolute j2 : a (0,0,0)+(0,3/5,4/5) b (0,0,0)+(0,0,1)\n"
+    "revolute j3 : b (0,0,0)+(0,1,0) c (0,0,0)+(0,0,1)\n"
+    "revolute j4 : c (0,0,0)+(3/5,0,4/5) ground (0,0,0)+(1,0,0)\n[OUTPUTS]\nt : joint j4\n";
+
+std::vector<std::string> velocity_rows(const Assembly& a) {
+  std::vector<std::string> texts;
+  for (const symbolic::Constraint& row : a.mechanism.velocity_equations()) texts.push_back(row.relation.text());
+  return texts;
+}
+
+TEST(Assembly, FindsTheCommonPointOfAxesWhereverTheirJointsAre) {
+  const Assembly built = of(kJointsOnASphere), centred = of(kJointsAtTheCentre);
+  EXPECT_EQ(built.space, Space::spherical);
+  EXPECT_EQ(built.mobility, 1);
+  EXPECT_EQ(built.mobility_by_joints, 1);
+  EXPECT_EQ(built.mobility_by_rank, 1);
+  EXPECT_EQ(equations(built), equations(centred));
+  EXPECT_FALSE(velocity_rows(built).empty());
+  EXPECT_EQ(velocity_rows(built), velocity_rows(centred));
+}
+
+// Each link's frame is where its axes meet: x = centre + R (x of the link − its centre).
+TEST(Assembly, PutsALinkOfASphericalRobotWhereItsJointsAre) {
+  const Assembly a = of(kJointsOnASphere);
+  for (const std::size_t link : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
+    const double own[4][3] = {{1, 2, 3}, {2, 0, 0}, {0, 0, -1}, {0, 5, 0}};
+    std::map<std::string, double> values;  // any: the common point stays where it is
+    for (const symbolic::Constant& c : a.mechanism.constants()) values[c.name] = symbolic::evaluate(c.value, values);
+    double next = 0.1;
+    for (const symbolic::Coordinate& c : a.mechanism.coordinates()) values[c.name] = next += 0.1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      double at = symbolic::evaluate(a.poses[link].origin[i], values);
+      for (std::size_t k = 0; k < 3; ++k) at += symbolic::evaluate(a.poses[link].rotation[i][k], values) * own[link][k];
+      EXPECT_NEAR(at, own[0][i], 1e-12) << a.poses[link].link;
+    }
+  }
+}
+
+TEST(Assembly, TakesAxesThatMissEachOtherForARobotInSpace) {
+  std::string linkage = kJointsOnASphere;
+  linkage.replace(linkage.find(" actuated"), 9, "");
+  linkage.erase(linkage.find("[OUTPUTS]"));
+  EXPECT_EQ(of(linkage).space, Space::spherical);
+  const auto with = [&](const std::string& place, const std::string& elsewhere) {
+    std::string text = linkage;
+    return text.replace(text.find(place), place.size(), elsewhere);
+  };
+  EXPECT_EQ(of(with("(2,0,r)", "(2,1/1000000000,r)")).space, Space::spatial) << "an axis beside the others of its link";
+  EXPECT_EQ(of(with("(3/5,5,4/5)", "(3/5,5+1/1000000000,4/5)")).space, Space::spatial) << "two axes that do not meet";
+  EXPECT_THAT(fault(with("(2,2,3)", "(2,2+1/1000000000,3)")), HasSubstr("can never close")) << "of the ground";
+  EXPECT_THAT(fault(with("(0,0,2)", "(0,0,2+1/1000000000)")), HasSubstr("can never close")) << "a joint's two points apart";
+}
+
+TEST(Assembly, LetsAUniversalJointSayWhereTheCentreIs) {
+  const std::string text =
+      "[LINKS]\nground\na\nb\n[JOINTS]\n"
+      "universal j1 : ground (1,0,0)+(0,0,1) a (0,0,0)+(1,0,0)\n"
+      "revolute j2 : a (0,0,1)+(0,0,1) b (0,3/5,4/5)+(0,3/5,4/5)\n"
+      "revolute j3 : b (1,0,0)+(1,0,0) ground (1,1,0)+(0,1,0)\n";
+  EXPECT_EQ(of(text).space, Space::spherical);
+  EXPECT_EQ(of(text).mobility, 1);
+  std::string moved = text;
+  moved.replace(moved.find("(0,0,1)+(0,0,1)"), 15, "(1,0,1)+(0,0,1)");
+  EXPECT_EQ(of(moved).space, Space::spatial) << "an axis beside the universal joint";
+}
+
+// A spherical loop that carries another, about another point, and an arm.
+TEST(Assembly, KnowsSphericalLoopsAboutSeveralPoints) {
+  const Assembly a = of(std::string(kJointsOnASphere).substr(0, std::string(kJointsOnASphere).find("[OUTPUTS]")) +
+                        "[LINKS]\nd\ne\nf\ng\n[JOINTS]\n"
+                        "revolute k1 : c (0,0,1)+(0,0,1) d (0,0,1)+(0,0,1)\n"
+                        "revolute k2 : d (0,3/5,4/5)+(0,3/5,4/5) e (0,0,1)+(0,0,1)\n"
+                        "revolute k3 : e (0,1,0)+(0,1,0) f (0,0,1)+(0,0,1)\n"
+                        "revolute k4 : f (3/5,0,4/5)+(3/5,0,4/5) c (1,0,0)+(1,0,0)\n"
+                        "revolute arm : f (1,1,1)+(0,0,1) g (1,0,0)+(0,1,0)\n");
+  EXPECT_EQ(a.space, Space::spherical);
+  EXPECT_EQ(a.mobility_by_rank, a.mobility);
 }
 
 // Bennett 1903: sin(alpha)/a = sin(beta)/b; here a = 1, alpha = 30°, b = sqrt(3), beta = 60°.

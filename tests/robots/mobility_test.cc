@@ -26,8 +26,10 @@ TEST(Mobility, OfKnownLinkages) {
       {"spatial/agile_eye", spherical, 3, 3, false, 3},
       {"spatial/bennett", spatial, -2, -2, true, 1},
       {"spatial/bricard_trihedral", spatial, -1, 0, true, 1},
-      {"spatial/sarrus", spatial, 1, 0, false, 1},  // parallel axes are seen, and what they repeat is left out
+      {"spatial/sarrus", spatial, 1, 0, false, 1},       // parallel axes are seen, and what they repeat is left out
+      {"spatial/cyclohexane", spatial, 0, 0, false, 0},  // at a chair, the first that sampling finds
       {"serial/six_r", spatial, 0, 0, false, 0},
+      {"serial/iiwa_locked", spatial, 0, 0, false, 0},
       {"serial/orthogonal_3r", spatial, 3, 3, false, 3},
       {"serial/puma_560", spatial, 6, 6, false, 6},
       {"serial/ur5", spatial, 6, 6, false, 6},

@@ -130,7 +130,8 @@ INSTANTIATE_TEST_SUITE_P(Models, PlatformMobility,
                          testing::Values(Mobility{"stewart", 6, 6}, Mobility{"dietmaier", 0, 0},
                                          Mobility{"griffis_duffy", 0, 1}, Mobility{"delta", 3, 3},
                                          Mobility{"delta_translation", 3, 3}, Mobility{"orthoglide", 3, 3},
-                                         Mobility{"3rps", 3, 3}, Mobility{"3upu", 3, 3}, Mobility{"tricept", 3, 3}),
+                                         Mobility{"3rps", 3, 3}, Mobility{"3upu", 3, 3}, Mobility{"hexapod", 6, 6},
+                                         Mobility{"tricept", 3, 3}),
                          [](const auto& m) { return std::string("of_") + m.param.name; });
 
 }  // namespace
