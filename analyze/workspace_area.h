@@ -3,8 +3,8 @@
 //   W = { (x, y) : a configuration within the domain and the inequalities has these outputs }
 //
 // The plane is divided into cells, the largest undecided one first. A cell is
-//   in    where newton_prove (certify/newton.h), with the outputs free in the cell and the coordinates that are left over fixed at
-//         values, shows one configuration for every output in it, and DomainTest that all of these are inside;
+//   in    where newton_prove (certify/newton.h), with the outputs free in the cell and the coordinates that are left over
+//         fixed at values, shows one configuration for every output in it, and DomainTest that all of these are inside;
 //   out   where projections, Newton steps and bisection leave nothing of the configurations over it.
 // So Σ in ≤ area(W) ≤ Σ in + Σ undecided; sums are rounded outward, and cells meet in edges, which have no area.
 #pragma once

@@ -70,7 +70,8 @@ int PassageTest::slack(int i) const {
 }
 int PassageTest::normal(int i) const { return slack(static_cast<int>(form_->slack.size())) + i; }
 
-// Hypothesis (2): which row is passed over, and which columns N has. Any choice is valid where the tests that follow succeed.
+// Hypothesis (2): which row is passed over, and which columns N has. Any choice is valid where the tests that follow
+// succeed.
 bool PassageTest::choose(const Box& box, Basis& basis) const {
   const int rows = form_->equations, columns = form_->columns;
   int passed = -1;
@@ -100,8 +101,9 @@ bool PassageTest::choose(const Box& box, Basis& basis) const {
   return true;
 }
 
-// S over the box; false where N is not shown to be regular. With Y ≈ N⁻¹ and |I − Y·N| of row sums ≤ β < 1, N is regular, and x = N⁻¹ b
-// satisfies x = Y·b + (I − Y·N) x, so |x| ≤ |Y·b|/(1 − β) and |x − Y·b|_i ≤ β_i |Y·b|/(1 − β) in the maximum norm.
+// S over the box; false where N is not shown to be regular. With Y ≈ N⁻¹ and |I − Y·N| of row sums ≤ β < 1, N is regular,
+// and x = N⁻¹ b satisfies x = Y·b + (I − Y·N) x, so |x| ≤ |Y·b|/(1 − β) and |x − Y·b|_i ≤ β_i |Y·b|/(1 − β) in the
+// maximum norm.
 bool PassageTest::reduce(const Box& box, const Basis& basis, std::vector<Interval>& form) const {
   const int columns = form_->columns;
   const std::size_t r = basis.rows.size(), k = basis.others.size();

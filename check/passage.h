@@ -1,8 +1,8 @@
 // Can the output pass the configurations of a box of a workspace boundary, as the box says? (core/passage_form.h)
 //
-// Theorem: certify/passage.h; doc/theory.md, "Barriers". Here N is shown to be regular by a spectral radius below 1, the form to be
-// definite by the pivots of its elimination (a symmetric matrix is positive definite where all of them are positive), and to
-// take both signs by the values in the directions of its elimination in doubles.
+// Theorem: certify/passage.h; doc/theory.md, "Barriers". Here N is shown to be regular by a spectral radius below 1, the
+// form to be definite by the pivots of its elimination (a symmetric matrix is positive definite where all of them are
+// positive), and to take both signs by the values in the directions of its elimination in doubles.
 #pragma once
 
 #include <optional>

@@ -91,8 +91,8 @@ struct Result {
   int configuration_size = 0;  ///< the first so many variables describe the configuration
   int equations = 0, inequalities = 0;
   /// Where the set consists of parts, each of these is a result of its own, with the same model, options and configuration
-  /// variables; `part` says which one it is. The whole then has the boxes of all parts, in their order and in the configuration's variables alone,
-  /// and leaves what is proven of them to the parts (merge_parts).
+  /// variables; `part` says which one it is. The whole then has the boxes of all parts, in their order and in the
+  /// configuration's variables alone, and leaves what is proven of them to the parts (merge_parts).
   std::string part;
   std::vector<Result> parts;
   std::vector<std::string> outputs;  ///< of a workspace boundary: in whose space CoverBox::side is

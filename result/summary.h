@@ -29,8 +29,8 @@ std::string to_table(const Result& result);
 /// joints{name: value} and links{name: {position, rotation}}, poses in the world at the middle of the point's box. `kernel`
 /// is null where its dimension is not known, else at_most{bound: boxes}, without undecided boxes that hold no known point,
 /// and points, where the dimension is known to be 2 or more: a list of {dimension, exact{name: text}}. Every double reads
-/// back as the same double. Of a workspace boundary: boundary{barrier, traversable, unproven, outputs}, in boxes, parts[{part,
-/// boxes, verdicts, boundary, seconds}], and area{lo, hi} where that was found; it is no part of the result.
+/// back as the same double. Of a workspace boundary: boundary{barrier, traversable, unproven, outputs}, in boxes,
+/// parts[{part, boxes, verdicts, boundary, seconds}], and area{lo, hi} where that was found; it is no part of the result.
 std::string to_json(const Result& result, const std::optional<Interval>& area = std::nullopt);
 
 }  // namespace corank::result

@@ -21,12 +21,12 @@ struct Verification {
   bool complete() const { return contradictions.empty() && report.complete(); }
 };
 
-/// The equations of a set as the options of a result say: its kernel's side, scales, corank, passive rates. Of a set of parts
-/// those of the first.
+/// The equations of a set as the options of a result say: its kernel's side, scales, corank, passive rates. Of a set of
+/// parts those of the first.
 symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model, symbolic::SingularitySet set,
                                            const RunOptions& options);
-/// The system that a result's model and options give; of one that consists of parts symbolic::configurations(). Throws ModelError where the model is none, ResultFileError where it
-/// has no such set.
+/// The system that a result's model and options give; of one that consists of parts symbolic::configurations(). Throws
+/// ModelError where the model is none, ResultFileError where it has no such set.
 System system_of(const Result& result);
 /// The same for its model, model_of(result), made before.
 System system_of(const symbolic::Mechanism& model, const Result& result);

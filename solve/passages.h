@@ -7,8 +7,8 @@
 
 namespace corank::solve {
 
-/// CoverBox::passage and side of every box, where the system is a part of a workspace boundary (certify::PassageTest, on parts
-/// of the box where it must). What is left once the control has ended stays unproven.
+/// CoverBox::passage and side of every box, where the system is a part of a workspace boundary (certify::PassageTest, on
+/// parts of the box where it must). What is left once the control has ended stays unproven.
 void prove_passages(const Prepared& prepared, Cover& cover, Control& control);
 
 }  // namespace corank::solve

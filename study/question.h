@@ -27,7 +27,8 @@ struct Question {
 /// Of a set of parts the question about each of them; of another set the question itself. Throws symbolic::ModelError.
 std::vector<Question> parts_of(const Question& question);
 
-/// The equations of the set, its kernel vectors scaled (symbolic/kernel_scale.h); of a set of parts those of question.part. Throws symbolic::ModelError.
+/// The equations of the set, its kernel vectors scaled (symbolic/kernel_scale.h); of a set of parts those of
+/// question.part. Throws symbolic::ModelError.
 symbolic::TrigonometricSystem equations(const Question& question);
 
 /// The same as polynomials, the system that is solved. Throws symbolic::ModelError.

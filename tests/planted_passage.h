@@ -1,5 +1,5 @@
-// Systems with a planted passage: Φ_z, its left kernel and the form on its right kernel are made from integers, so that the answer is
-// known.
+// Systems with a planted passage: Φ_z, its left kernel and the form on its right kernel are made from integers, so that
+// the answer is known.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,8 @@ class PassagePlanter {
  public:
   explicit PassagePlanter(unsigned seed) : random_(seed) {}
 
-  /// Of so many equations, dimensions of the right kernel, coordinates at limits; `zeros`: how many numbers of the form are 0.
+  /// Of so many equations, dimensions of the right kernel, coordinates at limits; `zeros`: how many numbers of the form
+  /// are 0.
   PlantedPassage plant(std::size_t equations, std::size_t kernel, std::size_t limits, std::size_t zeros = 0) {
     const std::size_t e = equations, m = e - 1 + kernel;
     PlantedPassage p;

@@ -1,5 +1,5 @@
-// Workspace boundaries against closed forms: sampled configurations are in boxes of their part, and what is said of the passage there
-// is what second derivatives in floating point say.
+// Workspace boundaries against closed forms: sampled configurations are in boxes of their part, and what is said of the
+// passage there is what second derivatives in floating point say.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -276,7 +276,7 @@ struct Platform {
     // Of λ·(length² − …)/2 the velocities that keep the output are those of φ where one leg is at its limit.
     VectorXd form(2);
     Vector2d normal;
-    const auto slack = [&](std::size_t i) { return at[i] > 0 ? 1.0 : -1.0; };  // −λ (length²)¨/2 > 0 below an upper limit
+    const auto slack = [&](std::size_t i) { return at[i] > 0 ? 1.0 : -1.0; };  // of −λ (length²)¨/2
     if (active.size() == 1) {
       normal = leg(active[0], p, phi);
       form << bend(active[0], p, phi), slack(active[0]);
