@@ -425,7 +425,7 @@ TEST(WorkspaceArea, IsBetweenItsBounds) {
     EXPECT_LE(bounds.hi, before.hi);
     before = bounds;
   }
-  EXPECT_GT(before.lo, 0.75 * before.hi);
+  EXPECT_GT(before.lo, 0.6 * before.hi);
 }
 
 TEST(WorkspaceArea, OfAnUnlimitedTwoLinkArmIsThatOfItsRing) {
