@@ -5,16 +5,23 @@
 #include "corank/app/exit_status.h"
 #include "corank/result/printable.h"
 #include "corank/study/model.h"
+#include "corank/symbolic/regular_locus.h"
 
 namespace corank::app {
 
 void QuestionOptions::add_options(CLI::App& command) {
   add_model(command);
-  command.add_option("--set", set, "The set of a mechanism: " + symbolic::names_of_sets())->check(CLI::IsMember(kSets));
+  std::vector<std::string> sets = kSets;
+  sets.emplace_back(kNodes);
+  command
+      .add_option("--set", set,
+                  "The set of a mechanism: " + symbolic::names_of_sets() +
+                      ";\nnodes: those of the one locus that is not empty for a plain reason")
+      ->check(CLI::IsMember(sets));
   command
       .add_option("--kernel", kernel,
                   "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
-                  "default: right where the matrix M is square, else left")
+                  "default: right where the matrix M is square or tall, else left")
       ->check(CLI::IsMember({"right", "left"}));
   add_corank(command);
   add_outputs(command);
@@ -98,6 +105,7 @@ std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& questi
   if (question.set.empty()) {
     throw UsageError(fmt::format("{} is a mechanism: --set is required ({})", question.file, symbolic::names_of_sets()));
   }
+  if (question.set == kNodes) return symbolic::nodes_of(mechanism);
   const auto set = symbolic::singularity_set_from_string(question.set);
   if (symbolic::definition(set).of_parts && (question.corank != 1 || !question.kernel.empty()))
     throw UsageError(fmt::format("--set {}: has no --corank and no --kernel", question.set));

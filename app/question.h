@@ -18,13 +18,16 @@ inline const std::vector<std::string> kSets = [] {
   return names;
 }();
 
-/// Those of one system each, which pages show unless others are asked for.
+/// Those of them that a report has unless it is told which.
 inline const std::vector<std::string> kUsualSets = [] {
   std::vector<std::string> names;
   for (const symbolic::SetDefinition& set : symbolic::set_definitions())
-    if (!set.of_parts) names.emplace_back(set.name);
+    if (set.is_usual()) names.emplace_back(set.name);
   return names;
 }();
+
+/// What --set calls symbolic::nodes_of().
+inline constexpr const char* kNodes = "nodes";
 
 /// What the options say, not yet checked.
 struct QuestionOptions {

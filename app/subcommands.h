@@ -17,6 +17,7 @@ void add_verify(CLI::App& program, Action& action);
 void add_plot(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
+void add_clearance(CLI::App& program, Action& action);
 void add_angles(CLI::App& program, Action& action);
 
 }  // namespace corank::app

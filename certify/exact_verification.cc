@@ -146,6 +146,26 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point, 
   }
 }
 
+std::optional<int> exact_rank(const System& system, const PolynomialMatrix& matrix, const ExactPoint& point,
+                              const Ended& ended) {
+  if (point.coordinates.size() != system.variables.size() || system.coefficient_tolerance > 0) return std::nullopt;
+  try {
+    const AlgebraicNumber t(point.polynomial, point.lower, point.upper);
+    ExactMatrix values(static_cast<std::size_t>(matrix.rows));
+    for (std::size_t k = 0; k < matrix.entries.size(); ++k) {
+      for (const Monomial& m : matrix.entries[k].monomials)
+        for (const Factor& x : m.factors)
+          if (point.coordinates[static_cast<std::size_t>(x.variable)].empty()) return std::nullopt;
+      values[k / static_cast<std::size_t>(matrix.columns)].push_back(value_of(matrix.entries[k], point, t));
+    }
+    return rank(std::move(values), t, ended);
+  } catch (const std::invalid_argument&) {  // the point defines no number
+    return std::nullopt;
+  } catch (const std::domain_error&) {  // no rational coefficient, or numbers of too many bits
+    return std::nullopt;
+  }
+}
+
 PointLocation::PointLocation(const ExactPoint& point)
     : t_(point.polynomial, point.lower, point.upper), coordinates_(point.coordinates) {
   for (const RationalPolynomial& x : coordinates_) enclosures_.push_back(t_.enclose(x));

@@ -6,10 +6,12 @@
 // r pivots that are not 0, and nothing but zeros in the rows that remain.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "corank/certify/algebraic_number.h"
 #include "corank/core/ended.h"
+#include "corank/core/singularity_types.h"
 #include "corank/core/system.h"
 
 namespace corank::certify {
@@ -35,6 +37,11 @@ struct ExactVerification {
 /// least System::kernel_vectors, tells for how many independent ξ the kernel equations hold, too. Needs rational
 /// coefficients and no sines or cosines. Nothing is proven once `ended` is true.
 ExactVerification verify_exactly(const System& system, const ExactPoint& point, const Ended& ended = {});
+
+/// The rank of a matrix at an exact point, by exact elimination. Nothing where an entry's variable is not known, a
+/// coefficient is no rational number, a sign cannot be decided, or `ended` is true before.
+std::optional<int> exact_rank(const System& system, const PolynomialMatrix& matrix, const ExactPoint& point,
+                              const Ended& ended = {});
 
 /// Where a point is: asks many boxes about one point.
 class PointLocation {

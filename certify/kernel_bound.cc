@@ -10,6 +10,8 @@
 namespace corank::certify {
 namespace {
 
+constexpr int kMostTries = 3;  // sizes of a submatrix of a given matrix: its rank is full, or nearly, or of no use
+
 std::vector<Polynomial> entries(const KernelMatrix& matrix) {
   std::vector<Polynomial> list;
   for (const auto& row : matrix.rows) list.insert(list.end(), row.begin(), row.end());
@@ -18,22 +20,49 @@ std::vector<Polynomial> entries(const KernelMatrix& matrix) {
 
 }  // namespace
 
-KernelBound::KernelBound(const System& system) : matrix_(kernel_matrix(system)), compiled_(system, entries(matrix_)) {}
+KernelBound::KernelBound(const System& system) : least_(1), compiled_(system, entries(kernel_matrix(system))) {
+  const KernelMatrix matrix = kernel_matrix(system);
+  rows_ = static_cast<int>(matrix.rows.size());
+  columns_ = static_cast<int>(matrix.unknowns.size());
+  note_arguments(entries(matrix));
+}
+
+KernelBound::KernelBound(const System& system, const PolynomialMatrix& matrix)
+    : rows_(matrix.rows),
+      columns_(matrix.columns),
+      least_(std::max(0, matrix.columns - matrix.rows)),
+      most_tries_(kMostTries),
+      compiled_(system, matrix.entries) {
+  note_arguments(matrix.entries);
+}
+
+void KernelBound::note_arguments(const std::vector<Polynomial>& entries) {
+  for (const Polynomial& f : entries)
+    for (const Monomial& m : f.monomials)
+      for (const Factor& x : m.factors) arguments_.push_back(x.variable);
+  std::sort(arguments_.begin(), arguments_.end());
+  arguments_.erase(std::unique(arguments_.begin(), arguments_.end()), arguments_.end());
+}
 
 bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<int>& rows,
                              const std::vector<int>& columns) const {
-  const int s = static_cast<int>(rows.size()), k = static_cast<int>(matrix_.unknowns.size());
+  const int s = static_cast<int>(rows.size()), k = columns_;
   const auto entry = [&](int i, int j) -> const Interval& { return m[static_cast<std::size_t>(rows[i] * k + columns[j])]; };
   Eigen::MatrixXd middle(s, s);
   for (int i = 0; i < s; ++i)
     for (int j = 0; j < s; ++j) middle(i, j) = entry(i, j).mid();
   const Eigen::MatrixXd y = middle.inverse();  // any real matrix will do
   if (!y.allFinite()) return false;
+  std::vector<std::vector<int>> filled(
+      static_cast<std::size_t>(s));  // of each column the rows that are not 0: large M are sparse
+  for (int j = 0; j < s; ++j)
+    for (int b = 0; b < s; ++b)
+      if (entry(b, j).mag() > 0) filled[static_cast<std::size_t>(j)].push_back(b);
   for (int i = 0; i < s; ++i) {
     double sum = 0;
     for (int j = 0; j < s; ++j) {
       Interval e(i == j ? 1.0 : 0.0);
-      for (int b = 0; b < s; ++b) e -= Interval(y(i, b)) * entry(b, j);
+      for (const int b : filled[static_cast<std::size_t>(j)]) e -= Interval(y(i, b)) * entry(b, j);
       sum += e.mag();  // upward
     }
     if (!(sum < 1)) return false;
@@ -44,13 +73,10 @@ bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<i
 int KernelBound::at_most(const Box& box, int halvings) const {
   CORANK_CHECK(applies() && UpwardRounding::active());
   const int whole = at_most_in_one(box);
-  if (whole <= 1 || halvings == 0) return whole;
-  const auto is_unknown = [&](std::size_t j) {
-    return std::find(matrix_.unknowns.begin(), matrix_.unknowns.end(), static_cast<int>(j)) != matrix_.unknowns.end();
-  };
-  std::size_t widest = 0;
-  for (std::size_t j = 1; j < box.size(); ++j)
-    if (!is_unknown(j) && box[j].width() > box[widest].width()) widest = j;
+  if (whole <= least_ || halvings == 0 || arguments_.empty()) return whole;
+  auto widest = static_cast<std::size_t>(arguments_.front());
+  for (const int v : arguments_)
+    if (const auto j = static_cast<std::size_t>(v); box[j].width() > box[widest].width()) widest = j;
   const Interval side = box[widest];
   const double middle = side.mid();
   if (!(side.lo() < middle && middle < side.hi())) return whole;
@@ -65,7 +91,8 @@ int KernelBound::at_most(const Box& box, int halvings) const {
 }
 
 int KernelBound::at_most_in_one(const Box& box) const {
-  const int rows = static_cast<int>(matrix_.rows.size()), k = static_cast<int>(matrix_.unknowns.size());
+  const int rows = rows_, k = columns_;
+  if (k == 0) return 0;
   std::vector<Interval> m;
   Eigen::MatrixXd middle(rows, k);
   for (int i = 0; i < rows; ++i)
@@ -82,7 +109,7 @@ int KernelBound::at_most_in_one(const Box& box) const {
       if (lu.permutationP().indices()(r) == i) row_order.push_back(r);
     column_order.push_back(lu.permutationQ().indices()(i));
   }
-  while (!row_order.empty()) {
+  for (int tries = 0; !row_order.empty() && tries < most_tries_; ++tries) {
     if (is_regular(m, row_order, column_order)) return k - static_cast<int>(row_order.size());
     row_order.pop_back();
     column_order.pop_back();

@@ -1,5 +1,5 @@
-// How large can the kernel of M(q) be in a box? M is the kernel matrix of a system (certify/exact_verification.h), k its
-// number of columns.
+// How large can the kernel of M(q) be in a box? M is the kernel matrix of a system (certify/exact_verification.h), or any
+// other matrix of polynomials in its variables; k its number of columns.
 //
 // Theorem: let N(q) be an s×s submatrix of M(q) and Y real. If every row sum of |I − Y·N(B)| is below 1, N(q) is regular for
 // every q in the box B
@@ -7,31 +7,39 @@
 // ξ = 0, ‖ξ‖ = 1 it is at least 1: where the bound is 1, the dimension is proven.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/exact_verification.h"
 #include "corank/core/cover.h"
+#include "corank/core/singularity_types.h"
 
 namespace corank::certify {
 
 class KernelBound {
  public:
   explicit KernelBound(const System& system);
+  /// Of another matrix: its rank is k − at_most() at least.
+  KernelBound(const System& system, const PolynomialMatrix& matrix);
 
   /// False: the system has no kernel equations.
-  bool applies() const { return !matrix_.rows.empty(); }
+  bool applies() const { return rows_ > 0; }
   /// No q in the box has a kernel of larger dimension. The largest s for which the theorem applies to the submatrix that
-  /// elimination at the midpoint picks; k where none does. Where that is above 1, the largest bound of the box's parts: its
-  /// sides are halved, the widest first, `halvings` times at most. Requires applies() and UpwardRounding::active().
+  /// elimination at the midpoint picks (of another matrix only the three largest s are tried); k where none does. Where that
+  /// is above the least that a kernel may have (1; of another matrix the columns that it has more than rows), the largest
+  /// bound of the box's parts: its sides that M depends on are halved, the widest first, `halvings` times at most. Requires
+  /// applies() and UpwardRounding::active().
   int at_most(const Box& box, int halvings = 0) const;
 
  private:
   int at_most_in_one(const Box& box) const;
   bool is_regular(const std::vector<Interval>& m, const std::vector<int>& rows, const std::vector<int>& columns) const;
+  void note_arguments(const std::vector<Polynomial>& entries);
 
-  KernelMatrix matrix_;
-  CompiledSystem compiled_;  // value rows: M's entries, row by row
+  int rows_ = 0, columns_ = 0, least_ = 0, most_tries_ = std::numeric_limits<int>::max();
+  std::vector<int> arguments_;  // variables in M
+  CompiledSystem compiled_;     // value rows: M's entries, row by row
 };
 
 }  // namespace corank::certify

@@ -19,6 +19,7 @@
 #include "corank/check/replay.h"
 #include "corank/check/self_motion.h"
 #include "corank/check/sheets.h"
+#include "corank/check/types.h"
 
 namespace corank::check {
 namespace {
@@ -37,15 +38,16 @@ bool contains(const Box& outer, const Box& inner) {
 
 bool same(const CoverBox& a, const CoverBox& b) {
   return a.box == b.box && a.verdict == b.verdict && a.free == b.free && a.region == b.region && a.point == b.point &&
-         a.kernel_at_most == b.kernel_at_most;
+         a.kernel_at_most == b.kernel_at_most && a.types == b.types;
 }
 
 class Checker {
  public:
-  Checker(const System& system, const Cover& cover, const Options& options)
+  Checker(const System& system, const Cover& cover, const Options& options, const VelocityBlocks* blocks)
       : system_(system),
         cover_(cover),
         options_(options),
+        blocks_(blocks),
         stop_(options.stop),
         threads_(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()),
         allow_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
@@ -70,6 +72,7 @@ class Checker {
     try {
       kernel_ = std::make_unique<const KernelCheck>(system_, stop_);
       passage_ = std::make_unique<const PassageCheck>(system_, stop_);
+      if (blocks_) types_ = std::make_unique<const TypeCheck>(system_, *blocks_, stop_);
       problem_.emplace(system_, cover_.reduction, stop_);
     } catch (const std::invalid_argument& error) {
       system_.validate();  // that is for the caller
@@ -86,6 +89,7 @@ class Checker {
       return fail(Place::cover, 0, std::string("a self-motion: ") + error.what());
     }
     check_order();
+    check_asked_types();
     enter("the exact points");
     check_exact_points();
     enter("the boxes");
@@ -128,6 +132,16 @@ class Checker {
         fail(Place::cover, 0, "a region has not one bounded side for each variable");
   }
 
+  void check_asked_types() {
+    const CoverTypes& said = cover_.types;
+    if (said.asked != 0 && !(blocks_ && said.asked == blocks_->asked && said.of_set == blocks_->of_set))
+      fail(Place::cover, 0, "the types that were asked for are not those of the mechanism's set");
+    const bool tolerant = system_.coefficient_tolerance > 0;
+    const auto labelled = [](const CoverBox& b) { return b.types != TypeLabels{}; };
+    if ((said.asked == 0 || tolerant) && std::any_of(cover_.boxes.begin(), cover_.boxes.end(), labelled))
+      fail(Place::cover, 0, "boxes have types that were not asked for");
+  }
+
   void check_order() {
     for (std::size_t i = 1; i < cover_.boxes.size(); ++i)
       if (out_of_order(cover_.boxes[i - 1].box, cover_.boxes[i].box))
@@ -162,6 +176,9 @@ class Checker {
         reason = exact_.back()->fault();
         if (reason.empty()) reason = exact_.back()->holds();
         if (reason.empty()) reason = exact_.back()->kernel();
+        if (reason.empty() && point.types != TypeLabels{})
+          reason = types_ ? types_->of_point(point.types, *exact_.back())
+                          : "it has types, but nothing says what ranks they speak of";
         if (reason.empty() && !(point.sole_within >= 0 && std::isfinite(point.sole_within)))
           reason = "a radius is no number";
         if (reason.empty() && point.sole_within > 0) reason = check_sole(system_, *exact_.back(), point.sole_within);
@@ -183,8 +200,19 @@ class Checker {
     if (reason.empty() && box.kernel_at_most >= 0 && !kernel_->is_at_most(box.kernel_at_most, box.box))
       reason = "a kernel of a dimension above " + std::to_string(box.kernel_at_most) + " is not excluded";
     if (reason.empty()) reason = passage_->fault(box);
+    if (reason.empty() && box.types != TypeLabels{}) reason = check_types(box);
     checkable = checkable || !reason.empty();
     return reason;
+  }
+
+  // A box whose only solution is known exactly has that point's types; else they are shown all over the box.
+  std::string check_types(const CoverBox& box) const {
+    if (!types_) return "it has types, but nothing says what ranks they speak of";
+    if ((box.verdict == Verdict::exact || box.verdict == Verdict::isolated) && box.point >= 0) {
+      const auto p = static_cast<std::size_t>(box.point);
+      if (exact_reasons_[p].empty() && types_->of_point(box.types, *exact_[p]).empty()) return {};
+    }
+    return types_->of_box(box.types, box.box);
   }
 
   // A piece of a self-motion: one zero of its relations and what they leave, and no other of the equations themselves.
@@ -392,6 +420,7 @@ class Checker {
   const System& system_;
   const Cover& cover_;
   const Options& options_;
+  const VelocityBlocks* blocks_;
   StopFlag stop_;
   const char* stage_ = "the reduction";
   int threads_;
@@ -399,6 +428,7 @@ class Checker {
   tbb::task_arena arena_;
   std::unique_ptr<const KernelCheck> kernel_;
   std::unique_ptr<const PassageCheck> passage_;
+  std::unique_ptr<const TypeCheck> types_;
   std::optional<Problem> problem_;
   std::vector<std::unique_ptr<const MotionCheck>> motions_;
   std::vector<std::unique_ptr<ExactCheck>> exact_;
@@ -424,8 +454,8 @@ bool Report::complete() const {
   return verified() && proof.present && proof.verified && pending == Tally{};
 }
 
-Report check(const System& system, const Cover& cover, const Options& options) {
-  return Checker(system, cover, options).run();
+Report check(const System& system, const Cover& cover, const Options& options, const VelocityBlocks* blocks) {
+  return Checker(system, cover, options, blocks).run();
 }
 
 }  // namespace corank::check

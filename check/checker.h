@@ -8,7 +8,8 @@
 //   undecided                     claims nothing, but with an exact point: that it is a configuration with a kernel of
 //                                 dimension 2 or more, in the box
 //   partial, pending              not checkable
-// besides, CoverBox::kernel_at_most: the bound of the kernel's dimension, see check/kernel.h;
+// besides, CoverBox::kernel_at_most: the bound of the kernel's dimension, see check/kernel.h; the labels of types, see
+// check/types.h;
 // CoverBox::passage and side: whether the output can pass, see check/passage.h;
 // and that the reduction is legal, isolated boxes are disjoint, points belong to boxes, boxes are sorted and in bounds.
 #pragma once
@@ -21,6 +22,7 @@
 #include <vector>
 
 #include "corank/core/cover.h"
+#include "corank/core/singularity_types.h"
 
 namespace corank::check {
 
@@ -72,7 +74,8 @@ struct Options {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Never throws for what a cover says. Throws std::invalid_argument where the system is not valid.
-Report check(const System& system, const Cover& cover, const Options& options = {});
+/// Never throws for what a cover says. Throws std::invalid_argument where the system is not valid. `blocks`: of the
+/// mechanism, whose ranks the labels of types speak of; without it no label is confirmed.
+Report check(const System& system, const Cover& cover, const Options& options = {}, const VelocityBlocks* blocks = nullptr);
 
 }  // namespace corank::check

@@ -309,9 +309,18 @@ std::string ExactCheck::kernel() const {
     }
     if (linear) rows.push_back(std::move(row));
   }
+  const std::optional<int> known = rank(std::move(rows), static_cast<std::size_t>(unknowns));
+  if (!known) return "the rank of the kernel's matrix is not shown";
+  const int dimension = unknowns - *known;
+  if (dimension != point_.corank)
+    return "the kernel's dimension is " + std::to_string(dimension) + ", not " + std::to_string(point_.corank);
+  return {};
+}
+
+std::optional<int> ExactCheck::rank(Rows rows, std::size_t columns) const {
   // Rows are multiplied by pivots that are not 0: the rank stays.
   int rank = 0;
-  std::vector<unsigned char> used(static_cast<std::size_t>(unknowns), 0);
+  std::vector<unsigned char> used(columns, 0);
   while (!rows.empty()) {
     std::size_t pivot_row = rows.size(), pivot = 0;
     bool open = false;
@@ -324,7 +333,7 @@ std::string ExactCheck::kernel() const {
         break;
       }
     if (pivot_row == rows.size()) {
-      if (open) return "the rank of the kernel's matrix is not shown";
+      if (open) return std::nullopt;
       break;
     }
     const auto by = rows[pivot_row];
@@ -343,10 +352,18 @@ std::string ExactCheck::kernel() const {
       }
     }
   }
-  const int dimension = unknowns - rank;
-  if (dimension != point_.corank)
-    return "the kernel's dimension is " + std::to_string(dimension) + ", not " + std::to_string(point_.corank);
-  return {};
+  return rank;
+}
+
+std::optional<int> ExactCheck::rank(const PolynomialMatrix& matrix) const {
+  Rows rows;
+  for (std::size_t k = 0; k < matrix.entries.size(); ++k) {
+    if (k % static_cast<std::size_t>(matrix.columns) == 0) rows.emplace_back();
+    auto entry = value(matrix.entries[k]);
+    if (!entry) return std::nullopt;
+    rows.back().push_back(std::move(*entry));
+  }
+  return rank(std::move(rows), static_cast<std::size_t>(matrix.columns));
 }
 
 std::string ExactCheck::inside(const Box& box) const {

@@ -5,11 +5,13 @@
 // loses changes of sign from a to b.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "corank/check/enclosure.h"
 #include "corank/check/stop.h"
 #include "corank/core/cover.h"
+#include "corank/core/singularity_types.h"
 
 namespace corank::check {
 
@@ -25,6 +27,8 @@ class ExactCheck {
   /// The kernel of M(q), M(q) ξ = 0 the equations that are linear in the variables of kind kernel, has the dimension that
   /// the point says: exact elimination with pivots that are not 0 at t, until all that remains is 0 modulo p.
   std::string kernel() const;
+  /// The rank of a matrix at the point, likewise; nothing where it is not shown.
+  std::optional<int> rank(const PolynomialMatrix& matrix) const;
   /// The known coordinates lie in the box.
   std::string inside(const Box& box) const;
   /// No point of the box is farther from the point, in any known variable, than the radius.
@@ -46,6 +50,8 @@ class ExactCheck {
  private:
   std::string check_root();
   RationalPolynomial reduced(RationalPolynomial f) const;
+  using Rows = std::vector<std::vector<RationalPolynomial>>;
+  std::optional<int> rank(Rows rows, std::size_t columns) const;
   // c·Π factors but those of kind kernel; nothing where a value is not known or not rational.
   std::optional<RationalPolynomial> value(const Monomial& m) const;
   std::optional<RationalPolynomial> value(const Polynomial& f) const;

@@ -42,6 +42,23 @@ KernelCheck::KernelCheck(const System& system, const StopFlag& stop) : stop_(sto
     rows_.emplace_back();
     for (const Polynomial& entry : entries) rows_.back().emplace_back(Terms(entry, system.coefficient_tolerance), identity);
   }
+  sort_arguments();
+}
+
+KernelCheck::KernelCheck(const System& system, const PolynomialMatrix& matrix, const StopFlag& stop)
+    : stop_(stop), columns_(matrix.columns) {
+  std::vector<int> identity(system.variables.size());
+  std::iota(identity.begin(), identity.end(), 0);
+  for (std::size_t k = 0; k < matrix.entries.size(); ++k) {
+    if (k % static_cast<std::size_t>(columns_) == 0) rows_.emplace_back();
+    rows_.back().emplace_back(Terms(matrix.entries[k], 0), identity);
+    for (const Monomial& m : matrix.entries[k].monomials)
+      for (const Factor& x : m.factors) arguments_.push_back(x.variable);
+  }
+  sort_arguments();
+}
+
+void KernelCheck::sort_arguments() {
   std::sort(arguments_.begin(), arguments_.end());
   arguments_.erase(std::unique(arguments_.begin(), arguments_.end()), arguments_.end());
 }

@@ -10,20 +10,24 @@
 #include "corank/check/rows.h"
 #include "corank/check/stop.h"
 #include "corank/core/cover.h"
+#include "corank/core/singularity_types.h"
 
 namespace corank::check {
 
 class KernelCheck {
  public:
   explicit KernelCheck(const System& system, const StopFlag& stop = {});
+  /// Of any other matrix, over the variables of the system.
+  KernelCheck(const System& system, const PolynomialMatrix& matrix, const StopFlag& stop);
 
-  /// Number of kernel variables of one vector.
+  /// Number of kernel variables of one vector; columns of the other matrix.
   int columns() const { return columns_; }
   /// Is there no q in the box with a kernel of a dimension > most? Bisects the box where need be; false: not shown.
   bool is_at_most(int most, const Box& box) const;
 
  private:
   bool has_rank(std::size_t s, const Sides& x) const;
+  void sort_arguments();
 
   StopFlag stop_;
   int columns_ = 0;

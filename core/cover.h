@@ -12,6 +12,7 @@
 #include "corank/core/interval.h"
 #include "corank/core/proof.h"
 #include "corank/core/reduction_step.h"
+#include "corank/core/singularity_types.h"
 #include "corank/core/system.h"
 
 namespace corank {
@@ -87,6 +88,29 @@ struct CoverBox {
   /// side, is positive.
   std::vector<double> side{};
   int part = -1;  ///< of a result that consists of parts: the index of the one it comes from
+  TypeLabels types = {};         ///< of every solution in it (certify/type_bounds.h)
+};
+
+/// What is known of a box is about solutions in it; is there one at all?
+inline bool holds_a_solution(const CoverBox& box) {
+  switch (box.verdict) {
+    case Verdict::regular:
+    case Verdict::isolated:
+    case Verdict::exact:
+    case Verdict::boundary: return true;
+    case Verdict::undecided: return box.point >= 0;
+    case Verdict::partial:
+    case Verdict::pending: return false;
+  }
+  return false;
+}
+
+/// About the types of singularity that boxes are labelled with (core/singularity_types.h).
+struct CoverTypes {
+  TypeSet asked = 0;         ///< which labels were asked for; 0: none
+  TypeSet of_set = 0;        ///< of these, the ones that make up the set: a box is typed where they are settled
+  std::size_t left_out = 0;  ///< boxes in which no solution has the type that the set is of
+  friend bool operator==(const CoverTypes&, const CoverTypes&) = default;
 };
 
 struct Statistics {
@@ -109,6 +133,7 @@ struct Cover {
   std::vector<Box> regions;
   std::vector<ExactPoint> exact_points;
   std::vector<SelfMotionRecord> self_motions;
+  CoverTypes types;
   /// The largest dimension, as samples show, of sets along which boxes stayed undecided (Reason::degenerate_set); 0: none is
   /// known to be larger than expected. No claim.
   int observed_dimension = 0;

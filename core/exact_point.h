@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corank/core/exact_number.h"
+#include "corank/core/singularity_types.h"
 
 namespace corank {
 
@@ -27,6 +28,7 @@ struct ExactPoint {
   /// > 0: no other solution has all its variables within this distance of the point's (proven by blow-up,
   /// certify/blow_up.h). 0: nothing is said.
   double sole_within = 0;
+  TypeLabels types = {};  ///< of its configuration, by exact ranks
 
   friend bool operator==(const ExactPoint&, const ExactPoint&) = default;
 };

@@ -42,7 +42,7 @@ class SpatialRobot {
       first.push_back(j.kind == JointKind::prismatic || (j.kind == JointKind::revolute && frames_.is_asked_for(j.index)));
     tree_ = spanning_tree(robot_, bodies_, algebra_, first);
     keep_orientations();
-    for (const TreeEdge& edge : tree_.edges) frames_.orient(edge);
+    orient();
     for (const std::size_t j : tree_.chords) frames_.close(bodies_.joints[j]);
     for (const TreeEdge& edge : tree_.edges) reach(edge);
     for (const std::size_t j : tree_.chords) close(bodies_.joints[j]);
@@ -57,7 +57,7 @@ class SpatialRobot {
     for (const Output& output : robot_.outputs) add(output);
     std::optional<Twists> twists;
     if (moves || !robot_.outputs.empty()) {
-      twists.emplace(robot_, bodies_, tree_, frames_, positions_, algebra_, draft_);
+      twists.emplace(robot_, bodies_, tree_, frames_, positions_, algebra_, draft_, is_spherical());
       twists->run();
     }
     frames_.finish();
@@ -100,6 +100,18 @@ class SpatialRobot {
                          g == 0 ? "a link that turns" : "one output that keeps it");
       frames_.keep(g, rotation, output.name, output.where);
     }
+  }
+
+  /// The links of dyads come last: when what they join has its frame they have both of their axes.
+  void orient() {
+    const std::vector<Dyad> dyads = dyads_of(robot_, bodies_, algebra_, tree_, false);
+    const auto is_dyad = [&](const TreeEdge& edge) {
+      return std::any_of(dyads.begin(), dyads.end(), [&](const Dyad& d) { return d.inner.joint == edge.joint; });
+    };
+    for (const TreeEdge& edge : tree_.edges)
+      if (!is_dyad(edge)) frames_.orient(edge);
+    for (const TreeEdge& edge : tree_.edges)
+      if (is_dyad(edge)) frames_.orient(edge);
   }
 
   /// A way of end 1's point from end 0's, in the world, with its coordinates.

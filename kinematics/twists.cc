@@ -1,5 +1,7 @@
 #include "corank/kinematics/twists.h"
 
+#include <algorithm>
+
 namespace corank::kinematics {
 namespace {
 
@@ -20,8 +22,21 @@ void add_turning(Vec& sum, const std::vector<Screw>& screws, int sign) {
 }  // namespace
 
 void Twists::run() {
+  for (const Dyad& dyad : dyads_of(robot_, bodies_, algebra_, tree_, true)) {
+    const auto outer =
+        std::find_if(tree_.edges.begin(), tree_.edges.end(), [&](const TreeEdge& edge) { return edge.joint == dyad.outer; });
+    if (outer == tree_.edges.end() || turned_by_output(*outer)) dyads_.push_back(dyad);
+  }
+  const auto in_dyad = [&](std::size_t joint) {
+    return std::any_of(dyads_.begin(), dyads_.end(), [&](const Dyad& dyad) { return dyad.outer == joint; });
+  };
   for (const TreeEdge& edge : tree_.edges) reach(edge);
-  for (const std::size_t j : tree_.chords) close(bodies_.joints[j]);
+  for (const Dyad& dyad : dyads_) turn_within(dyad);
+  for (const TreeEdge& edge : tree_.edges)
+    if (turned_by_output(edge) && !in_dyad(edge.joint)) close(bodies_.joints[edge.joint]);
+  for (const Dyad& dyad : dyads_) close(dyad);
+  for (const std::size_t j : tree_.chords)
+    if (!in_dyad(j)) close(bodies_.joints[j]);
   for (const auto& [joint, from] : tree_.edges)
     if (is_rod(bodies_.joints[joint].kind)) close(bodies_.joints[joint]);
   for (const Output& output : robot_.outputs) add(output);
@@ -32,6 +47,15 @@ Vec Twists::place(const BodyEnd& end) {
   return cleaned(*positions_.origins[end.body] + frames_.image(group(end.body), end.point));
 }
 Vec Twists::axis(const BodyJoint& j, std::size_t end) { return frames_.image(group(j.ends[end].body), j.ends[end].axis); }
+
+Vec Twists::own_axis(std::size_t j, std::size_t body) const {
+  const auto& ends = bodies_.joints[j].ends;
+  return ends[ends[0].body == body ? 0 : 1].axis;
+}
+std::array<Vec, 2> Twists::axes(const Dyad& dyad) {
+  const std::size_t g = group(dyad.link);
+  return {frames_.image(g, own_axis(dyad.inner.joint, dyad.link)), frames_.image(g, own_axis(dyad.outer, dyad.link))};
+}
 
 Role Twists::role(std::size_t index) const {
   if (robot_.joints[index].actuated) return Role::input;
@@ -79,10 +103,34 @@ std::vector<Screw> Twists::screws(const BodyJoint& j) {
   return list;
 }
 
+// A driven joint says itself how its body turns.
+const Output* Twists::turned_by_output(const TreeEdge& edge) const {
+  const BodyJoint& j = bodies_.joints[edge.joint];
+  if (!spherical_ || role(j.index) != Role::passive) return nullptr;
+  for (const Output& output : robot_.outputs)
+    if (output.kind == Output::Kind::orientation && bodies_.of_link[output.link] == j.ends[1 - edge.from].body)
+      return &output;
+  return nullptr;
+}
+
+Vec Twists::output_rates(const std::string& prefix, const Output& output, CoordinateKind kind) {
+  Vec list;
+  for (std::size_t i = 0; i < 3; ++i)
+    list[i] = draft_.rate(prefix + "_" + output.name + "_" + "xyz"[i], kind, Role::output, output.where);
+  return list;
+}
+
 void Twists::reach(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   const std::size_t child = j.ends[1 - edge.from].body;
+  if (const Output* output = turned_by_output(edge)) {
+    const Vec rates = output_rates("w", *output, CoordinateKind::angle);
+    for (std::size_t i = 0; i < 3; ++i) motion_[child].push_back({rates[i], unit(i), place(j.ends[edge.from]), true});
+    return;
+  }
   motion_[child] = motion_[j.ends[edge.from].body];
+  for (const Dyad& dyad : dyads_)
+    if (dyad.link == child) return;
   if (is_rod(j.kind)) {  // six rates, of the body that hangs on it
     const Vec at = place(j.ends[1 - edge.from]);
     const std::string name = robot_.links[link_of(child)].name;
@@ -100,6 +148,16 @@ void Twists::reach(const TreeEdge& edge) {
     if (edge.from == 1) s.axis = ex(-1) * s.axis;
     motion_[child].push_back(s);
   }
+}
+
+// ω₁ − ω₀ = α a + β b; across b, along a − (a·b) b, that is α (1 − (a·b)²).
+void Twists::turn_within(const Dyad& dyad) {
+  const BodyJoint& j = bodies_.joints[dyad.inner.joint];
+  const auto [a, b] = axes(dyad);
+  const ex c = algebra_.named(algebra_.clean(dot(own_axis(dyad.inner.joint, dyad.link), own_axis(dyad.outer, dyad.link))));
+  const ex square = algebra_.named(algebra_.clean(1 - c * c));
+  const ex rate = dot(turning(dyad.to) - turning(dyad.from), a - c * b) / square;
+  motion_[dyad.link].push_back({algebra_.clean(rate), a, place(j.ends[dyad.inner.from]), true});
 }
 
 std::size_t Twists::link_of(std::size_t body) const {
@@ -124,6 +182,14 @@ Vec Twists::velocity(std::size_t body, const Vec& c) const {
 void Twists::row(const ex& e, const Joint& of) { draft_.velocity(e, "joint " + of.name, of.where); }
 void Twists::rows(const Vec& v, const Joint& of) {
   for (const ex& e : v) row(e, of);
+}
+
+void Twists::close(const Dyad& dyad) {
+  const Joint& of = joint(bodies_.joints[dyad.outer]);
+  const auto [a, b] = axes(dyad);
+  const Vec c = place(bodies_.joints[dyad.inner.joint].ends[dyad.inner.from]);
+  row(dot(turning(dyad.to) - turning(dyad.from), cleaned(cross(a, b))), of);
+  rows(velocity(dyad.to, c) - velocity(dyad.from, c), of);
 }
 
 void Twists::close(const BodyJoint& j) {
@@ -168,15 +234,12 @@ void Twists::close(const BodyJoint& j) {
 
 void Twists::add(const Output& output) {
   const std::size_t body = bodies_.of_link[output.link];
-  const auto rates = [&](const std::string& prefix, CoordinateKind kind) {
-    Vec list;
-    for (std::size_t i = 0; i < 3; ++i)
-      list[i] = draft_.rate(prefix + "_" + output.name + "_" + "xyz"[i], kind, Role::output, output.where);
-    return list;
-  };
+  const auto rates = [&](const std::string& prefix, CoordinateKind kind) { return output_rates(prefix, output, kind); };
   const auto defined = [&](const Vec& own, const Vec& value) {
     for (std::size_t i = 0; i < 3; ++i) draft_.velocity(own[i] - value[i], "output " + output.name, output.where);
   };
+  for (const TreeEdge& edge : tree_.edges)
+    if (turned_by_output(edge) == &output) return;  // its rates are the link's
   switch (output.kind) {
     case Output::Kind::joint: return;
     case Output::Kind::direction: {

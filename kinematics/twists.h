@@ -6,6 +6,10 @@
 // Davies, "Kirchhoff's circulation law applied to multi-loop kinematic chains", 1981 (key Davies1981). The rows are the
 // derivatives of the loop's conditions along a motion, written in independent rates: at every configuration they have the
 // same feasible motions as Φ_q, so both forms name the same singular configurations (doc/theory.md).
+//
+// A dyad (dyads.h) says one thing of what turns on its axes a and b, (ω₁ − ω₀)·(a × b) = 0; its own rates follow. A link of
+// a spherical robot whose orientation is asked for turns by the three rates of this output, so that each leg has rows of its
+// own: these are the robot's wrenches, u·(a × b) θ̇ = ω·(a × b).
 #pragma once
 
 #include <map>
@@ -13,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/kinematics/dyads.h"
 #include "corank/kinematics/frames.h"
 
 namespace corank::kinematics {
@@ -35,7 +40,7 @@ struct Screw {
 class Twists {
  public:
   Twists(const Robot& robot, const Bodies& bodies, const SpanningTree& tree, Frames& frames, const Positions& positions,
-         Algebra& algebra, Draft& draft)
+         Algebra& algebra, Draft& draft, bool spherical)
       : robot_(robot),
         bodies_(bodies),
         tree_(tree),
@@ -43,6 +48,7 @@ class Twists {
         positions_(positions),
         algebra_(algebra),
         draft_(draft),
+        spherical_(spherical),
         motion_(bodies.size()) {}
 
   /// Declares the rates and adds the rows.
@@ -56,18 +62,25 @@ class Twists {
   Vec cleaned(const Vec& v) const;
   Vec place(const BodyEnd& end);
   Vec axis(const BodyJoint& j, std::size_t end);
+  Vec own_axis(std::size_t joint, std::size_t body) const;
+  std::array<Vec, 2> axes(const Dyad& dyad);  ///< in the world
   symbolic::Role role(std::size_t joint) const;
   ex angular(const BodyJoint& j, const std::string& suffix = "");
   ex linear(const BodyJoint& j, const std::string& suffix = "");
   std::size_t link_of(std::size_t body) const;
   /// The screws of a joint, as motions of end 1's body relative to end 0's.
   std::vector<Screw> screws(const BodyJoint& j);
+  /// By whose rates the body turns that a tree's edge reaches: an output's, or nothing.
+  const Output* turned_by_output(const TreeEdge& edge) const;
+  Vec output_rates(const std::string& prefix, const Output& output, symbolic::CoordinateKind kind);
   void reach(const TreeEdge& edge);
+  void turn_within(const Dyad& dyad);
   void add_velocity(Vec& sum, const std::vector<Screw>& screws, const Vec& c, int sign) const;
   Vec turning(std::size_t body) const;
   void row(const ex& e, const Joint& of);
   void rows(const Vec& v, const Joint& of);
   void close(const BodyJoint& j);
+  void close(const Dyad& dyad);
   void add(const Output& output);
 
   const Robot& robot_;
@@ -77,6 +90,8 @@ class Twists {
   const Positions& positions_;
   Algebra& algebra_;
   Draft& draft_;
+  bool spherical_;
+  std::vector<Dyad> dyads_;
   std::vector<std::vector<Screw>> motion_;  // of each body, relative to the ground
 };
 

@@ -210,18 +210,27 @@ std::string verdict_payload(const result::Result& result) {
   return base64(bytes);
 }
 
+// Of each box the types that its solutions are proven to be of, as bits; nothing where none were asked for.
+std::string types_payload(const Cover& cover) {
+  if (cover.types.asked == 0) return "";
+  std::vector<std::uint8_t> bytes;
+  for (const CoverBox& b : cover.boxes) bytes.push_back(holds_a_solution(b) ? b.types.proven : TypeSet{});
+  return base64(bytes);
+}
+
 std::string set_description(const SetView& view) {
   Json locked = Json::array();
   for (const symbolic::Role role : view.set->locked) locked.push_back(to_string(role));
   const Cover& cover = view.result.cover;
   return Json{{"name", view.set->name},
               {"title", view.set->member},
-              {"singular", view.set->has_kernel()},
+              {"singular", view.set->is_singular()},
               {"locked", locked},
               {"layer", view.set->layer},
               {"dot", view.set->dot},
               {"dimension", cover.dimension},
               {"sigma", cover.sigma.largest()},
+              {"types", types_payload(cover)},
               {"complete", cover.complete()},
               {"count", cover.boxes.size()}}
       .dump();

@@ -69,7 +69,7 @@ std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic
     html += matrix_html("Φ", "q", "all coordinates", derivation.velocity.matrix);
   }
   for (const symbolic::SetDefinition& set : symbolic::set_definitions())
-    if (!set.locked.empty() && !set.of_parts)
+    if (!set.locked.empty() && set.is_usual())
       html += matrix_html(
           "L", set.matrix + 2,
           fmt::format("without the {}s; rank deficient at {} singularities", to_string(set.locked.front()), set.name),

@@ -7,6 +7,7 @@
 #include "corank/certify/angle.h"
 #include "corank/report/page_words.h"
 #include "corank/result/exact_angle.h"
+#include "corank/result/tallies.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 
@@ -99,6 +100,14 @@ std::string kernel_points_html(const result::Result& result, const std::vector<C
       head, rows);
 }
 
+// The types of singularity that are proven of it; a question mark where one that makes up the set is not settled.
+std::string types_cell(const Cover& cover, const CoverBox& point) {
+  const bool known = holds_a_solution(point);
+  std::string text = known ? fmt::format("{}", fmt::join(result::type_names(point.types.proven), ", ")) : "";
+  if (!known || !point.types.settle(cover.types.of_set)) text += text.empty() ? "?" : ", ?";
+  return "<td>" + text + "</td>";
+}
+
 std::string table_html(const SetView& view) {
   const result::Result& result = view.result;
   const std::vector<Column> shown = columns(result);
@@ -106,12 +115,14 @@ std::string table_html(const SetView& view) {
   if (!result.cover.points.empty()) {
     html += "<div class=\"scroll\"><table><thead><tr><th>point</th>";
     for (const Column& column : shown) html += "<th>" + symbolic::html_name(column.name) + "</th>";
-    html += "<th>verdict</th></tr></thead><tbody>";
+    const bool types = result.cover.types.asked != 0;
+    html += std::string(types ? "<th>types</th>" : "") + "<th>verdict</th></tr></thead><tbody>";
     std::size_t number = 0;
     for (const CoverBox& point : result.cover.points) {
       html += fmt::format("<tr data-point=\"{}\"><td><button type=\"button\" class=\"show-point\">{}</button></td>", number,
                           number + 1);
       for (const Column& column : shown) html += "<td>" + cell(result, column, number) + "</td>";
+      if (types) html += types_cell(result.cover, point);
       html += fmt::format("<td><span class=\"verdict {0}\">{0}</span></td></tr>", to_string(point.verdict));
       ++number;
     }

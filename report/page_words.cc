@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
+#include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/number_text.h"
 #include "corank/result/summary.h"
@@ -244,6 +246,35 @@ std::string constants_html(const symbolic::Mechanism& mechanism, const std::stri
 
 std::string digits_text(const Interval& x) { return with_minus(result::outward_text(x, 9)); }
 
+namespace {
+
+const char* meaning_of(SingularityType type) {
+  switch (type) {
+    case SingularityType::ro: return "redundant output: with the actuators locked the output can still move";
+    case SingularityType::rpm:
+      return "redundant passive motion: with actuators and output locked passive joints can still move";
+    case SingularityType::ii: return "impossible input: some velocity of the actuators cannot be had";
+    case SingularityType::ri: return "redundant input: the actuators can move while the output stands still";
+    case SingularityType::io: return "impossible output: some velocity of the output cannot be had";
+    case SingularityType::iim: return "increased instantaneous mobility: more ways to move than the mobility says";
+  }
+  return "";
+}
+
+// One sentence for each type, with the boxes in which it is so; to first order, as all types are.
+void say_types(const Cover& cover, SetWords& words) {
+  const result::TypeTally tally = result::type_tally(cover);
+  for (const auto& [type, n] : tally.proven)
+    if (n > 0)
+      words.proven.push_back(
+          fmt::format("{} ({}), at every solution in {}.", to_string(type), meaning_of(type), boxes_text(n)));
+  if (tally.proven.empty() || tally.unproven == 0) return;
+  words.unproven.push_back(
+      fmt::format("Which types {} hold is not settled, or whether they hold a solution.", boxes_text(tally.unproven)));
+}
+
+}  // namespace
+
 SetWords set_words(const result::Result& result, const Components& found, bool given_velocity_equation) {
   const Cover& cover = result.cover;
   SetWords words;
@@ -261,6 +292,10 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
     words.proven.emplace_back(result.options.corank == 1 ? none : symbolic::definition(std::nullopt).none);
     return words;
   }
+  if (std::string meaning = result::locus_sentence(result); !meaning.empty()) {
+    meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
+    (cover.dimension == 0 ? words.proven : words.unproven).push_back(meaning + ".");
+  }
   if (cover.complete()) {
     words.proven.push_back("Every one in the search domain lies in a box: all else is excluded with outward rounding.");
   } else {
@@ -277,6 +312,7 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
   } else {
     say_pieces(result, found, words);
   }
+  say_types(cover, words);
   say_larger_sets(result, words);
   say_domain(result.domain, words);
   if (!cover.complete()) words.finding += ", incomplete";

@@ -67,7 +67,10 @@ void write_points(Hdf5Writer& file, const std::vector<ExactPoint>& points, std::
   std::vector<std::string> polynomials, lower, upper, coordinates;
   std::vector<std::int64_t> corank;
   std::vector<double> sole_within;
+  std::vector<std::uint8_t> proven, excluded;
   for (const ExactPoint& p : points) {
+    proven.push_back(p.types.proven);
+    excluded.push_back(p.types.excluded);
     CORANK_CHECK(p.coordinates.size() == variables);
     polynomials.push_back(to_text(p.polynomial));
     lower.push_back(p.lower.text());
@@ -82,6 +85,8 @@ void write_points(Hdf5Writer& file, const std::vector<ExactPoint>& points, std::
   file.texts(kPoints + "coordinates", coordinates);
   file.integers(kPoints + "corank", corank);
   file.packed(kPoints + "sole_within", sole_within);
+  file.packed(kPoints + "types_proven", proven);
+  file.packed(kPoints + "types_excluded", excluded);
 }
 
 void write_proof(Hdf5Writer& file, const Proof& proof) {
@@ -307,6 +312,15 @@ class Reader {
       point.corank = static_cast<int>(corank[i]);
       point.sole_within = sole_within[i];
       cover_.exact_points.push_back(std::move(point));
+    }
+    if (!file_.has(kPoints + "types_proven")) return;  // older files
+    const auto proven = vector<std::uint8_t>(kPoints + "types_proven"),
+               excluded = vector<std::uint8_t>(kPoints + "types_excluded");
+    if (proven.size() != size || excluded.size() != size)
+      refuse(kPoints + "types_proven or _excluded has another length than the list of points");
+    for (std::size_t i = 0; i < size; ++i) {
+      if (proven[i] > kAllTypes || excluded[i] > kAllTypes) refuse(kPoints + "types_proven or _excluded is out of range");
+      cover_.exact_points[i].types = {proven[i], excluded[i]};
     }
   }
 

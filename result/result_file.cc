@@ -80,6 +80,26 @@ void write_passages(Hdf5Writer& file, const std::string& group, const std::vecto
   if (!result.parts.empty()) file.integers(group + "/part", parts);
 }
 
+// Bits of the types' names, in the order of the attribute `types`.
+void write_types(Hdf5Writer& file, const Cover& cover) {
+  if (cover.types.asked == 0) return;
+  std::string names;
+  for (const SingularityType type : kSingularityTypes) names += (names.empty() ? "" : " ") + std::string(to_string(type));
+  file.attribute("/boxes", "types", names);
+  file.attribute("/boxes", "types_asked", std::int64_t{cover.types.asked});
+  file.attribute("/boxes", "types_of_set", std::int64_t{cover.types.of_set});
+  file.attribute("/boxes", "types_left_out", std::uint64_t{cover.types.left_out});
+  for (const auto& [group, list] : {std::pair("/boxes", &cover.boxes), std::pair("/points", &cover.points)}) {
+    std::vector<std::uint8_t> proven, excluded;
+    for (const CoverBox& box : *list) {
+      proven.push_back(box.types.proven);
+      excluded.push_back(box.types.excluded);
+    }
+    file.packed(std::string(group) + "/types_proven", proven);
+    file.packed(std::string(group) + "/types_excluded", excluded);
+  }
+}
+
 void write_counts(Hdf5Writer& file, const Cover& cover) {
   const auto counts = cover.counts();
   for (std::size_t v = 0; v < counts.size(); ++v)
@@ -226,6 +246,7 @@ class ResultReader {
           refuse("the attribute observed_dimension of /boxes is out of range");
         result.cover.observed_dimension = static_cast<int>(observed);
       }
+      read_types(result.cover);
       read_certificates(file_, result.cover, result.variables.size());
     }
     if (file_.has("/outputs")) {
@@ -286,6 +307,28 @@ class ResultReader {
     };
     const auto counts = cover.counts();
     for (std::size_t v = 0; v < counts.size(); ++v) check(to_string(static_cast<Verdict>(v)), counts[v]);
+  }
+
+  void read_types(Cover& cover) const {
+    if (!file_.has_attribute("/boxes", "types_asked")) return;  // older files
+    const auto types = [&](const std::string& name) {
+      const std::int64_t value = file_.integer_attribute("/boxes", name);
+      if (value < 0 || value > kAllTypes) refuse("the attribute " + name + " of /boxes is out of range");
+      return static_cast<TypeSet>(value);
+    };
+    cover.types = {types("types_asked"), types("types_of_set"), file_.unsigned_attribute("/boxes", "types_left_out")};
+    for (const auto& [group, list] : {std::pair("/boxes", &cover.boxes), std::pair("/points", &cover.points)}) {
+      std::vector<std::uint8_t> proven, excluded;
+      file_.read(std::string(group) + "/types_proven", proven);
+      file_.read(std::string(group) + "/types_excluded", excluded);
+      if (proven.size() != list->size() || excluded.size() != list->size())
+        refuse(std::string(group) + "/types_proven or _excluded has another length than the list of boxes");
+      for (std::size_t i = 0; i < list->size(); ++i) {
+        if (proven[i] > kAllTypes || excluded[i] > kAllTypes)
+          refuse(std::string(group) + "/types_proven or _excluded is out of range");
+        (*list)[i].types = {proven[i], excluded[i]};
+      }
+    }
   }
 
   void read_variables(Result& result) const {
@@ -408,6 +451,7 @@ void write_own(Hdf5Writer& file, const Result& result) {
   write_counts(file, result.cover);
   write_boxes(file, "/points", result.cover.points, result.variables.size());
   write_passages(file, "/points", result.cover.points, result);
+  write_types(file, result.cover);
   write_statistics(file, result.cover.statistics);
   write_certificates(file, result.cover, result.variables.size());
 }

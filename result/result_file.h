@@ -4,6 +4,8 @@
 //   sigma_length … /model/text         the model file as read            /model/system       the solved system in the model
 //   language /variables/…        names, kinds, domain (n×2)        /angles/…           names, cosine, sine (indices), range
 //   (k×2) /boxes/…            lower, upper (N×n), verdict, reason (enumerations), free (N×n mask)         /points/… likewise
+//   /boxes/types_proven, types_excluded (N bytes), likewise of /points: bits of the types of singularity, in the order
+//   of the attribute types of /boxes; attributes types_asked, types_of_set, types_left_out. Absent where none were asked for
 //   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes /certificates/…     what
 //   `corank verify` needs, see report/certificate_file.h
 //   /parts/0, /parts/1 …   where the set consists of parts: each as the root, but for model and set, with the attribute

@@ -7,6 +7,7 @@
 #include "corank/certify/algebraic_number.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/exact_angle.h"
+#include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/number_text.h"
 #include "corank/result/tallies.h"
@@ -37,6 +38,33 @@ std::string exact_text(const ExactPoint& point, const Value& v, int digits) {
   }
 }
 
+// "types: RO in 8 boxes, RPM in 4 boxes; unproven in 0".
+std::string types_text(const Cover& cover) {
+  const TypeTally tally = type_tally(cover);
+  if (tally.proven.empty() || cover.boxes.empty()) return "";
+  std::string text = "\ntypes:";
+  const char* between = " ";
+  for (const auto& [type, n] : tally.proven) {
+    if (n == 0) continue;
+    text += fmt::format("{}{} in {}", between, to_string(type), plural(n, "box"));
+    between = ", ";
+  }
+  if (tally.unproven > 0) text += fmt::format("{}unproven in {}", between, plural(tally.unproven, "box"));
+  if (tally.unproven == 0 && *between == ' ') text += " none of those asked for";
+  text += "\n";
+  if (cover.types.left_out > 0)
+    text += fmt::format("  {} of the kernel's set left out: no solution in {} is of the set's type\n",
+                        plural(cover.types.left_out, "box"), cover.types.left_out == 1 ? "it" : "them");
+  return text;
+}
+
+// Of a set of dimension 0.
+std::string types_of(const Cover& cover, const CoverBox& point) {
+  if (!holds_a_solution(point)) return "?";
+  const std::string names = fmt::format("{}", fmt::join(type_names(point.types.proven), " "));
+  return names + (point.types.settle(cover.types.of_set) ? "" : names.empty() ? "?" : " ?");
+}
+
 std::string points_table(const Result& result) {
   constexpr int kDigits = 9;
   constexpr std::size_t kMostRows = 1000;
@@ -50,8 +78,10 @@ std::string points_table(const Result& result) {
       const ExactPoint* exact = exact_point(result, point);
       rows.back().push_back(exact ? exact_text(*exact, v, kDigits) : outward_text(v.value, kDigits));
     }
+    if (result.cover.types.asked != 0) rows.back().push_back(types_of(result.cover, point));
     rows.back().push_back(to_string(point.verdict));
   }
+  if (result.cover.types.asked != 0) rows[0].push_back("types");
   rows[0].push_back("verdict");
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& row : rows) {
@@ -236,6 +266,7 @@ std::string to_table(const Result& result) {
   for (const std::string& sentence : range_end_sentences(result.domain)) text += sentence + "\n";
   if (cover.boxes.empty()) {
     text += fmt::format("\nnone: there is no solution in the search domain   ({} processed)\n", cover.statistics.processed);
+    if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += meaning + "\n";
     return text + seconds_text(cover);
   }
   text += fmt::format("\n  {:<10}  {:>10}\n", "verdict", "boxes");
@@ -283,8 +314,8 @@ std::string to_table(const Result& result) {
     if (!cover.points.empty()) text += points_table(result);
     if (!cover.decimals.empty()) text += decimals_text(result);
   }
-  text += kernel_text(result);
-  text += passages_text(result);
+  if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += "\n" + meaning + "\n";
+  text += kernel_text(result) + types_text(cover) + passages_text(result);
   return text + seconds_text(cover);
 }
 

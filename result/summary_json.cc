@@ -3,6 +3,7 @@
 #include "corank/certify/algebraic_number.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/exact_angle.h"
+#include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/summary.h"
 #include "corank/result/tallies.h"
@@ -26,7 +27,23 @@ Json kernel_json(const Result& result) {
   Json json = {{"at_most", Json::object()}, {"points", Json::array()}};
   for (const auto& [bound, n] : tally.at_most) json["at_most"][std::to_string(bound)] = n;
   for (const ExactPoint& point : result.cover.exact_points)
-    if (point.corank > 1) json["points"].push_back({{"dimension", point.corank}, {"exact", exact_json(result, point)}});
+    if (point.corank > 1) {
+      json["points"].push_back({{"dimension", point.corank}, {"exact", exact_json(result, point)}});
+      if (result.cover.types.asked != 0) json["points"].back()["types"] = type_names(point.types.proven);
+    }
+  return json;
+}
+
+// The same as types_text.
+Json types_json(const Cover& cover) {
+  const TypeTally tally = type_tally(cover);
+  if (tally.proven.empty()) return Json();
+  Json json;
+  for (const SingularityType type : kSingularityTypes) {
+    const auto n = tally.proven.find(type);
+    json[to_string(type)] = n == tally.proven.end() ? Json() : Json(n->second);
+  }
+  json["unproven"] = tally.unproven;
   return json;
 }
 
@@ -126,6 +143,11 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
       for (const Value& v : values(result, point, static_cast<int>(result.variables.size()))) {
         entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
       }
+      if (cover.types.asked != 0) {
+        const bool known = holds_a_solution(point);
+        entry["types"] = type_names(known ? point.types.proven : TypeSet{});
+        entry["typed"] = known && point.types.settle(cover.types.of_set);
+      }
       if (const ExactPoint* exact = exact_point(result, point)) entry["exact"] = exact_json(result, *exact);
       const std::size_t i = static_cast<std::size_t>(&point - cover.points.data());
       if (i < cover.decimals.size() && !cover.decimals[i].empty())
@@ -135,10 +157,16 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
       json["points"].push_back(std::move(entry));
     }
   }
+  const std::string meaning = locus_sentence(result);
+  json["meaning"] = meaning.empty() ? Json() : Json(meaning);
+  const auto distance = node_distance(result);
+  json["node_distance"] = distance ? Json(*distance) : Json();
   json["kernel"] = kernel_json(result);
   if (!result.outputs.empty()) json["boundary"] = passages_json(result);
   if (area) json["area"] = {{"lo", area->lo()}, {"hi", area->hi()}};
   if (!result.parts.empty()) json["parts"] = parts_json(result);
+  json["types"] = types_json(cover);
+  if (cover.types.left_out > 0) json["left_out"] = cover.types.left_out;
   json["seconds"] = {{"total", cover.statistics.seconds_total},
                      {"search", cover.statistics.seconds_search},
                      {"certify", cover.statistics.seconds_certify}};

@@ -25,6 +25,29 @@ std::size_t boxes_on(const Cover& cover, std::size_t motion) {
   }));
 }
 
+TypeTally type_tally(const Cover& cover) {
+  TypeTally tally;
+  for (const SingularityType type : kSingularityTypes)
+    if (cover.types.asked & bit(type)) tally.proven[type] = 0;
+  if (tally.proven.empty()) return tally;
+  for (const CoverBox& box : cover.boxes) {
+    if (!holds_a_solution(box)) {
+      ++tally.unproven;
+      continue;
+    }
+    for (auto& [type, n] : tally.proven) n += (box.types.proven & bit(type)) != 0;
+    tally.unproven += !box.types.settle(cover.types.of_set);
+  }
+  return tally;
+}
+
+std::vector<std::string> type_names(TypeSet types) {
+  std::vector<std::string> names;
+  for (const SingularityType type : kSingularityTypes)
+    if (types & bit(type)) names.emplace_back(to_string(type));
+  return names;
+}
+
 const ExactPoint* exact_point(const Result& result, const CoverBox& box) {
   return box.point < 0 ? nullptr : &result.cover.exact_points[static_cast<std::size_t>(box.point)];
 }

@@ -34,6 +34,17 @@ struct Value {
 /// order of the variables.
 std::vector<Value> values(const Result& result, const CoverBox& box, int variables);
 
+/// Boxes by what is proven of the types of the solutions in them.
+struct TypeTally {
+  std::map<SingularityType, std::size_t>
+      proven;                ///< boxes that hold solutions, all of this type; of each that was asked for
+  std::size_t unproven = 0;  ///< boxes that may hold none, or where a type that makes up the set is not settled
+};
+/// No types where none were asked for.
+TypeTally type_tally(const Cover& cover);
+/// "RO, II".
+std::vector<std::string> type_names(TypeSet types);
+
 /// The point that the box names, if any.
 const ExactPoint* exact_point(const Result& result, const CoverBox& box);
 

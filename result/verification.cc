@@ -16,6 +16,7 @@
 #include "corank/symbolic/boundary.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
+#include "corank/symbolic/velocity_blocks.h"
 
 namespace corank::result {
 namespace {
@@ -232,6 +233,13 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
   return list;
 }
 
+std::optional<VelocityBlocks> blocks_of(const Result& result) {
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (result.cover.types.asked == 0 || !set) return std::nullopt;
+  return symbolic::velocity_blocks(model_of(result), *set, symbolic::kernel_side_from_string(result.options.kernel),
+                                   result.options.corank);
+}
+
 Verification verify(const Result& result, const check::Options& options) {
   return verify(result, system_of(result), options);
 }
@@ -241,7 +249,9 @@ Verification verify(const Result& result, const System& system, const check::Opt
   if (!result.parts.empty() || symbolic::definition(result.set).of_parts)
     return verify_parts(result, std::move(verification), options);
   // Boxes of another system are not worth a check.
-  if (verification.contradictions.empty()) verification.report = check::check(system, result.cover, options);
+  if (!verification.contradictions.empty()) return verification;
+  const auto blocks = blocks_of(result);
+  verification.report = check::check(system, result.cover, options, blocks ? &*blocks : nullptr);
   return verification;
 }
 

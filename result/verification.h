@@ -1,6 +1,7 @@
 // What the independent checker found about a result, for people and for programs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model, sym
 System system_of(const Result& result);
 /// The same for its model, model_of(result), made before.
 System system_of(const symbolic::Mechanism& model, const Result& result);
+
+/// The blocks of L whose ranks a result's types speak of; nothing where it has no types.
+std::optional<VelocityBlocks> blocks_of(const Result& result);
 
 /// Checks a result against its model: contradictions, check::check. `system` is system_of(result).
 Verification verify(const Result& result, const System& system, const check::Options& options = {});

@@ -11,14 +11,10 @@ namespace corank::solve {
 namespace {
 
 // Measured on Dextar's sets, see bench/HISTORY.md.
-constexpr double kNewtonGain = 0.3;  // repeat Newton while some variable loses this share
-constexpr int kNewtonRepeats = 4;
-constexpr double kProofSpread = 1.5;    // try a proof below this spread |I − Y·S|
 constexpr double kRankShare = 1;        // of a box's size: singular values below make its solution count as degenerate
 constexpr double kTiny = 1e-6;          // of the typical sizes
 constexpr double kFinestShare = 1e-13;  // of its typical size: doubles resolve little more
 constexpr double kNoisySize = 2e-3;     // of the typical sizes: in larger boxes it is the choice of Y that makes noise
-constexpr double kNoise = 0.5, kRegularNoise = 8;  // of a side: what rounding alone makes as wide is divided in vain
 constexpr double kOpenShare =
     1.0 / 8;  // of the size at which degenerate ones wait: how much smaller other unproven boxes get
 constexpr double kPartialShare = 0.05;  // of its typical size: as wide as a box is that nobody says a σ of
@@ -32,41 +28,8 @@ BoxProcessor::BoxProcessor(const Problem& problem, Shard& shard)
       shard_(shard),
       recorder_(shard.script ? &*shard.script : nullptr),
       preconditioners_(problem.compiled, problem.ended),
+      contractor_(problem.compiled, preconditioners_, workspace_, recorder_),
       slicer_(problem, preconditioners_, workspace_, recorder_) {}
-
-bool BoxProcessor::contract(std::span<Interval> x) {
-  worth_proving_ = regular_ = noisy_ = false;
-  if (!propagator_.run(problem_.compiled, x, recorder_)) return false;
-  const int n = problem_.compiled.variables();
-  widths_.resize(static_cast<std::size_t>(n));
-  for (int repeat = 0; repeat < kNewtonRepeats; ++repeat) {
-    for (int j = 0; j < n; ++j) widths_[j] = x[j].width();
-    const auto& p = preconditioners_.at_midpoint(x);
-    if (recorder_) recorder_->newton(p, x);
-    const certify::NewtonStep& step = step_.emplace(problem_.compiled, p, x, workspace_);
-    const certify::NewtonOutcome& newton = step.outcome();
-    ++shard_.statistics.newton_steps;
-    if (newton.empty || !step.contract_free(x)) return false;
-    regular_ = newton.regular && p.rank() == problem_.compiled.equations();
-    noisy_ = is_noisy(step, x);
-    worth_proving_ = regular_ && newton.spread < kProofSpread;
-    bool gained = false;
-    for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - kNewtonGain) * widths_[j];
-    if (!gained) return true;
-    if (!propagator_.run(problem_.compiled, x, recorder_)) return false;
-  }
-  return true;
-}
-
-// Does rounding make what the equations say at a point as uncertain as the box is wide?
-bool BoxProcessor::is_noisy(const certify::NewtonStep& step, std::span<const Interval> x) const {
-  for (std::size_t a = 0; a < step.dependent().size(); ++a) {
-    const double noise = step.noise(static_cast<int>(a));
-    const double width = x[static_cast<std::size_t>(step.dependent()[a])].width();
-    if (noise > 0 && noise > (regular_ ? kRegularNoise : kNoise) * width) return true;
-  }
-  return false;
-}
 
 certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
   if (preconditioners_.at_midpoint(x).rank() < problem_.compiled.equations()) {
@@ -172,6 +135,7 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const I
     const double at = near->x[static_cast<std::size_t>(j)], room = 2 * share * system.scales()[static_cast<std::size_t>(j)];
     if (at < x[j].lo() - room || at > x[j].hi() + room) return std::nullopt;
   }
+  if (breaks_inequality(problem_, near->x, share)) return std::nullopt;
   return near;
 }
 
@@ -179,22 +143,23 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const I
 int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near) {
   const auto& branching = problem_.branching;
   const double width = problem_.relative_width(x);
-  const bool noisy = noisy_ && width < kNoisySize;
-  const certify::NewtonStep* const step = width > kWide ? &*step_ : nullptr;
+  const bool noisy = contractor_.noisy() && width < kNoisySize;
+  const certify::NewtonStep* const step = width > kWide ? &*contractor_.step() : nullptr;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
     // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
     // may be, but not for long. What is regular and yet not proven in a tiny box is next to a degenerate solution: around a
     // point of a surface there would be no end of such boxes.
-    if (!regular_ || width < kTiny) near = degenerate_solution(x, share);
+    if (!contractor_.regular() || width < kTiny) near = degenerate_solution(x, share);
     if (!near)
-      split = branching.choose(problem_.compiled, x, problem_.limits(regular_ ? kFinestShare : kOpenShare * share), step);
+      split = branching.choose(problem_.compiled, x,
+                               problem_.limits(contractor_.regular() ? kFinestShare : kOpenShare * share), step);
   }
   // What else cannot be divided waits, too: it may lie on a self-motion.
   if (split < 0 && !near && !problem_.tolerant) {
     near = LocalSolution{midpoint(x), problem_.compiled.equations()};
   }
-  if (!worth_proving_) return split;
+  if (!contractor_.worth_proving()) return split;
   // Where a proof is near, the solutions in x are a sheet over the free variables: cutting along those alone gives parts
   // whose sheets do not overlap.
   const int free = widest_free(x);
@@ -206,7 +171,7 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
 
 BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpone, double share) {
   ++shard_.statistics.processed;
-  if (!contract(x)) {
+  if (!contractor_.run(x, shard_.statistics)) {
     if (recorder_) recorder_->leaf_empty();
     return Outcome::done;
   }
@@ -215,7 +180,7 @@ BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpo
     shard_.left.push_back({copy_of(x), share, go_on_later()});
     return Outcome::done;
   }
-  if (worth_proving_ && certify(x, Proof::full)) return Outcome::done;
+  if (contractor_.worth_proving() && certify(x, Proof::full)) return Outcome::done;
   std::optional<LocalSolution> near;
   split_variable_ = choose_split(x, postpone, near);
   if (split_variable_ >= 0) {
@@ -224,7 +189,7 @@ BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpo
   }
   if (near) {
     if (recorder_) recorder_->keep(x);
-    const bool noisy = noisy_ && problem_.relative_width(x) < kNoisySize;
+    const bool noisy = contractor_.noisy() && problem_.relative_width(x) < kNoisySize;
     shard_.postponed.push_back({{copy_of(x), share, go_on_later()}, std::move(*near), noisy, {}, {}});
     return Outcome::postponed;
   }

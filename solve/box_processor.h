@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "corank/solve/contractor.h"
 #include "corank/solve/local_solution.h"
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/problem.h"
-#include "corank/solve/propagation.h"
 #include "corank/solve/shard.h"
 #include "corank/solve/slicer.h"
 
@@ -43,8 +43,6 @@ class BoxProcessor {
   int split_variable() const { return split_variable_; }
 
  private:
-  // Propagation and interval Newton in turns. False: empty.
-  bool contract(std::span<Interval> x);
   // The widest side that Newton leaves free, −1 where there is none.
   int widest_free(std::span<const Interval> x);
   // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), keeps it and returns
@@ -57,7 +55,6 @@ class BoxProcessor {
   bool certify(std::span<Interval> x, Proof proof);
   // A solution in x or next to it at which the Jacobian has not its full rank.
   std::optional<LocalSolution> degenerate_solution(std::span<const Interval> x, double share) const;
-  bool is_noisy(const certify::NewtonStep& step, std::span<const Interval> x) const;
   std::vector<double> midpoint(std::span<const Interval> x) const;
   int choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near);
   void add_unproven(std::span<const Interval> x, Verdict verdict, Reason reason = Reason::none);
@@ -69,15 +66,10 @@ class BoxProcessor {
   Recorder* const recorder_;  // the shard's script, where it has one
   PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
-  std::optional<certify::NewtonStep> step_;  // the last of the box
+  Contractor contractor_;
   Slicer slicer_;
-  Propagator propagator_;
-  std::vector<double> widths_;
   int split_variable_ = -1;
   std::vector<int> dependent_;
-  bool regular_ = false;        // the last Newton step divided by no interval with 0
-  bool noisy_ = false;          // rounding made it as uncertain as the box is wide
-  bool worth_proving_ = false;  // and was near a proof
 };
 
 }  // namespace corank::solve

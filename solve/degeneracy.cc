@@ -53,7 +53,7 @@ bool goes_on(const Problem& problem, const LocalSolution& start, double step, st
   const auto& system = problem.compiled;
   const auto exact = local_solution(problem, start.x, kTolerance);
   const int full = std::min(system.equations(), system.variables());
-  if (!exact || exact->rank >= full) return false;
+  if (!exact || exact->rank >= full || breaks_inequality(problem, exact->x, step)) return false;
   const std::vector<double> basis = kernel_basis(problem, *exact, 100 * kTolerance);
   const std::size_t n = static_cast<std::size_t>(system.variables()), k = basis.size() / n;
   std::normal_distribution<double> normal;

@@ -64,6 +64,23 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
   return std::nullopt;
 }
 
+bool breaks_inequality(const Problem& problem, const std::vector<double>& x, double share) {
+  const certify::CompiledSystem& system = problem.compiled;
+  if (system.inequalities() == 0) return false;
+  const UpwardRounding rounding;
+  std::vector<Interval> at, slopes(static_cast<std::size_t>(system.entries()));
+  for (const double v : x) at.emplace_back(v);
+  for (int row = system.equations(); row < system.rows(); ++row) {
+    double reach = system.evaluate(row, at).mid();
+    system.jacobian(row, at, slopes);
+    for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
+      reach += 2 * share * slopes[static_cast<std::size_t>(k)].mag() *
+               system.scales()[static_cast<std::size_t>(system.column(k))];
+    if (reach < 0) return true;
+  }
+  return false;
+}
+
 std::vector<double> kernel_basis(const Problem& problem, const LocalSolution& at, double tolerance) {
   const UpwardRounding rounding;
   Matrix a;

@@ -18,6 +18,10 @@ struct LocalSolution {
 /// 0. Nothing where they do not converge.
 std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance);
 
+/// Does an inequality fail at x and, to first order, wherever no variable moves by more than 2·share of its scale? Then what
+/// equations have there, such as the diagonal that the distance of two configurations keeps out, says nothing of the set.
+bool breaks_inequality(const Problem& problem, const std::vector<double>& x, double share);
+
 /// An orthonormal basis, in scaled variables, of the kernel of the Jacobian at x: n × (n − rank), row-major.
 std::vector<double> kernel_basis(const Problem& problem, const LocalSolution& at, double tolerance);
 

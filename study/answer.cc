@@ -8,15 +8,29 @@
 #include "corank/solve/corank_system.h"
 #include "corank/solve/decimals.h"
 #include "corank/solve/exactness.h"
+#include "corank/solve/type_labels.h"
+#include "corank/study/node_search.h"
 #include "corank/study/robot_state.h"
 #include "corank/symbolic/printer.h"
+#include "corank/symbolic/velocity_blocks.h"
 
 namespace corank::study {
 namespace {
 
-std::string kernel_of(const Question& question) {
-  const symbolic::SetDefinition& set = symbolic::definition(question.set);
-  return set.has_kernel() ? to_string(question.kernel.value_or(set.side)) : "";
+// The side that was taken where none was asked for.
+std::string kernel_of(const Question& q) {
+  if (!symbolic::definition(q.set).has_kernel()) return "";
+  return to_string(symbolic::kernel_question(q.model, derive(q.model).velocity, *q.set, q.kernel).side);
+}
+
+// Which types of singularity the boxes hold; of the set of a type, without those that do not.
+void describe_types(const Question& q, const solve::Prepared& prepared, solve::Control& control, Cover& cover) {
+  if (symbolic::definition(q.set).of_parts) return;
+  if (!q.set) return;
+  const auto blocks = symbolic::velocity_blocks(q.model, *q.set, q.kernel, q.corank);
+  if (!blocks) return;
+  solve::label_types(prepared, *blocks, cover, control);
+  if (const auto type = symbolic::definition(q.set).type) solve::keep_only(*type, cover);
 }
 
 }  // namespace
@@ -80,15 +94,23 @@ result::Result answer(const std::vector<Question>& parts, const std::vector<Syst
 }
 
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control) {
-  const solve::Prepared prepared = solve::prepare(system, options.search, control);
+  solve::Options searched = options.search;
+  NodeSearch nodes;
+  if (symbolic::definition(question.set).part == symbolic::LocusPart::nodes && !searched.proof && searched.roots.empty()) {
+    nodes = node_search(question, system, searched, control);
+    searched.roots = std::move(nodes.roots);
+  }
+  const solve::Prepared prepared = solve::prepare(system, searched, control);
   result::Result result;
   result.model = question.model.name();
   result.model_text = question.model.source_text();
   result.set = symbolic::definition(question.set).name;
   result.system_text = symbolic::to_cuik(system);
   result.cover = solve::solve(prepared, control);
+  result.cover.statistics.processed += nodes.processed;
   control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
   solve::prove_exactly(prepared, result.cover, control);
+  describe_types(question, prepared, control, result.cover);
   if (options.digits > 0 && result.cover.dimension == 0)
     solve::prove_decimals(prepared, options.digits, result.cover, control);
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);

@@ -24,7 +24,8 @@ symbolic::TrigonometricSystem equations(const Question& q) {
     CORANK_CHECK(q.part.has_value());
     return symbolic::boundary_system(q.model, *q.part, symbolic::boundary_scales(q.model, *q.part));
   }
-  if (!definition(q.set).has_kernel()) return symbolic::singularity_system(q.model, *q.set, q.kernel, {}, q.corank);
+  if (!definition(q.set).has_kernel())
+    return symbolic::singularity_system(q.model, *q.set, q.kernel, symbolic::kernel_scales(q.model, *q.set), q.corank);
   const auto kernel = symbolic::without_passive_rates(
       q.model, symbolic::kernel_question(q.model, derive(q.model).velocity, *q.set, q.kernel));
   return symbolic::singularity_system(q.model, kernel, symbolic::kernel_scales(q.model, kernel), q.corank);

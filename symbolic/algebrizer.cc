@@ -135,6 +135,10 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
 void Algebrizer::add_kernel_unknowns() {
   for (const std::string& name : in_.kernel_unknowns)
     expander_.add_unknown(name, add_variable(name, VariableKind::kernel, {-1, 1}));
+  for (const std::string& name : in_.second_unknowns)
+    expander_.add_unknown(name, add_variable(name, VariableKind::auxiliary, {-1, 1}));
+  for (const auto& [name, lower, upper] : in_.further_unknowns)
+    expander_.add_unknown(name, add_variable(name, VariableKind::auxiliary, {lower, upper}));
 }
 
 ExpandedPolynomial Algebrizer::difference(const TrigonometricSystem::Equation& equation) {
@@ -188,6 +192,8 @@ void Algebrizer::add_names() {
   for (const Constant& constant : in_.constants) names_.insert(constant.name);
   for (const Coordinate& coordinate : in_.coordinates) names_.insert(coordinate.name);
   names_.insert(in_.kernel_unknowns.begin(), in_.kernel_unknowns.end());
+  names_.insert(in_.second_unknowns.begin(), in_.second_unknowns.end());
+  for (const auto& unknown : in_.further_unknowns) names_.insert(unknown.name);
 }
 
 void Algebrizer::add_coordinates() {

@@ -130,12 +130,43 @@ std::vector<std::string> scales_of_rates(const Mechanism& mechanism, const Kerne
   return result;
 }
 
-}  // namespace
+// Of the columns of a right kernel: 0 is an angle's, or that of a rate that was eliminated.
+struct Sizes {
+  std::vector<double> of_columns;
+  double largest = 0;
+  bool angles = false;
+};
 
-std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
-  if (!definition(set).has_kernel()) return {};
-  return kernel_scales(mechanism, kernel_question(mechanism, derive(mechanism).velocity, set, side));
+Sizes right_sizes(const Mechanism& mechanism, const KernelQuestion& kernel, const std::vector<Interval>& box) {
+  Sizes sizes;
+  const std::vector<std::string>& columns = kernel.matrix.columns;
+  const std::vector<std::size_t>& eliminated = kernel.passive.eliminated;
+  std::size_t variable = 0;
+  for (const Coordinate& coordinate : mechanism.coordinates()) {
+    const bool is_angle = coordinate.kind == CoordinateKind::angle;
+    const auto column = std::find(columns.begin(), columns.end(), coordinate.name);
+    if (column != columns.end() &&
+        std::binary_search(eliminated.begin(), eliminated.end(), static_cast<std::size_t>(column - columns.begin()))) {
+      sizes.of_columns.push_back(0);
+    } else if (column != columns.end()) {
+      sizes.of_columns.push_back(is_angle ? 0 : size_of(box[variable]));
+      sizes.largest = std::max(sizes.largest, sizes.of_columns.back());
+      sizes.angles = sizes.angles || is_angle;
+    }
+    variable += is_angle ? 2 : 1;
+  }
+  return sizes;
 }
+
+// A length's typical size is its scale times this.
+std::string size_per_scale(const Mechanism& mechanism, const KernelQuestion& kernel) {
+  const Configurations all = configurations(algebrize(plain_system(mechanism)));
+  const Sizes sizes = right_sizes(mechanism, kernel, all.box);
+  if (!(sizes.largest > 0)) return "1";
+  return sizes.angles ? (ExactNumber(1) / ExactNumber(static_cast<int>(kLengthUnits))).text() : number(sizes.largest, 0);
+}
+
+}  // namespace
 
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel) {
   const Configurations all = configurations(algebrize(plain_system(mechanism)));
@@ -156,28 +187,22 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQ
     }
     return texts(scales, 1);
   }
-  const std::vector<std::string>& columns = kernel.matrix.columns;
-  bool angles = false;
-  double largest = 0;
-  std::size_t variable = 0;
-  std::vector<double> of_columns;
-  const std::vector<std::size_t>& eliminated = kernel.passive.eliminated;
-  for (const Coordinate& coordinate : mechanism.coordinates()) {
-    const bool is_angle = coordinate.kind == CoordinateKind::angle;
-    const auto column = std::find(columns.begin(), columns.end(), coordinate.name);
-    if (column != columns.end() &&
-        std::binary_search(eliminated.begin(), eliminated.end(), static_cast<std::size_t>(column - columns.begin()))) {
-      of_columns.push_back(0);
-    } else if (column != columns.end()) {
-      of_columns.push_back(is_angle ? 0 : size_of(all.box[variable]));
-      largest = std::max(largest, of_columns.back());
-      angles = angles || is_angle;
-    }
-    variable += is_angle ? 2 : 1;
-  }
+  const auto [of_columns, largest, angles] = right_sizes(mechanism, kernel, all.box);
   std::vector<std::string> result = texts(of_columns, angles && largest > 0 ? kLengthUnits * largest : 1);
-  if (!eliminated.empty()) scale_eliminated(mechanism, kernel, result);
+  if (!kernel.passive.eliminated.empty()) scale_eliminated(mechanism, kernel, result);
   return result;
+}
+
+std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
+  if (definition(set).has_kernel())
+    return kernel_scales(mechanism, kernel_question(mechanism, derive(mechanism).velocity, set, side));
+  if (!definition(set).is_singular()) return {};
+  const Mechanism plain = mechanism.without_rates();
+  const KernelQuestion kernel = kernel_question(plain, derive(plain).velocity, set);
+  std::vector<std::string> scales = kernel_scales(plain, kernel);
+  scales.resize(kernel.matrix.columns.size(), "1");
+  scales.push_back(size_per_scale(plain, kernel));
+  return without_ones(std::move(scales));
 }
 
 }  // namespace corank::symbolic

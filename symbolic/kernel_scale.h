@@ -25,6 +25,9 @@ namespace corank::symbolic {
 /// ranges (rate_sizes.h); it is rounded as those of lengths above, eight
 /// times the largest in place of four. Of a left kernel: 1/max_j |L_ij| s_j relative to the first
 /// row, in two digits.
+///
+/// Of cusps and nodes: those of the locus by coordinates, without elimination, and one number more, by which the scale of a
+/// length is its typical size: it takes the unit out of second derivatives (cusp_system.h) and distances (node_system.h).
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt);
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel);

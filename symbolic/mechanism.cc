@@ -22,6 +22,15 @@ SourceLocation place(const Expression& e, const SourceLocation& otherwise) {
 
 bool is_fixed(const Coordinate& coordinate) { return coordinate.has_range && same_tree(coordinate.lower, coordinate.upper); }
 
+Mechanism Mechanism::without_rates() const {
+  Mechanism result = *this;
+  for (const Rate& rate : rates_) result.names_.erase(rate.name);
+  result.rates_.clear();
+  result.velocity_equations_.clear();
+  result.drawing_ = {};
+  return result;
+}
+
 void Mechanism::declare(const std::string& name, Declared kind, const SourceLocation& where) {
   const std::string expectation = kind == Declared::constant ? "another name for the constant"
                                   : kind == Declared::rate   ? "another name for the rate"
@@ -180,15 +189,6 @@ void Mechanism::outputs(const std::vector<Expression>& symbols, const SourceLoca
   if (outputs_where_.line == 0 && !symbols.empty()) outputs_where_ = place(symbols[0], where);
 }
 
-Mechanism Mechanism::without_rates() const {
-  Mechanism result = *this;
-  result.rates_.clear();
-  result.velocity_equations_.clear();
-  result.drawing_ = {};
-  std::erase_if(result.names_, [](const auto& name) { return name.second.kind == Declared::rate; });
-  return result;
-}
-
 void Mechanism::replace_outputs(const std::vector<Expression>& symbols, const SourceLocation& where) {
   std::vector<std::string> chosen;
   choose("output", symbols, where, chosen, "input", {});
@@ -222,6 +222,23 @@ void Mechanism::set_constant(const std::string& name, const Expression& value) {
                      known.empty() ? "a model with constants" : "one of " + known);
   }
   constants_[names_.at(name).index].value = value;
+}
+
+void Mechanism::set_range(const std::string& coordinate, const Expression& lower, const Expression& upper) {
+  const int index = find_coordinate(coordinate);
+  const auto holds = [&](const Composite& c) {
+    return std::find(c.components.begin(), c.components.end(), coordinate) != c.components.end();
+  };
+  if (index < 0 || std::any_of(composites_.begin(), composites_.end(), holds))
+    throw ModelError({name_, 0, 0}, in_quotes(coordinate) + " has no range of its own",
+                     "a coordinate that is no part of a unit vector or rotation matrix");
+  Coordinate& c = coordinates_[static_cast<std::size_t>(index)];
+  c.lower = lower, c.upper = upper, c.has_range = true;
+}
+
+void Mechanism::unroll(const std::string& angle, const Expression& lower, const Expression& upper) {
+  set_range(angle, lower, upper);
+  coordinates_[static_cast<std::size_t>(find_coordinate(angle))].kind = CoordinateKind::length;
 }
 
 int Mechanism::find_coordinate(const std::string& name) const {

@@ -118,12 +118,15 @@ class Mechanism {
   /// Adds lhs = rhs, linear and homogeneous in the rates, its coefficients in constants and coordinates: a row of L. Throws
   /// ModelError for an inequality.
   void velocity(const Relation& relation, const SourceLocation& where = {});
-  /// The same without a velocity equation of its own, and without a drawing, whose points may move by it.
-  Mechanism without_rates() const;
   void drawing(Drawing drawing) { drawing_ = std::move(drawing); }
 
   /// Replaces the value of a declared constant (`-D L2=1`). Throws ModelError where there is no such constant.
   void set_constant(const std::string& name, const Expression& value);
+
+  /// Gives a declared coordinate that is no component of a composite another range. Throws ModelError where there is none.
+  void set_range(const std::string& coordinate, const Expression& lower, const Expression& upper);
+  /// The same, and an angle becomes a length: the real number in that range of which the equations take the sine and cosine.
+  void unroll(const std::string& angle, const Expression& lower, const Expression& upper);
 
   const std::string& name() const { return name_; }
   /// The model's text as read, empty for a mechanism built in C++.
@@ -147,6 +150,8 @@ class Mechanism {
   /// Where the inputs (outputs) were named first.
   const SourceLocation& inputs_where() const { return inputs_where_; }
   const SourceLocation& outputs_where() const { return outputs_where_; }
+  /// The same with the derivative of its constraints as velocity equation, and nothing to draw.
+  Mechanism without_rates() const;
   /// No inputs and no outputs, neither coordinates nor rates.
   bool is_plain_system() const;
   /// Index of a coordinate, −1 where there is none.

@@ -177,7 +177,7 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
   out << "\n";
   print_matrix(out, derivation.velocity.given ? "L (given)" : "Φ_q", derivation.velocity.matrix);
   for (const SetDefinition& set : set_definitions()) {
-    if (set.locked.empty() || set.of_parts) continue;
+    if (set.locked.empty() || !set.is_usual()) continue;
     out << "\n";
     print_matrix(out, set.matrix, derivation.velocity.without(set.locked));
     print_ties(out, std::string(to_string(set.locked.front())) + "s", derivation.velocity.ties(set.locked));
@@ -186,7 +186,10 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
   for (const Coordinate& coordinate : system.coordinates)
     out << "  " << coordinate.name << (coordinate.kind == CoordinateKind::angle ? " ~ [" : " : [") << coordinate.lower.text()
         << ", " << coordinate.upper.text() << "]" << (coordinate.has_range ? "" : "   % found from the equations") << "\n";
-  for (const std::string& name : system.kernel_unknowns) out << "  " << name << " : [-1, 1]\n";
+  for (const auto* names : {&system.kernel_unknowns, &system.second_unknowns})
+    for (const std::string& name : *names) out << "  " << name << " : [-1, 1]\n";
+  for (const auto& [name, lower, upper] : system.further_unknowns)
+    out << "  " << name << " : [" << lower << ", " << upper << "]\n";
   std::vector<std::pair<std::string, std::string>> lines = relation_lines(system.equations);
   const auto inequalities = relation_lines(system.inequalities);
   lines.insert(lines.end(), inequalities.begin(), inequalities.end());
@@ -207,7 +210,7 @@ std::string to_latex(const Derivation& derivation, const TrigonometricSystem& sy
   if (derivation.velocity.given) out << "% The velocity equation L m = 0 as the model gives it\n";
   print_latex_matrix(out, derivation.velocity.given ? "L" : "\\Phi_q", derivation.velocity.matrix);
   for (const SetDefinition& set : set_definitions())
-    if (!set.locked.empty() && !set.of_parts) print_latex_matrix(out, set.matrix, derivation.velocity.without(set.locked));
+    if (!set.locked.empty() && set.is_usual()) print_latex_matrix(out, set.matrix, derivation.velocity.without(set.locked));
   out << "% System " << one_line(system.name) << "\n";
   lines.clear();
   for (const auto& equation : system.equations) lines.push_back(latex(equation.relation, "&"));

@@ -7,9 +7,30 @@
 #include <span>
 #include <string>
 
+#include "corank/core/singularity_types.h"
+
 namespace corank::symbolic {
 
-enum class SingularitySet { cspace, forward, inverse, cspace_singular, boundary };
+enum class SingularitySet {
+  cspace,
+  forward,
+  inverse,
+  cspace_singular,
+  forward_inverse,  ///< where both are singular at once
+  ro,               ///< those of one type (core/singularity_types.h) …
+  rpm,
+  ii,
+  ri,
+  io,
+  iim,
+  forward_cusps,
+  inverse_cusps,
+  forward_nodes,
+  inverse_nodes,
+  boundary  ///< of the workspace, in parts (boundary.h)
+};
+/// What of a locus is asked for: all of it, or where its image among the locked coordinates has a cusp or crosses itself.
+enum class LocusPart { all, cusps, nodes };
 enum class KernelSide { right, left };  ///< M ξ = 0 or Mᵀ ξ = 0
 /// Of a coordinate: whose rate is it? Inputs are the actuators', passive is the rest.
 enum class Role { input, output, passive };
@@ -23,11 +44,17 @@ std::optional<KernelSide> kernel_side_from_string(const std::string& text);
 
 /// { q : Φ(q) = 0 and, where there is a matrix, ker M or ker Mᵀ ≠ 0 }, M = L without the columns of the locked rates.
 struct SetDefinition {
-  std::optional<SingularitySet> set;  ///< nothing: the solutions of a plain system
-  const char* name;                   ///< on command lines and in result files: "forward"
-  const char* matrix = "";            ///< what M is called, "L_y"; empty: the set has no kernel
-  std::span<const Role> locked{};     ///< the rates that are 0: which columns of L go
-  KernelSide side{};                  ///< of the kernel, where none is asked for
+  std::optional<SingularitySet> set;    ///< nothing: the solutions of a plain system
+  const char* name;                     ///< on command lines and in result files: "forward"
+  const char* matrix = "";              ///< what M is called, "L_y"; empty: the set has no kernel
+  std::span<const Role> locked{};       ///< the rates that are 0: which columns of L go
+  KernelSide side{};                    ///< of the kernel of a square M, where none is asked for
+  bool one_side = false;                ///< no other kernel gives this set
+  std::span<const Role> also_locked{};  ///< of a second matrix that is singular as well: its kernel's vector is eta
+  const char* also_matrix = "";
+  /// The set is that of a type: of the kernel's configurations those where the type is not excluded.
+  std::optional<SingularityType> type{};
+  LocusPart part = LocusPart::all;  ///< cusps and nodes: cusp_system.h, node_system.h
 
   const char* title;      ///< "Forward singularities"
   const char* member;     ///< one of them, "Forward singularity"
@@ -46,9 +73,13 @@ struct SetDefinition {
   /// Its result consists of parts, each the solutions of a system of its own (boundary.h).
   bool of_parts = false;
 
-  bool has_kernel() const { return *matrix != '\0'; }
+  /// Is it all configurations where M has a kernel, whose side and corank can be asked for?
+  bool has_kernel() const { return is_singular() && part == LocusPart::all; }
+  bool is_singular() const { return *matrix != '\0'; }
   /// All configurations of a mechanism, among which those of the other sets are.
-  bool is_cspace() const { return set && !has_kernel(); }
+  bool is_cspace() const { return set && !is_singular(); }
+  /// Of those that a report shows unless it is told which: the others take their time, and few mechanisms have them all.
+  bool is_usual() const { return !type && also_locked.empty() && part == LocusPart::all && !of_parts; }
 };
 
 /// The sets of a mechanism, in the order of a report.

@@ -5,21 +5,15 @@
 #include <ranges>
 
 #include "corank/core/exact_number.h"
+#include "corank/symbolic/cusp_system.h"
 #include "corank/symbolic/found_ranges.h"
 #include "corank/symbolic/limits.h"
 #include "corank/symbolic/model_file.h"
+#include "corank/symbolic/kernel_vector.h"
+#include "corank/symbolic/node_system.h"
 
 namespace corank::symbolic {
 namespace {
-
-using Kind = Expression::Kind;
-
-// The place that speaks for the whole model where no line does.
-SourceLocation model_place(const Mechanism& mechanism) {
-  for (const Constraint& constraint : mechanism.constraints())
-    if (!constraint.where.file.empty()) return {constraint.where.file, 0, 0};
-  return {mechanism.name(), 0, 0};
-}
 
 std::string count(std::size_t n, const std::string& noun) {
   return n == 0 ? "no " + noun + "s" : std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
@@ -36,6 +30,7 @@ Counted counted(const VelocityEquation& velocity) {
 
 /// The inputs, or the outputs: coordinates or rates.
 struct Chosen {
+  Role role;
   std::vector<std::string> names;
   std::vector<std::size_t> ties;
   std::string noun;
@@ -44,7 +39,7 @@ struct Chosen {
 };
 
 Chosen chosen(const Mechanism& mechanism, const VelocityEquation& velocity, Role role) {
-  Chosen result{velocity.names_of(role), velocity.ties(std::span(&role, 1)), to_string(role), {}};
+  Chosen result{role, velocity.names_of(role), velocity.ties(std::span(&role, 1)), to_string(role), {}};
   if (!velocity.given) {
     result.where = role == Role::input ? mechanism.inputs_where() : mechanism.outputs_where();
   } else if (!result.names.empty()) {
@@ -64,8 +59,8 @@ std::string wanted_text(const Chosen& chosen, std::size_t wanted) {
          chosen.noun + "s alone that " + (more == 1 ? "ties" : "tie") + " them" + chosen.examples;
 }
 
-// Mobility must equal the number of inputs (of outputs) less their ties: otherwise L_y (L_z) is not square, and the
-// mechanism is redundant.
+// Inputs less their ties are as many as the mobility, or more (redundantly actuated: L_y is tall); outputs as many, or less
+// (kinematically redundant: L_z is wide). With fewer inputs or more outputs every configuration would be singular.
 void check_mobility(const Mechanism& mechanism, const VelocityEquation& velocity, const Chosen& chosen) {
   const SourceLocation where = chosen.where.line > 0 ? chosen.where : model_place(mechanism);
   const std::size_t equations = velocity.matrix.rows.size(), columns = velocity.matrix.columns.size();
@@ -76,12 +71,12 @@ void check_mobility(const Mechanism& mechanism, const VelocityEquation& velocity
         words.column + "s that are no " + chosen.noun + "s");
   const auto mobility = static_cast<long>(columns) - static_cast<long>(equations);
   const long free = static_cast<long>(chosen.names.size()) - static_cast<long>(chosen.ties.size());
-  if (free == mobility) return;
+  if (mobility >= 0 && (chosen.role == Role::input ? free >= mobility : free <= mobility)) return;
   std::string problem = "the mechanism has " + count(columns, words.column) + " and " + count(equations, words.row) +
                         ", so mobility " + std::to_string(mobility) + ", but " + count(chosen.names.size(), chosen.noun);
   if (!chosen.ties.empty())
     problem += " tied by " + count(chosen.ties.size(), "equation") + ", so " + std::to_string(free) + " free";
-  if (free > mobility && mobility >= 0) problem += ": a redundant mechanism";
+  if (mobility >= 0 && free > mobility) problem += ": they are not independent";
   throw ModelError(where, problem,
                    mobility < 0 ? "no more " + words.row + "s than " + words.column + "s"
                                 : wanted_text(chosen, static_cast<std::size_t>(mobility)));
@@ -121,69 +116,44 @@ void check_whole(const Mechanism& mechanism, const VelocityEquation& velocity, c
   }
 }
 
-// Of one vector with n components, or of several.
-std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n, std::size_t vectors) {
-  for (std::string prefix = "xi";; prefix += "_") {
-    std::vector<std::string> names;
-    for (std::size_t v = 0; v < vectors; ++v)
-      for (std::size_t i = 0; i < n; ++i)
-        names.push_back(prefix + (vectors > 1 ? std::to_string(v + 1) + "_" : "") + std::to_string(i + 1));
-    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
-          return mechanism.has_constant(name) || mechanism.find_coordinate(name) >= 0 || mechanism.find_rate(name) >= 0;
-        }))
-      return names;
+// A matrix that is not square has one kernel everywhere; the other tells where it loses rank.
+KernelSide side_of(const Mechanism& mechanism, const KernelQuestion& kernel, std::size_t ties,
+                   std::optional<KernelSide> asked) {
+  const std::size_t rows = kernel.matrix.rows.size() - ties, columns = kernel.matrix.columns.size();
+  const KernelSide only = rows > columns ? KernelSide::right : KernelSide::left;
+  if (rows == columns || kernel.set.locked.empty()) {
+    if (asked && kernel.set.one_side && *asked != kernel.set.side)
+      throw ModelError(model_place(mechanism),
+                       std::string("the set ") + kernel.set.name + " is not that of a " + to_string(*asked) + " kernel",
+                       std::string("the ") + to_string(kernel.set.side) + " kernel");
+    return asked.value_or(kernel.set.side);
   }
-}
-
-Expression times(const Expression& entry, const Expression& unknown) {
-  if (same_tree(entry, Expression(1))) return unknown;
-  if (entry.kind() == Kind::negation) return -times(entry.operands()[0], unknown);
-  return entry * unknown;
-}
-
-// A scale of 0 would make every configuration singular.
-Expression positive_number(const std::string& text, const std::string& unknown) {
-  bool positive = false;
-  try {
-    positive = ExactNumber::rational(text).sign() == 1;
-  } catch (const std::exception&) {  // no number
+  const std::string shape = kernel.name + " has " + count(rows, "row") + (ties > 0 ? " less those of ties" : "") + " and " +
+                            count(columns, "column");
+  if (kernel.set.type && kernel.set.side != only) {
+    const bool passive = kernel.set.type == SingularityType::rpm;
+    throw ModelError(model_place(mechanism),
+                     shape +
+                         (passive                     ? ""
+                          : only == KernelSide::right ? " (a redundantly actuated mechanism)"
+                                                      : " (a kinematically redundant mechanism)") +
+                         ", so every configuration is one of the set " + kernel.set.name,
+                     passive                     ? "more equations between inputs, outputs and passive joints"
+                     : only == KernelSide::right ? "the set ro"
+                                                 : "the set io");
   }
-  if (!positive) throw ModelError({"scale of " + unknown, 0, 0}, "'" + text + "' is no scale", "a positive rational number");
-  return parse_expression(text, "scale of " + unknown);
+  if (asked && *asked != only)
+    throw ModelError(model_place(mechanism), shape + ", so every configuration has a " + to_string(*asked) + " kernel",
+                     std::string("the ") + to_string(only) + " kernel");
+  return only;
 }
 
-// s_j ξ_j of each unknown.
-std::vector<Expression> scaled(const std::vector<std::string>& unknowns, const std::vector<std::string>& scales) {
-  std::vector<Expression> result;
-  for (std::size_t j = 0; j < unknowns.size(); ++j) {
-    const Expression unknown = Expression::symbol(unknowns[j]);
-    const bool plain = scales.empty() || scales[j] == "1";
-    result.push_back(plain ? unknown : positive_number(scales[j], unknowns[j]) * unknown);
-  }
-  return result;
-}
-
-// Σ entries[j]·s_j ξ_j, term by term in order; nothing where all entries are 0.
-std::optional<Expression> kernel_row(const std::vector<Expression>& entries, const std::vector<Expression>& unknowns) {
-  std::vector<Expression> terms;
-  for (std::size_t j = 0; j < entries.size(); ++j)
-    if (!same_tree(entries[j], Expression(0))) terms.push_back(times(entries[j], unknowns[j]));
-  if (terms.empty()) return std::nullopt;
-  return Expression::node(Kind::sum, terms);
-}
-
-// Component i of the fixed generic vector a of one kernel vector: 0.3 + 0.7·frac((i + 1)·golden ratio) to four digits, so
-// that no mechanism's symmetry makes a·ξ = 0 on a whole piece of a singularity set.
-Expression generic_component(std::size_t i) {
-  const unsigned long fraction = (i + 1) * 618'034UL % 1'000'000UL;
-  const std::string digits = std::to_string(3000 + 7 * fraction / 1000);  // in 3000 … 9999
-  return Expression::number("0." + digits);
-}
+constexpr const char* kStem = "xi";
 
 // Component i of a_j, of several vectors: 3/100 more than the inverse of i + 29 j + 1 modulo 97, in hundredths. The sequence
 // above would not do: its differences repeat, and a_1 and a_2 were orthogonal to the same kernels. Few digits keep the
 // numbers small in which exact points are sought.
-Expression generic_component(std::size_t j, std::size_t i) {
+Expression generic_component_of(std::size_t j, std::size_t i) {
   constexpr unsigned long kPrime = 97;
   const unsigned long k = (i + 29 * j) % (kPrime - 1) + 1;
   unsigned long inverse = 1;
@@ -192,12 +162,9 @@ Expression generic_component(std::size_t j, std::size_t i) {
   return Expression::number("0." + digits);
 }
 
-// Σ terms_i, term by term.
-Expression sum_of(const std::vector<Expression>& terms) { return Expression::node(Kind::sum, terms); }
-
 // The unknowns of each vector; fills in what the system says of them.
 std::vector<std::vector<Expression>> add_unknowns(TrigonometricSystem& system, const Mechanism& mechanism,
-                                                  const KernelQuestion& kernel) {
+                                                  const KernelQuestion& kernel, const std::string& stem) {
   const std::size_t n = kernel.side == KernelSide::right ? kernel.matrix.columns.size() : kernel.matrix.rows.size();
   if (system.corank < 1 || static_cast<std::size_t>(system.corank) > n) {
     throw ModelError(model_place(mechanism),
@@ -206,25 +173,27 @@ std::vector<std::vector<Expression>> add_unknowns(TrigonometricSystem& system, c
                      "a corank from 1 to " + std::to_string(n));
   }
   const auto vectors = static_cast<std::size_t>(system.corank);
-  system.kernel_unknowns = kernel_names(mechanism, n, vectors);
-  if (!system.kernel_scales.empty() && system.kernel_scales.size() != n) {
+  const bool second = stem != kStem;
+  std::vector<std::string>& unknowns = second ? system.second_unknowns : system.kernel_unknowns;
+  unknowns = kernel_names(mechanism, n, vectors, stem);
+  if (!second && !system.kernel_scales.empty() && system.kernel_scales.size() != n) {
     throw ModelError(model_place(mechanism), std::to_string(system.kernel_scales.size()) + " scales of the kernel vector",
                      std::to_string(n));
   }
   std::vector<std::vector<Expression>> xi(vectors);
-  for (std::size_t i = 0; i < vectors * n; ++i) xi[i / n].push_back(Expression::symbol(system.kernel_unknowns[i]));
+  for (std::size_t i = 0; i < vectors * n; ++i) xi[i / n].push_back(Expression::symbol(unknowns[i]));
   return xi;
 }
 
 // ξⁱ·ξʲ = δ_ij, a_i·ξʲ = 0 for i < j and a_j·ξʲ ≥ 0; every set of c-dimensional kernels' configurations is whole
 // (singularity_system.h).
 void add_normalization(TrigonometricSystem& system, const SourceLocation& where,
-                       const std::vector<std::vector<Expression>>& xi) {
-  const auto name = [&](std::size_t j) { return xi.size() == 1 ? std::string("xi") : "xi" + std::to_string(j + 1); };
+                       const std::vector<std::vector<Expression>>& xi, const std::string& stem) {
+  const auto name = [&](std::size_t j) { return xi.size() == 1 ? stem : stem + std::to_string(j + 1); };
   const auto dot_generic = [&](std::size_t i, std::size_t j) {  // a_i·ξʲ
     std::vector<Expression> terms;
     for (std::size_t k = 0; k < xi[j].size(); ++k)
-      terms.push_back((xi.size() == 1 ? generic_component(k) : generic_component(i, k)) * xi[j][k]);
+      terms.push_back((xi.size() == 1 ? generic_component(k) : generic_component_of(i, k)) * xi[j][k]);
     return sum_of(terms);
   };
   for (std::size_t j = 0; j < xi.size(); ++j) {
@@ -249,16 +218,20 @@ std::string words(const PassiveRates::RowNote& note) {
   return note.gives.empty() ? text : text + ", gives the rate of " + note.gives;
 }
 
-void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const KernelQuestion& kernel) {
+void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const KernelQuestion& kernel,
+                const std::string& stem = kStem) {
   const bool right = kernel.side == KernelSide::right;
   const PassiveRates& passive = kernel.passive;
   const ExpressionMatrix& matrix = passive.eliminated.empty() ? kernel.matrix : passive.matrix;
-  const std::vector<std::vector<Expression>> xi = add_unknowns(system, mechanism, kernel);
+  const std::vector<std::vector<Expression>> xi = add_unknowns(system, mechanism, kernel, stem);
   const std::size_t rows = matrix.rows.size(), columns = matrix.columns.size(), n = xi[0].size();
   for (std::size_t v = 0; v < xi.size(); ++v) {
-    const auto first = system.kernel_unknowns.begin() + static_cast<std::ptrdiff_t>(v * n);
-    const std::vector<Expression> rates = scaled({first, first + static_cast<std::ptrdiff_t>(n)}, system.kernel_scales);
-    const std::string vector = xi.size() == 1 ? "xi" : "xi" + std::to_string(v + 1);
+    const bool second = stem != kStem;
+    const auto first =
+        (second ? system.second_unknowns : system.kernel_unknowns).begin() + static_cast<std::ptrdiff_t>(v * n);
+    const std::vector<Expression> rates =
+        scaled({first, first + static_cast<std::ptrdiff_t>(n)}, second ? std::vector<std::string>{} : system.kernel_scales);
+    const std::string vector = xi.size() == 1 ? stem : stem + std::to_string(v + 1);
     for (std::size_t i = 0; i < (right ? rows : columns); ++i) {
       std::vector<Expression> entries;
       if (right) {
@@ -276,7 +249,7 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
   std::vector<std::vector<Expression>> left = xi;  // of which it asks that they are not all 0
   for (auto& v : left)
     for (const std::size_t j : passive.eliminated | std::views::reverse) v.erase(v.begin() + static_cast<std::ptrdiff_t>(j));
-  add_normalization(system, model_place(mechanism), left);
+  add_normalization(system, model_place(mechanism), left, stem);
 }
 
 }  // namespace
@@ -312,28 +285,42 @@ TrigonometricSystem plain_system(const Mechanism& mechanism) {
   return system;
 }
 
-KernelQuestion kernel_question(const Mechanism& mechanism, const VelocityEquation& velocity, SingularitySet set,
-                               std::optional<KernelSide> side) {
-  KernelQuestion kernel{definition(set),
-                        matrix_name(definition(set), velocity),
-                        velocity.without(definition(set).locked),
-                        velocity.where,
-                        {},
-                        {}};
-  kernel.side = side.value_or(kernel.set.side);
-  if (kernel.set.locked.empty()) {
-    check_whole(mechanism, velocity, kernel.name, kernel.side);
+namespace {
+
+// About the columns that are left where those of these roles are locked.
+KernelQuestion question_of(const Mechanism& mechanism, const VelocityEquation& velocity, const SetDefinition& set,
+                           std::span<const Role> locked, const std::string& name, std::optional<KernelSide> side) {
+  KernelQuestion kernel{set, name, velocity.without(locked), velocity.where, {}, {}};
+  const std::vector<std::size_t> ties = velocity.ties(locked);
+  if (locked.empty()) {
+    check_whole(mechanism, velocity, kernel.name, side.value_or(set.side));
   } else {
-    check_chosen(mechanism, velocity, kernel.set);
+    check_chosen(mechanism, velocity, set);
   }
+  if (kernel.matrix.columns.empty())
+    throw ModelError(model_place(mechanism),
+                     "there are no passive " + counted(velocity).column + "s, so " + name + " has no columns",
+                     "passive " + counted(velocity).column + "s");
+  kernel.side = side_of(mechanism, kernel, ties.size(), side);
   // Lemma (doc/theory.md): a matrix and the same without rows of zeros have the same right kernel, which passes them over; a
   // left one would have an unknown that nothing is asked of.
   if (kernel.side == KernelSide::right) return kernel;
-  kernel.dropped = velocity.ties(kernel.set.locked);
+  kernel.dropped = ties;
   for (const std::size_t row : kernel.dropped | std::views::reverse) {
     kernel.matrix.rows.erase(kernel.matrix.rows.begin() + static_cast<std::ptrdiff_t>(row));
     kernel.where.erase(kernel.where.begin() + static_cast<std::ptrdiff_t>(row));
   }
+  return kernel;
+}
+
+}  // namespace
+
+KernelQuestion kernel_question(const Mechanism& mechanism, const VelocityEquation& velocity, SingularitySet set,
+                               std::optional<KernelSide> side) {
+  const SetDefinition& asked = definition(set);
+  KernelQuestion kernel = question_of(mechanism, velocity, asked, asked.locked, matrix_name(asked, velocity), side);
+  if (!asked.also_locked.empty())
+    kernel.also.push_back(question_of(mechanism, velocity, asked, asked.also_locked, asked.also_matrix, std::nullopt));
   return kernel;
 }
 
@@ -350,6 +337,10 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, const KernelQ
   system.corank = corank;
   system.passive_rates_eliminated = !kernel.passive.eliminated.empty();
   add_kernel(system, mechanism, kernel);
+  if (!kernel.also.empty() && corank != 1)
+    throw ModelError(model_place(mechanism), std::string("the set ") + kernel.set.name + " has two kernels",
+                     "a corank of 1");
+  for (const KernelQuestion& second : kernel.also) add_kernel(system, mechanism, second, "eta");
   return system;
 }
 
@@ -360,6 +351,8 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySe
   if (corank != 1)
     throw ModelError(model_place(mechanism), std::string(definition(set).title) + " has no kernel, so no corank",
                      names_of_sets(true));
+  if (definition(set).part == LocusPart::cusps) return cusp_system(mechanism, set, scales);
+  if (definition(set).part == LocusPart::nodes) return node_system(mechanism, set, scales);
   TrigonometricSystem system = plain_system(mechanism);
   system.name += std::string(" ") + definition(set).name;
   return system;

@@ -23,9 +23,16 @@ struct TrigonometricSystem {
   /// xi1 … (renamed where the model uses the name), each in [−1, 1]. Of corank c ≥ 2 those of ξ¹, xi1_1 …, then those of ξ²,
   /// xi2_1 …
   std::vector<std::string> kernel_unknowns;
+  /// eta1 …, of the second kernel where a set asks for two: auxiliary variables.
+  std::vector<std::string> second_unknowns{};
   std::vector<std::string> kernel_scales;  ///< as given to singularity_system
   int corank = 1;                          ///< likewise: the number of kernel vectors
   bool passive_rates_eliminated = false;   ///< KernelQuestion::passive has some
+  struct Unknown {
+    std::string name;
+    int lower = -1, upper = 1;
+  };
+  std::vector<Unknown> further_unknowns;  ///< of cusps and nodes, in place of kernel unknowns
   struct Equation {
     Relation relation;
     std::string source;  ///< "dextar.cuik:17", "row 3 of L_y xi = 0", "norm of xi" …
@@ -44,8 +51,9 @@ struct KernelQuestion {
   ExpressionMatrix matrix;            ///< M: L without the locked columns and the dropped rows
   std::vector<SourceLocation> where;  ///< of its rows
   KernelSide side;
-  std::vector<std::size_t> dropped;  ///< of a left kernel: the rows of L that are ties, and not in M
-  PassiveRates passive{};            ///< of M, where they are eliminated
+  std::vector<std::size_t> dropped;    ///< of a left kernel: the rows of L that are ties, and not in M
+  PassiveRates passive{};              ///< of M, where they are eliminated
+  std::vector<KernelQuestion> also{};  ///< one more, where the set asks for two kernels
 };
 
 /// Of a set that has a kernel. Throws ModelError as singularity_system does.
@@ -56,7 +64,9 @@ KernelQuestion kernel_question(const Mechanism& mechanism, const VelocityEquatio
 KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion kernel);
 
 /// The system of a set: Φ(q) = 0 and, for all but cspace, the kernel equations, ‖ξ‖² = 1 and a·ξ ≥ 0 with a fixed generic a
-/// that drops −ξ. Default kernel: right where the matrix is square (forward, inverse), left for Φ_q (cspace-singular).
+/// that drops −ξ; the same of eta where the set has a second kernel. Default kernel: that of the set's definition where the
+/// matrix is square, right where it is tall (a redundantly actuated mechanism's L_y, L_p), left where it is wide (a
+/// kinematically redundant one's L_z, Φ_q). The other side of a matrix that is not square has a kernel everywhere.
 /// L_y and L_z are taken without the zero rows of ties (VelocityEquation): ker L_z is the same without them, at every
 /// configuration, and what is left is square where the outputs less their ties are as many as the mobility (doc/theory.md,
 /// "Tied outputs and inputs"). `scales`: of each kernel unknown, the number by which its column is multiplied
@@ -70,9 +80,9 @@ KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion 
 /// a_(c−1) on K are dependent (for c = 2: K ⊥ a_1, two conditions on K): there, and where dim K > c, they are a continuum
 /// over one q. With a square M these are c² equations more than there are components of the vectors: the set's expected
 /// dimension is that of C-space less c². Where that is below 0 the system is over-determined.
-/// Throws ModelError where inputs or outputs are missing or, less their ties, do not match the mobility, the columns of L
-/// less its rows (a redundant mechanism, non-square L_y or L_z), a right kernel is asked of the wide Φ_q, or a corank
-/// that is not in 1 … the number of the kernel's unknowns (1 for cspace, which has none).
+/// Throws ModelError where inputs or outputs are missing, there are, less their ties, fewer inputs or more outputs than the
+/// mobility, the columns of L less its rows, a kernel is asked for that there is everywhere, or a corank that is
+/// not in 1 … the number of the kernel's unknowns (1 for cspace, which has none).
 TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt,
                                        const std::vector<std::string>& scales = {}, int corank = 1);

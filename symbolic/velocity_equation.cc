@@ -117,6 +117,30 @@ Derivation derive(const Mechanism& mechanism) {
   return result;
 }
 
+std::vector<std::vector<std::vector<Expression>>> second_derivatives(const Mechanism& mechanism,
+                                                                     const std::vector<std::string>& coordinates) {
+  const GinacLock lock;
+  const GinacBridge bridge(mechanism);
+  std::vector<std::vector<std::vector<Expression>>> result;
+  for (const Constraint& constraint : mechanism.constraints()) {
+    if (constraint.relation.kind != Relation::Kind::equal) continue;
+    const GiNaC::ex phi = difference(bridge, constraint);
+    auto& rows = result.emplace_back();
+    try {
+      for (std::size_t j = 0; j < coordinates.size(); ++j) {
+        const GiNaC::ex first = phi.diff(bridge.symbol(coordinates[j]));
+        std::vector<Expression>& row = rows.emplace_back();
+        for (std::size_t k = j; k < coordinates.size(); ++k)
+          row.push_back(bridge.to_expression(first.diff(bridge.symbol(coordinates[k]))));
+      }
+    } catch (const std::exception& error) {
+      throw ModelError(constraint.where,
+                       "the equation `" + constraint.relation.text() + "` cannot be differentiated twice: " + error.what());
+    }
+  }
+  return result;
+}
+
 std::string matrix_name(const SetDefinition& set, const VelocityEquation& velocity) {
   return velocity.given && set.locked.empty() ? "L" : set.matrix;
 }

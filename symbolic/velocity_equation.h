@@ -49,6 +49,11 @@ struct Derivation {
 /// Throws ModelError where the mechanism is not valid (Mechanism::validate).
 Derivation derive(const Mechanism& mechanism);
 
+/// Of each equation Φ_i, in the order of Derivation::phi, ∂²Φ_i/∂q_j∂q_k for j ≤ k of these coordinates: [i][j][k − j].
+/// Throws ModelError where an equation cannot be differentiated.
+std::vector<std::vector<std::vector<Expression>>> second_derivatives(const Mechanism& mechanism,
+                                                                     const std::vector<std::string>& coordinates);
+
 /// What the matrix of a set's kernel is called: "L_y"; of all of L "Phi_q", or "L" where it is given.
 std::string matrix_name(const SetDefinition& set, const VelocityEquation& velocity);
 

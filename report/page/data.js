@@ -16,6 +16,11 @@ export class BoxSet {
     this.size = description.variables.length;
     this.bounds = bounds;
     this.verdicts = verdicts;
+    this.types = bytesOfBase64(description.types || "");
+  }
+  // The types of singularity that are proven of a box.
+  typesOf(box) {
+    return ["RO", "RPM", "II", "RI", "IO", "IIM"].filter((_, k) => (this.types[box] >> k) & 1);
   }
   lower(box, variable) {
     return this.bounds[2 * (this.size * box + variable)];

@@ -134,9 +134,10 @@ export class Panel {
       : `${shown} the middle of the box: Newton’s method found no point in it.`;
     const arrows =
       drawn && set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
+    const types = set.typesOf(box).join(", ");
     return `<p class="headline"><span class="swatch ${set.name}"></span>${set.title} · box ${groupedText(box + 1)} of ${groupedText(
       set.count,
-    )} · <span class="verdict ${verdict}">${verdict}</span></p><table>${rows.join("")}</table><p class="fine">${how}${arrows}</p>`;
+    )} · <span class="verdict ${verdict}">${verdict}</span>${types ? ` · ${types}` : ""}</p><table>${rows.join("")}</table><p class="fine">${how}${arrows}</p>`;
   }
 
   showNothing(place, portrait) {

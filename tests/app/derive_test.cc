@@ -59,7 +59,12 @@ TEST(Derive, WritesAPolynomialFileThatSolvesToTheSameResult) {
     const json a = json::parse(first.out), b = json::parse(second.out);
     EXPECT_EQ(a["system"], b["system"]);
     EXPECT_EQ(a["boxes"], b["boxes"]);
-    EXPECT_EQ(a["points"], b["points"]);
+    json points = a["points"];
+    for (json& point : points) {  // a plain system knows no types
+      point.erase("types");
+      point.erase("typed");
+    }
+    EXPECT_EQ(points, b["points"]);
     EXPECT_EQ(b["set"], "system");
   }
 }

@@ -62,7 +62,7 @@ const std::vector<LibraryRule>& library_rules() {
       {std::regex("^urdf_"), {}, true},  // another reader of URDF, for comparison
       {std::regex("^CLI/"), {"app"}, false},
       {std::regex("^tao/"), {"symbolic", "kinematics"}, false},
-      {std::regex("^nlohmann/"), {"result", "report", "bench"}, true},
+      {std::regex("^nlohmann/"), {"result", "analyze", "report", "bench"}, true},
       {std::regex("^kainjow/"), {"report"}, false},
   };
   return rules;

@@ -399,6 +399,25 @@ TEST(ApproximateZero, ConvergesAtADoubleRoot) {
   EXPECT_EQ((error + bound).sign(), 1);
 }
 
+TEST(ApproximateZero, ConvergesAtATripleRootAtZero) {
+  // x³ = 0: each step takes a third off, and no term is ever larger than what is left.
+  test::SystemBuilder b;
+  const int x = b.variable("x", "-1", "1");
+  b.equation({{"1", {{x, 3}}}});
+  const auto zero = approximate_zero(b.system(), {ExactNumber::dyadic(0.25)}, 256);
+  ASSERT_TRUE(zero);
+  EXPECT_EQ(((*zero)[0] - pow(ExactNumber(2), -60)).sign(), -1);
+}
+
+TEST(ApproximateZero, IsNotWhereEquationsContradictOneAnother) {
+  test::SystemBuilder b;
+  const int x = b.variable("x", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"1/100", {}}});
+  EXPECT_FALSE(approximate_zero(b.system(), {ExactNumber::dyadic(0.25)}, 256));
+  b.equation({{"1", {{x, 1}}}, {"-1/2", {}}});
+  EXPECT_FALSE(approximate_zero(b.system(), {ExactNumber::dyadic(0.25)}, 256));
+}
+
 TEST(ProveZero, GivesFiftyProvenDigits) {
   const auto zero = prove_zero(diagonal().system(), {ExactNumber::dyadic(0.707), ExactNumber::dyadic(0.707)}, 50);
   ASSERT_TRUE(zero);

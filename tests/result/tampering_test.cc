@@ -13,9 +13,11 @@
 #include "corank/result/verification.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
+#include "corank/solve/type_labels.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
+#include "corank/symbolic/velocity_blocks.h"
 
 namespace corank::result {
 namespace {
@@ -43,6 +45,11 @@ Result solved(const std::string& model, const std::string& set, double sigma, st
   options.proof = true;
   result.cover = solve::solve(system, options);
   solve::prove_exactly(system, options, result.cover);
+  solve::Control control;
+  if (set != "cspace")
+    solve::label_types(solve::prepare(system, options, control),
+                       *symbolic::velocity_blocks(model_of(result), *symbolic::singularity_set_from_string(set)),
+                       result.cover, control);
   result.options.sigma = result.cover.sigma;
   return result;
 }
@@ -89,6 +96,15 @@ std::size_t first(const Result& r, Verdict verdict) {
   for (std::size_t i = 0; i < r.cover.boxes.size(); ++i)
     if (r.cover.boxes[i].verdict == verdict) return i;
   throw std::runtime_error("no box is " + std::string(to_string(verdict)));
+}
+
+TypeLabels& label(Result& r, std::size_t box) { return r.cover.boxes.at(box).types; }
+
+// Of the first box with the verdict that names an exact point.
+std::size_t exact_of(const Result& r, Verdict verdict) {
+  for (const CoverBox& box : r.cover.boxes)
+    if (box.verdict == verdict && box.point >= 0) return static_cast<std::size_t>(box.point);
+  throw std::runtime_error("no exact point");
 }
 
 // The proof, to be changed.
@@ -349,6 +365,34 @@ const std::vector<Tampering>& tamperings() {
          });
          drop_leaves(r, 3);
        }},
+      {"a type that is not so", "that its solutions are RI is not shown", curve,
+       [](Result& r) { label(r, r.cover.boxes.size() / 2).proven |= bit(SingularityType::ri); }},
+      {"an output said to be impossible that is not", "that its solutions are IO is not shown", curve,
+       [](Result& r) { label(r, 5).proven |= bit(SingularityType::io); }},
+      {"an input that is impossible said not to be", "that its solutions are not II is not shown", curve,
+       [](Result& r) {
+         label(r, 9) = {0, bit(SingularityType::ii)};
+       }},
+      {"increased mobility where there is none", "that its solutions are IIM is not shown", curve,
+       [](Result& r) { label(r, 13).proven |= bit(SingularityType::iim); }},
+      {"a type that is proven said to be excluded", "that its solutions are not RO is not shown", curve,
+       [](Result& r) {
+         label(r, 7) = {0, bit(SingularityType::ro)};
+       }},
+      {"a type excluded that boxes near by have", "that its solutions are not RI is not shown", crossing,
+       [](Result& r) { label(r, 3).excluded |= bit(SingularityType::ri); }},
+      {"passive motion where there is none", "that its solutions are RPM is not shown", curve,
+       [](Result& r) { label(r, 11).proven |= bit(SingularityType::rpm); }},
+      {"an exact point of another type", "that its solutions are RPM is not shown", points,
+       [](Result& r) { r.cover.exact_points.at(exact_of(r, Verdict::exact)).types.proven |= bit(SingularityType::rpm); }},
+      {"an exact point of which less is excluded than said", "that its solutions are not II is not shown", points,
+       [](Result& r) {
+         ExactPoint& point = r.cover.exact_points.at(exact_of(r, Verdict::isolated));
+         point.types.proven &= static_cast<TypeSet>(~bit(SingularityType::ii));
+         point.types.excluded |= bit(SingularityType::ii);
+       }},
+      {"types that were not asked for", "are not those of the mechanism's set", curve,
+       [](Result& r) { r.cover.types.of_set = bit(SingularityType::iim); }},
       {"a proof whose roots prove one another", "an earlier one or itself", points,
        [](Result& r) {
          change_proof(r, [](Proof& p) { p = Proof{p.roots, {}, {static_cast<std::uint8_t>(Step::root)}, {0}, {}}; });

@@ -229,6 +229,37 @@ TEST(Puma560, IsSingularAtElbowShoulderAndWrist) {
   expect_near_zero(bent, product, 0.02);
 }
 
+// Joints 2, 3 and 5 are free, within ranges: the sets are surfaces, which cross.
+TEST(Puma560, IsSingularOnThreeSurfaces) {
+  std::mt19937 random(1);
+  const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); };
+  const auto covered = [&](const std::vector<result::ConstantOverride>& ranges) {
+    Answer answer = solved("serial/puma_560", SingularitySet::inverse, ranges, 0.2);
+    EXPECT_EQ(answer.cover.dimension, 2);
+    return answer;
+  };
+  const auto sample = [](double t2, double t3, double t5) {
+    return Configuration{{"theta2", t2}, {"theta3", t3}, {"theta5", t5}};
+  };
+  std::vector<Configuration> elbow, shoulder, wrist;
+  while (elbow.size() < kSamples || shoulder.size() < kSamples) {
+    const double t2 = between(0, 2), t5 = between(0.5, 1);
+    for (const double t3 : zeros([&](double t) { return puma(t2, t, t5).elbow; }, 40))
+      if (t3 > -3 && t3 < 0) elbow.push_back(sample(t2, t3, t5));
+    for (const double t3 : zeros([&](double t) { return puma(t2, t, t5).shoulder; }, 40))
+      if (t3 > -3 && t3 < 0) shoulder.push_back(sample(t2, t3, t5));
+  }
+  const Answer arm = covered({{"lo2", "0"}, {"up2", "2"}, {"lo3", "-3"}, {"up3", "0"}, {"lo5", "1/2"}, {"up5", "1"}});
+  expect_all(arm, elbow);
+  expect_all(arm, shoulder);
+  for (int k = 0; k < kSamples; ++k) {
+    const double t2 = between(0, 1), t3 = between(-1, -0.5);
+    for (const double t5 : {0.0, M_PI}) wrist.push_back(sample(t2, t3, t5));
+  }
+  const Answer hand = covered({{"lo2", "0"}, {"up2", "1"}, {"lo3", "-1"}, {"up3", "-1/2"}});
+  expect_all(hand, wrist);
+}
+
 TEST(Ur5, IsSingularAtElbowWristAndShoulder) {
   const double quarter = M_PI / 2;
   const std::vector<Row> arm{{0, 0.089159, quarter}, {-0.425, 0, 0},         {-0.39225, 0, 0},
@@ -348,6 +379,82 @@ TEST(SphericalFourBar, HasTheSingularitiesOfItsDeterminants) {
         expected.push_back(q);
     }
     EXPECT_EQ(answer.cover.points.size(), expected.size());
+  }
+}
+
+// --- the Agile Eye, by its legs' wrenches ---------------------------------------------------------------------------------
+
+struct Eye {
+  Eigen::Matrix3d rotation;  ///< columns: the axes on the platform
+  std::array<double, 3> theta;
+  /// Across the motor's axis, where the crank's end is.
+  Vector3d end(int leg) const {
+    const Vector3d u = Vector3d::Unit((leg + 1) % 3), v = Vector3d::Unit((leg + 2) % 3);
+    // Motors 1 and 3 turn from y to z and from x to y, motor 2 from z to x.
+    return std::cos(theta[static_cast<std::size_t>(leg)]) * u + std::sin(theta[static_cast<std::size_t>(leg)]) * v;
+  }
+  Vector3d wrench(int leg) const { return end(leg).cross(rotation.col(leg)); }
+  double inverse() const {
+    double product = 1;
+    for (int leg = 0; leg < 3; ++leg) product *= wrench(leg)[leg];
+    return product;
+  }
+  double forward() const { return determinant(wrench(0), wrench(1), wrench(2)); }
+  Configuration configuration() const {
+    Configuration q;
+    for (int leg = 0; leg < 3; ++leg) {
+      q["theta" + std::to_string(leg + 1)] = theta[static_cast<std::size_t>(leg)];
+      for (int i = 0; i < 3; ++i)
+        q[std::array{"axis_v1_", "axis_v2_", "n_eye_"}[static_cast<std::size_t>(leg)] + std::string(1, "xyz"[i])] =
+            rotation(i, leg);
+    }
+    return q;
+  }
+};
+
+// The curves of one leg, stretched and folded: its motor is held, the eye turns about it in two ways, and each of the other
+// legs has two postures.
+TEST(AgileEye, IsSingularOnTwoCurvesForEachLeg) {
+  constexpr double kNear = 2.9, kHeld = 0.5;
+  for (int leg = 0; leg < 3; ++leg) {
+    SCOPED_TRACE(leg + 1);
+    std::vector<Configuration> samples;
+    for (int k = 0; k < kSamples / 8; ++k) {
+      const double t = -M_PI + 2 * M_PI * (k + 0.5) / (kSamples / 8);
+      for (int way = 0; way < 4; ++way) {
+        const double sign = way & 1 ? 1 : -1, other = way & 2 ? 1 : -1;
+        Vector3d diagonal;
+        diagonal[leg] = sign;
+        diagonal[(leg + 1) % 3] = other;
+        diagonal[(leg + 2) % 3] = sign * other;
+        Eye eye{Eigen::AngleAxisd(t, Vector3d::Unit(leg)).toRotationMatrix() * diagonal.asDiagonal(), {}};
+        if (eye.rotation.diagonal().squaredNorm() > kNear) continue;
+        for (int posture = 0; posture < 4; ++posture) {
+          for (int i = 0; i < 3; ++i) {
+            const Vector3d v = eye.rotation.col(i);
+            eye.theta[static_cast<std::size_t>(i)] =
+                std::atan2(-v[(i + 1) % 3], v[(i + 2) % 3]) + (posture >> (i == (leg + 1) % 3) & 1) * M_PI;
+          }
+          eye.theta[static_cast<std::size_t>(leg)] = kHeld;
+          for (int i = 0; i < 3; ++i) ASSERT_NEAR(eye.end(i).dot(eye.rotation.col(i)), 0, 1e-12) << "the links' angles";
+          ASSERT_NEAR(eye.inverse(), 0, 1e-12);
+          ASSERT_NEAR(eye.forward(), 0, 1e-12);
+          samples.push_back(eye.configuration());
+        }
+      }
+    }
+    const std::string number = std::to_string(leg + 1);
+    for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse}) {
+      SCOPED_TRACE(to_string(set));
+      const Answer answer =
+          solved("spatial/agile_eye", set, {{"near", "2.9"}, {"lo" + number, "1/2"}, {"up" + number, "1/2"}}, 0.1);
+      expect_all(answer, samples);
+      EXPECT_EQ(answer.cover.dimension, 1);
+      EXPECT_EQ(answer.cover.count(Verdict::undecided), 0u);
+      // It is singular nowhere else: every box has the leg's axes on one line.
+      const int along = answer.system.find(std::array{"axis_v1_x", "axis_v2_y", "n_eye_z"}[static_cast<std::size_t>(leg)]);
+      for (const CoverBox& b : answer.cover.boxes) ASSERT_NEAR(std::fabs(b.box[along].mid()), 1, 0.01);
+    }
   }
 }
 

@@ -16,8 +16,19 @@ TEST(SetDefinitions, AreFoundByTheirNamesAndByTheirSets) {
     EXPECT_EQ(&definition(std::string(d.name)), &d);
     EXPECT_EQ(singularity_set_from_string(to_string(*d.set)), d.set);
   }
-  EXPECT_EQ(names_of_sets(), "cspace, forward, inverse, cspace-singular or boundary");
-  EXPECT_EQ(names_of_sets(true), "forward, inverse or cspace-singular");
+  const std::string kernels = "forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io or iim";
+  EXPECT_EQ(names_of_sets(), "cspace, forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io, iim, "
+                             "forward-cusps, inverse-cusps, forward-nodes, inverse-nodes or boundary");
+  EXPECT_EQ(names_of_sets(true), kernels);
+}
+
+TEST(SetDefinitions, OfTypesAndOfTwoKernelsAreShownOnDemandOnly) {
+  int usual = 0;
+  for (const SetDefinition& d : set_definitions()) {
+    usual += d.is_usual();
+    EXPECT_EQ(d.is_usual(), !d.type && d.also_locked.empty() && d.part == LocusPart::all && !d.of_parts) << d.name;
+  }
+  EXPECT_EQ(usual, 4);
 }
 
 TEST(SetDefinitions, KnowAPlainSystemUnderAnyOtherName) {

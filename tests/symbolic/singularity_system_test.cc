@@ -309,8 +309,8 @@ TEST(Ties, ThatDoNotMatchTheMobilityAreCounted) {
   });
   EXPECT_EQ(line, 10);
   EXPECT_THAT(message,
-              HasSubstr("6 coordinates and 4 equations, so mobility 2, but 4 outputs tied by 1 equation, so 3 free: a "
-                        "redundant mechanism; expected 2 outputs, or 1 more equation in outputs alone that ties them"));
+              HasSubstr("6 coordinates and 4 equations, so mobility 2, but 4 outputs tied by 1 equation, so 3 free: "
+                        "they are not independent; expected 2 outputs, or 1 more equation in outputs alone that ties them"));
   const Mechanism bound = model("x : [-1, 1]\ny : [-1, 1]", "x^2 = 1;", "[INPUTS] x\n[OUTPUTS] y");
   std::tie(line, message) = error_of([&] { singularity_system(bound, SingularitySet::forward); });
   EXPECT_THAT(message, HasSubstr("1 input tied by 1 equation, so 0 free; expected 2 inputs with these ties"));
@@ -322,8 +322,9 @@ TEST(Ties, ThatNeedPassiveCoordinatesAreAskedFor) {
                             "[INPUTS] p\n[OUTPUTS] u, v");
   const auto [line, message] = error_of([&] { singularity_system(m, SingularitySet::inverse); });
   EXPECT_EQ(line, 11);
-  EXPECT_THAT(message, HasSubstr("so mobility 1, but 2 outputs: a redundant mechanism; expected 1 output, or 1 equation in "
-                                 "outputs alone that ties them"));
+  EXPECT_THAT(message,
+              HasSubstr("so mobility 1, but 2 outputs: they are not independent; expected 1 output, or 1 equation in "
+                        "outputs alone that ties them"));
 }
 
 TEST(SingularitySystem, RefusesOutputsThatLeaveNothingToMove) {
@@ -366,12 +367,12 @@ TEST(SingularitySystem, ReportsInputsThatDoNotMatchTheMobility) {
   EXPECT_THAT(message, HasSubstr("3 coordinates and 1 equation, so mobility 2, but 1 input; expected 2 inputs"));
 }
 
-TEST(SingularitySystem, ReportsARedundantMechanism) {
+TEST(SingularitySystem, ReportsMoreOutputsThanTheMobility) {
   const Mechanism m =
       model("x : [-1, 1]\ny : [-1, 1]\nz : [-1, 1]", "x^2 + y^2 = 1;\nx = z;", "[INPUTS] x\n[OUTPUTS]\ny, z");
   const auto [line, message] = error_of([&] { singularity_system(m, SingularitySet::inverse); });
   EXPECT_GE(line, 9);
-  EXPECT_THAT(message, HasSubstr("so mobility 1, but 2 outputs: a redundant mechanism; expected 1 output"));
+  EXPECT_THAT(message, HasSubstr("so mobility 1, but 2 outputs: they are not independent; expected 1 output"));
 }
 
 TEST(SingularitySystem, ReportsMoreEquationsThanCoordinates) {

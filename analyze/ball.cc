@@ -1,0 +1,258 @@
+#include "corank/analyze/ball.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "corank/symbolic/evaluate.h"
+#include "corank/symbolic/model_text.h"
+
+namespace corank::analyze {
+namespace {
+
+using symbolic::Coordinate;
+using symbolic::CoordinateKind;
+using symbolic::Expression;
+using symbolic::Mechanism;
+using symbolic::ModelError;
+
+Expression square(const Expression& x) { return pow(x, 2); }
+
+class BallMaker {
+ public:
+  BallMaker(const study::Question& question, const BallOptions& options)
+      : question_(question), options_(options), model_(question.model), center_model_(question.model) {
+    for (const symbolic::Constant& c : model_.constants()) constants_[c.name] = symbolic::evaluate(c.value, constants_);
+  }
+
+  Ball make();
+
+ private:
+  ModelError error(const std::string& problem, const std::string& expectation) const {
+    return {{model_.name(), 0, 0}, problem, expectation};
+  }
+  const Coordinate& coordinate(const std::string& name) const;
+  double value(const Expression& e) const;
+  const Expression& value_at(const std::string& name) const;
+  bool is_full_circle(const Coordinate& c) const {
+    return c.kind == CoordinateKind::angle && value(c.upper) - value(c.lower) > 2 * std::numbers::pi - 1e-12;
+  }
+  // Refuses a value outside the declared range.
+  void check_value(const NamedValue& v) const;
+  // Keeps the coordinate in [lower, upper] and in its declared range.
+  void narrow(Mechanism& model, const Coordinate& c, const Expression& lower, const Expression& upper) const;
+  void add_center(const std::string& name);
+  void limit_orientation();
+  Rotation orientation() const;
+
+  const study::Question& question_;
+  const BallOptions& options_;
+  Mechanism model_, center_model_;
+  std::map<std::string, double> constants_;
+  Ball ball_;
+};
+
+const Coordinate& BallMaker::coordinate(const std::string& name) const {
+  const int index = question_.model.find_coordinate(name);
+  if (index >= 0) return question_.model.coordinates()[static_cast<std::size_t>(index)];
+  std::string known;
+  for (const Coordinate& c : question_.model.coordinates())
+    if (!c.auxiliary) known += (known.empty() ? "" : ", ") + c.name;
+  throw error("there is no coordinate '" + name + "'", "one of " + known);
+}
+
+double BallMaker::value(const Expression& e) const {
+  const double v = symbolic::evaluate(e, constants_);
+  if (!std::isfinite(v))
+    throw error("'" + e.text() + "' has no value", "a number, or an expression in the model's constants");
+  return v;
+}
+
+const Expression& BallMaker::value_at(const std::string& name) const {
+  for (const NamedValue& v : options_.at)
+    if (v.name == name) return v.value;
+  throw error("'" + name + "' has no value", "a value for each of the ball's coordinates, as in --at " + name + "=0.5");
+}
+
+void BallMaker::check_value(const NamedValue& v) const {
+  const Coordinate& c = coordinate(v.name);
+  const double at = value(v.value);
+  if (!c.has_range || is_full_circle(c)) return;
+  const double lower = value(c.lower), upper = value(c.upper), slack = 1e-12 * std::max(1.0, std::fabs(at));
+  const double turn = c.kind == CoordinateKind::angle ? 2 * std::numbers::pi : 0;
+  const double turned = turn > 0 ? at - turn * std::floor((at - lower) / turn + 1e-12) : at;
+  if (turned < lower - slack || turned > upper + slack)
+    throw error(fmt::format("{} = {:g} is outside its range [{:g}, {:g}]", v.name, at, lower, upper), "a value in it");
+}
+
+void BallMaker::narrow(Mechanism& model, const Coordinate& c, const Expression& lower, const Expression& upper) const {
+  const double lo = value(lower), hi = value(upper);
+  if (lo > hi)
+    throw error(fmt::format("the range [{:g}, {:g}] of '{}' is empty", lo, hi, c.name), "a lower and an upper end");
+  if (!c.has_range || is_full_circle(c)) {
+    model.set_range(c.name, lower, upper);
+  } else if (c.kind == CoordinateKind::length) {
+    const bool above = lo >= value(c.lower), below = hi <= value(c.upper);
+    if (hi < value(c.lower) || lo > value(c.upper))
+      throw error(fmt::format("the range [{:g}, {:g}] of '{}' does not meet the model's [{:g}, {:g}]", lo, hi, c.name,
+                              value(c.lower), value(c.upper)),
+                  "one that does");
+    model.set_range(c.name, above ? lower : c.lower, below ? upper : c.upper);
+  } else {
+    // Two ranges of an angle may meet in two pieces: one of them is an inequality.
+    model.set_range(c.name, lower, upper);
+    const Expression angle = Expression::symbol(c.name), middle = (c.lower + c.upper) / 2, half = (c.upper - c.lower) / 2;
+    if (value(c.upper) > value(c.lower)) model.constrain(cos(angle - middle) >= cos(half), c.where, "range of " + c.name);
+  }
+}
+
+void BallMaker::add_center(const std::string& name) {
+  const Coordinate& c = coordinate(name);
+  const Expression& at = value_at(name);
+  ball_.center.push_back({name, at});
+  const double a = value(at);
+  const auto given =
+      std::find_if(options_.ranges.begin(), options_.ranges.end(), [&](const NamedRange& r) { return r.name == name; });
+  if (given != options_.ranges.end()) {
+    ball_.room = std::min({ball_.room, a - value(given->lower), value(given->upper) - a});
+    if (ball_.room < 0)
+      throw error(fmt::format("{} = {:g} is outside the range that is given for it", name, a), "a value in it");
+  }
+  if (c.has_range && !is_full_circle(c)) ball_.room = std::min({ball_.room, a - value(c.lower), value(c.upper) - a});
+  if (c.kind == CoordinateKind::length) {
+    center_model_.set_range(name, at, at);
+    if (given != options_.ranges.end()) narrow(model_, c, given->lower, given->upper);
+    return;
+  }
+  center_model_.set_range(name, at, at);
+  const Expression half_turn = symbolic::pi();
+  const bool is_given = given != options_.ranges.end();
+  model_.unroll(name, is_given ? given->lower : at - half_turn, is_given ? given->upper : at + half_turn);
+  if (is_full_circle(c)) return;
+  const Expression angle = Expression::symbol(name), middle = (c.lower + c.upper) / 2, half = (c.upper - c.lower) / 2;
+  model_.constrain(cos(angle - middle) >= cos(half), c.where, "range of " + name);
+}
+
+Rotation BallMaker::orientation() const {
+  std::vector<std::pair<std::string, Rotation>> found;
+  for (const symbolic::Composite& c : question_.model.composites()) {
+    if (c.kind != symbolic::Composite::Kind::rotation) continue;
+    Rotation r;
+    for (std::size_t k = 0; k < 9; ++k) r[k / 3][k % 3] = Expression::symbol(c.components[k]);
+    found.emplace_back(c.name, r);
+  }
+  if (question_.assembly)
+    for (const auto& pose : question_.assembly->poses) {
+      Rotation r;
+      bool moves = false;
+      for (std::size_t k = 0; k < 9; ++k) {
+        r[k / 3][k % 3] = pose.rotation[k / 3][k % 3];
+        for (const Coordinate& c : question_.model.coordinates()) moves = moves || r[k / 3][k % 3].mentions(c.name);
+      }
+      if (moves) found.emplace_back(pose.link, r);
+    }
+  std::string names;
+  for (const auto& [name, rotation] : found) {
+    if (name == options_.orientation_of || (options_.orientation_of.empty() && found.size() == 1)) return rotation;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (found.empty()) throw error("it has no orientation in space", "a rotation matrix, or a robot from parts");
+  throw error("whose orientation is meant is not said", "--orientation-of " + names);
+}
+
+// A turn by α at most of R0, trace(R0ᵀR) ≥ 1 + 2 cos α, moves no entry by more than 2 sin(α/2): that follows, and is quicker
+// to use.
+void BallMaker::limit_orientation() {
+  if (!options_.orientation_range) {
+    if (options_.orientation) throw error("the orientation has a value and no range", "--orientation-range 15deg");
+    return;
+  }
+  const Expression& alpha = *options_.orientation_range;
+  if (value(alpha) < 0) throw error("the range of the orientation is negative", "an angle, such as 15deg");
+  for (const NamedValue& v : options_.at) {
+    const Coordinate& c = coordinate(v.name);
+    const auto& outputs = question_.model.outputs();
+    const bool in_ball = std::find(options_.in.begin(), options_.in.end(), v.name) != options_.in.end();
+    if (in_ball || c.kind != CoordinateKind::angle || std::find(outputs.begin(), outputs.end(), v.name) == outputs.end())
+      continue;
+    narrow(model_, c, v.value - alpha, v.value + alpha);
+  }
+  if (!options_.orientation || value(alpha) >= std::numbers::pi) return;
+  if (!(value(alpha) > 0))
+    throw error("an orientation with one value has no range", "a model that keeps it: pose of LINK keeps R");
+  const Rotation r = orientation(), &r0 = *options_.orientation;
+  std::vector<Expression> trace;
+  for (std::size_t k = 0; k < 9; ++k)
+    if (!same_tree(r0[k / 3][k % 3], Expression(0))) trace.push_back(r0[k / 3][k % 3] * r[k / 3][k % 3]);
+  model_.constrain(Expression::node(Expression::Kind::sum, trace) >= Expression(1) + 2 * cos(alpha), {},
+                   "range of the orientation");
+  for (std::size_t k = 0; k < 9; ++k) {
+    const Expression &e = r[k / 3][k % 3], &e0 = r0[k / 3][k % 3], move = 2 * sin(alpha / 2);
+    if (e.kind() != Expression::Kind::symbol) continue;
+    model_.constrain(e <= e0 + move, {}, "range of the orientation");
+    model_.constrain(e >= e0 - move, {}, "range of the orientation");
+  }
+}
+
+Ball BallMaker::make() {
+  ball_.room = std::numeric_limits<double>::infinity();
+  if (options_.in.empty()) throw error("the ball has no coordinates", "--in with one or more of the model's coordinates");
+  for (const NamedValue& v : options_.at) check_value(v);
+  for (const std::string& name : options_.in) {
+    if (std::count(options_.in.begin(), options_.in.end(), name) > 1)
+      throw error("'" + name + "' is twice in the ball", "each once");
+    add_center(name);
+  }
+  for (const NamedRange& r : options_.ranges)
+    if (std::find(options_.in.begin(), options_.in.end(), r.name) == options_.in.end()) {
+      narrow(model_, coordinate(r.name), r.lower, r.upper);
+      narrow(center_model_, coordinate(r.name), r.lower, r.upper);
+    }
+  for (const NamedValue& v : options_.at) {
+    const auto has = [&](const auto& list, const auto& name_of) {
+      return std::any_of(list.begin(), list.end(), [&](const auto& item) { return name_of(item) == v.name; });
+    };
+    if (has(options_.in, [](const std::string& s) { return s; }) ||
+        has(options_.ranges, [](const NamedRange& r) { return r.name; }))
+      continue;
+    const auto& outputs = question_.model.outputs();
+    const bool stays_near = options_.orientation_range && coordinate(v.name).kind == CoordinateKind::angle &&
+                            std::find(outputs.begin(), outputs.end(), v.name) != outputs.end();
+    if (!stays_near) model_.set_range(v.name, v.value, v.value);
+    center_model_.set_range(v.name, v.value, v.value);
+  }
+  limit_orientation();
+  ball_.question = {.model = model_,
+                    .set = question_.set,
+                    .kernel = question_.kernel,
+                    .corank = question_.corank,
+                    .tolerance = question_.tolerance};
+  ball_.question.model.set_source_text(symbolic::to_model(ball_.question.model));
+  ball_.assembled = center_model_;
+  return ball_;
+}
+
+}  // namespace
+
+std::vector<Expression> Ball::differences() const {
+  std::vector<Expression> result;
+  for (const NamedValue& c : center) result.push_back(Expression::symbol(c.name) - c.value);
+  return result;
+}
+
+Mechanism Ball::within(const Expression& radius) const {
+  std::vector<Expression> squares;
+  for (const Expression& d : differences()) squares.push_back(square(d));
+  Mechanism model = question.model;
+  model.constrain(Expression::node(Expression::Kind::sum, squares) <= square(radius), {}, "the ball");
+  model.set_source_text(symbolic::to_model(model));
+  return model;
+}
+
+Ball make_ball(const study::Question& question, const BallOptions& options) { return BallMaker(question, options).make(); }
+
+}  // namespace corank::analyze

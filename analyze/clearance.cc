@@ -1,0 +1,79 @@
+#include "corank/analyze/clearance.h"
+
+#include <chrono>
+#include <limits>
+
+#include "corank/certify/angle.h"
+#include "corank/solve/solve.h"
+#include "corank/symbolic/algebrizer.h"
+
+namespace corank::analyze {
+namespace {
+
+constexpr double kCenterSeconds = 3;  // for the question whether a configuration is at the centre
+
+std::vector<CoordinateValue> values_of(const System& system, const Box& box) {
+  std::vector<CoordinateValue> values;
+  for (int j = 0; j < system.configuration_size; ++j) {
+    const auto side = [&](int v) { return box[static_cast<std::size_t>(v)]; };
+    const Variable& v = system.variables[static_cast<std::size_t>(j)];
+    const auto angle = std::find_if(system.angles.begin(), system.angles.end(),
+                                    [j](const Angle& a) { return a.cosine == j || a.sine == j; });
+    if (angle == system.angles.end()) {
+      if (!v.auxiliary) values.push_back({v.name, side(j)});
+    } else if (angle->cosine == j) {
+      values.push_back({angle->name, certify::angle_enclosure(side(angle->cosine), side(angle->sine), angle->range)});
+    }
+  }
+  return values;
+}
+
+Clearance::Center center_of(const study::Question& question, const Ball& ball, const solve::Options& search,
+                            const solve::Control& control) {
+  study::Question at = question;
+  at.model = ball.assembled;
+  if (at.set) at.set = symbolic::SingularitySet::cspace;
+  solve::Options options;
+  options.max_solutions = 1;
+  options.threads = search.threads;
+  options.time_limit = search.time_limit > 0 ? std::min(search.time_limit, kCenterSeconds) : kCenterSeconds;
+  solve::Control own(limits_of(options, control.limits().stop));
+  const Cover cover = solve::solve(solve::prepare(study::system(at), options, own), own);
+  if (cover.complete() && cover.boxes.empty()) return Clearance::Center::not_assembled;
+  for (const Verdict v : {Verdict::regular, Verdict::isolated, Verdict::exact})
+    if (cover.count(v) > 0) return Clearance::Center::assembled;
+  return Clearance::Center::unknown;
+}
+
+}  // namespace
+
+Clearance clearance(const study::Question& question, const BallOptions& options, const ClearanceOptions& wanted,
+                    const solve::Options& search, solve::Control& control) {
+  const auto start = std::chrono::steady_clock::now();
+  Clearance result;
+  std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
+  result.ball = make_ball(question, options);
+  result.precision = wanted.precision;
+  const symbolic::TrigonometricSystem equations = study::equations(result.ball.question);
+  const System system = study::system(result.ball.question, equations);
+  if (wanted.check_center && question.set) {
+    result.center = center_of(question, result.ball, search, control);
+    if (result.center == Clearance::Center::not_assembled)
+      throw symbolic::ModelError({question.model.name(), 0, 0}, "the robot has no configuration at the centre of the ball",
+                                 "values that it can take, within the ranges of the model and those that are given");
+  }
+  stage.reset();
+  const solve::Prepared prepared = solve::prepare(system, search, control);
+  const std::vector<Polynomial> differences = symbolic::polynomials(equations, result.ball.differences());
+  result.nearest = nearest(prepared, differences, {wanted.precision, 0, wanted.progress}, control);
+  if (result.nearest.upper) result.values = values_of(system, result.nearest.box);
+  if (!result.nearest.unproven.empty()) {
+    const Box point(result.nearest.unproven.begin(), result.nearest.unproven.end());
+    for (const CoordinateValue& v : values_of(system, point)) result.seemingly.emplace_back(v.name, v.value.mid());
+  }
+  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,54 @@
+// Clearance: the largest ball about a configuration, in coordinates of choice, that holds no singularity, with bounds that
+// are proven from both sides.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "corank/analyze/ball.h"
+#include "corank/analyze/nearest.h"
+
+namespace corank::analyze {
+
+struct ClearanceOptions {
+  double precision = 0.01;   ///< of the radius, relative
+  bool check_center = true;  ///< is there a configuration at the centre?
+  std::function<void(double lower, std::optional<double> upper, std::uint64_t processed)> progress{};
+};
+
+struct CoordinateValue {
+  std::string name;
+  Interval value;  ///< an angle in radians
+};
+
+struct Clearance {
+  enum class Center { assembled, not_assembled, unknown };
+
+  Ball ball;
+  double precision = 0.01;
+  Center center = Center::unknown;
+  Nearest nearest;
+  std::vector<CoordinateValue> at;                        ///< of the ball's coordinates, the centre's enclosures
+  std::vector<CoordinateValue> values;                    ///< of the nearest proven singularity: the model's coordinates
+  std::vector<std::pair<std::string, double>> seemingly;  ///< of a nearer point where nothing could be proven; no claim
+  std::string stopped;                                    ///< what ended the search early; empty: nothing
+  double seconds = 0;
+
+  /// No singularity among the configurations in question is nearer: where there is none at all, the ball's room, which may
+  /// be infinite.
+  double lower() const { return nearest.empty ? ball.room : nearest.lower; }
+};
+
+/// Throws ModelError where the question makes no sense or no configuration is at the centre.
+Clearance clearance(const study::Question& question, const BallOptions& ball, const ClearanceOptions& options,
+                    const solve::Options& search, solve::Control& control);
+
+/// A few lines for a terminal.
+std::string to_table(const Clearance& clearance);
+/// {"model", "set", "at": {name: value}, "in": [names], "radius": {"lo", "hi" (null: none was proven)}, "nearest" (null, or
+/// {name: {"lo", "hi"}}), "empty", "room" (null: infinite), "seemingly" (null, or {"distance", "values"}), "center",
+/// "complete", "stopped", "precision", "processed", "seconds"}.
+std::string to_json(const Clearance& clearance);
+
+}  // namespace corank::analyze

@@ -1,0 +1,104 @@
+// A clearance in words and as JSON.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corank/analyze/clearance.h"
+
+namespace corank::analyze {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* word(Clearance::Center center) {
+  switch (center) {
+    case Clearance::Center::assembled: return "assembled";
+    case Clearance::Center::not_assembled: return "not assembled";
+    case Clearance::Center::unknown: break;
+  }
+  return "unknown";
+}
+
+std::string set_of(const Clearance& c) { return symbolic::definition(c.ball.question.set).name; }
+
+// A double that is no larger, no smaller, with six digits.
+std::string rounded(double x, bool up) {
+  if (!std::isfinite(x)) return "infinity";
+  double shown = std::stod(fmt::format("{:.6g}", x));
+  const double unit = x == 0 ? 0 : std::pow(10, std::floor(std::log10(std::fabs(x))) - 5);
+  if (up ? shown < x : shown > x) shown += up ? unit : -unit;
+  return fmt::format("{:.6g}", shown);
+}
+
+Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+}  // namespace
+
+std::string to_table(const Clearance& c) {
+  std::string ball, at;
+  for (const NamedValue& v : c.ball.center) {
+    ball += (ball.empty() ? "" : ", ") + v.name;
+    at += (at.empty() ? "" : ", ") + fmt::format("{} = {}", v.name, v.value.text());
+  }
+  std::string text = fmt::format("{}, {}: ball in {} about {}\n", c.ball.question.model.name(), set_of(c), ball, at);
+  const Nearest& n = c.nearest;
+  const bool plain = !c.ball.question.set;
+  const std::string what = plain ? "solution" : "singularity";
+  if (n.empty) {
+    text += fmt::format("no {} at all in the ranges: proven", what);
+    text += std::isfinite(c.ball.room) ? fmt::format("; the ball of radius {} lies in them\n", rounded(c.ball.room, false))
+                                       : "\n";
+  } else {
+    text += fmt::format("radius in [{}, {}]", rounded(n.lower, false), n.upper ? rounded(*n.upper, true) : "unknown");
+    if (n.upper && *n.upper > 0) text += fmt::format("   ({:.2g} %)", 100 * (*n.upper - n.lower) / *n.upper);
+    text += fmt::format("\n  no {} is nearer than the lower bound: proven\n", what);
+    if (n.upper) {
+      text += fmt::format("  nearest {} found, proven to exist:\n", what);
+      for (const CoordinateValue& v : c.values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+    } else {
+      text += fmt::format("  no {} is proven\n", what);
+    }
+    if (c.ball.room < n.lower)
+      text += fmt::format("  the ball leaves the declared ranges at the radius {}: what lies beyond was not searched\n",
+                          rounded(c.ball.room, false));
+  }
+  if (!c.seemingly.empty()) {
+    text += fmt::format("  seemingly there is one at the distance {:.6g}, not proven:\n", n.unproven_distance);
+    for (const auto& [name, value] : c.seemingly) text += fmt::format("    {} = {:.9g}\n", name, value);
+  }
+  if (c.ball.question.set && c.center == Clearance::Center::unknown)
+    text += "  that the robot has a configuration at the centre is neither proven nor excluded\n";
+  return text + fmt::format("{} boxes processed, {:.3f} s\n", n.statistics.processed, c.seconds);
+}
+
+std::string to_json(const Clearance& c) {
+  const Nearest& n = c.nearest;
+  Json json = {{"model", c.ball.question.model.name()}, {"set", set_of(c)}, {"at", Json::object()}, {"in", Json::array()}};
+  for (const NamedValue& v : c.ball.center) {
+    json["at"][v.name] = v.value.text();
+    json["in"].push_back(v.name);
+  }
+  json["radius"] = {{"lo", finite(c.lower())}, {"hi", n.upper ? Json(*n.upper) : Json(nullptr)}};
+  json["nearest"] = nullptr;
+  if (n.upper) {
+    json["nearest"] = Json::object();
+    for (const CoordinateValue& v : c.values) json["nearest"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+  }
+  json["empty"] = n.empty;
+  json["room"] = finite(c.ball.room);
+  json["seemingly"] = nullptr;
+  if (!c.seemingly.empty()) {
+    json["seemingly"] = {{"distance", n.unproven_distance}, {"values", Json::object()}};
+    for (const auto& [name, value] : c.seemingly) json["seemingly"]["values"][name] = value;
+  }
+  json["center"] = word(c.center);
+  json["complete"] = n.complete;
+  json["stopped"] = c.stopped.empty() ? Json(nullptr) : Json(c.stopped);
+  json["precision"] = c.precision;
+  json["processed"] = n.statistics.processed;
+  json["seconds"] = c.seconds;
+  return json.dump(2);
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,228 @@
+// corank clearance: the largest ball without a singularity about a configuration.
+#include "corank/analyze/claims.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <regex>
+
+#include "corank/app/box_files.h"
+#include "corank/app/interrupt.h"
+#include "corank/app/progress.h"
+#include "corank/app/question.h"
+#include "corank/app/search_limits.h"
+#include "corank/app/subcommands.h"
+#include "corank/result/printable.h"
+#include "corank/result/result_file.h"
+#include "corank/symbolic/model_file.h"
+
+namespace corank::app {
+namespace {
+
+struct ClearanceCommand {
+  QuestionOptions question;
+  SearchLimits limits{};  // one thread for each core
+  std::vector<std::string> at, in, ranges;
+  std::string orientation, orientation_range, orientation_of;
+  std::string proof_stem;
+  double precision = 0.01;
+  std::optional<std::string> json_path;  ///< "": standard output
+};
+
+// "a=1,b=[2,3]" in its parts, at commas outside of parentheses and brackets.
+std::vector<std::string> parts_of(const std::vector<std::string>& texts) {
+  std::vector<std::string> parts;
+  for (const std::string& text : texts) {
+    int depth = 0;
+    parts.emplace_back();
+    for (const char c : text) {
+      depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+      if (c == ',' && depth == 0) {
+        parts.emplace_back();
+      } else {
+        parts.back() += c;
+      }
+    }
+  }
+  return parts;
+}
+
+std::pair<std::string, std::string> split_at_equals(const std::string& text, const std::string& option,
+                                                    const std::string& expected) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
+    throw UsageError(fmt::format("{} {}: expected {}", option, text, expected));
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// An expression of the model language, in which 15deg is an angle of 15 degrees.
+symbolic::Expression expression(const std::string& text, const std::string& option) {
+  static const std::regex kDegrees(R"(([0-9]*\.?[0-9]+)deg\b)");
+  return symbolic::parse_expression(std::regex_replace(text, kDegrees, "($1*pi/180)"), option + " " + text);
+}
+
+// "±0.2", "+-0.2" about the value, or "[a,b]".
+analyze::NamedRange range_of(const std::string& text, const std::vector<analyze::NamedValue>& at) {
+  const std::string expected = "NAME=[A,B], or NAME=±D where --at gives NAME";
+  auto [name, range] = split_at_equals(text, "--range", expected);
+  if (range.front() == '[' && range.back() == ']') {
+    const std::vector<std::string> ends = parts_of({range.substr(1, range.size() - 2)});
+    if (ends.size() != 2) throw UsageError(fmt::format("--range {}: expected {}", text, expected));
+    return {name, expression(ends[0], "--range"), expression(ends[1], "--range")};
+  }
+  for (const std::string sign : {"±", "+-"}) {
+    if (!range.starts_with(sign)) continue;
+    const symbolic::Expression half = expression(range.substr(sign.size()), "--range");
+    for (const analyze::NamedValue& v : at)
+      if (v.name == name) return {name, v.value - half, v.value + half};
+  }
+  throw UsageError(fmt::format("--range {}: expected {}", text, expected));
+}
+
+analyze::BallOptions ball_of(const ClearanceCommand& command) {
+  analyze::BallOptions ball;
+  for (const std::string& part : parts_of(command.at)) {
+    const auto [name, value] = split_at_equals(part, "--at", "NAME=VALUE");
+    ball.at.push_back({name, expression(value, "--at")});
+  }
+  ball.in = parts_of(command.in);
+  for (const std::string& part : parts_of(command.ranges)) ball.ranges.push_back(range_of(part, ball.at));
+  if (!command.orientation.empty()) ball.orientation = analyze::parse_rotation(command.orientation);
+  if (!command.orientation_range.empty())
+    ball.orientation_range = expression(command.orientation_range, "--orientation-range");
+  ball.orientation_of = command.orientation_of;
+  return ball;
+}
+
+solve::Options options_of(const ClearanceCommand& command) {
+  solve::Options options;
+  command.limits.apply(options);
+  return options;
+}
+
+ExitStatus say(const ClearanceCommand& command, const analyze::Clearance& clearance) {
+  if (command.json_path) {
+    const std::string json = to_json(clearance) + "\n";
+    if (command.json_path->empty()) {
+      fmt::print("{}", json);
+    } else {
+      result::write_text(*command.json_path, json);
+    }
+  }
+  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", result::printable(to_table(clearance)));
+  if (clearance.nearest.complete) return kDone;
+  if (!clearance.stopped.empty()) {
+    fmt::print(stderr, "corank: stopped by {}; the bounds hold, but are not as close as asked for\n", clearance.stopped);
+  } else {
+    fmt::print(stderr, "corank: the bounds hold, but are not as close as asked for\n");
+  }
+  return kIncomplete;
+}
+
+std::string free_file(const ClearanceCommand& command) { return command.proof_stem + "-free.h5"; }
+std::string nearest_file(const ClearanceCommand& command) { return command.proof_stem + "-nearest.h5"; }
+
+// Writes what corank verify checks. False: not all of it could be proven again in that form.
+bool write_claims(const ClearanceCommand& command, const analyze::Clearance& clearance, const solve::Options& search,
+                  solve::Control& control) {
+  if (command.proof_stem.empty()) return true;
+  const result::Result free = claim_free(clearance, search, control);
+  result::write_result(free_file(command), free);
+  const bool is_free = free.cover.complete() && free.cover.boxes.empty();
+  if (!is_free) fmt::print(stderr, "corank: {}: boxes are left, it does not prove the lower bound\n", free_file(command));
+  if (!clearance.nearest.upper) return is_free;
+  std::filesystem::remove(nearest_file(command));  // of a former run
+  const auto nearest = claim_nearest(clearance, control);
+  if (nearest) result::write_result(nearest_file(command), *nearest);
+  if (!nearest) fmt::print(stderr, "corank: the nearest singularity was not proven again for {}\n", nearest_file(command));
+  return is_free && nearest;
+}
+
+ExitStatus run_clearance(ClearanceCommand command) {
+  if (command.question.file.empty() && command.json_path && !command.json_path->empty())
+    command.question.file.swap(*command.json_path);
+  const solve::Options search = options_of(command);
+  search.validate();
+  solve::Control control(limits_of(search, &Interrupt::stop()));
+  const analyze::BallOptions ball = ball_of(command);
+  study::Question question = load(command.question);
+  if (command.question.set.empty() && !question.model.is_plain_system()) command.question.set = "forward";
+  question.set = chosen_set(command.question, question.model);
+  check_output(command.json_path.value_or(""));
+  if (!command.proof_stem.empty()) {
+    check_output(free_file(command));
+    check_output(nearest_file(command));
+  }
+  const Interrupt interrupt;
+  ProgressLine line;
+  analyze::ClearanceOptions options{.precision = command.precision};
+  options.progress = [&line](double lower, std::optional<double> upper, std::uint64_t processed) {
+    line.show(upper ? fmt::format("radius in [{:.5g}, {:.5g}], {} boxes", lower, *upper, processed)
+                    : fmt::format("radius at least {:.5g}, {} boxes", lower, processed));
+  };
+  const analyze::Clearance clearance = analyze::clearance(question, ball, options, search, control);
+  line.show("writing what corank verify checks");
+  const bool proven = write_claims(command, clearance, search, control);
+  line.clear();
+  const ExitStatus status = say(command, clearance);
+  return proven ? status : kIncomplete;
+}
+
+}  // namespace
+
+void add_clearance(CLI::App& program, Action& action) {
+  CLI::App* sub = program.add_subcommand("clearance", "The largest ball about a configuration that holds no singularity");
+  const auto command = std::make_shared<ClearanceCommand>();
+  command->question.add_options(*sub);
+  sub->add_option(
+         "--at", command->at,
+         "Values of coordinates, expressions in the model's constants: the ball's centre, and what keeps its value;\n"
+         "15deg is an angle in degrees")
+      ->type_name("NAME=VALUE,...")
+      ->required()
+      ->allow_extra_args(false);
+  sub->add_option("--in", command->in, "The coordinates in which the ball lies; lengths and radians count alike")
+      ->type_name("NAME,...")
+      ->required()
+      ->allow_extra_args(false);
+  sub->add_option("--range,--mode", command->ranges,
+                  "Keep coordinates within other ranges than the model's: a mode, a limit, an angle that may move")
+      ->type_name("NAME=[A,B],NAME=±D,...")
+      ->allow_extra_args(false);
+  sub->add_option("--orientation-range", command->orientation_range,
+                  "The angles among the outputs that have a value, and the --orientation, stay within so much of it")
+      ->type_name("ANGLE");
+  sub->add_option("--orientation", command->orientation,
+                  "Orientation of a spatial robot about which it moves: Rz(0.2)*Ry(10deg)*Rx(0.3)")
+      ->type_name("R");
+  sub->add_option("--orientation-of", command->orientation_of, "Its link, or its rotation matrix, where there are several")
+      ->type_name("NAME");
+  sub->add_option("--precision", command->precision, "How close the bounds of the radius are to be, relative to it")
+      ->check(CLI::Range(1e-6, 0.9))
+      ->capture_default_str();
+  sub->add_option(
+         "--proof", command->proof_stem,
+         "Write NAME-free.h5, no singularity within the lower bound, with the script of a search that found none, and\n"
+         "NAME-nearest.h5, one within the upper bound: corank verify checks both")
+      ->type_name("NAME");
+  command->limits.add_options(*sub, "the search");
+  CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
+      "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },
+      "Write the result as JSON to PATH, or to standard output instead of the table");
+  json->type_name("[PATH]")->expected(0, 1);
+  sub->footer(
+      "The set is forward where --set is not given. A value that --at gives is kept, unless its coordinate is in the ball "
+      "or has a\n"
+      "range; all other coordinates are free, so the ball is free of the singularities of every mode that --mode leaves.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 usage, 3 the bounds hold but are not as close as asked for.\n\n"
+      "Examples:\n  corank clearance models/dextar.cuik --at J3x=0.5,J3y=1 --in J3x,J3y\n"
+      "  corank clearance models/planar/3rpr.cuik --at pose_x=0.8,pose_y=0.5,pose_phi=0.1 --in pose_x,pose_y\\\n"
+      "      --orientation-range 15deg");
+  sub->callback([command, json, &action] {
+    if (json->count() > 0 && !command->json_path) command->json_path = "";
+    action = [command] { return run_clearance(*command); };
+  });
+}
+
+}  // namespace corank::app

@@ -1,0 +1,133 @@
+#include "corank/result/locus_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corank/core/exact_number.h"
+#include "corank/symbolic/model_error.h"
+#include "corank/symbolic/node_system.h"
+#include "corank/symbolic/velocity_equation.h"
+
+namespace corank::result {
+namespace {
+
+using symbolic::LocusPart;
+
+struct Words {
+  const char *locus, *modes, *locked;
+};
+
+Words words_of(const symbolic::SetDefinition& set) {
+  return set.locked.front() == symbolic::Role::input ? Words{"forward", "assembly modes", "inputs"}
+                                                     : Words{"inverse", "postures", "outputs"};
+}
+
+std::string cusps_text(const Words& words, std::size_t proven, std::size_t open, bool complete, bool none) {
+  if (proven > 0) {
+    return fmt::format("around {} {} can be changed without {} {} singularity: proven",
+                       proven == 1 ? "this cusp" : fmt::format("these {} cusps", proven), words.modes,
+                       *words.locus == 'i' ? "an" : "a", words.locus);
+  }
+  if (open > 0 || !none) return "no cusp is proven";
+  if (!complete) return "no cusp was found in what was searched";
+  return fmt::format(
+      "there is no cusp in the search domain, so none around which {} could be changed without a singularity; other such "
+      "changes are not excluded",
+      words.modes);
+}
+
+std::string nodes_text(const Words& words, std::size_t proven, std::size_t open, bool complete, bool none) {
+  const std::string crossing =
+      fmt::format("two singular configurations with the same {}, whose images cross: proven", words.locked);
+  if (proven > 0) return fmt::format("{} node{}: {}", proven, proven == 1 ? "" : "s", crossing);
+  if (open > 0 || !none) return "no node is proven";
+  return complete ? "there is no node in the search domain" : "no node was found in what was searched";
+}
+
+// Boxes that are about a point: those on a self-motion, of which there is none in the list of points, are not.
+std::size_t with_points(const Cover& cover) {
+  return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const CoverBox& b) {
+    return b.motion < 0 && b.verdict != Verdict::pending;
+  }));
+}
+
+// Coordinates with a range of one value.
+std::vector<std::string> held_coordinates(const Result& result) {
+  std::vector<std::string> names;
+  for (const Angle& a : result.angles)
+    if (!(a.range.lo() < a.range.hi())) names.push_back(a.name);
+  for (int v = 0; v < result.configuration_size; ++v) {
+    const ResultVariable& variable = result.variables[static_cast<std::size_t>(v)];
+    const Interval& x = variable.domain;  // encloses the value
+    if (variable.kind == VariableKind::length && x.hi() <= std::nextafter(std::nextafter(x.lo(), HUGE_VAL), HUGE_VAL))
+      names.push_back(variable.name);
+  }
+  return names;
+}
+
+// Such a coordinate that is not among the locked ones: the theorem says nothing then. Its name, or "" where there is none.
+std::string held_and_not_locked(const Result& result, symbolic::Role locked) {
+  const std::vector<std::string> held = held_coordinates(result);
+  if (held.empty()) return "";
+  try {
+    const symbolic::Mechanism model = model_of(result);
+    for (const std::string& name : held)
+      if (role_of(model, name) != locked) return name;
+    return "";
+  } catch (const symbolic::ModelError&) {  // one that was built in C++ has no text
+    return held.front();
+  }
+}
+
+}  // namespace
+
+std::optional<double> node_distance(const Result& result) {
+  if (symbolic::definition(result.set).part != LocusPart::nodes) return std::nullopt;
+  return ExactNumber::rational(symbolic::kNodeDistance).enclose().mid();
+}
+
+std::string locus_sentence(const Result& result) {
+  const symbolic::SetDefinition& set = symbolic::definition(result.set);
+  if (set.part == LocusPart::all) return "";
+  const Words words = words_of(set);
+  const bool nodes = set.part == LocusPart::nodes;
+  const std::string noun = nodes ? "node" : "cusp";
+  std::string text;
+  const Cover& cover = result.cover;
+  if (cover.dimension == 0 || cover.boxes.empty()) {
+    const auto with = [&](Verdict verdict) {
+      return static_cast<std::size_t>(
+          std::count_if(cover.points.begin(), cover.points.end(), [&](const CoverBox& p) { return p.verdict == verdict; }));
+    };
+    const std::size_t proven = with(Verdict::isolated), open = cover.points.size() - proven;
+    const std::size_t along = cover.boxes.size() - with_points(cover);
+    text = nodes ? nodes_text(words, proven, open, cover.complete(), along == 0)
+                 : cusps_text(words, proven, open, cover.complete(), along == 0);
+    if (const std::string held = held_and_not_locked(result, set.locked.front()); proven > 0 && !held.empty()) {
+      text = fmt::format(
+          "{0} solution{1} of the equations of {2}s where {3} is held; that {4} a {2} is proven only where no coordinate "
+          "but "
+          "{5} is held",
+          proven, proven == 1 ? "" : "s", noun, held, proven == 1 ? "it is" : "each is", words.locked);
+    }
+    if (open > 0) text += fmt::format("; {} {} where that is open", open, open == 1 ? "place is left" : "places are left");
+    if (along > 0) {
+      text += fmt::format("; the equations hold, or may hold, along larger sets, in {} box{}, of which nothing is said",
+                          along, along == 1 ? "" : "es");
+    }
+    if (!cover.complete() && proven + open > 0) text += "; what was not searched may hold more";
+  } else {
+    text = fmt::format("{}s along a set of dimension {}; what follows from them is not proven", noun, cover.dimension);
+  }
+  if (nodes) {
+    text += fmt::format(
+        "; pairs of configurations closer than {} (a length counts in its typical size, an angle by its sine and cosine) "
+        "were not looked for",
+        symbolic::kNodeDistance);
+  }
+  return text;
+}
+
+}  // namespace corank::result

@@ -1,0 +1,106 @@
+#include "corank/solve/type_labels.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+
+#include "corank/certify/type_bounds.h"
+#include "corank/core/rounding.h"
+
+namespace corank::solve {
+namespace {
+
+constexpr int kDepth = 4;        // halvings of a box in which not all was settled
+constexpr int kRegionDepth = 6;  // of a region, which is wide, and speaks for many boxes; less where for few
+
+constexpr int kSmall = 12;  // rows of L
+
+bool contains(const Box& outer, const Box& inner, int sides) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(sides); ++j)
+    if (!outer[j].contains(inner[j])) return false;
+  return true;
+}
+
+// Is the box's only solution the exact point that it names?
+bool is_its_point(const CoverBox& box, const Cover& cover) {
+  if (box.point < 0 || (box.verdict != Verdict::exact && box.verdict != Verdict::isolated)) return false;
+  const auto& coordinates = cover.exact_points[static_cast<std::size_t>(box.point)].coordinates;
+  return std::none_of(coordinates.begin(), coordinates.end(), [](const RationalPolynomial& x) { return x.empty(); });
+}
+
+}  // namespace
+
+void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& cover, Control& control) {
+  const System& system = prepared.system;
+  if (system.coefficient_tolerance > 0) return;
+  const InStage stage(control, Stage::kernel);
+  const auto start = std::chrono::steady_clock::now();
+  cover.types = {blocks.asked, blocks.of_set, 0};
+  const certify::TypeBounds bounds(system, blocks);
+  const auto stopped = [&control] { return control.ended(); };
+  for (ExactPoint& point : cover.exact_points) {
+    const UpwardRounding rounding;
+    point.types = bounds.at(point, stopped);
+  }
+  // A rank that is shown all over a region is shown in the boxes that were cut from it: most need no look of their own.
+  const std::size_t shared = cover.regions.empty() ? 0 : cover.boxes.size() / cover.regions.size();
+  const int depth = std::min(kRegionDepth, static_cast<int>(std::bit_width(shared)));
+  // Where L is large a rank takes longer than the search takes for a box: then only the types that make up the set.
+  const TypeSet wanted = blocks.matrices[static_cast<std::size_t>(Block::all)].rows > kSmall ? blocks.of_set : blocks.asked;
+  std::vector<certify::RankBounds> of_regions(cover.regions.size());
+  const auto label = [&](CoverBox& box) {
+    const UpwardRounding rounding;
+    if (box.verdict == Verdict::pending || stopped()) return;
+    if (is_its_point(box, cover)) box.types = cover.exact_points[static_cast<std::size_t>(box.point)].types;
+    if (box.types != TypeLabels{}) return;
+    certify::RankBounds known{};
+    if (const auto r = static_cast<std::size_t>(box.region);
+        box.region >= 0 && contains(cover.regions[r], box.box, system.configuration_size))
+      known = of_regions[r];
+    box.types = bounds.labels(known);
+    if (!box.types.settle(wanted)) box.types = bounds.labels(known = bounds.ranks(box.box, 0, known, wanted));
+    if (!box.types.settle(blocks.of_set)) box.types = bounds.labels(bounds.ranks(box.box, kDepth, known, wanted));
+  };
+  tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, shared > 1 ? of_regions.size() : 0, [&](std::size_t r) {
+      const UpwardRounding rounding;
+      if (!stopped()) of_regions[r] = bounds.ranks(cover.regions[r], depth, {}, wanted);
+    });
+    for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
+      tbb::parallel_for(std::size_t{0}, list->size(), [&](std::size_t i) { label((*list)[i]); });
+  });
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  cover.statistics.seconds_total += seconds;
+  cover.statistics.seconds_certify += seconds;
+}
+
+void keep_only(SingularityType type, Cover& cover) {
+  const auto excluded = [type](const CoverBox& box) { return (box.types.excluded & bit(type)) != 0; };
+  cover.types.left_out = static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), excluded));
+  std::erase_if(cover.boxes, excluded);
+  std::erase_if(cover.points, excluded);
+  if (cover.types.left_out == 0) return;
+  std::erase_if(cover.points, [&](const CoverBox& point) {  // clusters of which no box is left
+    return point.verdict == Verdict::undecided &&
+           std::none_of(cover.boxes.begin(), cover.boxes.end(),
+                        [&](const CoverBox& box) { return contains(point.box, box.box, static_cast<int>(box.box.size())); });
+  });
+  cover.proof.reset();
+  std::vector<int> place(cover.regions.size(), -1);
+  std::vector<Box> regions;
+  for (CoverBox& box : cover.boxes)
+    if (box.region >= 0 && place[static_cast<std::size_t>(box.region)] < 0) {
+      place[static_cast<std::size_t>(box.region)] = static_cast<int>(regions.size());
+      regions.push_back(std::move(cover.regions[static_cast<std::size_t>(box.region)]));
+    }
+  for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
+    for (CoverBox& box : *list)
+      if (box.region >= 0) box.region = place[static_cast<std::size_t>(box.region)];
+  cover.regions = std::move(regions);
+}
+
+}  // namespace corank::solve

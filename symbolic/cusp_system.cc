@@ -1,0 +1,81 @@
+#include "corank/symbolic/cusp_system.h"
+
+#include "corank/symbolic/kernel_vector.h"
+#include "corank/symbolic/locus_by_coordinates.h"
+
+namespace corank::symbolic {
+namespace {
+
+// The terms of D²Φ_i(ξ, ξ), of the second derivatives h[j][k − j], j ≤ k.
+std::vector<Expression> second_order(const std::vector<std::vector<Expression>>& h, const std::vector<Expression>& xi) {
+  std::vector<Expression> terms;
+  for (std::size_t j = 0; j < h.size(); ++j)
+    for (std::size_t k = j; k < h.size(); ++k) {
+      const Expression& entry = h[j][k - j];
+      if (same_tree(entry, Expression(0))) continue;
+      terms.push_back(j == k ? times(entry, pow(xi[j], 2)) : Expression(2) * times(times(entry, xi[j]), xi[k]));
+    }
+  return terms;
+}
+
+std::vector<Expression> symbols(const std::vector<std::string>& names) {
+  std::vector<Expression> list;
+  for (const std::string& name : names) list.push_back(Expression::symbol(name));
+  return list;
+}
+
+}  // namespace
+
+TrigonometricSystem cusp_system(const Mechanism& mechanism, SingularitySet set, const std::vector<std::string>& scales) {
+  const LocusByCoordinates locus = locus_by_coordinates(mechanism, set, scales);
+  const ExpressionMatrix& m = locus.kernel.matrix;
+  const SourceLocation where = model_place(mechanism);
+  TrigonometricSystem system = plain_system(locus.mechanism);
+  system.name += std::string(" ") + locus.kernel.set.name;
+  system.kernel_scales = scales;
+
+  const std::size_t n = m.columns.size();
+  const std::vector<std::string> of_xi = kernel_names(mechanism, n, 1), of_eta = kernel_names(mechanism, n, 1, "eta");
+  std::string of_tau = kernel_names(mechanism, 1, 1, "tau")[0];
+  of_tau.pop_back();  // the 1, where nothing is called tau either
+  if (mechanism.has_constant(of_tau) || mechanism.find_coordinate(of_tau) >= 0 || mechanism.find_rate(of_tau) >= 0)
+    of_tau += "1";
+  for (const std::string& name : of_xi) system.further_unknowns.push_back({name});
+  for (const std::string& name : of_eta) system.further_unknowns.push_back({name});
+  system.further_unknowns.push_back({of_tau, 0, 1});
+
+  const std::vector<Expression> xi = symbols(of_xi), eta = symbols(of_eta), rates = scaled(of_xi, locus.scales),
+                                accelerations = scaled(of_eta, locus.scales);
+  const Expression tau = Expression::symbol(of_tau), factor = scaled({of_tau}, {locus.size_per_scale})[0];
+  const auto add = [&](const Relation& relation, const std::string& source, const SourceLocation& place) {
+    system.equations.push_back({relation, source, place, true});
+  };
+  const std::string name = locus.kernel.name;
+  for (std::size_t i = 0; i < m.rows.size(); ++i)
+    if (const auto lhs = kernel_row(m.rows[i], rates))
+      add(*lhs == Expression(0), "row " + std::to_string(i + 1) + " of " + name + " xi = 0", locus.kernel.where[i]);
+  const auto second = second_derivatives(locus.mechanism, m.columns);
+  for (std::size_t i = 0; i < m.rows.size(); ++i) {
+    const auto lhs = kernel_row(m.rows[i], accelerations);
+    if (!lhs) continue;  // a tie: it holds no coordinate that is not locked
+    std::vector<Expression> terms = lhs->kind() == Expression::Kind::sum ? lhs->operands() : std::vector{*lhs};
+    for (const Expression& term : second_order(second[i], rates)) terms.push_back(factor * term);
+    add(sum_of(terms) == Expression(0), "row " + std::to_string(i + 1) + " of " + name + " eta + tau D^2 Phi(xi, xi) = 0",
+        locus.kernel.where[i]);
+  }
+  std::vector<Expression> squares, products, lengths, generic;
+  for (std::size_t j = 0; j < n; ++j) {
+    squares.push_back(pow(xi[j], 2));
+    products.push_back(xi[j] * eta[j]);
+    lengths.push_back(pow(eta[j], 2));
+    generic.push_back(generic_component(j) * xi[j]);
+  }
+  lengths.push_back(pow(tau, 2));
+  add(sum_of(squares) == Expression(1), "norm of xi", where);
+  add(sum_of(products) == Expression(0), "eta orthogonal to xi", where);
+  add(sum_of(lengths) == Expression(1), "norm of eta and tau", where);
+  system.inequalities.push_back({sum_of(generic) >= Expression(0), "half-space of xi", where, true});
+  return system;
+}
+
+}  // namespace corank::symbolic
