@@ -53,6 +53,15 @@ std::string derivation(QuestionOptions options, const std::string& format) {
   if (format == "model") return head + symbolic::to_model(question.model);
   if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
   question.set = chosen_set(options, question.model);
+  if (symbolic::definition(question.set).of_parts) {
+    if (format == "cuik") throw UsageError("--format cuik: the set consists of several systems; --format text shows them");
+    const symbolic::Derivation derivation = symbolic::derive(question.model);
+    for (const study::Question& part : study::parts_of(question)) {
+      const symbolic::TrigonometricSystem system = study::equations(part);
+      head += format == "latex" ? symbolic::to_latex(derivation, system) : symbolic::to_text(derivation, system);
+    }
+    return head;
+  }
   const symbolic::TrigonometricSystem system = study::equations(question);
   if (!system.claimed.empty()) static_cast<void>(study::system(question, system));  // refuses what does not follow
   if (format == "cuik") return head + symbolic::to_cuik(symbolic::algebrize(system));

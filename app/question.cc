@@ -24,7 +24,17 @@ void QuestionOptions::add_options(CLI::App& command) {
                   "default: right where the matrix M is square or tall, else left")
       ->check(CLI::IsMember({"right", "left"}));
   add_corank(command);
+  add_outputs(command);
   add_definitions(command);
+}
+
+void QuestionOptions::add_outputs(CLI::App& command) {
+  command
+      .add_option("--outputs", outputs,
+                  "Of --set boundary: the coordinates in whose space the workspace is, with commas;\n"
+                  "default: the model's outputs; as many as its mobility, or fewer")
+      ->type_name("NAME[,NAME...]")
+      ->delimiter(',');
 }
 
 void QuestionOptions::add_model(CLI::App& command) {
@@ -75,11 +85,15 @@ study::Question load(const QuestionOptions& options, std::set<std::string>* said
   study::Model model = study::read_model(options.file, constants, loops);
   for (const std::string& notice : model.notices)
     if (!said || said->insert(notice).second) fmt::print(stderr, "{}: note: {}\n", options.file, result::printable(notice));
+  if (!options.outputs.empty() && options.set != symbolic::definition(symbolic::SingularitySet::boundary).name)
+    throw UsageError("--outputs: only for --set boundary");
+  result::put_in(options.outputs, model.mechanism);
   return {.model = std::move(model.mechanism),
           .kernel = symbolic::kernel_side_from_string(options.kernel),
           .corank = options.corank,
           .constants = std::move(constants),
-          .assembly = std::move(model.assembly)};
+          .assembly = std::move(model.assembly),
+          .outputs = options.outputs};
 }
 
 std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& question, const symbolic::Mechanism& mechanism) {
@@ -92,7 +106,10 @@ std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& questi
     throw UsageError(fmt::format("{} is a mechanism: --set is required ({})", question.file, symbolic::names_of_sets()));
   }
   if (question.set == kNodes) return symbolic::nodes_of(mechanism);
-  return symbolic::singularity_set_from_string(question.set);
+  const auto set = symbolic::singularity_set_from_string(question.set);
+  if (symbolic::definition(set).of_parts && (question.corank != 1 || !question.kernel.empty()))
+    throw UsageError(fmt::format("--set {}: has no --corank and no --kernel", question.set));
+  return set;
 }
 
 }  // namespace corank::app

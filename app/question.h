@@ -33,6 +33,7 @@ inline constexpr const char* kNodes = "nodes";
 struct QuestionOptions {
   std::string file, set, kernel, loops;
   std::vector<std::string> definitions;  ///< each "NAME=EXPR"
+  std::vector<std::string> outputs;      ///< in place of the model's, for the workspace's boundary
   int corank = 1;                        ///< of the sets with a kernel
 
   /// FILE, --loops, --set, --kernel, --corank and -D.
@@ -40,6 +41,7 @@ struct QuestionOptions {
   /// FILE and --loops.
   void add_model(CLI::App& command);
   void add_corank(CLI::App& command);
+  void add_outputs(CLI::App& command);
   /// -D alone.
   void add_definitions(CLI::App& command);
 };

@@ -45,13 +45,16 @@ report::SetView solve_one(const ReportCommand& command, study::Question question
   command.search.limits.apply(limits);
   solve::Control control(command.search.limits_beside(limits, taken));
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  System system = study::system(question);
+  const std::vector<study::Question> parts = study::parts_of(question);
+  std::vector<System> systems;
+  for (const study::Question& part : parts) systems.push_back(study::system(part));
   control.ended();  // notes the stage
   stage.reset();
-  study::Options options{command.search.options(system, *question.set), kDigits};
+  study::Options options{command.search.options(systems.front(), *question.set), kDigits};
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
   line.follow(control);
-  result::Result result = study::answer(question, system, options, control);
+  result::Result result = study::answer(parts, systems, options, control);
+  System system = parts.front().part ? result::system_of(question.model, result) : std::move(systems.front());
   return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation());
 }
 
@@ -71,7 +74,8 @@ report::SetView read_one(const std::string& path) {
   result::Result result = result::read_result(path);
   const symbolic::Mechanism mechanism = result::model_of(result);
   System system = result::system_of(mechanism, result);
-  const auto contradictions = result::contradictions(result, system, symbolic::to_cuik(system));
+  auto contradictions = result::contradictions(result, system, symbolic::to_cuik(system));
+  for (std::string& c : result::contradictions_of_parts(mechanism, result)) contradictions.push_back(std::move(c));
   if (!contradictions.empty())
     throw result::ResultFileError(fmt::format("{}: contradicts the model in it: {}", path, fmt::join(contradictions, "; ")));
   result::describe_in_words(mechanism, system, result);

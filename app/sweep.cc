@@ -65,6 +65,8 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
     Plan& p = plans.emplace_back(Plan{family.values[k], load(options, &said), {}});
     check_alike(family.constant, plans.front(), p);
     for (const std::string& name : command.search.sets) {
+      if (symbolic::definition(name).of_parts)
+        throw UsageError(fmt::format("--sets {}: a family of it is not drawn; corank solve finds it of one member", name));
       p.question.set = symbolic::singularity_set_from_string(name);
       p.systems.push_back(study::system(p.question));
     }

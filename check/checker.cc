@@ -15,6 +15,7 @@
 #include "corank/check/distinct.h"
 #include "corank/check/exact.h"
 #include "corank/check/kernel.h"
+#include "corank/check/passage.h"
 #include "corank/check/replay.h"
 #include "corank/check/self_motion.h"
 #include "corank/check/sheets.h"
@@ -70,6 +71,7 @@ class Checker {
   void check_all() {
     try {
       kernel_ = std::make_unique<const KernelCheck>(system_, stop_);
+      passage_ = std::make_unique<const PassageCheck>(system_, stop_);
       if (blocks_) types_ = std::make_unique<const TypeCheck>(system_, *blocks_, stop_);
       problem_.emplace(system_, cover_.reduction, stop_);
     } catch (const std::invalid_argument& error) {
@@ -197,6 +199,7 @@ class Checker {
     std::string reason = check_verdict(box, checkable);
     if (reason.empty() && box.kernel_at_most >= 0 && !kernel_->is_at_most(box.kernel_at_most, box.box))
       reason = "a kernel of a dimension above " + std::to_string(box.kernel_at_most) + " is not excluded";
+    if (reason.empty()) reason = passage_->fault(box);
     if (reason.empty() && box.types != TypeLabels{}) reason = check_types(box);
     checkable = checkable || !reason.empty();
     return reason;
@@ -424,6 +427,7 @@ class Checker {
   tbb::global_control allow_;
   tbb::task_arena arena_;
   std::unique_ptr<const KernelCheck> kernel_;
+  std::unique_ptr<const PassageCheck> passage_;
   std::unique_ptr<const TypeCheck> types_;
   std::optional<Problem> problem_;
   std::vector<std::unique_ptr<const MotionCheck>> motions_;

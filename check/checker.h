@@ -10,6 +10,7 @@
 //   partial, pending              not checkable
 // besides, CoverBox::kernel_at_most: the bound of the kernel's dimension, see check/kernel.h; the labels of types, see
 // check/types.h;
+// CoverBox::passage and side: whether the output can pass, see check/passage.h;
 // and that the reduction is legal, isolated boxes are disjoint, points belong to boxes, boxes are sorted and in bounds.
 #pragma once
 

@@ -17,6 +17,10 @@ Verdict verdict_from_string(const std::string& text) {
   return static_cast<Verdict>(at - kNames.begin());
 }
 
+const char* to_string(Passage passage) {
+  return passage == Passage::barrier ? "barrier" : passage == Passage::traversable ? "traversable" : "unproven";
+}
+
 const char* to_string(Reason reason) {
   switch (reason) {
     case Reason::none: return "none";

@@ -82,6 +82,12 @@ struct CoverBox {
   int kernel_at_most = -1;
   int motion = -1;               ///< index in Cover::self_motions: it is `regular` with the free variables of that set
   Reason reason = Reason::none;  ///< what was found where it was given up; no claim
+  Passage passage = Passage::unproven;  ///< of a workspace boundary (certify/passage.h)
+  /// In the coordinates of the outputs, where `passage` is proven: a unit vector from the boundary to the side on which the
+  /// output stays (barrier), or to either one. Everywhere in the box its product with the boundary's normal, turned to that
+  /// side, is positive.
+  std::vector<double> side{};
+  int part = -1;  ///< of a result that consists of parts: the index of the one it comes from
   TypeLabels types = {};         ///< of every solution in it (certify/type_bounds.h)
 };
 

@@ -99,6 +99,17 @@ void System::validate() const {
     if (angle.cosine < 0 || angle.cosine >= size() || angle.sine < 0 || angle.sine >= size() || angle.cosine == angle.sine)
       throw std::invalid_argument("the angle " + angle.name + " refers to a variable that does not exist");
   }
+  if (passage) {
+    const auto rows = static_cast<std::size_t>(passage->equations), columns = static_cast<std::size_t>(passage->columns);
+    if (passage->equations < 0 || passage->columns < 0 || passage->jacobian.size() != rows * columns ||
+        passage->hessian.size() != columns * (columns + 1) / 2 || passage->multipliers.size() != rows)
+      throw std::invalid_argument("the form of a passage has other sizes than it says");
+    for (const auto* list : {&passage->jacobian, &passage->hessian, &passage->slack, &passage->normal})
+      for (const Polynomial& polynomial : *list) validate_polynomial(polynomial, size());
+    for (const int multiplier : passage->multipliers)
+      if (multiplier < 0 || multiplier >= size())
+        throw std::invalid_argument("the form of a passage names a variable that does not exist");
+  }
   if (!(coefficient_tolerance >= 0 && coefficient_tolerance < kCoefficientToleranceLimit))
     throw std::invalid_argument("the coefficient tolerance must be in [0, 0.1)");
   if (kernel_vectors < 1) throw std::invalid_argument("kernel_vectors is below 1");

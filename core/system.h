@@ -8,11 +8,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "corank/core/exact_number.h"
 #include "corank/core/interval.h"
+#include "corank/core/passage_form.h"
+#include "corank/core/polynomial.h"
 
 namespace corank {
 
@@ -31,42 +34,6 @@ struct Variable {
   Variable() = default;
   Variable(std::string name, VariableKind kind, ExactNumber lower, ExactNumber upper);
 };
-
-/// What a factor takes of its variable.
-enum class Function : std::uint8_t { identity, sine, cosine };
-
-/// variable^power, power ≥ 1; or the sine or cosine of the variable: then it is its monomial's only factor, and power = 1.
-struct Factor {
-  int variable = 0;
-  int power = 1;
-  Function function = Function::identity;
-  friend bool operator==(const Factor&, const Factor&) = default;
-};
-
-/// coefficient · Π factors; the factors are sorted by variable, each variable once; none for a constant.
-struct Monomial {
-  ExactNumber coefficient;
-  Interval enclosure;  ///< of the coefficient; widened where it carries a tolerance
-  std::vector<Factor> factors;
-
-  Monomial() = default;
-  Monomial(ExactNumber coefficient, std::vector<Factor> factors);
-  /// c·sin x or c·cos x.
-  bool is_trigonometric() const { return factors.size() == 1 && factors[0].function != Function::identity; }
-  int degree() const;  ///< a sine or cosine counts as its variable
-};
-
-/// A sparse polynomial and multiples of sines and cosines: monomials with distinct factors.
-struct Polynomial {
-  std::vector<Monomial> monomials;
-  std::string source;  ///< where it comes from, for messages and reports ("dextar.cuik:17", "norm of xi" …)
-
-  int degree() const;
-};
-
-/// Widens the enclosure of every coefficient c that is no integer to c·[1 − tolerance, 1 + tolerance] at least, in any
-/// rounding mode.
-void widen(Polynomial& f, double tolerance);
 
 /// How an angle of the model is represented: cos θ and sin θ are the variables `cosine` and `sine`.
 struct Angle {
@@ -101,6 +68,8 @@ struct System {
   /// M is one whose passive rates were eliminated where that can be done (symbolic/passive_rates.h): some of its rows give
   /// such a rate, and the normalization of the ξʲ is without them.
   bool passive_rates_eliminated = false;
+  /// Of a part of a workspace boundary: what decides whether the output can pass.
+  std::optional<PassageForm> passage;
 
   int size() const { return static_cast<int>(variables.size()); }
   /// Of each variable the enclosure of its search domain.

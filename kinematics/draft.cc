@@ -36,6 +36,13 @@ ex Draft::length(const std::string& name, const std::optional<Range>& range, con
   return algebra_.coordinate(free);
 }
 
+void Draft::limit_last() {
+  DraftCoordinate& c = coordinates_.back();
+  // A range of one value is a part of the motion that is looked at.
+  c.limited =
+      c.range && algebra_.sign(algebra_.constant(c.range->upper, c.where) - algebra_.constant(c.range->lower, c.where)) != 0;
+}
+
 Vec Draft::vector(const std::string& name, const SourceLocation& where) {
   const Range wider{"-11/10", "11/10"};
   Vec v;
@@ -111,6 +118,7 @@ Assembly Draft::assembly() const {
               : mechanism.length_without_range(c.name, c.where);
     }
     if (c.auxiliary) mechanism.mark_auxiliary();
+    if (c.limited) mechanism.limit(c.name, c.range->lower, c.range->upper, c.where);
   }
   std::vector<ex> all;
   for (const DraftEquation& e : equations_) all.push_back(e.value);

@@ -23,6 +23,8 @@ class Draft {
   ex angle(const std::string& name, const std::optional<Range>& range, const SourceLocation& where);
   /// Without a range: what the equations leave.
   ex length(const std::string& name, const std::optional<Range>& range, const SourceLocation& where, bool auxiliary = false);
+  /// The range of the coordinate declared last is a joint's: the mechanism's limit, where it is one.
+  void limit_last();
   /// No longer than 1, by equations that the caller adds. Its range is a little wider: the set is to reach no end of it.
   Vec vector(const std::string& name, const SourceLocation& where);
   /// With |w| = 1.
@@ -69,6 +71,7 @@ class Draft {
     std::optional<Range> range;
     bool auxiliary, unit;  ///< unit: the first of three that are a unit vector
     SourceLocation where;
+    bool limited = false;
   };
   struct DraftEquation {
     ex value;

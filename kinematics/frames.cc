@@ -198,6 +198,7 @@ void Frames::turn_by_angle(const TreeEdge& edge) {
   const std::size_t group = bodies_.group[parent.body];
   const Joint& of = joint(j);
   const ex theta = draft_.angle(of.name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
+  draft_.limit_last();
   angles_[j.index] = theta;
   const Vec along = axis(edge.joint, edge.from);
   const int sign = edge.from == 0 ? 1 : -1;
@@ -308,6 +309,7 @@ void Frames::close(const BodyJoint& j) {
   if (j.kind != JointKind::revolute || !is_asked_for(j.index)) return;
   // tan θ by the zeros: x sin θ − y cos θ = 0 and x cos θ + y sin θ ≥ 0, where (x, y) = (cos, sin) at solutions.
   const ex theta = draft_.angle(of.name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
+  draft_.limit_last();
   angles_[j.index] = theta;
   const Vec zero = image(g1, j.ends[1].zero);
   const ex x = dot(zero, image(g0, j.ends[0].zero)), y = dot(zero, image(g0, cross(j.ends[0].axis, j.ends[0].zero)));

@@ -179,6 +179,7 @@ class PlanarRobot {
     PlanePoint origin = place(parent);
     if (j.kind == JointKind::prismatic) {
       coordinate_[j.index] = draft_.length(joint(j).name, range(j), where);
+      draft_.limit_last();
       const int sign = edge.from == 0 ? 1 : -1;
       const Complex way = in_plane(group(parent.body), parent.axis);
       origin.add(*turns_[group(parent.body)],
@@ -201,6 +202,7 @@ class PlanarRobot {
     if (j.kind != JointKind::revolute || !(is_asked_for(j.index) || (from_ground && is_link_angle)))
       return {{1, 0}, draft_.angle(angle_name(child.body), {}, where)};
     const ex theta = draft_.angle(named ? joint(j).name : angle_name(child.body), range(j), where);
+    draft_.limit_last();
     coordinate_[j.index] = theta;
     const Complex z0 = in_plane(group(parent.body), parent.zero), z1 = in_plane(group(child.body), child.zero);
     const int sign = sense(j) * (from == 0 ? 1 : -1);
@@ -218,6 +220,7 @@ class PlanarRobot {
   /// The angle of a turn, where no coordinate is it: sin(turn − θ) = 0 and cos(turn − θ) ≥ 0.
   ex angle_of(const Turn& turn, const std::string& name, const std::optional<Range>& limits, const SourceLocation& where) {
     const ex theta = draft_.angle(name, limits, where);
+    draft_.limit_last();
     const Turn difference = turn * Turn{{1, 0}, -theta};
     draft_.equation(difference.sine(), "angle", where);
     draft_.at_least_zero(difference.cosine(), "angle", where);
@@ -239,6 +242,7 @@ class PlanarRobot {
         break;
       case JointKind::prismatic: {
         const ex way = draft_.length(of.name, range(j), of.where);
+        draft_.limit_last();
         coordinate_[j.index] = way;
         PlanePoint slid = gap;
         const Complex axis = in_plane(group(j.ends[0].body), j.ends[0].axis);
@@ -254,6 +258,7 @@ class PlanarRobot {
       }
       case JointKind::distance_variable: {
         const ex length = draft_.length(of.name, range(j), of.where);
+        draft_.limit_last();
         coordinate_[j.index] = length;
         draft_.equation(gap.squared() - length * length, "rod", of.where);
         break;

@@ -123,6 +123,7 @@ class SpatialRobot {
       case JointKind::cylindrical: {
         const ex d = draft_.length(j.kind == JointKind::prismatic ? of.name : of.name + "_way",
                                    range(j, j.kind == JointKind::prismatic ? 0 : 1), of.where);
+        draft_.limit_last();
         positions_.coordinate[j.index] = d;
         return d * frames_.image(group(e.body), e.axis);
       }
@@ -149,6 +150,7 @@ class SpatialRobot {
     const Joint& of = joint(j);
     if (j.kind == JointKind::distance) return algebra_.constant(of.length, of.where);
     positions_.coordinate[j.index] = draft_.length(of.name, range(j), of.where);
+    draft_.limit_last();
     return *positions_.coordinate[j.index];
   }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <set>
 
 #include "corank/core/check.h"
 
@@ -118,6 +120,24 @@ void add_axes(const Picture& picture, const View& x, const View& y, const std::v
                        true, axis_label(picture.axes[1])});
 }
 
+// Strokes of one length, none close to another of much the same direction.
+void add_hatches(const Picture& picture, const View& x, const View& y, Layout& out) {
+  constexpr double kLength = 4, kApart = 3.5;
+  constexpr int kDirections = 8;
+  std::set<std::array<long, 3>> taken;
+  for (const PictureHatch& hatch : picture.hatches) {
+    const double x_scale = out.frame_width / x.extent(), y_scale = out.frame_height / y.extent();
+    const double x0 = (hatch.from[0] - x.lo) * x_scale, y0 = out.frame_height - (hatch.from[1] - y.lo) * y_scale;
+    // A normal of the plane of the outputs, where a unit has another length along the other axis.
+    const double dx = hatch.direction[0] / x_scale, dy = -hatch.direction[1] / y_scale, size = std::hypot(dx, dy);
+    if (!(size > 0) || x0 < 0 || x0 > out.frame_width || y0 < 0 || y0 > out.frame_height) continue;
+    const auto turn = std::lround(std::atan2(dy, dx) / (2 * std::numbers::pi) * kDirections) % kDirections;
+    if (!taken.insert({std::lround(x0 / kApart), std::lround(y0 / kApart), turn}).second) continue;
+    const double left = out.frame_x + x0, top = out.frame_y + y0;
+    out.lines.push_back({left, top, left + kLength * dx / size, top + kLength * dy / size, kLine});
+  }
+}
+
 }  // namespace
 
 std::pair<double, double> centre(const GridPolygon& p) {
@@ -161,6 +181,7 @@ Layout lay_out(const Picture& picture, const PortraitOptions& options, const Tex
   if (options.title.empty() && !options.legend) out.frame_y += 0.5 * kTickSize;
   add_axes(picture, x, y, x_ticks, y_ticks, y_tick_width, out);
   out.height = out.frame_y + out.frame_height + kTickLength + kTickSize + kGap + kNameSize + 4;
+  add_hatches(picture, x, y, out);
   const Scale across{x.lo, columns / x.extent(), columns}, up{y.lo, rows / y.extent(), rows};
   for (const PictureLayer& layer : picture.layers) out.shapes.push_back(shape(layer, across, up, out.mark / out.cell));
   return out;

@@ -143,6 +143,20 @@ void say_kernel(const Cover& cover, SetWords& words) {
   }
 }
 
+/// Of a workspace boundary: where the output can pass.
+void say_passages(const result::Result& result, SetWords& words) {
+  if (result.outputs.empty() || result.cover.boxes.empty()) return;
+  const auto counts = result::passages(result.cover);
+  const auto boxes = [&](Passage passage) { return counts[static_cast<std::size_t>(passage)]; };
+  words.proven.push_back(
+      fmt::format("Where no further limit is reached, the output stays on one side near the configurations in {}, "
+                  "and can pass in {}.",
+                  boxes_text(boxes(Passage::barrier)), boxes_text(boxes(Passage::traversable))));
+  if (boxes(Passage::unproven) > 0)
+    words.unproven.push_back(
+        fmt::format("Whether the output can pass is open in {}.", boxes_text(boxes(Passage::unproven))));
+}
+
 void say_pieces(const result::Result& result, const Components& found, SetWords& words) {
   const Cover& cover = result.cover;
   words.finding = fmt::format("{}: {} in {} as boxes touch", shape(cover.dimension), boxes_text(cover.boxes.size()),
@@ -172,6 +186,7 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
                     boxes_text(partial), cover.tolerance));
   }
   say_kernel(cover, words);
+  say_passages(result, words);
   const auto explained = static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) {
     return b.verdict == Verdict::undecided && b.point >= 0;
   }));

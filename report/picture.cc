@@ -141,10 +141,61 @@ void add_layers(const PictureSource& source, const SetStyle& style, const std::v
   }
 }
 
+// Of a workspace boundary, where colours tell sets apart: the ways that are open, the barriers, what is not known.
+void add_passages(const PictureSource& source, const SetStyle& style, const std::vector<Coordinate>& coordinates,
+                  const PictureOptions& options, std::vector<PictureLayer>& layers) {
+  constexpr Color kOpen{0.93, 0.60, 0.12}, kUnknown{0.45, 0.45, 0.47};
+  for (const Passage passage : {Passage::traversable, Passage::barrier, Passage::unproven}) {
+    PictureSource part = source;
+    part.boxes.boxes.clear();
+    std::vector<int> numbers;
+    for (std::size_t k = 0; k < source.boxes.boxes.size(); ++k) {
+      if (source.passages[k] != passage) continue;
+      part.boxes.boxes.push_back(source.boxes.boxes[k]);
+      numbers.push_back(static_cast<int>(k));
+    }
+    if (numbers.empty()) continue;
+    SetStyle own = style;
+    own.label += std::string(": ") + to_string(passage);
+    if (passage != Passage::barrier) own.color = passage == Passage::traversable ? kOpen : kUnknown;
+    const std::size_t begin = layers.size();
+    add_layers(part, own, coordinates, options, layers);
+    for (std::size_t l = begin; l < layers.size(); ++l)
+      for (PictureBox& box : layers[l].boxes) box.number = numbers[static_cast<std::size_t>(box.number)];
+  }
+}
+
+// Strokes to the sides where barriers keep the output from going, in a picture of two of its coordinates.
+void add_hatches(const PictureSource& source, const std::vector<Coordinate>& coordinates,
+                 const std::vector<std::string>& axes, std::vector<PictureHatch>& hatches) {
+  std::array<std::size_t, 2> place{};
+  for (std::size_t j = 0; j < 2; ++j) {
+    const auto at = std::find(source.outputs.begin(), source.outputs.end(), axes[j]);
+    if (at == source.outputs.end()) return;
+    place[j] = static_cast<std::size_t>(at - source.outputs.begin());
+  }
+  for (std::size_t k = 0; k < source.boxes.boxes.size(); ++k) {
+    if (source.passages[k] != Passage::barrier || source.sides[k].size() != source.outputs.size()) continue;
+    PictureHatch hatch{};
+    for (std::size_t j = 0; j < 2; ++j) {
+      hatch.from[j] = coordinates[j].values(source.boxes.boxes[k].box, 0).front().mid();
+      hatch.direction[j] = -source.sides[k][place[j]];
+    }
+    hatches.push_back(hatch);
+  }
+}
+
 }  // namespace
 
 PictureSource picture_source(const result::Result& result, const std::string& file) {
-  return {file, result.set, boxes_of(result), result.angles, result.cover.dimension};
+  PictureSource source{file, result.set, boxes_of(result), result.angles, result.cover.dimension};
+  if (result.outputs.empty()) return source;
+  source.outputs = result.outputs;
+  for (const CoverBox& box : result.cover.boxes) {
+    source.passages.push_back(box.passage);
+    source.sides.push_back(box.side);
+  }
+  return source;
 }
 
 PictureSource picture_source(const result::SolFile& boxes, const std::string& file) {
@@ -182,7 +233,9 @@ Picture make_picture(const std::vector<PictureSource>& sources, const PictureOpt
       else
         there.range = Interval::hull(*there.range, *here.range);
     }
-    add_layers(*source, styles[k], coordinates, options, picture.layers);
+    const bool passes = !source->passages.empty() && options.color == ColorScheme::set;
+    (passes ? add_passages : add_layers)(*source, styles[k], coordinates, options, picture.layers);
+    if (passes && coordinates.size() == 2) add_hatches(*source, coordinates, options.axes, picture.hatches);
   }
   if (options.color == ColorScheme::verdict) {
     std::stable_sort(picture.layers.begin(), picture.layers.end(),

@@ -33,6 +33,10 @@ struct PictureSource {
   result::SolFile boxes;
   std::vector<Angle> angles;
   int dimension = 2;  ///< of the set, where known
+  /// Of a workspace boundary: each box's passage, and where it is proven the side, in the space of these outputs.
+  std::vector<Passage> passages = {};
+  std::vector<std::vector<double>> sides = {};
+  std::vector<std::string> outputs = {};
 };
 PictureSource picture_source(const result::Result& result, const std::string& file);
 /// A solution file says nothing about angles: c_NAME and s_NAME are taken for the cosine and sine of the angle NAME in [−π,
@@ -63,9 +67,15 @@ struct PictureAxis {
   std::optional<Interval> range;
 };
 
+/// A short stroke from a barrier to the side where the output cannot go.
+struct PictureHatch {
+  std::array<double, 2> from, direction;  ///< in the axes; a direction as long as its part in their plane
+};
+
 struct Picture {
-  std::vector<PictureAxis> axes;     ///< two or three
-  std::vector<PictureLayer> layers;  ///< in the order of drawing: C-space before its subsets
+  std::vector<PictureAxis> axes;           ///< two or three
+  std::vector<PictureHatch> hatches = {};  ///< where the axes are outputs of a workspace boundary
+  std::vector<PictureLayer> layers;        ///< in the order of drawing: C-space before its subsets
 };
 
 /// What the colours tell apart: sets, verdicts, or nothing (all blue).

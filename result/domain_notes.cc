@@ -66,8 +66,12 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
     for (const std::string& reason : of_box) ++reasons[reason];
     if (of_box.empty()) ++others;
   });
+  const auto is_limited = [&](const std::string& name) {
+    return std::any_of(mechanism.limits().begin(), mechanism.limits().end(),
+                       [&](const symbolic::Limit& limit) { return limit.coordinate == name; });
+  };
   for (const symbolic::Coordinate& c : mechanism.coordinates())
-    if (const auto end = ends.find(c.name); end != ends.end() && c.has_range)
+    if (const auto end = ends.find(c.name); end != ends.end() && c.has_range && !is_limited(c.name))
       result.domain.ends.push_back({c.name, end->second});
   for (const auto& [reason, boxes] : reasons) result.domain.boundary.push_back({reason, boxes});
   if (others > 0) result.domain.boundary.push_back({"rounding", others});

@@ -13,7 +13,8 @@
 namespace corank::result {
 namespace {
 
-constexpr int kDeepest = 6, kMostItems = 1000;
+constexpr int kDeepest = 6, kMostItems = 1000;  // of a group
+constexpr int kMostItemsInAll = 200'000;        // a result may consist of many parts
 constexpr std::size_t kLongestName = 200;
 constexpr std::uint64_t kBlock = std::uint64_t{8} << 20;  // bytes read at a time
 constexpr std::uint64_t kLongestChunk = std::uint64_t{1} << 24;
@@ -115,7 +116,7 @@ class Contents {
   }
 
   void count_item(const std::string& name) {
-    if (++items_ > kMostItems) refuse(name + " is one item too many for a result");
+    if (++items_ > kMostItemsInAll) refuse(name + " is one item too many for a result");
   }
 
   void copy_group(const std::string& path, int depth) {

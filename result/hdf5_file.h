@@ -29,6 +29,9 @@ class Hdf5Writer {
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
+  /// From now on every path is meant below this one, "/parts/0", which is made; "": below the file's root.
+  void enter(const std::string& prefix);
+
   void group(const std::string& name);
   /// rows × columns doubles, row-major, bit for bit; columns = 0: a vector of `rows`.
   void doubles(const std::string& name, std::span<const double> data, std::size_t rows, std::size_t columns);
@@ -53,7 +56,9 @@ class Hdf5Writer {
   void close();
 
  private:
-  std::string path_;
+  std::string at(const std::string& name) const { return name == "/" && !prefix_.empty() ? prefix_ : prefix_ + name; }
+
+  std::string path_, prefix_;
   std::int64_t file_ = -1;
 };
 
@@ -65,6 +70,9 @@ class Hdf5Reader {
   /// Items that are in memory already, as report/plain_items.h lays them out; `path` is for messages. The bytes have to
   /// outlive the reader.
   Hdf5Reader(std::string path, std::span<const std::byte> items);
+
+  /// As Hdf5Writer::enter().
+  void enter(const std::string& prefix) { prefix_ = prefix; }
 
   /// Each throws where the item is missing, or has another shape or type.
   std::vector<double> doubles(const std::string& name, std::size_t rows, std::size_t columns) const;
@@ -101,7 +109,9 @@ class Hdf5Reader {
   template <class T>
   void read_vector(const std::string& name, ItemType type, std::vector<T>& data) const;
 
-  std::string path_;
+  std::string at(const std::string& name) const { return name == "/" && !prefix_.empty() ? prefix_ : prefix_ + name; }
+
+  std::string path_, prefix_;
   std::optional<SharedBytes> bytes_;
   std::map<std::string, Item> items_;
 };

@@ -67,8 +67,8 @@ void Hdf5Reader::parse(std::span<const std::byte> bytes) {
 void Hdf5Reader::fail(const std::string& what) const { throw ResultFileError(printable_line(path_ + ": " + what)); }
 
 const Item& Hdf5Reader::array(const std::string& name) const {
-  const auto found = items_.find(name);
-  if (found == items_.end()) fail("no corank result: " + name + " is missing");
+  const auto found = items_.find(at(name));
+  if (found == items_.end()) fail("no corank result: " + at(name) + " is missing");
   return found->second;
 }
 
@@ -89,8 +89,8 @@ const Item& Hdf5Reader::shaped(const std::string& name, ItemType type, std::size
 }
 
 const Item& Hdf5Reader::attribute(const std::string& object, const std::string& name) const {
-  const auto found = items_.find(object + "@" + name);
-  if (found == items_.end()) fail("no corank result: the attribute " + name + " of " + object + " is missing");
+  const auto found = items_.find(at(object) + "@" + name);
+  if (found == items_.end()) fail("no corank result: the attribute " + name + " of " + at(object) + " is missing");
   if (found->second.elements() != 1) fail("the attribute " + name + " of " + object + " is not one value");
   return found->second;
 }
@@ -166,10 +166,10 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& name) const {
   return texts;
 }
 
-bool Hdf5Reader::has(const std::string& name) const { return items_.contains(name) || items_.contains(name + "/"); }
+bool Hdf5Reader::has(const std::string& name) const { return items_.contains(at(name)) || items_.contains(at(name) + "/"); }
 
 bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
-  return items_.contains(object + "@" + name);
+  return items_.contains(at(object) + "@" + name);
 }
 
 double Hdf5Reader::double_attribute(const std::string& object, const std::string& name) const {

@@ -102,44 +102,55 @@ void Hdf5Writer::close() {
   if (!flushed || !closed) fail(path_, "cannot finish this file (disk full?)");
 }
 
+void Hdf5Writer::enter(const std::string& prefix) {
+  prefix_.clear();
+  if (prefix.empty()) return;
+  const QuietErrors quiet;
+  const OwnHandle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path_, "cannot make the group " + prefix);
+  H5Pset_create_intermediate_group(links, 1);
+  const OwnHandle created(H5Gcreate2(file_, prefix.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_,
+                          "cannot make the group " + prefix);
+  prefix_ = prefix;
+}
+
 void Hdf5Writer::group(const std::string& name) {
   const QuietErrors quiet;
-  const OwnHandle created(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_,
+  const OwnHandle created(H5Gcreate2(file_, at(name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_,
                           "cannot make the group " + name);
 }
 
 void Hdf5Writer::doubles(const std::string& name, std::span<const double> data, std::size_t rows, std::size_t columns) {
-  write_dataset(file_, path_, name, H5T_NATIVE_DOUBLE, Shape(rows, columns, path_), data.data());
+  write_dataset(file_, path_, at(name), H5T_NATIVE_DOUBLE, Shape(rows, columns, path_), data.data());
 }
 
 void Hdf5Writer::bytes(const std::string& name, std::span<const std::uint8_t> data, std::size_t rows, std::size_t columns) {
-  write_dataset(file_, path_, name, H5T_NATIVE_UINT8, Shape(rows, columns, path_), data.data());
+  write_dataset(file_, path_, at(name), H5T_NATIVE_UINT8, Shape(rows, columns, path_), data.data());
 }
 
 void Hdf5Writer::integers(const std::string& name, std::span<const std::int64_t> data) {
-  write_dataset(file_, path_, name, H5T_NATIVE_INT64, Shape(data.size(), 0, path_), data.data());
+  write_dataset(file_, path_, at(name), H5T_NATIVE_INT64, Shape(data.size(), 0, path_), data.data());
 }
 
 void Hdf5Writer::packed(const std::string& name, std::span<const std::uint8_t> data) {
-  write_packed(file_, path_, name, H5T_NATIVE_UINT8, data.size(), data.data());
+  write_packed(file_, path_, at(name), H5T_NATIVE_UINT8, data.size(), data.data());
 }
 void Hdf5Writer::packed(const std::string& name, std::span<const std::int32_t> data) {
-  write_packed(file_, path_, name, H5T_NATIVE_INT32, data.size(), data.data());
+  write_packed(file_, path_, at(name), H5T_NATIVE_INT32, data.size(), data.data());
 }
 void Hdf5Writer::packed(const std::string& name, std::span<const float> data) {
-  write_packed(file_, path_, name, H5T_NATIVE_FLOAT, data.size(), data.data());
+  write_packed(file_, path_, at(name), H5T_NATIVE_FLOAT, data.size(), data.data());
 }
 void Hdf5Writer::packed(const std::string& name, std::span<const double> data) {
-  write_packed(file_, path_, name, H5T_NATIVE_DOUBLE, data.size(), data.data());
+  write_packed(file_, path_, at(name), H5T_NATIVE_DOUBLE, data.size(), data.data());
 }
 
 void Hdf5Writer::enumeration(const std::string& name, std::span<const std::uint8_t> data,
                              const std::vector<std::string>& words) {
-  write_dataset(file_, path_, name, WordsType(words, path_), Shape(data.size(), 0, path_), data.data());
+  write_dataset(file_, path_, at(name), WordsType(words, path_), Shape(data.size(), 0, path_), data.data());
 }
 
 void Hdf5Writer::text(const std::string& name, const std::string& text) {
-  write_dataset(file_, path_, name, TextType(text.size(), path_), Scalar(path_), text.c_str());
+  write_dataset(file_, path_, at(name), TextType(text.size(), path_), Scalar(path_), text.c_str());
 }
 
 void Hdf5Writer::texts(const std::string& name, const std::vector<std::string>& texts) {
@@ -147,20 +158,20 @@ void Hdf5Writer::texts(const std::string& name, const std::vector<std::string>& 
   for (const std::string& t : texts) length = std::max(length, t.size());
   std::string data(length * texts.size(), '\0');
   for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(data.data() + i * length, length);
-  write_dataset(file_, path_, name, TextType(length, path_), Shape(texts.size(), 0, path_), data.data());
+  write_dataset(file_, path_, at(name), TextType(length, path_), Shape(texts.size(), 0, path_), data.data());
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
-  write_attribute(file_, path_, object, name, H5T_NATIVE_DOUBLE, &value);
+  write_attribute(file_, path_, at(object), name, H5T_NATIVE_DOUBLE, &value);
 }
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
-  write_attribute(file_, path_, object, name, H5T_NATIVE_INT64, &value);
+  write_attribute(file_, path_, at(object), name, H5T_NATIVE_INT64, &value);
 }
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::uint64_t value) {
-  write_attribute(file_, path_, object, name, H5T_NATIVE_UINT64, &value);
+  write_attribute(file_, path_, at(object), name, H5T_NATIVE_UINT64, &value);
 }
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, const std::string& value) {
-  write_attribute(file_, path_, object, name, TextType(value.size(), path_), value.c_str());
+  write_attribute(file_, path_, at(object), name, TextType(value.size(), path_), value.c_str());
 }
 
 }  // namespace corank::result

@@ -23,9 +23,17 @@ void put_in(const std::vector<ConstantOverride>& constants, symbolic::Mechanism&
     model.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
 }
 
+void put_in(const std::vector<std::string>& outputs, symbolic::Mechanism& model) {
+  if (outputs.empty()) return;
+  std::vector<symbolic::Expression> symbols;
+  for (const std::string& name : outputs) symbols.push_back(symbolic::Expression::symbol(name, {"--outputs", 0, 0}));
+  model.replace_outputs(symbols, {"--outputs", 0, 0});
+}
+
 symbolic::Mechanism model_of(const Result& result) {
   symbolic::Mechanism model = symbolic::parse_model(result.model_text, result.model + ".cuik");
   put_in(result.options.constants, model);
+  put_in(result.options.outputs, model);
   return model;
 }
 

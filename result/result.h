@@ -45,6 +45,7 @@ struct RunOptions {
   std::vector<ConstantOverride> constants;
   int corank = 1;  ///< the set is that of kernels of this dimension at least; the number of kernel vectors
   bool passive_rates_eliminated = false;  ///< System::passive_rates_eliminated; older files know it not
+  std::vector<std::string> outputs{};     ///< of a workspace boundary: in place of the model's; none: those
   friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };
 
@@ -89,6 +90,12 @@ struct Result {
   std::vector<Angle> angles;
   int configuration_size = 0;  ///< the first so many variables describe the configuration
   int equations = 0, inequalities = 0;
+  /// Where the set consists of parts, each of these is a result of its own, with the same model, options and configuration
+  /// variables; `part` says which one it is. The whole then has the boxes of all parts, in their order and in the
+  /// configuration's variables alone, and leaves what is proven of them to the parts (merge_parts).
+  std::string part;
+  std::vector<Result> parts;
+  std::vector<std::string> outputs;  ///< of a workspace boundary: in whose space CoverBox::side is
   /// What ended the run early, and where: "the time limit, in the stage exact points"; empty where it ran to its end. A
   /// cover may be complete all the same: then less is proven of it than could be.
   std::string stopped;
@@ -105,11 +112,17 @@ struct Result {
 /// Copies what a result keeps of a system: variables, angles, sizes, and its dimension to the cover.
 void describe_system(const System& system, Result& result);
 
+/// Fills in what the whole has of its parts, at least one: variables, angles, sizes, boxes and points, statistics.
+void merge_parts(Result& whole);
+
 /// Puts the constants into a model. Throws symbolic::ModelError where an expression does not parse or the model has no such
 /// constant.
 void put_in(const std::vector<ConstantOverride>& constants, symbolic::Mechanism& model);
 
-/// The model as the result had it: its own copy of the text, with the constants that were put in. Throws
+/// Makes these the model's outputs, where there are any. Throws symbolic::ModelError.
+void put_in(const std::vector<std::string>& outputs, symbolic::Mechanism& model);
+
+/// The model as the result had it: its own copy of the text, with the constants and outputs that were put in. Throws
 /// symbolic::ModelError.
 symbolic::Mechanism model_of(const Result& result);
 

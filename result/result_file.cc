@@ -15,6 +15,7 @@ namespace {
 constexpr const char* kFormat = "corank result";
 constexpr int kFirstWithCertificates = 2;
 constexpr int kMostCorank = 1000;
+constexpr std::int64_t kMostParts = 1000;
 constexpr int kFirstWithScales = 4;  // and two sigmas, and reasons
 
 std::vector<std::string> verdict_words() {
@@ -26,6 +27,12 @@ std::vector<std::string> verdict_words() {
 std::vector<std::string> reason_words() {
   std::vector<std::string> words;
   for (int i = 0; i < kReasons; ++i) words.push_back(to_string(static_cast<Reason>(i)));
+  return words;
+}
+
+std::vector<std::string> passage_words() {
+  std::vector<std::string> words;
+  for (int i = 0; i < kPassages; ++i) words.push_back(to_string(static_cast<Passage>(i)));
   return words;
 }
 
@@ -53,6 +60,24 @@ void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<C
   file.enumeration(group + "/verdict", verdict, verdict_words());
   file.bytes(group + "/free", free, boxes.size(), n);
   file.enumeration(group + "/reason", reason, reason_words());
+}
+
+// Of a workspace boundary; of the whole, from which part each box comes.
+void write_passages(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, const Result& result) {
+  if (result.outputs.empty()) return;
+  const std::size_t n = result.outputs.size();
+  std::vector<std::uint8_t> passages;
+  std::vector<double> sides(boxes.size() * n, 0.0);
+  std::vector<std::int64_t> parts;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    passages.push_back(static_cast<std::uint8_t>(boxes[i].passage));
+    CORANK_CHECK(boxes[i].side.empty() || boxes[i].side.size() == n);
+    std::copy(boxes[i].side.begin(), boxes[i].side.end(), sides.begin() + static_cast<std::ptrdiff_t>(i * n));
+    parts.push_back(boxes[i].part);
+  }
+  file.enumeration(group + "/passage", passages, passage_words());
+  file.doubles(group + "/side", sides, boxes.size(), n);
+  if (!result.parts.empty()) file.integers(group + "/part", parts);
 }
 
 // Bits of the types' names, in the order of the attribute `types`.
@@ -121,6 +146,7 @@ void write_options(Hdf5Writer& file, const RunOptions& options) {
   }
   file.texts("/options/constants/names", names);
   file.texts("/options/constants/expressions", expressions);
+  if (!options.outputs.empty()) file.texts("/options/outputs", options.outputs);
   file.attribute("/options", "kernel", options.kernel);
   file.attribute("/options", "sigma_length", options.sigma.length);
   file.attribute("/options", "sigma_angle", options.sigma.angle);
@@ -159,11 +185,39 @@ class ResultReader {
   }
 
   Result read() {
+    Result result = read_one(nullptr);
+    if (!file_.has_attribute("/", "parts")) return result;
+    const std::int64_t parts = file_.integer_attribute("/", "parts");
+    if (parts < 1 || parts > kMostParts) refuse("the attribute parts is out of range");
+    for (std::int64_t i = 0; i < parts; ++i) {
+      file_.enter("/parts/" + std::to_string(i));
+      Result part = read_one(&result);
+      part.part = word("/", "part");
+      if (part.outputs != result.outputs) refuse("a part has other outputs than the whole");
+      result.parts.push_back(std::move(part));
+    }
+    file_.enter("");
+    for (auto* boxes : {&result.cover.boxes, &result.cover.points})
+      for (const CoverBox& box : *boxes)
+        if (box.part < 0 || box.part >= parts) refuse("a box is of a part that is not there");
+    return result;
+  }
+
+ private:
+  // Of a part, model and set are those of the whole.
+  Result read_one(const Result* whole) {
     Result result;
-    result.version = word("/", "version");
-    result.model = word("/", "model");
-    result.set = word("/", "set");
-    result.model_text = file_.text("/model/text");
+    if (whole) {
+      result.version = whole->version;
+      result.model = whole->model;
+      result.set = whole->set;
+      result.model_text = whole->model_text;
+    } else {
+      result.version = word("/", "version");
+      result.model = word("/", "model");
+      result.set = word("/", "set");
+      result.model_text = file_.text("/model/text");
+    }
     result.system_text = file_.text("/model/system");
     read_variables(result);
     read_angles(result);
@@ -195,10 +249,32 @@ class ResultReader {
       read_types(result.cover);
       read_certificates(file_, result.cover, result.variables.size());
     }
+    if (file_.has("/outputs")) {
+      result.outputs = words("/outputs");
+      if (result.outputs.empty()) refuse("/outputs is empty");
+      read_passages("/boxes", result.outputs.size(), result.cover.boxes);
+      read_passages("/points", result.outputs.size(), result.cover.points);
+    }
     return result;
   }
 
- private:
+  void read_passages(const std::string& group, std::size_t n, std::vector<CoverBox>& boxes) const {
+    const std::vector<std::uint8_t> passages = file_.enumeration(group + "/passage", passage_words());
+    const std::vector<double> sides = file_.doubles(group + "/side", boxes.size(), n);
+    const bool has_parts = file_.has(group + "/part");
+    const std::vector<std::int64_t> parts =
+        has_parts ? file_.integers(group + "/part") : std::vector<std::int64_t>(boxes.size(), -1);
+    if (passages.size() != boxes.size() || parts.size() != boxes.size()) refuse(group + " differ in length");
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      boxes[i].passage = static_cast<Passage>(passages[i]);
+      if (boxes[i].passage != Passage::unproven)
+        boxes[i].side.assign(sides.begin() + static_cast<std::ptrdiff_t>(i * n),
+                             sides.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
+      if (parts[i] < -1 || parts[i] > kMostParts) refuse(group + "/part names a part that is not there");
+      boxes[i].part = static_cast<int>(parts[i]);
+    }
+  }
+
   [[noreturn]] void refuse(const std::string& problem) const {
     throw ResultFileError(printable_line(file_.path() + ": " + problem));
   }
@@ -292,6 +368,7 @@ class ResultReader {
     const std::vector<std::string> expressions = words("/options/constants/expressions");
     if (names.size() != expressions.size()) refuse("/options/constants differ in length");
     for (std::size_t i = 0; i < names.size(); ++i) options.constants.push_back({names[i], expressions[i]});
+    if (file_.has("/options/outputs")) options.outputs = words("/options/outputs");
     options.kernel = word("/options", "kernel");
     if (!options.kernel.empty() && options.kernel != "right" && options.kernel != "left")
       refuse("the attribute kernel of /options is neither right nor left: '" + options.kernel + "'");
@@ -351,14 +428,10 @@ class ResultReader {
 
 void check_writable(const std::filesystem::path& path) { const OutputFile created_and_removed(path); }
 
-void write_result(const std::filesystem::path& path, const Result& result) {
-  const OutputFile target(path);
-  Hdf5Writer file(target.part().string());
-  file.attribute("/", "format", std::string(kFormat));
-  file.attribute("/", "format_version", std::int64_t{kFormatVersion});
-  file.attribute("/", "version", result.version);
-  file.attribute("/", "model", result.model);
-  file.attribute("/", "set", result.set);
+namespace {
+
+// What a part has of its own, and a result without parts.
+void write_own(Hdf5Writer& file, const Result& result) {
   file.attribute("/", "stopped", result.stopped);
   file.attribute("/", "complete", std::int64_t{result.cover.complete()});
   file.attribute("/", "dimension", std::int64_t{result.cover.dimension});
@@ -368,17 +441,39 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   file.attribute("/", "configuration_size", std::int64_t{result.configuration_size});
   file.attribute("/", "equations", std::int64_t{result.equations});
   file.attribute("/", "inequalities", std::int64_t{result.inequalities});
-  file.text("/model/text", result.model_text);
   file.text("/model/system", result.system_text);
   write_variables(file, result);
   write_angles(file, result);
   write_options(file, result.options);
+  if (!result.outputs.empty()) file.texts("/outputs", result.outputs);
   write_boxes(file, "/boxes", result.cover.boxes, result.variables.size());
+  write_passages(file, "/boxes", result.cover.boxes, result);
   write_counts(file, result.cover);
   write_boxes(file, "/points", result.cover.points, result.variables.size());
+  write_passages(file, "/points", result.cover.points, result);
   write_types(file, result.cover);
   write_statistics(file, result.cover.statistics);
   write_certificates(file, result.cover, result.variables.size());
+}
+
+}  // namespace
+
+void write_result(const std::filesystem::path& path, const Result& result) {
+  const OutputFile target(path);
+  Hdf5Writer file(target.part().string());
+  file.attribute("/", "format", std::string(kFormat));
+  file.attribute("/", "format_version", std::int64_t{kFormatVersion});
+  file.attribute("/", "version", result.version);
+  file.attribute("/", "model", result.model);
+  file.attribute("/", "set", result.set);
+  file.text("/model/text", result.model_text);
+  write_own(file, result);
+  if (!result.parts.empty()) file.attribute("/", "parts", std::int64_t{static_cast<std::int64_t>(result.parts.size())});
+  for (std::size_t i = 0; i < result.parts.size(); ++i) {
+    file.enter("/parts/" + std::to_string(i));
+    file.attribute("/", "part", result.parts[i].part);
+    write_own(file, result.parts[i]);
+  }
   file.close();
   target.finish();
 }

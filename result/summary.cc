@@ -171,6 +171,28 @@ std::string boundary_text(const DomainNotes& notes) {
   return text + "\n";
 }
 
+// Of a workspace boundary: where the output can pass, and which parts there are.
+std::string passages_text(const Result& result) {
+  if (result.outputs.empty()) return "";
+  const auto counts = passages(result.cover);
+  std::string text = fmt::format("\nin the space of {}:", fmt::join(result.outputs, ", "));
+  const char* between = "";
+  for (const Passage passage : {Passage::barrier, Passage::traversable, Passage::unproven}) {
+    text += fmt::format("{} {} in {}", between, to_string(passage), counts[static_cast<std::size_t>(passage)]);
+    between = ",";
+  }
+  text += " boxes\n";
+  std::size_t width = 0, empty = 0;
+  for (const Result& part : result.parts) width = std::max(width, part.cover.boxes.empty() ? 0 : part.part.size());
+  for (const Result& part : result.parts) {
+    empty += part.cover.boxes.empty();
+    if (!part.cover.boxes.empty())
+      text += fmt::format("  {:<{}}  {:>8}\n", part.part, width, plural(part.cover.boxes.size(), "box"));
+  }
+  if (empty > 0) text += fmt::format("  {} without a solution\n", plural(empty, "part"));
+  return text;
+}
+
 std::string seconds_text(const Cover& cover) {
   const Statistics& s = cover.statistics;
   return fmt::format("\n{:.3f} s: search {:.3f} s, certify {:.3f} s\n", s.seconds_total, s.seconds_search,
@@ -293,7 +315,7 @@ std::string to_table(const Result& result) {
     if (!cover.decimals.empty()) text += decimals_text(result);
   }
   if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += "\n" + meaning + "\n";
-  text += kernel_text(result) + types_text(cover);
+  text += kernel_text(result) + types_text(cover) + passages_text(result);
   return text + seconds_text(cover);
 }
 

@@ -47,6 +47,30 @@ Json types_json(const Cover& cover) {
   return json;
 }
 
+Json passages_json(const Result& result) {
+  const auto counts = passages(result.cover);
+  Json json = Json::object();
+  for (const Passage passage : {Passage::barrier, Passage::traversable, Passage::unproven})
+    json[to_string(passage)] = counts[static_cast<std::size_t>(passage)];
+  json["outputs"] = result.outputs;
+  return json;
+}
+
+Json parts_json(const Result& result) {
+  Json list = Json::array();
+  for (const Result& part : result.parts) {
+    Json entry = {{"part", part.part}, {"boxes", part.cover.boxes.size()}};
+    const auto counts = part.cover.counts();
+    for (const Verdict verdict : kVerdictsInOrder)
+      if (const std::size_t n = counts[static_cast<std::size_t>(verdict)]; n > 0) entry[to_string(verdict)] = n;
+    entry["boundary"] = passages_json(part);
+    entry["boundary"].erase("outputs");
+    entry["seconds"] = part.cover.statistics.seconds_total;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 void add_state(Json& entry, const RobotState& state) {
   entry["joints"] = Json::object();
   for (const auto& joint : state.joints) entry["joints"][joint.joint] = joint.value;
@@ -57,7 +81,7 @@ void add_state(Json& entry, const RobotState& state) {
 
 }  // namespace
 
-std::string to_json(const Result& result) {
+std::string to_json(const Result& result, const std::optional<Interval>& area) {
   const Cover& cover = result.cover;
   Json json;
   json["model"] = result.model;
@@ -138,6 +162,9 @@ std::string to_json(const Result& result) {
   const auto distance = node_distance(result);
   json["node_distance"] = distance ? Json(*distance) : Json();
   json["kernel"] = kernel_json(result);
+  if (!result.outputs.empty()) json["boundary"] = passages_json(result);
+  if (area) json["area"] = {{"lo", area->lo()}, {"hi", area->hi()}};
+  if (!result.parts.empty()) json["parts"] = parts_json(result);
   json["types"] = types_json(cover);
   if (cover.types.left_out > 0) json["left_out"] = cover.types.left_out;
   json["seconds"] = {{"total", cover.statistics.seconds_total},

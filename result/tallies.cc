@@ -13,6 +13,12 @@ std::map<Reason, std::size_t> undecided_reasons(const Cover& cover) {
   return reasons;
 }
 
+std::array<std::size_t, kPassages> passages(const Cover& cover) {
+  std::array<std::size_t, kPassages> result{};
+  for (const CoverBox& box : cover.boxes) ++result[static_cast<std::size_t>(box.passage)];
+  return result;
+}
+
 std::size_t boxes_on(const Cover& cover, std::size_t motion) {
   return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [motion](const CoverBox& box) {
     return box.motion == static_cast<int>(motion);

@@ -17,6 +17,9 @@ static_assert(kVerdictsInOrder.size() == kVerdicts);
 /// How many undecided boxes there are with each reason.
 std::map<Reason, std::size_t> undecided_reasons(const Cover& cover);
 
+/// How many boxes there are with each passage, in the order of Passage.
+std::array<std::size_t, kPassages> passages(const Cover& cover);
+
 /// Boxes that lie on the self-motion of that number.
 std::size_t boxes_on(const Cover& cover, std::size_t motion);
 

@@ -13,6 +13,7 @@
 #include "corank/result/printable.h"
 #include "corank/result/summary.h"
 #include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/boundary.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
 #include "corank/symbolic/velocity_blocks.h"
@@ -113,6 +114,8 @@ Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.fa
 symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
                                            const RunOptions& options) {
   const auto side = symbolic::kernel_side_from_string(options.kernel);
+  if (symbolic::definition(set).of_parts)
+    return symbolic::boundary_system(mechanism, symbolic::boundary_parts(mechanism).front(), options.kernel_scales);
   if (!symbolic::definition(set).has_kernel() || !options.passive_rates_eliminated)
     return symbolic::singularity_system(mechanism, set, side, options.kernel_scales, options.corank);
   return symbolic::singularity_system(
@@ -122,12 +125,33 @@ symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism,
       options.kernel_scales, options.corank);
 }
 
+namespace {
+
+// Of a part, or of what all parts have in common.
+System system_of_part(const symbolic::Mechanism& mechanism, const Result& result) {
+  if (result.part.empty()) {
+    System system = symbolic::configurations(mechanism);
+    system.coefficient_tolerance = result.options.tolerance;
+    return system;
+  }
+  for (const symbolic::BoundaryPart& part : symbolic::boundary_parts(mechanism)) {
+    if (part.text() != result.part) continue;
+    System system = symbolic::compiled_part(mechanism, part, result.options.kernel_scales);
+    system.coefficient_tolerance = result.options.tolerance;
+    return system;
+  }
+  throw ResultFileError("the result's model has no part '" + result.part + "'");
+}
+
+}  // namespace
+
 System system_of(const Result& result) { return system_of(model_of(result), result); }
 
 System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (mechanism.is_plain_system() ? result.set != symbolic::definition(std::nullopt).name : !set)
     throw ResultFileError("the result's model has no set '" + result.set + "'");
+  if (set && symbolic::definition(set).of_parts) return system_of_part(mechanism, result);
   System system =
       symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism));
   system.coefficient_tolerance = result.options.tolerance;
@@ -137,6 +161,76 @@ System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
     throw ResultFileError(std::string("the result's system: ") + error.what());
   }
   return system;
+}
+
+namespace {
+
+void add(const Tally& t, Tally& sum) {
+  sum.verified += t.verified;
+  sum.failed += t.failed;
+  sum.unchecked += t.unchecked;
+}
+
+void add(const Report& part, const std::string& name, bool first, Report& sum) {
+  for (std::size_t v = 0; v < part.boxes.size(); ++v) add(part.boxes[v], sum.boxes[v]);
+  add(part.points, sum.points);
+  add(part.exact_points, sum.exact_points);
+  sum.points_without_claim += part.points_without_claim;
+  sum.proof.present = part.proof.present && (first || sum.proof.present);
+  sum.proof.verified = part.proof.verified && (first || sum.proof.verified);
+  sum.proof.steps += part.proof.steps;
+  sum.proof.leaves += part.proof.leaves;
+  sum.proof.searched += part.proof.searched;
+  for (Failure f : part.failures) {
+    f.reason = "(part: " + name + ") " + f.reason;
+    sum.failures.push_back(std::move(f));
+  }
+  if (part.interrupted && !sum.interrupted) sum.stage = part.stage;
+  sum.interrupted = sum.interrupted || part.interrupted;
+}
+
+Verification verify_parts(const Result& result, Verification verification, const check::Options& options) {
+  const symbolic::Mechanism model = model_of(result);
+  for (std::string& c : contradictions_of_parts(model, result)) verification.contradictions.push_back(std::move(c));
+  for (std::size_t i = 0; verification.contradictions.empty() && i < result.parts.size(); ++i) {
+    const Result& part = result.parts[i];
+    const System system = system_of(model, part);
+    for (const std::string& c : contradictions(part, system, symbolic::to_cuik(system)))
+      verification.contradictions.push_back("(part: " + part.part + ") " + c);
+    if (verification.contradictions.empty())
+      add(check::check(system, part.cover, options), part.part, i == 0, verification.report);
+    if (verification.report.interrupted) break;
+  }
+  return verification;
+}
+
+bool same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBox>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const CoverBox& x, const CoverBox& y) {
+    return x.box == y.box && x.verdict == y.verdict && x.passage == y.passage && x.side == y.side && x.part == y.part &&
+           x.free == y.free && x.reason == y.reason;
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result) {
+  if (!symbolic::definition(result.set).of_parts)
+    return result.parts.empty() ? std::vector<std::string>{} : std::vector<std::string>{"the set has no parts"};
+  const std::vector<symbolic::BoundaryPart> expected = symbolic::boundary_parts(model);
+  const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(),
+                              [](const symbolic::BoundaryPart& a, const Result& b) { return a.text() == b.part; });
+  if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
+  std::vector<std::string> list;
+  for (const Result& part : result.parts) {
+    if (part.outputs != model.outputs()) list.push_back("(part: " + part.part + ") the outputs are not those of the model");
+    if (part.variables.size() < result.variables.size() || part.set != result.set) return {"a part is of another set"};
+  }
+  Result merged = result;
+  merge_parts(merged);
+  if (!same_boxes(merged.cover.boxes, result.cover.boxes) || !same_boxes(merged.cover.points, result.cover.points) ||
+      merged.cover.dimension != result.cover.dimension || merged.outputs != result.outputs)
+    list.emplace_back("the whole is not made of its parts");
+  return list;
 }
 
 std::optional<VelocityBlocks> blocks_of(const Result& result) {
@@ -152,6 +246,8 @@ Verification verify(const Result& result, const check::Options& options) {
 
 Verification verify(const Result& result, const System& system, const check::Options& options) {
   Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
+  if (!result.parts.empty() || symbolic::definition(result.set).of_parts)
+    return verify_parts(result, std::move(verification), options);
   // Boxes of another system are not worth a check.
   if (!verification.contradictions.empty()) return verification;
   const auto blocks = blocks_of(result);

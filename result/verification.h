@@ -14,7 +14,7 @@ namespace corank::result {
 struct Verification {
   /// Where the file contradicts the model that it holds: variables, domains, equations, options.
   std::vector<std::string> contradictions;
-  check::Report report;
+  check::Report report;  ///< of a result of parts: those of all parts
 
   /// No contradiction, and every claim is confirmed.
   bool verified() const { return contradictions.empty() && report.verified(); }
@@ -22,11 +22,12 @@ struct Verification {
   bool complete() const { return contradictions.empty() && report.complete(); }
 };
 
-/// The equations of a set as the options of a result say: its kernel's side, scales, corank, passive rates.
+/// The equations of a set as the options of a result say: its kernel's side, scales, corank, passive rates. Of a set of
+/// parts those of the first.
 symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model, symbolic::SingularitySet set,
                                            const RunOptions& options);
-/// The system that a result's model and options give. Throws ModelError where the model is none, ResultFileError where it
-/// has no such set.
+/// The system that a result's model and options give; of one that consists of parts symbolic::configurations(). Throws
+/// ModelError where the model is none, ResultFileError where it has no such set.
 System system_of(const Result& result);
 /// The same for its model, model_of(result), made before.
 System system_of(const symbolic::Mechanism& model, const Result& result);
@@ -37,6 +38,9 @@ std::optional<VelocityBlocks> blocks_of(const Result& result);
 /// Checks a result against its model: contradictions, check::check. `system` is system_of(result).
 Verification verify(const Result& result, const System& system, const check::Options& options = {});
 Verification verify(const Result& result, const check::Options& options = {});
+
+/// Where a result contradicts its parts or is not made of those that its model has; nothing where it is no set of parts.
+std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result);
 
 /// Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the
 /// polynomials' text (comments aside) and the options.

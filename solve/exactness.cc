@@ -17,6 +17,7 @@
 #include "corank/solve/cover_edit.h"
 #include "corank/solve/exact_points.h"
 #include "corank/solve/kernel_dimensions.h"
+#include "corank/solve/passages.h"
 #include "corank/solve/points.h"
 #include "corank/solve/solve.h"
 
@@ -281,6 +282,7 @@ void prove_exactly(const Prepared& prepared, Cover& cover, Control& control) {
     control.search_progress = progress;
   }
   bound_kernel_dimensions(prepared, cover, control);
+  prove_passages(prepared, cover, control);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   cover.statistics.seconds_total += seconds;
   cover.statistics.seconds_certify += seconds;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "corank/certify/kernel_bound.h"
+#include "corank/core/check.h"
 #include "corank/result/motion_words.h"
 #include "corank/solve/corank_system.h"
 #include "corank/solve/decimals.h"
@@ -24,6 +25,7 @@ std::string kernel_of(const Question& q) {
 
 // Which types of singularity the boxes hold; of the set of a type, without those that do not.
 void describe_types(const Question& q, const solve::Prepared& prepared, solve::Control& control, Cover& cover) {
+  if (symbolic::definition(q.set).of_parts) return;
   if (!q.set) return;
   const auto blocks = symbolic::velocity_blocks(q.model, *q.set, q.kernel, q.corank);
   if (!blocks) return;
@@ -62,10 +64,33 @@ result::Result answer(const Question& question, const Options& options) {
   options.search.validate();
   solve::Control control(solve::limits_of(options.search));
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  const System system = study::system(question);
+  const std::vector<Question> parts = parts_of(question);
+  std::vector<System> systems;
+  for (const Question& part : parts) systems.push_back(system(part));
   control.ended();  // notes the stage
   stage.reset();
-  return answer(question, system, options, control);
+  return answer(parts, systems, options, control);
+}
+
+result::Result answer(const std::vector<Question>& parts, const std::vector<System>& systems, const Options& options,
+                      solve::Control& control) {
+  CORANK_CHECK(!parts.empty() && parts.size() == systems.size());
+  const Question& first = parts.front();
+  if (!first.part) return answer(first, systems.front(), options, control);
+  result::Result whole;
+  whole.model = first.model.name();
+  whole.model_text = first.model.source_text();
+  whole.set = symbolic::definition(first.set).name;
+  const System common = symbolic::configurations(first.model);
+  result::describe_system(common, whole);
+  whole.system_text = symbolic::to_cuik(common);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    whole.parts.push_back(answer(parts[i], systems[i], options, control));
+    whole.parts.back().part = parts[i].part->text();
+  }
+  result::merge_parts(whole);
+  result::describe_in_words(first.model, common, whole);
+  return whole;
 }
 
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control) {
@@ -96,6 +121,8 @@ result::Result answer(const Question& question, const System& system, const Opti
                     system.coefficient_tolerance, search.threads,     search.max_boxes,
                     search.max_solutions,         search.time_limit,  question.constants};
   result.options.corank = system.kernel_vectors;
+  result.options.outputs = question.outputs;
+  if (question.part) result.outputs = question.model.outputs();
   result.options.passive_rates_eliminated = system.passive_rates_eliminated;
   describe_corank(system, result);
   if (question.assembly) describe_states(*question.assembly, result);

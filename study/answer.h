@@ -22,6 +22,10 @@ result::Result answer(const Question& question, const Options& options = {});
 /// The same of system(question), made before; `control` takes the place of the options' limits.
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control);
 
+/// The same of all parts of a question (parts_of) and of their systems, in one run.
+result::Result answer(const std::vector<Question>& parts, const std::vector<System>& systems, const Options& options,
+                      solve::Control& control);
+
 /// "stopped by the time limit, in the stage search".
 std::string stopped_words(const result::Result& result);
 

@@ -1,5 +1,6 @@
 #include "corank/study/question.h"
 
+#include "corank/core/check.h"
 #include "corank/solve/implied_equations.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
@@ -7,8 +8,22 @@
 
 namespace corank::study {
 
+std::vector<Question> parts_of(const Question& question) {
+  if (!definition(question.set).of_parts) return {question};
+  std::vector<Question> parts;
+  for (symbolic::BoundaryPart& part : symbolic::boundary_parts(question.model)) {
+    parts.push_back(question);
+    parts.back().part = std::move(part);
+  }
+  return parts;
+}
+
 symbolic::TrigonometricSystem equations(const Question& q) {
   if (!q.set) return symbolic::plain_system(q.model);
+  if (definition(q.set).of_parts) {
+    CORANK_CHECK(q.part.has_value());
+    return symbolic::boundary_system(q.model, *q.part, symbolic::boundary_scales(q.model, *q.part));
+  }
   if (!definition(q.set).has_kernel())
     return symbolic::singularity_system(q.model, *q.set, q.kernel, symbolic::kernel_scales(q.model, *q.set), q.corank);
   const auto kernel = symbolic::without_passive_rates(
@@ -28,6 +43,7 @@ System system(const Question& question, const symbolic::TrigonometricSystem& equ
                                  "a sum of the equations times polynomials, with rational coefficients; or leave it out, "
                                  "since it only serves to shorten the search");
   }
+  if (question.part) system.passage = symbolic::passage_form(question.model, *question.part, equations);
   system.coefficient_tolerance = question.tolerance.value_or(question.set ? 0 : solve::printed_tolerance(system));
   return system;
 }

@@ -7,6 +7,7 @@
 #include "corank/core/system.h"
 #include "corank/kinematics/assembly.h"
 #include "corank/result/result.h"
+#include "corank/symbolic/boundary.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::study {
@@ -18,10 +19,16 @@ struct Question {
   int corank = 1;                                     ///< the kernel's dimension, at least, of the configurations asked for
   std::vector<result::ConstantOverride> constants{};  ///< those that were put in, for the record
   std::optional<kinematics::Assembly> assembly{};     ///< of a robot from parts: results say where its links are
+  std::vector<std::string> outputs{};  ///< that were put in (result::put_in), for the record: of a workspace boundary
+  std::optional<symbolic::BoundaryPart> part{};  ///< of a set of parts: which one (parts_of)
   std::optional<double> tolerance{};  ///< of coefficients, relative; nothing: printed_tolerance() of a plain system, else 0
 };
 
-/// The equations of the set, its kernel vectors scaled (symbolic/kernel_scale.h). Throws symbolic::ModelError.
+/// Of a set of parts the question about each of them; of another set the question itself. Throws symbolic::ModelError.
+std::vector<Question> parts_of(const Question& question);
+
+/// The equations of the set, its kernel vectors scaled (symbolic/kernel_scale.h); of a set of parts those of
+/// question.part. Throws symbolic::ModelError.
 symbolic::TrigonometricSystem equations(const Question& question);
 
 /// The same as polynomials, the system that is solved. Throws symbolic::ModelError.

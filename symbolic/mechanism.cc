@@ -189,6 +189,31 @@ void Mechanism::outputs(const std::vector<Expression>& symbols, const SourceLoca
   if (outputs_where_.line == 0 && !symbols.empty()) outputs_where_ = place(symbols[0], where);
 }
 
+void Mechanism::replace_outputs(const std::vector<Expression>& symbols, const SourceLocation& where) {
+  std::vector<std::string> chosen;
+  choose("output", symbols, where, chosen, "input", {});
+  std::erase_if(inputs_,
+                [&](const std::string& name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); });
+  outputs_ = std::move(chosen);
+  outputs_where_ = where;
+}
+
+void Mechanism::limit(const std::string& coordinate, const Expression& lower, const Expression& upper,
+                      const SourceLocation& where) {
+  if (find_coordinate(coordinate) < 0)
+    throw ModelError(where,
+                     "the limit of " + in_quotes(coordinate) +
+                         (has_constant(coordinate)     ? ", which is a constant"
+                          : find_composite(coordinate) ? ", which is no single coordinate"
+                          : find_rate(coordinate) >= 0 ? ", which is a rate"
+                                                       : ", which is not declared"),
+                     "a variable of the model");
+  for (const Limit& other : limits_)
+    if (other.coordinate == coordinate)
+      throw ModelError(where, in_quotes(coordinate) + " is limited twice" + declared_at(other.where), "one limit of each");
+  limits_.push_back({coordinate, lower, upper, where});
+}
+
 void Mechanism::set_constant(const std::string& name, const Expression& value) {
   if (!has_constant(name)) {
     std::string known;
@@ -272,6 +297,9 @@ void Mechanism::validate() const {
   for (const Constant& c : constants_) validator.add_constant(c);
   for (const Coordinate& c : coordinates_)
     if (c.has_range) validator.check_range(c);
+  for (const Limit& l : limits_)
+    for (const Expression& end : {l.lower, l.upper})
+      validator.check_value(end, "the limit of " + in_quotes(l.coordinate), l.where);
   for (const Constraint& c : constraints_) validator.check_constraint(c);
   for (const Constraint& c : implied_) validator.check_constraint(c);
   for (const DrawingPoint& p : drawing_.points) validator.check_point(p);

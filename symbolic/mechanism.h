@@ -65,6 +65,14 @@ struct Constraint {
   std::string note = {};  ///< "w @ unit" where a declaration implies it
 };
 
+/// How far a joint moves: lower ≤ coordinate ≤ upper at every configuration. Unlike a mere range, which says where to look,
+/// the mechanism ends there: a set may ask which configurations are at a limit (boundary.h).
+struct Limit {
+  std::string coordinate;
+  Expression lower, upper;  ///< in constants
+  SourceLocation where;
+};
+
 /// A component of m, where the mechanism brings its own velocity equation.
 struct Rate {
   std::string name;
@@ -100,6 +108,11 @@ class Mechanism {
   /// else, a repetition, or a coordinate that is already an output (input). Repeated calls add.
   void inputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
   void outputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
+  /// These outputs, and no others; an input among them is none any more. For questions about other outputs than the model's.
+  void replace_outputs(const std::vector<Expression>& symbols, const SourceLocation& where = {});
+  /// Limits a coordinate. Throws ModelError for a name that is none of a coordinate, or limited already.
+  void limit(const std::string& coordinate, const Expression& lower, const Expression& upper,
+             const SourceLocation& where = {});
   /// Declares a component of m, as length() and angle() do of q.
   Expression rate(const std::string& name, CoordinateKind kind, Role role, const SourceLocation& where = {});
   /// Adds lhs = rhs, linear and homogeneous in the rates, its coefficients in constants and coordinates: a row of L. Throws
@@ -127,6 +140,8 @@ class Mechanism {
   const std::vector<Constraint>& implied() const { return implied_; }
   const std::vector<std::string>& inputs() const { return inputs_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
+  /// As declared; which of them are limits of a configuration, limits.h says.
+  const std::vector<Limit>& limits() const { return limits_; }
   /// Both empty where L is the derivative of the constraints.
   const std::vector<Rate>& rates() const { return rates_; }
   const std::vector<Constraint>& velocity_equations() const { return velocity_equations_; }
@@ -171,6 +186,7 @@ class Mechanism {
   std::vector<Coordinate> coordinates_;
   std::vector<Composite> composites_;
   std::vector<Constraint> constraints_, implied_, velocity_equations_;
+  std::vector<Limit> limits_;
   std::vector<Rate> rates_;
   std::vector<std::string> inputs_, outputs_;
   SourceLocation inputs_where_, outputs_where_;

@@ -124,6 +124,11 @@ void ModelBuilder::finish_variable() {
   values.clear();
 }
 
+void ModelBuilder::finish_limit() {
+  limits.push_back({declared, values.at(0), values.at(1), declared_where});
+  values.clear();
+}
+
 void ModelBuilder::finish_composite(Composite::Kind composite) {
   const bool unit = composite == Composite::Kind::unit;
   unit ? mechanism.unit_vector(declared, declared_where) : mechanism.rotation(declared, declared_where);
@@ -175,6 +180,7 @@ void ModelBuilder::finish(const SourceLocation& end) {
     throw ModelError(end, "the model has no equations", "at least one, in [SYSTEM EQS]");
   mechanism.inputs(inputs);
   mechanism.outputs(outputs);
+  for (const Limit& l : limits) mechanism.limit(l.coordinate, l.lower, l.upper, l.where);
   mechanism.drawing(std::move(drawing));
   mechanism.validate();
 }

@@ -81,6 +81,7 @@ struct ModelBuilder {
   bool auxiliary = false;  ///< the section's variables
   bool of_rates = false;   ///< the section's equations, as is `implied`
   bool implied = false;
+  bool of_limits = false;             ///< the section is [LIMITS]
   std::size_t point_coordinates = 0;  ///< of `values` belong to the point's position, the others to its velocity; 0: all
   Relation::Kind relation = Relation::Kind::equal;
   SourceLocation equation_where;
@@ -88,10 +89,12 @@ struct ModelBuilder {
 
   bool names_are_inputs = true;
   std::vector<Expression> inputs, outputs;  ///< resolved at the end: their section may precede the variables
+  std::vector<Limit> limits;                ///< likewise
   Drawing drawing;
 
   void finish_constant();
   void finish_variable();  ///< with its range where `values` has one
+  void finish_limit();
   void finish_rate(std::string_view role);
   void finish_composite(Composite::Kind composite);
   void finish_equation();

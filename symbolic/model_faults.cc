@@ -7,7 +7,7 @@ namespace {
 
 const char* const kSections =
     "[CONSTANTS], [SYSTEM VARS], [SECONDARY VARS], [DUMMY VARS], [CARTESIAN VARS], [SYSTEM EQS], [COORD EQS], [DUMMY EQS], "
-    "[IMPLIED EQS], [RATES], [VELOCITY EQS], [SEARCH], [INPUTS], [OUTPUTS] or [DRAWING]";
+    "[IMPLIED EQS], [RATES], [VELOCITY EQS], [SEARCH], [INPUTS], [OUTPUTS], [LIMITS] or [DRAWING]";
 const char* const kOperand = "a number, a name, a function or '('";
 
 /// Length of what Rule matches at the beginning of the text; 0 where it does not.
@@ -94,6 +94,9 @@ void Fault::no_number_end() const {
 }
 
 void Fault::no_range() const {
+  if (builder.of_limits)
+    say("found " + describe_start(rest) + " where the limits of " + in_quotes(builder.declared) + " should stand",
+        "[lower, upper]");
   say("found " + describe_start(rest) + " where the range of " + in_quotes(builder.declared) + " should stand",
       "[lower, upper], or nothing in that line where the equations bound the variable");
 }

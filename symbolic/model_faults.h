@@ -67,6 +67,8 @@ CORANK_FAULT(composite_word, fault.found_instead_of("unit (a unit vector) or rot
 CORANK_FAULT(range_open, fault.no_range())
 CORANK_FAULT(range_comma, fault.found_instead_of("',' between the ends of the range"))
 CORANK_FAULT(range_close, fault.found_instead_of("']' behind the range"))
+CORANK_FAULT(limit_name, fault.found_instead_of("a limit, name : [lower, upper], or a section"))
+CORANK_FAULT(limit_mark, fault.found_instead_of("':' behind the variable's name, name : [lower, upper]"))
 CORANK_FAULT(rate_name, fault.found_instead_of("a declaration, name ~ role or name : role, or a section"))
 CORANK_FAULT(rate_mark, fault.found_instead_of("'~' (an angular rate) or ':' (a linear rate) behind the rate's name"))
 CORANK_FAULT(role_word, fault.found_instead_of("input, output or passive behind the mark of the rate"))

@@ -45,8 +45,12 @@ CORANK_ACTION(constant_name, { declare(in, b); })
 CORANK_ACTION0(constant_end, { b.finish_constant(); })
 CORANK_ACTION(variables_header, {
   const std::string_view title = in.string_view();
+  b.of_limits = false;
   b.auxiliary = title.find("DUMMY") != title.npos || title.find("CARTESIAN") != title.npos;
 })
+CORANK_ACTION0(limits_header, { b.of_limits = true; })
+CORANK_ACTION(limit_name, { declare(in, b); })
+CORANK_ACTION0(limit_end, { b.finish_limit(); })
 CORANK_ACTION(variable_name, { declare(in, b); })
 CORANK_ACTION0(length_mark, { b.kind = CoordinateKind::length; })
 CORANK_ACTION0(angle_mark, { b.kind = CoordinateKind::angle; })

@@ -85,6 +85,7 @@ struct equations_header : header<sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRIN
 struct rates_header : header<TAO_PEGTL_STRING("RATES")> {};
 struct inputs_header : header<TAO_PEGTL_STRING("INPUTS")> {};
 struct outputs_header : header<TAO_PEGTL_STRING("OUTPUTS")> {};
+struct limits_header : header<TAO_PEGTL_STRING("LIMITS")> {};
 struct drawing_header : header<TAO_PEGTL_STRING("DRAWING")> {};
 struct section_title : star<not_one<']', '[', '\n', '\r'>> {};
 struct section_close : one<']'> {};
@@ -122,6 +123,14 @@ struct declaration
           sor<seq<composite_mark, line_gap, must<composite_word>>, seq<must<declarator>, line_gap, sor<no_range, range>>>,
           opt<line_gap, one<';'>>> {};
 struct variables_section : seq<variables_header, star<gap, not_at<section_or_end>, declaration>> {};
+
+// [LIMITS]  name : [lower, upper]
+struct limit_name : identifier {};
+struct limit_mark : one<':'> {};
+struct limit_end : success {};
+struct limit : seq<must<limit_name>, line_gap, must<limit_mark>, line_gap, must<range_open>, gap, expression<gap>, gap,
+                   must<range_comma>, gap, expression<gap>, gap, must<range_close>, limit_end, opt<line_gap, one<';'>>> {};
+struct limits_section : seq<limits_header, star<gap, not_at<section_or_end>, limit>> {};
 
 // [RATES]  name ~ role or name : role
 struct rate_name : identifier {};
@@ -202,8 +211,9 @@ struct search_end : at<section_or_end> {};
 struct search_section : seq<search_header, gap, must<search_order>, gap, must<search_end>> {};
 
 struct section_start : at<one<'['>> {};
-struct section : seq<must<section_start>, sor<constants_section, variables_section, rates_section, equations_section,
-                                              names_section, drawing_section, search_section, unknown_section>> {};
+struct section
+    : seq<must<section_start>, sor<constants_section, variables_section, rates_section, equations_section, names_section,
+                                   limits_section, drawing_section, search_section, unknown_section>> {};
 struct file_end : eof {};
 struct model : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
 

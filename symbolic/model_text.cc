@@ -63,6 +63,8 @@ class Writer {
     if (!mechanism_.inputs().empty()) out_ += "\n[INPUTS]   " + chosen(mechanism_.inputs());
     if (!mechanism_.outputs().empty())
       out_ += (mechanism_.inputs().empty() ? "\n" : "") + ("[OUTPUTS]  " + chosen(mechanism_.outputs()));
+    for (const Limit& l : mechanism_.limits())
+      line("[LIMITS]", padded(l.coordinate, widest_limit()) + " : [" + l.lower.text() + ", " + l.upper.text() + "]");
     write_drawing();
     return out_;
   }
@@ -77,6 +79,12 @@ class Writer {
 
   static std::string equation(const Constraint& c) {
     return c.relation.text() + ";" + (c.note.empty() ? "" : "   " + comment(c.note));
+  }
+
+  std::size_t widest_limit() const {
+    std::size_t width = 0;
+    for (const Limit& l : mechanism_.limits()) width = std::max(width, l.coordinate.size());
+    return width;
   }
 
   void write_constraint() { line("[SYSTEM EQS]", equation(mechanism_.constraints()[constraint_])); }

@@ -10,7 +10,7 @@ constexpr std::array kInput{Role::input}, kOutput{Role::output};
 constexpr std::array kBoth{Role::input, Role::output};
 
 // Colours of a page are Okabe and Ito's vermilion and blue, which the colour-blind tell apart.
-constexpr std::array<SetDefinition, 16> kSets{{
+constexpr std::array<SetDefinition, 17> kSets{{
     {.set = SingularitySet::cspace,
      .name = "cspace",
      .title = "C-space",
@@ -75,6 +75,23 @@ constexpr std::array<SetDefinition, 16> kSets{{
      .on_dark = "#c39af0",
      .layer = 3,
      .dot = 6.2},
+    {.set = SingularitySet::boundary,
+     .name = "boundary",
+     .matrix = "Phi_z",
+     .locked = kOutput,
+     .side = KernelSide::left,
+     .title = "Workspace boundary",
+     .member = "Boundary configuration",
+     .label = "workspace boundary",
+     .meaning = "within its limits the output cannot move in some direction, to first order",
+     .of_corank = "within its limits the output cannot move, to first order, in at least {} independent directions",
+     .none = "There is none in the search domain.",
+     .print = {0.05, 0.42, 0.36},
+     .on_light = "#00765f",
+     .on_dark = "#35c4a5",
+     .layer = 20,
+     .dot = 5,
+     .of_parts = true},
     {.set = SingularitySet::forward_inverse,
      .name = "forward-inverse",
      .matrix = "L_y",
@@ -325,10 +342,10 @@ const SetDefinition& definition(const std::string& name) {
   return *std::find_if(kSets.begin(), kSets.end() - 1, [&](const SetDefinition& d) { return name == d.name; });
 }
 
-std::string names_of_sets(bool with_kernel_only) {
+std::string names_of_sets(bool with_corank_only) {
   std::vector<std::string> names;
   for (const SetDefinition& d : set_definitions())
-    if (d.has_kernel() || !with_kernel_only) names.emplace_back(d.name);
+    if ((d.has_kernel() && !d.of_parts) || !with_corank_only) names.emplace_back(d.name);
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : &name == &names.back() ? " or " : ", ") + name;
   return text;

@@ -26,7 +26,8 @@ enum class SingularitySet {
   forward_cusps,
   inverse_cusps,
   forward_nodes,
-  inverse_nodes
+  inverse_nodes,
+  boundary  ///< of the workspace, in parts (boundary.h)
 };
 /// What of a locus is asked for: all of it, or where its image among the locked coordinates has a cusp or crosses itself.
 enum class LocusPart { all, cusps, nodes };
@@ -34,7 +35,7 @@ enum class KernelSide { right, left };  ///< M ξ = 0 or Mᵀ ξ = 0
 /// Of a coordinate: whose rate is it? Inputs are the actuators', passive is the rest.
 enum class Role { input, output, passive };
 
-const char* to_string(SingularitySet set);  ///< "cspace", "forward", "inverse", "cspace-singular"
+const char* to_string(SingularitySet set);  ///< SetDefinition::name
 const char* to_string(KernelSide side);
 const char* to_string(Role role);
 /// Nothing for another word.
@@ -69,13 +70,16 @@ struct SetDefinition {
   int layer = 0;                   ///< higher ones are drawn over lower ones
   double dot = 0;                  ///< radius of an isolated point on a page, in pixels
 
+  /// Its result consists of parts, each the solutions of a system of its own (boundary.h).
+  bool of_parts = false;
+
   /// Is it all configurations where M has a kernel, whose side and corank can be asked for?
   bool has_kernel() const { return is_singular() && part == LocusPart::all; }
   bool is_singular() const { return *matrix != '\0'; }
   /// All configurations of a mechanism, among which those of the other sets are.
   bool is_cspace() const { return set && !is_singular(); }
   /// Of those that a report shows unless it is told which: the others take their time, and few mechanisms have them all.
-  bool is_usual() const { return !type && also_locked.empty() && part == LocusPart::all; }
+  bool is_usual() const { return !type && also_locked.empty() && part == LocusPart::all && !of_parts; }
 };
 
 /// The sets of a mechanism, in the order of a report.
@@ -85,8 +89,8 @@ const SetDefinition& definition(std::optional<SingularitySet> set);
 /// By name; a plain system's where no set is called so.
 const SetDefinition& definition(const std::string& name);
 
-/// "cspace, forward … or iim"; those that have a kernel, or all.
-std::string names_of_sets(bool with_kernel_only = false);
+/// "cspace, forward … or boundary": all, or those that are asked for of a corank.
+std::string names_of_sets(bool with_corank_only = false);
 /// "forward singularities of corank 2"; "forward" where the corank is 1.
 std::string set_with_corank(const std::string& set, int corank);
 

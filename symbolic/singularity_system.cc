@@ -7,6 +7,8 @@
 #include "corank/core/exact_number.h"
 #include "corank/symbolic/cusp_system.h"
 #include "corank/symbolic/found_ranges.h"
+#include "corank/symbolic/limits.h"
+#include "corank/symbolic/model_file.h"
 #include "corank/symbolic/kernel_vector.h"
 #include "corank/symbolic/node_system.h"
 
@@ -252,12 +254,17 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
 
 }  // namespace
 
+std::vector<Expression> kernel_components(const TrigonometricSystem& system) {
+  return scaled(system.kernel_unknowns, system.kernel_scales);
+}
+
 TrigonometricSystem plain_system(const Mechanism& mechanism) {
   mechanism.validate();
   TrigonometricSystem system;
   system.name = mechanism.name();
   system.constants = mechanism.constants();
   system.coordinates = mechanism.coordinates();
+  keep_limits(mechanism, system.coordinates);
   const auto add = [](std::vector<TrigonometricSystem::Equation>& list, const Constraint& constraint,
                       const std::string& word) {
     const std::string number = word + " " + std::to_string(list.size() + 1);

@@ -18,7 +18,7 @@ TEST(SetDefinitions, AreFoundByTheirNamesAndByTheirSets) {
   }
   const std::string kernels = "forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io or iim";
   EXPECT_EQ(names_of_sets(), "cspace, forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io, iim, "
-                             "forward-cusps, inverse-cusps, forward-nodes or inverse-nodes");
+                             "forward-cusps, inverse-cusps, forward-nodes, inverse-nodes or boundary");
   EXPECT_EQ(names_of_sets(true), kernels);
 }
 
@@ -26,7 +26,7 @@ TEST(SetDefinitions, OfTypesAndOfTwoKernelsAreShownOnDemandOnly) {
   int usual = 0;
   for (const SetDefinition& d : set_definitions()) {
     usual += d.is_usual();
-    EXPECT_EQ(d.is_usual(), !d.type && d.also_locked.empty() && d.part == LocusPart::all) << d.name;
+    EXPECT_EQ(d.is_usual(), !d.type && d.also_locked.empty() && d.part == LocusPart::all && !d.of_parts) << d.name;
   }
   EXPECT_EQ(usual, 4);
 }

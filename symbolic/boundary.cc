@@ -1,0 +1,240 @@
+#include "corank/symbolic/boundary.h"
+
+#include <algorithm>
+
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/ginac_bridge.h"
+#include "corank/symbolic/ginac_lock.h"
+#include "corank/symbolic/kernel_scale.h"
+
+namespace corank::symbolic {
+namespace {
+
+using Active = BoundaryPart::Active;
+
+constexpr std::size_t kMostParts = 1000;
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// What the boundary asks of a mechanism: Φ and its derivative.
+struct Outline {
+  Mechanism mechanism;  // without a velocity equation of its own
+  VelocityEquation velocity;
+  std::vector<Expression> phi;
+  long mobility = 0;
+};
+
+Outline outline(const Mechanism& mechanism) {
+  Outline o{mechanism.without_rates(), {}, {}, 0};
+  const SourceLocation where{mechanism.name(), 0, 0};
+  if (mechanism.outputs().empty())
+    throw ModelError(where, "the model names no outputs, in whose space the boundary lies",
+                     "a line [OUTPUTS], or --outputs NAME,NAME");
+  Derivation derivation = derive(o.mechanism);
+  o.velocity = std::move(derivation.velocity);
+  o.phi = std::move(derivation.phi);
+  o.mobility = static_cast<long>(o.velocity.matrix.columns.size()) - static_cast<long>(o.phi.size());
+  const Role output = Role::output;
+  const long ties = static_cast<long>(o.velocity.ties(std::span(&output, 1)).size()),
+             free = static_cast<long>(mechanism.outputs().size()) - ties;
+  if (o.phi.empty() || free > o.mobility || free < 1)
+    throw ModelError(where,
+                     "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + std::to_string(free) +
+                         " free output" + (free == 1 ? "" : "s"),
+                     "from one output to as many as its mobility");
+  return o;
+}
+
+// All ways to choose `size` of the limits from the one with this index on, each with a side.
+void add_choices(const std::vector<Limit>& limits, std::size_t from, std::size_t size, std::vector<Active>& chosen,
+                 std::vector<BoundaryPart>& parts) {
+  if (size == 0) {
+    parts.push_back({chosen});
+    if (parts.size() > kMostParts)
+      throw ModelError(limits.front().where, "so many limits make more than " + std::to_string(kMostParts) + " parts",
+                       "fewer limits, or more outputs");
+    return;
+  }
+  for (std::size_t i = from; i + size <= limits.size(); ++i)
+    for (const bool upper : {false, true}) {
+      chosen.push_back({limits[i].coordinate, upper ? limits[i].upper : limits[i].lower, upper});
+      add_choices(limits, i + 1, size - 1, chosen, parts);
+      chosen.pop_back();
+    }
+}
+
+KernelQuestion question(const Outline& o, const BoundaryPart& part) {
+  const SetDefinition& set = definition(SingularitySet::boundary);
+  KernelQuestion kernel{set, set.matrix, o.velocity.without(set.locked), o.velocity.where, KernelSide::left, {}, {}};
+  kernel.dropped = o.velocity.ties(set.locked);
+  ExpressionMatrix& m = kernel.matrix;
+  for (std::size_t i = kernel.dropped.size(); i-- > 0;) {
+    const auto row = static_cast<std::ptrdiff_t>(kernel.dropped[i]);
+    m.rows.erase(m.rows.begin() + row);
+    kernel.where.erase(kernel.where.begin() + row);
+  }
+  for (const Active& active : part.active) {
+    const auto at = std::find(m.columns.begin(), m.columns.end(), active.coordinate) - m.columns.begin();
+    m.columns.erase(m.columns.begin() + at);
+    m.roles.erase(m.roles.begin() + at);
+    for (auto& row : m.rows) row.erase(row.begin() + at);
+  }
+  return kernel;
+}
+
+void keep_at_limits(const Mechanism& mechanism, const BoundaryPart& part, TrigonometricSystem& system) {
+  for (const Active& active : part.active) {
+    Coordinate& c = system.coordinates[static_cast<std::size_t>(mechanism.find_coordinate(active.coordinate))];
+    c.lower = c.upper = active.value;
+  }
+  system.name += ": " + part.text();
+}
+
+// λᵀΦ and its derivatives.
+class Lagrangian {
+ public:
+  Lagrangian(const Outline& o, const TrigonometricSystem& system)
+      : bridge_(names(system.constants), names(system.coordinates, system.kernel_unknowns)) {
+    const std::vector<Expression> lambda = kernel_components(system);
+    for (std::size_t i = 0; i < o.phi.size(); ++i)
+      value_ += bridge_.to_ginac(lambda[i], {}) * bridge_.to_ginac(o.phi[i], {});
+  }
+
+  Expression by(const std::string& a) const { return bridge_.to_expression(value_.diff(bridge_.symbol(a))); }
+  Expression by(const std::string& a, const std::string& b) const {
+    return bridge_.to_expression(value_.diff(bridge_.symbol(a)).diff(bridge_.symbol(b)));
+  }
+
+ private:
+  static std::vector<std::string> names(const auto& list, std::vector<std::string> behind = {}) {
+    std::vector<std::string> result;
+    for (const auto& item : list) result.push_back(item.name);
+    result.insert(result.end(), behind.begin(), behind.end());
+    return result;
+  }
+
+  GinacBridge bridge_;
+  GiNaC::ex value_ = 0;
+};
+
+Polynomial constant(int value) {
+  Polynomial p;
+  if (value != 0) p.monomials.push_back(Monomial(value, {}));
+  return p;
+}
+
+// n = e_i, and u_i is the limit less τ² (upper), or plus τ².
+PassageForm form_of_output(const Mechanism& mechanism, const Active& active) {
+  PassageForm form;
+  for (const std::string& output : mechanism.outputs()) form.normal.push_back(constant(output == active.coordinate));
+  form.slack.push_back(constant(active.upper ? 1 : -1));
+  return form;
+}
+
+}  // namespace
+
+std::string BoundaryPart::text() const {
+  std::string text;
+  for (const Active& a : active)
+    text += (text.empty() ? "" : ", ") + a.coordinate + " at its " + (a.upper ? "upper" : "lower") + " limit";
+  return text.empty() ? "no limit" : text;
+}
+
+std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
+  const Outline o = outline(mechanism);
+  const Role output = Role::output;
+  const std::size_t free = mechanism.outputs().size() - o.velocity.ties(std::span(&output, 1)).size(),
+                    most = static_cast<std::size_t>(o.mobility) - free + 1;
+  std::vector<Limit> others, of_outputs;
+  for (const Limit& limit : effective_limits(mechanism))
+    (contains(mechanism.outputs(), limit.coordinate) ? of_outputs : others).push_back(limit);
+  std::vector<BoundaryPart> parts;
+  std::vector<Active> chosen;
+  for (std::size_t size = 0; size <= std::min(most, others.size()); ++size) add_choices(others, 0, size, chosen, parts);
+  for (const Limit& limit : of_outputs)
+    for (const bool upper : {false, true})
+      parts.push_back({{{limit.coordinate, upper ? limit.upper : limit.lower, upper}}, true});
+  return parts;
+}
+
+TrigonometricSystem boundary_system(const Mechanism& mechanism, const BoundaryPart& part,
+                                    const std::vector<std::string>& scales) {
+  const Outline o = outline(mechanism);
+  TrigonometricSystem system;
+  if (part.of_output) {
+    system = plain_system(o.mechanism);
+    system.name += std::string(" ") + definition(SingularitySet::boundary).name;
+  } else {
+    system = singularity_system(o.mechanism, question(o, part), scales, 1);
+  }
+  keep_at_limits(o.mechanism, part, system);
+  return system;
+}
+
+std::vector<std::string> boundary_scales(const Mechanism& mechanism, const BoundaryPart& part) {
+  if (part.of_output) return {};
+  const Outline o = outline(mechanism);
+  return kernel_scales(o.mechanism, question(o, part));
+}
+
+std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
+                                        const TrigonometricSystem& system) {
+  const Outline o = outline(mechanism);
+  const Role output = Role::output;
+  if (!o.velocity.ties(std::span(&output, 1)).empty()) return std::nullopt;
+  if (part.of_output) return form_of_output(mechanism, part.active.front());
+  const KernelQuestion kernel = question(o, part);
+  PassageForm form;
+  form.equations = static_cast<int>(kernel.matrix.rows.size());
+  form.columns = static_cast<int>(kernel.matrix.columns.size());
+  std::vector<Expression> jacobian, hessian, slack, normal;
+  for (const auto& row : kernel.matrix.rows) jacobian.insert(jacobian.end(), row.begin(), row.end());
+  {
+    const GinacLock lock;
+    const Lagrangian lagrangian(o, system);
+    const std::vector<std::string>& z = kernel.matrix.columns;
+    for (std::size_t j = 0; j < z.size(); ++j)
+      for (std::size_t k = j; k < z.size(); ++k) hessian.push_back(lagrangian.by(z[j], z[k]));
+    for (const Active& active : part.active)
+      slack.push_back(active.upper ? -lagrangian.by(active.coordinate) : lagrangian.by(active.coordinate));
+    for (const std::string& u : mechanism.outputs()) normal.push_back(lagrangian.by(u));
+  }
+  try {
+    form.jacobian = polynomials(system, jacobian);
+    form.hessian = polynomials(system, hessian);
+    form.slack = polynomials(system, slack);
+    form.normal = polynomials(system, normal);
+  } catch (const ModelError&) {  // sines of lengths, which are no polynomials in the system's own variables
+    return std::nullopt;
+  }
+  // Unknowns stand behind the configuration's variables.
+  const int before = configurations(mechanism).size();
+  for (int i = 0; i < form.equations; ++i) form.multipliers.push_back(before + i);
+  return form;
+}
+
+System compiled_part(const Mechanism& mechanism, const BoundaryPart& part, const std::vector<std::string>& scales) {
+  const TrigonometricSystem equations = boundary_system(mechanism, part, scales);
+  System system = algebrize(equations);
+  system.passage = passage_form(mechanism, part, equations);
+  return system;
+}
+
+System configurations(const Mechanism& mechanism) {
+  System system = algebrize(plain_system(mechanism));
+  const int n = system.configuration_size;
+  system.variables.resize(static_cast<std::size_t>(n));
+  const auto beyond = [n](const Polynomial& f) {
+    for (const Monomial& m : f.monomials)
+      for (const Factor& x : m.factors)
+        if (x.variable >= n) return true;
+    return false;
+  };
+  for (auto* list : {&system.equations, &system.inequalities, &system.claimed}) std::erase_if(*list, beyond);
+  return system;
+}
+
+}  // namespace corank::symbolic

@@ -1,0 +1,169 @@
+// A result of parts, the boundary of a workspace, comes back from its file; one that was tampered with is rejected.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "corank/result/result_file.h"
+#include "corank/result/verification.h"
+#include "corank/solve/exactness.h"
+#include "corank/solve/solve.h"
+#include "corank/symbolic/boundary.h"
+#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/printer.h"
+
+namespace corank::result {
+namespace {
+
+const Result& arm() {
+  static const Result result = [] {
+    const symbolic::Mechanism mechanism = symbolic::read_model(CORANK_SOURCE_DIR "/models/planar/arm_3r_limits.cuik");
+    Result whole;
+    whole.model = mechanism.name();
+    whole.model_text = mechanism.source_text();
+    whole.set = "boundary";
+    const System common = symbolic::configurations(mechanism);
+    describe_system(common, whole);
+    whole.system_text = symbolic::to_cuik(common);
+    for (const symbolic::BoundaryPart& part : symbolic::boundary_parts(mechanism)) {
+      const System system = symbolic::compiled_part(mechanism, part, {});
+      Result one;
+      one.model = whole.model;
+      one.model_text = whole.model_text;
+      one.set = whole.set;
+      one.part = part.text();
+      one.outputs = mechanism.outputs();
+      one.options.kernel = "left";
+      one.system_text = symbolic::to_cuik(system);
+      describe_system(system, one);
+      solve::Options options;
+      options.sigma = 0.3;
+      options.proof = true;
+      one.cover = solve::solve(system, options);
+      solve::prove_exactly(system, options, one.cover);
+      one.options.sigma = one.cover.sigma;
+      whole.parts.push_back(std::move(one));
+    }
+    merge_parts(whole);
+    return whole;
+  }();
+  return result;
+}
+
+// Through a file: why the result is rejected, nothing where it is accepted.
+std::string rejection(const Result& result, bool* complete = nullptr) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("corank-boundary-" + std::to_string(getpid()) + ".h5");
+  std::string reasons;
+  try {
+    write_result(path, result);
+    const Verification verification = verify(read_result(path));
+    for (const std::string& c : verification.contradictions) reasons += c + "\n";
+    for (const auto& failure : verification.report.failures) reasons += failure.reason + "\n";
+    EXPECT_EQ(verification.verified(), reasons.empty());
+    if (complete) *complete = verification.complete();
+  } catch (const ResultFileError& error) {
+    reasons = error.what();
+  }
+  std::filesystem::remove(path);
+  return reasons;
+}
+
+// With the whole made of the changed parts: all that the list of all boxes can tell is in order.
+std::string rejection_of(const std::function<void(Result&)>& change) {
+  Result result = arm();
+  change(result);
+  merge_parts(result);
+  return rejection(result);
+}
+
+CoverBox& first(Result& result, Passage passage) {
+  for (Result& part : result.parts)
+    for (CoverBox& box : part.cover.boxes)
+      if (box.passage == passage) return box;
+  throw std::runtime_error("no box is " + std::string(to_string(passage)));
+}
+
+TEST(BoundaryResult, ComesBackFromItsFileAndIsVerifiedWhole) {
+  bool complete = false;
+  EXPECT_EQ(rejection(arm(), &complete), "");
+  EXPECT_TRUE(complete);
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("corank-boundary-file-" + std::to_string(getpid()) + ".h5");
+  write_result(path, arm());
+  const Result back = read_result(path);
+  std::filesystem::remove(path);
+  ASSERT_EQ(back.parts.size(), arm().parts.size());
+  EXPECT_EQ(back.outputs, (std::vector<std::string>{"x", "y"}));
+  for (std::size_t i = 0; i < back.parts.size(); ++i) {
+    EXPECT_EQ(back.parts[i].part, arm().parts[i].part);
+    EXPECT_EQ(back.parts[i].system_text, arm().parts[i].system_text);
+    ASSERT_EQ(back.parts[i].cover.boxes.size(), arm().parts[i].cover.boxes.size());
+    for (std::size_t k = 0; k < back.parts[i].cover.boxes.size(); ++k) {
+      const CoverBox &a = back.parts[i].cover.boxes[k], &b = arm().parts[i].cover.boxes[k];
+      EXPECT_TRUE(a.box == b.box && a.passage == b.passage && a.side == b.side && a.free == b.free);
+    }
+  }
+  EXPECT_GT(back.cover.boxes.size(), 100u);
+}
+
+TEST(TamperedBoundary, IsRejectedWhereAPassageIsAnother) {
+  EXPECT_THAT(rejection_of([](Result& r) { first(r, Passage::traversable).passage = Passage::barrier; }),
+              testing::HasSubstr("a barrier there, on that side, is not shown"));
+  EXPECT_THAT(rejection_of([](Result& r) { first(r, Passage::barrier).passage = Passage::traversable; }),
+              testing::HasSubstr("a way through there is not shown"));
+}
+
+TEST(TamperedBoundary, IsRejectedWhereASideIsTheOther) {
+  EXPECT_THAT(rejection_of([](Result& r) {
+                for (double& x : first(r, Passage::barrier).side) x = -x;
+              }),
+              testing::HasSubstr("a barrier there, on that side, is not shown"));
+  EXPECT_THAT(rejection_of([](Result& r) {
+                first(r, Passage::barrier).side = {0.6, 0.6};
+              }),
+              testing::HasSubstr("its side is no unit vector"));
+}
+
+TEST(TamperedBoundary, IsRejectedWhereAPartIsMissingOrAnother) {
+  EXPECT_THAT(rejection_of([](Result& r) { r.parts.pop_back(); }),
+              testing::HasSubstr("the parts are not those of the model's set"));
+  EXPECT_THAT(rejection_of([](Result& r) { std::swap(r.parts[1].part, r.parts[2].part); }),
+              testing::HasSubstr("the parts are not those of the model's set"));
+  EXPECT_THAT(rejection_of([](Result& r) { std::swap(r.parts[1].cover, r.parts[2].cover); }), testing::Not(""));
+}
+
+TEST(TamperedBoundary, IsRejectedWhereABoxIsGone) {
+  EXPECT_THAT(rejection_of([](Result& r) {
+                auto& boxes = r.parts[0].cover.boxes;
+                boxes.erase(boxes.begin());
+              }),
+              testing::Not(""));
+}
+
+TEST(TamperedBoundary, IsRejectedWhereTheWholeIsNotThatOfItsParts) {
+  for (const std::function<void(Cover&)>& change : std::vector<std::function<void(Cover&)>>{
+           [](Cover& c) { c.boxes.pop_back(); }, [](Cover& c) { c.boxes[0].part = 3; },
+           [](Cover& c) { c.boxes[0].passage = Passage::unproven; }, [](Cover& c) { c.boxes[0].box[0] = Interval(0, 1); },
+           [](Cover& c) { c.boxes[0].verdict = Verdict::undecided; }, [](Cover& c) { c.dimension = 2; }}) {
+    Result result = arm();
+    change(result.cover);
+    EXPECT_THAT(rejection(result), testing::HasSubstr("the whole is not made of its parts"));
+  }
+}
+
+TEST(TamperedBoundary, IsRejectedWhereOtherOutputsAreNamed) {
+  EXPECT_THAT(rejection_of([](Result& r) {
+                for (Result& part : r.parts) part.outputs = {"y", "x"};
+              }),
+              testing::HasSubstr("the outputs are not those of the model"));
+}
+
+TEST(TamperedBoundary, IsRejectedWhereTheSetHasNoParts) {
+  EXPECT_THAT(rejection_of([](Result& r) { r.set = "cspace"; }), testing::Not(""));
+}
+
+}  // namespace
+}  // namespace corank::result
