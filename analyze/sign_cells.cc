@@ -35,7 +35,7 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
   }
   std::vector<const Box*> sides;
   for (const CoverBox& box : cover.boxes) sides.push_back(&box.box);
-  if (!sides.empty()) boxes_.emplace(std::move(sides), cover.boxes.front().box.size());
+  if (!sides.empty()) boxes_ = std::make_shared<const BoxTree>(std::move(sides), cover.boxes.front().box.size());
 }
 
 // Do all of the cell's solutions lie in a box that comes before its own? That box's cells hold them, too.

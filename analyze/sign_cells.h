@@ -20,13 +20,17 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "corank/analyze/components.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/newton.h"
-#include "corank/core/box_tree.h"
+
+namespace corank {
+class BoxTree;
+}
 
 namespace corank::analyze {
 
@@ -88,7 +92,7 @@ class SignCells {
   certify::CompiledSystem compiled_;  // value rows: the functions
   certify::NewtonWorkspace workspace_;
   std::vector<SignCell> cells_;
-  std::optional<BoxTree> boxes_;  // of the cover
+  std::shared_ptr<const BoxTree> boxes_;  // of the cover
 };
 
 }  // namespace corank::analyze

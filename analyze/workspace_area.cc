@@ -222,6 +222,19 @@ class Measure {
 
 }  // namespace
 
+int membership(const System& configurations, int x, int y, const Interval& cell_x, const Interval& cell_y, int tries) {
+  const UpwardRounding rounding;
+  Measure measure(configurations, x, y);
+  Cell cell = measure.whole();
+  cell.x = cell_x;
+  cell.y = cell_y;
+  for (int k = 0; k < tries; ++k) {
+    const Measure::Finding finding = measure.examine(cell);
+    if (finding != Measure::Finding::undecided) return finding == Measure::Finding::in ? 1 : -1;
+  }
+  return 0;
+}
+
 AreaBounds workspace_area(const System& configurations, int x, int y, const AreaOptions& options) {
   CORANK_CHECK(x >= 0 && y >= 0 && x != y && x < configurations.size() && y < configurations.size() &&
                configurations.coefficient_tolerance == 0);

@@ -26,6 +26,9 @@ struct AreaBounds {
   std::size_t cells = 0;  ///< examined
 };
 
+/// Is every point of the cell an output (1), none (−1)? 0: that is not known after so many tries.
+int membership(const System& configurations, int x, int y, const Interval& cell_x, const Interval& cell_y, int tries);
+
 /// Of a system of configurations (symbolic::configurations) with exact coefficients; x and y are variables of it.
 AreaBounds workspace_area(const System& configurations, int x, int y, const AreaOptions& options = {});
 

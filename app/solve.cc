@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "corank/analyze/workspace_area.h"
+#include "corank/analyze/area_by_boundary.h"
 #include "corank/app/box_files.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
@@ -90,12 +90,15 @@ System system_to_solve(SolveCommand& command, const study::Question& question) {
 }
 
 // Of a boundary in the plane of two lengths.
-std::optional<Interval> area_of(const study::Question& question, const result::Result& result,
-                                const solve::Control& control) {
-  if (result.parts.empty() || result.outputs.size() != 2 || result.options.tolerance > 0) return std::nullopt;
+std::optional<Interval> area_of(const SolveCommand& command, const study::Question& question, const result::Result& result,
+                                solve::Control& control) {
+  if (result.parts.empty() || result.outputs.size() != 2 || result.options.tolerance > 0 || control.ended())
+    return std::nullopt;
+  if (const auto bounds = analyze::area_by_boundary(question, {.threads = command.limits.threads}, control))
+    return Interval(bounds->lo, bounds->hi);
   const System system = symbolic::configurations(question.model);
   const int x = system.find(result.outputs[0]), y = system.find(result.outputs[1]);
-  if (x < 0 || y < 0) return std::nullopt;  // an angle
+  if (!command.area || x < 0 || y < 0) return std::nullopt;  // an angle
   const analyze::AreaBounds bounds = analyze::workspace_area(system, x, y, {.stop = [&control] { return control.ended(); }});
   return Interval(bounds.lo, bounds.hi);
 }
@@ -148,7 +151,7 @@ ExitStatus solve_model(SolveCommand command) {
   const result::Result result = study::answer(parts, systems, options, control);
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result);
-  const std::optional<Interval> area = command.area ? area_of(question, result, control) : std::nullopt;
+  const std::optional<Interval> area = area_of(command, question, result, control);
   line.clear();
   return say(command, result, area);
 }
@@ -191,7 +194,8 @@ void add_solve(CLI::App& program, Action& action) {
                 "Keep the search tree in RESULT.h5, so that corank verify can replay why nothing was lost");
   sub->add_flag(
       "--area", command->area,
-      "Of --set boundary with two lengths as outputs: bounds of the workspace's area, within 2 % where 20000 cells do");
+      "Of --set boundary with two lengths as outputs: bounds of the workspace's area also where its boundary does not\n"
+      "give them, since a range that is no limit cuts it or the model has inequalities; takes long");
   sub->add_option("-o", command->result_path,
                   "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's layout\n"
                   "where its name ends in .sol")

@@ -87,8 +87,8 @@ struct CoverBox {
   /// output stays (barrier), or to either one. Everywhere in the box its product with the boundary's normal, turned to that
   /// side, is positive.
   std::vector<double> side{};
-  int part = -1;  ///< of a result that consists of parts: the index of the one it comes from
-  TypeLabels types = {};         ///< of every solution in it (certify/type_bounds.h)
+  int part = -1;          ///< of a result that consists of parts: the index of the one it comes from
+  TypeLabels types = {};  ///< of every solution in it (certify/type_bounds.h)
 };
 
 /// What is known of a box is about solutions in it; is there one at all?

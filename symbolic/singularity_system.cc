@@ -7,9 +7,9 @@
 #include "corank/core/exact_number.h"
 #include "corank/symbolic/cusp_system.h"
 #include "corank/symbolic/found_ranges.h"
+#include "corank/symbolic/kernel_vector.h"
 #include "corank/symbolic/limits.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/kernel_vector.h"
 #include "corank/symbolic/node_system.h"
 
 namespace corank::symbolic {

@@ -61,7 +61,7 @@ class Dextar(page_case.PageCase):
           const moved = {...model, rates: ["locked", "v"], drawing: {...model.drawing, points}};
           const own = like(panel, {model: moved, picture: like(panel.picture, {model: moved})});
           const x = panel.current.x.map((value, k) => (k === set.configuration ? 0.5 : value));
-          own.show({...panel.current, x, set: {...set, columns: [1], scales: [2]}});
+          own.show({...panel.current, x, set: like(set, {columns: [1], scales: [2]})});
           const arrows = document.querySelectorAll("#panel svg .velocity").length;
           panel.show(panel.current);
           panel.unpin();

@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "corank/analyze/workspace_area.h"
+#include "corank/analyze/area_by_boundary.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/boundary.h"
 #include "corank/symbolic/model_file.h"
@@ -426,6 +426,69 @@ TEST(WorkspaceArea, IsBetweenItsBounds) {
     before = bounds;
   }
   EXPECT_GT(before.lo, 0.6 * before.hi);
+}
+
+study::Question about_boundary(symbolic::Mechanism model) {
+  return {.model = std::move(model), .set = symbolic::SingularitySet::boundary};
+}
+
+TEST(WorkspaceArea, IsKnownByItsBoundary) {
+  solve::Control control;
+  const symbolic::Mechanism arm = symbolic::read_model(CORANK_SOURCE_DIR "/models/planar/arm_2r_limits.cuik");
+  const auto bounds = analyze::area_by_boundary(about_boundary(arm), {}, control);
+  ASSERT_TRUE(bounds);
+  EXPECT_LT(bounds->hi - bounds->lo, 0.015 * bounds->hi);
+  const double sampled = 2.969;  // within 0.2 %, see above
+  EXPECT_LT(bounds->lo, sampled * 1.002);
+  EXPECT_GT(bounds->hi, sampled * 0.998);
+}
+
+// Annular sectors by closed form: t2 in [0, b] makes the elbow's side one, so outputs are (r, angle) one to one.
+TEST(WorkspaceArea, OfRandomArmsIsBetweenItsBounds) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> tenths(3, 20), degrees(20, 150);
+  for (int k = 0; k < 8; ++k) {
+    const double l1 = tenths(random) / 10.0, l2 = tenths(random) / 10.0;
+    const int turn = degrees(random), bend = degrees(random);
+    const auto number = [](double x) { return symbolic::Expression::number(std::to_string(x)); };
+    symbolic::Mechanism arm("arm");
+    const auto x = arm.length("x", -5, 5), y = arm.length("y", -5, 5), t1 = arm.angle("t1"), t2 = arm.angle("t2");
+    using symbolic::cos, symbolic::sin;
+    arm.constrain(x == number(l1) * cos(t1) + number(l2) * cos(t1 + t2));
+    arm.constrain(y == number(l1) * sin(t1) + number(l2) * sin(t1 + t2));
+    arm.inputs({t1, t2});
+    arm.outputs({x, y});
+    const auto angle = [](int of) { return symbolic::pi() * symbolic::Expression(of) / symbolic::Expression(180); };
+    arm.limit("t1", symbolic::Expression(0), angle(turn));
+    arm.limit("t2", symbolic::Expression(0), angle(bend));
+    solve::Control control;
+    const auto bounds = analyze::area_by_boundary(about_boundary(arm), {}, control);
+    ASSERT_TRUE(bounds);
+    // Each output has one configuration; its density is |det J| = l1 l2 sin t2.
+    const double area = l1 * l2 * (turn * kPi / 180) * (1 - std::cos(bend * kPi / 180));
+    EXPECT_LE(bounds->lo, area) << l1 << " " << l2 << " " << turn << " " << bend;
+    EXPECT_GE(bounds->hi, area) << l1 << " " << l2 << " " << turn << " " << bend;
+    EXPECT_LT(bounds->hi - bounds->lo, 0.1 * bounds->hi);
+  }
+}
+
+// A range of an output cuts the workspace: its line is a boundary. An inequality is none that is known.
+TEST(WorkspaceArea, KnowsWhatRangesCutAndRefusesInequalities) {
+  symbolic::Mechanism arm("arm");
+  const auto x = arm.length("x", 0, 2), y = arm.length("y", -2, 2), t1 = arm.angle("t1"), t2 = arm.angle("t2");
+  using symbolic::cos, symbolic::sin;
+  arm.constrain(x == cos(t1) + symbolic::Expression("1/2") * cos(t2));
+  arm.constrain(y == sin(t1) + symbolic::Expression("1/2") * sin(t2));
+  arm.inputs({t1, t2});
+  arm.outputs({x, y});
+  solve::Control control;
+  const auto half = analyze::area_by_boundary(about_boundary(arm), {}, control);
+  ASSERT_TRUE(half);
+  EXPECT_LE(half->lo, kPi);
+  EXPECT_GE(half->hi, kPi);
+  EXPECT_LT(half->hi - half->lo, 0.05 * kPi);
+  arm.constrain(y >= symbolic::Expression(0));
+  EXPECT_FALSE(analyze::area_by_boundary(about_boundary(arm), {}, control));
 }
 
 TEST(WorkspaceArea, OfAnUnlimitedTwoLinkArmIsThatOfItsRing) {

@@ -1,0 +1,216 @@
+#include "corank/analyze/area_by_boundary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <set>
+#include <string>
+
+#include "corank/certify/implied.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/solve.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/limits.h"
+
+namespace corank::analyze {
+namespace {
+
+// Squares of side h, a power of two, at its multiples: every corner is a double.
+class Grid {
+ public:
+  Grid(const Interval& x, const Interval& y, double fineness) {
+    constexpr double kMostSquares = 2.5e7;
+    const double side = std::max(x.width(), y.width());
+    h_ = std::exp2(std::floor(std::log2(std::max(side * fineness, 1e-300))));
+    while ((x.width() / h_ + 4) * (y.width() / h_ + 4) > kMostSquares) h_ *= 2;
+    x0_ = static_cast<std::int64_t>(std::floor(x.lo() / h_)) - 2;
+    y0_ = static_cast<std::int64_t>(std::floor(y.lo() / h_)) - 2;
+    nx_ = static_cast<std::int64_t>(std::ceil(x.hi() / h_)) + 2 - x0_;
+    ny_ = static_cast<std::int64_t>(std::ceil(y.hi() / h_)) + 2 - y0_;
+    from_boundary_.assign(static_cast<std::size_t>(nx_ * ny_), kFar);
+  }
+
+  /// All closed squares that meet the closed rectangle: a quotient by a power of two is exact.
+  void mark(const Interval& x, const Interval& y) {
+    const auto first = [&](double lo, std::int64_t origin) {
+      return std::max<std::int64_t>(0, static_cast<std::int64_t>(std::ceil(lo / h_)) - 1 - origin);
+    };
+    const auto last = [&](double hi, std::int64_t origin, std::int64_t n) {
+      return std::min(n - 1, static_cast<std::int64_t>(std::floor(hi / h_)) - origin);
+    };
+    for (std::int64_t i = first(x.lo(), x0_); i <= last(x.hi(), x0_, nx_); ++i)
+      for (std::int64_t j = first(y.lo(), y0_); j <= last(y.hi(), y0_, ny_); ++j) at(from_boundary_, i, j) = 0;
+  }
+
+  struct Component {
+    std::uint64_t squares = 0;
+    std::int64_t deepest = 0;  ///< the square furthest from the marked ones
+    bool outer = false;        ///< it meets the border of the grid
+  };
+
+  /// Connected sets of squares that are not marked.
+  std::vector<Component> components() {
+    measure_depth();
+    std::vector<bool> seen(from_boundary_.size());
+    std::vector<Component> result;
+    for (std::int64_t start = 0; start < nx_ * ny_; ++start) {
+      if (seen[static_cast<std::size_t>(start)] || depth(start) == 0) continue;
+      Component c;
+      c.deepest = start;
+      std::deque<std::int64_t> open{start};
+      seen[static_cast<std::size_t>(start)] = true;
+      while (!open.empty()) {
+        const std::int64_t k = open.front();
+        open.pop_front();
+        ++c.squares;
+        if (depth(k) > depth(c.deepest)) c.deepest = k;
+        if (!for_each_neighbour(k, [&](std::int64_t n) {
+              if (seen[static_cast<std::size_t>(n)] || depth(n) == 0) return;
+              seen[static_cast<std::size_t>(n)] = true;
+              open.push_back(n);
+            }))
+          c.outer = true;
+      }
+      result.push_back(c);
+    }
+    return result;
+  }
+
+  std::uint64_t marked() const {
+    return static_cast<std::uint64_t>(std::count(from_boundary_.begin(), from_boundary_.end(), std::uint16_t{0}));
+  }
+  double square() const { return h_ * h_; }
+  /// A part of the square's middle.
+  Interval x_of(std::int64_t k) const { return middle(x0_ + k % nx_); }
+  Interval y_of(std::int64_t k) const { return middle(y0_ + k / nx_); }
+
+ private:
+  static constexpr std::uint16_t kFar = 0xffff;
+
+  Interval middle(std::int64_t i) const {
+    return {(static_cast<double>(i) + 0.375) * h_, (static_cast<double>(i) + 0.625) * h_};
+  }
+  std::uint16_t& at(std::vector<std::uint16_t>& list, std::int64_t i, std::int64_t j) const {
+    return list[static_cast<std::size_t>(j * nx_ + i)];
+  }
+  std::uint16_t depth(std::int64_t k) const { return from_boundary_[static_cast<std::size_t>(k)]; }
+
+  // False: the square is on the border of the grid.
+  template <class Visit>
+  bool for_each_neighbour(std::int64_t k, const Visit& visit) const {
+    const std::int64_t i = k % nx_, j = k / nx_;
+    if (i > 0) visit(k - 1);
+    if (i + 1 < nx_) visit(k + 1);
+    if (j > 0) visit(k - nx_);
+    if (j + 1 < ny_) visit(k + nx_);
+    return i > 0 && i + 1 < nx_ && j > 0 && j + 1 < ny_;
+  }
+
+  void measure_depth() {
+    std::deque<std::int64_t> open;
+    for (std::int64_t k = 0; k < nx_ * ny_; ++k)
+      if (depth(k) == 0) open.push_back(k);
+    while (!open.empty()) {
+      const std::int64_t k = open.front();
+      open.pop_front();
+      for_each_neighbour(k, [&](std::int64_t n) {
+        if (depth(n) != kFar) return;
+        from_boundary_[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>(std::min(depth(k) + 1, kFar - 1));
+        open.push_back(n);
+      });
+    }
+  }
+
+  double h_ = 1;
+  std::int64_t x0_ = 0, y0_ = 0, nx_ = 0, ny_ = 0;
+  std::vector<std::uint16_t> from_boundary_;  // 0: marked
+};
+
+// No configuration at an end of a range that is no limit, and no inequality but those of limits. Of an output the lines at such ends
+// are edges instead: they may bound the workspace, too.
+bool has_no_other_ends(const symbolic::Mechanism& model, const System& system, int x, int y, std::vector<Box>& edges,
+                       solve::Control& control) {
+  constexpr std::uint64_t kMost = 2000;  // boxes of a search: what takes more is not known
+  std::set<std::string> limited;
+  for (const symbolic::Limit& limit : symbolic::effective_limits(model)) limited.insert(limit.coordinate);
+  for (const Polynomial& f : system.inequalities) {
+    const bool of_limit =
+        std::any_of(limited.begin(), limited.end(), [&](const std::string& name) { return f.source == "range of " + name; });
+    if (!of_limit) return false;
+  }
+  for (const Angle& angle : system.angles)
+    if (!limited.contains(angle.name) && !(angle.range.width() > 6.283185)) return false;
+  const std::vector<certify::ImpliedSides> implied = certify::implied_domains(system);
+  for (std::size_t j = 0; j < system.variables.size(); ++j) {
+    const Variable& v = system.variables[j];
+    if (v.kind != VariableKind::length || limited.contains(v.name)) continue;
+    for (const bool upper : {false, true}) {
+      if (upper ? implied[j].upper || v.upper_implied : implied[j].lower || v.lower_implied) continue;
+      System at_end = system;
+      const ExactNumber& end = upper ? v.upper : v.lower;
+      at_end.variables[j] = Variable(v.name, v.kind, end, end);
+      const Cover cover = solve::solve(solve::prepare(at_end, {}, control), control, kMost);
+      if (cover.boxes.empty() && cover.complete()) continue;
+      if (static_cast<int>(j) != x && static_cast<int>(j) != y) return false;
+      const Box line = at_end.domain();
+      edges.push_back({line[static_cast<std::size_t>(x)], line[static_cast<std::size_t>(y)]});
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<AreaBounds> area_by_boundary(const study::Question& question, const BoundaryAreaOptions& options,
+                                           solve::Control& control) {
+  const std::vector<std::string>& outputs = question.model.outputs();
+  const System system = symbolic::configurations(question.model);
+  if (outputs.size() != 2 || symbolic::algebrize(symbolic::plain_system(question.model)).size() != system.size())
+    return std::nullopt;
+  const int x = system.find(outputs[0]), y = system.find(outputs[1]);
+  std::vector<Box> edges;
+  if (x < 0 || y < 0 || !has_no_other_ends(question.model, system, x, y, edges, control)) return std::nullopt;
+
+  std::vector<Box> boundary;
+  std::optional<double> sigma;
+  for (const bool fine : {false, true}) {  // first of any size, to know how large the workspace is
+    boundary = edges;
+    for (const study::Question& part : study::parts_of(question)) {
+      solve::Options search;
+      search.threads = options.threads;
+      search.sigma = sigma;
+      const Cover cover = solve::solve(solve::prepare(study::system(part), search, control), control);
+      if (!cover.complete()) return std::nullopt;
+      for (const CoverBox& box : cover.boxes)
+        boundary.push_back({box.box[static_cast<std::size_t>(x)], box.box[static_cast<std::size_t>(y)]});
+    }
+    if (boundary.empty()) return AreaBounds{};
+    Box hull = boundary.front();
+    for (const Box& b : boundary)
+      for (std::size_t k = 0; k < 2; ++k) hull[k] = Interval::hull(hull[k], b[k]);
+    sigma = std::max(hull[0].width(), hull[1].width()) * options.fineness;
+    if (!fine) continue;
+    Grid grid(hull[0], hull[1], options.fineness / 2);
+    for (const Box& b : boundary) grid.mark(b[0], b[1]);
+    std::vector<Grid::Component> components = grid.components();
+    std::erase_if(components, [](const Grid::Component& c) { return c.outer; });
+    std::sort(components.begin(), components.end(), [](const auto& a, const auto& b) { return a.squares > b.squares; });
+    AreaBounds bounds;
+    std::uint64_t in = 0, open = grid.marked();
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      constexpr int kTries = 60;
+      const Grid::Component& c = components[k];
+      const bool tested = static_cast<int>(k) < options.most_components && !control.ended();
+      const int found = tested ? membership(system, x, y, grid.x_of(c.deepest), grid.y_of(c.deepest), kTries) : 0;
+      bounds.cells += tested;
+      (found > 0 ? in : open) += found < 0 ? 0 : c.squares;
+    }
+    bounds.lo = static_cast<double>(in) * grid.square();  // exact: h² is a power of two
+    bounds.hi = static_cast<double>(in + open) * grid.square();
+    return bounds;
+  }
+  return std::nullopt;
+}
+
+}  // namespace corank::analyze
