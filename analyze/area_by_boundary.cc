@@ -127,8 +127,8 @@ class Grid {
   std::vector<std::uint16_t> from_boundary_;  // 0: marked
 };
 
-// No configuration at an end of a range that is no limit, and no inequality but those of limits. Of an output the lines at such ends
-// are edges instead: they may bound the workspace, too.
+// No configuration at an end of a range that is no limit, and no inequality but those of limits. Of an output the lines at
+// such ends are edges instead: they may bound the workspace, too.
 bool has_no_other_ends(const symbolic::Mechanism& model, const System& system, int x, int y, std::vector<Box>& edges,
                        solve::Control& control) {
   constexpr std::uint64_t kMost = 2000;  // boxes of a search: what takes more is not known

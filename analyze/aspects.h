@@ -49,4 +49,9 @@ struct AspectsOptions {
 /// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.
 Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control);
 
+/// A few lines for a terminal.
+std::string to_text(const study::Question& question, const Aspects& aspects);
+/// {"aspects": {"at_least", "at_most"}, "assembly_modes", "working_modes", "representatives" …}; doc/topology.md.
+std::string to_json(const study::Question& question, const Aspects& aspects, bool complete);
+
 }  // namespace corank::analyze

@@ -55,4 +55,9 @@ struct TopologyOptions {
 /// control ends it early, what is proven so far. Throws symbolic::ModelError as study::system does.
 Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control);
 
+/// A few lines for a terminal.
+std::string to_text(const study::Question& question, const Topology& topology);
+/// {"components": {"at_least", "at_most"}, "euler_characteristic", "genus", "critical_points" …}; doc/topology.md.
+std::string to_json(const study::Question& question, const Topology& topology, bool complete);
+
 }  // namespace corank::analyze

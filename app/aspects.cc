@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
-#include "corank/certify/angle.h"
 #include "corank/result/printable.h"
 
 namespace corank::app {
@@ -22,72 +20,6 @@ struct AspectsCommand {
   double time_limit = 0;
   bool json = false;
 };
-
-struct Value {
-  std::string name;
-  Interval value;
-};
-
-std::vector<Value> values(const System& system, const Box& box) {
-  std::vector<Value> result;
-  for (std::size_t j = 0; j < system.variables.size(); ++j)
-    if (system.variables[j].kind == VariableKind::length) result.push_back({system.variables[j].name, box[j]});
-  for (const Angle& a : system.angles)
-    result.push_back({a.name, certify::angle_enclosure(box[static_cast<std::size_t>(a.cosine)],
-                                                       box[static_cast<std::size_t>(a.sine)], a.range)});
-  return result;
-}
-
-std::string bounds(const analyze::Pieces& p) {
-  if (p.exact()) return std::to_string(p.at_least);
-  return p.at_most ? fmt::format("from {} to {} ({})", p.at_least, *p.at_most, p.reason)
-                   : fmt::format("at least {} ({})", p.at_least, p.reason);
-}
-
-std::string to_text(const study::Question& question, const analyze::Aspects& a) {
-  std::string text = question.model.name() + "\n";
-  if (!a.reason.empty()) return text + "  not known: " + a.reason + "\n";
-  text += fmt::format("  aspects         {}\n  assembly modes  {}\n  working modes   {}\n", bounds(a.aspects),
-                      bounds(a.assembly_modes), bounds(a.working_modes));
-  text += fmt::format("  det L_y = 0 where {}\n",
-                      a.forward_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.forward_factors, " = 0 or ")));
-  text += fmt::format("  det L_z = 0 where {}\n",
-                      a.inverse_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.inverse_factors, " = 0 or ")));
-  text += "A configuration of each aspect:\n";
-  for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {
-    text += fmt::format("  {:>3}", k + 1);
-    for (const Value& v : values(a.system, a.aspects.representatives[k]))
-      text += fmt::format("  {} {:.4f}", v.name, v.value.mid());
-    text += "\n";
-  }
-  return text;
-}
-
-std::string to_json(const study::Question& question, const analyze::Aspects& a, bool complete) {
-  using Json = nlohmann::ordered_json;
-  const auto or_null = [](const std::optional<int>& x) { return x ? Json(*x) : Json(); };
-  const auto bounds = [&](const analyze::Pieces& p) {
-    return Json{{"at_least", p.at_least}, {"at_most", or_null(p.at_most)}};
-  };
-  const auto number = [](const analyze::Pieces& p) { return p.exact() ? Json(p.at_least) : Json(); };
-  Json json;
-  json["model"] = question.model.name();
-  json["aspects"] = bounds(a.aspects);
-  json["assembly_modes"] = number(a.assembly_modes);
-  json["working_modes"] = number(a.working_modes);
-  json["bounds"] = {{"assembly_modes", bounds(a.assembly_modes)}, {"working_modes", bounds(a.working_modes)}};
-  json["factors"] = {{"forward", a.forward_factors}, {"inverse", a.inverse_factors}};
-  json["representatives"] = Json::array();
-  for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {
-    Json entry = {{"values", Json::object()}, {"signs", a.aspects.signs[k]}};
-    for (const Value& v : values(a.system, a.aspects.representatives[k]))
-      entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
-    json["representatives"].push_back(entry);
-  }
-  json["reason"] = !a.reason.empty() ? a.reason : a.aspects.reason;
-  json["complete"] = complete;
-  return json.dump(2);
-}
 
 ExitStatus aspects(const AspectsCommand& command) {
   solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});

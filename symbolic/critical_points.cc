@@ -54,7 +54,7 @@ Expression height_function(const Mechanism& mechanism, int height) {
   return Expression::node(Expression::Kind::sum, terms);
 }
 
-// Of λ, one over the size of its equation; of μ, whose height is of size 1: the components of (λ, μ) are of one size in every unit.
+// Of λ, one over the size of its equation; of μ, whose height is of size 1: (λ, μ) has components of one size in every unit.
 std::vector<std::string> multiplier_scales(const Mechanism& mechanism) {
   std::vector<std::string> scales;
   for (const double size : equation_sizes(mechanism))

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <random>
 
 #include "corank/analyze/area_by_boundary.h"
 #include "corank/study/answer.h"

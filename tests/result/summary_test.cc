@@ -30,7 +30,7 @@ TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   EXPECT_THAT(keys(json),
               ElementsAre("model", "set", "corank", "system", "options", "complete", "stopped", "boxes", "undecided_reasons",
                           "observed_dimension", "seems_of_corank", "self_motions", "boundary_reasons", "range_ends",
-                          "ranges_found", "points", "kernel", "types", "seconds", "version"));
+                          "ranges_found", "points", "meaning", "node_distance", "kernel", "types", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]),
               ElementsAre("kernel", "sigma", "sigma_length", "sigma_angle", "kernel_scales", "passive_rates_eliminated",

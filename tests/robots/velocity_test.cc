@@ -99,7 +99,9 @@ std::vector<std::string> models() {
   for (const char* folder : {"spatial", "serial"})
     for (const auto& entry : fs::directory_iterator(std::string(CORANK_SOURCE_DIR "/models/") + folder)) {
       const std::string name = entry.path().stem().string();
-      if (name != "bricard_motion" && name != "agile_eye_apart") list.push_back(std::string(folder) + "/" + name);
+      // Equations, and what others include.
+      if (name == "bricard_motion" || name == "agile_eye_apart" || name == "orthogonal_3r_section") continue;
+      list.push_back(std::string(folder) + "/" + name);
     }
   std::sort(list.begin(), list.end());
   return list;

@@ -90,14 +90,14 @@ TEST(MemoryLimit, LeavesWhatDoesNotFitPending) {
     Options options;
     options.sigma = 0.02;
     options.threads = threads;
-    Control control({.memory = 500'000});
+    Control control({.memory = 700'000});
     const Cover cover = solve(prepare(torus().system(), options, control), control);
     EXPECT_FALSE(cover.complete());
     EXPECT_EQ(control.ending(), (Ending{Limit::memory, Stage::search}));
     EXPECT_EQ(control.kept(), 0) << "what the search kept is given back";
     EXPECT_GT(cover.boxes.size(), 100u);
     // The rest of the limit is for the copies that are made of each box, and for the file.
-    EXPECT_LT(bytes_of(cover, kFileBytes), 500'000u);
+    EXPECT_LT(bytes_of(cover, kFileBytes), 700'000u);
     EXPECT_TRUE(covers(cover, {1.5, 0, 0}) && covers(cover, {0, -0.5, 0}) && covers(cover, {-1, 0, 0.5}));
   }
 }
