@@ -17,8 +17,9 @@ TEST(SetDefinitions, AreFoundByTheirNamesAndByTheirSets) {
     EXPECT_EQ(singularity_set_from_string(to_string(*d.set)), d.set);
   }
   const std::string kernels = "forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io or iim";
-  EXPECT_EQ(names_of_sets(), "cspace, forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io, iim, "
-                             "forward-cusps, inverse-cusps, forward-nodes or inverse-nodes");
+  EXPECT_EQ(names_of_sets(),
+            "cspace, forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io, iim, "
+            "forward-cusps, inverse-cusps, forward-nodes or inverse-nodes");
   EXPECT_EQ(names_of_sets(true), kernels);
 }
 
