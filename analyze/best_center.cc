@@ -28,7 +28,7 @@ std::vector<double> middle(const Box& x) {
 
 class Search {
  public:
-  Search(const CenterField& field, const BestOptions& options, solve::Control& control, Best& best)
+  Search(CenterField& field, const BestOptions& options, solve::Control& control, Best& best)
       : field_(field), options_(options), control_(control), best_(best) {}
 
   void run() {
@@ -115,7 +115,7 @@ class Search {
     open_.push(std::move(other));
   }
 
-  const CenterField& field_;
+  CenterField& field_;
   const BestOptions& options_;
   solve::Control& control_;
   Best& best_;
@@ -128,7 +128,7 @@ class Search {
 Best best_center(const study::Question& question, const BallOptions& ball, const std::vector<NamedRange>& region,
                  const BestOptions& options, const solve::Options& search, solve::Control& control) {
   const auto start = std::chrono::steady_clock::now();
-  const CenterField field(question, ball, region, search, control);
+  CenterField field(question, ball, region, search, control);
   Best best;
   best.ball = field.ball();
   best.names = field.names(), best.region = field.region();

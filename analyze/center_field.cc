@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "corank/certify/polynomial_algebra.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
@@ -17,6 +18,8 @@ namespace {
 
 constexpr double kSeconds = 3;            // for the question whether there is a configuration
 constexpr std::uint64_t kBoxes = 20'000;  // likewise
+
+constexpr std::uint64_t kPatience = 256;  // boxes: most searches that only have to exclude end before
 
 using symbolic::Coordinate;
 using symbolic::Expression;
@@ -97,11 +100,40 @@ CenterField::CenterField(const study::Question& question, BallOptions ball, cons
   if (question.set) assembled_ = assembled_system(question, ball_, names_, region_);
 }
 
-Nearest CenterField::distance(const std::vector<double>& center, const NearestOptions& options) const {
+Nearest CenterField::distance(const std::vector<double>& center, const NearestOptions& options) {
   std::vector<Polynomial> differences = differences_;
   for (std::size_t k = 0; k < center.size(); ++k)
     if (center[k] != 0) differences[k].monomials.emplace_back(ExactNumber::dyadic(-center[k]), std::vector<Factor>{});
-  return nearest(prepared_, differences, options, control_);
+  const auto distance_of = [&](const Nearest& singularity) {
+    const UpwardRounding rounding;
+    Interval squares;
+    for (const Polynomial& d : differences) squares += square(certify::evaluate(d, singularity.box));
+    return squares.hi() > 0 ? square_root(Interval(squares.hi()))->hi() : 0;
+  };
+  Nearest best;
+  for (const Nearest& singularity : known_)
+    if (const double upper = distance_of(singularity); !best.upper || upper < *best.upper) {
+      best = singularity;
+      best.upper = upper, best.lower = 0;
+    }
+  if (best.upper && *best.upper <= options.enough) return best;
+  NearestOptions nearer = options;
+  if (best.upper) {
+    nearer.patience = kPatience;
+    const double most = (1 - options.precision) * *best.upper;
+    if (!(nearer.at_most > 0) || most < nearer.at_most) nearer.at_most = most;
+    if (nearer.at_most <= 0) return best;
+  }
+  Nearest found = nearest(prepared_, differences, nearer, control_);
+  if (found.upper) {
+    known_.push_back(found);
+    known_.back().statistics = {}, known_.back().unproven.clear(), known_.back().complete = false;
+  }
+  if (best.upper && (!found.upper || *best.upper < *found.upper)) {
+    found.upper = best.upper, found.box = best.box, found.free = best.free;
+    found.complete = found.lower >= (1 - options.precision) * *found.upper;
+  }
+  return found;
 }
 
 CenterField::Configurations CenterField::configurations(std::span<const Interval> centers) const {

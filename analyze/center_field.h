@@ -26,7 +26,9 @@ class CenterField {
   const Ball& ball() const { return ball_; }
   const System& system() const { return prepared_.system; }
 
-  Nearest distance(const std::vector<double>& center, const NearestOptions& options) const;
+  /// As nearest() returns it; `upper` may be that of a singularity which was found from another centre. Those spare most of
+  /// the search: it has to look for nearer ones only.
+  Nearest distance(const std::vector<double>& center, const NearestOptions& options);
 
   /// Does the robot have a configuration whose ball's coordinates are in these intervals?
   struct Configurations {
@@ -44,6 +46,7 @@ class CenterField {
   Ball ball_;
   solve::Prepared prepared_;
   std::vector<Polynomial> differences_;  ///< from 0 in the region's coordinates, which come first
+  std::vector<Nearest> known_;           ///< one proven singularity each
   std::optional<System> assembled_;      ///< the configurations; of a plain system nothing, where any centre will do
 };
 

@@ -230,7 +230,9 @@ void Search::process_batch() {
     for (Node& node : part.nodes) push(std::move(node));
   }
   // Now and then, ever more seldom.
-  if (std::bit_width(before) < std::bit_width(statistics_.processed) && !waiting_.empty()) improve(Box(next().x));
+  if (std::bit_width(before) < std::bit_width(statistics_.processed) && statistics_.processed >= options_.patience &&
+      !waiting_.empty() && next().bound < cutoff_)
+    improve(Box(next().x));
 }
 
 void Search::search(Nearest& result) {
