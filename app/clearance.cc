@@ -217,6 +217,20 @@ void add_clearance(CLI::App& program, Action& action) {
                       "coordinates where --in is not given")
           ->type_name("NAME=[A,B],...")
           ->allow_extra_args(false);
+  CLI::Option* map =
+      sub->add_option("--map", command->map,
+                      "The clearance over a grid of centres in two lengths, within these or the declared ranges, each cell\n"
+                      "with bounds that hold all over it")
+          ->type_name("NAME,NAME or NAME=[A,B],NAME=[A,B]")
+          ->allow_extra_args(false)
+          ->excludes(best);
+  CLI::Option* output = sub->add_option("-o,--output", command->output, "The map: a .svg, .csv or .json")->type_name("FILE");
+  map->needs(output);
+  output->needs(map);
+  sub->add_option("--grid", command->grid, "Cells of the map along each side")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->needs(map);
   sub->add_option("--precision", command->precision, "How close the bounds of the radius are to be, relative to it")
       ->check(CLI::Range(1e-6, 0.9))
       ->capture_default_str();
@@ -225,7 +239,8 @@ void add_clearance(CLI::App& program, Action& action) {
          "Write NAME-free.h5, no singularity within the lower bound, with the script of a search that found none, and\n"
          "NAME-nearest.h5, one within the upper bound: corank verify checks both")
       ->type_name("NAME")
-      ->excludes(best);
+      ->excludes(best)
+      ->excludes(map);
   command->limits.add_options(*sub, "the search");
   CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
       "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },
@@ -239,10 +254,14 @@ void add_clearance(CLI::App& program, Action& action) {
       "Examples:\n  corank clearance models/dextar.cuik --at J3x=0.5,J3y=1 --in J3x,J3y\n"
       "  corank clearance models/planar/3rpr.cuik --at pose_x=0.8,pose_y=0.5,pose_phi=0.1 --in pose_x,pose_y\\\n"
       "      --orientation-range 15deg\n"
-      "  corank clearance models/dextar.cuik --best J3x=[0,1],J3y=[0,1.5]");
+      "  corank clearance models/dextar.cuik --best J3x=[0,1],J3y=[0,1.5]\n"
+      "  corank clearance models/dextar.cuik --map J3x,J3y -o map.svg");
   sub->callback([command, json, &action] {
     if (json->count() > 0 && !command->json_path) command->json_path = "";
-    action = [command] { return !command->best.empty() ? run_best(*command) : run_clearance(*command); };
+    action = [command] {
+      if (!command->map.empty()) return run_map(*command);
+      return command->best.empty() ? run_clearance(*command) : run_best(*command);
+    };
   });
 }
 
