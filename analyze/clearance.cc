@@ -12,22 +12,6 @@ namespace {
 
 constexpr double kCenterSeconds = 3;  // for the question whether a configuration is at the centre
 
-std::vector<CoordinateValue> values_of(const System& system, const Box& box) {
-  std::vector<CoordinateValue> values;
-  for (int j = 0; j < system.configuration_size; ++j) {
-    const auto side = [&](int v) { return box[static_cast<std::size_t>(v)]; };
-    const Variable& v = system.variables[static_cast<std::size_t>(j)];
-    const auto angle = std::find_if(system.angles.begin(), system.angles.end(),
-                                    [j](const Angle& a) { return a.cosine == j || a.sine == j; });
-    if (angle == system.angles.end()) {
-      if (!v.auxiliary) values.push_back({v.name, side(j)});
-    } else if (angle->cosine == j) {
-      values.push_back({angle->name, certify::angle_enclosure(side(angle->cosine), side(angle->sine), angle->range)});
-    }
-  }
-  return values;
-}
-
 Clearance::Center center_of(const study::Question& question, const Ball& ball, const solve::Options& search,
                             const solve::Control& control) {
   study::Question at = question;
@@ -47,6 +31,22 @@ Clearance::Center center_of(const study::Question& question, const Ball& ball, c
 
 }  // namespace
 
+std::vector<CoordinateValue> coordinate_values(const System& system, const Box& box) {
+  std::vector<CoordinateValue> values;
+  for (int j = 0; j < system.configuration_size; ++j) {
+    const auto side = [&](int v) { return box[static_cast<std::size_t>(v)]; };
+    const Variable& v = system.variables[static_cast<std::size_t>(j)];
+    const auto angle = std::find_if(system.angles.begin(), system.angles.end(),
+                                    [j](const Angle& a) { return a.cosine == j || a.sine == j; });
+    if (angle == system.angles.end()) {
+      if (!v.auxiliary) values.push_back({v.name, side(j)});
+    } else if (angle->cosine == j) {
+      values.push_back({angle->name, certify::angle_enclosure(side(angle->cosine), side(angle->sine), angle->range)});
+    }
+  }
+  return values;
+}
+
 Clearance clearance(const study::Question& question, const BallOptions& options, const ClearanceOptions& wanted,
                     const solve::Options& search, solve::Control& control) {
   const auto start = std::chrono::steady_clock::now();
@@ -65,11 +65,11 @@ Clearance clearance(const study::Question& question, const BallOptions& options,
   stage.reset();
   const solve::Prepared prepared = solve::prepare(system, search, control);
   const std::vector<Polynomial> differences = symbolic::polynomials(equations, result.ball.differences());
-  result.nearest = nearest(prepared, differences, {wanted.precision, 0, wanted.progress}, control);
-  if (result.nearest.upper) result.values = values_of(system, result.nearest.box);
+  result.nearest = nearest(prepared, differences, {.precision = wanted.precision, .progress = wanted.progress}, control);
+  if (result.nearest.upper) result.values = coordinate_values(system, result.nearest.box);
   if (!result.nearest.unproven.empty()) {
     const Box point(result.nearest.unproven.begin(), result.nearest.unproven.end());
-    for (const CoordinateValue& v : values_of(system, point)) result.seemingly.emplace_back(v.name, v.value.mid());
+    for (const CoordinateValue& v : coordinate_values(system, point)) result.seemingly.emplace_back(v.name, v.value.mid());
   }
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -22,6 +22,9 @@ struct CoordinateValue {
   Interval value;  ///< an angle in radians
 };
 
+/// Of the model's coordinates over a box of the system's variables.
+std::vector<CoordinateValue> coordinate_values(const System& system, const Box& box);
+
 struct Clearance {
   enum class Center { assembled, not_assembled, unknown };
 

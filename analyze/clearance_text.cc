@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corank/analyze/clearance.h"
+#include "corank/analyze/clearance_words.h"
 
 namespace corank::analyze {
 namespace {
@@ -20,17 +21,6 @@ const char* word(Clearance::Center center) {
   return "unknown";
 }
 
-std::string set_of(const Clearance& c) { return symbolic::definition(c.ball.question.set).name; }
-
-// A double that is no larger, no smaller, with six digits.
-std::string rounded(double x, bool up) {
-  if (!std::isfinite(x)) return "infinity";
-  double shown = std::stod(fmt::format("{:.6g}", x));
-  const double unit = x == 0 ? 0 : std::pow(10, std::floor(std::log10(std::fabs(x))) - 5);
-  if (up ? shown < x : shown > x) shown += up ? unit : -unit;
-  return fmt::format("{:.6g}", shown);
-}
-
 Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 }  // namespace
@@ -41,7 +31,7 @@ std::string to_table(const Clearance& c) {
     ball += (ball.empty() ? "" : ", ") + v.name;
     at += (at.empty() ? "" : ", ") + fmt::format("{} = {}", v.name, v.value.text());
   }
-  std::string text = fmt::format("{}, {}: ball in {} about {}\n", c.ball.question.model.name(), set_of(c), ball, at);
+  std::string text = fmt::format("{}, {}: ball in {} about {}\n", c.ball.question.model.name(), set_of(c.ball), ball, at);
   const Nearest& n = c.nearest;
   const bool plain = !c.ball.question.set;
   const std::string what = plain ? "solution" : "singularity";
@@ -74,7 +64,8 @@ std::string to_table(const Clearance& c) {
 
 std::string to_json(const Clearance& c) {
   const Nearest& n = c.nearest;
-  Json json = {{"model", c.ball.question.model.name()}, {"set", set_of(c)}, {"at", Json::object()}, {"in", Json::array()}};
+  Json json = {
+      {"model", c.ball.question.model.name()}, {"set", set_of(c.ball)}, {"at", Json::object()}, {"in", Json::array()}};
   for (const NamedValue& v : c.ball.center) {
     json["at"][v.name] = v.value.text();
     json["in"].push_back(v.name);

@@ -230,13 +230,19 @@ void Search::process_batch() {
     for (Node& node : part.nodes) push(std::move(node));
   }
   // Now and then, ever more seldom.
-  if (std::bit_width(before) < std::bit_width(statistics_.processed) && !waiting_.empty()) improve(Box(next().x));
+  if (std::bit_width(before) < std::bit_width(statistics_.processed) && statistics_.processed >= options_.patience &&
+      !waiting_.empty() && next().bound < cutoff_)
+    improve(Box(next().x));
 }
 
 void Search::search(Nearest& result) {
   if (prepared_.reduction.consistent) push({0, extended_.system.domain()});
   result.complete = true;
   while (!waiting_.empty() && next().bound < cutoff_) {
+    if (best_ && root_above(upper_) <= options_.enough) {
+      result.complete = false;
+      break;
+    }
     // Beside a point that resists proof nothing better is to be had.
     const double r = (1 - options_.precision) * root_below(unproven_square_);
     if (upper_ > unproven_square_ && unproven_square_ < kInfinity && next().bound >= r * r) {

@@ -17,6 +17,8 @@ namespace corank::analyze {
 struct NearestOptions {
   double precision = 0.01;  ///< the search ends where lower ≥ (1 − precision) · upper
   double at_most = 0;       ///< where > 0: nothing farther away is of interest; then upper may be missing, and lower at_most
+  std::uint64_t patience = 0;  ///< boxes before the first local search, which takes as long as many boxes
+  double enough = 0;           ///< the search may end as soon as a solution is proven that is no farther away
   /// Called now and then with the bounds so far.
   std::function<void(double lower, std::optional<double> upper, std::uint64_t processed)> progress{};
 };

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <regex>
 
 #include "corank/app/box_files.h"
+#include "corank/app/clearance_command.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
@@ -19,16 +21,6 @@
 
 namespace corank::app {
 namespace {
-
-struct ClearanceCommand {
-  QuestionOptions question;
-  SearchLimits limits{};  // one thread for each core
-  std::vector<std::string> at, in, ranges;
-  std::string orientation, orientation_range, orientation_of;
-  std::string proof_stem;
-  double precision = 0.01;
-  std::optional<std::string> json_path;  ///< "": standard output
-};
 
 // "a=1,b=[2,3]" in its parts, at commas outside of parentheses and brackets.
 std::vector<std::string> parts_of(const std::vector<std::string>& texts) {
@@ -63,22 +55,25 @@ symbolic::Expression expression(const std::string& text, const std::string& opti
 }
 
 // "±0.2", "+-0.2" about the value, or "[a,b]".
-analyze::NamedRange range_of(const std::string& text, const std::vector<analyze::NamedValue>& at) {
-  const std::string expected = "NAME=[A,B], or NAME=±D where --at gives NAME";
-  auto [name, range] = split_at_equals(text, "--range", expected);
+analyze::NamedRange range_of(const std::string& text, const std::vector<analyze::NamedValue>& at,
+                             const std::string& option = "--range") {
+  const std::string expected = option == "--range" ? "NAME=[A,B], or NAME=±D where --at gives NAME" : "NAME=[A,B],…";
+  auto [name, range] = split_at_equals(text, option, expected);
   if (range.front() == '[' && range.back() == ']') {
     const std::vector<std::string> ends = parts_of({range.substr(1, range.size() - 2)});
-    if (ends.size() != 2) throw UsageError(fmt::format("--range {}: expected {}", text, expected));
-    return {name, expression(ends[0], "--range"), expression(ends[1], "--range")};
+    if (ends.size() != 2) throw UsageError(fmt::format("{} {}: expected {}", option, text, expected));
+    return {name, expression(ends[0], option), expression(ends[1], option)};
   }
   for (const std::string sign : {"±", "+-"}) {
     if (!range.starts_with(sign)) continue;
-    const symbolic::Expression half = expression(range.substr(sign.size()), "--range");
+    const symbolic::Expression half = expression(range.substr(sign.size()), option);
     for (const analyze::NamedValue& v : at)
       if (v.name == name) return {name, v.value - half, v.value + half};
   }
-  throw UsageError(fmt::format("--range {}: expected {}", text, expected));
+  throw UsageError(fmt::format("{} {}: expected {}", option, text, expected));
 }
+
+}  // namespace
 
 analyze::BallOptions ball_of(const ClearanceCommand& command) {
   analyze::BallOptions ball;
@@ -95,11 +90,31 @@ analyze::BallOptions ball_of(const ClearanceCommand& command) {
   return ball;
 }
 
+study::Question question_of(const ClearanceCommand& command) {
+  QuestionOptions options = command.question;
+  study::Question question = load(options);
+  if (options.set.empty() && !question.model.is_plain_system()) options.set = "forward";
+  question.set = chosen_set(options, question.model);
+  return question;
+}
+
 solve::Options options_of(const ClearanceCommand& command) {
   solve::Options options;
   command.limits.apply(options);
   return options;
 }
+
+std::vector<analyze::NamedRange> region_of(const std::vector<std::string>& texts, const std::string& option,
+                                           const study::Question& question) {
+  const std::vector<std::string> parts = parts_of(texts);
+  if (option == "--map" && std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.find('=') != p.npos; }))
+    return analyze::declared_ranges(question, parts);
+  std::vector<analyze::NamedRange> region;
+  for (const std::string& part : parts) region.push_back(range_of(part, {}, option));
+  return region;
+}
+
+namespace {
 
 ExitStatus say(const ClearanceCommand& command, const analyze::Clearance& clearance) {
   if (command.json_path) {
@@ -140,15 +155,15 @@ bool write_claims(const ClearanceCommand& command, const analyze::Clearance& cle
 }
 
 ExitStatus run_clearance(ClearanceCommand command) {
+  if (command.at.empty()) throw UsageError("--at is required, but for --best and --map");
+  if (command.in.empty()) throw UsageError("--in is required, but for --best and --map");
   if (command.question.file.empty() && command.json_path && !command.json_path->empty())
     command.question.file.swap(*command.json_path);
   const solve::Options search = options_of(command);
   search.validate();
   solve::Control control(limits_of(search, &Interrupt::stop()));
   const analyze::BallOptions ball = ball_of(command);
-  study::Question question = load(command.question);
-  if (command.question.set.empty() && !question.model.is_plain_system()) command.question.set = "forward";
-  question.set = chosen_set(command.question, question.model);
+  const study::Question question = question_of(command);
   check_output(command.json_path.value_or(""));
   if (!command.proof_stem.empty()) {
     check_output(free_file(command));
@@ -180,11 +195,9 @@ void add_clearance(CLI::App& program, Action& action) {
          "Values of coordinates, expressions in the model's constants: the ball's centre, and what keeps its value;\n"
          "15deg is an angle in degrees")
       ->type_name("NAME=VALUE,...")
-      ->required()
       ->allow_extra_args(false);
   sub->add_option("--in", command->in, "The coordinates in which the ball lies; lengths and radians count alike")
       ->type_name("NAME,...")
-      ->required()
       ->allow_extra_args(false);
   sub->add_option("--range,--mode", command->ranges,
                   "Keep coordinates within other ranges than the model's: a mode, a limit, an angle that may move")
@@ -198,6 +211,26 @@ void add_clearance(CLI::App& program, Action& action) {
       ->type_name("R");
   sub->add_option("--orientation-of", command->orientation_of, "Its link, or its rotation matrix, where there are several")
       ->type_name("NAME");
+  CLI::Option* best =
+      sub->add_option("--best", command->best,
+                      "Look for the centre of the largest ball, in this region of lengths; the ball lies in these\n"
+                      "coordinates where --in is not given")
+          ->type_name("NAME=[A,B],...")
+          ->allow_extra_args(false);
+  CLI::Option* map =
+      sub->add_option("--map", command->map,
+                      "The clearance over a grid of centres in two lengths, within these or the declared ranges, each cell\n"
+                      "with bounds that hold all over it")
+          ->type_name("NAME,NAME or NAME=[A,B],NAME=[A,B]")
+          ->allow_extra_args(false)
+          ->excludes(best);
+  CLI::Option* output = sub->add_option("-o,--output", command->output, "The map: a .svg, .csv or .json")->type_name("FILE");
+  map->needs(output);
+  output->needs(map);
+  sub->add_option("--grid", command->grid, "Cells of the map along each side")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->needs(map);
   sub->add_option("--precision", command->precision, "How close the bounds of the radius are to be, relative to it")
       ->check(CLI::Range(1e-6, 0.9))
       ->capture_default_str();
@@ -205,7 +238,9 @@ void add_clearance(CLI::App& program, Action& action) {
          "--proof", command->proof_stem,
          "Write NAME-free.h5, no singularity within the lower bound, with the script of a search that found none, and\n"
          "NAME-nearest.h5, one within the upper bound: corank verify checks both")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->excludes(best)
+      ->excludes(map);
   command->limits.add_options(*sub, "the search");
   CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
       "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },
@@ -218,10 +253,15 @@ void add_clearance(CLI::App& program, Action& action) {
       "Exit status: 0 done, 1 bad input, 2 usage, 3 the bounds hold but are not as close as asked for.\n\n"
       "Examples:\n  corank clearance models/dextar.cuik --at J3x=0.5,J3y=1 --in J3x,J3y\n"
       "  corank clearance models/planar/3rpr.cuik --at pose_x=0.8,pose_y=0.5,pose_phi=0.1 --in pose_x,pose_y\\\n"
-      "      --orientation-range 15deg");
+      "      --orientation-range 15deg\n"
+      "  corank clearance models/dextar.cuik --best J3x=[0,1],J3y=[0,1.5]\n"
+      "  corank clearance models/dextar.cuik --map J3x,J3y -o map.svg");
   sub->callback([command, json, &action] {
     if (json->count() > 0 && !command->json_path) command->json_path = "";
-    action = [command] { return run_clearance(*command); };
+    action = [command] {
+      if (!command->map.empty()) return run_map(*command);
+      return command->best.empty() ? run_clearance(*command) : run_best(*command);
+    };
   });
 }
 

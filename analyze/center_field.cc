@@ -1,0 +1,192 @@
+#include "corank/analyze/center_field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "corank/certify/polynomial_algebra.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/solve.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/evaluate.h"
+#include "corank/symbolic/model_file.h"
+
+namespace corank::analyze {
+namespace {
+
+constexpr double kSeconds = 3;            // for the question whether there is a configuration
+constexpr std::uint64_t kBoxes = 20'000;  // likewise
+
+constexpr std::uint64_t kPatience = 256;  // boxes: most searches that only have to exclude end before
+
+using symbolic::Coordinate;
+using symbolic::Expression;
+using symbolic::ModelError;
+
+ModelError error(const study::Question& question, const std::string& problem, const std::string& expectation) {
+  return {{question.model.name(), 0, 0}, problem, expectation};
+}
+
+const Coordinate& length(const study::Question& question, const std::string& name) {
+  const int index = question.model.find_coordinate(name);
+  if (index < 0) throw error(question, "there is no coordinate '" + name + "'", "one of the model's");
+  const Coordinate& c = question.model.coordinates()[static_cast<std::size_t>(index)];
+  if (c.kind != symbolic::CoordinateKind::length)
+    throw error(question, "'" + name + "' is an angle", "lengths as the coordinates in which the centre moves");
+  return c;
+}
+
+// In doubles, and within the model's range.
+Interval interval(const study::Question& question, const NamedRange& range) {
+  std::map<std::string, double> constants;
+  for (const symbolic::Constant& c : question.model.constants()) constants[c.name] = symbolic::evaluate(c.value, constants);
+  const Coordinate& c = length(question, range.name);
+  double lower = symbolic::evaluate(range.lower, constants), upper = symbolic::evaluate(range.upper, constants);
+  if (c.has_range) {
+    lower = std::max(lower, symbolic::evaluate(c.lower, constants));
+    upper = std::min(upper, symbolic::evaluate(c.upper, constants));
+  }
+  if (!std::isfinite(lower) || !std::isfinite(upper) || !(lower <= upper))
+    throw error(question, fmt::format("the region of '{}' is empty or not bounded", range.name),
+                "a lower and an upper end within the model's range");
+  return {lower, upper};
+}
+
+Expression number(double x) { return symbolic::parse_expression(ExactNumber::dyadic(x).text(), "region"); }
+
+// The region's coordinates first, then the others of the ball; the centre in the middle of the region.
+BallOptions about_middle(BallOptions ball, const std::vector<std::string>& names, const Box& region) {
+  std::vector<std::string> in = names;
+  for (const std::string& name : ball.in)
+    if (std::find(names.begin(), names.end(), name) == names.end()) in.push_back(name);
+  ball.in = in;
+  for (std::size_t k = 0; k < names.size(); ++k) ball.at.push_back({names[k], number(region[k].mid())});
+  return ball;
+}
+
+System assembled_system(const study::Question& question, const Ball& ball, const std::vector<std::string>& names,
+                        const Box& region) {
+  study::Question at = question;
+  at.model = ball.assembled;
+  at.set = symbolic::SingularitySet::cspace;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    at.model.set_range(names[k], number(region[k].lo()), number(region[k].hi()));
+  return study::system(at);
+}
+
+}  // namespace
+
+CenterField::CenterField(const study::Question& question, BallOptions ball, const std::vector<NamedRange>& region,
+                         const solve::Options& search, solve::Control& control)
+    : search_(search), control_(control) {
+  for (const NamedRange& range : region) {
+    if (std::find(names_.begin(), names_.end(), range.name) != names_.end())
+      throw error(question, "'" + range.name + "' is twice in the region", "each once");
+    if (!ball.in.empty() && std::find(ball.in.begin(), ball.in.end(), range.name) == ball.in.end())
+      throw error(question, "'" + range.name + "' is not in the ball", "coordinates of the ball, as the centre's");
+    if (std::any_of(ball.at.begin(), ball.at.end(), [&](const NamedValue& v) { return v.name == range.name; }))
+      throw error(question, "'" + range.name + "' has a value and a region", "one of them");
+    region_.push_back(interval(question, range));
+    names_.push_back(range.name);
+  }
+  ball_ = make_ball(question, about_middle(std::move(ball), names_, region_));
+  const symbolic::TrigonometricSystem equations = study::equations(ball_.question);
+  std::vector<Expression> differences = ball_.differences();
+  for (std::size_t k = 0; k < names_.size(); ++k) differences[k] = Expression::symbol(names_[k]);
+  differences_ = symbolic::polynomials(equations, differences);
+  prepared_ = solve::prepare(study::system(ball_.question, equations), search, control);
+  if (question.set) assembled_ = assembled_system(question, ball_, names_, region_);
+}
+
+Nearest CenterField::distance(const std::vector<double>& center, const NearestOptions& options) {
+  std::vector<Polynomial> differences = differences_;
+  for (std::size_t k = 0; k < center.size(); ++k)
+    if (center[k] != 0) differences[k].monomials.emplace_back(ExactNumber::dyadic(-center[k]), std::vector<Factor>{});
+  const auto distance_of = [&](const Nearest& singularity) {
+    const UpwardRounding rounding;
+    Interval squares;
+    for (const Polynomial& d : differences) squares += square(certify::evaluate(d, singularity.box));
+    return squares.hi() > 0 ? square_root(Interval(squares.hi()))->hi() : 0;
+  };
+  Nearest best;
+  for (const Nearest& singularity : known_)
+    if (const double upper = distance_of(singularity); !best.upper || upper < *best.upper) {
+      best = singularity;
+      best.upper = upper, best.lower = 0;
+    }
+  if (best.upper && *best.upper <= options.enough) return best;
+  NearestOptions nearer = options;
+  if (best.upper) {
+    nearer.patience = kPatience;
+    const double most = (1 - options.precision) * *best.upper;
+    if (!(nearer.at_most > 0) || most < nearer.at_most) nearer.at_most = most;
+    if (nearer.at_most <= 0) return best;
+  }
+  Nearest found = nearest(prepared_, differences, nearer, control_);
+  if (found.upper) {
+    known_.push_back(found);
+    known_.back().statistics = {}, known_.back().unproven.clear(), known_.back().complete = false;
+  }
+  if (best.upper && (!found.upper || *best.upper < *found.upper)) {
+    found.upper = best.upper, found.box = best.box, found.free = best.free;
+    found.complete = found.lower >= (1 - options.precision) * *found.upper;
+  }
+  return found;
+}
+
+CenterField::Configurations CenterField::configurations(std::span<const Interval> centers) const {
+  Configurations result;
+  if (!assembled_) {
+    result.proven = true;
+    for (const Interval& side : centers) result.near.push_back(side.mid());
+    return result;
+  }
+  System system = *assembled_;
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    const auto at = std::find_if(system.variables.begin(), system.variables.end(),
+                                 [&](const Variable& v) { return v.name == names_[k]; });
+    CORANK_CHECK(at != system.variables.end());
+    at->lower = ExactNumber::dyadic(centers[k].lo()), at->upper = ExactNumber::dyadic(centers[k].hi());
+    at->domain = centers[k];
+    places.push_back(static_cast<std::size_t>(at - system.variables.begin()));
+  }
+  solve::Options options;
+  options.max_solutions = 1;
+  options.threads = search_.threads;
+  options.max_boxes = kBoxes;
+  options.time_limit = search_.time_limit > 0 ? std::min(search_.time_limit, kSeconds) : kSeconds;
+  solve::Control own(limits_of(options, control_.limits().stop));
+  const Cover cover = solve::solve(solve::prepare(std::move(system), options, own), own);
+  result.excluded = cover.complete() && cover.boxes.empty();
+  for (const CoverBox& box : cover.boxes) {
+    if (box.verdict != Verdict::regular && box.verdict != Verdict::isolated && box.verdict != Verdict::exact) continue;
+    result.proven = true;
+    result.near.clear();
+    for (std::size_t k = 0; k < places.size(); ++k)
+      result.near.push_back(std::clamp(box.box[places[k]].mid(), centers[k].lo(), centers[k].hi()));
+    break;
+  }
+  return result;
+}
+
+double reach(std::span<const Interval> box, const std::vector<double>& center) {
+  const UpwardRounding rounding;
+  Interval squares;
+  for (std::size_t k = 0; k < center.size(); ++k) squares += square(box[k] - Interval(center[k]));
+  return squares.hi() > 0 ? square_root(Interval(squares.hi()))->hi() : 0;
+}
+
+std::vector<NamedRange> declared_ranges(const study::Question& question, const std::vector<std::string>& names) {
+  std::vector<NamedRange> ranges;
+  for (const std::string& name : names) {
+    const Coordinate& c = length(question, name);
+    if (!c.has_range) throw error(question, "'" + name + "' has no range", "one with it, as in --map " + name + "=[0,1],…");
+    ranges.push_back({name, c.lower, c.upper});
+  }
+  return ranges;
+}
+
+}  // namespace corank::analyze

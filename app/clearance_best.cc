@@ -1,0 +1,42 @@
+// corank clearance --best: the centre of the largest ball in a region.
+#include <fmt/format.h>
+
+#include "corank/analyze/best_center.h"
+#include "corank/app/box_files.h"
+#include "corank/app/clearance_command.h"
+#include "corank/app/interrupt.h"
+#include "corank/app/progress.h"
+#include "corank/result/printable.h"
+#include "corank/result/result_file.h"
+
+namespace corank::app {
+
+ExitStatus run_best(ClearanceCommand command) {
+  if (command.question.file.empty() && command.json_path && !command.json_path->empty())
+    command.question.file.swap(*command.json_path);
+  const solve::Options search = options_of(command);
+  search.validate();
+  solve::Control control(limits_of(search, &Interrupt::stop()));
+  const analyze::BallOptions ball = ball_of(command);
+  const study::Question question = question_of(command);
+  const std::vector<analyze::NamedRange> region = region_of(command.best, "--best", question);
+  check_output(command.json_path.value_or(""));
+  const Interrupt interrupt;
+  ProgressLine line;
+  analyze::BestOptions options{.precision = command.precision};
+  options.progress = [&line](double lower, std::optional<double> upper, std::uint64_t cells) {
+    line.show(upper ? fmt::format("radius in [{:.5g}, {:.5g}], {} cells", lower, *upper, cells)
+                    : fmt::format("radius at least {:.5g}, {} cells", lower, cells));
+  };
+  const analyze::Best best = analyze::best_center(question, ball, region, options, search, control);
+  line.clear();
+  if (command.json_path && command.json_path->empty()) fmt::print("{}\n", to_json(best));
+  if (command.json_path && !command.json_path->empty()) result::write_text(*command.json_path, to_json(best) + "\n");
+  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", result::printable(to_table(best)));
+  if (best.complete) return kDone;
+  fmt::print(stderr, "corank: {}the bounds hold, but are not as close as asked for\n",
+             best.stopped.empty() ? "" : "stopped by " + best.stopped + "; ");
+  return kIncomplete;
+}
+
+}  // namespace corank::app
