@@ -1,6 +1,7 @@
 #include "corank/analyze/clearance.h"
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "corank/certify/angle.h"
@@ -10,6 +11,7 @@
 namespace corank::analyze {
 namespace {
 
+constexpr double kNothing = 1e-9;     // of the ball's room
 constexpr double kCenterSeconds = 3;  // for the question whether a configuration is at the centre
 
 Clearance::Center center_of(const study::Question& question, const Ball& ball, const solve::Options& search,
@@ -65,7 +67,11 @@ Clearance clearance(const study::Question& question, const BallOptions& options,
   stage.reset();
   const solve::Prepared prepared = solve::prepare(system, search, control);
   const std::vector<Polynomial> differences = symbolic::polynomials(equations, result.ball.differences());
-  result.nearest = nearest(prepared, differences, {.precision = wanted.precision, .progress = wanted.progress}, control);
+  // A singularity at the centre itself, but for rounding: no share of such a distance is to be had.
+  const double nothing = kNothing * (std::isfinite(result.ball.room) ? result.ball.room : 1.0);
+  result.nearest = nearest(prepared, differences,
+                           {.precision = wanted.precision, .enough = nothing, .progress = wanted.progress}, control);
+  if (result.nearest.upper && *result.nearest.upper <= nothing) result.nearest.complete = true;
   if (result.nearest.upper) result.values = coordinate_values(system, result.nearest.box);
   if (!result.nearest.unproven.empty()) {
     const Box point(result.nearest.unproven.begin(), result.nearest.unproven.end());
