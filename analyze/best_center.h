@@ -37,9 +37,9 @@ Best best_center(const study::Question& question, const BallOptions& ball, const
                  const BestOptions& options, const solve::Options& search, solve::Control& control);
 
 std::string to_table(const Best& best);
-/// {"model", "set", "in", "region": {name: [lo, hi]}, "radius": {"lo", "hi" (null: none is proven)}, "centre" (null, or {name:
-/// value}), "nearest" as of a clearance, "empty", "unassembled", "complete", "stopped", "precision", "cells", "processed",
-/// "seconds"}.
+/// {"model", "set", "in", "region": {name: [lo, hi]}, "radius": {"lo", "hi" (null: none is proven)}, "centre" (null, or
+/// {name: value}), "nearest" as of a clearance, "empty", "unassembled", "complete", "stopped", "precision", "cells",
+/// "processed", "seconds"}.
 std::string to_json(const Best& best);
 
 }  // namespace corank::analyze

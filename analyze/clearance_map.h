@@ -47,8 +47,8 @@ ClearanceMap clearance_map(const study::Question& question, const BallOptions& b
 
 /// x, y, robot, lo, hi, cell_lo, cell_hi in each row, after a heading; empty: not known.
 std::string to_csv(const ClearanceMap& map);
-/// {"model", "set", "in", "region", "grid", "empty", "complete", "precision", "best", "cells": [rows of the table], "processed",
-/// "seconds"}.
+/// {"model", "set", "in", "region", "grid", "empty", "complete", "precision", "best", "cells": [rows of the table],
+/// "processed", "seconds"}.
 std::string to_json(const ClearanceMap& map);
 
 }  // namespace corank::analyze

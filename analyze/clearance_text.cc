@@ -41,7 +41,7 @@ std::string to_table(const Clearance& c) {
                                        : "\n";
   } else {
     text += fmt::format("radius in [{}, {}]", rounded(n.lower, false), n.upper ? rounded(*n.upper, true) : "unknown");
-    if (n.upper && *n.upper > 0) text += fmt::format("   ({:.2g} %)", 100 * (*n.upper - n.lower) / *n.upper);
+    if (n.upper && n.lower > 0) text += fmt::format("   ({:.2g} %)", 100 * (*n.upper - n.lower) / *n.upper);
     text += fmt::format("\n  no {} is nearer than the lower bound: proven\n", what);
     if (n.upper) {
       text += fmt::format("  nearest {} found, proven to exist:\n", what);
