@@ -20,7 +20,7 @@ Clearance::Center center_of(const study::Question& question, const Ball& ball, c
   at.model = ball.assembled;
   if (at.set) at.set = symbolic::SingularitySet::cspace;
   solve::Options options;
-  options.max_solutions = 1;
+  options.max_solutions = 64;  // a proven sheet may pass by its box: one of them need not hold a configuration
   options.threads = search.threads;
   options.time_limit = search.time_limit > 0 ? std::min(search.time_limit, kCenterSeconds) : kCenterSeconds;
   solve::Control own(limits_of(options, control.limits().stop));
