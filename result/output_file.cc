@@ -33,12 +33,18 @@ extern "C" void on_end(int signal) {
   std::raise(signal);
 }
 
+auto handler_of(int signal) {
+  struct sigaction action {};
+  sigaction(signal, nullptr, &action);
+  return action.sa_handler;
+}
+
 void remember(const char* part) {
   for (auto& place : living_parts)
     if (const char* none = nullptr; place.compare_exchange_strong(none, part)) break;
-  // A handler of another's, such as one that asks for an early end, comes first.
+  // A handler of another's, such as one that asks for an early end, stays as it is, with its flags.
   for (const int signal : kSignals)
-    if (const auto former = std::signal(signal, on_end); former != SIG_DFL && former != on_end) std::signal(signal, former);
+    if (handler_of(signal) == SIG_DFL) std::signal(signal, on_end);
 }
 
 void forget(const char* part) {
@@ -49,7 +55,7 @@ void forget(const char* part) {
     any = any || place.load() != nullptr;
   }
   for (const int signal : kSignals)
-    if (const auto former = std::signal(signal, SIG_DFL); any || former != on_end) std::signal(signal, former);
+    if (!any && handler_of(signal) == on_end) std::signal(signal, SIG_DFL);
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "corank/kinematics/part_file.h"
 #include "corank/kinematics/urdf.h"
@@ -15,16 +13,6 @@ namespace corank::study {
 namespace {
 
 using symbolic::ModelError;
-
-// A .cuik file in the parts language?
-bool is_in_parts(const std::filesystem::path& path) {
-  if (path.extension() == ".world") return true;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // what can't be read, or only once
-  std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return kinematics::has_parts(text);
-}
 
 void put_in(const std::vector<result::ConstantOverride>& overrides, kinematics::Robot& robot) {
   for (const result::ConstantOverride& o : overrides) {
@@ -71,15 +59,33 @@ std::string describe(const kinematics::Assembly& assembly) {
   return text;
 }
 
+ModelText read_text(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.parent_path();
+  return {symbolic::read_text(path), path.string(), folder.empty() ? std::filesystem::path(".") : folder};
+}
+
+Model parse_model(const ModelText& model, const std::vector<result::ConstantOverride>& constants,
+                  const std::optional<ModelText>& loops) {
+  const std::string extension = std::filesystem::path(model.file).extension();
+  if (extension == ".urdf") {
+    std::optional<kinematics::UrdfLoops> companion;
+    if (loops) companion = {loops->text, loops->file};
+    return from_robot(kinematics::parse_urdf(model.text, model.file, companion), constants);
+  }
+  if (loops)
+    throw ModelError({model.file, 0, 0}, "only a URDF file has a companion with its loops", "a file that ends in .urdf");
+  if (extension == ".world" || kinematics::has_parts(model.text))
+    return from_robot(kinematics::parse_parts(model.text, model.file, model.folder), constants);
+  Model read{symbolic::parse_model(model.text, model.file), {}, {}};
+  result::put_in(constants, read.mechanism);
+  return read;
+}
+
 Model read_model(const std::filesystem::path& path, const std::vector<result::ConstantOverride>& constants,
                  const std::optional<std::filesystem::path>& loops) {
-  if (path.extension() == ".urdf") return from_robot(kinematics::read_urdf(path, loops), constants);
-  if (loops)
-    throw ModelError({path.string(), 0, 0}, "only a URDF file has a companion with its loops", "a file that ends in .urdf");
-  if (is_in_parts(path)) return from_robot(kinematics::read_part_file(path), constants);
-  Model model{symbolic::read_model(path), {}, {}};
-  result::put_in(constants, model.mechanism);
-  return model;
+  std::optional<ModelText> companion;
+  if (loops) companion = read_text(*loops);
+  return parse_model(read_text(path), constants, companion);
 }
 
 }  // namespace corank::study

@@ -17,6 +17,18 @@ struct Model {
   std::vector<std::string> notices;              ///< what of a robot's file was passed over, and what is special about it
 };
 
+/// A text, and the name that messages show, whose extension says in which language the text is.
+struct ModelText {
+  std::string text, file;
+  std::optional<std::filesystem::path> folder{};  ///< where other files that it names are looked for; nothing: nowhere
+};
+
+/// The model of a text, with these constants put in; of URDF with the text of its companion. Throws symbolic::ModelError.
+Model parse_model(const ModelText& model, const std::vector<result::ConstantOverride>& constants = {},
+                  const std::optional<ModelText>& loops = {});
+/// The text of a file.
+ModelText read_text(const std::filesystem::path& path);
+
 /// Reads a file, with these constants put in. A robot's equations depend on them (parallel axes make it a planar one): so
 /// its text, which results keep, is that of a model file with the equations that belong to these values. `loops`: the
 /// companion of a URDF file. Throws symbolic::ModelError.

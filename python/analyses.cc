@@ -1,0 +1,188 @@
+// Topology, aspects, clearance: each as its JSON text, its table, and what ended it early.
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "corank/analyze/area_by_boundary.h"
+#include "corank/analyze/aspects.h"
+#include "corank/analyze/best_center.h"
+#include "corank/analyze/claims.h"
+#include "corank/analyze/clearance_map.h"
+#include "corank/analyze/topology.h"
+#include "corank/analyze/workspace_area.h"
+#include "corank/python/bindings.h"
+#include "corank/python/model.h"
+#include "corank/python/result.h"
+#include "corank/python/watched.h"
+
+namespace corank::python {
+namespace {
+
+using symbolic::Expression;
+
+struct Texts {
+  std::string json, table;
+};
+
+template <class Work>
+py::tuple said(const py::object& progress, Work work) {
+  auto [texts, raised] = run_for(progress, std::move(work));
+  return py::make_tuple(texts.json, texts.table, raised);
+}
+
+// The sets are ignored: a question about all configurations.
+study::Question configurations(const Model& model) {
+  if (model.mechanism().is_plain_system()) return question_of(model, std::nullopt);
+  return question_of(model, "cspace");
+}
+
+py::tuple topology(const Model& model, const analyze::TopologyOptions& options, double time_limit,
+                   const py::object& progress) {
+  return said(progress, [question = configurations(model), options, time_limit](Watcher& watcher) {
+    solve::Control control({.time = time_limit, .stop = &watcher.stop});
+    watcher.follow(control);
+    const analyze::Topology t = analyze::topology(question, options, control);
+    return Texts{to_json(question, t, !control.ended()), to_text(question, t)};
+  });
+}
+
+py::tuple aspects(const Model& model, const analyze::AspectsOptions& options, double time_limit,
+                  const py::object& progress) {
+  if (model.mechanism().is_plain_system())
+    throw std::invalid_argument(model.mechanism().name() + " has no inputs and outputs: a plain system has no aspects");
+  return said(progress, [question = configurations(model), options, time_limit](Watcher& watcher) {
+    solve::Control control({.time = time_limit, .stop = &watcher.stop});
+    watcher.follow(control);
+    const analyze::Aspects a = analyze::aspects(question, options, control);
+    return Texts{to_json(question, a, !control.ended()), to_text(question, a)};
+  });
+}
+
+using Values = std::vector<std::pair<std::string, Expression>>;
+using Ranges = std::vector<std::tuple<std::string, Expression, Expression>>;
+
+std::vector<analyze::NamedRange> ranges_of(const Ranges& ranges) {
+  std::vector<analyze::NamedRange> list;
+  for (const auto& [name, lower, upper] : ranges) list.push_back({name, lower, upper});
+  return list;
+}
+
+analyze::BallOptions ball(const Values& at, const std::vector<std::string>& in, const Ranges& ranges,
+                          const std::optional<Expression>& orientation_range, const std::optional<std::string>& orientation,
+                          const std::string& orientation_of) {
+  analyze::BallOptions options;
+  for (const auto& [name, value] : at) options.at.push_back({name, value});
+  options.in = in;
+  options.ranges = ranges_of(ranges);
+  options.orientation_range = orientation_range;
+  if (orientation) options.orientation = analyze::parse_rotation(*orientation);
+  options.orientation_of = orientation_of;
+  return options;
+}
+
+std::string radius_text(double lower, const std::optional<double>& upper) {
+  return upper ? fmt::format("radius in [{:.5g}, {:.5g}]", lower, *upper) : fmt::format("radius at least {:.5g}", lower);
+}
+
+// With `claims`: the results that prove both bounds again, where they could be made.
+py::tuple clearance(const Model& model, const std::optional<std::string>& set, const analyze::BallOptions& about,
+                    double precision, bool claims, const solve::Options& search, const py::object& progress) {
+  search.validate();
+  struct Said {
+    Texts texts;
+    std::optional<Result> free, nearest;
+  };
+  const auto work = [question = question_of(model, set), about, precision, claims, search](Watcher& watcher) {
+    solve::Control control(limits_of(search, &watcher.stop));
+    analyze::ClearanceOptions options{.precision = precision};
+    options.progress = [&watcher](double lower, std::optional<double> upper, std::uint64_t processed) {
+      watcher.show({"clearance", -1, fmt::format("{}, {} boxes", radius_text(lower, upper), processed)});
+    };
+    const analyze::Clearance c = analyze::clearance(question, about, options, search, control);
+    Said result{{to_json(c), to_table(c)}, {}, {}};
+    if (!claims) return result;
+    result.free.emplace(claim_free(c, search, control));
+    if (c.nearest.upper)
+      if (auto nearest = claim_nearest(c, control)) result.nearest.emplace(std::move(*nearest));
+    return result;
+  };
+  auto [result, raised] = run_for(progress, work);
+  return py::make_tuple(result.texts.json, result.texts.table, result.free, result.nearest, raised);
+}
+
+py::tuple best_center(const Model& model, const std::optional<std::string>& set, const analyze::BallOptions& about,
+                      const Ranges& region, double precision, const solve::Options& search, const py::object& progress) {
+  search.validate();
+  return said(progress, [question = question_of(model, set), about, region, precision, search](Watcher& watcher) {
+    solve::Control control(limits_of(search, &watcher.stop));
+    analyze::BestOptions options{.precision = precision};
+    options.progress = [&watcher](double lower, std::optional<double> upper, std::uint64_t cells) {
+      watcher.show({"clearance", -1, fmt::format("{}, {} cells", radius_text(lower, upper), cells)});
+    };
+    const analyze::Best best = analyze::best_center(question, about, ranges_of(region), options, search, control);
+    return Texts{to_json(best), to_table(best)};
+  });
+}
+
+py::tuple clearance_map(const Model& model, const std::optional<std::string>& set, const analyze::BallOptions& about,
+                        const Ranges& region, int grid, double precision, const solve::Options& search,
+                        const py::object& progress) {
+  search.validate();
+  return said(progress, [question = question_of(model, set), about, region, grid, precision, search](Watcher& watcher) {
+    solve::Control control(limits_of(search, &watcher.stop));
+    analyze::MapOptions options{.grid = grid, .precision = precision};
+    options.progress = [&watcher](std::size_t done, std::size_t all) {
+      watcher.show(
+          {"clearance", static_cast<double>(done) / static_cast<double>(all), fmt::format("{} of {} cells", done, all)});
+    };
+    const analyze::ClearanceMap map = analyze::clearance_map(question, about, ranges_of(region), options, search, control);
+    return Texts{to_json(map), to_csv(map)};
+  });
+}
+
+// Bounds of the area of the workspace in the plane of two lengths, from its boundary; with `anyway` by dividing the plane where
+// the boundary does not give them. None where there are none.
+std::optional<std::pair<double, double>> area(const Model& model, const std::vector<std::string>& outputs, int threads,
+                                              double time_limit, bool anyway, const py::object& progress) {
+  study::Question question = question_of(model, "boundary", {}, 1, outputs);
+  const std::vector<std::string> names = question.model.outputs();
+  if (names.size() != 2) throw std::invalid_argument("an area is that of a workspace in the plane of two outputs");
+  return run_whole(progress, [question = std::move(question), names, threads, time_limit, anyway](Watcher& watcher) {
+    using Bounds = std::optional<std::pair<double, double>>;
+    solve::Control control({.time = time_limit, .stop = &watcher.stop});
+    watcher.follow(control);
+    if (const auto bounds = analyze::area_by_boundary(question, {.threads = threads}, control))
+      return Bounds({bounds->lo, bounds->hi});
+    const System system = symbolic::configurations(question.model);
+    const int x = system.find(names[0]), y = system.find(names[1]);
+    if (!anyway || x < 0 || y < 0) return Bounds();
+    const analyze::AreaBounds bounds =
+        analyze::workspace_area(system, x, y, {.stop = [&control] { return control.ended(); }});
+    return Bounds({bounds.lo, bounds.hi});
+  });
+}
+
+}  // namespace
+
+void bind_analyses(py::module_& module) {
+  py::class_<analyze::BallOptions>(module, "Ball").def(py::init(&ball));
+  module.def("topology", [](const Model& m, int threads, int refinements, double time_limit, const py::object& progress) {
+    return topology(m, {.threads = threads, .refinements = refinements}, time_limit, progress);
+  });
+  module.def("aspects",
+             [](const Model& m, int threads, int halvings, int rounds, double time_limit, const py::object& progress) {
+               return aspects(m, {threads, halvings, rounds}, time_limit, progress);
+             });
+  module.def("clearance", &clearance);
+  module.def("best_center", &best_center);
+  module.def("clearance_map", &clearance_map);
+  module.def("declared_ranges",
+             [](const Model& m, const std::optional<std::string>& set, const std::vector<std::string>& names) {
+               std::vector<std::tuple<std::string, Expression, Expression>> list;
+               for (const analyze::NamedRange& r : analyze::declared_ranges(question_of(m, set), names))
+                 list.emplace_back(r.name, r.lower, r.upper);
+               return list;
+             });
+  module.def("area", &area);
+}
+
+}  // namespace corank::python

@@ -1,0 +1,38 @@
+"""corank: all singularities of a robot mechanism, each with a proof.
+
+>>> import corank
+>>> m = corank.load("models/dextar.cuik")
+>>> r = m.solve("forward", sigma=0.01)
+>>> r.complete
+True
+
+``load`` and ``parse`` read a mechanism, ``Mechanism`` builds one; its ``solve`` returns a ``Result``, ``open`` reads one.
+"""
+
+from . import _corank
+from ._corank import Expression, Relation
+from .analyses import Analysis, Aspects, BestCenter, Bounds, Clearance, ClearanceMap, Topology
+from .errors import Interrupted, ModelError, OptionError, ResultFileError
+from .expression import as_expression, as_relation, cos, degrees, linspace, pi, sin, sqrt, tan
+from .mechanism import Coordinate, Mechanism, load, parse
+from .notebook import Page
+from .pages import USUAL_SETS, Report
+from .plotting import plot
+from .point import Interval, Point
+from .result import Angle, Result, Sigma, Verification
+from .result import open_result as open
+from .sweeping import Member, Sweep
+
+__version__: str = _corank.__version__
+
+#: The sets of a mechanism by name: what each is.
+SETS = {s[0]: s[2] for s in _corank.sets}
+#: The verdicts, in the order of their codes.
+VERDICTS = tuple(_corank.verdicts)
+
+__all__ = [
+    "Analysis", "Angle", "Aspects", "BestCenter", "Bounds", "Clearance", "ClearanceMap", "Coordinate", "Expression",
+    "Interrupted", "Interval", "Mechanism", "Member", "ModelError", "OptionError", "Page", "Point", "Relation", "Report",
+    "Result", "ResultFileError", "SETS", "Sigma", "Sweep", "Topology", "USUAL_SETS", "VERDICTS", "Verification",
+    "as_expression", "as_relation", "cos", "degrees", "linspace", "load", "open", "parse", "pi", "plot", "sin", "sqrt", "tan",
+]

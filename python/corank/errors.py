@@ -1,0 +1,83 @@
+"""What corank raises. Bad input is a ValueError that says where the fault is; Ctrl-C is a KeyboardInterrupt that brings what was
+proven by then."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+
+class ModelError(ValueError):
+    """Something is wrong with a model: its text, or what is asked of it.
+
+    Attributes:
+        file: the name of the file, or "model" or the text itself for what was built in Python.
+        line, column: from 1; None where unknown.
+    """
+
+    def __init__(self, message: str, file: str = "", line: int = 0, column: int = 0) -> None:
+        super().__init__(message)
+        self.file = file
+        self.line: Optional[int] = line or None
+        self.column: Optional[int] = column or None
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.args[0], self.file, self.line or 0, self.column or 0)
+
+
+class ResultFileError(OSError):
+    """A result file that cannot be written or read, or that holds something else.
+
+    Attributes:
+        line: of a text file, from 1; None for others.
+    """
+
+    def __init__(self, message: str, line: int = 0) -> None:
+        super().__init__(message)
+        self.line: Optional[int] = line or None
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.args[0], self.line or 0)
+
+
+class OptionError(ValueError):
+    """An option that no search can follow.
+
+    Attributes:
+        option: its name, such as "sigma".
+        reason: what is asked of it.
+    """
+
+    def __init__(self, option: str, reason: str) -> None:
+        super().__init__(f"{option}: {reason}")
+        self.option = option
+        self.reason = reason
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.option, self.reason)
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C ended a computation early.
+
+    What had been proven by then stands: ``result`` is a valid result that says what is missing (its ``stopped``, and its pending
+    boxes). At a prompt and in a notebook it is ``sys.last_value.result``.
+
+    Attributes:
+        result: what the function would have returned, as far as it is known.
+    """
+
+    def __init__(self, result: Any) -> None:
+        super().__init__(f"ended early; what was proven by then is the attribute 'result' of this exception: {result!r}")
+        self.result = result
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.result,)
+
+
+def deliver(result: Any, raised: Optional[BaseException]) -> Any:
+    """The result; or raises what ended its computation early, which brings it."""
+    if raised is None:
+        return result
+    if isinstance(raised, KeyboardInterrupt):
+        raise Interrupted(result) from None
+    raise raised

@@ -1,0 +1,148 @@
+"""Exact expressions: what Python, SymPy and texts say, as the model language has it."""
+
+from __future__ import annotations
+
+import math
+import numbers
+from fractions import Fraction
+from typing import Any, List, Union
+
+from . import _corank
+from ._corank import Expression, Relation
+
+#: What stands for an expression: one of corank's or SymPy's, a text of the model language, a number.
+ExpressionLike = Union[Expression, str, int, float, Fraction, Any]
+#: What stands for an equation or an inequality: ``a == b`` of corank's expressions, a text such as "a = b" or "a <= b", one of
+#: SymPy's relations, or an expression that is to be 0.
+RelationLike = Union[Relation, str, Any]
+
+
+def as_expression(value: ExpressionLike) -> Expression:
+    """The value as an exact expression.
+
+    A float is the shortest decimal that names it, as in a model file: 0.9 is 9/10. Write other exact numbers as texts
+    ("sqrt(2)/3"), Fractions, or SymPy's.
+
+    Raises:
+        ModelError: where a text is none of the model language, or a function of SymPy is not known there.
+        TypeError: for anything else.
+    """
+    if isinstance(value, Expression):
+        return value
+    if isinstance(value, str):
+        return _corank.parse_expression(value)
+    if isinstance(value, bool):
+        raise TypeError("an expression is expected, not a truth value")
+    if isinstance(value, numbers.Integral):
+        return _corank.parse_expression(str(int(value)))
+    if isinstance(value, Fraction):
+        return _corank.fraction(str(value.numerator), str(value.denominator))
+    if isinstance(value, numbers.Real) and hasattr(value, "__float__") and not hasattr(value, "free_symbols"):
+        if not math.isfinite(float(value)):
+            raise ValueError("a number of a model is finite")
+        return _corank.parse_expression(repr(float(value)))
+    if hasattr(value, "free_symbols") and hasattr(value, "func"):
+        return _from_sympy(value)
+    raise TypeError(f"an expression is expected, not {type(value).__name__}")
+
+
+def _from_sympy(e: Any) -> Expression:
+    import sympy
+
+    if e.is_Symbol:
+        return _corank.symbol(e.name)
+    if e.is_Rational:
+        return _corank.fraction(str(e.p), str(e.q))
+    if e.is_Float:
+        return _corank.parse_expression(str(e))
+    if e is sympy.pi:
+        return pi
+    if e is sympy.E:
+        return _corank.function("exp", as_expression(1))
+    if e.is_Add or e.is_Mul:
+        terms = [_from_sympy(a) for a in e.args]
+        total = terms[0]
+        for term in terms[1:]:
+            total = total + term if e.is_Add else total * term
+        return total
+    if e.is_Pow and e.exp == sympy.Rational(1, 2):
+        return sqrt(_from_sympy(e.base))
+    if e.is_Pow and e.exp == -sympy.Rational(1, 2):
+        return 1 / sqrt(_from_sympy(e.base))
+    if e.is_Pow and e.exp == -1:
+        return 1 / _from_sympy(e.base)
+    if e.is_Pow:
+        return _from_sympy(e.base) ** _from_sympy(e.exp)
+    if e.is_Function and len(e.args) == 1:
+        return _corank.function({"Abs": "abs"}.get(e.func.__name__, e.func.__name__), _from_sympy(e.args[0]))
+    raise TypeError(f"SymPy's {e.func.__name__} is not known to the model language")
+
+
+def as_relation(value: RelationLike) -> Relation:
+    """The value as an equation or an inequality; an expression is meant to be 0.
+
+    Raises:
+        ModelError, TypeError: as as_expression does; TypeError for a strict inequality.
+    """
+    if isinstance(value, Relation):
+        return value
+    if isinstance(value, str):
+        for sign in ("<=", ">=", "="):
+            left, found, right = value.partition(sign)
+            if found:
+                return Relation(as_expression(left), sign, as_expression(right))
+        return Relation(as_expression(value), "=", as_expression(0))
+    if getattr(value, "is_Relational", False):
+        signs = {"Equality": "=", "LessThan": "<=", "GreaterThan": ">="}
+        sign = signs.get(type(value).__name__)
+        if sign is None:
+            raise TypeError(f"{value}: an equation, <= or >= is expected")
+        return Relation(as_expression(value.lhs), sign, as_expression(value.rhs))
+    if value is True or value is False:
+        raise TypeError("a truth value is no equation; SymPy's a == b is one of structure, write sympy.Eq(a, b)")
+    return Relation(as_expression(value), "=", as_expression(0))
+
+
+def sin(x: ExpressionLike) -> Expression:
+    """The sine of an angle in radians."""
+    return _corank.function("sin", as_expression(x))
+
+
+def cos(x: ExpressionLike) -> Expression:
+    """The cosine of an angle in radians."""
+    return _corank.function("cos", as_expression(x))
+
+
+def tan(x: ExpressionLike) -> Expression:
+    """The tangent of an angle in radians."""
+    return _corank.function("tan", as_expression(x))
+
+
+def sqrt(x: ExpressionLike) -> Expression:
+    """The square root."""
+    return _corank.function("sqrt", as_expression(x))
+
+
+#: The circle constant, exactly.
+pi: Expression = _corank.symbol("pi")
+
+
+def degrees(angle: ExpressionLike) -> Expression:
+    """An angle given in degrees, in radians, exactly: degrees(15) is pi/12."""
+    return as_expression(angle) * pi / 180
+
+
+def linspace(start: Union[str, int, float, Fraction], stop: Union[str, int, float, Fraction], count: int) -> List[Fraction]:
+    """`count` equally spaced rational numbers from start to stop, both included, exactly.
+
+    Floats are the shortest decimals that name them: linspace(0.9, 1.6, 8) are 9/10, 1, 11/10 …
+    """
+    if count < 2:
+        raise ValueError("a count of 2 or more is expected")
+    first, last = (Fraction(repr(x) if isinstance(x, float) else x) for x in (start, stop))
+    return [first + (last - first) * Fraction(k, count - 1) for k in range(count)]
+
+
+def text_of(value: ExpressionLike) -> str:
+    """The value in the model language."""
+    return str(as_expression(value))

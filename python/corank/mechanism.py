@@ -1,0 +1,305 @@
+"""Mechanisms: their coordinates, constraints, inputs and outputs; and what can be asked of them."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Union
+
+from . import _corank, analyses, notebook, pages, sweeping
+from ._corank import Expression
+from .errors import deliver
+from .expression import ExpressionLike, RelationLike, as_expression, as_relation, pi, text_of
+from .progress import ProgressOption, Shown
+from .result import PathLike, Result
+
+
+class Coordinate(NamedTuple):
+    """A coordinate q_i: a "length", in the model's unit, or an "angle", in radians; lower and upper end of its range, None where
+    the equations are to give it."""
+
+    name: str
+    kind: str
+    lower: Optional[Expression]
+    upper: Optional[Expression]
+
+
+class Mechanism:
+    """A mechanism, or without inputs and outputs a plain system of equations.
+
+    >>> m = Mechanism("three-slider")
+    >>> y_A, y_B, x_C = m.length("y_A", -1, 1), m.length("y_B", -1, 1), m.length("x_C", -1, 1)
+    >>> m.constrain(y_A**2 + x_C**2 == 1, "y_B^2 + x_C^2 = 1")
+    >>> m.inputs, m.outputs = [y_A], [y_B]
+    """
+
+    def __init__(self, name: str = "mechanism") -> None:
+        self._core = _corank.Model(name)
+
+    @classmethod
+    def _of(cls, core: _corank.Model) -> "Mechanism":
+        mechanism = cls.__new__(cls)
+        mechanism._core = core
+        return mechanism
+
+    # --- building one ---
+
+    def constant(self, name: str, value: ExpressionLike) -> Expression:
+        """Declares a constant; a float is the decimal that it is written as. Returns its name as an expression."""
+        return self._core.constant(name, as_expression(value))
+
+    def length(self, name: str, lower: Optional[ExpressionLike] = None, upper: Optional[ExpressionLike] = None) -> Expression:
+        """Declares a length with its range, in the model's unit; without one the equations have to bound it."""
+        return self._core.length(name, *(None if x is None else as_expression(x) for x in (lower, upper)))
+
+    def angle(self, name: str, lower: ExpressionLike = -pi, upper: ExpressionLike = pi) -> Expression:
+        """Declares an angle with its range, in radians."""
+        return self._core.angle(name, as_expression(lower), as_expression(upper))
+
+    def unit_vector(self, name: str) -> List[Expression]:
+        """Declares the unit vector NAME_x, NAME_y, NAME_z with its equation."""
+        return self._core.unit_vector(name)
+
+    def rotation(self, name: str) -> List[Expression]:
+        """Declares the rotation matrix NAME_xx, NAME_xy … NAME_zz, row by row, with its six independent equations."""
+        return self._core.rotation(name)
+
+    def constrain(self, *relations: RelationLike) -> None:
+        """Adds assembly constraints (equations) and inequalities: texts, relations of corank's expressions or of SymPy; an
+        expression is meant to be 0."""
+        for relation in relations:
+            self._core.constrain(as_relation(relation))
+
+    #: The same.
+    equation = constrain
+
+    def imply(self, *relations: RelationLike) -> None:
+        """Adds equations that follow from the constraints, of which a proof is looked for; they make a search faster."""
+        for relation in relations:
+            self._core.imply(as_relation(relation))
+
+    def limit(self, coordinate: Union[str, Expression], lower: ExpressionLike, upper: ExpressionLike) -> None:
+        """Says how far a joint moves: the mechanism ends there, and the set "boundary" asks what that means."""
+        self._core.limit(str(coordinate), as_expression(lower), as_expression(upper))
+
+    def rate(self, name: str, role: str = "passive", angle: bool = True) -> Expression:
+        """Declares a component of the mechanism's own velocity equation: its role is "input", "output" or "passive"; in radians,
+        or else units of length, per second."""
+        return self._core.rate(name, angle, role)
+
+    def velocity(self, *relations: RelationLike) -> None:
+        """Adds rows of that velocity equation: linear in the rates."""
+        for relation in relations:
+            self._core.velocity(as_relation(relation))
+
+    @property
+    def inputs(self) -> List[str]:
+        """The coordinates that the actuators hold. Assign names or expressions, once."""
+        return self._core.inputs
+
+    @inputs.setter
+    def inputs(self, symbols: Iterable[Union[str, Expression]]) -> None:
+        self._choose("inputs", self._core.inputs, symbols, self._core.add_inputs)
+
+    @property
+    def outputs(self) -> List[str]:
+        """The coordinates that the task is about. Assign names or expressions, once."""
+        return self._core.outputs
+
+    @outputs.setter
+    def outputs(self, symbols: Iterable[Union[str, Expression]]) -> None:
+        self._choose("outputs", self._core.outputs, symbols, self._core.add_outputs)
+
+    def _choose(self, role: str, known: List[str], symbols: Iterable[Union[str, Expression]], add: Any) -> None:
+        if known:
+            raise ValueError(f"the {role} are {', '.join(known)} already")
+        add([as_expression(s) for s in ([symbols] if isinstance(symbols, (str, Expression)) else symbols)])
+
+    # --- looking at one ---
+
+    @property
+    def name(self) -> str:
+        """Its name, that of its file."""
+        return self._core.name
+
+    @property
+    def constants(self) -> Dict[str, Expression]:
+        """The constants and their values."""
+        return self._core.constants
+
+    @property
+    def coordinates(self) -> List[Coordinate]:
+        """q, in order."""
+        return [Coordinate(*c) for c in self._core.coordinates]
+
+    @property
+    def constraints(self) -> List[str]:
+        """The constraints, in the model language."""
+        return self._core.constraints
+
+    @property
+    def robot(self) -> Optional[str]:
+        """Of a robot from parts, what they make: "planar, 5 links, mobility 2"; else None."""
+        return self._core.robot
+
+    @property
+    def notices(self) -> List[str]:
+        """What of its file was passed over, and what is special about it."""
+        return self._core.notices
+
+    @property
+    def text(self) -> str:
+        """The mechanism in the model language: equations, also of a robot from parts."""
+        self._core.validate()
+        return self._core.text()
+
+    def _role(self, name: str) -> str:
+        return "input" if name in self.inputs else "output" if name in self.outputs else ""
+
+    def with_constants(self, constants: Optional[Mapping[str, ExpressionLike]] = None, **more: ExpressionLike) -> "Mechanism":
+        """The same with other values of these constants: m.with_constants(l2="4/5").
+
+        Raises:
+            ModelError: where it has no such constant.
+        """
+        pairs = [(name, text_of(value)) for name, value in {**(constants or {}), **more}.items()]
+        return Mechanism._of(self._core.with_constants(pairs))
+
+    def copy(self) -> "Mechanism":
+        """Another mechanism, equal to this one."""
+        return Mechanism._of(self._core.copy())
+
+    # --- asking about one ---
+
+    def derive(self, set: Optional[str] = None, format: str = "text", *, kernel: Optional[str] = None, corank: int = 1,
+               outputs: Sequence[str] = ()) -> str:
+        """The constraints, the blocks of the velocity equation and the equations of a set, "cspace" where none is given.
+
+        Args:
+            format: "text", "latex" (a fragment for amsmath) or "cuik" (the polynomial system, a model that can be solved).
+        """
+        if set is None and not self._core.plain:
+            set = "cspace"
+        return _corank.derive(self._core, set, kernel, corank, list(outputs), format)
+
+    def solve(self, set: Optional[str] = None, *, sigma: Optional[float] = None, sigma_length: Optional[float] = None,
+              sigma_angle: Optional[float] = None, kernel: Optional[str] = None, corank: int = 1, outputs: Sequence[str] = (),
+              tolerance: Optional[float] = None, digits: int = 0, proof: bool = False, threads: int = 0, max_boxes: int = 0,
+              max_found: int = 0, max_solutions: int = 0, time_limit: float = 0, memory_limit: Optional[int] = None,
+              coarser: float = 1, progress: ProgressOption = None) -> Result:
+        """Encloses a set in boxes, and proves what each box holds.
+
+        Args:
+            set: corank.SETS has the names: "cspace", "forward", "inverse" …, or "nodes". Of a plain system None.
+            sigma: the largest edge of a box of proven solutions, in lengths and in the sines and cosines of angles; None: a
+                share of the size of the set that is found. sigma_length, sigma_angle: for each kind.
+            kernel: the side of the kernel vector, "right" or "left"; None: what fits the matrix.
+            corank: the configurations where the kernel has this dimension at least.
+            outputs: of the set "boundary", in place of the model's.
+            tolerance: of the coefficients that are no integers, relative; 0: exact; None: 1e-6 for a plain system with more
+                equations than variables, else 0.
+            digits: points get so many proven digits after the point (Point.decimals).
+            proof: keep the script of the search, so that verify() can show that no solution is missing.
+            threads: 0: one for each core. The result does not depend on it unless a limit ends the search.
+            max_boxes, max_found, max_solutions, time_limit (seconds), memory_limit (bytes): what ends the search; 0: no limit.
+                memory_limit None: three quarters of the machine's memory.
+            coarser: the default of sigma is multiplied by this.
+            progress: None: shown on a terminal and in a notebook; True, False, or a function (stage, share, text).
+
+        Raises:
+            ModelError: where the model does not answer such a question.
+            OptionError: for a number out of its range.
+            Interrupted: by Ctrl-C, with the partial result.
+        """
+        options = _options(sigma=sigma, sigma_length=sigma_length, sigma_angle=sigma_angle, proof=proof, threads=threads,
+                           max_boxes=max_boxes, max_found=max_found, max_solutions=max_solutions, time_limit=time_limit,
+                           memory_limit=memory_limit, coarser=coarser)
+        with Shown(progress) as show:
+            core, raised = _corank.solve(self._core, set, kernel, corank, list(outputs), tolerance, options, digits, show)
+        return deliver(Result(core), raised)
+
+    def topology(self, *, threads: int = 0, refinements: int = 6, time_limit: float = 0,
+                 progress: ProgressOption = None) -> "analyses.Topology":
+        """The shape of the C-space, or of a plain system's solutions: pieces, Euler characteristic, genus; all proven.
+
+        Args:
+            refinements: σ is halved so often while something is missing. time_limit: seconds, 0: none.
+        """
+        with Shown(progress) as show:
+            json, text, raised = _corank.topology(self._core, threads, refinements, time_limit, show)
+        return deliver(analyses.Topology(json, text), raised)
+
+    def aspects(self, *, threads: int = 0, halvings: int = 16, rounds: int = 16, time_limit: float = 0,
+                progress: ProgressOption = None) -> "analyses.Aspects":
+        """The pieces into which singularities divide the C-space: aspects, assembly modes, working modes.
+
+        Args:
+            halvings, rounds: how finely cells are divided, at most. time_limit: seconds, 0: none.
+        """
+        with Shown(progress) as show:
+            json, text, raised = _corank.aspects(self._core, threads, halvings, rounds, time_limit, show)
+        return deliver(analyses.Aspects(json, text), raised)
+
+    clearance = analyses.clearance
+    best_center = analyses.best_center
+    clearance_map = analyses.clearance_map
+    area = analyses.area
+    report = pages.report
+    sweep = sweeping.sweep
+
+    def show(self, **options: Any) -> "pages.Report":
+        """A report inside a notebook; the options are those of report()."""
+        return self.report(None, **options)
+
+    # --- inner ---
+
+    def __str__(self) -> str:
+        return self._core.text() if self.coordinates else self.name
+
+    def __repr__(self) -> str:
+        roles = f"inputs {', '.join(self.inputs) or 'none'}, outputs {', '.join(self.outputs) or 'none'}"
+        return f"<mechanism {self.name}: {len(self.coordinates)} coordinates, {len(self.constraints)} constraints, {roles}>"
+
+    def _repr_html_(self) -> str:
+        return notebook.mechanism_html(self)
+
+    def __reduce__(self) -> Any:
+        return Mechanism._of, (self._core,)
+
+
+def _options(**values: Any) -> _corank.Options:
+    options = _corank.Options()
+    for name, value in values.items():
+        if name == "memory_limit" and value is None:
+            continue  # the machine's
+        setattr(options, name, value)
+    options.validate()
+    return options
+
+
+def load(path: PathLike, loops: Optional[PathLike] = None, **constants: ExpressionLike) -> Mechanism:
+    """Reads a mechanism: equations (.cuik), parts (.world, or .cuik with [LINKS]) or URDF (.urdf).
+
+    Args:
+        loops: of a URDF file its companion, with the joints that close loops, inputs and outputs.
+        constants: other values of constants: load("dextar.cuik", l2="4/5").
+
+    Raises:
+        ModelError: with file, line and column.
+    """
+    pairs = [(name, text_of(value)) for name, value in constants.items()]
+    return Mechanism._of(_corank.load(os.fspath(path), None if loops is None else os.fspath(loops), pairs))
+
+
+def parse(text: str, name: str = "model.cuik", loops: Optional[str] = None, **constants: ExpressionLike) -> Mechanism:
+    """A mechanism from a text in the model language, the parts language or URDF.
+
+    Args:
+        name: the file's name in messages, from which the mechanism has its own; its extension (.cuik, .world, .urdf) says what
+            the text is. Without one it is .cuik.
+        loops: of URDF, the text of its companion.
+    """
+    if not os.path.splitext(name)[1]:
+        name += ".cuik"
+    companion = None if loops is None else (loops, os.path.splitext(name)[0] + ".loops", "")
+    pairs = [(constant, text_of(value)) for constant, value in constants.items()]
+    return Mechanism._of(_corank.parse((text, name, ""), companion, pairs))

@@ -1,0 +1,82 @@
+"""What notebooks show: tables of verdicts, equations, pages inside a cell."""
+
+from __future__ import annotations
+
+import html
+import os
+from typing import TYPE_CHECKING, Any, List, Optional, Union
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
+    from .result import Result
+
+_MOST_POINTS = 20
+
+
+class Page:
+    """One HTML page that needs no other. In a notebook it is shown inside its cell, with its 3-D view.
+
+    Attributes:
+        html: its text.
+        path: where it was written; None where it was not.
+        height: of the frame in a notebook, in pixels.
+    """
+
+    def __init__(self, text: str, path: Optional[str] = None) -> None:
+        self.html = text
+        self.path = path
+        self.height = 600
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the page to a file."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.html)
+
+    def _repr_html_(self) -> str:
+        return (f'<iframe srcdoc="{html.escape(self.html, quote=True)}" style="width:100%;border:0" height="{self.height}">'
+                "</iframe>")
+
+    def __repr__(self) -> str:
+        return f"<page of {len(self.html)} characters{', ' + self.path if self.path else ''}>"
+
+
+def _table(rows: List[List[Any]], head: List[str]) -> str:
+    def line(cells: List[Any], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(str(c))}</{tag}>" for c in cells) + "</tr>"
+
+    return "<table>" + line(head, "th") + "".join(line(row, "td") for row in rows) + "</table>"
+
+
+def result_html(result: "Result") -> str:
+    """The table of verdicts, and the first points of a set of points."""
+    state = "complete" if result.complete else "incomplete"
+    if result.stopped:
+        state += f", stopped by {result.stopped}"
+    head = (f"<p><b>{html.escape(result.model)}</b>, {html.escape(result.set)}: dimension {result.dimension}, "
+            f"&sigma; = {result.sigma.length:g} in lengths, {result.sigma.angle:g} in sines and cosines; {html.escape(state)}</p>")
+    rows = [[word, n] for word, n in result.counts.items()] + [["all", len(result)]]
+    text = head + _table(rows, ["verdict", "boxes"])
+    points = result.points
+    if points:
+        names = [n for n in points[0].enclosures if n not in result.kernel_unknowns]
+        listed = [[p.verdict, ", ".join(p.types), *(_value(p[n]) for n in names)] for p in points[:_MOST_POINTS]]
+        text += _table(listed, ["point", "types", *names])
+        if len(points) > _MOST_POINTS:
+            text += f"<p>and {len(points) - _MOST_POINTS} more</p>"
+    return text
+
+
+def _value(value: Any) -> str:
+    from .point import _short
+
+    return _short(value)
+
+
+def mechanism_html(mechanism: "Mechanism") -> str:
+    """Its coordinates, and its equations in LaTeX."""
+    rows = [[c.name, c.kind, "" if c.lower is None else f"[{c.lower}, {c.upper}]", mechanism._role(c.name)]
+            for c in mechanism.coordinates]
+    equations = " \\\\ ".join(mechanism._core.equations_in_latex)
+    robot = f": {html.escape(mechanism.robot)}" if mechanism.robot else ""
+    return (f"<p><b>{html.escape(mechanism.name)}</b>{robot}</p>" + _table(rows, ["coordinate", "kind", "range", "role"])
+            + f"$$\\begin{{gathered}} {html.escape(equations, quote=False)} \\end{{gathered}}$$")

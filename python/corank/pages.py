@@ -1,0 +1,103 @@
+"""Reports: one page about a mechanism's sets, with the results and pictures beside it."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Tuple
+
+from . import _corank, notebook
+from .errors import Interrupted
+from .progress import ProgressOption
+from .result import PathLike, Result
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
+
+#: Of isolated points on a page.
+_DIGITS = 12
+
+#: The sets that a report has unless it is told which.
+USUAL_SETS: Tuple[str, ...] = tuple(s[0] for s in _corank.sets if s[3])
+_WITH_KERNEL = {s[0] for s in _corank.sets if s[4]}
+
+
+class Report(notebook.Page):
+    """A report and what it is about.
+
+    Attributes:
+        results: of its sets, in their order. path: of its index.html; None where it was not written.
+        complete: is every result?
+    """
+
+    def __init__(self, text: str, results: Sequence[Result], path: Optional[str]) -> None:
+        super().__init__(text, path)
+        self.results = list(results)
+        self.complete = all(r.complete and r.stopped is None for r in self.results)
+
+
+def portrait_axes(mechanism: "Mechanism", first: Sequence[str]) -> List[str]:
+    """The two coordinates of a portrait: the first of these, then outputs, inputs and others; none with a range of one value."""
+    movable = [c.name for c in mechanism.coordinates if c.lower is None or str(c.lower) != str(c.upper)]
+    names = [*first, *mechanism.outputs, *mechanism.inputs, *movable]
+    return [n for n in dict.fromkeys(names) if n in movable][:2]
+
+
+def write_figures(folder: str, mechanism: "Mechanism", results: Sequence[Result]) -> List[str]:
+    """output-portrait and input-portrait, each as .svg and .pdf, into figures/; their names."""
+    names: List[str] = []
+    shown = [r._core for r in results if len(r)]
+    os.makedirs(os.path.join(folder, "figures"), exist_ok=True)
+    for name, first in (("output-portrait", mechanism.outputs), ("input-portrait", mechanism.inputs)):
+        axes = portrait_axes(mechanism, first)
+        if len(axes) < 2 or not shown:
+            continue
+        for extension in (".svg", ".pdf"):
+            names.append(f"figures/{name}{extension}")
+            _corank.write_portrait(os.path.join(folder, names[-1]), shown, axes, "set", "", 85)
+    return names
+
+
+def report(self: "Mechanism", path: Optional[PathLike] = None, *, sets: Optional[Sequence[str]] = None,
+           sigma: Optional[float] = None, cspace_sigma: Optional[float] = None, corank: int = 1, proof: bool = False,
+           threads: int = 0, max_boxes: int = 0, max_found: int = 200_000, time_limit: float = 8,
+           results: Optional[Sequence[Result]] = None, progress: ProgressOption = None) -> Report:
+    """Solves the sets and makes one HTML page about them, which a notebook shows.
+
+    Args:
+        path: a folder for index.html, the results and the figures; None: the page is only returned.
+        sets: their names; None: corank.USUAL_SETS.
+        sigma, cspace_sigma: the largest edge of a box, of the singularities' sets and of C-space.
+        corank: of the sets with a kernel.
+        max_boxes, max_found, time_limit: what ends each search, 0: no limit. The page says what is incomplete.
+        results: take these, of one model, instead of solving.
+
+    Raises:
+        Interrupted: with the results of the sets that were done, and of the one that was on, as a list.
+    """
+    found: List[Result] = list(results or [])
+    for name in (() if results else sets or USUAL_SETS):
+        try:
+            found.append(self.solve(name, sigma=cspace_sigma if name == "cspace" else sigma,
+                                    corank=corank if name in _WITH_KERNEL else 1, digits=_DIGITS, proof=proof,
+                                    threads=threads, max_boxes=max_boxes, max_found=max_found, time_limit=time_limit,
+                                    progress=progress))
+        except Interrupted as early:
+            raise Interrupted([*found, early.result]) from None
+    cores = [r._core for r in found]
+    command = _command("report", self, sets, sigma, cspace_sigma)
+    if path is None:
+        return Report(_corank.report_page(cores, command, [], []), found, None)
+    folder = os.fspath(path)
+    figures = write_figures(folder, found[0].mechanism if found else self, found)
+    files = [f"{r.set}.h5" for r in found]
+    for r, file in zip(found, files):
+        r.save(os.path.join(folder, file))
+    page = Report(_corank.report_page(cores, command, figures, files), found, os.path.join(folder, "index.html"))
+    page.save(os.path.join(folder, "index.html"))
+    return page
+
+
+def _command(function: str, mechanism: "Mechanism", sets: Any, *sigmas: Optional[float]) -> str:
+    """What stands on the page as the command that made it."""
+    given = {"sets": None if sets is None else list(sets), "sigma": sigmas[0], "cspace_sigma": sigmas[1]}
+    return f"{mechanism.name}.{function}({', '.join(f'{k}={v!r}' for k, v in given.items() if v is not None)})"

@@ -1,0 +1,90 @@
+"""Boxes in matplotlib's axes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Sequence
+
+import numpy as np
+
+from . import _corank
+
+if TYPE_CHECKING:
+    from .result import Result
+
+# The corners of a rectangle and of a box's six faces: for each axis 0 its lower end, 1 its upper.
+_SQUARE = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
+_FACES = np.array([[(0, a, b) if k == 0 else (a, 0, b) if k == 1 else (a, b, 0) for a, b in _SQUARE] for k in range(3)]
+                  + [[(1, a, b) if k == 0 else (a, 1, b) if k == 1 else (a, b, 1) for a, b in _SQUARE] for k in range(3)])
+
+
+def plot(results: Sequence["Result"], *axes: str, ax: Any = None, color: str = "set", legend: bool = True,
+         outline: float = 0.8, **style: Any) -> Any:
+    """Draws the boxes of one or several results, all of them, where they are.
+
+    Args:
+        results: drawn in the order of a report, C-space below its singularities.
+        axes: the names of two coordinates, or of three for 3-D axes. An angle, in radians, goes by its name.
+        ax: matplotlib's axes; new ones where there are none.
+        color: "set", "verdict" or "plain": what the colours tell apart.
+        legend: with one, where there are several colours.
+        outline: the width, in points, of the line about a box, which makes small ones visible.
+        style: more for matplotlib's collections, such as alpha or rasterized.
+
+    Returns:
+        The axes. Each layer is one collection, whose label is that of the legend.
+    """
+    if len(axes) not in (2, 3):
+        raise ValueError("the names of two or three coordinates are expected")
+    names, layers, hatches = _corank.geometry([r._core for r in results], list(axes), color)
+    if ax is None:
+        from matplotlib import pyplot
+
+        ax = pyplot.figure().add_subplot(projection="3d" if len(axes) == 3 else None)
+    for label, rgb, opacity, sides, _ in layers:
+        options = {"facecolors": rgb, "edgecolors": rgb, "linewidths": outline, "alpha": opacity, "label": label, **style}
+        ax.add_collection(_solids(sides, options) if len(axes) == 3 else _rectangles(sides, options))
+    if hatches:
+        ax.add_collection(_strokes(hatches, layers))
+    _finish(ax, names, layers, legend)
+    return ax
+
+
+def _rectangles(sides: np.ndarray, options: Any) -> Any:
+    from matplotlib.collections import PolyCollection
+
+    corners = np.stack([sides[:, k][:, _SQUARE[:, k]] for k in range(2)], axis=-1)
+    return PolyCollection(corners, closed=True, **options)
+
+
+def _solids(sides: np.ndarray, options: Any) -> Any:
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    corners = np.stack([sides[:, k][:, _FACES[:, :, k]] for k in range(3)], axis=-1)
+    return Poly3DCollection(corners.reshape(-1, 4, 3), **options)
+
+
+def _strokes(hatches: Any, layers: Any) -> Any:
+    """To the side of a barrier where the output cannot go."""
+    from matplotlib.collections import LineCollection
+
+    extent = max((np.ptp(sides.reshape(len(sides), -1)) for _, _, _, sides, _ in layers if len(sides)), default=1.0)
+    start, direction = (np.array([h[k] for h in hatches]) for k in range(2))
+    return LineCollection(np.stack([start, start + 0.02 * extent * direction], axis=1), colors="0.3", linewidths=0.6)
+
+
+def _finish(ax: Any, names: Any, layers: Any, legend: bool) -> None:
+    labels = [f"{function} {name}" if function else name + (" [rad]" if angle else "") for name, function, angle in names]
+    ax.set_xlabel(labels[0])
+    ax.set_ylabel(labels[1])
+    if len(labels) == 3:
+        ax.set_zlabel(labels[2])
+        for k, axis in enumerate("xyz"):
+            ends = [sides[:, k] for _, _, _, sides, _ in layers if len(sides)]
+            if ends:
+                getattr(ax, f"set_{axis}lim")(min(e.min() for e in ends), max(e.max() for e in ends))
+    else:
+        ax.autoscale_view()
+        if len({angle for _, _, angle in names}) == 1:
+            ax.set_aspect("equal", adjustable="datalim")
+    if legend and len(layers) > 1 and len(labels) == 2:
+        ax.legend()

@@ -1,0 +1,102 @@
+"""Points: the solutions of a set of dimension 0, one by one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from . import exact
+
+if TYPE_CHECKING:
+    from .result import Result
+
+
+class Interval(NamedTuple):
+    """A closed interval of real numbers."""
+
+    lo: float
+    hi: float
+
+    @property
+    def mid(self) -> float:
+        """A number near the middle."""
+        return 0.5 * (self.lo + self.hi)
+
+
+class Point:
+    """One solution, or, where it is undecided, a cluster of boxes that may hold any number of them.
+
+    ``point["theta"]`` is the value of a coordinate: an exact number of SymPy where it is known, else an Interval; lengths are in
+    the model's unit, angles in radians.
+    """
+
+    def __init__(self, result: "Result", index: int) -> None:
+        self._result = result
+        self._index = index
+        self._exact: Optional[Dict[str, Any]] = None
+
+    @property
+    def verdict(self) -> str:
+        """"isolated": exactly one solution; "exact": known exactly; "undecided": nothing is proven."""
+        return str(self._result._point_verdicts[self._index])
+
+    @property
+    def box(self) -> np.ndarray:
+        """Its box, float64 of shape (variables, 2): lower and upper ends."""
+        return self._result._point_arrays["bounds"][self._index]
+
+    @property
+    def enclosures(self) -> Dict[str, Interval]:
+        """Of each coordinate, angles in place of their cosines and sines, then of each kernel unknown: an interval around it."""
+        r = self._result
+        at = {name: Interval(*self.box[j].tolist()) for j, name in enumerate(r.variables)}
+        hidden = set()
+        for angle in r.angles.values():
+            hidden |= {angle.cosine, angle.sine}
+        values = {a: Interval(*r._point_angles(a)[self._index].tolist()) for a in r.angles}
+        return {**{n: v for n, v in at.items() if n not in hidden}, **values}
+
+    @property
+    def exact(self) -> Optional[Dict[str, Any]]:
+        """Of each variable its exact value as a number of SymPy, of each angle in radians; None where the point is not known
+        exactly. Of an undecided point it is the one that explains why nothing more is proven."""
+        number = int(self._result._point_arrays["point"][self._index])
+        if number < 0:
+            return None
+        if self._exact is None:
+            values = exact.coordinates(self._result._core.exact_points[number])
+            for name, a in self._result.angles.items():
+                if a.cosine in values and a.sine in values:
+                    values[name] = exact.angle(values[a.cosine], values[a.sine], self.enclosures[name])
+            self._exact = values
+        return dict(self._exact)
+
+    @property
+    def decimals(self) -> Optional[Dict[str, str]]:
+        """Of each variable a decimal, wrong by less than a unit of its last digit; None where no digits were asked for or
+        nothing is proven."""
+        digits: List[List[str]] = self._result._core.decimals
+        if not digits or not digits[self._index]:
+            return None
+        return dict(zip(self._result.variables, digits[self._index]))
+
+    @property
+    def types(self) -> Tuple[str, ...]:
+        """The types of singularity that it is proven to have, such as ("RO", "II")."""
+        return self._result._type_names(int(self._result._point_arrays["types_proven"][self._index]))
+
+    def __getitem__(self, name: str) -> Any:
+        known = self.exact or {}
+        return known[name] if name in known and self.verdict != "undecided" else self.enclosures[name]
+
+    def __repr__(self) -> str:
+        names = [n for n in self.enclosures if n not in self._result.kernel_unknowns]
+        return f"<{self.verdict}: " + ", ".join(f"{n} = {_short(self[n])}" for n in names) + ">"
+
+
+def _short(value: Any) -> str:
+    if not isinstance(value, Interval):
+        text = str(value)
+        return text if len(text) <= 40 else f"{float(value):.10g}…"
+    return f"{value.mid:.10g}" if abs(value.hi - value.lo) < 1e-9 * max(1.0, abs(value.mid)) else f"[{value.lo:.6g}, {value.hi:.6g}]"

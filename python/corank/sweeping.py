@@ -1,0 +1,142 @@
+"""Families of mechanisms that differ in one constant."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Sequence
+
+from . import _corank, notebook, pages
+from .errors import Interrupted
+from .expression import ExpressionLike, text_of
+from .progress import ProgressOption
+from .result import PathLike, Result
+
+if TYPE_CHECKING:
+    import pandas
+
+    from .mechanism import Mechanism
+
+
+class Member(NamedTuple):
+    """One mechanism of a family: the constant's value in the model language, the mechanism, its results by set."""
+
+    value: str
+    mechanism: "Mechanism"
+    results: Dict[str, Result]
+
+
+class Sweep(Sequence[Member]):
+    """The members of a family, in the order of the constant's values.
+
+    Attributes:
+        constant: its name. asked: how many members there were to be.
+    """
+
+    def __init__(self, constant: str, members: List[Member], asked: int, command: str) -> None:
+        self.constant = constant
+        self.asked = asked
+        self._members = members
+        self._command = command
+
+    def __getitem__(self, k: Any) -> Any:
+        return self._members[k]
+
+    def __len__(self) -> int:
+        return len(self._members)
+
+    @property
+    def complete(self) -> bool:
+        """Are all members there, with complete results?"""
+        done = all(r.complete and r.stopped is None for m in self for r in m.results.values())
+        return done and len(self) == self.asked
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A row for each member and set: the value as text and as a number, boxes, points, how many have each verdict."""
+        import pandas
+
+        rows = []
+        for m in self:
+            value = float(m.mechanism.with_constants().constants_as_floats[self.constant])
+            for name, r in m.results.items():
+                counts = {word: r.counts.get(word, 0) for word in _corank.verdicts}
+                rows.append({self.constant: m.value, f"{self.constant}_value": value, "set": name, "boxes": len(r),
+                             "points": len(r.points), "complete": r.complete, **counts})
+        return pandas.DataFrame(rows)
+
+    def page(self, figures: Sequence[str] = (), files: Optional[List[List[str]]] = None) -> "notebook.Page":
+        """The family on one HTML page with a slider; a notebook shows it."""
+        if not self._members:
+            raise ValueError("the family has no member")
+        first = self._members[0]
+        axes = pages.portrait_axes(first.mechanism, first.mechanism.outputs)
+        if len(axes) < 2:
+            raise ValueError(f"{first.mechanism.name} has no two coordinates to draw a portrait over")
+        members = [(m.value, [r._core for r in m.results.values()], files[k] if files else [])
+                   for k, m in enumerate(self._members)]
+        report = f"{first.mechanism.name}.with_constants({self.constant}={first.value!r}).report()"
+        return notebook.Page(_corank.family_page(members, self.constant, axes, self.asked, self._command, report, list(figures)))
+
+    def report(self, path: PathLike) -> "notebook.Page":
+        """Writes the page, the results and small multiples for a paper into a folder."""
+        folder = os.fspath(path)
+        os.makedirs(os.path.join(folder, "figures"), exist_ok=True)
+        digits = len(str(self.asked))
+        files = [[f"member-{k + 1:0{digits}}-{name}.h5" for name in m.results] for k, m in enumerate(self._members)]
+        for names, m in zip(files, self._members):
+            for file, r in zip(names, m.results.values()):
+                r.save(os.path.join(folder, file))
+        first = self._members[0]
+        figures = _corank.write_small_multiples(
+            os.path.join(folder, "figures"), [[r._core for r in m.results.values()] for m in self._members],
+            pages.portrait_axes(first.mechanism, first.mechanism.outputs), [f"{self.constant} = {m.value}" for m in self._members])
+        page = self.page([f"figures/{name}" for name in figures], files)
+        page.path = os.path.join(folder, "index.html")
+        page.save(page.path)
+        return page
+
+    def __repr__(self) -> str:
+        values = ", ".join(m.value for m in self)
+        return f"<sweep of {self.constant}: {len(self)} of {self.asked} members ({values})>"
+
+    def _repr_html_(self) -> str:
+        sets = list(self._members[0].results) if self._members else []
+        rows = [[m.value, *(len(m.results[s]) for s in sets if s in m.results)] for m in self._members]
+        return notebook._table(rows, [self.constant, *(f"boxes, {s}" for s in sets)])
+
+
+def sweep(self: "Mechanism", constant: str, values: Iterable[ExpressionLike], *,
+          sets: Sequence[str] = ("cspace", "forward", "inverse"), sigma: Optional[float] = None,
+          cspace_sigma: Optional[float] = None, proof: bool = False, threads: int = 0, max_boxes: int = 0, max_found: int = 0,
+          time_limit: float = 0, progress: ProgressOption = None) -> Sweep:
+    """Solves sets of a family of mechanisms that differ in one constant.
+
+    Args:
+        constant: its name.
+        values: of it, exact: texts, fractions; corank.linspace(0.9, 1.6, 8).
+        sets, sigma, cspace_sigma: as for report(); the default of sigma is twice that of solve().
+        max_boxes, max_found, time_limit: what ends each search; 0: no limit.
+
+    Raises:
+        ModelError: where a value makes no mechanism; before the first search.
+        Interrupted: with the members that were done, and the one that was on.
+    """
+    texts = [text_of(value) for value in values]
+    plans = [self.with_constants({constant: text}) for text in texts]
+    names = [c.name for c in plans[0].coordinates] if plans else []
+    for text, plan in zip(texts, plans):
+        if [c.name for c in plan.coordinates] != names:
+            raise ValueError(f"at {constant} = {text} the mechanism has other coordinates than at {texts[0]}; a sweep needs the same")
+    members: List[Member] = []
+    command = f"{pages._command('sweep', self, sets, sigma, cspace_sigma)} over {constant}"
+    for text, plan in zip(texts, plans):
+        member = Member(text, plan, {})
+        members.append(member)
+        for name in sets:
+            try:
+                member.results[name] = plan.solve(
+                    name, sigma=cspace_sigma if name == "cspace" else sigma, proof=proof, threads=threads, max_boxes=max_boxes,
+                    max_found=max_found, time_limit=time_limit, coarser=2, progress=progress)
+            except Interrupted as early:
+                member.results[name] = early.result
+                raise Interrupted(Sweep(constant, members, len(texts), command)) from None
+    return Sweep(constant, members, len(texts), command)

@@ -1,0 +1,35 @@
+// Exceptions of corank as those of corank/errors.py, which say in attributes where the fault is.
+#include "corank/python/bindings.h"
+#include "corank/result/cuik_sol.h"
+#include "corank/result/hdf5_file.h"
+#include "corank/solve/options.h"
+#include "corank/symbolic/model_error.h"
+
+namespace corank::python {
+namespace {
+
+template <class... Values>
+void raise(const char* type, const Values&... values) {
+  const py::object error = py::module_::import("corank.errors").attr(type)(values...);
+  PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());
+}
+
+}  // namespace
+
+void bind_errors() {
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const symbolic::ModelError& e) {
+      raise("ModelError", e.what(), e.where().file, e.where().line, e.where().column);
+    } catch (const result::CuikFileError& e) {
+      raise("ResultFileError", e.what(), e.line());
+    } catch (const result::ResultFileError& e) {
+      raise("ResultFileError", e.what());
+    } catch (const solve::OptionError& e) {
+      raise("OptionError", e.option(), e.reason());
+    }
+  });
+}
+
+}  // namespace corank::python

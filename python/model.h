@@ -1,0 +1,36 @@
+// A mechanism as Python holds it: with what it takes to make it anew with other constants, or in another process.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/study/model.h"
+#include "corank/study/question.h"
+
+namespace corank::python {
+
+struct Origin {
+  study::ModelText model;
+  std::optional<study::ModelText> loops;  ///< of a URDF file: its companion
+};
+
+struct Model {
+  std::optional<Origin> origin;  ///< nothing: built, or changed, by the functions of Mechanism
+  study::Model value;
+  std::vector<result::ConstantOverride> constants;  ///< that were put in
+
+  const symbolic::Mechanism& mechanism() const { return value.mechanism; }
+  /// For a change. Throws ModelError where the equations come from a robot's parts.
+  symbolic::Mechanism& changed();
+};
+
+Model make_model(Origin origin, std::vector<result::ConstantOverride> constants);
+
+/// A question about the model, validated, whose text is the one that results keep. `set`: a name of a set, "nodes", or
+/// nothing for a plain system. Throws std::invalid_argument where the model has no such set.
+study::Question question_of(const Model& model, const std::optional<std::string>& set,
+                            const std::optional<std::string>& kernel = {}, int corank = 1,
+                            const std::vector<std::string>& outputs = {});
+
+}  // namespace corank::python

@@ -1,0 +1,140 @@
+// Pages, portraits and the geometry of plots, of results.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "corank/python/bindings.h"
+#include "corank/python/model.h"
+#include "corank/python/result.h"
+#include "corank/report/family_page.h"
+#include "corank/report/page.h"
+#include "corank/report/picture.h"
+#include "corank/report/portrait.h"
+#include "corank/result/verification.h"
+
+namespace corank::python {
+namespace {
+
+std::vector<report::SetView> views_of(const symbolic::Mechanism& mechanism, const std::vector<Result>& results) {
+  std::vector<report::SetView> views;
+  for (const Result& r : results) {
+    System system = result::system_of(mechanism, *r);
+    views.push_back(report::set_view(*r, std::move(system), mechanism.has_own_velocity_equation()));
+  }
+  return views;
+}
+
+// The model as the results have it: with its constants.
+symbolic::Mechanism mechanism_of(const std::vector<Result>& results) {
+  if (results.empty()) throw std::invalid_argument("there is no result to show");
+  for (const Result& r : results)
+    if (r->model_text != results.front()->model_text || r->options.constants != results.front()->options.constants)
+      throw std::invalid_argument("the results are of two models, or with other constants");
+  return result::model_of(*results.front());
+}
+
+std::string page(const std::vector<Result>& results, const std::string& command, const std::vector<std::string>& figures,
+                 const std::vector<std::string>& files) {
+  const py::gil_scoped_release unlocked;
+  const symbolic::Mechanism mechanism = mechanism_of(results);
+  return report::report_page(mechanism, views_of(mechanism, results), {command, figures, files});
+}
+
+using Members = std::vector<std::tuple<std::string, std::vector<Result>, std::vector<std::string>>>;
+
+std::string family_page(const Members& members, const std::string& constant, const std::array<std::string, 2>& axes,
+                        std::size_t asked, const std::string& command, const std::string& report_command,
+                        const std::vector<std::string>& figures) {
+  const py::gil_scoped_release unlocked;
+  std::vector<report::FamilyMember> list;
+  for (const auto& [value, results, files] : members) {
+    symbolic::Mechanism mechanism = mechanism_of(results);
+    std::vector<report::SetView> views = views_of(mechanism, results);
+    list.push_back({value, std::move(mechanism), std::move(views), files});
+  }
+  report::FamilyOptions options;
+  options.constant = constant;
+  options.axes = axes;
+  options.asked = asked;
+  options.command = command;
+  options.report_command = report_command;
+  options.figures = figures;
+  return report::family_page(list, options);
+}
+
+report::Picture picture(const std::vector<Result>& results, const std::vector<std::string>& axes, const std::string& color) {
+  report::PictureOptions options;
+  options.axes = axes;
+  if (color != "set" && color != "verdict" && color != "plain")
+    throw std::invalid_argument("color is set, verdict or plain, not '" + color + "'");
+  options.color = color == "set"       ? report::ColorScheme::set
+                  : color == "verdict" ? report::ColorScheme::verdict
+                                       : report::ColorScheme::plain;
+  std::vector<report::PictureSource> sources;
+  for (const Result& r : results) sources.push_back(report::picture_source(*r, r->set));
+  return report::make_picture(sources, options);
+}
+
+py::array_t<double> sides(const report::PictureLayer& layer, std::size_t axes) {
+  py::array_t<double> array({static_cast<py::ssize_t>(layer.boxes.size()), static_cast<py::ssize_t>(axes), py::ssize_t{2}});
+  double* to = array.mutable_data();
+  for (const report::PictureBox& box : layer.boxes)
+    for (std::size_t k = 0; k < axes; ++k) {
+      *to++ = box.sides[k].lo();
+      *to++ = box.sides[k].hi();
+    }
+  return array;
+}
+
+// The axes as (name, function of it, is it an angle), the layers as (label, colour, opacity, n × axes × 2, box numbers), the
+// hatches as (from, direction).
+py::tuple geometry(const std::vector<Result>& results, const std::vector<std::string>& axes, const std::string& color) {
+  report::Picture p;
+  {
+    const py::gil_scoped_release unlocked;
+    p = picture(results, axes, color);
+  }
+  py::list names, layers, hatches;
+  for (const report::PictureAxis& a : p.axes) names.append(py::make_tuple(a.name, a.function, a.angle));
+  for (const report::PictureLayer& layer : p.layers) {
+    py::array_t<int> numbers(static_cast<py::ssize_t>(layer.boxes.size()));
+    int* to = numbers.mutable_data();
+    for (const report::PictureBox& box : layer.boxes) *to++ = box.number;
+    layers.append(py::make_tuple(layer.label, py::make_tuple(layer.color.red, layer.color.green, layer.color.blue),
+                                 layer.opacity, sides(layer, p.axes.size()), numbers));
+  }
+  for (const report::PictureHatch& h : p.hatches) hatches.append(py::make_tuple(h.from, h.direction));
+  return py::make_tuple(names, layers, hatches);
+}
+
+void write_portrait(const std::filesystem::path& path, const std::vector<Result>& results,
+                    const std::vector<std::string>& axes, const std::string& color, const std::string& title,
+                    double width_mm) {
+  const py::gil_scoped_release unlocked;
+  report::PortraitOptions options;
+  options.title = title;
+  options.width_mm = width_mm;
+  report::write_portrait(path, picture(results, axes, color), options);
+}
+
+std::vector<std::string> write_small_multiples(const std::filesystem::path& folder,
+                                               const std::vector<std::vector<Result>>& members,
+                                               const std::vector<std::string>& axes,
+                                               const std::vector<std::string>& titles) {
+  const py::gil_scoped_release unlocked;
+  std::vector<report::Picture> pictures;
+  for (const std::vector<Result>& results : members) pictures.push_back(picture(results, axes, "set"));
+  return report::write_small_multiples(folder, pictures, titles);
+}
+
+}  // namespace
+
+void bind_report(py::module_& module) {
+  module.def("report_page", &page);
+  module.def("family_page", &family_page);
+  module.def("geometry", &geometry);
+  module.def("write_portrait", &write_portrait);
+  module.def("write_small_multiples", &write_small_multiples);
+}
+
+}  // namespace corank::python

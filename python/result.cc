@@ -1,0 +1,194 @@
+#include "corank/python/result.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "corank/certify/angle.h"
+#include "corank/python/bindings.h"
+#include "corank/python/watched.h"
+#include "corank/report/set_view.h"
+#include "corank/result/cuik_sol.h"
+#include "corank/result/exact_angle.h"
+#include "corank/result/motion_words.h"
+#include "corank/result/result_file.h"
+#include "corank/result/summary.h"
+#include "corank/result/tallies.h"
+#include "corank/result/verification.h"
+
+namespace corank::python {
+namespace {
+
+py::dict box_arrays(const std::shared_ptr<const BoxArrays>& a) {
+  const auto n = static_cast<py::ssize_t>(a->size), m = static_cast<py::ssize_t>(a->variables);
+  py::dict arrays;
+  arrays["bounds"] = view(a, a->bounds, {n, m, 2});
+  arrays["free"] = view(a, a->free, {n, m}).attr("view")("bool");
+  arrays["verdict"] = view(a, a->verdict, {n});
+  arrays["reason"] = view(a, a->reason, {n});
+  arrays["types_proven"] = view(a, a->types_proven, {n});
+  arrays["types_excluded"] = view(a, a->types_excluded, {n});
+  arrays["passage"] = view(a, a->passage, {n});
+  arrays["kernel_at_most"] = view(a, a->kernel_at_most, {n});
+  arrays["region"] = view(a, a->region, {n});
+  arrays["point"] = view(a, a->point, {n});
+  arrays["part"] = view(a, a->part, {n});
+  return arrays;
+}
+
+// n × 2, in radians: of each box the angles over its cosines and sines.
+py::array_t<double> angle_enclosures(const Result& r, const std::string& name, bool of_points) {
+  for (const Angle& angle : r->angles) {
+    if (angle.name != name) continue;
+    const std::vector<CoverBox>& boxes = of_points ? r->cover.points : r->cover.boxes;
+    py::array_t<double> array({static_cast<py::ssize_t>(boxes.size()), py::ssize_t{2}});
+    double* to = array.mutable_data();
+    for (const CoverBox& b : boxes) {
+      const Interval x = certify::angle_enclosure(b.box[static_cast<std::size_t>(angle.cosine)],
+                                                  b.box[static_cast<std::size_t>(angle.sine)], angle.range);
+      *to++ = x.lo();
+      *to++ = x.hi();
+    }
+    return array;
+  }
+  throw py::key_error(name);
+}
+
+std::vector<std::string> texts(const RationalPolynomial& polynomial) {
+  std::vector<std::string> list;
+  for (const ExactNumber& c : polynomial) list.push_back(c.text());
+  return list;
+}
+
+// Its number t: coefficients, between which bounds; then each coordinate's coefficients, by name.
+py::dict exact_point(const result::Result& r, const ExactPoint& p) {
+  py::dict point, coordinates;
+  for (std::size_t j = 0; j < p.coordinates.size() && j < r.variables.size(); ++j)
+    if (!p.coordinates[j].empty()) coordinates[py::str(r.variables[j].name)] = texts(p.coordinates[j]);
+  point["polynomial"] = texts(p.polynomial);
+  point["between"] = py::make_tuple(p.lower.text(), p.upper.text());
+  point["coordinates"] = coordinates;
+  point["corank"] = p.corank;
+  return point;
+}
+
+py::list exact_points(const Result& r) {
+  py::list list;
+  for (const ExactPoint& p : r->cover.exact_points) list.append(exact_point(*r, p));
+  return list;
+}
+
+py::list variables(const Result& r) {
+  static constexpr std::array kKinds{"length", "cosine", "sine", "kernel", "auxiliary"};
+  py::list list;
+  for (const result::ResultVariable& v : r->variables)
+    list.append(py::make_tuple(v.name, kKinds[static_cast<std::size_t>(v.kind)], v.domain.lo(), v.domain.hi()));
+  return list;
+}
+
+py::list angles(const Result& r) {
+  py::list list;
+  for (const Angle& a : r->angles) list.append(py::make_tuple(a.name, a.cosine, a.sine, a.range.lo(), a.range.hi()));
+  return list;
+}
+
+Result read(const std::filesystem::path& path) {
+  const py::gil_scoped_release unlocked;
+  result::Result result = result::read_result(path);
+  const symbolic::Mechanism mechanism = result::model_of(result);
+  result::describe_in_words(mechanism, result::system_of(mechanism, result), result);
+  return Result(std::move(result));
+}
+
+void save(const Result& r, const std::filesystem::path& path) {
+  const py::gil_scoped_release unlocked;
+  if (path.extension() == ".sol") return result::write_text(path, result::to_sol(*r));
+  result::write_result(path, *r);
+}
+
+py::tuple verify(const Result& r, int threads, const py::object& progress) {
+  const std::shared_ptr<const result::Result> shared = r.shared();
+  const auto work = [shared, threads](Watcher& watcher) {
+    check::Options options;
+    options.threads = threads;
+    options.stop = &watcher.stop;
+    options.progress = [&watcher](const check::Progress& p) {
+      const bool script = p.steps > 0;
+      const double done = static_cast<double>(script ? p.steps : p.boxes),
+                   all = static_cast<double>(script ? p.all_steps : p.all_boxes);
+      watcher.show({script ? "the proof" : "the boxes", all > 0 ? done / all : -1, ""});
+    };
+    const result::Verification v = result::verify(*shared, options);
+    return std::tuple(result::to_json(v), result::to_table(v, *shared), v.verified(), v.complete());
+  };
+  auto [value, raised] = run_for(progress, work);
+  return py::make_tuple(std::get<0>(value), std::get<1>(value), std::get<2>(value), std::get<3>(value), raised);
+}
+
+// What a report says of a set, in words.
+py::dict words(const Result& r) {
+  const symbolic::Mechanism mechanism = result::model_of(*r);
+  const report::SetWords w = report::set_view(mechanism, *r).words;
+  py::dict dict;
+  dict["title"] = w.title;
+  dict["meaning"] = w.meaning;
+  dict["finding"] = w.finding;
+  dict["proven"] = w.proven;
+  dict["unproven"] = w.unproven;
+  return dict;
+}
+
+}  // namespace
+
+void bind_result(py::module_& module) {
+  py::class_<Result> type(module, "Result");
+  type.def_property_readonly("model", [](const Result& r) { return r->model; });
+  type.def_property_readonly("model_text", [](const Result& r) { return r->model_text; });
+  type.def_property_readonly("constants", [](const Result& r) {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const auto& o : r->options.constants) list.emplace_back(o.name, o.expression);
+    return list;
+  });
+  type.def_property_readonly("set", [](const Result& r) { return r->set; });
+  type.def_property_readonly("part", [](const Result& r) { return r->part; });
+  type.def_property_readonly("version", [](const Result& r) { return r->version; });
+  type.def_property_readonly("system_text", [](const Result& r) { return r->system_text; });
+  type.def_property_readonly("stopped", [](const Result& r) { return r->stopped; });
+  type.def_property_readonly("outputs", [](const Result& r) { return r->outputs; });
+  type.def_property_readonly("dimension", [](const Result& r) { return r->cover.dimension; });
+  type.def_property_readonly("complete", [](const Result& r) { return r->cover.complete(); });
+  type.def_property_readonly("has_proof", [](const Result& r) { return r->cover.proof != nullptr; });
+  type.def_property_readonly("sigma",
+                             [](const Result& r) { return py::make_tuple(r->cover.sigma.length, r->cover.sigma.angle); });
+  type.def_property_readonly("configuration_size", [](const Result& r) { return r->configuration_size; });
+  type.def_property_readonly("variables", &variables);
+  type.def_property_readonly("angles", &angles);
+  type.def_property_readonly("motions", [](const Result& r) { return r->motions; });
+  type.def_property_readonly("decimals", [](const Result& r) { return r->cover.decimals; });
+  type.def_property_readonly("types_asked", [](const Result& r) { return r->cover.types.asked; });
+  type.def_property_readonly("exact_points", &exact_points);
+  type.def_property_readonly("parts", [](const Result& r) {
+    std::vector<Result> parts;
+    for (const result::Result& part : r->parts) parts.emplace_back(part);
+    return parts;
+  });
+  type.def("boxes", [](const Result& r) { return box_arrays(r.boxes()); });
+  type.def("points", [](const Result& r) { return box_arrays(r.points()); });
+  type.def("angle_enclosures", &angle_enclosures);
+  type.def("table", [](const Result& r) { return result::to_table(*r); });
+  type.def("json", [](const Result& r) { return result::to_json(*r); });
+  type.def("words", &words);
+  type.def("save", &save);
+  type.def("verify", &verify);
+  module.def("read_result", &read);
+  std::vector<std::string> verdicts, reasons, types, passages;
+  for (int v = 0; v < kVerdicts; ++v) verdicts.emplace_back(to_string(static_cast<Verdict>(v)));
+  for (int r = 0; r < kReasons; ++r) reasons.emplace_back(to_string(static_cast<Reason>(r)));
+  for (const SingularityType t : kSingularityTypes) types.emplace_back(to_string(t));
+  for (int p = 0; p < kPassages; ++p) passages.emplace_back(to_string(static_cast<Passage>(p)));
+  module.attr("verdicts") = py::tuple(py::cast(verdicts));
+  module.attr("reasons") = py::tuple(py::cast(reasons));
+  module.attr("types") = py::tuple(py::cast(types));
+  module.attr("passages") = py::tuple(py::cast(passages));
+}
+
+}  // namespace corank::python

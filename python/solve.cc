@@ -1,0 +1,100 @@
+// Options, and from a model's question to a result.
+#include "corank/python/bindings.h"
+#include "corank/python/model.h"
+#include "corank/python/result.h"
+#include "corank/python/watched.h"
+
+#include <pybind11/stl.h>
+
+#include "corank/solve/machine_memory.h"
+#include "corank/study/answer.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/printer.h"
+
+namespace corank::python {
+namespace {
+
+solve::Options default_options() {
+  solve::Options options;
+  options.threads = 0;
+  options.memory_limit = solve::machine_memory() / 4 * 3;
+  return options;
+}
+
+// The result, and what Ctrl-C or the progress function raised.
+py::tuple solve_question(const Model& model, const std::optional<std::string>& set, const std::optional<std::string>& kernel,
+                         int corank, const std::vector<std::string>& outputs, const std::optional<double>& tolerance,
+                         const solve::Options& options, int digits, const py::object& progress) {
+  options.validate();
+  study::Question question = question_of(model, set, kernel, corank, outputs);
+  question.tolerance = tolerance;
+  const auto work = [question = std::move(question), options, digits](Watcher& watcher) {
+    solve::Control control(limits_of(options, &watcher.stop));
+    watcher.follow(control);
+    std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
+    const std::vector<study::Question> parts = study::parts_of(question);
+    std::vector<System> systems;
+    for (const study::Question& part : parts) {
+      systems.push_back(study::system(part));
+      options.validate(systems.back());
+      if (options.proof && systems.back().coefficient_tolerance > 0)
+        throw std::invalid_argument(
+            "proof: there is none for coefficients with a tolerance; tolerance=0 takes them as exact");
+    }
+    control.ended();  // notes the stage
+    stage.reset();
+    return Result(study::answer(parts, systems, {options, digits}, control));
+  };
+  auto [result, raised] = run_for(progress, work);
+  return py::make_tuple(std::move(result), raised);
+}
+
+std::string derivation(study::Question question, const std::string& format) {
+  const auto printed = [&](const symbolic::TrigonometricSystem& system) {
+    const symbolic::Derivation d = symbolic::derive(question.model);
+    return format == "latex" ? symbolic::to_latex(d, system) : symbolic::to_text(d, system);
+  };
+  std::string text;
+  if (symbolic::definition(question.set).of_parts) {
+    if (format == "cuik") throw std::invalid_argument("format cuik: the set consists of several systems");
+    for (const study::Question& part : study::parts_of(question)) text += printed(study::equations(part));
+    return text;
+  }
+  const symbolic::TrigonometricSystem system = study::equations(question);
+  if (!system.claimed.empty()) static_cast<void>(study::system(question, system));  // refuses what does not follow
+  return format == "cuik" ? symbolic::to_cuik(symbolic::algebrize(system)) : printed(system);
+}
+
+std::string derive(const Model& model, const std::optional<std::string>& set, const std::optional<std::string>& kernel,
+                   int corank, const std::vector<std::string>& outputs, const std::string& format) {
+  if (format != "text" && format != "latex" && format != "cuik")
+    throw std::invalid_argument("the format is text, latex or cuik, not '" + format + "'");
+  study::Question question = question_of(model, set, kernel, corank, outputs);
+  return run_whole(py::none(), [question = std::move(question), format](Watcher&) { return derivation(question, format); });
+}
+
+}  // namespace
+
+void bind_options(py::module_& module) {
+  py::class_<solve::Options>(module, "Options")
+      .def(py::init(&default_options))
+      .def_readwrite("sigma", &solve::Options::sigma)
+      .def_readwrite("sigma_length", &solve::Options::sigma_length)
+      .def_readwrite("sigma_angle", &solve::Options::sigma_angle)
+      .def_readwrite("coarser", &solve::Options::coarser)
+      .def_readwrite("threads", &solve::Options::threads)
+      .def_readwrite("max_boxes", &solve::Options::max_boxes)
+      .def_readwrite("max_found", &solve::Options::max_found)
+      .def_readwrite("max_solutions", &solve::Options::max_solutions)
+      .def_readwrite("time_limit", &solve::Options::time_limit)
+      .def_readwrite("memory_limit", &solve::Options::memory_limit)
+      .def_readwrite("proof", &solve::Options::proof)
+      .def("validate", [](const solve::Options& options) { options.validate(); });
+}
+
+void bind_solve(py::module_& module) {
+  module.def("solve", &solve_question);
+  module.def("derive", &derive);
+}
+
+}  // namespace corank::python

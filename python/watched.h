@@ -1,0 +1,84 @@
+// Long work on behalf of Python: it runs without the interpreter's lock on a thread of its own, while the thread that asked for
+// it shows its progress and listens for Ctrl-C.
+//
+// What ends it early is asked for by a flag (Watcher::stop); the work then returns what it has. A second Ctrl-C leaves the work
+// alone: it ends by itself, and nobody sees its result.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "corank/solve/control.h"
+
+namespace corank::python {
+
+namespace py = pybind11;
+
+struct Progress {
+  std::string stage;
+  double share = -1;  ///< of the stage, 0 … 1; below 0: it does not say
+  std::string text;   ///< what else there is to say, in words
+};
+
+/// What the thread that works and the one that waits share.
+class Watcher {
+ public:
+  std::atomic<bool> stop{false};
+
+  /// From any thread.
+  void show(Progress progress);
+  /// The control's progress; the watcher has to outlive its run.
+  void follow(solve::Control& control);
+  /// The last progress, where there was any since the last call.
+  std::optional<Progress> news();
+
+ private:
+  std::mutex mutex_;
+  std::optional<Progress> news_;
+};
+
+/// Does the work. `progress`: None, or a function of a stage, a share and a text. Returns None, or the exception that a signal's
+/// handler (KeyboardInterrupt) or the function has raised, which made the flag be set; throws what the work throws. The work
+/// may go on after this call, so it owns all that it uses and touches nothing of Python's.
+py::object run(const py::object& progress, std::function<void(Watcher&)> work);
+
+/// The same of work that has a value: the value and that exception. Where the work was left alone, throws the exception.
+template <class Work>
+auto run_for(const py::object& progress, Work work) {
+  using Value = std::invoke_result_t<Work, Watcher&>;
+  const auto value = std::make_shared<std::optional<Value>>();
+  const auto finished = std::make_shared<std::atomic<bool>>(false);
+  const py::object raised = run(progress, [value, finished, work = std::move(work)](Watcher& watcher) {
+    *value = work(watcher);
+    *finished = true;
+  });
+  if (!*finished) {
+    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(raised.ptr())), raised.ptr());
+    throw py::error_already_set();
+  }
+  return std::pair<Value, py::object>(std::move(**value), raised);
+}
+
+/// The same where an early end leaves nothing of worth: its exception is thrown.
+template <class Work>
+auto run_whole(const py::object& progress, Work work) {
+  auto [value, raised] = run_for(progress, std::move(work));
+  if (!raised.is_none()) {
+    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(raised.ptr())), raised.ptr());
+    throw py::error_already_set();
+  }
+  return std::move(value);
+}
+
+/// At the interpreter's end: waits for work that was left alone.
+void wait_for_the_abandoned();
+
+}  // namespace corank::python
