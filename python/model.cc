@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "corank/python/bindings.h"
+#include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_text.h"
 #include "corank/symbolic/regular_locus.h"
 
@@ -86,6 +87,15 @@ std::vector<std::string> texts(const std::vector<symbolic::Constraint>& constrai
   std::vector<std::string> list;
   for (const symbolic::Constraint& c : constraints) list.push_back(c.relation.text());
   return list;
+}
+
+// Near the constants' values.
+py::dict constant_values(const Model& model) {
+  std::map<std::string, double> values;
+  py::dict known;
+  for (const symbolic::Constant& c : model.mechanism().constants())
+    known[py::str(c.name)] = values[c.name] = symbolic::evaluate(c.value, values);
+  return known;
 }
 
 const char* sign_in_latex(symbolic::Relation::Kind kind) {
@@ -186,6 +196,7 @@ void bind_model(py::module_& module) {
     for (const symbolic::Constant& c : m.mechanism().constants()) values[py::str(c.name)] = c.value;
     return values;
   });
+  type.def_property_readonly("constant_values", &constant_values);
   type.def_property_readonly("constraints", [](const Model& m) { return texts(m.mechanism().constraints()); });
   type.def_property_readonly("equations_in_latex", &equations_in_latex);
   type.def_property_readonly("notices", [](const Model& m) { return m.value.notices; });

@@ -127,6 +127,11 @@ class Mechanism:
         return self._core.constants
 
     @property
+    def constant_values(self) -> Dict[str, float]:
+        """Their values within rounding errors, to compute with; corank itself takes them exactly."""
+        return self._core.constant_values
+
+    @property
     def coordinates(self) -> List[Coordinate]:
         """q, in order."""
         return [Coordinate(*c) for c in self._core.coordinates]

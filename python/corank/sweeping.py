@@ -56,7 +56,7 @@ class Sweep(Sequence[Member]):
 
         rows = []
         for m in self:
-            value = float(m.mechanism.with_constants().constants_as_floats[self.constant])
+            value = m.mechanism.constant_values[self.constant]
             for name, r in m.results.items():
                 counts = {word: r.counts.get(word, 0) for word in _corank.verdicts}
                 rows.append({self.constant: m.value, f"{self.constant}_value": value, "set": name, "boxes": len(r),

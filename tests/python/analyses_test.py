@@ -1,0 +1,80 @@
+"""Reports, sweeps, topology, aspects, clearance, with the known answers of tests/analyze."""
+
+import pytest
+
+import corank
+
+
+def test_the_c_space_of_the_three_slider_is_two_closed_curves(three_slider):
+    t = three_slider.topology()
+    assert t.components == (2, 2) and t.components.exact and t.euler_characteristic == 0 and t.smooth and t.dimension == 1
+    assert "2 closed curves" in str(t) and t.complete
+
+
+def test_its_singularities_divide_it_into_eight_aspects(three_slider):
+    a = three_slider.aspects()
+    assert a.aspects == (8, 8) and a.working_modes == (4, 4) and len(a.representatives) == 8
+    values, signs = a.representatives[0]
+    assert values["y_A"].lo <= values["y_A"].hi and set(signs) <= {-1, 1}
+
+
+def test_the_clearance_of_dextar_is_bounded_from_both_sides(dextar):
+    c = dextar.clearance({"J3x": 0.5, "J3y": 1}, ["J3x", "J3y"], claims=True)
+    assert 0.15 < c.lower <= c.upper < 0.16 and c.upper - c.lower <= 0.011 * c.upper
+    x, y = c.nearest["J3x"].mid, c.nearest["J3y"].mid
+    assert abs(((x - 0.5) ** 2 + (y - 1) ** 2) ** 0.5 - c.upper) < 1e-6
+    assert c.free.verify().complete and len(c.free) == 0 and c.nearest_result.verify()
+
+
+def test_the_best_centre_has_more_clearance_than_another(dextar):
+    best = dextar.best_center({"J3x": (0, 1), "J3y": (0.2, 1.2)}, precision=0.1)
+    assert set(best.center) == {"J3x", "J3y"} and best.lower > 0
+    there = dextar.clearance(best.center, ["J3x", "J3y"])
+    assert there.upper >= best.lower * 0.999
+
+
+def test_a_map_has_bounds_for_each_cell(dextar):
+    map = dextar.clearance_map({"J3x": (0.3, 0.9), "J3y": (0.6, 1.2)}, grid=3)
+    assert len(map.rows) == 9 and map.names == ["J3x", "J3y"] and map.complete
+    for row in map.rows:
+        assert row["cell_lo"] <= row["lo"] and (row["hi"] is None or row["lo"] <= row["hi"])
+    pytest.importorskip("pandas")
+    assert len(map.to_pandas()) == 9
+
+
+def test_a_report_is_a_page_with_its_files(three_slider, tmp_path):
+    page = three_slider.report(tmp_path / "report")
+    assert page.complete and [r.set for r in page.results] == list(corank.USUAL_SETS)
+    assert (tmp_path / "report" / "index.html").read_text() == page.html
+    assert (tmp_path / "report" / "figures" / "output-portrait.svg").exists()
+    for name in corank.USUAL_SETS:
+        assert corank.open(tmp_path / "report" / f"{name}.h5").set == name
+    again = corank.Mechanism.report(three_slider, results=page.results)
+    assert again.path is None and "three_slider" in again.html
+
+
+def test_a_sweep_solves_every_member(three_slider, tmp_path):
+    s = three_slider.sweep("L2", corank.linspace(0.8, 1, 3), sets=["forward", "inverse"])
+    assert s.complete and len(s) == 3 and [m.value for m in s] == ["4/5", "9/10", "1"]
+    assert [len(m.results["forward"].points) for m in s] == [8, 8, 6]
+    pandas = pytest.importorskip("pandas")
+    frame = s.to_pandas()
+    assert isinstance(frame, pandas.DataFrame) and list(frame["points"]) == [8, 4, 8, 4, 6, 6]
+    assert list(frame["L2_value"])[::2] == [0.8, 0.9, 1.0]
+    page = s.report(tmp_path / "family")
+    assert (tmp_path / "family" / "index.html").read_text() == page.html
+    assert (tmp_path / "family" / "member-1-forward.h5").exists()
+
+
+def test_values_that_make_no_mechanism_are_known_before_the_first_search(three_slider):
+    with pytest.raises(corank.ModelError):
+        three_slider.sweep("L9", [1, 2])
+    with pytest.raises(ValueError):
+        corank.linspace(0, 1, 1)
+
+
+def test_a_plain_system_has_no_aspects():
+    m = corank.parse("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n")
+    with pytest.raises(ValueError, match="plain system"):
+        m.aspects()
+    assert m.topology().components == (1, 1)
