@@ -1,0 +1,60 @@
+"""The package shows what it says that it shows: stubs, docstrings, types."""
+
+import ast
+import inspect
+import pathlib
+
+import pytest
+
+import corank
+from corank import _corank
+
+STUBS = pathlib.Path(corank.__file__).parent / "_corank.pyi"
+
+
+def names_in(body):
+    for node in body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            yield node.name
+        elif isinstance(node, ast.AnnAssign):
+            yield node.target.id
+
+
+def test_the_stubs_name_what_the_module_has():
+    tree = ast.parse(STUBS.read_text())
+    stubs = {n for n in names_in(tree.body) if not n.startswith("_") or n == "__version__"}
+    assert stubs == {n for n in dir(_corank) if not n.startswith("_")} | {"__version__"}
+    for node in tree.body:
+        if not isinstance(node, ast.ClassDef):
+            continue
+        type_ = getattr(_corank, node.name)
+        has = {n for n in vars(type_) if not n.startswith("_")}
+        assert {n for n in names_in(node.body) if not n.startswith("_")} == has, node.name
+
+
+def public():
+    for name in corank.__all__:
+        item = getattr(corank, name)
+        if inspect.isclass(item) or inspect.isfunction(item):
+            yield name, item
+
+
+@pytest.mark.parametrize("name, item", list(public()))
+def test_every_public_name_is_documented_and_typed(name, item):
+    assert inspect.getdoc(item), name
+    members = vars(item).items() if inspect.isclass(item) and item.__module__ != "corank._corank" else []
+    for member, value in members:
+        if member.startswith("_") or not (inspect.isfunction(value) or isinstance(value, property)):
+            continue
+        function = value.fget if isinstance(value, property) else value
+        assert inspect.getdoc(function), f"{name}.{member}"
+        assert "return" in function.__annotations__, f"{name}.{member}"
+    if inspect.isfunction(item):
+        assert "return" in item.__annotations__, name
+
+
+def test_the_sets_and_verdicts_are_those_of_corank():
+    assert list(corank.SETS)[:3] == ["cspace", "forward", "inverse"] and "boundary" in corank.SETS
+    assert corank.USUAL_SETS == ("cspace", "forward", "inverse", "cspace-singular")
+    assert corank.VERDICTS[0] == "regular" and corank.VERDICTS[-1] == "pending"
+    assert corank.__version__.count(".") == 2
