@@ -94,10 +94,10 @@ def as_relation(value: RelationLike) -> Relation:
         return Relation(as_expression(value), "=", as_expression(0))
     if getattr(value, "is_Relational", False):
         signs = {"Equality": "=", "LessThan": "<=", "GreaterThan": ">="}
-        sign = signs.get(type(value).__name__)
-        if sign is None:
+        known = signs.get(type(value).__name__)
+        if known is None:
             raise TypeError(f"{value}: an equation, <= or >= is expected")
-        return Relation(as_expression(value.lhs), sign, as_expression(value.rhs))
+        return Relation(as_expression(value.lhs), known, as_expression(value.rhs))
     if value is True or value is False:
         raise TypeError("a truth value is no equation; SymPy's a == b is one of structure, write sympy.Eq(a, b)")
     return Relation(as_expression(value), "=", as_expression(0))

@@ -3,6 +3,8 @@
 import ast
 import inspect
 import pathlib
+import subprocess
+import sys
 
 import pytest
 
@@ -58,3 +60,16 @@ def test_the_sets_and_verdicts_are_those_of_corank():
     assert corank.USUAL_SETS == ("cspace", "forward", "inverse", "cspace-singular")
     assert corank.VERDICTS[0] == "regular" and corank.VERDICTS[-1] == "pending"
     assert corank.__version__.count(".") == 2
+
+
+def test_a_checker_of_types_finds_the_users_fault_and_no_other(tmp_path):
+    pytest.importorskip("mypy")
+    package = pathlib.Path(__file__).resolve().parents[2] / "python" / "corank"
+    user = tmp_path / "user.py"
+    user.write_text("import corank\nr: corank.Result = corank.load('m.cuik').solve('forward', sigma=0.1)\n"
+                    "n: int = r.counts['regular']\nwrong: int = r\n")
+    done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--follow-imports=skip", "--cache-dir",
+                           str(tmp_path), str(package), str(user)], capture_output=True, text=True, check=False,
+                          cwd=package.parent)
+    faults = [line for line in done.stdout.splitlines() if "error" in line]
+    assert "user.py:4: error: Incompatible types" in faults[0] and len(faults) == 2, done.stdout
