@@ -124,7 +124,8 @@ void Watcher::follow(solve::Control& control) {
     show({to_string(p.stage), share, ""});
   };
   control.search_progress = [this, &control](const solve::SearchProgress& p) {
-    show({to_string(control.stage()), std::clamp(p.excluded, 0.0, 1.0), fmt::format("{} boxes done, {} waiting", p.processed, p.waiting)});
+    show({to_string(control.stage()), std::clamp(p.excluded, 0.0, 1.0),
+          fmt::format("{} boxes done, {} waiting", p.processed, p.waiting)});
   };
 }
 
@@ -142,7 +143,8 @@ py::object run(const py::object& progress, std::function<void(Watcher&)> work) {
       }
       raised = std::move(now);
     }
-    if (const auto news = job->watcher.news(); news && !progress.is_none() && raised.is_none()) raised = say(progress, *news);
+    if (const auto news = job->watcher.news(); news && !progress.is_none() && raised.is_none())
+      raised = say(progress, *news);
     if (!raised.is_none()) job->watcher.stop = true;
   }
   workers().idle.push_back(worker);

@@ -137,8 +137,8 @@ class ClearanceMap(Analysis):
     """The clearance over a grid of centres, each cell with bounds that hold all over it.
 
     Attributes:
-        names: the two coordinates. rows: a dict for each cell: its sides (NAME_lo, NAME_hi), "robot", "lo", "hi" of its middle,
-            "cell_lo", "cell_hi" of all of it; None: not known.
+        names: the two coordinates. rows: a dict for each cell: its middle by coordinate; "robot": is a configuration proven
+            there; "lo", "hi": the clearance of the middle, "cell_lo", "cell_hi" of all of the cell; None: not known.
     """
 
     def __init__(self, text: str, table: str) -> None:

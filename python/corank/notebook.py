@@ -58,7 +58,7 @@ def result_html(result: "Result") -> str:
     text = head + _table(rows, ["verdict", "boxes"])
     points = result.points
     if points:
-        names = [n for n in points[0].enclosures if n not in result.kernel_unknowns]
+        names = result.coordinates
         listed = [[p.verdict, ", ".join(p.types), *(_value(p[n]) for n in names)] for p in points[:_MOST_POINTS]]
         text += _table(listed, ["point", "types", *names])
         if len(points) > _MOST_POINTS:
@@ -79,4 +79,4 @@ def mechanism_html(mechanism: "Mechanism") -> str:
     equations = " \\\\ ".join(mechanism._core.equations_in_latex)
     robot = f": {html.escape(mechanism.robot)}" if mechanism.robot else ""
     return (f"<p><b>{html.escape(mechanism.name)}</b>{robot}</p>" + _table(rows, ["coordinate", "kind", "range", "role"])
-            + f"$$\\begin{{gathered}} {html.escape(equations, quote=False)} \\end{{gathered}}$$")
+            + f"\n\n$$\\begin{{gathered}} {html.escape(equations, quote=False)} \\end{{gathered}}$$")

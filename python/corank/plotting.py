@@ -64,12 +64,20 @@ def _solids(sides: np.ndarray, options: Any) -> Any:
 
 
 def _strokes(hatches: Any, layers: Any) -> Any:
-    """To the side of a barrier where the output cannot go."""
+    """To the side of a barrier where the output cannot go; one where many would stand side by side."""
     from matplotlib.collections import LineCollection
 
-    extent = max((np.ptp(sides.reshape(len(sides), -1)) for _, _, _, sides, _ in layers if len(sides)), default=1.0)
+    boxes = np.concatenate([sides for _, _, _, sides, _ in layers])
+    extent = boxes[:, :, 1].max(axis=0) - boxes[:, :, 0].min(axis=0)
+    extent[extent == 0] = 1.0
     start, direction = (np.array([h[k] for h in hatches]) for k in range(2))
-    return LineCollection(np.stack([start, start + 0.02 * extent * direction], axis=1), colors="0.3", linewidths=0.6)
+    cells = np.floor(start / (0.03 * extent)).astype(np.int64)
+    kept = np.unique(cells, axis=0, return_index=True)[1]
+    start, direction = start[kept], direction[kept]
+    length = np.linalg.norm(direction / extent, axis=1, keepdims=True)
+    length[length == 0] = 1.0
+    lines = np.stack([start, start + 0.025 * direction / length], axis=1)
+    return LineCollection(lines, colors="0.3", linewidths=0.8, label="_strokes")
 
 
 def _finish(ax: Any, names: Any, layers: Any, legend: bool) -> None:

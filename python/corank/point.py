@@ -91,8 +91,7 @@ class Point:
         return known[name] if name in known and self.verdict != "undecided" else self.enclosures[name]
 
     def __repr__(self) -> str:
-        names = [n for n in self.enclosures if n not in self._result.kernel_unknowns]
-        return f"<{self.verdict}: " + ", ".join(f"{n} = {_short(self[n])}" for n in names) + ">"
+        return f"<{self.verdict}: " + ", ".join(f"{n} = {_short(self[n])}" for n in self._result.coordinates) + ">"
 
 
 def _short(value: Any) -> str:

@@ -31,6 +31,22 @@ class _Line:
         sys.stderr.flush()
 
 
+class _Cell:
+    """A line in a notebook's cell that is empty in the end."""
+
+    def __init__(self) -> None:
+        from IPython.display import display
+
+        self._handle = display({"text/plain": ""}, raw=True, display_id=True)
+
+    def show(self, stage: str, share: Optional[float], text: str) -> None:
+        percent = "" if share is None else f" {100 * share:3.0f} %"
+        self._handle.update({"text/plain": ", ".join(word for word in (f"{stage}{percent}", text) if word)}, raw=True)
+
+    def close(self) -> None:
+        self._handle.update({"text/plain": ""}, raw=True)
+
+
 class _Bar:
     def __init__(self, tqdm: Any) -> None:
         self._bar = tqdm(total=1.0, leave=False, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed}{postfix}")
@@ -46,13 +62,15 @@ class _Bar:
 
 
 def _new_picture() -> Any:
-    try:
-        if _in_notebook():
+    if _in_notebook():
+        try:
             import ipywidgets  # noqa: F401  tqdm's bar in a notebook is made of them
-
             from tqdm.notebook import tqdm
-        else:
-            from tqdm import tqdm
+        except ImportError:
+            return _Cell()
+        return _Bar(tqdm)
+    try:
+        from tqdm import tqdm
     except ImportError:
         return _Line()
     return _Bar(tqdm)

@@ -104,6 +104,14 @@ class Result:
         return {a[0]: Angle(names[a[1]], names[a[2]], Interval(a[3], a[4])) for a in self._core.angles}
 
     @property
+    def coordinates(self) -> List[str]:
+        """The model's coordinates: lengths and angles, without kernel vectors and auxiliary variables."""
+        configuration = self.variables[: self._core.configuration_size]
+        hidden = {n for a in self.angles.values() for n in (a.cosine, a.sine)}
+        lengths = [n for n in configuration if n not in hidden and self.kinds[n] == "length"]
+        return lengths + [name for name, a in self.angles.items() if a.cosine in configuration]
+
+    @property
     def verdicts(self) -> np.ndarray:
         """What is proven of each box, as words: an array of n strings; see README for what they mean."""
         return np.array(_corank.verdicts)[self._arrays["verdict"]]
