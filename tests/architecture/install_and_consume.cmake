@@ -44,3 +44,17 @@ string(CONCAT expected "8 isolated, complete\n4 isolated, complete\n"
 if(NOT output STREQUAL expected)
   message(FATAL_ERROR "the consumer printed:\n${output}")
 endif()
+
+# And without CMake: by what pkg-config says.
+if(SANITIZE)
+  return()
+endif()
+set(ENV{PKG_CONFIG_PATH} ${WORK}/moved/lib/pkgconfig)
+run(pkg-config --cflags --libs corank)
+separate_arguments(arguments UNIX_COMMAND "${output}")
+run(${CXX} -std=c++20 "-DMODELS=\"${WORK}/moved/share/corank/models\"" ${SOURCE}/tests/architecture/consumer/main.cc
+    -o ${WORK}/by_pkg_config ${arguments})
+run(${WORK}/by_pkg_config)
+if(NOT output STREQUAL expected)
+  message(FATAL_ERROR "the consumer built by pkg-config printed:\n${output}")
+endif()

@@ -1,6 +1,7 @@
 """The package shows what it says that it shows: stubs, docstrings, types."""
 
 import ast
+import doctest
 import inspect
 import pathlib
 import subprocess
@@ -53,6 +54,16 @@ def test_every_public_name_is_documented_and_typed(name, item):
         assert "return" in function.__annotations__, f"{name}.{member}"
     if inspect.isfunction(item):
         assert "return" in item.__annotations__, name
+
+
+def test_the_examples_of_docstrings_print_what_stands_there(models, monkeypatch):
+    monkeypatch.chdir(models.parent)
+    tried = 0
+    for module in [corank] + [m for m in vars(corank).values() if inspect.ismodule(m) and m.__name__.startswith("corank.")]:
+        result = doctest.testmod(module, extraglobs={"Mechanism": corank.Mechanism})
+        assert result.failed == 0, module.__name__
+        tried += result.attempted
+    assert tried >= 6
 
 
 def test_the_sets_and_verdicts_are_those_of_corank():
