@@ -2,7 +2,9 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME corank)
 set(CPACK_PACKAGE_VENDOR "The corank developers")
-set(CPACK_PACKAGE_CONTACT "The corank developers <corank@localhost.localdomain>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
+set(CORANK_MAINTAINER "The corank developers <corank@example.org>" CACHE STRING "Who makes the Debian packages")
+set(CPACK_PACKAGE_CONTACT "${CORANK_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program dev)
@@ -19,10 +21,10 @@ set(version "${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME corank)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}
- corank takes the model of a robot mechanism, as equations, as links and joints or as URDF,
- and returns all its singularities in boxes, with a proof of what each box holds. This package
- has the command line and the models.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "singularities of robot mechanisms, each with a proof
+corank takes the model of a robot mechanism, as equations, as links and
+joints or as URDF, and returns all its singularities in boxes, with a proof
+of what each box holds. This package has the command line and the models.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libcorank-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
@@ -30,20 +32,22 @@ set(dependencies
     "corank (= ${version})" coinor-libipopt-dev libblas-dev libcairo2-dev libcln-dev libflint-dev libfmt-dev libginac-dev
     libgmp-dev libhdf5-dev liblapack-dev libmpfi-dev libmpfr-dev libpugixml-dev libtbb-dev pkg-config zlib1g-dev)
 list(JOIN dependencies ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
-set(CPACK_COMPONENT_DEV_DESCRIPTION "corank as a C++ library
- corank takes the model of a robot mechanism and returns all its singularities in boxes, with a
- proof of what each box holds. This package has the static libraries and the headers, for CMake's
- find_package and for pkg-config.")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "singularities of robot mechanisms (C++ library)
+corank takes the model of a robot mechanism and returns all its
+singularities in boxes, with a proof of what each box holds. This package
+has the static libraries and the headers, for CMake's find_package and for
+pkg-config.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-corank)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy (>= 1:1.22)")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-pandas, python3-sympy, python3-tqdm")
-set(CPACK_COMPONENT_PYTHON_DESCRIPTION "corank in Python and in notebooks
- corank takes the model of a robot mechanism and returns all its singularities in boxes, with a
- proof of what each box holds: as arrays of NumPy, data frames of pandas, numbers of SymPy, plots of
- matplotlib, and pages in notebooks.")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "singularities of robot mechanisms (Python package)
+corank takes the model of a robot mechanism and returns all its
+singularities in boxes, with a proof of what each box holds: as arrays of
+NumPy, data frames of pandas, numbers of SymPy, plots of matplotlib, and
+pages in notebooks.")
 
 # What Debian wants beside the files: whose they are, and a log of the package's versions.
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
@@ -57,5 +61,11 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   install(FILES ${place}/changelog.Debian.gz ${PROJECT_SOURCE_DIR}/cmake/copyright
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
 endforeach()
+
+# Without these flags the headers' interval arithmetic would prove nothing.
+file(WRITE ${PROJECT_BINARY_DIR}/debian/libcorank-dev.overrides
+     "# the headers' interval arithmetic is rigorous with these flags only\nlibcorank-dev: pkg-config-bad-directive *\n")
+install(FILES ${PROJECT_BINARY_DIR}/debian/libcorank-dev.overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
+        RENAME libcorank-dev COMPONENT dev)
 
 include(CPack)
