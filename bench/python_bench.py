@@ -26,9 +26,13 @@ def microseconds(function, times=2000):
 def main():
     models = pathlib.Path(__file__).resolve().parent.parent / "models"
     points = corank.load(models / "three_slider.cuik").solve("forward")
-    for name, function in (("long work that does nothing", _corank.do_nothing), ("result.boxes", lambda: points.boxes),
-                           ("result['x_C']", lambda: points["x_C"]), ("result.counts", lambda: points.counts),
-                           ("as_expression", lambda: corank.as_expression("cos(x) + 1"))):
+    for name, function in (
+        ("long work that does nothing", _corank.do_nothing),
+        ("result.boxes", lambda: points.boxes),
+        ("result['x_C']", lambda: points["x_C"]),
+        ("result.counts", lambda: points.counts),
+        ("as_expression", lambda: corank.as_expression("cos(x) + 1")),
+    ):
         print(f"{name:30}{microseconds(function):10.1f} us")
     big = corank.load(models / "dextar.cuik").solve("cspace", sigma=0.0138)
     start = time.perf_counter()

@@ -139,8 +139,8 @@ py::tuple clearance_map(const Model& model, const std::optional<std::string>& se
   });
 }
 
-// Bounds of the area of the workspace in the plane of two lengths, from its boundary; with `anyway` by dividing the plane where
-// the boundary does not give them. None where there are none.
+// Bounds of the area of the workspace in the plane of two lengths, from its boundary; with `anyway` by dividing the
+// plane where the boundary does not give them. None where there are none.
 std::optional<std::pair<double, double>> area(const Model& model, const std::vector<std::string>& outputs, int threads,
                                               double time_limit, bool anyway, const py::object& progress) {
   study::Question question = question_of(model, "boundary", {}, 1, outputs);

@@ -22,7 +22,8 @@ struct Job {
   bool done = false;  ///< under the worker's mutex, like `work`
 };
 
-// A thread that does one job after the other. Libraries keep caches for each thread, which a new one for each job would lose.
+// A thread that does one job after the other. Libraries keep caches for each thread, which a new one for each job would
+// lose.
 class Worker {
  public:
   Worker() {
@@ -62,8 +63,8 @@ class Worker {
   std::shared_ptr<Job> job_;
 };
 
-// Under the interpreter's lock. Workers are never destroyed, for their threads wait until the process ends; a child process that
-// was forked has none of them.
+// Under the interpreter's lock. Workers are never destroyed, for their threads wait until the process ends; a child
+// process that was forked has none of them.
 struct Workers {
   pid_t process = getpid();
   std::vector<Worker*> idle;

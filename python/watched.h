@@ -1,8 +1,8 @@
-// Long work on behalf of Python: it runs without the interpreter's lock on a thread of its own, while the thread that asked for
-// it shows its progress and listens for Ctrl-C.
+// Long work on behalf of Python: it runs without the interpreter's lock on a thread of its own, while the thread that
+// asked for it shows its progress and listens for Ctrl-C.
 //
-// What ends it early is asked for by a flag (Watcher::stop); the work then returns what it has. A second Ctrl-C leaves the work
-// alone: it ends by itself, and nobody sees its result.
+// What ends it early is asked for by a flag (Watcher::stop); the work then returns what it has. A second Ctrl-C leaves
+// the work alone: it ends by itself, and nobody sees its result.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -45,9 +45,9 @@ class Watcher {
   std::optional<Progress> news_;
 };
 
-/// Does the work. `progress`: None, or a function of a stage, a share and a text. Returns None, or the exception that a signal's
-/// handler (KeyboardInterrupt) or the function has raised, which made the flag be set; throws what the work throws. The work
-/// may go on after this call, so it owns all that it uses and touches nothing of Python's.
+/// Does the work. `progress`: None, or a function of a stage, a share and a text. Returns None, or the exception that a
+/// signal's handler (KeyboardInterrupt) or the function has raised, which made the flag be set; throws what the work
+/// throws. The work may go on after this call, so it owns all that it uses and touches nothing of Python's.
 py::object run(const py::object& progress, std::function<void(Watcher&)> work);
 
 /// The same of work that has a value: the value and that exception. Where the work was left alone, throws the exception.

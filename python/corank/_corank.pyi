@@ -166,18 +166,28 @@ class Result:
 
 def read_result(path: _Path) -> Result: ...
 def solve(
-    model: Model, set: Optional[str], kernel: Optional[str], corank: int, outputs: List[str], tolerance: Optional[float],
-    options: Options, digits: int, progress: Any,
+    model: Model,
+    set: Optional[str],
+    kernel: Optional[str],
+    corank: int,
+    outputs: List[str],
+    tolerance: Optional[float],
+    options: Options,
+    digits: int,
+    progress: Any,
 ) -> Tuple[Result, Optional[BaseException]]: ...
-def derive(
-    model: Model, set: Optional[str], kernel: Optional[str], corank: int, outputs: List[str], format: str
-) -> str: ...
+def derive(model: Model, set: Optional[str], kernel: Optional[str], corank: int, outputs: List[str], format: str) -> str: ...
 def do_nothing() -> None: ...
 
 class Ball:
     def __init__(
-        self, at: Sequence[Tuple[str, _Like]], within: List[str], ranges: _Ranges, orientation_range: Optional[_Like],
-        orientation: Optional[str], orientation_of: str,
+        self,
+        at: Sequence[Tuple[str, _Like]],
+        within: List[str],
+        ranges: _Ranges,
+        orientation_range: Optional[_Like],
+        orientation: Optional[str],
+        orientation_of: str,
     ) -> None: ...
 
 def topology(
@@ -193,23 +203,29 @@ def best_center(
     model: Model, set: Optional[str], ball: Ball, region: _Ranges, precision: float, options: Options, progress: Any
 ) -> Tuple[str, str, Optional[BaseException]]: ...
 def clearance_map(
-    model: Model, set: Optional[str], ball: Ball, region: _Ranges, grid: int, precision: float, options: Options, progress: Any
+    model: Model,
+    set: Optional[str],
+    ball: Ball,
+    region: _Ranges,
+    grid: int,
+    precision: float,
+    options: Options,
+    progress: Any,
 ) -> Tuple[str, str, Optional[BaseException]]: ...
-def declared_ranges(
-    model: Model, set: Optional[str], names: List[str]
-) -> List[Tuple[str, Expression, Expression]]: ...
+def declared_ranges(model: Model, set: Optional[str], names: List[str]) -> List[Tuple[str, Expression, Expression]]: ...
 def area(
     model: Model, outputs: List[str], threads: int, time_limit: float, anyway: bool, progress: Any
 ) -> Optional[Tuple[float, float]]: ...
 def report_page(results: List[Result], command: str, figures: List[str], files: List[str]) -> str: ...
 def family_page(
-    members: List[Tuple[str, List[Result], List[str]]], constant: str, axes: List[str], asked: int, command: str,
-    report_command: str, figures: List[str],
+    members: List[Tuple[str, List[Result], List[str]]],
+    constant: str,
+    axes: List[str],
+    asked: int,
+    command: str,
+    report_command: str,
+    figures: List[str],
 ) -> str: ...
 def geometry(results: List[Result], axes: List[str], color: str) -> Tuple[Any, Any, Any]: ...
-def write_portrait(
-    path: _Path, results: List[Result], axes: List[str], color: str, title: str, width_mm: float
-) -> None: ...
-def write_small_multiples(
-    folder: _Path, members: List[List[Result]], axes: List[str], titles: List[str]
-) -> List[str]: ...
+def write_portrait(path: _Path, results: List[Result], axes: List[str], color: str, title: str, width_mm: float) -> None: ...
+def write_small_multiples(folder: _Path, members: List[List[Result]], axes: List[str], titles: List[str]) -> List[str]: ...

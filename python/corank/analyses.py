@@ -1,4 +1,5 @@
-"""Proven answers about a mechanism as a whole: its shape, its pieces, its distance from singularities, its workspace's area."""
+"""Proven answers about a mechanism as a whole: its shape, its pieces, its distance from singularities, its workspace's
+area."""
 
 from __future__ import annotations
 
@@ -95,7 +96,8 @@ class Aspects(Analysis):
         self.assembly_modes = _bounds(self.data["bounds"]["assembly_modes"])
         self.working_modes = _bounds(self.data["bounds"]["working_modes"])
         self.representatives: List[Tuple[Dict[str, Interval], List[int]]] = [
-            ({n: Interval(v["lo"], v["hi"]) for n, v in r["values"].items()}, r["signs"]) for r in self.data["representatives"]
+            ({n: Interval(v["lo"], v["hi"]) for n, v in r["values"].items()}, r["signs"])
+            for r in self.data["representatives"]
         ]
         self.reason: str = self.data["reason"]
 
@@ -104,7 +106,8 @@ class Clearance(Analysis):
     """The largest ball about a configuration that holds no singularity.
 
     Attributes:
-        lower, upper: the radius is between these, in the model's unit and radians alike; upper None: no singularity was proven.
+        lower, upper: the radius is between these, in the model's unit and radians alike; upper None: no singularity was
+            proven.
         nearest: a proven singularity no farther than `upper`, intervals by coordinate; None where there is none.
         empty: proven that there is no singularity at all.
         free, nearest_result: with claims=True, results whose verify() proves both bounds again; None where that failed.
@@ -167,10 +170,22 @@ def _ranges(ranges: Mapping[str, RangeLike]) -> List[Tuple[str, Expression, Expr
     return [(name, as_expression(lower), as_expression(upper)) for name, (lower, upper) in ranges.items()]
 
 
-def _ball(at: Mapping[str, ExpressionLike], within: Sequence[str], ranges: Optional[Mapping[str, RangeLike]],
-          orientation_range: Optional[ExpressionLike], orientation: Optional[str], orientation_of: str) -> Any:
-    return _corank.Ball([(name, as_expression(v)) for name, v in at.items()], list(within), _ranges(ranges or {}),
-                        None if orientation_range is None else as_expression(orientation_range), orientation, orientation_of)
+def _ball(
+    at: Mapping[str, ExpressionLike],
+    within: Sequence[str],
+    ranges: Optional[Mapping[str, RangeLike]],
+    orientation_range: Optional[ExpressionLike],
+    orientation: Optional[str],
+    orientation_of: str,
+) -> Any:
+    return _corank.Ball(
+        [(name, as_expression(v)) for name, v in at.items()],
+        list(within),
+        _ranges(ranges or {}),
+        None if orientation_range is None else as_expression(orientation_range),
+        orientation,
+        orientation_of,
+    )
 
 
 def _search(self: "Mechanism", set: Optional[str], threads: int, time_limit: float, max_boxes: int) -> Any:
@@ -180,10 +195,23 @@ def _search(self: "Mechanism", set: Optional[str], threads: int, time_limit: flo
     return chosen, _options(threads=threads, time_limit=time_limit, max_boxes=max_boxes)
 
 
-def clearance(self: "Mechanism", at: Mapping[str, ExpressionLike], within: Sequence[str], *, set: Optional[str] = None,
-              ranges: Optional[Mapping[str, RangeLike]] = None, orientation_range: Optional[ExpressionLike] = None,
-              orientation: Optional[str] = None, orientation_of: str = "", precision: float = 0.01, claims: bool = False,
-              threads: int = 0, time_limit: float = 0, max_boxes: int = 0, progress: ProgressOption = None) -> Clearance:
+def clearance(
+    self: "Mechanism",
+    at: Mapping[str, ExpressionLike],
+    within: Sequence[str],
+    *,
+    set: Optional[str] = None,
+    ranges: Optional[Mapping[str, RangeLike]] = None,
+    orientation_range: Optional[ExpressionLike] = None,
+    orientation: Optional[str] = None,
+    orientation_of: str = "",
+    precision: float = 0.01,
+    claims: bool = False,
+    threads: int = 0,
+    time_limit: float = 0,
+    max_boxes: int = 0,
+    progress: ProgressOption = None,
+) -> Clearance:
     """The largest ball about a configuration without a singularity, in proven bounds.
 
     Args:
@@ -191,8 +219,8 @@ def clearance(self: "Mechanism", at: Mapping[str, ExpressionLike], within: Seque
         within: the coordinates in which the ball lies; lengths and radians count alike.
         set: "forward" where none is given.
         ranges: coordinates that stay within other ranges than the model's: a mode, an angle that may move.
-        orientation_range, orientation, orientation_of: the angles among the outputs, and a spatial robot's orientation such as
-            "Rz(0.2)*Ry(pi/18)", stay within so much of their values.
+        orientation_range, orientation, orientation_of: the angles among the outputs, and a spatial robot's orientation such
+            as "Rz(0.2)*Ry(pi/18)", stay within so much of their values.
         precision: how close the bounds are to be, relative to the radius.
         claims: make the results that prove the bounds again.
     """
@@ -206,13 +234,25 @@ def clearance(self: "Mechanism", at: Mapping[str, ExpressionLike], within: Seque
     return deliver(Clearance(text, table, *proven), raised)
 
 
-def best_center(self: "Mechanism", region: Mapping[str, RangeLike], *, at: Optional[Mapping[str, ExpressionLike]] = None,
-                within: Optional[Sequence[str]] = None, set: Optional[str] = None,
-                ranges: Optional[Mapping[str, RangeLike]] = None, orientation_range: Optional[ExpressionLike] = None,
-                orientation: Optional[str] = None, orientation_of: str = "", precision: float = 0.01, threads: int = 0,
-                time_limit: float = 0, max_boxes: int = 0, progress: ProgressOption = None) -> BestCenter:
-    """The centre of the largest ball without a singularity in a region of lengths, {"x": (0, 1), "y": (0, 1)}; the ball lies in
-    these coordinates where `within` names no others. The other arguments are those of clearance()."""
+def best_center(
+    self: "Mechanism",
+    region: Mapping[str, RangeLike],
+    *,
+    at: Optional[Mapping[str, ExpressionLike]] = None,
+    within: Optional[Sequence[str]] = None,
+    set: Optional[str] = None,
+    ranges: Optional[Mapping[str, RangeLike]] = None,
+    orientation_range: Optional[ExpressionLike] = None,
+    orientation: Optional[str] = None,
+    orientation_of: str = "",
+    precision: float = 0.01,
+    threads: int = 0,
+    time_limit: float = 0,
+    max_boxes: int = 0,
+    progress: ProgressOption = None,
+) -> BestCenter:
+    """The centre of the largest ball without a singularity in a region of lengths, {"x": (0, 1), "y": (0, 1)}; the ball
+    lies in these coordinates where `within` names no others. The other arguments are those of clearance()."""
     about = _ball(at or {}, list(within or ()), ranges, orientation_range, orientation, orientation_of)
     chosen, options = _search(self, set, threads, time_limit, max_boxes)
     with Shown(progress) as show:
@@ -220,12 +260,24 @@ def best_center(self: "Mechanism", region: Mapping[str, RangeLike], *, at: Optio
     return deliver(BestCenter(text, table), raised)
 
 
-def clearance_map(self: "Mechanism", region: Union[Sequence[str], Mapping[str, RangeLike]], *, grid: int = 24,
-                  at: Optional[Mapping[str, ExpressionLike]] = None, within: Optional[Sequence[str]] = None,
-                  set: Optional[str] = None, ranges: Optional[Mapping[str, RangeLike]] = None,
-                  orientation_range: Optional[ExpressionLike] = None, orientation: Optional[str] = None,
-                  orientation_of: str = "", precision: float = 0.01, threads: int = 0, time_limit: float = 0,
-                  max_boxes: int = 0, progress: ProgressOption = None) -> ClearanceMap:
+def clearance_map(
+    self: "Mechanism",
+    region: Union[Sequence[str], Mapping[str, RangeLike]],
+    *,
+    grid: int = 24,
+    at: Optional[Mapping[str, ExpressionLike]] = None,
+    within: Optional[Sequence[str]] = None,
+    set: Optional[str] = None,
+    ranges: Optional[Mapping[str, RangeLike]] = None,
+    orientation_range: Optional[ExpressionLike] = None,
+    orientation: Optional[str] = None,
+    orientation_of: str = "",
+    precision: float = 0.01,
+    threads: int = 0,
+    time_limit: float = 0,
+    max_boxes: int = 0,
+    progress: ProgressOption = None,
+) -> ClearanceMap:
     """The clearance over a grid of centres in two lengths: ("x", "y"), within their declared ranges, or {"x": (0, 1), …}.
     `grid`: cells along each side. The other arguments are those of clearance()."""
     about = _ball(at or {}, list(within or ()), ranges, orientation_range, orientation, orientation_of)
@@ -236,9 +288,17 @@ def clearance_map(self: "Mechanism", region: Union[Sequence[str], Mapping[str, R
     return deliver(ClearanceMap(text, table), raised)
 
 
-def area(self: "Mechanism", outputs: Sequence[str] = (), *, anyway: bool = False, threads: int = 0, time_limit: float = 0,
-         progress: ProgressOption = None) -> Optional[Interval]:
-    """Bounds of the area of the workspace in the plane of two lengths, from its boundary; None where that does not give them.
+def area(
+    self: "Mechanism",
+    outputs: Sequence[str] = (),
+    *,
+    anyway: bool = False,
+    threads: int = 0,
+    time_limit: float = 0,
+    progress: ProgressOption = None,
+) -> Optional[Interval]:
+    """Bounds of the area of the workspace in the plane of two lengths, from its boundary; None where that does not give
+    them.
 
     Args:
         outputs: in place of the model's.

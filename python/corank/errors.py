@@ -1,5 +1,5 @@
-"""What corank raises. Bad input is a ValueError that says where the fault is; Ctrl-C is a KeyboardInterrupt that brings what was
-proven by then."""
+"""What corank raises. Bad input is a ValueError that says where the fault is; Ctrl-C is a KeyboardInterrupt that brings
+what was proven by then."""
 
 from __future__ import annotations
 
@@ -59,8 +59,8 @@ class OptionError(ValueError):
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C ended a computation early.
 
-    What had been proven by then stands: ``result`` is a valid result that says what is missing (its ``stopped``, and its pending
-    boxes). At a prompt and in a notebook it is ``sys.last_value.result``.
+    What had been proven by then stands: ``result`` is a valid result that says what is missing (its ``stopped``, and its
+    pending boxes). At a prompt and in a notebook it is ``sys.last_value.result``.
 
     Attributes:
         result: what the function would have returned, as far as it is known.

@@ -12,8 +12,8 @@ from ._corank import Expression, Relation
 
 #: What stands for an expression: one of corank's or SymPy's, a text of the model language, a number.
 ExpressionLike = Union[Expression, str, int, float, Fraction, Any]
-#: What stands for an equation or an inequality: ``a == b`` of corank's expressions, a text such as "a = b" or "a <= b", one of
-#: SymPy's relations, or an expression that is to be 0.
+#: What stands for an equation or an inequality: ``a == b`` of corank's expressions, a text such as "a = b" or "a <= b", one
+#: of SymPy's relations, or an expression that is to be 0.
 RelationLike = Union[Relation, str, Any]
 
 

@@ -14,8 +14,8 @@ from .result import PathLike, Result
 
 
 class Coordinate(NamedTuple):
-    """A coordinate q_i: a "length", in the model's unit, or an "angle", in radians; lower and upper end of its range, None where
-    the equations are to give it."""
+    """A coordinate q_i: a "length", in the model's unit, or an "angle", in radians; lower and upper end of its range, None
+    where the equations are to give it."""
 
     name: str
     kind: str
@@ -47,7 +47,9 @@ class Mechanism:
         """Declares a constant; a float is the decimal that it is written as. Returns its name as an expression."""
         return self._core.constant(name, as_expression(value))
 
-    def length(self, name: str, lower: Optional[ExpressionLike] = None, upper: Optional[ExpressionLike] = None) -> Expression:
+    def length(
+        self, name: str, lower: Optional[ExpressionLike] = None, upper: Optional[ExpressionLike] = None
+    ) -> Expression:
         """Declares a length with its range, in the model's unit; without one the equations have to bound it."""
         return self._core.length(name, *(None if x is None else as_expression(x) for x in (lower, upper)))
 
@@ -82,8 +84,8 @@ class Mechanism:
         self._core.limit(str(coordinate), as_expression(lower), as_expression(upper))
 
     def rate(self, name: str, role: str = "passive", angle: bool = True) -> Expression:
-        """Declares a component of the mechanism's own velocity equation: its role is "input", "output" or "passive"; in radians,
-        or else units of length, per second."""
+        """Declares a component of the mechanism's own velocity equation: its role is "input", "output" or "passive"; in
+        radians, or else units of length, per second."""
         return self._core.rate(name, angle, role)
 
     def velocity(self, *relations: RelationLike) -> None:
@@ -160,7 +162,9 @@ class Mechanism:
     def _role(self, name: str) -> str:
         return "input" if name in self.inputs else "output" if name in self.outputs else ""
 
-    def with_constants(self, constants: Optional[Mapping[str, ExpressionLike]] = None, **more: ExpressionLike) -> "Mechanism":
+    def with_constants(
+        self, constants: Optional[Mapping[str, ExpressionLike]] = None, **more: ExpressionLike
+    ) -> "Mechanism":
         """The same with other values of these constants: m.with_constants(l2="4/5").
 
         Raises:
@@ -175,8 +179,15 @@ class Mechanism:
 
     # --- asking about one ---
 
-    def derive(self, set: Optional[str] = None, format: str = "text", *, kernel: Optional[str] = None, corank: int = 1,
-               outputs: Sequence[str] = ()) -> str:
+    def derive(
+        self,
+        set: Optional[str] = None,
+        format: str = "text",
+        *,
+        kernel: Optional[str] = None,
+        corank: int = 1,
+        outputs: Sequence[str] = (),
+    ) -> str:
         """The constraints, the blocks of the velocity equation and the equations of a set, "cspace" where none is given.
 
         Args:
@@ -186,11 +197,28 @@ class Mechanism:
             set = "cspace"
         return _corank.derive(self._core, set, kernel, corank, list(outputs), format)
 
-    def solve(self, set: Optional[str] = None, *, sigma: Optional[float] = None, sigma_length: Optional[float] = None,
-              sigma_angle: Optional[float] = None, kernel: Optional[str] = None, corank: int = 1, outputs: Sequence[str] = (),
-              tolerance: Optional[float] = None, digits: int = 0, proof: bool = False, threads: int = 0, max_boxes: int = 0,
-              max_found: int = 0, max_solutions: int = 0, time_limit: float = 0, memory_limit: Optional[int] = None,
-              coarser: float = 1, progress: ProgressOption = None) -> Result:
+    def solve(
+        self,
+        set: Optional[str] = None,
+        *,
+        sigma: Optional[float] = None,
+        sigma_length: Optional[float] = None,
+        sigma_angle: Optional[float] = None,
+        kernel: Optional[str] = None,
+        corank: int = 1,
+        outputs: Sequence[str] = (),
+        tolerance: Optional[float] = None,
+        digits: int = 0,
+        proof: bool = False,
+        threads: int = 0,
+        max_boxes: int = 0,
+        max_found: int = 0,
+        max_solutions: int = 0,
+        time_limit: float = 0,
+        memory_limit: Optional[int] = None,
+        coarser: float = 1,
+        progress: ProgressOption = None,
+    ) -> Result:
         """Encloses a set in boxes, and proves what each box holds.
 
         Args:
@@ -205,8 +233,8 @@ class Mechanism:
             digits: points get so many proven digits after the point (Point.decimals).
             proof: keep the script of the search, so that verify() can show that no solution is missing.
             threads: 0: one for each core. The result does not depend on it unless a limit ends the search.
-            max_boxes, max_found, max_solutions, time_limit (seconds), memory_limit (bytes): what ends the search; 0: no limit.
-                memory_limit None: three quarters of the machine's memory.
+            max_boxes, max_found, max_solutions, time_limit (seconds), memory_limit (bytes): what ends the search; 0: no
+                limit. memory_limit None: three quarters of the machine's memory.
             coarser: the default of sigma is multiplied by this.
             progress: None: shown on a terminal and in a notebook; True, False, or a function (stage, share, text).
 
@@ -215,15 +243,26 @@ class Mechanism:
             OptionError: for a number out of its range.
             Interrupted: by Ctrl-C, with the partial result.
         """
-        options = _options(sigma=sigma, sigma_length=sigma_length, sigma_angle=sigma_angle, proof=proof, threads=threads,
-                           max_boxes=max_boxes, max_found=max_found, max_solutions=max_solutions, time_limit=time_limit,
-                           memory_limit=memory_limit, coarser=coarser)
+        options = _options(
+            sigma=sigma,
+            sigma_length=sigma_length,
+            sigma_angle=sigma_angle,
+            proof=proof,
+            threads=threads,
+            max_boxes=max_boxes,
+            max_found=max_found,
+            max_solutions=max_solutions,
+            time_limit=time_limit,
+            memory_limit=memory_limit,
+            coarser=coarser,
+        )
         with Shown(progress) as show:
             core, raised = _corank.solve(self._core, set, kernel, corank, list(outputs), tolerance, options, digits, show)
         return deliver(Result(core), raised)
 
-    def topology(self, *, threads: int = 0, refinements: int = 6, time_limit: float = 0,
-                 progress: ProgressOption = None) -> "analyses.Topology":
+    def topology(
+        self, *, threads: int = 0, refinements: int = 6, time_limit: float = 0, progress: ProgressOption = None
+    ) -> "analyses.Topology":
         """The shape of the C-space, or of a plain system's solutions: pieces, Euler characteristic, genus; all proven.
 
         Args:
@@ -233,8 +272,15 @@ class Mechanism:
             json, text, raised = _corank.topology(self._core, threads, refinements, time_limit, show)
         return deliver(analyses.Topology(json, text), raised)
 
-    def aspects(self, *, threads: int = 0, halvings: int = 16, rounds: int = 16, time_limit: float = 0,
-                progress: ProgressOption = None) -> "analyses.Aspects":
+    def aspects(
+        self,
+        *,
+        threads: int = 0,
+        halvings: int = 16,
+        rounds: int = 16,
+        time_limit: float = 0,
+        progress: ProgressOption = None,
+    ) -> "analyses.Aspects":
         """The pieces into which singularities divide the C-space: aspects, assembly modes, working modes.
 
         Args:
@@ -299,8 +345,8 @@ def parse(text: str, name: str = "model.cuik", loops: Optional[str] = None, **co
     """A mechanism from a text in the model language, the parts language or URDF.
 
     Args:
-        name: the file's name in messages, from which the mechanism has its own; its extension (.cuik, .world, .urdf) says what
-            the text is. Without one it is .cuik.
+        name: the file's name in messages, from which the mechanism has its own; its extension (.cuik, .world, .urdf) says
+            what the text is. Without one it is .cuik.
         loops: of URDF, the text of its companion.
     """
     if not os.path.splitext(name)[1]:

@@ -33,8 +33,10 @@ class Page:
             file.write(self.html)
 
     def _repr_html_(self) -> str:
-        return (f'<iframe srcdoc="{html.escape(self.html, quote=True)}" style="width:100%;border:0" height="{self.height}">'
-                "</iframe>")
+        return (
+            f'<iframe srcdoc="{html.escape(self.html, quote=True)}" style="width:100%;border:0" height="{self.height}">'
+            "</iframe>"
+        )
 
     def __repr__(self) -> str:
         return f"<page of {len(self.html)} characters{', ' + self.path if self.path else ''}>"
@@ -52,8 +54,11 @@ def result_html(result: "Result") -> str:
     state = "complete" if result.complete else "incomplete"
     if result.stopped:
         state += f", stopped by {result.stopped}"
-    head = (f"<p><b>{html.escape(result.model)}</b>, {html.escape(result.set)}: dimension {result.dimension}, "
-            f"&sigma; = {result.sigma.length:g} in lengths, {result.sigma.angle:g} in sines and cosines; {html.escape(state)}</p>")
+    head = (
+        f"<p><b>{html.escape(result.model)}</b>, {html.escape(result.set)}: dimension {result.dimension}, "
+        f"&sigma; = {result.sigma.length:g} in lengths, {result.sigma.angle:g} in sines and "
+        f"cosines; {html.escape(state)}</p>"
+    )
     rows = [[word, n] for word, n in result.counts.items()] + [["all", len(result)]]
     text = head + _table(rows, ["verdict", "boxes"])
     points = result.points
@@ -74,9 +79,14 @@ def _value(value: Any) -> str:
 
 def mechanism_html(mechanism: "Mechanism") -> str:
     """Its coordinates, and its equations in LaTeX."""
-    rows = [[c.name, c.kind, "" if c.lower is None else f"[{c.lower}, {c.upper}]", mechanism._role(c.name)]
-            for c in mechanism.coordinates]
+    rows = [
+        [c.name, c.kind, "" if c.lower is None else f"[{c.lower}, {c.upper}]", mechanism._role(c.name)]
+        for c in mechanism.coordinates
+    ]
     equations = " \\\\ ".join(mechanism._core.equations_in_latex)
     robot = f": {html.escape(mechanism.robot)}" if mechanism.robot else ""
-    return (f"<p><b>{html.escape(mechanism.name)}</b>{robot}</p>" + _table(rows, ["coordinate", "kind", "range", "role"])
-            + f"\n\n$$\\begin{{gathered}} {html.escape(equations, quote=False)} \\end{{gathered}}$$")
+    return (
+        f"<p><b>{html.escape(mechanism.name)}</b>{robot}</p>"
+        + _table(rows, ["coordinate", "kind", "range", "role"])
+        + f"\n\n$$\\begin{{gathered}} {html.escape(equations, quote=False)} \\end{{gathered}}$$"
+    )

@@ -36,7 +36,8 @@ class Report(notebook.Page):
 
 
 def portrait_axes(mechanism: "Mechanism", first: Sequence[str]) -> List[str]:
-    """The two coordinates of a portrait: the first of these, then outputs, inputs and others; none with a range of one value."""
+    """The two coordinates of a portrait: the first of these, then outputs, inputs and others; none with a range of one
+    value."""
     movable = [c.name for c in mechanism.coordinates if c.lower is None or str(c.lower) != str(c.upper)]
     names = [*first, *mechanism.outputs, *mechanism.inputs, *movable]
     return [n for n in dict.fromkeys(names) if n in movable][:2]
@@ -57,10 +58,22 @@ def write_figures(folder: str, mechanism: "Mechanism", results: Sequence[Result]
     return names
 
 
-def report(self: "Mechanism", path: Optional[PathLike] = None, *, sets: Optional[Sequence[str]] = None,
-           sigma: Optional[float] = None, cspace_sigma: Optional[float] = None, corank: int = 1, proof: bool = False,
-           threads: int = 0, max_boxes: int = 0, max_found: int = 200_000, time_limit: float = 8,
-           results: Optional[Sequence[Result]] = None, progress: ProgressOption = None) -> Report:
+def report(
+    self: "Mechanism",
+    path: Optional[PathLike] = None,
+    *,
+    sets: Optional[Sequence[str]] = None,
+    sigma: Optional[float] = None,
+    cspace_sigma: Optional[float] = None,
+    corank: int = 1,
+    proof: bool = False,
+    threads: int = 0,
+    max_boxes: int = 0,
+    max_found: int = 200_000,
+    time_limit: float = 8,
+    results: Optional[Sequence[Result]] = None,
+    progress: ProgressOption = None,
+) -> Report:
     """Solves the sets and makes one HTML page about them, which a notebook shows.
 
     Args:
@@ -75,12 +88,22 @@ def report(self: "Mechanism", path: Optional[PathLike] = None, *, sets: Optional
         Interrupted: with the results of the sets that were done, and of the one that was on, as a list.
     """
     found: List[Result] = list(results or [])
-    for name in (() if results else sets or USUAL_SETS):
+    for name in () if results else sets or USUAL_SETS:
         try:
-            found.append(self.solve(name, sigma=cspace_sigma if name == "cspace" else sigma,
-                                    corank=corank if name in _WITH_KERNEL else 1, digits=_DIGITS, proof=proof,
-                                    threads=threads, max_boxes=max_boxes, max_found=max_found, time_limit=time_limit,
-                                    progress=progress))
+            found.append(
+                self.solve(
+                    name,
+                    sigma=cspace_sigma if name == "cspace" else sigma,
+                    corank=corank if name in _WITH_KERNEL else 1,
+                    digits=_DIGITS,
+                    proof=proof,
+                    threads=threads,
+                    max_boxes=max_boxes,
+                    max_found=max_found,
+                    time_limit=time_limit,
+                    progress=progress,
+                )
+            )
         except Interrupted as early:
             raise Interrupted([*found, early.result]) from None
     cores = [r._core for r in found]

@@ -13,12 +13,21 @@ if TYPE_CHECKING:
 
 # The corners of a rectangle and of a box's six faces: for each axis 0 its lower end, 1 its upper.
 _SQUARE = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
-_FACES = np.array([[(0, a, b) if k == 0 else (a, 0, b) if k == 1 else (a, b, 0) for a, b in _SQUARE] for k in range(3)]
-                  + [[(1, a, b) if k == 0 else (a, 1, b) if k == 1 else (a, b, 1) for a, b in _SQUARE] for k in range(3)])
+_FACES = np.array(
+    [[(0, a, b) if k == 0 else (a, 0, b) if k == 1 else (a, b, 0) for a, b in _SQUARE] for k in range(3)]
+    + [[(1, a, b) if k == 0 else (a, 1, b) if k == 1 else (a, b, 1) for a, b in _SQUARE] for k in range(3)]
+)
 
 
-def plot(results: Sequence["Result"], *axes: str, ax: Any = None, color: str = "set", legend: bool = True,
-         outline: float = 0.8, **style: Any) -> Any:
+def plot(
+    results: Sequence["Result"],
+    *axes: str,
+    ax: Any = None,
+    color: str = "set",
+    legend: bool = True,
+    outline: float = 0.8,
+    **style: Any,
+) -> Any:
     """Draws the boxes of one or several results, all of them, where they are.
 
     Args:

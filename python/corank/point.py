@@ -27,8 +27,8 @@ class Interval(NamedTuple):
 class Point:
     """One solution, or, where it is undecided, a cluster of boxes that may hold any number of them.
 
-    ``point["theta"]`` is the value of a coordinate: an exact number of SymPy where it is known, else an Interval; lengths are in
-    the model's unit, angles in radians.
+    ``point["theta"]`` is the value of a coordinate: an exact number of SymPy where it is known, else an Interval; lengths
+    are in the model's unit, angles in radians.
     """
 
     def __init__(self, result: "Result", index: int) -> None:
@@ -38,7 +38,7 @@ class Point:
 
     @property
     def verdict(self) -> str:
-        """"isolated": exactly one solution; "exact": known exactly; "undecided": nothing is proven."""
+        """ "isolated": exactly one solution; "exact": known exactly; "undecided": nothing is proven."""
         return str(self._result._point_verdicts[self._index])
 
     @property
@@ -48,7 +48,8 @@ class Point:
 
     @property
     def enclosures(self) -> Dict[str, Interval]:
-        """Of each coordinate, angles in place of their cosines and sines, then of each kernel unknown: an interval around it."""
+        """Of each coordinate, angles in place of their cosines and sines, then of each kernel unknown: an interval around
+        it."""
         r = self._result
         at = {name: Interval(*self.box[j].tolist()) for j, name in enumerate(r.variables)}
         hidden = set()
@@ -98,4 +99,8 @@ def _short(value: Any) -> str:
     if not isinstance(value, Interval):
         text = str(value)
         return text if len(text) <= 40 else f"{float(value):.10g}…"
-    return f"{value.mid:.10g}" if abs(value.hi - value.lo) < 1e-9 * max(1.0, abs(value.mid)) else f"[{value.lo:.6g}, {value.hi:.6g}]"
+    return (
+        f"{value.mid:.10g}"
+        if abs(value.hi - value.lo) < 1e-9 * max(1.0, abs(value.mid))
+        else f"[{value.lo:.6g}, {value.hi:.6g}]"
+    )

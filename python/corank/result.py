@@ -40,8 +40,8 @@ class Sigma(NamedTuple):
 class Verification(NamedTuple):
     """What the independent checker found.
 
-    verified: every claim of the result holds. complete: and it is proven that its boxes hold all solutions. report: counts and
-    failures, as `corank verify --json` prints them. text: the same as a table.
+    verified: every claim of the result holds. complete: and it is proven that its boxes hold all solutions. report: counts
+    and failures, as `corank verify --json` prints them. text: the same as a table.
     """
 
     verified: bool
@@ -59,8 +59,8 @@ class Verification(NamedTuple):
 class Result:
     """A set as n boxes over named variables. Every solution in the search domain is in a box, where `complete`.
 
-    Arrays are views of the result's own memory, which they keep alive; they cannot be written to. ``result["x"]`` is the array
-    of shape (n, 2) of a variable, or of an angle in radians.
+    Arrays are views of the result's own memory, which they keep alive; they cannot be written to. ``result["x"]`` is the
+    array of shape (n, 2) of a variable, or of an angle in radians.
     """
 
     def __init__(self, core: _corank.Result) -> None:
@@ -73,8 +73,8 @@ class Result:
 
     @property
     def boxes(self) -> np.ndarray:
-        """float64 of shape (n, variables, 2): lower and upper end of each side, not copied, read-only. Lengths are in the model's
-        unit; angles are there as cosine and sine."""
+        """float64 of shape (n, variables, 2): lower and upper end of each side, not copied, read-only. Lengths are in the
+        model's unit; angles are there as cosine and sine."""
         return self._arrays["bounds"]
 
     @property
@@ -134,8 +134,8 @@ class Result:
 
     @property
     def free(self) -> np.ndarray:
-        """bool of shape (n, variables), not copied: is the variable free in the box? For every value of the free variables in a
-        `regular` box there is exactly one solution in it."""
+        """bool of shape (n, variables), not copied: is the variable free in the box? For every value of the free variables
+        in a `regular` box there is exactly one solution in it."""
         return self._arrays["free"]
 
     @property
@@ -179,8 +179,8 @@ class Result:
 
     @property
     def exact_points(self) -> List[Dict[str, Any]]:
-        """Points of any set that are known exactly, such as those where the kernel's dimension is 2: of each variable its value
-        as a number of SymPy."""
+        """Points of any set that are known exactly, such as those where the kernel's dimension is 2: of each variable its
+        value as a number of SymPy."""
         from . import exact
 
         return [exact.coordinates(p) for p in self._core.exact_points]
@@ -268,8 +268,8 @@ class Result:
     # --- what to do with it ---
 
     def to_pandas(self, angles: bool = False) -> "pandas.DataFrame":
-        """A data frame with a row for each box: its verdict, and NAME_lo and NAME_hi of each variable; with `angles` those of
-        each angle, in radians, too."""
+        """A data frame with a row for each box: its verdict, and NAME_lo and NAME_hi of each variable; with `angles` those
+        of each angle, in radians, too."""
         import pandas
 
         n = len(self)
@@ -323,7 +323,9 @@ class Result:
         try:
             return self.variables.index(name)
         except ValueError:
-            raise KeyError(f"{name}: the variables are {', '.join(self.variables)}; angles: {', '.join(self.angles)}") from None
+            raise KeyError(
+                f"{name}: the variables are {', '.join(self.variables)}; angles: {', '.join(self.angles)}"
+            ) from None
 
     @property
     def _core_angle_names(self) -> List[str]:

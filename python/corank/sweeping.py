@@ -59,8 +59,17 @@ class Sweep(Sequence[Member]):
             value = m.mechanism.constant_values[self.constant]
             for name, r in m.results.items():
                 counts = {word: r.counts.get(word, 0) for word in _corank.verdicts}
-                rows.append({self.constant: m.value, f"{self.constant}_value": value, "set": name, "boxes": len(r),
-                             "points": len(r.points), "complete": r.complete, **counts})
+                rows.append(
+                    {
+                        self.constant: m.value,
+                        f"{self.constant}_value": value,
+                        "set": name,
+                        "boxes": len(r),
+                        "points": len(r.points),
+                        "complete": r.complete,
+                        **counts,
+                    }
+                )
         return pandas.DataFrame(rows)
 
     def page(self, figures: Sequence[str] = (), files: Optional[List[List[str]]] = None) -> "notebook.Page":
@@ -71,10 +80,13 @@ class Sweep(Sequence[Member]):
         axes = pages.portrait_axes(first.mechanism, first.mechanism.outputs)
         if len(axes) < 2:
             raise ValueError(f"{first.mechanism.name} has no two coordinates to draw a portrait over")
-        members = [(m.value, [r._core for r in m.results.values()], files[k] if files else [])
-                   for k, m in enumerate(self._members)]
+        members = [
+            (m.value, [r._core for r in m.results.values()], files[k] if files else []) for k, m in enumerate(self._members)
+        ]
         report = f"{first.mechanism.name}.with_constants({self.constant}={first.value!r}).report()"
-        return notebook.Page(_corank.family_page(members, self.constant, axes, self.asked, self._command, report, list(figures)))
+        return notebook.Page(
+            _corank.family_page(members, self.constant, axes, self.asked, self._command, report, list(figures))
+        )
 
     def report(self, path: PathLike) -> "notebook.Page":
         """Writes the page, the results and small multiples for a paper into a folder."""
@@ -87,8 +99,11 @@ class Sweep(Sequence[Member]):
                 r.save(os.path.join(folder, file))
         first = self._members[0]
         figures = _corank.write_small_multiples(
-            os.path.join(folder, "figures"), [[r._core for r in m.results.values()] for m in self._members],
-            pages.portrait_axes(first.mechanism, first.mechanism.outputs), [f"{self.constant} = {m.value}" for m in self._members])
+            os.path.join(folder, "figures"),
+            [[r._core for r in m.results.values()] for m in self._members],
+            pages.portrait_axes(first.mechanism, first.mechanism.outputs),
+            [f"{self.constant} = {m.value}" for m in self._members],
+        )
         page = self.page([f"figures/{name}" for name in figures], files)
         page.path = os.path.join(folder, "index.html")
         page.save(page.path)
@@ -104,10 +119,21 @@ class Sweep(Sequence[Member]):
         return notebook._table(rows, [self.constant, *(f"boxes, {s}" for s in sets)])
 
 
-def sweep(self: "Mechanism", constant: str, values: Iterable[ExpressionLike], *,
-          sets: Sequence[str] = ("cspace", "forward", "inverse"), sigma: Optional[float] = None,
-          cspace_sigma: Optional[float] = None, proof: bool = False, threads: int = 0, max_boxes: int = 0, max_found: int = 0,
-          time_limit: float = 0, progress: ProgressOption = None) -> Sweep:
+def sweep(
+    self: "Mechanism",
+    constant: str,
+    values: Iterable[ExpressionLike],
+    *,
+    sets: Sequence[str] = ("cspace", "forward", "inverse"),
+    sigma: Optional[float] = None,
+    cspace_sigma: Optional[float] = None,
+    proof: bool = False,
+    threads: int = 0,
+    max_boxes: int = 0,
+    max_found: int = 0,
+    time_limit: float = 0,
+    progress: ProgressOption = None,
+) -> Sweep:
     """Solves sets of a family of mechanisms that differ in one constant.
 
     Args:
@@ -125,7 +151,9 @@ def sweep(self: "Mechanism", constant: str, values: Iterable[ExpressionLike], *,
     names = [c.name for c in plans[0].coordinates] if plans else []
     for text, plan in zip(texts, plans):
         if [c.name for c in plan.coordinates] != names:
-            raise ValueError(f"at {constant} = {text} the mechanism has other coordinates than at {texts[0]}; a sweep needs the same")
+            raise ValueError(
+                f"at {constant} = {text} the mechanism has other coordinates than at {texts[0]}; a sweep needs the same"
+            )
     members: List[Member] = []
     command = f"{pages._command('sweep', self, sets, sigma, cspace_sigma)} over {constant}"
     for text, plan in zip(texts, plans):
@@ -134,8 +162,16 @@ def sweep(self: "Mechanism", constant: str, values: Iterable[ExpressionLike], *,
         for name in sets:
             try:
                 member.results[name] = plan.solve(
-                    name, sigma=cspace_sigma if name == "cspace" else sigma, proof=proof, threads=threads, max_boxes=max_boxes,
-                    max_found=max_found, time_limit=time_limit, coarser=2, progress=progress)
+                    name,
+                    sigma=cspace_sigma if name == "cspace" else sigma,
+                    proof=proof,
+                    threads=threads,
+                    max_boxes=max_boxes,
+                    max_found=max_found,
+                    time_limit=time_limit,
+                    coarser=2,
+                    progress=progress,
+                )
             except Interrupted as early:
                 member.results[name] = early.result
                 raise Interrupted(Sweep(constant, members, len(texts), command)) from None

@@ -77,10 +77,26 @@ def test_a_checker_of_types_finds_the_users_fault_and_no_other(tmp_path):
     pytest.importorskip("mypy")
     package = pathlib.Path(__file__).resolve().parents[2] / "python" / "corank"
     user = tmp_path / "user.py"
-    user.write_text("import corank\nr: corank.Result = corank.load('m.cuik').solve('forward', sigma=0.1)\n"
-                    "n: int = r.counts['regular']\nwrong: int = r\n")
-    done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--follow-imports=skip", "--cache-dir",
-                           str(tmp_path), str(package), str(user)], capture_output=True, text=True, check=False,
-                          cwd=package.parent)
+    user.write_text(
+        "import corank\nr: corank.Result = corank.load('m.cuik').solve('forward', sigma=0.1)\n"
+        "n: int = r.counts['regular']\nwrong: int = r\n"
+    )
+    done = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "mypy",
+            "--ignore-missing-imports",
+            "--follow-imports=skip",
+            "--cache-dir",
+            str(tmp_path),
+            str(package),
+            str(user),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=package.parent,
+    )
     faults = [line for line in done.stdout.splitlines() if "error" in line]
     assert "user.py:4: error: Incompatible types" in faults[0] and len(faults) == 2, done.stdout

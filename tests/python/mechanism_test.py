@@ -46,7 +46,7 @@ def test_numpys_numbers_are_numbers():
 def test_operators_make_expressions_and_relations():
     x, y = corank.Expression("x"), corank.Expression("y")
     assert str(2 * x**2 - y / 3 + Fraction(1, 2)) == "2*x^2 - y/3 + 1/2"
-    assert str(1 / x) == "1/x" and str(-x) == "-x" and str(2 ** x) == "2^x"
+    assert str(1 / x) == "1/x" and str(-x) == "-x" and str(2**x) == "2^x"
     assert str(corank.sin(x) + corank.sqrt(2) * corank.cos(x - corank.pi / 3)) == "sin(x) + sqrt(2)*cos(x - pi/3)"
     assert str(x <= y) == "x <= y" and str(x >= 1) == "x >= 1" and str(x == y) == "x = y"
     assert (x + y).same_as(corank.Expression("x + y")) and not (x + y).same_as(y + x)
@@ -67,9 +67,12 @@ def test_constraints_of_sympy_are_those_of_texts(dextar):
         m.length(x.name, -2 * l, 2 * l)
     for x in q[2:]:
         m.angle(x.name, -sympy.pi, sympy.pi)
-    m.constrain(d + l * cos(t2) + l * cos(t3) + l * cos(t4) - l * cos(t5),
-                sympy.Eq(l * sin(t2) + l * sin(t3) + l * sin(t4), l * sin(t5)),
-                sympy.Eq(J3x, d + l * cos(t2) + l * cos(t3)), sympy.Eq(J3y, l * sin(t2) + l * sin(t3)))
+    m.constrain(
+        d + l * cos(t2) + l * cos(t3) + l * cos(t4) - l * cos(t5),
+        sympy.Eq(l * sin(t2) + l * sin(t3) + l * sin(t4), l * sin(t5)),
+        sympy.Eq(J3x, d + l * cos(t2) + l * cos(t3)),
+        sympy.Eq(J3y, l * sin(t2) + l * sin(t3)),
+    )
     m.inputs, m.outputs = [t2, t5], [J3x, J3y]
 
     text = corank.Mechanism("dextar")
@@ -79,9 +82,12 @@ def test_constraints_of_sympy_are_those_of_texts(dextar):
         text.length(name, "-2*l", "2*l")
     for name in ("theta2", "theta3", "theta4", "theta5"):
         text.angle(name)
-    text.constrain("d + l*cos(theta2) + l*cos(theta3) + l*cos(theta4) - l*cos(theta5) = 0",
-                   "l*sin(theta2) + l*sin(theta3) + l*sin(theta4) = l*sin(theta5)",
-                   "J3x = d + l*cos(theta2) + l*cos(theta3)", "J3y = l*sin(theta2) + l*sin(theta3)")
+    text.constrain(
+        "d + l*cos(theta2) + l*cos(theta3) + l*cos(theta4) - l*cos(theta5) = 0",
+        "l*sin(theta2) + l*sin(theta3) + l*sin(theta4) = l*sin(theta5)",
+        "J3x = d + l*cos(theta2) + l*cos(theta3)",
+        "J3y = l*sin(theta2) + l*sin(theta3)",
+    )
     text.inputs, text.outputs = ["theta2", "theta5"], ["J3x", "J3y"]
 
     assert polynomials(m.derive("forward", "cuik")) == polynomials(text.derive("forward", "cuik"))
