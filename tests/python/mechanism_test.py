@@ -1,5 +1,6 @@
 """Mechanisms: built, read, parsed, changed, pickled; what is wrong with them is said with its place."""
 
+import multiprocessing
 import pickle
 from fractions import Fraction
 
@@ -242,3 +243,14 @@ def test_a_notebook_shows_its_equations_in_latex(dextar):
     html = dextar._repr_html_()
     assert "\\begin{gathered}" in html and "\\theta_{2}" in html and "input" in html
     assert "\\theta_{2}" in corank.Expression("cos(theta2)/2")._repr_latex_()
+
+
+def boxes_of(mechanism):
+    return len(mechanism.solve("forward", sigma=0.1, threads=1))
+
+
+@pytest.mark.parametrize("start", ["fork", "spawn"])
+def test_mechanisms_go_to_other_processes_which_solve_them(dextar, start):
+    expected = boxes_of(dextar)  # the parent has its threads already
+    with multiprocessing.get_context(start).Pool(1) as pool:
+        assert pool.map_async(boxes_of, [dextar, dextar]).get(60) == [expected] * 2

@@ -130,5 +130,22 @@ TEST_F(WrittenFile, RemovesWhatAKilledProcessLeftAndNothingElse) {
   EXPECT_THAT(left, testing::Contains(living.part().filename().string()));
 }
 
+extern "C" void of_somebody_else(int) {}
+
+TEST(OutputFile, LeavesTheHandlersOfOthersAsTheyAre) {
+  struct sigaction mine {
+  }, former{}, after{};
+  mine.sa_handler = of_somebody_else;  // without SA_RESTART, which std::signal sets
+  sigaction(SIGINT, &mine, &former);
+  {
+    const OutputFile file(fs::temp_directory_path() / "corank_handlers.txt");
+    sigaction(SIGINT, nullptr, &after);
+    EXPECT_EQ(after.sa_handler, &of_somebody_else);
+  }
+  sigaction(SIGINT, &former, &after);
+  EXPECT_EQ(after.sa_handler, &of_somebody_else);
+  EXPECT_EQ(after.sa_flags & SA_RESTART, 0);
+}
+
 }  // namespace
 }  // namespace corank::result
