@@ -84,7 +84,7 @@ TEST(PieceAbout, HoldsOneSolutionOverEachOfItsValues) {
   MeetingTest test(circle());
   int found = 0;
   for (int k = 0; k < 500; ++k) {
-    const double turn = boxes.number(-3.2, 3.2), radius = boxes.number(0.001, 0.6);
+    const double turn = boxes.number(-3.2, 3.2), radius = boxes.number(0.001, 2);
     const Box near{Interval(5 * std::cos(turn)), Interval(5 * std::sin(turn))};
     const auto region = test.piece_about(near, radius);
     if (!region) continue;
