@@ -2,6 +2,8 @@
 
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 
 import pytest
@@ -113,3 +115,32 @@ def test_a_handler_of_signals_survives_the_writing_of_a_file(points, tmp_path):
 def test_an_interrupt_that_brings_a_result_can_be_pickled(points):
     again = pickle.loads(pickle.dumps(corank.Interrupted(points)))
     assert len(again.result.points) == 8
+
+
+PROGRAM = """
+import corank, sys
+said = []
+def progress(stage, share, text):
+    if stage == "search" and not said:
+        said.append(stage)
+        print("searching", flush=True)
+try:
+    corank.load(sys.argv[1]).solve("cspace", sigma=0.003, progress=progress)
+except corank.Interrupted as early:
+    print(early.result.complete, early.result.stopped, flush=True)
+    raise
+"""
+
+
+def test_a_signal_from_outside_ends_a_script_which_can_keep_its_result(models):
+    process = subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, str(models / "dextar.cuik")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout.readline() == "searching\n"
+    process.send_signal(signal.SIGINT)
+    said, error = process.communicate(timeout=120)
+    assert said.startswith("False an interrupt, in the stage ") and "corank.errors.Interrupted" in error
+    assert process.returncode != 0
