@@ -13,6 +13,7 @@
 namespace corank::analyze {
 
 enum class Avoid { forward, inverse, both };
+const char* to_string(Avoid avoid);
 
 struct PathOptions {
   Avoid avoid = Avoid::forward;

@@ -68,12 +68,18 @@ System fixed(const PathSpace& space, const std::vector<NamedValue>& values) {
 
 std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>& values, solve::Control& control) {
   const auto needed = static_cast<std::size_t>(std::max(space.dimension(), 0));
-  if (values.size() < needed)
-    throw EndError(fmt::format("{} value{}, but {} are needed: the mechanism can still move with {}", values.size(),
-                               values.size() == 1 ? "" : "s", needed, values.empty() ? "none" : "these"));
-  const std::vector<NamedValue> exact(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(needed));
+  std::vector<NamedValue> exact, further;
+  for (const NamedValue& v : values) {
+    const int index = space.question().model.find_coordinate(v.name);
+    const bool moves = index < 0 || !is_fixed(space.question().model.coordinates()[static_cast<std::size_t>(index)]);
+    (moves && exact.size() < needed ? exact : further).push_back(v);
+  }
+  if (exact.size() < needed)
+    throw EndError(fmt::format("{} value{} of {} that are needed: the mechanism can still move", exact.size(),
+                               exact.size() == 1 ? "" : "s", needed));
   const System system = fixed(space, exact);
-  fixed(space, values);  // names and values of the others
+  for (const NamedValue& v : further)
+    if (space.question().model.find_coordinate(v.name) < 0) fixed(space, {v});  // throws
   const solve::Prepared prepared = solve::prepare(system, {}, control);
   Cover cover = solve::solve(prepared, control);
   if (!cover.complete()) throw EndError("the search for the configurations was ended by a limit");
@@ -88,7 +94,7 @@ std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>
   if (cover.points.empty() && !cover.boxes.empty()) throw EndError("these values leave the mechanism a motion");
   const auto is_far = [&](const Box& box) {
     const std::vector<CoordinateValue> there = coordinate_values(space.system(), box);
-    return std::any_of(values.begin() + static_cast<std::ptrdiff_t>(needed), values.end(), [&](const NamedValue& v) {
+    return std::any_of(further.begin(), further.end(), [&](const NamedValue& v) {
       const double asked = symbolic::exact_value(space.question().model, v.value, v.name).enclose().mid();
       const auto at = std::find_if(there.begin(), there.end(), [&](const CoordinateValue& c) { return c.name == v.name; });
       if (at == there.end()) return false;

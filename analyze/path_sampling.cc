@@ -23,13 +23,18 @@ class Equations : public ob::Constraint {
   explicit Equations(const PathSpace& space)
       : ob::Constraint(static_cast<unsigned>(space.size()), static_cast<unsigned>(space.size() - space.dimension()), 1e-10),
         space_(space) {
-    setMaxIterations(40);
   }
   void function(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> out) const override {
     out = space_.residual(x);
   }
   void jacobian(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> out) const override {
     out = space_.jacobian(x);
+  }
+  bool project(Eigen::Ref<Eigen::VectorXd> x) const override {
+    PathSpace::Point point = x;
+    if (!space_.project(point)) return false;
+    x = point;
+    return true;
   }
 
  private:

@@ -16,6 +16,15 @@ namespace {
 
 int sign_of(const Interval& x) { return x.lo() > 0 ? 1 : x.hi() < 0 ? -1 : 0; }
 
+// GiNaC expands their determinants in no time.
+bool is_small(const PolynomialMatrix& m) {
+  constexpr int kMostColumns = 8;
+  constexpr std::size_t kMostTerms = 8;  // of an entry
+  return m.columns <= kMostColumns && std::all_of(m.entries.begin(), m.entries.end(), [](const Polynomial& f) {
+           return f.monomials.size() <= kMostTerms;
+         });
+}
+
 bool is_square(const std::vector<int>& rows, const PolynomialMatrix& m) {
   return static_cast<int>(rows.size()) == m.columns;
 }
@@ -58,7 +67,7 @@ void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
   ranks_.push_back(std::min(static_cast<int>(filled.size()), m.columns));
   const bool square = is_square(filled, m);
   filled_rows_.push_back(std::move(filled));
-  if (!square || !with_factors) return;
+  if (!square || !with_factors || !is_small(m)) return;
   try {
     const symbolic::Derivation derivation = symbolic::derive(question_.model);
     const symbolic::ExpressionMatrix matrix =

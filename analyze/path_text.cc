@@ -10,15 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* words(Avoid avoid) {
-  switch (avoid) {
-    case Avoid::forward: return "forward";
-    case Avoid::inverse: return "inverse";
-    case Avoid::both: return "both";
-  }
-  return "?";
-}
-
 Json values_of(const System& system, const Box& box) {
   Json json = Json::object();
   for (const CoordinateValue& v : coordinate_values(system, box)) json[v.name] = v.value.mid();
@@ -27,10 +18,19 @@ Json values_of(const System& system, const Box& box) {
 
 }  // namespace
 
+const char* to_string(Avoid avoid) {
+  switch (avoid) {
+    case Avoid::forward: return "forward";
+    case Avoid::inverse: return "inverse";
+    case Avoid::both: return "both";
+  }
+  return "?";
+}
+
 std::string to_text(const PathFinder& finder, const Path& path) {
   std::string text =
       fmt::format("{}, {} singularities avoided\n", finder.question().model.name(),
-                  finder.options().avoid == Avoid::both ? "forward and inverse" : words(finder.options().avoid));
+                  finder.options().avoid == Avoid::both ? "forward and inverse" : to_string(finder.options().avoid));
   const auto line = [&](const std::string& name, const std::string& value) {
     text += fmt::format("  {:<10}  {}\n", name, value);
   };
@@ -52,7 +52,7 @@ std::string to_text(const PathFinder& finder, const Path& path) {
 std::string to_json(const PathFinder& finder, const Path& path) {
   Json json{{"model", finder.question().model.name()},
             {"status", to_string(path.status)},
-            {"avoid", words(finder.options().avoid)},
+            {"avoid", to_string(finder.options().avoid)},
             {"from", values_of(finder.system(), path.from)},
             {"to", values_of(finder.system(), path.to)},
             {"waypoints", Json::array()},

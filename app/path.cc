@@ -11,6 +11,7 @@
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
+#include "corank/result/path_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 
@@ -21,11 +22,23 @@ struct PathCommand {
   QuestionOptions question;
   std::vector<std::string> from, to;
   int from_mode = 0, to_mode = 0;
-  std::string avoid = "forward", csv;
+  std::string avoid = "forward", csv, output;
   analyze::PathOptions options;
   double time_limit = 0;
   bool json = false;
 };
+
+result::PathFile file_of(const analyze::PathFinder& finder, const analyze::Path& found) {
+  const study::Question& question = finder.question();
+  result::PathFile file;
+  file.model = question.model.name();
+  file.model_text = question.model.source_text();
+  file.constants = question.constants;
+  file.avoid = analyze::to_string(finder.options().avoid);
+  for (const Variable& v : finder.system().variables) file.variables.push_back(v.name);
+  file.tube = *found.tube;
+  return file;
+}
 
 ExitStatus path(PathCommand command) {
   solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
@@ -38,6 +51,7 @@ ExitStatus path(PathCommand command) {
                           : command.avoid == "inverse" ? analyze::Avoid::inverse
                                                        : analyze::Avoid::both;
   check_output(command.csv);
+  check_output(command.output);
   const Interrupt interrupt;
   ProgressLine line;
   line.follow(control);
@@ -53,6 +67,7 @@ ExitStatus path(PathCommand command) {
   const analyze::Path found = finder.find(boxes[0], boxes[1], control);
   line.clear();
   if (!command.csv.empty()) result::write_text(command.csv, to_csv(finder, found));
+  if (!command.output.empty() && found.tube) result::write_path(command.output, file_of(finder, found));
   fmt::print("{}", command.json ? to_json(finder, found) + "\n" : result::printable(to_text(finder, found)));
   return found.status == analyze::Path::Status::unknown ? kIncomplete : kDone;
 }
@@ -90,6 +105,8 @@ void add_path(CLI::App& program, Action& action) {
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
+  sub->add_option("-o,--output", command->output, "Write the path with its tube, which corank verify checks, where there is one")
+      ->type_name("FILE.h5");
   sub->add_option("--csv", command->csv, "Write the waypoints")->type_name("FILE");
   sub->add_flag("--json", command->json, "Print the result as JSON");
   sub->footer(
@@ -97,7 +114,8 @@ void add_path(CLI::App& program, Action& action) {
       "lengths and in sines and cosines of angles, is proven to be none of the singularities avoided. Where no path can\n"
       "exist, because the ends lie in different pieces, that is proven.\n\n"
       "Exit status: 0 a path or the proof that there is none, 1 bad input, 2 usage, 3 neither.\n\n"
-      "Example:\n  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=1 --to-mode 1");
+      "Examples:\n  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=1 --to-mode 1\\\n"
+      "      -o path.h5\n  corank verify path.h5");
   sub->callback([command, &action] { action = [command] { return path(*command); }; });
 }
 

@@ -78,7 +78,7 @@ Sheet TubeProver::prove(const TubeNode& a, const TubeNode& b, std::vector<Interv
 
 std::optional<Box> TubeProver::node(const std::vector<double>& rows, const std::vector<double>& values,
                                     const std::vector<double>& near) {
-  constexpr double kRadius = 1e-11;
+  constexpr double kRadius = 1e-11, kRoom = 1e-14;
   const TubeNode node{rows, values, {}};
   std::vector<Interval> x;
   for (const double c : near) x.emplace_back(c - kRadius * (1 + std::fabs(c)), c + kRadius * (1 + std::fabs(c)));
@@ -86,6 +86,8 @@ std::optional<Box> TubeProver::node(const std::vector<double>& rows, const std::
   Sheet sheet = prove(node, node, std::move(x));
   if (!sheet.proven) return std::nullopt;
   sheet.image.pop_back();
+  // A little room, for whoever proves it again with another Y.
+  for (Interval& side : sheet.image) side += Interval(-1, 1) * Interval(kRoom * (1 + side.mag()));
   return std::move(sheet.image);
 }
 
