@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "corank/certify/meeting.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/exact_value.h"
@@ -85,11 +87,14 @@ std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>
   if (!cover.complete()) throw EndError("the search for the configurations was ended by a limit");
   if (cover.dimension == 0) solve::prove_exactly(prepared, cover, control);
   std::vector<Box> result;
+  certify::MeetingTest test(system);
   for (const CoverBox& point : cover.points) {
     if (point.verdict == Verdict::boundary) throw EndError("one of the configurations may be outside the ranges");
     if (point.verdict != Verdict::isolated && point.verdict != Verdict::exact)
       throw EndError("these values leave configurations that are not isolated, or not proven to be; others may do");
-    result.push_back(point.box);
+    // The solution that the box holds, as narrow as doubles prove it.
+    const UpwardRounding rounding;
+    result.push_back(test.solution_in(point.box, point.box).value_or(point.box));
   }
   if (cover.points.empty() && !cover.boxes.empty()) throw EndError("these values leave the mechanism a motion");
   const auto is_far = [&](const Box& box) {

@@ -22,8 +22,7 @@ class Equations : public ob::Constraint {
  public:
   explicit Equations(const PathSpace& space)
       : ob::Constraint(static_cast<unsigned>(space.size()), static_cast<unsigned>(space.size() - space.dimension()), 1e-10),
-        space_(space) {
-  }
+        space_(space) {}
   void function(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> out) const override {
     out = space_.residual(x);
   }

@@ -44,26 +44,30 @@ std::optional<TubeBuilder::Node> TubeBuilder::node(const PathSpace::Point& x, co
   return result;
 }
 
-bool TubeBuilder::connect(Tube& tube, const Node& a, const Node& b, double radius, int depth,
-                          const solve::Control& control) {
-  const double length = (b.point - a.point).norm();
+// The node at b is made anew from the one that comes before it: over a long way their bases may have turned against each
+// other.
+std::optional<TubeBuilder::Node> TubeBuilder::connect(Tube& tube, const Node& a, const PathSpace::Point& b, double radius,
+                                                      int depth, const solve::Control& control) {
+  const double length = (b - a.point).norm();
   if (hope_ == 0 || length <= hope_) {
-    const UpwardRounding rounding;
-    if (const auto piece = prover_.piece(a.node, b.node); piece && prover_.is_free(*piece, radius)) {
-      hope_ = std::max(hope_, 2 * length);
-      tube.nodes.push_back(b.node);
-      tube.pieces.push_back(*piece);
-      tube.radii.push_back(radius);
-      return true;
+    if (std::optional<Node> end = node(b, &a)) {
+      const UpwardRounding rounding;
+      const auto piece = prover_.piece(a.node, end->node);
+      if (piece && prover_.is_free(*piece, radius)) {
+        hope_ = std::max(hope_, 2 * length);
+        tube.nodes.push_back(end->node);
+        tube.pieces.push_back(*piece);
+        tube.radii.push_back(radius);
+        return end;
+      }
     }
   }
-  if (depth >= kMostHalvings || length < kShortest || control.ended()) return false;
+  if (depth >= kMostHalvings || length < kShortest || control.ended()) return std::nullopt;
   hope_ = std::min(hope_ == 0 ? length : hope_, 0.75 * length);
-  PathSpace::Point x = 0.5 * (a.point + b.point);
-  if (!space_.project(x, length)) return false;
-  const std::optional<Node> middle = node(x, &a);
-  return middle && connect(tube, a, *middle, radius, depth + 1, control) &&
-         connect(tube, *middle, b, radius, depth + 1, control);
+  PathSpace::Point x = 0.5 * (a.point + b);
+  if (!space_.project(x, length)) return std::nullopt;
+  const std::optional<Node> middle = connect(tube, a, x, radius, depth + 1, control);
+  return middle ? connect(tube, *middle, b, radius, depth + 1, control) : std::nullopt;
 }
 
 // By doubling and halving; about a tenth of it is given away.
@@ -94,9 +98,8 @@ TubeBuilder::Outcome TubeBuilder::build(const Box& from, const Points& points, c
   for (std::size_t k = 1; k < points.size(); ++k) {
     // Points that are one but for rounding add nothing.
     if (k + 1 < points.size() && (points[k] - last->point).norm() < 10 * kShortest) continue;
-    const std::optional<Node> next = node(points[k], &*last);
-    if (!next || !connect(tube, *last, *next, radius, 0, control)) return {std::nullopt, k - 1};
-    last = next;
+    last = connect(tube, *last, points[k], radius, 0, control);
+    if (!last) return {std::nullopt, k - 1};
   }
   const UpwardRounding rounding;
   double guess = radius;

@@ -50,7 +50,8 @@ class TubeBuilder {
     Eigen::MatrixXd across;  // T, n − m rows
   };
   std::optional<Node> node(const PathSpace::Point& x, const Node* before);
-  bool connect(Tube& tube, const Node& a, const Node& b, double radius, int depth, const solve::Control& control);
+  std::optional<Node> connect(Tube& tube, const Node& a, const PathSpace::Point& b, double radius, int depth,
+                              const solve::Control& control);
   double widest_radius(const Box& piece, double known, double guess) const;
 
   const PathSpace& space_;

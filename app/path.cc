@@ -105,7 +105,8 @@ void add_path(CLI::App& program, Action& action) {
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("-o,--output", command->output, "Write the path with its tube, which corank verify checks, where there is one")
+  sub->add_option("-o,--output", command->output,
+                  "Write the path with its tube, which corank verify checks, where there is one")
       ->type_name("FILE.h5");
   sub->add_option("--csv", command->csv, "Write the waypoints")->type_name("FILE");
   sub->add_flag("--json", command->json, "Print the result as JSON");

@@ -27,6 +27,26 @@ System without_inequalities(System system) {
   return system;
 }
 
+// All sides but the last, t's.
+bool has_spare_room(const Sheet& sheet) {
+  constexpr double kSpare = 0.03;
+  for (std::size_t j = 0; j + 1 < sheet.region.size(); ++j) {
+    const Interval &outer = sheet.region[j], &inner = sheet.image[j];
+    const double spare = kSpare * outer.width();
+    if (inner.lo() - outer.lo() < spare || outer.hi() - inner.hi() < spare) return false;
+  }
+  return true;
+}
+
+std::vector<Interval> inflated(std::vector<Interval> x) {
+  constexpr double kRoom = 0.25, kTiny = 1e-13;
+  for (std::size_t j = 0; j + 1 < x.size(); ++j) {
+    const double room = kRoom * x[j].width() + kTiny * (1 + x[j].mag());
+    x[j] += Interval(-room, room);
+  }
+  return x;
+}
+
 void add_term(Polynomial& f, double coefficient, std::vector<Factor> factors) {
   if (coefficient != 0) f.monomials.emplace_back(ExactNumber::dyadic(coefficient), std::move(factors));
 }
@@ -95,11 +115,20 @@ std::optional<Box> TubeProver::piece(const TubeNode& a, const TubeNode& b) {
   std::vector<Interval> x;
   for (std::size_t j = 0; j < a.box.size(); ++j) x.push_back(Interval::hull(a.box[j], b.box[j]));
   x.emplace_back(0.0, 1.0);
-  Sheet sheet = prove(a, b, std::move(x));
-  if (!sheet.proven) return std::nullopt;
-  sheet.region.pop_back();
-  if (!contains(sheet.region, a.box) || !contains(sheet.region, b.box)) return std::nullopt;
-  return std::move(sheet.region);
+  // Proven in a box with room to spare, for whoever proves it again with another Y. A side that is as wide as the others
+  // make it follows them one step later.
+  constexpr int kTries = 6;
+  for (int tries = 0; tries < kTries; ++tries) {
+    Sheet sheet = prove(a, b, x);
+    if (!sheet.proven) return std::nullopt;
+    if (has_spare_room(sheet)) {
+      sheet.region.pop_back();
+      if (!contains(sheet.region, a.box) || !contains(sheet.region, b.box)) return std::nullopt;
+      return std::move(sheet.region);
+    }
+    x = inflated(std::move(sheet.image));
+  }
+  return std::nullopt;
 }
 
 bool TubeProver::is_free(const Box& piece, double r) const {
@@ -114,7 +143,7 @@ bool TubeProver::is_free(const Box& piece, double r) const {
 
 bool TubeProver::joins(const Box& a, const Box& b, const Box& within) {
   MeetingTest test(bare_);
-  for (const double radius : {1e-9, 1e-7}) {
+  for (const double radius : {1e-9, 1e-7, 1e-5, 1e-4}) {
     const std::optional<Box> piece = test.piece_about(a, radius);
     if (piece && contains(*piece, a) && contains(*piece, b) && contains(within, *piece)) return true;
   }

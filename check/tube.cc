@@ -53,9 +53,8 @@ class TubeCheck {
 };
 
 bool is_box(const Box& box, std::size_t n) {
-  return box.size() == n && std::all_of(box.begin(), box.end(), [](const Interval& side) {
-           return side.is_bounded() && side.lo() <= side.hi();
-         });
+  return box.size() == n && std::all_of(box.begin(), box.end(),
+                                        [](const Interval& side) { return side.is_bounded() && side.lo() <= side.hi(); });
 }
 
 bool finite(const std::vector<double>& list) {

@@ -34,7 +34,8 @@ void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<c
 }
 
 std::vector<Box> read_boxes(const Hdf5Reader& file, const std::string& group, std::size_t count, std::size_t n) {
-  const std::vector<double> lower = file.doubles(group + "/lower", count, n), upper = file.doubles(group + "/upper", count, n);
+  const std::vector<double> lower = file.doubles(group + "/lower", count, n),
+                            upper = file.doubles(group + "/upper", count, n);
   std::vector<Box> boxes(count);
   for (std::size_t k = 0; k < count * n; ++k) {
     if (!(lower[k] <= upper[k])) throw ResultFileError(file.path() + ": a box in " + group + " is none");
@@ -95,7 +96,8 @@ PathFile read_path(const std::filesystem::path& path) {
   const Hdf5Reader file(path.string());
   const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": " + what); };
   if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != kFormat) refuse("this is no corank path");
-  if (file.integer_attribute("/", "format_version") != kFormatVersion) refuse("a format version that this corank cannot read");
+  if (file.integer_attribute("/", "format_version") != kFormatVersion)
+    refuse("a format version that this corank cannot read");
   const auto count = [&](const std::string& name, std::int64_t least, std::int64_t most) {
     const std::int64_t value = file.integer_attribute("/", name);
     if (value < least || value > most) refuse("the attribute " + name + " is out of range");
@@ -147,9 +149,8 @@ check::TubeReport verify(const PathFile& file, const check::Options& options) {
     return report;
   }
   std::vector<PolynomialMatrix> matrices;
-  for (const auto& [set, block, other] :
-       {std::tuple(symbolic::SingularitySet::forward, Block::forward, "inverse"),
-        std::tuple(symbolic::SingularitySet::inverse, Block::inverse, "forward")}) {
+  for (const auto& [set, block, other] : {std::tuple(symbolic::SingularitySet::forward, Block::forward, "inverse"),
+                                          std::tuple(symbolic::SingularitySet::inverse, Block::inverse, "forward")}) {
     if (file.avoid == other) continue;
     const auto blocks = symbolic::velocity_blocks(model, set);
     if (!blocks) {
@@ -162,11 +163,11 @@ check::TubeReport verify(const PathFile& file, const check::Options& options) {
 }
 
 std::string to_table(const check::TubeReport& report, const PathFile& file) {
-  std::string text = fmt::format("{}: a path without {} singularities\n  nodes     {} of {} confirmed\n  pieces    {} of {}\n"
-                                 "  radius    {:.3g}\n",
-                                 printable_line(file.model), file.avoid == "both" ? "forward and inverse" : file.avoid,
-                                 report.nodes, file.tube.nodes.size(), report.pieces, file.tube.pieces.size(),
-                                 file.tube.radius());
+  std::string text = fmt::format(
+      "{}: a path without {} singularities\n  nodes     {} of {} confirmed\n  pieces    {} of {}\n"
+      "  radius    {:.3g}\n",
+      printable_line(file.model), file.avoid == "both" ? "forward and inverse" : file.avoid, report.nodes,
+      file.tube.nodes.size(), report.pieces, file.tube.pieces.size(), file.tube.radius());
   for (std::size_t k = 0; k < std::min(report.failures.size(), kShownFailures); ++k)
     text += "  " + printable_line(report.failures[k]) + "\n";
   if (report.failures.size() > kShownFailures)
@@ -175,12 +176,8 @@ std::string to_table(const check::TubeReport& report, const PathFile& file) {
 }
 
 std::string to_json(const check::TubeReport& report, const PathFile& file) {
-  nlohmann::ordered_json json{{"verified", report.verified()},
-                              {"interrupted", report.interrupted},
-                              {"nodes", report.nodes},
-                              {"pieces", report.pieces},
-                              {"radius", file.tube.radius()},
-                              {"avoid", file.avoid},
+  nlohmann::ordered_json json{{"verified", report.verified()}, {"interrupted", report.interrupted}, {"nodes", report.nodes},
+                              {"pieces", report.pieces},       {"radius", file.tube.radius()},      {"avoid", file.avoid},
                               {"failures", report.failures}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

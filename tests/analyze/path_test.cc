@@ -109,7 +109,8 @@ class Flood {
         const std::size_t at = queue.front();
         queue.pop();
         for (const std::size_t next : neighbours_[at])
-          if (before[next] == points_.size() && !refused.contains(std::minmax(at, next))) before[next] = at, queue.push(next);
+          if (before[next] == points_.size() && !refused.contains(std::minmax(at, next)))
+            before[next] = at, queue.push(next);
       }
       if (before[b] == points_.size()) return false;
       bool whole = true;  // a coarse step may have jumped from one piece to another
@@ -206,13 +207,15 @@ TEST_P(RandomPairs, GetATubeOrTheProofThatThereIsNone) {
   EXPECT_LE(50 * counts["unknown"], pairs);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Mechanisms, RandomPairs,
-    ::testing::Values(Subject{"three_slider", {{"x_C", -0.8, 0.8}}}, Subject{"dextar", {{"J3x", -0.6, 1.8}, {"J3y", -1.6, 1.6}}},
-                      Subject{"dextar", {{"J3x", -0.6, 1.8}, {"J3y", -1.6, 1.6}}, Avoid::both},
-                      Subject{"planar/four_bar_double_rocker", {{"theta", -3, 3}}, Avoid::both},
-                      Subject{"serial/orthogonal_3r_section", {{"theta2", -3.1, 3.1}, {"theta3", -3.1, 3.1}}, Avoid::inverse}),
-    [](const auto& test) { return "Subject" + std::to_string(test.index); });
+INSTANTIATE_TEST_SUITE_P(Mechanisms, RandomPairs,
+                         ::testing::Values(Subject{"three_slider", {{"x_C", -0.8, 0.8}}},
+                                           Subject{"dextar", {{"J3x", -0.6, 1.8}, {"J3y", -1.6, 1.6}}},
+                                           Subject{"dextar", {{"J3x", -0.6, 1.8}, {"J3y", -1.6, 1.6}}, Avoid::both},
+                                           Subject{"planar/four_bar_double_rocker", {{"theta", -3, 3}}, Avoid::both},
+                                           Subject{"serial/orthogonal_3r_section",
+                                                   {{"theta2", -3.1, 3.1}, {"theta3", -3.1, 3.1}},
+                                                   Avoid::inverse}),
+                         [](const auto& test) { return "Subject" + std::to_string(test.index); });
 
 TEST(PathEnds, AreSolvedForFromSomeOfTheirCoordinates) {
   const PathFinder finder(model_of("dextar"), {});
@@ -301,18 +304,21 @@ void expect_a_tube(const study::Question& question, Avoid avoid, const std::vect
 }
 
 TEST(Path, OfAStewartPlatformIsATube) {
-  expect_a_tube(changed("platforms/stewart", {{"   keeps Rz(yaw)*Ry(pitch)*Rx(roll)", ""}}), Avoid::forward,
-                values({{"leg1", "1.2"}, {"leg2", "1.3"}, {"leg3", "1.25"}, {"leg4", "1.3"}, {"leg5", "1.2"}, {"leg6", "1.3"}}),
-                values({{"leg1", "1.1"}, {"leg2", "1.0"}, {"leg3", "1.15"}, {"leg4", "1.1"}, {"leg5", "1.2"}, {"leg6", "1.1"}}),
-                6);
+  expect_a_tube(
+      changed("platforms/stewart", {{"   keeps Rz(yaw)*Ry(pitch)*Rx(roll)", ""}}), Avoid::forward,
+      values({{"leg1", "1.2"}, {"leg2", "1.3"}, {"leg3", "1.25"}, {"leg4", "1.3"}, {"leg5", "1.2"}, {"leg6", "1.3"}}),
+      values({{"leg1", "1.1"}, {"leg2", "1.0"}, {"leg3", "1.15"}, {"leg4", "1.1"}, {"leg5", "1.2"}, {"leg6", "1.1"}}), 6);
 }
 
 TEST(Path, OfASixRevoluteArmIsATube) {
-  const auto free = [](const std::string& joint) { return std::pair<std::string, std::string>("  range [" + joint + ", " + joint + "]", ""); };
-  expect_a_tube(changed("serial/ur5", {free("t1"), free("t4"), free("t6")}), Avoid::inverse,
-                values({{"theta1", "0"}, {"theta2", "-1"}, {"theta3", "1"}, {"theta4", "0.5"}, {"theta5", "1"}, {"theta6", "0"}}),
-                values({{"theta1", "2"}, {"theta2", "-0.5"}, {"theta3", "1.5"}, {"theta4", "-1"}, {"theta5", "2"}, {"theta6", "1"}}),
-                6);
+  const auto free = [](const std::string& joint) {
+    return std::pair<std::string, std::string>("  range [" + joint + ", " + joint + "]", "");
+  };
+  expect_a_tube(
+      changed("serial/ur5", {free("t1"), free("t4"), free("t6")}), Avoid::inverse,
+      values({{"theta1", "0"}, {"theta2", "-1"}, {"theta3", "1"}, {"theta4", "0.5"}, {"theta5", "1"}, {"theta6", "0"}}),
+      values({{"theta1", "2"}, {"theta2", "-0.5"}, {"theta3", "1.5"}, {"theta4", "-1"}, {"theta5", "2"}, {"theta6", "1"}}),
+      6);
 }
 
 }  // namespace
