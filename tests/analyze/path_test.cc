@@ -234,7 +234,6 @@ TEST(PathEnds, AreSolvedForFromSomeOfTheirCoordinates) {
   }
 }
 
-// Both arms keep their postures; the elbow J2 of one is turned over.
 TEST(Path, OfDextarKeepsItsLimits) {
   PathFinder finder(model_of("dextar_limits"), {});
   solve::Control control;
@@ -288,37 +287,42 @@ study::Question changed(const std::string& name, const std::vector<std::pair<std
   return {.model = study::read_model(path).mechanism};
 }
 
-void expect_a_tube(const study::Question& question, Avoid avoid, const std::vector<NamedValue>& a,
-                   const std::vector<NamedValue>& b, std::size_t dimension) {
+// Between number `mode_a` of the configurations with the values a and number `mode_b` of those with b, by sampling.
+void expect_a_tube(const study::Question& question, Avoid avoid, const std::vector<NamedValue>& a, int mode_a,
+                   const std::vector<NamedValue>& b, int mode_b, std::size_t dimension) {
   PathFinder finder(question, {.avoid = avoid});
   const PathSpace space(question, avoid);
   ASSERT_EQ(static_cast<std::size_t>(space.dimension()), dimension);
   solve::Control control;
-  const Box from = finder.end(a, 1, "--from", control), to = finder.end(b, 1, "--to", control);
+  const Box from = finder.end(a, mode_a, "--from", control), to = finder.end(b, mode_b, "--to", control);
   const Path path = finder.find(from, to, control);
   ASSERT_EQ(path.status, Path::Status::path) << path.reason;
-  std::cout << path.tube->pieces.size() << " pieces, radius " << path.tube->radius() << ", " << path.method << ", "
-            << path.seconds << " s\n";
+  EXPECT_EQ(path.method, "sampling");
   EXPECT_TRUE(samples_agree(space, *path.tube, 2000));
   EXPECT_TRUE(check::check_tube(finder.system(), finder.matrices(), *path.tube).verified());
 }
 
 TEST(Path, OfAStewartPlatformIsATube) {
-  expect_a_tube(
-      changed("platforms/stewart", {{"   keeps Rz(yaw)*Ry(pitch)*Rx(roll)", ""}}), Avoid::forward,
-      values({{"leg1", "1.2"}, {"leg2", "1.3"}, {"leg3", "1.25"}, {"leg4", "1.3"}, {"leg5", "1.2"}, {"leg6", "1.3"}}),
-      values({{"leg1", "1.1"}, {"leg2", "1.0"}, {"leg3", "1.15"}, {"leg4", "1.1"}, {"leg5", "1.2"}, {"leg6", "1.1"}}), 6);
+  const auto legs = [](const std::vector<std::string>& lengths) {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (std::size_t k = 0; k < lengths.size(); ++k) list.emplace_back("leg" + std::to_string(k + 1), lengths[k]);
+    return values(list);
+  };
+  expect_a_tube(changed("platforms/stewart", {{"   keeps Rz(yaw)*Ry(pitch)*Rx(roll)", ""}}), Avoid::forward,
+                legs({"1.2", "1.3", "1.25", "1.3", "1.2", "1.3"}), 1, legs({"1.1", "1.0", "1.15", "1.1", "1.2", "1.1"}), 3, 6);
 }
 
 TEST(Path, OfASixRevoluteArmIsATube) {
+  const auto angles = [](const std::vector<std::string>& radians) {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (std::size_t k = 0; k < radians.size(); ++k) list.emplace_back("theta" + std::to_string(k + 1), radians[k]);
+    return values(list);
+  };
   const auto free = [](const std::string& joint) {
     return std::pair<std::string, std::string>("  range [" + joint + ", " + joint + "]", "");
   };
-  expect_a_tube(
-      changed("serial/ur5", {free("t1"), free("t4"), free("t6")}), Avoid::inverse,
-      values({{"theta1", "0"}, {"theta2", "-1"}, {"theta3", "1"}, {"theta4", "0.5"}, {"theta5", "1"}, {"theta6", "0"}}),
-      values({{"theta1", "2"}, {"theta2", "-0.5"}, {"theta3", "1.5"}, {"theta4", "-1"}, {"theta5", "2"}, {"theta6", "1"}}),
-      6);
+  expect_a_tube(changed("serial/ur5", {free("t1"), free("t4"), free("t6")}), Avoid::inverse,
+                angles({"0", "-1", "1", "0.5", "1", "0"}), 1, angles({"3", "-1.5", "2", "3", "1", "2"}), 1, 6);
 }
 
 }  // namespace
