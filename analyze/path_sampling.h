@@ -1,5 +1,5 @@
-// Ways on a C-space of any dimension by sampling: OMPL's planners on the projected state space of a constraint (Kingston,
-// Moll, Kavraki 2019). In doubles; nothing is proven by them.
+// Ways on a C-space of any dimension by sampling: OMPL's planners on the projected state space of a constraint (key
+// Kingston2019). In doubles; nothing is proven by them.
 #pragma once
 
 #include <optional>

@@ -29,7 +29,7 @@ System without_inequalities(System system) {
 
 // All sides but the last, t's.
 bool has_spare_room(const Sheet& sheet) {
-  constexpr double kSpare = 0.03;
+  constexpr double kSpare = 0.06;
   for (std::size_t j = 0; j + 1 < sheet.region.size(); ++j) {
     const Interval &outer = sheet.region[j], &inner = sheet.image[j];
     const double spare = kSpare * outer.width();
@@ -39,7 +39,7 @@ bool has_spare_room(const Sheet& sheet) {
 }
 
 std::vector<Interval> inflated(std::vector<Interval> x) {
-  constexpr double kRoom = 0.25, kTiny = 1e-13;
+  constexpr double kRoom = 0.25, kTiny = 1e-11;
   for (std::size_t j = 0; j + 1 < x.size(); ++j) {
     const double room = kRoom * x[j].width() + kTiny * (1 + x[j].mag());
     x[j] += Interval(-room, room);

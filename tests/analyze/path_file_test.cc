@@ -19,8 +19,8 @@ result::PathFile make_file(Avoid avoid, const std::string& x, int mode) {
   const study::Question question{.model = study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik").mechanism};
   PathFinder finder(question, {.avoid = avoid});
   solve::Control control;
-  const auto at = [](const std::string& x) {
-    return std::vector<NamedValue>{{"J3x", symbolic::parse_expression(x, "J3x")}, {"J3y", symbolic::parse_expression("1", "J3y")}};
+  const auto at = [](const std::string& value) {
+    return std::vector<NamedValue>{{"J3x", symbolic::parse_expression(value, "J3x")}, {"J3y", symbolic::parse_expression("1", "J3y")}};
   };
   const Path path = finder.find(finder.end(at("0.5"), 1, "--from", control), finder.end(at(x), mode, "--to", control), control);
   result::PathFile file;
