@@ -1,5 +1,5 @@
-// A C-space of low dimension as a graph of the boxes of its cover: what the boxes keep apart is apart, and what they join may
-// be joined.
+// A C-space of low dimension as a graph of the boxes of its cover: what the boxes keep apart is apart, and what they join
+// may be joined.
 #pragma once
 
 #include <memory>

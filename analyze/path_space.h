@@ -1,5 +1,5 @@
-// A C-space with what a path on it is to avoid: its system, the matrices that keep their rank, and, in doubles, what planners
-// ask of it.
+// A C-space with what a path on it is to avoid: its system, the matrices that keep their rank, and, in doubles, what
+// planners ask of it.
 #pragma once
 
 #include <Eigen/Core>

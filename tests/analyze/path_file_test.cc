@@ -16,13 +16,16 @@ namespace {
 using ::testing::HasSubstr;
 
 result::PathFile make_file(Avoid avoid, const std::string& x, int mode) {
-  const study::Question question{.model = study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik").mechanism};
+  const study::Question question{.model =
+                                     study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik").mechanism};
   PathFinder finder(question, {.avoid = avoid});
   solve::Control control;
   const auto at = [](const std::string& value) {
-    return std::vector<NamedValue>{{"J3x", symbolic::parse_expression(value, "J3x")}, {"J3y", symbolic::parse_expression("1", "J3y")}};
+    return std::vector<NamedValue>{{"J3x", symbolic::parse_expression(value, "J3x")},
+                                   {"J3y", symbolic::parse_expression("1", "J3y")}};
   };
-  const Path path = finder.find(finder.end(at("0.5"), 1, "--from", control), finder.end(at(x), mode, "--to", control), control);
+  const Path path =
+      finder.find(finder.end(at("0.5"), 1, "--from", control), finder.end(at(x), mode, "--to", control), control);
   result::PathFile file;
   file.model = question.model.name();
   file.model_text = question.model.source_text();
@@ -52,7 +55,9 @@ TEST(PathFile, IsReadAsItWasWritten) {
   EXPECT_TRUE(result::verify(read).verified());
 }
 
-TEST(PathFile, OfBothKindsOfSingularitiesIsVerified) { EXPECT_TRUE(result::verify(make_file(Avoid::both, "0.3", 1)).verified()); }
+TEST(PathFile, OfBothKindsOfSingularitiesIsVerified) {
+  EXPECT_TRUE(result::verify(make_file(Avoid::both, "0.3", 1)).verified());
+}
 
 struct Change {
   const char* name;

@@ -18,7 +18,7 @@
 #include "corank/analyze/tube_builder.h"
 #include "corank/check/tube.h"
 #include "corank/study/model.h"
-#include "random_pairs.h"
+#include "corank/tests/analyze/random_pairs.h"
 
 namespace corank::analyze {
 namespace {
@@ -309,7 +309,8 @@ TEST(Path, OfAStewartPlatformIsATube) {
     return values(list);
   };
   expect_a_tube(changed("platforms/stewart", {{"   keeps Rz(yaw)*Ry(pitch)*Rx(roll)", ""}}), Avoid::forward,
-                legs({"1.2", "1.3", "1.25", "1.3", "1.2", "1.3"}), 1, legs({"1.1", "1.0", "1.15", "1.1", "1.2", "1.1"}), 3, 6);
+                legs({"1.2", "1.3", "1.25", "1.3", "1.2", "1.3"}), 1, legs({"1.1", "1.0", "1.15", "1.1", "1.2", "1.1"}), 3,
+                6);
 }
 
 TEST(Path, OfASixRevoluteArmIsATube) {

@@ -14,8 +14,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::vector<std::string> dextar(const std::string& to_mode, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> args{"path", model("dextar"),         "--from",    "J3x=0.5,J3y=1", "--from-mode", "1",
-                                "--to", "J3x=0.7,J3y=1",         "--to-mode", to_mode};
+  std::vector<std::string> args{"path", model("dextar"), "--from",        "J3x=0.5,J3y=1", "--from-mode",
+                                "1",    "--to",          "J3x=0.7,J3y=1", "--to-mode",     to_mode};
   args.insert(args.end(), more.begin(), more.end());
   return args;
 }
@@ -45,11 +45,14 @@ TEST(Path, SaysThatNoneExistsAndReturnsZero) {
 TEST(Path, ListsTheConfigurationsToChooseFrom) {
   const Outcome outcome = run_corank({"path", model("dextar"), "--from", "J3x=0.5,J3y=1", "--to", "J3x=0.7,J3y=1"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("--from: 4 configurations have these values"), HasSubstr("\n  4: J3x=0.5 J3y=1")));
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("--from: 4 configurations have these values"), HasSubstr("\n  4: J3x=0.5 J3y=1")));
 }
 
 TEST(Path, RefusesWhatMakesNoSense) {
-  const auto run = [](const std::string& from) { return run_corank({"path", model("dextar"), "--from", from, "--to", "J3x=0,J3y=1"}); };
+  const auto run = [](const std::string& from) {
+    return run_corank({"path", model("dextar"), "--from", from, "--to", "J3x=0,J3y=1"});
+  };
   EXPECT_THAT(run("J3x=0.5").err, HasSubstr("1 value of 2 that are needed"));
   EXPECT_THAT(run("J3x=0.5,knee=1").err, HasSubstr("there is no coordinate 'knee'"));
   EXPECT_THAT(run("J3x=9,J3y=1").err, HasSubstr("there is no configuration with these values"));

@@ -47,6 +47,16 @@ TEST_F(TubeOnACircle, HasPiecesThatHoldTheirNodes) {
   }
 }
 
+TEST_F(TubeOnACircle, HasNoPieceThatMissesANodesBox) {
+  const TubeNode a = node(0.1), b = node(0.3);
+  TubeNode wide = a;
+  wide.box[1] = Interval(-0.5, 0.5);
+  EXPECT_FALSE(prover_->piece(wide, b).has_value());
+  wide = b;
+  wide.box[1] = Interval(-0.5, 0.5);
+  EXPECT_FALSE(prover_->piece(a, wide).has_value());
+}
+
 // Opposite tangents: halfway T vanishes.
 TEST_F(TubeOnACircle, HasNoPieceBetweenOppositePoints) {
   EXPECT_FALSE(prover_->piece(node(0), node(std::acos(-1.0))).has_value());
