@@ -55,7 +55,9 @@ class PathFinder::Search {
   bool try_way(const Ends& ends, const TubeBuilder::Points& points, const std::string& method, Path& path,
                const solve::Control& control, std::size_t* failed = nullptr);
   void find_by_graph(const Ends& ends, Path& path, solve::Control& control);
-  void find_by_sampling(const Ends& ends, Path& path, const solve::Control& control);
+  /// `shares` of the ends' margin that a way is to keep, one after the other.
+  void find_by_sampling(const Ends& ends, const std::vector<double>& shares, double seconds, Path& path,
+                        const solve::Control& control);
 
   PathSpace space_;
   PathOptions options_;
@@ -85,6 +87,7 @@ bool PathFinder::Search::try_way(const Ends& ends, const TubeBuilder::Points& po
       path.status = Path::Status::path;
       path.method = method;
       path.tube = std::move(outcome.tube);
+      path.reason.clear();
       if (path.tube->radius() < options_.radius) path.reason = "no path with the radius asked for was found";
       return true;
     }
@@ -123,10 +126,11 @@ void PathFinder::Search::find_by_graph(const Ends& ends, Path& path, solve::Cont
                     : "no path was found, and none of the covers keeps the ends apart";
 }
 
-void PathFinder::Search::find_by_sampling(const Ends& ends, Path& path, const solve::Control& control) {
+void PathFinder::Search::find_by_sampling(const Ends& ends, const std::vector<double>& shares, double seconds, Path& path,
+                                          const solve::Control& control) {
   const double least = std::min(ends.state.margin, space_.state(ends.b).margin);
-  for (const double share : {0.3, 0.1, 0.03}) {
-    const auto way = sampled_way(space_, ends.a, ends.b, share * least, options_.sampling_seconds, control);
+  for (const double share : shares) {
+    const auto way = sampled_way(space_, ends.a, ends.b, share * least, seconds, control);
     if (way && try_way(ends, *way, "sampling", path, control)) return;
     if (control.ended()) break;
   }
@@ -164,11 +168,14 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
     };
     const auto between = builder_.follow(ends.a, ends.b, step, accept);
     if (!between || !try_way(ends, {ends.a, ends.b}, "direct", path, control)) {
-      if (space_.dimension() <= kMostOfGraph) {
-        find_by_graph(ends, path, control);
-      } else {
-        find_by_sampling(ends, path, control);
+      // A cover of three dimensions is dear: samples, which may find a way but never that there is none, come first.
+      const int dimension = space_.dimension();
+      if (dimension >= kMostOfGraph) {
+        const bool all = dimension > kMostOfGraph;
+        find_by_sampling(ends, all ? std::vector<double>{0.3, 0.1, 0.03} : std::vector<double>{0.1},
+                         options_.sampling_seconds * (all ? 1 : 0.25), path, control);
       }
+      if (dimension <= kMostOfGraph && !path.tube) find_by_graph(ends, path, control);
     }
   }
   if (path.tube) {
