@@ -142,7 +142,11 @@ TEST_F(TubeCheckOnACircle, RefusesWhatHasNotTheSizes) {
   tube_.pieces[0][0] = Interval::whole();
   refused("a piece");
   tube_ = {};
-  refused("two nodes");
+  refused("a tube has two nodes");
+  tube_.nodes.resize(1);
+  tube_.pieces.clear();
+  tube_.radii.clear();
+  refused("a tube has two nodes");
 }
 
 }  // namespace
