@@ -30,7 +30,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME libcorank-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(dependencies
     "corank (= ${version})" coinor-libipopt-dev libblas-dev libcairo2-dev libcln-dev libflint-dev libfmt-dev libginac-dev
-    libgmp-dev libhdf5-dev liblapack-dev libmpfi-dev libmpfr-dev libpugixml-dev libtbb-dev pkg-config zlib1g-dev)
+    libgmp-dev libhdf5-dev liblapack-dev libmpfi-dev libmpfr-dev libompl-dev libpugixml-dev libtbb-dev pkg-config zlib1g-dev)
 list(JOIN dependencies ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_DEV_DESCRIPTION "singularities of robot mechanisms (C++ library)
 corank takes the model of a robot mechanism and returns all its
