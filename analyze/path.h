@@ -10,6 +10,10 @@
 #include "corank/analyze/clearance.h"
 #include "corank/core/tube.h"
 
+namespace corank::result {
+struct PathFile;
+}
+
 namespace corank::analyze {
 
 enum class Avoid { forward, inverse, both };
@@ -81,6 +85,8 @@ std::vector<std::vector<double>> node_values(const System& system, const Tube& t
 std::string to_text(const PathFinder& finder, const Path& path);
 /// doc/paths.md.
 std::string to_json(const PathFinder& finder, const Path& path);
+/// What is written of a path, for others to check. Requires path.tube.
+result::PathFile to_file(const PathFinder& finder, const Path& path);
 /// A line for each node: the coordinates, then the radius about the piece that follows.
 std::string to_csv(const PathFinder& finder, const Path& path);
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corank/analyze/path.h"
+#include "corank/result/path_file.h"
 
 namespace corank::analyze {
 namespace {
@@ -89,6 +90,18 @@ std::string to_csv(const PathFinder& finder, const Path& path) {
     text += k < path.tube->radii.size() ? fmt::format("{:.17g}\n", path.tube->radii[k]) : "\n";
   }
   return text;
+}
+
+result::PathFile to_file(const PathFinder& finder, const Path& path) {
+  const study::Question& question = finder.question();
+  result::PathFile file;
+  file.model = question.model.name();
+  file.model_text = question.model.source_text();
+  file.constants = question.constants;
+  file.avoid = to_string(finder.options().avoid);
+  for (const Variable& v : finder.system().variables) file.variables.push_back(v.name);
+  file.tube = *path.tube;
+  return file;
 }
 
 }  // namespace corank::analyze

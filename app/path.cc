@@ -28,18 +28,6 @@ struct PathCommand {
   bool json = false;
 };
 
-result::PathFile file_of(const analyze::PathFinder& finder, const analyze::Path& found) {
-  const study::Question& question = finder.question();
-  result::PathFile file;
-  file.model = question.model.name();
-  file.model_text = question.model.source_text();
-  file.constants = question.constants;
-  file.avoid = analyze::to_string(finder.options().avoid);
-  for (const Variable& v : finder.system().variables) file.variables.push_back(v.name);
-  file.tube = *found.tube;
-  return file;
-}
-
 ExitStatus path(PathCommand command) {
   solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
   const study::Question question = load(command.question);
@@ -67,7 +55,7 @@ ExitStatus path(PathCommand command) {
   const analyze::Path found = finder.find(boxes[0], boxes[1], control);
   line.clear();
   if (!command.csv.empty()) result::write_text(command.csv, to_csv(finder, found));
-  if (!command.output.empty() && found.tube) result::write_path(command.output, file_of(finder, found));
+  if (!command.output.empty() && found.tube) result::write_path(command.output, analyze::to_file(finder, found));
   fmt::print("{}", command.json ? to_json(finder, found) + "\n" : result::printable(to_text(finder, found)));
   return found.status == analyze::Path::Status::unknown ? kIncomplete : kDone;
 }

@@ -7,12 +7,14 @@
 #include "corank/analyze/best_center.h"
 #include "corank/analyze/claims.h"
 #include "corank/analyze/clearance_map.h"
+#include "corank/analyze/path.h"
 #include "corank/analyze/topology.h"
 #include "corank/analyze/workspace_area.h"
 #include "corank/python/bindings.h"
 #include "corank/python/model.h"
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
+#include "corank/result/path_file.h"
 
 namespace corank::python {
 namespace {
@@ -56,6 +58,8 @@ py::tuple aspects(const Model& model, const analyze::AspectsOptions& options, do
     return Texts{to_json(question, a, !control.ended()), to_text(question, a)};
   });
 }
+
+constexpr std::string_view kAvoids[] = {"forward", "inverse", "both"};  // in the order of analyze::Avoid
 
 using Values = std::vector<std::pair<std::string, Expression>>;
 using Ranges = std::vector<std::tuple<std::string, Expression, Expression>>;
@@ -139,6 +143,54 @@ py::tuple clearance_map(const Model& model, const std::optional<std::string>& se
   });
 }
 
+struct End {
+  Values values;
+  int mode = 0;
+};
+
+// With the path's file, where there is a path.
+py::tuple path(const Model& model, const End& from, const End& to, const std::string& avoid, double radius, int threads,
+               std::uint64_t max_boxes, double time_limit, const py::object& progress) {
+  if (model.mechanism().is_plain_system())
+    throw std::invalid_argument(model.mechanism().name() +
+                                " has no inputs and outputs: a plain system has no singularities");
+  analyze::PathOptions options{.radius = radius, .threads = threads};
+  const auto which = std::find(std::begin(kAvoids), std::end(kAvoids), avoid);
+  if (which == std::end(kAvoids)) throw std::invalid_argument("avoid: expected \"forward\", \"inverse\" or \"both\"");
+  options.avoid = static_cast<analyze::Avoid>(which - std::begin(kAvoids));
+  if (max_boxes > 0) options.max_boxes = max_boxes;
+  struct Said {
+    Texts texts;
+    std::shared_ptr<result::PathFile> file;
+  };
+  auto [said, raised] =
+      run_for(progress, [question = configurations(model), from, to, options, time_limit](Watcher& watcher) {
+        solve::Control control({.time = time_limit, .stop = &watcher.stop});
+        watcher.follow(control);
+        analyze::PathFinder finder(question, options);
+        std::vector<Box> ends;
+        for (const auto& [end, name] : {std::pair(&from, "from"), std::pair(&to, "to")}) {
+          std::vector<analyze::NamedValue> values;
+          for (const auto& [coordinate, value] : end->values) values.push_back({coordinate, value});
+          ends.push_back(finder.end(values, end->mode, name, control));
+        }
+        const analyze::Path found = finder.find(ends[0], ends[1], control);
+        Said result{{to_json(finder, found), to_text(finder, found)}, {}};
+        if (found.tube) result.file = std::make_shared<result::PathFile>(to_file(finder, found));
+        return result;
+      });
+  return py::make_tuple(said.texts.json, said.texts.table, said.file, raised);
+}
+
+py::tuple verify_path(const result::PathFile& file, const py::object& progress) {
+  return said(progress, [file](Watcher& watcher) {
+    check::Options options;
+    options.stop = &watcher.stop;
+    const check::TubeReport report = result::verify(file, options);
+    return Texts{to_json(report, file), to_table(report, file)};
+  });
+}
+
 // Bounds of the area of the workspace in the plane of two lengths, from its boundary; with `anyway` by dividing the
 // plane where the boundary does not give them. None where there are none.
 std::optional<std::pair<double, double>> area(const Model& model, const std::vector<std::string>& outputs, int threads,
@@ -183,6 +235,14 @@ void bind_analyses(py::module_& module) {
                return list;
              });
   module.def("area", &area);
+  py::class_<result::PathFile, std::shared_ptr<result::PathFile>>(module, "PathFile")
+      .def("write", [](const result::PathFile& file, const std::string& path) { result::write_path(path, file); });
+  module.def("path",
+             [](const Model& m, const Values& from, int from_mode, const Values& to, int to_mode, const std::string& avoid,
+                double radius, int threads, std::uint64_t max_boxes, double time_limit, const py::object& progress) {
+               return path(m, {from, from_mode}, {to, to_mode}, avoid, radius, threads, max_boxes, time_limit, progress);
+             });
+  module.def("verify_path", &verify_path);
 }
 
 }  // namespace corank::python

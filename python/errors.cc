@@ -1,4 +1,5 @@
 // Exceptions of corank as those of corank/errors.py, which say in attributes where the fault is.
+#include "corank/analyze/path.h"
 #include "corank/python/bindings.h"
 #include "corank/result/cuik_sol.h"
 #include "corank/result/hdf5_file.h"
@@ -26,6 +27,8 @@ void bind_errors() {
       raise("ResultFileError", e.what(), e.line());
     } catch (const result::ResultFileError& e) {
       raise("ResultFileError", e.what());
+    } catch (const analyze::EndError& e) {
+      PyErr_SetString(PyExc_ValueError, e.what());
     } catch (const solve::OptionError& e) {
       raise("OptionError", e.option(), e.reason());
     }

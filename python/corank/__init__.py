@@ -17,6 +17,7 @@ from .expression import as_expression, as_relation, cos, degrees, linspace, pi, 
 from .mechanism import Coordinate, Mechanism, load, parse
 from .notebook import Page
 from .pages import USUAL_SETS, Report
+from .pathing import Path
 from .plotting import plot
 from .point import Interval, Point
 from .result import Angle, Result, Sigma, Verification
@@ -47,6 +48,7 @@ __all__ = [
     "ModelError",
     "OptionError",
     "Page",
+    "Path",
     "Point",
     "Relation",
     "Report",

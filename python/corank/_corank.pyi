@@ -212,6 +212,23 @@ def clearance_map(
     options: Options,
     progress: Any,
 ) -> Tuple[str, str, Optional[BaseException]]: ...
+class PathFile:
+    def write(self, path: str) -> None: ...
+
+def path(
+    model: Model,
+    start: Sequence[Tuple[str, _Like]],
+    start_mode: int,
+    end: Sequence[Tuple[str, _Like]],
+    end_mode: int,
+    avoid: str,
+    radius: float,
+    threads: int,
+    max_boxes: int,
+    time_limit: float,
+    progress: Any,
+) -> Tuple[str, str, Optional[PathFile], Optional[BaseException]]: ...
+def verify_path(file: PathFile, progress: Any) -> Tuple[str, str, Optional[BaseException]]: ...
 def declared_ranges(model: Model, set: Optional[str], names: List[str]) -> List[Tuple[str, Expression, Expression]]: ...
 def area(
     model: Model, outputs: List[str], threads: int, time_limit: float, anyway: bool, progress: Any

@@ -78,3 +78,26 @@ def test_a_plain_system_has_no_aspects():
     with pytest.raises(ValueError, match="plain system"):
         m.aspects()
     assert m.topology().components == (1, 1)
+
+
+def test_a_path_of_dextar_is_proven_saved_and_verified(dextar, tmp_path):
+    way = dextar.path({"J3x": 0.3, "J3y": 1}, {"J3x": 0.9, "J3y": 1.1}, start_mode=1, end_mode=1)
+    assert way and way.status == "path" and way.radius > 0 and way.verify()
+    assert way.waypoints[0]["J3x"] == pytest.approx(0.3) and way.waypoints[-1]["J3y"] == pytest.approx(1.1)
+    assert list(way.to_pandas().columns) == list(way.waypoints[0]) and len(way.radii) == len(way.waypoints) - 1
+    way.save(tmp_path / "way.h5")
+    assert (tmp_path / "way.h5").stat().st_size > 0
+
+
+def test_ends_of_unlike_signs_are_separated(dextar):
+    apart = dextar.path({"J3x": 0.3, "J3y": 1}, {"J3x": 0.3, "J3y": 1}, start_mode=1, end_mode=2, avoid="both")
+    assert not apart and apart.status == "separated" and apart.reason
+    with pytest.raises(ValueError, match="there is no path"):
+        apart.save("nowhere.h5")
+
+
+def test_ends_that_are_not_one_configuration_are_listed(dextar):
+    with pytest.raises(ValueError, match="4 configurations"):
+        dextar.path({"J3x": 0.3, "J3y": 1}, {"J3x": 0.9, "J3y": 1.1})
+    with pytest.raises(ValueError, match="avoid"):
+        dextar.path({"J3x": 0.3, "J3y": 1}, {"J3x": 0.9, "J3y": 1.1}, avoid="none")
