@@ -47,6 +47,8 @@ class PieceCounter {
       control_.report(c, cells_.cells().size());
     }
     join_at_ends();
+    join_touching();
+    join_at_ends();
     upper_bound(result);
     lower_bound(result);
     return result;
@@ -83,10 +85,10 @@ class PieceCounter {
           signs[static_cast<std::size_t>(cell.mixed[k])] = (choice >> k & 1) != 0 ? 1 : -1;
         if (!cell.resolved) {
           add_part(c, signs, Kind::unknown, false);
-        } else if (cell.mixed.size() > 1) {
-          add_part(c, signs, Kind::passage, false);
         } else {
-          const int part = cells_.part_of_one(cell, signs[static_cast<std::size_t>(cell.mixed.front())]);
+          int part =
+              cell.mixed.size() == 1 ? cells_.part_of_one(cell, signs[static_cast<std::size_t>(cell.mixed.front())]) : 0;
+          if (part == 0) part = cells_.part_by_outflow(cell, signs);
           if (part >= 0) add_part(c, signs, part > 0 ? Kind::connected : Kind::passage, part > 0);
         }
       }
@@ -163,6 +165,39 @@ class PieceCounter {
         break;
       }
     }
+  }
+
+  // Connected parts of like signs that touch and are not joined yet: points of the one's X_F next to the other, more and
+  // more of them.
+  void join_touching() {
+    constexpr int kRows = 4;
+    for (int row = 0; row < kRows; ++row)
+      for_each_pair([&](std::size_t p, std::size_t q) {
+        if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected) return;
+        const UpwardRounding rounding;
+        for (const auto& [from, to] : {std::pair(p, q), std::pair(q, p)})
+          if (proven_.find_set(p) != proven_.find_set(q)) join_next_to(parts_[from].cell, parts_[to].cell, 4 << row);
+      });
+  }
+
+  // At `count` + 1 points along each free side, those on the other free sides' ends and middles.
+  void join_next_to(std::size_t c, std::size_t d, int count) {
+    const SignCell& cell = cells_.cells()[c];
+    const std::vector<int>& frees = cells_.free(cell);
+    Box near = cell.sides;
+    for (std::size_t j = 0; j < near.size(); ++j)
+      if (!near[j].intersect(cells_.cells()[d].sides[j])) return;
+    Box at = cells_.region(cell);
+    for (const int along : frees)
+      for (int k = 0; k <= count; ++k)
+        for (const double others : {0.0, 0.5, 1.0}) {
+          for (const int f : frees) {
+            const auto j = static_cast<std::size_t>(f);
+            const double share = f == along ? static_cast<double>(k) / count : others;
+            at[j] = Interval(std::clamp(near[j].lo() + share * near[j].width(), near[j].lo(), near[j].hi()));
+          }
+          if (const std::optional<Box> point = test_.solution_in(at, cell.sides)) join_at(*point);
+        }
   }
 
   // Is a solution in the piece and in the cell proven?

@@ -29,7 +29,7 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
   const UpwardRounding rounding;
   for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
     CORANK_CHECK(cover.boxes[i].verdict == Verdict::regular);
-    SignCell cell{static_cast<int>(i), cover.boxes[i].box, {}, {}, false};
+    SignCell cell{static_cast<int>(i), cover.boxes[i].box, {}, {}, false, {}, {}};
     evaluate(cell);
     cells_.push_back(std::move(cell));
   }
@@ -213,7 +213,7 @@ std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
   if (!(side.lo() < cut && cut < side.hi())) return std::nullopt;
   std::vector<SignCell> result;
   for (const Interval& half : {Interval(side.lo(), cut), Interval(cut, side.hi())}) {
-    SignCell child{cell.box, cell.sides, {}, {}, false, {}};
+    SignCell child{cell.box, cell.sides, {}, {}, false, {}, {}};
     child.sides[j] = half;
     evaluate(child);
     if (!is_covered_before(child)) result.push_back(std::move(child));
@@ -221,12 +221,25 @@ std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
   return result;
 }
 
-// Those of two mixed functions in groups that share no direction.
-std::vector<std::size_t> SignCells::touching_passages() const {
+bool SignCells::has_known_parts(SignCell& cell) {
+  if (cell.known_parts) return *cell.known_parts;
+  std::vector<int> signs;
+  for (const Interval& g : cell.range) signs.push_back(g.lo() > 0 ? 1 : -1);
+  cell.known_parts = true;
+  for (std::size_t choice = 0; choice < std::size_t{1} << cell.mixed.size() && *cell.known_parts; ++choice) {
+    for (std::size_t k = 0; k < cell.mixed.size(); ++k)
+      signs[static_cast<std::size_t>(cell.mixed[k])] = (choice >> k & 1) != 0 ? 1 : -1;
+    cell.known_parts = part_by_outflow(cell, signs) != 0;
+  }
+  return *cell.known_parts;
+}
+
+// Those of two mixed functions in groups that share no direction, but for those whose parts are known.
+std::vector<std::size_t> SignCells::touching_passages() {
   std::vector<std::size_t> cells, result;
   std::vector<const Box*> sides;
   for (std::size_t c = 0; c < cells_.size(); ++c)
-    if (cells_[c].resolved && cells_[c].mixed.size() == 2) {
+    if (cells_[c].resolved && cells_[c].mixed.size() == 2 && !has_known_parts(cells_[c])) {
       cells.push_back(c);
       sides.push_back(&cells_[c].sides);
     }

@@ -16,6 +16,9 @@
 // one sign there. Then
 // each point of the part of signs s is joined in it to a point on the cell's border, which is another cell's, too: the
 // part adds no piece.
+// Lemma 4: let the dimension be 2 and d as in lemma 3, with s_k·∂g_k/∂d > 0. The sides of X_F through which d points out
+// of it are one arc. Along d every point of the part of signs s comes to that arc without leaving the part: so the part is
+// connected where its points on the arc are, and empty where there are none.
 #pragma once
 
 #include <array>
@@ -43,6 +46,7 @@ struct SignCell {
   /// Of one or two mixed functions: the directions of lemma 3, as bits, for unlike and for like signs. They are the same
   /// for all cells of one box of the cover: where neighbours share one, no piece hides in them together.
   std::array<std::uint64_t, 2> directions{};
+  std::optional<bool> known_parts{};  ///< does lemma 4 hold for each choice of signs? Once it was asked
 };
 
 /// Cells of a cover all of whose boxes are `regular`.
@@ -67,8 +71,11 @@ class SignCells {
   /// Lemma 2 for the one mixed function of a cell and a sign: is the part proven to be connected and not empty (1), empty
   /// (−1), or neither (0)?
   int part_of_one(const SignCell& cell, int sign);
+  /// Lemma 4 for the part of these signs, one of each function: likewise.
+  int part_by_outflow(const SignCell& cell, const std::vector<int>& signs);
 
  private:
+  struct Arc;
   struct Slopes {
     std::vector<std::vector<Interval>> of;  // of each mixed function by each free variable
   };
@@ -79,7 +86,13 @@ class SignCells {
   bool resolve(SignCell& cell);
   std::optional<std::vector<SignCell>> halves(const SignCell& cell);
   bool is_covered_before(const SignCell& cell) const;
-  std::vector<std::size_t> touching_passages() const;
+  std::vector<std::size_t> touching_passages();
+  bool has_known_parts(SignCell& cell);
+  // The part of a cell's sheet over other free sides, with its ranges.
+  SignCell cell_over(const SignCell& cell, Box sides) const;
+  static int holds(const SignCell& cell, const std::vector<int>& signs);
+  // The part of these signs on a segment of a side of X_F; false: not known.
+  bool add_segment(const SignCell& cell, const std::vector<int>& signs, int along, bool upwards, int depth, Arc& arc);
   bool find_directions(SignCell& cell);
   std::vector<std::vector<double>> directions(const SignCell& cell) const;
   int connected(const SignCell& cell, int function, int sign, const std::vector<Interval>& slope, Box sides,
