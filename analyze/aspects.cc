@@ -157,9 +157,10 @@ class PieceCounter {
     for (const End& end : ends_) {
       if (proven_.find_set(end.part) == proven_.find_set(end.other)) continue;
       for (const double radius : {1e-3, 1e-5, 1e-7}) {
-        const std::optional<Box> piece = test_.piece_about(end.point, radius);
-        if (!piece || cells_.signs(*piece) != parts_[end.part].signs) continue;
-        if (!meets(*piece, cells_.cells()[parts_[end.part].cell]) || !meets(*piece, cells_.cells()[parts_[end.other].cell]))
+        const certify::Sheet piece = test_.piece_about(end.point, radius);
+        if (!piece.proven || cells_.signs(piece.region) != parts_[end.part].signs) continue;
+        if (!meets(piece.region, cells_.cells()[parts_[end.part].cell]) ||
+            !meets(piece.region, cells_.cells()[parts_[end.other].cell]))
           continue;
         proven_.union_set(end.part, end.other);
         break;

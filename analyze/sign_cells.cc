@@ -25,7 +25,7 @@ std::vector<int> dependent_of(const std::vector<int>& free, int variables) {
 }  // namespace
 
 SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions)
-    : system_(system), cover_(cover), compiled_(system, functions) {
+    : system_(system), cover_(cover), given_(cover.boxes.size()), compiled_(system, functions), test_(system) {
   const UpwardRounding rounding;
   for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
     CORANK_CHECK(cover.boxes[i].verdict == Verdict::regular);
@@ -33,16 +33,26 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
     evaluate(cell);
     cells_.push_back(std::move(cell));
   }
+  index_boxes();
+}
+
+void SignCells::index_boxes() {
   std::vector<const Box*> sides;
-  for (const CoverBox& box : cover.boxes) sides.push_back(&box.box);
-  if (!sides.empty()) boxes_ = std::make_shared<const BoxTree>(std::move(sides), cover.boxes.front().box.size());
+  for (const CoverBox& box : cover_.boxes) sides.push_back(&box.box);
+  if (!sides.empty()) boxes_ = std::make_shared<const BoxTree>(std::move(sides), cover_.boxes.front().box.size());
+}
+
+// Those that were added first of all: they are there to take over.
+bool SignCells::comes_before(int a, int b) const {
+  const auto added = [&](int i) { return static_cast<std::size_t>(i) >= given_; };
+  return added(a) != added(b) ? added(a) : a < b;
 }
 
 // Do all of the cell's solutions lie in a box that comes before its own? That box's cells hold them, too.
 bool SignCells::is_covered_before(const SignCell& cell) const {
   bool covered = false;
   boxes_->for_each_overlapping(cell.sides, 0.0, [&](std::size_t b) {
-    if (covered || static_cast<int>(b) >= cell.box) return;
+    if (covered || !comes_before(static_cast<int>(b), cell.box)) return;
     const CoverBox& other = cover_.boxes[b];
     const Box& other_region = cover_.regions[static_cast<std::size_t>(other.region)];
     for (std::size_t j = 0; j < cell.sides.size(); ++j)
@@ -235,8 +245,9 @@ bool SignCells::has_known_parts(SignCell& cell) {
 }
 
 // Those of two mixed functions in groups that share no direction, but for those whose parts are known.
-std::vector<std::size_t> SignCells::touching_passages() {
-  std::vector<std::size_t> cells, result;
+std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
+  std::vector<std::size_t> cells;
+  std::vector<std::vector<std::size_t>> result;
   std::vector<const Box*> sides;
   for (std::size_t c = 0; c < cells_.size(); ++c)
     if (cells_[c].resolved && cells_[c].mixed.size() == 2 && !has_known_parts(cells_[c])) {
@@ -253,10 +264,33 @@ std::vector<std::size_t> SignCells::touching_passages() {
     for (const std::size_t c : list)
       for (std::size_t k = 0; k < 2; ++k)
         common[k] &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[k] : 0;
-    if (list.size() > 1 && (common[0] == 0 || common[1] == 0)) result.insert(result.end(), list.begin(), list.end());
+    if (list.size() > 1 && (common[0] == 0 || common[1] == 0)) result.push_back(list);
   }
-  std::sort(result.begin(), result.end());
   return result;
+}
+
+// One whose region holds all of the cells' solutions.
+std::optional<SignCell> SignCells::sheet_over(const std::vector<std::size_t>& cells) {
+  Box hull = cells_[cells.front()].sides;
+  for (const std::size_t c : cells)
+    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cells_[c].sides[j]);
+  double radius = 0;
+  for (std::size_t j = 0; j < hull.size(); ++j) radius = std::max(radius, hull[j].width() / compiled_.scales()[j]);
+  certify::Sheet sheet = test_.piece_about(hull, radius);
+  if (!sheet.proven) return std::nullopt;
+  for (std::size_t j = 0; j < hull.size(); ++j)
+    if (!sheet.region[j].contains(hull[j])) return std::nullopt;
+  CoverBox box;
+  box.box = std::move(sheet.image);
+  box.verdict = Verdict::regular;
+  for (int j = 0; j < system_.size(); ++j)
+    if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) box.free.push_back(j);
+  box.region = static_cast<int>(cover_.regions.size());
+  cover_.regions.push_back(std::move(sheet.region));
+  cover_.boxes.push_back(std::move(box));
+  SignCell cell{static_cast<int>(cover_.boxes.size()) - 1, cover_.boxes.back().box, {}, {}, false, {}, {}};
+  evaluate(cell);
+  return cell;
 }
 
 void SignCells::refine(int halvings, int rounds, solve::Control& control) {
@@ -286,11 +320,19 @@ void SignCells::refine(int halvings, int rounds, solve::Control& control) {
   };
   work();
   for (int round = 0; round < rounds && !control.ended(); ++round) {
-    const std::vector<std::size_t> touching = touching_passages();
+    std::vector<std::size_t> touching;
+    for (const std::vector<std::size_t>& group : touching_passages()) {
+      touching.insert(touching.end(), group.begin(), group.end());
+      if (auto cell = sheet_over(group)) waiting.push_back({std::move(*cell), halvings / 2});
+    }
     if (touching.empty()) return;
+    std::sort(touching.begin(), touching.end());
+    index_boxes();
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       std::optional<std::vector<SignCell>> parts;
-      if (std::binary_search(touching.begin(), touching.end(), c)) parts = halves(cells_[c]);
+      const bool asked = std::binary_search(touching.begin(), touching.end(), c);
+      if (asked && is_covered_before(cells_[c])) continue;
+      if (asked) parts = halves(cells_[c]);
       if (!parts) done.push_back(std::move(cells_[c]));
       if (parts)
         for (SignCell& part : *parts) waiting.push_back({std::move(part), halvings / 2});

@@ -29,6 +29,7 @@
 
 #include "corank/analyze/components.h"
 #include "corank/certify/compiled_system.h"
+#include "corank/certify/meeting.h"
 #include "corank/certify/newton.h"
 
 namespace corank {
@@ -56,10 +57,12 @@ class SignCells {
   SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions);
 
   /// Divides cells until they are resolved, or the number of halvings of a box is reached; then, so many times, those that
-  /// the third lemma resolves and that touch others of their kind with which they share no direction.
+  /// the third lemma resolves and that touch others of their kind with which they share no direction: a sheet of their own
+  /// is put over them where one is proven, as where loci cross on a border between sheets.
   void refine(int halvings, int rounds, solve::Control& control);
 
   const std::vector<SignCell>& cells() const { return cells_; }
+  /// The one given, and sheets that were put over parts of it.
   const Cover& cover() const { return cover_; }
   const System& system() const { return system_; }
   int functions() const { return compiled_.values(); }
@@ -86,7 +89,9 @@ class SignCells {
   bool resolve(SignCell& cell);
   std::optional<std::vector<SignCell>> halves(const SignCell& cell);
   bool is_covered_before(const SignCell& cell) const;
-  std::vector<std::size_t> touching_passages();
+  std::vector<std::vector<std::size_t>> touching_passages();
+  std::optional<SignCell> sheet_over(const std::vector<std::size_t>& cells);
+  void index_boxes();
   bool has_known_parts(SignCell& cell);
   // The part of a cell's sheet over other free sides, with its ranges.
   SignCell cell_over(const SignCell& cell, Box sides) const;
@@ -101,11 +106,14 @@ class SignCells {
   certify::Preconditioner preconditioner(const SignCell& cell, const Box& sides) const;
 
   const System& system_;
-  const Cover& cover_;
+  Cover cover_;
+  std::size_t given_;  // boxes of the cover that was given
   certify::CompiledSystem compiled_;  // value rows: the functions
   certify::NewtonWorkspace workspace_;
+  certify::MeetingTest test_;
   std::vector<SignCell> cells_;
   std::shared_ptr<const BoxTree> boxes_;  // of the cover
+  bool comes_before(int a, int b) const;  // of two boxes: the later one's cells may leave solutions to the other's
 };
 
 }  // namespace corank::analyze
