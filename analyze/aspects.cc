@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "corank/analyze/limits.h"
 #include "corank/certify/meeting.h"
 #include "corank/core/box_tree.h"
 #include "corank/core/rounding.h"
@@ -74,23 +75,15 @@ class PieceCounter {
     part_of_.resize(cells_.cells().size());
     for (std::size_t c = 0; c < cells_.cells().size(); ++c) {
       const SignCell& cell = cells_.cells()[c];
-      Signs signs;
-      for (const Interval& g : cell.range) signs.push_back(g.lo() > 0 ? 1 : -1);
-      if (cell.mixed.empty()) {
-        add_part(c, signs, Kind::connected, true);
-        continue;
-      }
-      for (std::uint64_t choice = 0; choice < std::uint64_t{1} << std::min<std::size_t>(cell.mixed.size(), 16); ++choice) {
-        for (std::size_t k = 0; k < cell.mixed.size(); ++k)
-          signs[static_cast<std::size_t>(cell.mixed[k])] = (choice >> k & 1) != 0 ? 1 : -1;
-        if (!cell.resolved) {
-          add_part(c, signs, Kind::unknown, false);
-        } else {
-          int part =
-              cell.mixed.size() == 1 ? cells_.part_of_one(cell, signs[static_cast<std::size_t>(cell.mixed.front())]) : 0;
-          if (part == 0) part = cells_.part_by_outflow(cell, signs);
-          if (part >= 0) add_part(c, signs, part > 0 ? Kind::connected : Kind::passage, part > 0);
-        }
+      const std::vector<Signs> choices = cells_.choices(cell);
+      crowded_ = crowded_ || choices.empty();
+      for (const Signs& signs : choices) {
+        int part = 0;
+        if (cell.mixed.empty()) part = 1;
+        if (cell.mixed.size() == 1) part = cells_.part_of_one(cell, signs[static_cast<std::size_t>(cell.mixed.front())]);
+        if (part == 0) part = cells_.part_by_outflow(cell, signs);
+        if (part > 0) add_part(c, signs, Kind::connected, true);
+        if (part == 0) add_part(c, signs, cell.resolved ? Kind::passage : Kind::unknown, false);
       }
     }
   }
@@ -243,9 +236,7 @@ class PieceCounter {
         const SignCell& cell = cells_.cells()[parts_[p].cell];
         const SignCell& first = cells_.cells()[parts_[list.front()].cell];
         const bool same = cell.box == first.box && cell.mixed == first.mixed;
-        const int product = parts_[p].signs[static_cast<std::size_t>(cell.mixed.front())] *
-                            parts_[p].signs[static_cast<std::size_t>(cell.mixed.back())];
-        common &= same || list.size() == 1 ? cell.directions[product > 0 ? 1 : 0] : 0;
+        common &= same || list.size() == 1 ? cell.directions[cells_.choice(cell, parts_[p].signs)] : 0;
       }
       if (common == 0) hidden = true;
     }
@@ -270,8 +261,8 @@ class PieceCounter {
       const auto mixed = [&](std::size_t k) { return cells_.cells()[parts_[k].cell].mixed.size(); };
       if (!fresh && mixed(p) < mixed(place->second)) place->second = p;
     }
-    if (control_.ended()) {
-      result.reason = "the analysis was ended by a limit";
+    if (control_.ended() || crowded_) {
+      if (control_.ended()) result.reason = "the analysis was ended by a limit";
       result.at_least = known.empty() ? 0 : 1;
     } else {
       result.at_least = static_cast<int>(known.size());
@@ -285,7 +276,7 @@ class PieceCounter {
         at[static_cast<std::size_t>(f)] = Interval(cell.sides[static_cast<std::size_t>(f)].mid());
       std::optional<Box> point = cell.mixed.empty() ? test_.solution_in(at, cell.sides) : parts_[p].solution;
       result.representatives.push_back(point.value_or(cell.sides));
-      result.signs.push_back(parts_[p].signs);
+      result.signs.emplace_back(parts_[p].signs.begin(), parts_[p].signs.end() - cells_.limits());
     }
   }
 
@@ -301,6 +292,7 @@ class PieceCounter {
   std::vector<std::map<Signs, std::size_t>> part_of_;  // of each cell
   std::optional<BoxTree> tree_;
   std::vector<End> ends_;
+  bool crowded_ = false;  // some cell's parts are not even listed
   boost::disjoint_sets_with_storage<> proven_;
 };
 
@@ -334,8 +326,8 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
                  2;  // sheets are not cut
   const Cover cover = solve::solve(solve::prepare(result.system, search, control), control);
   for (const CoverBox& box : cover.boxes)
-    if (box.verdict != Verdict::regular) {
-      result.reason = "C-space is not shown to be smooth and without boundary in the search domain";
+    if (box.verdict != Verdict::regular && box.verdict != Verdict::boundary) {
+      result.reason = "C-space is not shown to be smooth in the search domain";
       return result;
     }
   if (!cover.complete() || static_cast<int>(result.system.equations.size()) + cover.dimension != result.system.size()) {
@@ -345,8 +337,13 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   std::vector<symbolic::Expression> both = forward;
   for (const auto& e : inverse)
     if (std::none_of(forward.begin(), forward.end(), [&](const auto& f) { return same_tree(e, f); })) both.push_back(e);
+  std::vector<Polynomial> ends;
+  for (const Limit& limit : limits(result.system, cover)) {
+    result.limits.push_back(limit.name);
+    ends.push_back(limit.function);
+  }
   const auto count = [&](const std::vector<symbolic::Expression>& functions) {
-    SignCells cells(result.system, cover, symbolic::polynomials(equations, functions));
+    SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends);
     cells.refine(options.halvings, options.rounds, control);
     return pieces(cells, control);
   };

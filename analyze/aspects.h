@@ -4,8 +4,8 @@
 //   assembly modes  pieces of C-space without forward singularities
 //   working modes   pieces of C-space without inverse singularities
 //
-// Counted on cells (sign_cells.h) of a smooth C-space without boundary in the search domain. In each piece the factors of
-// the determinants of L_y and L_z keep their signs.
+// Counted on cells (sign_cells.h) of a C-space that is smooth in the search domain, strictly within its limits. In each
+// piece the factors of the determinants of L_y and L_z keep their signs.
 #pragma once
 
 #include <string>
@@ -36,6 +36,7 @@ Pieces pieces(SignCells& cells, solve::Control& control);
 struct Aspects {
   Pieces aspects, assembly_modes, working_modes;
   std::vector<std::string> forward_factors, inverse_factors;  ///< of det L_y, det L_z
+  std::vector<std::string> limits;                            ///< to which C-space comes: pieces are strictly within
   System system;                                              ///< C-space: the variables of the boxes
   std::string reason;                                         ///< why nothing is known; empty where something is
 };

@@ -22,16 +22,32 @@ std::vector<int> dependent_of(const std::vector<int>& free, int variables) {
   return result;
 }
 
+std::vector<Polynomial> joined(std::vector<Polynomial> a, const std::vector<Polynomial>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 }  // namespace
 
-SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions)
-    : system_(system), cover_(cover), given_(cover.boxes.size()), compiled_(system, functions), test_(system) {
+SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
+                     const std::vector<Polynomial>& limits)
+    : system_(system),
+      cover_(cover),
+      given_(cover.boxes.size()),
+      limits_(static_cast<int>(limits.size())),
+      compiled_(system, joined(functions, limits)),
+      test_(system) {
   const UpwardRounding rounding;
   for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
-    CORANK_CHECK(cover.boxes[i].verdict == Verdict::regular);
-    SignCell cell{static_cast<int>(i), cover.boxes[i].box, {}, {}, false, {}, {}};
+    const CoverBox& box = cover.boxes[i];
+    CORANK_CHECK((box.verdict == Verdict::regular || box.verdict == Verdict::boundary) && box.region >= 0);
+    SignCell cell{static_cast<int>(i), box.box, {}, {}, false, {}, {}};
+    // The sheet of a `boundary` box may go on beyond the domain.
+    if (box.verdict == Verdict::boundary)
+      for (const int d : dependent_of(box.free, system.size()))
+        cell.sides[static_cast<std::size_t>(d)] = region(cell)[static_cast<std::size_t>(d)];
     evaluate(cell);
-    cells_.push_back(std::move(cell));
+    if (!is_outside(cell)) cells_.push_back(std::move(cell));
   }
   index_boxes();
 }
@@ -95,6 +111,37 @@ void SignCells::evaluate(SignCell& cell) {
     cell.range.push_back(value);
   }
   cell.resolved = resolve(cell);
+}
+
+bool SignCells::is_outside(const SignCell& cell) const {
+  return std::any_of(cell.mixed.begin(), cell.mixed.end(),
+                     [&](int k) { return is_limit(k) && cell.range[static_cast<std::size_t>(k)].hi() <= 0; }) ||
+         std::any_of(cell.range.end() - limits_, cell.range.end(), [](const Interval& g) { return g.hi() < 0; });
+}
+
+std::size_t SignCells::choice(const SignCell& cell, const std::vector<int>& signs) const {
+  std::size_t result = 0, bit = 1;
+  for (const int k : cell.mixed) {
+    if (is_limit(k)) continue;
+    if (signs[static_cast<std::size_t>(k)] > 0) result |= bit;
+    bit *= 2;
+  }
+  return result;
+}
+
+std::vector<std::vector<int>> SignCells::choices(const SignCell& cell) const {
+  std::vector<int> open, signs;
+  for (const Interval& g : cell.range) signs.push_back(g.hi() < 0 ? -1 : 1);
+  for (const int k : cell.mixed)
+    if (!is_limit(k)) open.push_back(k);
+  std::vector<std::vector<int>> result;
+  if (open.size() > 2) return result;
+  for (std::size_t number = 0; number < std::size_t{1} << open.size(); ++number) {
+    for (std::size_t k = 0; k < open.size(); ++k)
+      signs[static_cast<std::size_t>(open[k])] = (number >> k & 1) != 0 ? 1 : -1;
+    result.push_back(signs);
+  }
+  return result;
 }
 
 // Theorem: at a solution the sheet's tangent space is the kernel of the equations' Jacobian J; with V its basis whose free
@@ -165,6 +212,10 @@ std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) con
         d[b] = 0;
       }
   }
+  // Where three limits meet.
+  for (std::size_t signs = 0; frees.size() == 3 && signs < 4; ++signs)
+    for (const double share : {1.0, 0.4})
+      result.push_back({width(0), ((signs & 1) != 0 ? share : -share) * width(1), ((signs & 2) != 0 ? share : -share) * width(2)});
   constexpr std::size_t kBits = 64;
   if (result.size() > kBits) result.resize(kBits);
   return result;
@@ -174,26 +225,31 @@ std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) con
 bool SignCells::find_directions(SignCell& cell) {
   Slopes s;
   cell.directions = {};
-  if (cell.mixed.size() > 2 || !slopes(cell, s)) return false;
+  const std::vector<std::vector<int>> all = choices(cell);
+  if (all.empty() || !slopes(cell, s)) return false;
+  for (std::size_t c = all.size(); c < cell.directions.size(); ++c) cell.directions[c] = ~std::uint64_t{0};
   std::uint64_t bit = 1;
   for (const std::vector<double>& d : directions(cell)) {
-    std::vector<int> signs;
-    for (const std::vector<Interval>& slope : s.of) {
-      Interval along;
-      for (std::size_t f = 0; f < d.size(); ++f) along += Interval(d[f]) * slope[f];
-      signs.push_back(sign_of(along));
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      bool grow = true, shrink = true;
+      for (std::size_t k = 0; k < cell.mixed.size(); ++k) {
+        Interval along;
+        for (std::size_t f = 0; f < d.size(); ++f) along += Interval(d[f]) * s.of[k][f];
+        const int growth = sign_of(along) * all[c][static_cast<std::size_t>(cell.mixed[k])];
+        grow = grow && growth > 0;
+        shrink = shrink && growth < 0;
+      }
+      if (grow || shrink) cell.directions[c] |= bit;
     }
-    const int product = signs.front() * signs.back();
-    if (product != 0 && (signs.size() == 1 || product < 0)) cell.directions[0] |= bit;
-    if (product > 0) cell.directions[1] |= bit;
     bit <<= 1;
   }
-  return cell.directions[0] != 0 && cell.directions[1] != 0;
+  return std::find(cell.directions.begin(), cell.directions.end(), 0U) == cell.directions.end();
 }
 
 bool SignCells::resolve(SignCell& cell) {
   if (cell.mixed.empty()) return true;
-  if (cell.mixed.size() == 1) return part_of_one(cell, 1) != 0 && part_of_one(cell, -1) != 0;
+  if (cell.mixed.size() == 1)
+    return part_of_one(cell, 1) != 0 && (is_limit(cell.mixed.front()) || part_of_one(cell, -1) != 0);
   return find_directions(cell);
 }
 
@@ -226,31 +282,28 @@ std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
     SignCell child{cell.box, cell.sides, {}, {}, false, {}, {}};
     child.sides[j] = half;
     evaluate(child);
-    if (!is_covered_before(child)) result.push_back(std::move(child));
+    if (!is_outside(child) && !is_covered_before(child)) result.push_back(std::move(child));
   }
   return result;
 }
 
 bool SignCells::has_known_parts(SignCell& cell) {
-  if (cell.known_parts) return *cell.known_parts;
-  std::vector<int> signs;
-  for (const Interval& g : cell.range) signs.push_back(g.lo() > 0 ? 1 : -1);
-  cell.known_parts = true;
-  for (std::size_t choice = 0; choice < std::size_t{1} << cell.mixed.size() && *cell.known_parts; ++choice) {
-    for (std::size_t k = 0; k < cell.mixed.size(); ++k)
-      signs[static_cast<std::size_t>(cell.mixed[k])] = (choice >> k & 1) != 0 ? 1 : -1;
-    cell.known_parts = part_by_outflow(cell, signs) != 0;
+  if (!cell.known_parts) {
+    const std::vector<std::vector<int>> all = choices(cell);
+    cell.known_parts = !all.empty() && std::all_of(all.begin(), all.end(), [&](const std::vector<int>& signs) {
+      return part_by_outflow(cell, signs) != 0;
+    });
   }
   return *cell.known_parts;
 }
 
-// Those of two mixed functions in groups that share no direction, but for those whose parts are known.
+// Those of several mixed functions in groups that share no direction, but for those whose parts are known.
 std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
   std::vector<std::size_t> cells;
   std::vector<std::vector<std::size_t>> result;
   std::vector<const Box*> sides;
   for (std::size_t c = 0; c < cells_.size(); ++c)
-    if (cells_[c].resolved && cells_[c].mixed.size() == 2 && !has_known_parts(cells_[c])) {
+    if (cells_[c].resolved && cells_[c].mixed.size() > 1 && !has_known_parts(cells_[c])) {
       cells.push_back(c);
       sides.push_back(&cells_[c].sides);
     }
@@ -260,11 +313,11 @@ std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
   for (std::size_t k = 0; k < cells.size(); ++k) members[group[k]].push_back(cells[k]);
   for (const auto& [number, list] : members) {
     const SignCell& first = cells_[list.front()];
-    std::array<std::uint64_t, 2> common = first.directions;
+    auto common = first.directions;
     for (const std::size_t c : list)
-      for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t k = 0; k < common.size(); ++k)
         common[k] &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[k] : 0;
-    if (list.size() > 1 && (common[0] == 0 || common[1] == 0)) result.push_back(list);
+    if (list.size() > 1 && std::find(common.begin(), common.end(), 0U) != common.end()) result.push_back(list);
   }
   return result;
 }

@@ -44,17 +44,20 @@ struct SignCell {
   std::vector<Interval> range;  ///< of each function
   std::vector<int> mixed;       ///< functions that have not one sign, as far as is known
   bool resolved = false;        ///< one of the lemmas holds for each choice of signs; of one mixed function the second
-  /// Of one or two mixed functions: the directions of lemma 3, as bits, for unlike and for like signs. They are the same
-  /// for all cells of one box of the cover: where neighbours share one, no piece hides in them together.
-  std::array<std::uint64_t, 2> directions{};
+  /// The directions of lemma 3, as bits, for each choice of signs (SignCells::choice). They are the same for all cells of
+  /// one box of the cover: where neighbours share one, no piece hides in them together.
+  std::array<std::uint64_t, 4> directions{};
   std::optional<bool> known_parts{};  ///< does lemma 4 hold for each choice of signs? Once it was asked
 };
 
-/// Cells of a cover all of whose boxes are `regular`.
+/// Cells of a complete cover all of whose boxes are `regular` or `boundary`. Where the set ends, its limits (limits.h) are
+/// functions, too, of which only the positive sign counts: the pieces are those strictly within. Lemma 3 holds there as
+/// well: along d the limits grow, so that the border of X_F is reached strictly within them, where S goes on.
 class SignCells {
  public:
-  /// `functions`: in the system's variables.
-  SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions);
+  /// `functions`: in the system's variables; so are the limits', which follow them in every list of signs.
+  SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
+            const std::vector<Polynomial>& limits = {});
 
   /// Divides cells until they are resolved, or the number of halvings of a box is reached; then, so many times, those that
   /// the third lemma resolves and that touch others of their kind with which they share no direction: a sheet of their own
@@ -65,7 +68,13 @@ class SignCells {
   /// The one given, and sheets that were put over parts of it.
   const Cover& cover() const { return cover_; }
   const System& system() const { return system_; }
-  int functions() const { return compiled_.values(); }
+  int functions() const { return compiled_.values(); }  ///< with the limits
+  int limits() const { return limits_; }
+  bool is_limit(int function) const { return function >= functions() - limits_; }
+  /// Those signs of a cell's mixed functions that are free to choose, as bits: all but the limits'.
+  std::size_t choice(const SignCell& cell, const std::vector<int>& signs) const;
+  /// Of each choice that there is the signs of all functions. Nothing: more than two of them have both signs.
+  std::vector<std::vector<int>> choices(const SignCell& cell) const;
   const std::vector<int>& free(const SignCell& cell) const { return cover_.boxes[static_cast<std::size_t>(cell.box)].free; }
   const Box& region(const SignCell& cell) const;
 
@@ -84,6 +93,7 @@ class SignCells {
   };
 
   void evaluate(SignCell& cell);
+  bool is_outside(const SignCell& cell) const;
   // False: nothing is known.
   bool slopes(const SignCell& cell, Slopes& result);
   bool resolve(SignCell& cell);
@@ -108,6 +118,7 @@ class SignCells {
   const System& system_;
   Cover cover_;
   std::size_t given_;  // boxes of the cover that was given
+  int limits_;
   certify::CompiledSystem compiled_;  // value rows: the functions
   certify::NewtonWorkspace workspace_;
   certify::MeetingTest test_;
