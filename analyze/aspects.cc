@@ -47,7 +47,6 @@ class PieceCounter {
       join_over_border(c);
       control_.report(c, cells_.cells().size());
     }
-    join_at_ends();
     join_touching();
     join_at_ends();
     upper_bound(result);
@@ -131,7 +130,7 @@ class PieceCounter {
     const std::vector<int>& frees = cells_.free(cell);
     std::vector<double> along{0.5};
     if (!cell.mixed.empty() && frees.size() > 1) along = {0.5, 0, 0.02, 0.1, 0.3, 0.7, 0.9, 0.98, 1};
-    Box at = cells_.region(cell);
+    Box at = cell.sides;
     for (std::size_t face = 0; face < frees.size(); ++face)
       for (const bool upper : {false, true})
         for (const double share : along) {
@@ -140,15 +139,18 @@ class PieceCounter {
             const double inside = std::clamp(side.lo() + share * (side.hi() - side.lo()), side.lo(), side.hi());
             at[static_cast<std::size_t>(frees[f])] = Interval(f != face ? inside : upper ? side.hi() : side.lo());
           }
-          if (const std::optional<Box> point = test_.solution_in(at, cell.sides)) join_at(*point);
+          join_at(cells_.solution_over(cell, at));
         }
   }
 
   // Where two cells end at one point, a small piece about it may meet both.
   void join_at_ends() {
+    constexpr int kTries = 8;  // for two pieces
     const UpwardRounding rounding;
+    std::map<std::pair<std::size_t, std::size_t>, int> tries;
     for (const End& end : ends_) {
-      if (proven_.find_set(end.part) == proven_.find_set(end.other)) continue;
+      const std::size_t a = proven_.find_set(end.part), b = proven_.find_set(end.other);
+      if (a == b || control_.ended() || ++tries[std::minmax(a, b)] > kTries) continue;
       for (const double radius : {1e-3, 1e-5, 1e-7}) {
         const certify::Sheet piece = test_.piece_about(end.point, radius);
         if (!piece.proven || cells_.signs(piece.region) != parts_[end.part].signs) continue;
@@ -181,7 +183,7 @@ class PieceCounter {
     Box near = cell.sides;
     for (std::size_t j = 0; j < near.size(); ++j)
       if (!near[j].intersect(cells_.cells()[d].sides[j])) return;
-    Box at = cells_.region(cell);
+    Box at = cell.sides;
     for (const int along : frees)
       for (int k = 0; k <= count; ++k)
         for (const double others : {0.0, 0.5, 1.0}) {
@@ -190,7 +192,7 @@ class PieceCounter {
             const double share = f == along ? static_cast<double>(k) / count : others;
             at[j] = Interval(std::clamp(near[j].lo() + share * near[j].width(), near[j].lo(), near[j].hi()));
           }
-          if (const std::optional<Box> point = test_.solution_in(at, cell.sides)) join_at(*point);
+          join_at(cells_.solution_over(cell, at));
         }
   }
 
@@ -271,10 +273,10 @@ class PieceCounter {
     const UpwardRounding rounding;
     for (const auto& [root, p] : known) {
       const SignCell& cell = cells_.cells()[parts_[p].cell];
-      Box at = cells_.region(cell);
+      Box at = cell.sides;
       for (const int f : cells_.free(cell))
         at[static_cast<std::size_t>(f)] = Interval(cell.sides[static_cast<std::size_t>(f)].mid());
-      std::optional<Box> point = cell.mixed.empty() ? test_.solution_in(at, cell.sides) : parts_[p].solution;
+      const std::optional<Box> point = cell.mixed.empty() ? cells_.solution_over(cell, at) : parts_[p].solution;
       result.representatives.push_back(point.value_or(cell.sides));
       result.signs.emplace_back(parts_[p].signs.begin(), parts_[p].signs.end() - cells_.limits());
     }
@@ -330,6 +332,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
       result.reason = "C-space is not shown to be smooth in the search domain";
       return result;
     }
+  result.system = with_single_values(std::move(result.system));
   if (!cover.complete() || static_cast<int>(result.system.equations.size()) + cover.dimension != result.system.size()) {
     result.reason = "C-space could not be covered";
     return result;

@@ -34,4 +34,15 @@ std::vector<Limit> limits(const System& system, const Cover& cover) {
   return result;
 }
 
+System with_single_values(System system) {
+  for (std::size_t j = 0; j < system.variables.size(); ++j) {
+    const Variable& v = system.variables[j];
+    if (v.kind != VariableKind::length || !(v.lower == v.upper)) continue;
+    Polynomial value{{Monomial(ExactNumber::rational("1"), {Factor{static_cast<int>(j)}})}, "value of " + v.name};
+    if (!v.lower.is_zero()) value.monomials.emplace_back(-v.lower, std::vector<Factor>{});
+    system.equations.push_back(std::move(value));
+  }
+  return system;
+}
+
 }  // namespace corank::analyze

@@ -23,4 +23,8 @@ struct Limit {
 /// end that is not ±1.
 std::vector<Limit> limits(const System& system, const Cover& cover);
 
+/// The system with an equation more for each length whose domain is one value, as of a leg that is held: its solutions in
+/// the domain are the same, and so many equations fewer than variables as its set has dimensions.
+System with_single_values(System system);
+
 }  // namespace corank::analyze

@@ -46,10 +46,21 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
     if (box.verdict == Verdict::boundary)
       for (const int d : dependent_of(box.free, system.size()))
         cell.sides[static_cast<std::size_t>(d)] = region(cell)[static_cast<std::size_t>(d)];
+    widen_region(cell);
     evaluate(cell);
     if (!is_outside(cell)) cells_.push_back(std::move(cell));
   }
   index_boxes();
+}
+
+// A region that was lifted from a reduced system may have no width where another sheet's differs by rounding.
+void SignCells::widen_region(const SignCell& cell) {
+  certify::Sheet sheet =
+      certify::newton_prove(compiled_, preconditioner(cell, cell.sides), cell.sides, workspace_);
+  if (!sheet.proven) return;
+  CoverBox& box = cover_.boxes[static_cast<std::size_t>(cell.box)];
+  box.region = static_cast<int>(cover_.regions.size());
+  cover_.regions.push_back(std::move(sheet.region));
 }
 
 void SignCells::index_boxes() {
@@ -251,6 +262,17 @@ bool SignCells::resolve(SignCell& cell) {
   if (cell.mixed.size() == 1)
     return part_of_one(cell, 1) != 0 && (is_limit(cell.mixed.front()) || part_of_one(cell, -1) != 0);
   return find_directions(cell);
+}
+
+Box SignCells::solution_over(const SignCell& cell, Box sides) {
+  constexpr double kNarrow = 1e-11;
+  for (int step = 0; step < 5; ++step) {
+    certify::tighten_sheet(compiled_, preconditioner(cell, sides), sides, workspace_);
+    double widest = 0;
+    for (std::size_t j = 0; j < sides.size(); ++j) widest = std::max(widest, sides[j].width() / compiled_.scales()[j]);
+    if (widest < kNarrow) break;
+  }
+  return sides;
 }
 
 std::vector<int> SignCells::signs(const Box& box) const {

@@ -78,6 +78,8 @@ class SignCells {
   const std::vector<int>& free(const SignCell& cell) const { return cover_.boxes[static_cast<std::size_t>(cell.box)].free; }
   const Box& region(const SignCell& cell) const;
 
+  /// Where the free sides are points of X_F: encloses the sheet's solution over them, as narrow as a few steps make it.
+  Box solution_over(const SignCell& cell, Box sides);
   /// Signs ±1 of the functions in the box, in which the solutions are meant; 0 where one is not known.
   std::vector<int> signs(const Box& box) const;
   /// Lemma 2 for the one mixed function of a cell and a sign: is the part proven to be connected and not empty (1), empty
@@ -93,6 +95,7 @@ class SignCells {
   };
 
   void evaluate(SignCell& cell);
+  void widen_region(const SignCell& cell);
   bool is_outside(const SignCell& cell) const;
   // False: nothing is known.
   bool slopes(const SignCell& cell, Slopes& result);
