@@ -38,6 +38,7 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   if (!a.reason.empty()) return text + "  not known: " + a.reason + "\n";
   text += fmt::format("  aspects         {}\n  assembly modes  {}\n  working modes   {}\n", bounds(a.aspects),
                       bounds(a.assembly_modes), bounds(a.working_modes));
+  if (!a.limits.empty()) text += fmt::format("  strictly within {}\n", fmt::join(a.limits, ", "));
   text += fmt::format("  det L_y = 0 where {}\n",
                       a.forward_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.forward_factors, " = 0 or ")));
   text += fmt::format("  det L_z = 0 where {}\n",
@@ -64,6 +65,7 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   json["working_modes"] = number(a.working_modes);
   json["bounds"] = {{"assembly_modes", bounds(a.assembly_modes)}, {"working_modes", bounds(a.working_modes)}};
   json["factors"] = {{"forward", a.forward_factors}, {"inverse", a.inverse_factors}};
+  json["limits"] = a.limits;
   json["representatives"] = Json::array();
   for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {
     Json entry = {{"values", Json::object()}, {"signs", a.aspects.signs[k]}};

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "corank/analyze/aspects.h"
+#include "corank/analyze/limits.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/inertia.h"
 #include "corank/core/check.h"
@@ -196,12 +198,46 @@ int HeightCount::euler_characteristic() const {
   return sum;
 }
 
+// Of a set that comes to ends of its domain: of what is strictly within (sign_cells.h).
+Components components_within(const System& system, const Cover& cover, const std::vector<Limit>& ends,
+                             const TopologyOptions& options, solve::Control& control) {
+  std::vector<Polynomial> functions;
+  for (const Limit& end : ends) functions.push_back(end.function);
+  const System whole = with_single_values(system);
+  Components result;
+  const auto is_sheet = [](const CoverBox& b) { return b.verdict == Verdict::regular || b.verdict == Verdict::boundary; };
+  if (!cover.complete() || static_cast<int>(whole.equations.size()) + cover.dimension != whole.size() ||
+      !std::all_of(cover.boxes.begin(), cover.boxes.end(), is_sheet)) {
+    result.reason = "boxes that are neither regular nor at an end";
+    return result;
+  }
+  SignCells cells(whole, cover, {}, functions);
+  cells.refine(options.halvings, options.rounds, control);
+  const Pieces found = pieces(cells, control);
+  result.at_least = found.at_least;
+  result.at_most = found.at_most;
+  result.reason = found.reason;
+  return result;
+}
+
 Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control) {
   Topology result;
   question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
   question.corank = 1;
   question.tolerance = 0;
   Solved space{study::system(question), {}};
+  Cover whole = solved(space.system, whole_sheets(space.system), options.threads, control);
+  result.dimension = whole.dimension;
+  if (whole.complete() && whole.dimension > 0) {
+    const std::vector<Limit> ends = limits(space.system, whole);
+    for (const Limit& end : ends) result.ends.push_back(end.name);
+    if (!ends.empty()) {
+      result.processed = whole.statistics.processed;
+      result.components = components_within(space.system, whole, ends, options, control);
+      result.reason = result.components.reason;
+      return result;
+    }
+  }
   result.components = refined_components(space, options, result.processed, control);
   result.dimension = space.cover.dimension;
   const auto counts = space.cover.counts();
