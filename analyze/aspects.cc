@@ -341,9 +341,11 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   for (const auto& e : inverse)
     if (std::none_of(forward.begin(), forward.end(), [&](const auto& f) { return same_tree(e, f); })) both.push_back(e);
   std::vector<Polynomial> ends;
-  for (const Limit& limit : limits(result.system, cover)) {
-    result.limits.push_back(limit.name);
-    ends.push_back(limit.function);
+  for (const Limit& limit : limits(result.system, cover)) ends.push_back(limit.function);
+  if (!ends.empty()) {
+    search.sigma.reset();  // smaller sheets show to which of them C-space comes indeed
+    const Cover fine = solve::solve(solve::prepare(result.system, search, control), control);
+    for (const Limit& limit : limits(result.system, fine.complete() ? fine : cover)) result.limits.push_back(limit.name);
   }
   const auto count = [&](const std::vector<symbolic::Expression>& functions) {
     SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends);

@@ -125,7 +125,7 @@ HeightCount count_critical_points(const study::Question& question, int height, c
     ++result.by_index[static_cast<std::size_t>(index)];
     const int piece = piece_of(point.box, space, components);
     placed = placed && piece >= 0;
-    if (piece >= 0) euler[static_cast<std::size_t>(piece)] += index % 2 == 0 ? 1 : -1;
+    if (piece >= 0 && piece < components.pieces) euler[static_cast<std::size_t>(piece)] += index % 2 == 0 ? 1 : -1;
   }
   if (placed) result.euler_of_piece = euler;
   return result;
@@ -175,7 +175,10 @@ void find_shape(const study::Question& question, const Solved& space, const Topo
   result.euler_characteristic = result.heights.front().euler_characteristic();
   Components& components = result.components;
   for (const HeightCount& h : result.heights)
-    if (components.at_most) components.at_most = std::min(*components.at_most, h.by_index.front());
+    if (components.at_most) {
+      components.at_most = std::min(*components.at_most, h.by_index.front());
+      CORANK_CHECK(components.at_least <= *components.at_most);
+    }
   if (space.cover.dimension != 2 || !components.exact()) return;
   if (components.at_least == 1) {
     result.genus = {1 - *result.euler_characteristic / 2};
@@ -230,15 +233,21 @@ Topology topology(study::Question question, const TopologyOptions& options, solv
   result.dimension = whole.dimension;
   if (whole.complete() && whole.dimension > 0) {
     const std::vector<Limit> ends = limits(space.system, whole);
-    for (const Limit& end : ends) result.ends.push_back(end.name);
+    // Whole sheets are wide: smaller ones show to which ends the set comes indeed.
+    Cover fine;
+    if (!ends.empty()) fine = solved(space.system, std::nullopt, options.threads, control);
+    if (!ends.empty())
+      for (const Limit& end : fine.complete() ? limits(space.system, fine) : ends) result.ends.push_back(end.name);
     if (!ends.empty()) {
-      result.processed = whole.statistics.processed;
+      result.processed = whole.statistics.processed + fine.statistics.processed;
       result.components = components_within(space.system, whole, ends, options, control);
+      result.components.piece_of_box.assign(fine.boxes.size(), -1);
       result.reason = result.components.reason;
-      return result;
+      if (!result.ends.empty()) return result;
+      space.cover = std::move(fine);
     }
   }
-  result.components = refined_components(space, options, result.processed, control);
+  if (space.cover.boxes.empty()) result.components = refined_components(space, options, result.processed, control);
   result.dimension = space.cover.dimension;
   const auto counts = space.cover.counts();
   const std::size_t regular = counts[static_cast<std::size_t>(Verdict::regular)];

@@ -17,7 +17,7 @@ namespace corank::symbolic {
 
 struct CriticalPoints {
   TrigonometricSystem system;      ///< its kernel unknowns are those of λ, then that of μ
-  std::vector<std::string> names;  ///< of the coordinates, the order of the rows and columns below
+  std::vector<std::string> names;  ///< of the coordinates that are not held at one value, the order of the rows and columns below
   ExpressionMatrix jacobian;       ///< Φ_q
   ExpressionMatrix hessian;        ///< D²(μ h + λᵀΦ), in the coordinates and the kernel unknowns, scales put in
   Expression multiplier;           ///< μ

@@ -63,9 +63,31 @@ TEST(Aspects, OfDextarHaveTheModesOfAFiveBar) {
   EXPECT_EQ(a.inverse_factors.size(), 2u);
 }
 
-// Within a working mode the place of J3 says the configuration: the pieces of a grid of places, without those so near to a
-// singularity that the grid does not show on which side they are.
-TEST(Aspects, OfDextarAreThoseOfAFloodFill) {
+// The number of connected pieces, of more than `least` cells, of a grid's cells of one sign each; 0 belongs to none. The
+// grid's border is 0, or it is a torus.
+int pieces_of_grid(std::vector<int> signs, int rows, int columns, int least) {
+  int pieces = 0;
+  std::vector<int> stack;
+  for (int start = 0; start < rows * columns; ++start) {
+    const int sign = std::exchange(signs[static_cast<std::size_t>(start)], 0);
+    if (sign == 0) continue;
+    int size = 0;
+    for (stack.push_back(start); !stack.empty(); ++size) {
+      const int at = stack.back(), i = at / columns, j = at % columns;
+      stack.pop_back();
+      for (const auto& [di, dj] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+        const int to = (i + di + rows) % rows * columns + (j + dj + columns) % columns;
+        if (signs[static_cast<std::size_t>(to)] == sign) signs[static_cast<std::size_t>(to)] = 0, stack.push_back(to);
+      }
+    }
+    pieces += size > least;
+  }
+  return pieces;
+}
+
+// Within a working mode of Dextar the place of J3 says the configuration: the pieces of a grid of places, without those so
+// near to a singularity that the grid does not show on which side they are. `limited`: with J2 and J4 above the ground.
+int dextar_pieces(bool limited) {
   constexpr int kRows = 900;
   constexpr double kStep = 4.0 / kRows, l = 0.9, d = 1.18;
   const auto elbow = [&](double center, double sign, double x, double y) {
@@ -75,33 +97,83 @@ TEST(Aspects, OfDextarAreThoseOfAFloodFill) {
   int pieces = 0;
   for (const double left : {-1.0, 1.0})
     for (const double right : {-1.0, 1.0}) {
-      std::vector<int> side(kRows * kRows, 0);  // of J3 to J4 and J2
+      std::vector<int> side;  // of J3 to J4 and J2
       for (int i = 0; i < kRows; ++i)
         for (int j = 0; j < kRows; ++j) {
           const double x = d / 2 - 2 + (i + 0.5) * kStep, y = -2 + (j + 0.5) * kStep;
           const auto [ax, ay, a] = elbow(0, left, x, y);
           const auto [bx, by, b] = elbow(d, right, x, y);
-          const double area = (x - ax) * (y - by) - (y - ay) * (x - bx);
-          if (std::min(a, b) > 3 * kStep && std::max(a, b) < 2 * l) side[i * kRows + j] = area > 0 ? 1 : -1;
+          const bool there = std::min(a, b) > 3 * kStep && std::max(a, b) < 2 * l && (!limited || (ay > 0 && by > 0));
+          side.push_back(!there ? 0 : (x - ax) * (y - by) - (y - ay) * (x - bx) > 0 ? 1 : -1);
         }
-      std::vector<int> stack;
-      for (int start = 0; start < kRows * kRows; ++start) {
-        const int sign = std::exchange(side[start], 0);
-        if (sign == 0) continue;
-        int size = 0;
-        for (stack.push_back(start); !stack.empty(); ++size) {
-          const int at = stack.back();
-          stack.pop_back();
-          for (const int to : {at - 1, at + 1, at - kRows, at + kRows})  // the grid's border is out of reach
-            if (side[to] == sign) side[to] = 0, stack.push_back(to);
-        }
-        pieces += size > 50;
-      }
+      pieces += pieces_of_grid(side, kRows, kRows, 50);
     }
+  return pieces;
+}
+
+TEST(Aspects, OfDextarAreThoseOfAFloodFill) {
+  const int pieces = dextar_pieces(false);
   EXPECT_EQ(pieces, 10);
   const Aspects a = of_model("dextar");
   ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
   EXPECT_EQ(a.aspects.at_least, pieces);
+  EXPECT_TRUE(a.limits.empty());
+}
+
+TEST(Aspects, OfDextarWithLimitsAreThoseOfAFloodFill) {
+  const Aspects a = of_model("dextar_limits");
+  ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
+  EXPECT_EQ(a.aspects.at_least, dextar_pieces(true));
+  EXPECT_THAT(a.limits, testing::ElementsAre("range of theta2", "range of theta5"));
+}
+
+// Nothing is singular but where arm 2 and 3 of the orthogonal robot are, on two closed curves of their torus.
+TEST(Aspects, OfAnOrthogonalArmAreThoseOfAFloodFill) {
+  constexpr int kRows = 400;
+  std::vector<int> signs;
+  for (int i = 0; i < kRows; ++i)
+    for (int j = 0; j < kRows; ++j) {
+      const double t2 = i * 2 * M_PI / kRows, t3 = j * 2 * M_PI / kRows;
+      signs.push_back(sin(t3) + cos(t2) * (2 * sin(t3) - cos(t3)) > 0 ? 1 : -1);
+    }
+  const Aspects a = of_model("serial/orthogonal_3r");
+  ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
+  EXPECT_EQ(a.aspects.at_least, pieces_of_grid(signs, kRows, kRows, 5));
+  EXPECT_EQ(a.assembly_modes.at_least, 1);
+  EXPECT_TRUE(a.limits.empty());
+}
+
+// With its first leg held the 3-RPR platform is where that leg's and the platform's angles are, as far as the other legs
+// reach. Forward singularities: the legs' lines meet in a point or are parallel.
+TEST(Aspects, OfThreeRprSlicesAreThoseOfAFloodFill) {
+  constexpr int kRows = 600;
+  const auto loaded = study::read_model(CORANK_SOURCE_DIR "/models/planar/3rpr.cuik",
+                                        {{"lower1", "4/5"}, {"upper1", "4/5"}});
+  std::vector<int> signs;
+  for (int i = 0; i < kRows; ++i)
+    for (int j = 0; j < kRows; ++j) {
+      const double alpha = i * 2 * M_PI / kRows, phi = j * 2 * M_PI / kRows;
+      const double c = cos(phi), s = sin(phi), x = 0.8 * cos(alpha), y = 0.8 * sin(alpha);
+      const std::array base{std::array{0.0, 0.0}, std::array{2.0, 0.0}, std::array{0.8, 1.5}};
+      const std::array ends{std::array{x, y}, std::array{x + c, y + s},
+                            std::array{x + 0.6 * c - 0.4 * s, y + 0.6 * s + 0.4 * c}};
+      std::array<std::array<double, 3>, 3> line{};
+      bool within = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double u = ends[k][0] - base[k][0], v = ends[k][1] - base[k][1], rho = std::hypot(u, v);
+        within = within && (k == 0 || (0.5 < rho && rho < 2));
+        line[k] = {u, v, base[k][0] * v - base[k][1] * u};
+      }
+      const auto& [p, q, r] = line;
+      const double det = p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) +
+                         p[2] * (q[0] * r[1] - q[1] * r[0]);
+      signs.push_back(!within ? 0 : det > 0 ? 1 : -1);
+    }
+  const Aspects a = of(loaded.mechanism);
+  ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
+  EXPECT_EQ(a.aspects.at_least, pieces_of_grid(signs, kRows, kRows, 10));
+  EXPECT_EQ(a.working_modes.at_least, 1);
+  EXPECT_FALSE(a.limits.empty());
 }
 
 // Straight lines on the torus of v and w: two of v + k w = ±π/2 and two of v − m w = ±π/2, which meet in 4 (k + m) points,
