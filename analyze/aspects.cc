@@ -6,6 +6,7 @@
 #include <set>
 
 #include "corank/analyze/limits.h"
+#include "corank/certify/determinant.h"
 #include "corank/certify/meeting.h"
 #include "corank/core/box_tree.h"
 #include "corank/core/rounding.h"
@@ -271,6 +272,11 @@ class PieceCounter {
     }
     if (result.at_most && !result.exact()) result.reason = "links or gaps between cells that could not be shown";
     const UpwardRounding rounding;
+    std::map<std::size_t, int> numbers;
+    for (const auto& [root, p] : known) numbers.emplace(root, static_cast<int>(numbers.size()));
+    for (const Part& part : parts_)
+      if (const auto n = numbers.find(classes.find_set(static_cast<std::size_t>(&part - parts_.data()))); n != numbers.end())
+        result.parts.push_back({part.cell, part.signs, n->second});
     for (const auto& [root, p] : known) {
       const SignCell& cell = cells_.cells()[parts_[p].cell];
       Box at = cell.sides;
@@ -298,11 +304,28 @@ class PieceCounter {
   boost::disjoint_sets_with_storage<> proven_;
 };
 
-std::vector<symbolic::Expression> factors(const study::Question& question, symbolic::SingularitySet set) {
+symbolic::ExpressionMatrix block(const study::Question& question, symbolic::SingularitySet set) {
   const symbolic::Derivation derivation = symbolic::derive(question.model);
-  symbolic::ExpressionMatrix matrix =
-      symbolic::kernel_question(question.model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
-  return symbolic::determinant_factors(question.model, matrix);
+  return symbolic::kernel_question(question.model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
+}
+
+// Of the determinant of a square matrix at each of the boxes.
+std::vector<int> signs_of_determinant(const symbolic::TrigonometricSystem& equations, const System& system,
+                                      const symbolic::ExpressionMatrix& matrix, const std::vector<Box>& boxes) {
+  std::vector<symbolic::Expression> entries;
+  for (const auto& row : matrix.rows) entries.insert(entries.end(), row.begin(), row.end());
+  const certify::CompiledSystem compiled(system, symbolic::polynomials(equations, entries));
+  const int n = static_cast<int>(matrix.rows.size());
+  const UpwardRounding rounding;
+  std::vector<int> result;
+  for (const Box& box : boxes) {
+    certify::IntervalMatrix values(n, n);
+    for (int k = 0; k < n * n; ++k)
+      values.entries[static_cast<std::size_t>(k)] = compiled.evaluate(compiled.value_row(k), box);
+    const Interval value = certify::determinant(values);
+    result.push_back(value.lo() > 0 ? 1 : value.hi() < 0 ? -1 : 0);
+  }
+  return result;
 }
 
 }  // namespace
@@ -314,8 +337,10 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   question.set = symbolic::SingularitySet::cspace;
   const symbolic::TrigonometricSystem equations = study::equations(question);
   result.system = study::system(question, equations);
-  const std::vector<symbolic::Expression> forward = factors(question, symbolic::SingularitySet::forward);
-  const std::vector<symbolic::Expression> inverse = factors(question, symbolic::SingularitySet::inverse);
+  const symbolic::ExpressionMatrix l_y = block(question, symbolic::SingularitySet::forward);
+  const symbolic::ExpressionMatrix l_z = block(question, symbolic::SingularitySet::inverse);
+  const std::vector<symbolic::Expression> forward = symbolic::determinant_factors(question.model, l_y);
+  const std::vector<symbolic::Expression> inverse = symbolic::determinant_factors(question.model, l_z);
   for (const auto& e : forward) result.forward_factors.push_back(e.text());
   for (const auto& e : inverse) result.inverse_factors.push_back(e.text());
 
@@ -347,14 +372,20 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     const Cover fine = solve::solve(solve::prepare(result.system, search, control), control);
     for (const Limit& limit : limits(result.system, fine.complete() ? fine : cover)) result.limits.push_back(limit.name);
   }
-  const auto count = [&](const std::vector<symbolic::Expression>& functions) {
+  const auto count = [&](const std::vector<symbolic::Expression>& functions, bool drawn) {
     SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends);
     cells.refine(options.halvings, options.rounds, control);
-    return pieces(cells, control);
+    Pieces found = pieces(cells, control);
+    if (drawn) result.drawing = draw(cells, found, options.drawn);
+    return found;
   };
-  result.aspects = count(both);
-  result.assembly_modes = count(forward);
-  result.working_modes = count(inverse);
+  result.aspects = count(both, !options.drawn.empty());
+  const std::vector<Box>& at = result.aspects.representatives;
+  const std::vector<int> y = signs_of_determinant(equations, result.system, l_y, at);
+  const std::vector<int> z = signs_of_determinant(equations, result.system, l_z, at);
+  for (std::size_t k = 0; k < at.size(); ++k) result.determinant_signs.push_back({y[k], z[k]});
+  result.assembly_modes = count(forward, false);
+  result.working_modes = count(inverse, false);
   return result;
 }
 

@@ -8,9 +8,11 @@
 // piece the factors of the determinants of L_y and L_z keep their signs.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "corank/analyze/aspects_drawing.h"
 #include "corank/analyze/sign_cells.h"
 #include "corank/study/question.h"
 
@@ -22,6 +24,12 @@ struct Pieces {
   /// Of each piece known to be there a box with a solution of it; of pieces not known to differ one box each.
   std::vector<Box> representatives;
   std::vector<std::vector<int>> signs;  ///< of the factors in each representative
+  struct Part {
+    std::size_t cell;
+    std::vector<int> signs;  ///< of all functions, the limits among them
+    int piece;               ///< index of its representative
+  };
+  std::vector<Part> parts;  ///< of the cells, which make the pieces
   std::size_t cells = 0, unresolved = 0;
   std::string reason;  ///< why the bounds are apart; empty where they are not
 
@@ -39,12 +47,16 @@ struct Aspects {
   std::vector<std::string> limits;                            ///< to which C-space comes: pieces are strictly within
   System system;                                              ///< C-space: the variables of the boxes
   std::string reason;                                         ///< why nothing is known; empty where something is
+  /// Of each aspect the signs of det L_y and det L_z, as `corank derive` prints the matrices; 0: not proven.
+  std::vector<std::array<int, 2>> determinant_signs;
+  std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
 };
 
 struct AspectsOptions {
   int threads = 1;
-  int halvings = 16;  ///< of a cover's box, at most
-  int rounds = 16;    ///< SignCells::refine
+  int halvings = 16;                 ///< of a cover's box, at most
+  int rounds = 16;                   ///< SignCells::refine
+  std::vector<std::string> drawn{};  ///< coordinates
 };
 
 /// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.

@@ -69,6 +69,11 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   json["representatives"] = Json::array();
   for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {
     Json entry = {{"values", Json::object()}, {"signs", a.aspects.signs[k]}};
+    const auto sign = [&](std::size_t d) {
+      return a.determinant_signs[k][d] != 0 ? Json(a.determinant_signs[k][d]) : Json();
+    };
+    entry["det_L_y"] = sign(0);
+    entry["det_L_z"] = sign(1);
     for (const Value& v : values(a.system, a.aspects.representatives[k]))
       entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
     json["representatives"].push_back(entry);

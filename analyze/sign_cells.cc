@@ -55,8 +55,7 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
 
 // A region that was lifted from a reduced system may have no width where another sheet's differs by rounding.
 void SignCells::widen_region(const SignCell& cell) {
-  certify::Sheet sheet =
-      certify::newton_prove(compiled_, preconditioner(cell, cell.sides), cell.sides, workspace_);
+  certify::Sheet sheet = certify::newton_prove(compiled_, preconditioner(cell, cell.sides), cell.sides, workspace_);
   if (!sheet.proven) return;
   CoverBox& box = cover_.boxes[static_cast<std::size_t>(cell.box)];
   box.region = static_cast<int>(cover_.regions.size());
@@ -148,8 +147,7 @@ std::vector<std::vector<int>> SignCells::choices(const SignCell& cell) const {
   std::vector<std::vector<int>> result;
   if (open.size() > 2) return result;
   for (std::size_t number = 0; number < std::size_t{1} << open.size(); ++number) {
-    for (std::size_t k = 0; k < open.size(); ++k)
-      signs[static_cast<std::size_t>(open[k])] = (number >> k & 1) != 0 ? 1 : -1;
+    for (std::size_t k = 0; k < open.size(); ++k) signs[static_cast<std::size_t>(open[k])] = (number >> k & 1) != 0 ? 1 : -1;
     result.push_back(signs);
   }
   return result;
@@ -226,7 +224,8 @@ std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) con
   // Where three limits meet.
   for (std::size_t signs = 0; frees.size() == 3 && signs < 4; ++signs)
     for (const double share : {1.0, 0.4})
-      result.push_back({width(0), ((signs & 1) != 0 ? share : -share) * width(1), ((signs & 2) != 0 ? share : -share) * width(2)});
+      result.push_back(
+          {width(0), ((signs & 1) != 0 ? share : -share) * width(1), ((signs & 2) != 0 ? share : -share) * width(2)});
   constexpr std::size_t kBits = 64;
   if (result.size() > kBits) result.resize(kBits);
   return result;

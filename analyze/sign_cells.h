@@ -78,6 +78,10 @@ class SignCells {
   const std::vector<int>& free(const SignCell& cell) const { return cover_.boxes[static_cast<std::size_t>(cell.box)].free; }
   const Box& region(const SignCell& cell) const;
 
+  /// The part of a cell's sheet over other free sides, with its ranges.
+  SignCell cell_over(const SignCell& cell, Box sides) const;
+  /// 1: all of the cell is in the part of these signs; −1: nothing of it is; 0: not known.
+  static int holds(const SignCell& cell, const std::vector<int>& signs);
   /// Where the free sides are points of X_F: encloses the sheet's solution over them, as narrow as a few steps make it.
   Box solution_over(const SignCell& cell, Box sides);
   /// Signs ±1 of the functions in the box, in which the solutions are meant; 0 where one is not known.
@@ -106,9 +110,6 @@ class SignCells {
   std::optional<SignCell> sheet_over(const std::vector<std::size_t>& cells);
   void index_boxes();
   bool has_known_parts(SignCell& cell);
-  // The part of a cell's sheet over other free sides, with its ranges.
-  SignCell cell_over(const SignCell& cell, Box sides) const;
-  static int holds(const SignCell& cell, const std::vector<int>& signs);
   // The part of these signs on a segment of a side of X_F; false: not known.
   bool add_segment(const SignCell& cell, const std::vector<int>& signs, int along, bool upwards, int depth, Arc& arc);
   bool find_directions(SignCell& cell);

@@ -38,7 +38,6 @@ SignCell SignCells::cell_over(const SignCell& cell, Box sides) const {
   return result;
 }
 
-// 1: all of it is in the part of these signs; −1: nothing of it is; 0: not known.
 int SignCells::holds(const SignCell& cell, const std::vector<int>& signs) {
   bool all = true;
   for (std::size_t k = 0; k < signs.size(); ++k) {

@@ -147,8 +147,8 @@ TEST(Aspects, OfAnOrthogonalArmAreThoseOfAFloodFill) {
 // reach. Forward singularities: the legs' lines meet in a point or are parallel.
 TEST(Aspects, OfThreeRprSlicesAreThoseOfAFloodFill) {
   constexpr int kRows = 600;
-  const auto loaded = study::read_model(CORANK_SOURCE_DIR "/models/planar/3rpr.cuik",
-                                        {{"lower1", "4/5"}, {"upper1", "4/5"}});
+  const auto loaded =
+      study::read_model(CORANK_SOURCE_DIR "/models/planar/3rpr.cuik", {{"lower1", "4/5"}, {"upper1", "4/5"}});
   std::vector<int> signs;
   for (int i = 0; i < kRows; ++i)
     for (int j = 0; j < kRows; ++j) {
@@ -165,8 +165,8 @@ TEST(Aspects, OfThreeRprSlicesAreThoseOfAFloodFill) {
         line[k] = {u, v, base[k][0] * v - base[k][1] * u};
       }
       const auto& [p, q, r] = line;
-      const double det = p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) +
-                         p[2] * (q[0] * r[1] - q[1] * r[0]);
+      const double det =
+          p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
       signs.push_back(!within ? 0 : det > 0 ? 1 : -1);
     }
   const Aspects a = of(loaded.mechanism);
@@ -182,11 +182,11 @@ TEST(Aspects, OfLinesThatCrossOnATorusAreItsFaces) {
   for (const auto& [k, m] : {std::pair(1, 0), {1, 1}, {1, 2}, {2, 1}}) {
     SCOPED_TRACE(k * 10 + m);
     const auto line = [](int c) { return std::to_string(c) + "*w"; };
-    const Aspects a = of(symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\n"
-                                               "[SYSTEM EQS]\nx = sin(v + " +
-                                                   line(k) + ");\ny = sin(v - " + line(m) +
-                                                   ");\n[INPUTS] v, w\n[OUTPUTS] x, y\n",
-                                               "lines.cuik"));
+    const Aspects a =
+        of(symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\n"
+                                 "[SYSTEM EQS]\nx = sin(v + " +
+                                     line(k) + ");\ny = sin(v - " + line(m) + ");\n[INPUTS] v, w\n[OUTPUTS] x, y\n",
+                                 "lines.cuik"));
     ASSERT_TRUE(a.aspects.exact()) << a.reason << a.aspects.reason;
     EXPECT_EQ(a.aspects.at_least, 4 * (k + m));
     EXPECT_EQ(a.assembly_modes.at_least, 1);
@@ -214,6 +214,20 @@ TEST(Aspects, AreRepresentedByConfigurations) {
     EXPECT_NEAR(l * (sin(q["theta2"]) + sin(q["theta3"]) + sin(q["theta4"]) - sin(q["theta5"])), 0, 1e-9);
     EXPECT_GT(std::abs(sin(q["theta3"] - q["theta4"]) * sin(q["theta2"] - q["theta3"]) * sin(q["theta4"] - q["theta5"])),
               1e-9);
+  }
+}
+
+// det L_y and det L_z are their factors' product, up to one sign for all.
+TEST(Aspects, HaveTheSignsOfTheirDeterminants) {
+  const Aspects a = of_model("dextar");
+  ASSERT_EQ(a.determinant_signs.size(), 10u);
+  const auto& [y, z] = a.determinant_signs.front();
+  const auto& first = a.aspects.signs.front();
+  for (std::size_t k = 0; k < a.determinant_signs.size(); ++k) {
+    const auto& s = a.aspects.signs[k];
+    EXPECT_NE(a.determinant_signs[k][0] * a.determinant_signs[k][1], 0);
+    EXPECT_EQ(a.determinant_signs[k][0] * y, s[0] * first[0]);
+    EXPECT_EQ(a.determinant_signs[k][1] * z, s[1] * s[2] * first[1] * first[2]);
   }
 }
 
