@@ -153,7 +153,7 @@ class PieceCounter {
       const std::size_t a = proven_.find_set(end.part), b = proven_.find_set(end.other);
       if (a == b || control_.ended() || ++tries[std::minmax(a, b)] > kTries) continue;
       for (const double radius : {1e-3, 1e-5, 1e-7}) {
-        const certify::Sheet piece = test_.piece_about(end.point, radius);
+        const certify::Sheet piece = test_.sheet_about(end.point, radius);
         if (!piece.proven || cells_.signs(piece.region) != parts_[end.part].signs) continue;
         if (!meets(piece.region, cells_.cells()[parts_[end.part].cell]) ||
             !meets(piece.region, cells_.cells()[parts_[end.other].cell]))
@@ -372,14 +372,17 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     const Cover fine = solve::solve(solve::prepare(result.system, search, control), control);
     for (const Limit& limit : limits(result.system, fine.complete() ? fine : cover)) result.limits.push_back(limit.name);
   }
-  const auto count = [&](const std::vector<symbolic::Expression>& functions, bool drawn) {
+  const auto count = [&](const std::vector<symbolic::Expression>& functions, bool first) {
     SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends);
     cells.refine(options.halvings, options.rounds, control);
     Pieces found = pieces(cells, control);
-    if (drawn) result.drawing = draw(cells, found, options.drawn);
+    const bool plane = cover.dimension == 2 && options.images.size() == 2 && found.exact();
+    const int x = plane ? result.system.find(options.images[0]) : -1, y = plane ? result.system.find(options.images[1]) : -1;
+    if (first && x >= 0 && y >= 0) result.images = images(cells, found, x, y, options.rows, control);
+    if (first && !options.drawn.empty()) result.drawing = draw(cells, found, options.drawn);
     return found;
   };
-  result.aspects = count(both, !options.drawn.empty());
+  result.aspects = count(both, true);
   const std::vector<Box>& at = result.aspects.representatives;
   const std::vector<int> y = signs_of_determinant(equations, result.system, l_y, at);
   const std::vector<int> z = signs_of_determinant(equations, result.system, l_z, at);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/analyze/aspect_images.h"
 #include "corank/analyze/aspects_drawing.h"
 #include "corank/analyze/sign_cells.h"
 #include "corank/study/question.h"
@@ -49,14 +50,17 @@ struct Aspects {
   std::string reason;                                         ///< why nothing is known; empty where something is
   /// Of each aspect the signs of det L_y and det L_z, as `corank derive` prints the matrices; 0: not proven.
   std::vector<std::array<int, 2>> determinant_signs;
+  std::optional<PieceImages> images;    ///< of the aspects, where AspectsOptions::images asks for them
   std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
 };
 
 struct AspectsOptions {
   int threads = 1;
-  int halvings = 16;                 ///< of a cover's box, at most
-  int rounds = 16;                   ///< SignCells::refine
-  std::vector<std::string> drawn{};  ///< coordinates
+  int halvings = 16;                  ///< of a cover's box, at most
+  int rounds = 16;                    ///< SignCells::refine
+  std::vector<std::string> drawn{};   ///< coordinates
+  std::vector<std::string> images{};  ///< two lengths, of a C-space of two dimensions
+  int rows = 120;                     ///< of the images' grid
 };
 
 /// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.

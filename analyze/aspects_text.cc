@@ -76,6 +76,15 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
     entry["det_L_z"] = sign(1);
     for (const Value& v : values(a.system, a.aspects.representatives[k]))
       entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+    if (a.images && k < a.images->areas.size()) {
+      entry["area"] = {{"lo", a.images->areas[k].lo()}, {"hi", a.images->areas[k].hi()}};
+      entry["shares_outputs_with"] = Json::array();
+      for (std::size_t other = 0; other < a.images->share[k].size(); ++other)
+        if (other != k && a.images->share[k][other].value_or(false)) entry["shares_outputs_with"].push_back(other);
+      entry["may_share_outputs_with"] = Json::array();
+      for (std::size_t other = 0; other < a.images->share[k].size(); ++other)
+        if (other != k && !a.images->share[k][other]) entry["may_share_outputs_with"].push_back(other);
+    }
     json["representatives"].push_back(entry);
   }
   json["reason"] = !a.reason.empty() ? a.reason : a.aspects.reason;

@@ -350,7 +350,7 @@ std::optional<SignCell> SignCells::sheet_over(const std::vector<std::size_t>& ce
     for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cells_[c].sides[j]);
   double radius = 0;
   for (std::size_t j = 0; j < hull.size(); ++j) radius = std::max(radius, hull[j].width() / compiled_.scales()[j]);
-  certify::Sheet sheet = test_.piece_about(hull, radius);
+  certify::Sheet sheet = test_.sheet_about(hull, radius);
   if (!sheet.proven) return std::nullopt;
   for (std::size_t j = 0; j < hull.size(); ++j)
     if (!sheet.region[j].contains(hull[j])) return std::nullopt;

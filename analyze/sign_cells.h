@@ -86,6 +86,10 @@ class SignCells {
   Box solution_over(const SignCell& cell, Box sides);
   /// Signs ±1 of the functions in the box, in which the solutions are meant; 0 where one is not known.
   std::vector<int> signs(const Box& box) const;
+  /// Is there for every value in `over` of the variables `free` exactly one solution in some region on which the functions
+  /// have these signs, and one of them in `at`, a part of a cell?
+  bool has_graph_over(const Box& at, const std::vector<int>& free, const std::vector<Interval>& over,
+                      const std::vector<int>& signs);
   /// Lemma 2 for the one mixed function of a cell and a sign: is the part proven to be connected and not empty (1), empty
   /// (−1), or neither (0)?
   int part_of_one(const SignCell& cell, int sign);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "corank/analyze/sign_cells.h"
+#include "corank/certify/preconditioning.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 
@@ -9,6 +10,13 @@ namespace corank::analyze {
 namespace {
 
 int sign_of(const Interval& x) { return x.lo() > 0 ? 1 : x.hi() < 0 ? -1 : 0; }
+
+std::vector<int> dependent_of(const std::vector<int>& free, int variables) {
+  std::vector<int> result;
+  for (int j = 0; j < variables; ++j)
+    if (std::find(free.begin(), free.end(), j) == free.end()) result.push_back(j);
+  return result;
+}
 
 }  // namespace
 
@@ -114,6 +122,23 @@ int SignCells::part_by_outflow(const SignCell& cell, const std::vector<int>& sig
     if (--tries == 0) return 0;
   }
   return 0;
+}
+
+bool SignCells::has_graph_over(const Box& at, const std::vector<int>& free, const std::vector<Interval>& over,
+                               const std::vector<int>& wanted) {
+  const std::optional<Box> point = test_.solution_in(at, at);
+  if (!point) return false;
+  const std::vector<int> dependent = dependent_of(free, system_.size());
+  std::vector<double> c;
+  Box around = *point;
+  for (const Interval& side : *point) c.push_back(side.mid());
+  for (std::size_t k = 0; k < free.size(); ++k) around[static_cast<std::size_t>(free[k])] = over[k];
+  const certify::Preconditioner p = certify::midpoint_preconditioner(compiled_, c, dependent);
+  const certify::Sheet sheet = certify::newton_prove(compiled_, p, around, workspace_);
+  if (!sheet.proven) return false;
+  for (std::size_t j = 0; j < point->size(); ++j)
+    if (!sheet.region[j].contains((*point)[j])) return false;
+  return signs(sheet.image) == wanted;
 }
 
 }  // namespace corank::analyze

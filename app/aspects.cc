@@ -21,6 +21,7 @@ struct AspectsCommand {
   analyze::AspectsOptions options;
   double time_limit = 0;
   bool json = false;
+  bool areas = false;
   std::string output;
 };
 
@@ -72,6 +73,9 @@ ExitStatus aspects(AspectsCommand command) {
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no aspects", command.question.file));
   if (!command.output.empty()) command.options.drawn = drawn(question.model);
+  if (command.areas && question.model.outputs().size() != 2)
+    throw UsageError(fmt::format("{}: areas need two outputs", command.question.file));
+  if (command.areas) command.options.images = question.model.outputs();
   const Interrupt interrupt;
   ProgressLine line;
   line.follow(control);
@@ -105,6 +109,9 @@ void add_aspects(CLI::App& program, Action& action) {
       ->check(CLI::NonNegativeNumber);
   sub->add_option("-o", command->output, "A picture of the aspects: in the planes of two outputs and of two inputs")
       ->type_name("FILE.svg");
+  sub->add_flag(
+      "--areas", command->areas,
+      "Of two outputs that are lengths: the area that each aspect covers, in bounds, and which share outputs; in JSON");
   sub->add_flag("--json", command->json, "Print the result as JSON");
   sub->footer(
       "aspects: pieces of C-space without forward and inverse singularities; assembly modes: without forward ones;\n"

@@ -98,7 +98,7 @@ std::optional<Box> MeetingTest::solution_in(const Box& box, const Box& near) {
   return std::nullopt;
 }
 
-Sheet MeetingTest::piece_about(const Box& near, double radius) {
+Sheet MeetingTest::sheet_about(const Box& near, double radius) {
   CORANK_CHECK(UpwardRounding::active());
   std::vector<double> c;
   Box around;
@@ -111,6 +111,12 @@ Sheet MeetingTest::piece_about(const Box& near, double radius) {
   std::vector<Interval> x;
   for (std::size_t j = 0; j < c.size(); ++j) x.emplace_back(c[j] - radius * scales[j], c[j] + radius * scales[j]);
   return prove(x, c, scales);
+}
+
+std::optional<Box> MeetingTest::piece_about(const Box& near, double radius) {
+  Sheet sheet = sheet_about(near, radius);
+  if (!sheet.proven) return std::nullopt;
+  return std::move(sheet.region);
 }
 
 bool MeetingTest::meet(const Box& a, const Box& b, const Box& near) {

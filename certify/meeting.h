@@ -29,7 +29,9 @@ class MeetingTest {
   /// A piece of its own about a solution near the box's middle, about so large in units of the system's scales: in its
   /// region there is for every value of n − m variables exactly one solution. It may join pieces whose regions end where
   /// they touch. Not proven where none was found.
-  Sheet piece_about(const Box& near, double radius);
+  Sheet sheet_about(const Box& near, double radius);
+  /// Its region.
+  std::optional<Box> piece_about(const Box& near, double radius);
 
  private:
   // A point of the solution set near c, heuristically; sides of no width keep their value. False: none was found within.

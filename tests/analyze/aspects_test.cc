@@ -231,6 +231,30 @@ TEST(Aspects, HaveTheSignsOfTheirDeterminants) {
   }
 }
 
+// In each working mode the end reaches the lens about both motors once: of one mode no two aspects have a place in common.
+TEST(Aspects, OfDextarCoverTheLensOncePerWorkingMode) {
+  solve::Control control;
+  const Aspects a = aspects({.model = study::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik").mechanism},
+                            {.images = {"J3x", "J3y"}, .rows = 40}, control);
+  ASSERT_TRUE(a.images && a.images->areas.size() == 10);
+  const double r = 1.8, d = 1.18, lens = 2 * r * r * std::acos(d / (2 * r)) - d / 2 * std::sqrt(4 * r * r - d * d);
+  double lo = 0, hi = 0;
+  for (const Interval& area : a.images->areas) lo += area.lo(), hi += area.hi();
+  EXPECT_LE(lo, 4 * lens);
+  EXPECT_GE(hi, 4 * lens);
+  EXPECT_GT(lo, 2 * lens);
+  EXPECT_LT(hi, 6 * lens);
+  const auto& s = a.aspects.signs;
+  int shared = 0;
+  for (std::size_t p = 0; p < s.size(); ++p)
+    for (std::size_t q = 0; q < p; ++q) {
+      EXPECT_EQ(a.images->share[p][q], a.images->share[q][p]);
+      if (s[p][1] == s[q][1] && s[p][2] == s[q][2]) EXPECT_NE(a.images->share[p][q], true);
+      shared += a.images->share[p][q].value_or(false);
+    }
+  EXPECT_GE(shared, 15);
+}
+
 TEST(Aspects, AreNotCountedWhereCSpaceCrossesItself) {
   symbolic::Mechanism equal = symbolic::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik");
   equal.set_constant("L2", 1);
