@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "corank/analyze/limits.h"
+#include "corank/certify/determinant.h"
 #include "corank/certify/meeting.h"
 #include "corank/core/box_tree.h"
 #include "corank/core/rounding.h"
@@ -46,6 +48,7 @@ class PieceCounter {
       join_over_border(c);
       control_.report(c, cells_.cells().size());
     }
+    join_touching();
     join_at_ends();
     upper_bound(result);
     lower_bound(result);
@@ -72,23 +75,15 @@ class PieceCounter {
     part_of_.resize(cells_.cells().size());
     for (std::size_t c = 0; c < cells_.cells().size(); ++c) {
       const SignCell& cell = cells_.cells()[c];
-      Signs signs;
-      for (const Interval& g : cell.range) signs.push_back(g.lo() > 0 ? 1 : -1);
-      if (cell.mixed.empty()) {
-        add_part(c, signs, Kind::connected, true);
-        continue;
-      }
-      for (std::uint64_t choice = 0; choice < std::uint64_t{1} << std::min<std::size_t>(cell.mixed.size(), 16); ++choice) {
-        for (std::size_t k = 0; k < cell.mixed.size(); ++k)
-          signs[static_cast<std::size_t>(cell.mixed[k])] = (choice >> k & 1) != 0 ? 1 : -1;
-        if (!cell.resolved) {
-          add_part(c, signs, Kind::unknown, false);
-        } else if (cell.mixed.size() > 1) {
-          add_part(c, signs, Kind::passage, false);
-        } else {
-          const int part = cells_.part_of_one(cell, signs[static_cast<std::size_t>(cell.mixed.front())]);
-          if (part >= 0) add_part(c, signs, part > 0 ? Kind::connected : Kind::passage, part > 0);
-        }
+      const std::vector<Signs> choices = cells_.choices(cell);
+      crowded_ = crowded_ || choices.empty();
+      for (const Signs& signs : choices) {
+        int part = 0;
+        if (cell.mixed.empty()) part = 1;
+        if (cell.mixed.size() == 1) part = cells_.part_of_one(cell, signs[static_cast<std::size_t>(cell.mixed.front())]);
+        if (part == 0) part = cells_.part_by_outflow(cell, signs);
+        if (part > 0) add_part(c, signs, Kind::connected, true);
+        if (part == 0) add_part(c, signs, cell.resolved ? Kind::passage : Kind::unknown, false);
       }
     }
   }
@@ -136,7 +131,7 @@ class PieceCounter {
     const std::vector<int>& frees = cells_.free(cell);
     std::vector<double> along{0.5};
     if (!cell.mixed.empty() && frees.size() > 1) along = {0.5, 0, 0.02, 0.1, 0.3, 0.7, 0.9, 0.98, 1};
-    Box at = cells_.region(cell);
+    Box at = cell.sides;
     for (std::size_t face = 0; face < frees.size(); ++face)
       for (const bool upper : {false, true})
         for (const double share : along) {
@@ -145,24 +140,61 @@ class PieceCounter {
             const double inside = std::clamp(side.lo() + share * (side.hi() - side.lo()), side.lo(), side.hi());
             at[static_cast<std::size_t>(frees[f])] = Interval(f != face ? inside : upper ? side.hi() : side.lo());
           }
-          if (const std::optional<Box> point = test_.solution_in(at, cell.sides)) join_at(*point);
+          join_at(cells_.solution_over(cell, at));
         }
   }
 
   // Where two cells end at one point, a small piece about it may meet both.
   void join_at_ends() {
+    constexpr int kTries = 8;  // for two pieces
     const UpwardRounding rounding;
+    std::map<std::pair<std::size_t, std::size_t>, int> tries;
     for (const End& end : ends_) {
-      if (proven_.find_set(end.part) == proven_.find_set(end.other)) continue;
+      const std::size_t a = proven_.find_set(end.part), b = proven_.find_set(end.other);
+      if (a == b || control_.ended() || ++tries[std::minmax(a, b)] > kTries) continue;
       for (const double radius : {1e-3, 1e-5, 1e-7}) {
-        const std::optional<Box> piece = test_.piece_about(end.point, radius);
-        if (!piece || cells_.signs(*piece) != parts_[end.part].signs) continue;
-        if (!meets(*piece, cells_.cells()[parts_[end.part].cell]) || !meets(*piece, cells_.cells()[parts_[end.other].cell]))
+        const certify::Sheet piece = test_.sheet_about(end.point, radius);
+        if (!piece.proven || cells_.signs(piece.region) != parts_[end.part].signs) continue;
+        if (!meets(piece.region, cells_.cells()[parts_[end.part].cell]) ||
+            !meets(piece.region, cells_.cells()[parts_[end.other].cell]))
           continue;
         proven_.union_set(end.part, end.other);
         break;
       }
     }
+  }
+
+  // Connected parts of like signs that touch and are not joined yet: points of the one's X_F next to the other, more and
+  // more of them.
+  void join_touching() {
+    constexpr int kRows = 4;
+    for (int row = 0; row < kRows; ++row)
+      for_each_pair([&](std::size_t p, std::size_t q) {
+        if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected) return;
+        const UpwardRounding rounding;
+        for (const auto& [from, to] : {std::pair(p, q), std::pair(q, p)})
+          if (proven_.find_set(p) != proven_.find_set(q)) join_next_to(parts_[from].cell, parts_[to].cell, 4 << row);
+      });
+  }
+
+  // At `count` + 1 points along each free side, those on the other free sides' ends and middles.
+  void join_next_to(std::size_t c, std::size_t d, int count) {
+    const SignCell& cell = cells_.cells()[c];
+    const std::vector<int>& frees = cells_.free(cell);
+    Box near = cell.sides;
+    for (std::size_t j = 0; j < near.size(); ++j)
+      if (!near[j].intersect(cells_.cells()[d].sides[j])) return;
+    Box at = cell.sides;
+    for (const int along : frees)
+      for (int k = 0; k <= count; ++k)
+        for (const double others : {0.0, 0.5, 1.0}) {
+          for (const int f : frees) {
+            const auto j = static_cast<std::size_t>(f);
+            const double share = f == along ? static_cast<double>(k) / count : others;
+            at[j] = Interval(std::clamp(near[j].lo() + share * near[j].width(), near[j].lo(), near[j].hi()));
+          }
+          join_at(cells_.solution_over(cell, at));
+        }
   }
 
   // Is a solution in the piece and in the cell proven?
@@ -207,9 +239,7 @@ class PieceCounter {
         const SignCell& cell = cells_.cells()[parts_[p].cell];
         const SignCell& first = cells_.cells()[parts_[list.front()].cell];
         const bool same = cell.box == first.box && cell.mixed == first.mixed;
-        const int product = parts_[p].signs[static_cast<std::size_t>(cell.mixed.front())] *
-                            parts_[p].signs[static_cast<std::size_t>(cell.mixed.back())];
-        common &= same || list.size() == 1 ? cell.directions[product > 0 ? 1 : 0] : 0;
+        common &= same || list.size() == 1 ? cell.directions[cells_.choice(cell, parts_[p].signs)] : 0;
       }
       if (common == 0) hidden = true;
     }
@@ -234,22 +264,27 @@ class PieceCounter {
       const auto mixed = [&](std::size_t k) { return cells_.cells()[parts_[k].cell].mixed.size(); };
       if (!fresh && mixed(p) < mixed(place->second)) place->second = p;
     }
-    if (control_.ended()) {
-      result.reason = "the analysis was ended by a limit";
+    if (control_.ended() || crowded_) {
+      if (control_.ended()) result.reason = "the analysis was ended by a limit";
       result.at_least = known.empty() ? 0 : 1;
     } else {
       result.at_least = static_cast<int>(known.size());
     }
     if (result.at_most && !result.exact()) result.reason = "links or gaps between cells that could not be shown";
     const UpwardRounding rounding;
+    std::map<std::size_t, int> numbers;
+    for (const auto& [root, p] : known) numbers.emplace(root, static_cast<int>(numbers.size()));
+    for (const Part& part : parts_)
+      if (const auto n = numbers.find(classes.find_set(static_cast<std::size_t>(&part - parts_.data()))); n != numbers.end())
+        result.parts.push_back({part.cell, part.signs, n->second});
     for (const auto& [root, p] : known) {
       const SignCell& cell = cells_.cells()[parts_[p].cell];
-      Box at = cells_.region(cell);
+      Box at = cell.sides;
       for (const int f : cells_.free(cell))
         at[static_cast<std::size_t>(f)] = Interval(cell.sides[static_cast<std::size_t>(f)].mid());
-      std::optional<Box> point = cell.mixed.empty() ? test_.solution_in(at, cell.sides) : parts_[p].solution;
+      const std::optional<Box> point = cell.mixed.empty() ? cells_.solution_over(cell, at) : parts_[p].solution;
       result.representatives.push_back(point.value_or(cell.sides));
-      result.signs.push_back(parts_[p].signs);
+      result.signs.emplace_back(parts_[p].signs.begin(), parts_[p].signs.end() - cells_.limits());
     }
   }
 
@@ -265,14 +300,32 @@ class PieceCounter {
   std::vector<std::map<Signs, std::size_t>> part_of_;  // of each cell
   std::optional<BoxTree> tree_;
   std::vector<End> ends_;
+  bool crowded_ = false;  // some cell's parts are not even listed
   boost::disjoint_sets_with_storage<> proven_;
 };
 
-std::vector<symbolic::Expression> factors(const study::Question& question, symbolic::SingularitySet set) {
+symbolic::ExpressionMatrix block(const study::Question& question, symbolic::SingularitySet set) {
   const symbolic::Derivation derivation = symbolic::derive(question.model);
-  symbolic::ExpressionMatrix matrix =
-      symbolic::kernel_question(question.model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
-  return symbolic::determinant_factors(question.model, matrix);
+  return symbolic::kernel_question(question.model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
+}
+
+// Of the determinant of a square matrix at each of the boxes.
+std::vector<int> signs_of_determinant(const symbolic::TrigonometricSystem& equations, const System& system,
+                                      const symbolic::ExpressionMatrix& matrix, const std::vector<Box>& boxes) {
+  std::vector<symbolic::Expression> entries;
+  for (const auto& row : matrix.rows) entries.insert(entries.end(), row.begin(), row.end());
+  const certify::CompiledSystem compiled(system, symbolic::polynomials(equations, entries));
+  const int n = static_cast<int>(matrix.rows.size());
+  const UpwardRounding rounding;
+  std::vector<int> result;
+  for (const Box& box : boxes) {
+    certify::IntervalMatrix values(n, n);
+    for (int k = 0; k < n * n; ++k)
+      values.entries[static_cast<std::size_t>(k)] = compiled.evaluate(compiled.value_row(k), box);
+    const Interval value = certify::determinant(values);
+    result.push_back(value.lo() > 0 ? 1 : value.hi() < 0 ? -1 : 0);
+  }
+  return result;
 }
 
 }  // namespace
@@ -284,8 +337,10 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   question.set = symbolic::SingularitySet::cspace;
   const symbolic::TrigonometricSystem equations = study::equations(question);
   result.system = study::system(question, equations);
-  const std::vector<symbolic::Expression> forward = factors(question, symbolic::SingularitySet::forward);
-  const std::vector<symbolic::Expression> inverse = factors(question, symbolic::SingularitySet::inverse);
+  const symbolic::ExpressionMatrix l_y = block(question, symbolic::SingularitySet::forward);
+  const symbolic::ExpressionMatrix l_z = block(question, symbolic::SingularitySet::inverse);
+  const std::vector<symbolic::Expression> forward = symbolic::determinant_factors(question.model, l_y);
+  const std::vector<symbolic::Expression> inverse = symbolic::determinant_factors(question.model, l_z);
   for (const auto& e : forward) result.forward_factors.push_back(e.text());
   for (const auto& e : inverse) result.inverse_factors.push_back(e.text());
 
@@ -298,10 +353,11 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
                  2;  // sheets are not cut
   const Cover cover = solve::solve(solve::prepare(result.system, search, control), control);
   for (const CoverBox& box : cover.boxes)
-    if (box.verdict != Verdict::regular) {
-      result.reason = "C-space is not shown to be smooth and without boundary in the search domain";
+    if (box.verdict != Verdict::regular && box.verdict != Verdict::boundary) {
+      result.reason = "C-space is not shown to be smooth in the search domain";
       return result;
     }
+  result.system = with_single_values(std::move(result.system));
   if (!cover.complete() || static_cast<int>(result.system.equations.size()) + cover.dimension != result.system.size()) {
     result.reason = "C-space could not be covered";
     return result;
@@ -309,14 +365,30 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   std::vector<symbolic::Expression> both = forward;
   for (const auto& e : inverse)
     if (std::none_of(forward.begin(), forward.end(), [&](const auto& f) { return same_tree(e, f); })) both.push_back(e);
-  const auto count = [&](const std::vector<symbolic::Expression>& functions) {
-    SignCells cells(result.system, cover, symbolic::polynomials(equations, functions));
+  std::vector<Polynomial> ends;
+  for (const Limit& limit : limits(result.system, cover)) ends.push_back(limit.function);
+  if (!ends.empty()) {
+    search.sigma.reset();  // smaller sheets show to which of them C-space comes indeed
+    const Cover fine = solve::solve(solve::prepare(result.system, search, control), control);
+    for (const Limit& limit : limits(result.system, fine.complete() ? fine : cover)) result.limits.push_back(limit.name);
+  }
+  const auto count = [&](const std::vector<symbolic::Expression>& functions, bool first) {
+    SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends);
     cells.refine(options.halvings, options.rounds, control);
-    return pieces(cells, control);
+    Pieces found = pieces(cells, control);
+    const bool plane = cover.dimension == 2 && options.images.size() == 2 && found.exact();
+    const int x = plane ? result.system.find(options.images[0]) : -1, y = plane ? result.system.find(options.images[1]) : -1;
+    if (first && x >= 0 && y >= 0) result.images = images(cells, found, x, y, options.rows, control);
+    if (first && !options.drawn.empty()) result.drawing = draw(cells, found, options.drawn);
+    return found;
   };
-  result.aspects = count(both);
-  result.assembly_modes = count(forward);
-  result.working_modes = count(inverse);
+  result.aspects = count(both, true);
+  const std::vector<Box>& at = result.aspects.representatives;
+  const std::vector<int> y = signs_of_determinant(equations, result.system, l_y, at);
+  const std::vector<int> z = signs_of_determinant(equations, result.system, l_z, at);
+  for (std::size_t k = 0; k < at.size(); ++k) result.determinant_signs.push_back({y[k], z[k]});
+  result.assembly_modes = count(forward, false);
+  result.working_modes = count(inverse, false);
   return result;
 }
 

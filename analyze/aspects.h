@@ -4,13 +4,16 @@
 //   assembly modes  pieces of C-space without forward singularities
 //   working modes   pieces of C-space without inverse singularities
 //
-// Counted on cells (sign_cells.h) of a smooth C-space without boundary in the search domain. In each piece the factors of
-// the determinants of L_y and L_z keep their signs.
+// Counted on cells (sign_cells.h) of a C-space that is smooth in the search domain, strictly within its limits. In each
+// piece the factors of the determinants of L_y and L_z keep their signs.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "corank/analyze/aspect_images.h"
+#include "corank/analyze/aspects_drawing.h"
 #include "corank/analyze/sign_cells.h"
 #include "corank/study/question.h"
 
@@ -22,6 +25,12 @@ struct Pieces {
   /// Of each piece known to be there a box with a solution of it; of pieces not known to differ one box each.
   std::vector<Box> representatives;
   std::vector<std::vector<int>> signs;  ///< of the factors in each representative
+  struct Part {
+    std::size_t cell;
+    std::vector<int> signs;  ///< of all functions, the limits among them
+    int piece;               ///< index of its representative
+  };
+  std::vector<Part> parts;  ///< of the cells, which make the pieces
   std::size_t cells = 0, unresolved = 0;
   std::string reason;  ///< why the bounds are apart; empty where they are not
 
@@ -36,14 +45,22 @@ Pieces pieces(SignCells& cells, solve::Control& control);
 struct Aspects {
   Pieces aspects, assembly_modes, working_modes;
   std::vector<std::string> forward_factors, inverse_factors;  ///< of det L_y, det L_z
+  std::vector<std::string> limits;                            ///< to which C-space comes: pieces are strictly within
   System system;                                              ///< C-space: the variables of the boxes
   std::string reason;                                         ///< why nothing is known; empty where something is
+  /// Of each aspect the signs of det L_y and det L_z, as `corank derive` prints the matrices; 0: not proven.
+  std::vector<std::array<int, 2>> determinant_signs;
+  std::optional<PieceImages> images;    ///< of the aspects, where AspectsOptions::images asks for them
+  std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
 };
 
 struct AspectsOptions {
   int threads = 1;
-  int halvings = 16;  ///< of a cover's box, at most
-  int rounds = 16;    ///< SignCells::refine
+  int halvings = 16;                  ///< of a cover's box, at most
+  int rounds = 16;                    ///< SignCells::refine
+  std::vector<std::string> drawn{};   ///< coordinates
+  std::vector<std::string> images{};  ///< two lengths, of a C-space of two dimensions
+  int rows = 120;                     ///< of the images' grid
 };
 
 /// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.

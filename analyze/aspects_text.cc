@@ -38,6 +38,7 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   if (!a.reason.empty()) return text + "  not known: " + a.reason + "\n";
   text += fmt::format("  aspects         {}\n  assembly modes  {}\n  working modes   {}\n", bounds(a.aspects),
                       bounds(a.assembly_modes), bounds(a.working_modes));
+  if (!a.limits.empty()) text += fmt::format("  strictly within {}\n", fmt::join(a.limits, ", "));
   text += fmt::format("  det L_y = 0 where {}\n",
                       a.forward_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.forward_factors, " = 0 or ")));
   text += fmt::format("  det L_z = 0 where {}\n",
@@ -64,11 +65,26 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   json["working_modes"] = number(a.working_modes);
   json["bounds"] = {{"assembly_modes", bounds(a.assembly_modes)}, {"working_modes", bounds(a.working_modes)}};
   json["factors"] = {{"forward", a.forward_factors}, {"inverse", a.inverse_factors}};
+  json["limits"] = a.limits;
   json["representatives"] = Json::array();
   for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {
     Json entry = {{"values", Json::object()}, {"signs", a.aspects.signs[k]}};
+    const auto sign = [&](std::size_t d) {
+      return a.determinant_signs[k][d] != 0 ? Json(a.determinant_signs[k][d]) : Json();
+    };
+    entry["det_L_y"] = sign(0);
+    entry["det_L_z"] = sign(1);
     for (const Value& v : values(a.system, a.aspects.representatives[k]))
       entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+    if (a.images && k < a.images->areas.size()) {
+      entry["area"] = {{"lo", a.images->areas[k].lo()}, {"hi", a.images->areas[k].hi()}};
+      entry["shares_outputs_with"] = Json::array();
+      for (std::size_t other = 0; other < a.images->share[k].size(); ++other)
+        if (other != k && a.images->share[k][other].value_or(false)) entry["shares_outputs_with"].push_back(other);
+      entry["may_share_outputs_with"] = Json::array();
+      for (std::size_t other = 0; other < a.images->share[k].size(); ++other)
+        if (other != k && !a.images->share[k][other]) entry["may_share_outputs_with"].push_back(other);
+    }
     json["representatives"].push_back(entry);
   }
   json["reason"] = !a.reason.empty() ? a.reason : a.aspects.reason;

@@ -156,8 +156,9 @@ class Linker {
   // Where both regions end where they touch, a small piece about that place may meet both.
   bool bridge(std::size_t r, std::size_t s, const Box& near) {
     for (const double radius : {1e-2, 1e-4, 1e-6})
-      if (const std::optional<Box> piece = test_.piece_about(near, radius))
-        if (test_.meet(*piece, *regions_[r], *piece) && test_.meet(*piece, *regions_[s], *piece)) return true;
+      if (const certify::Sheet piece = test_.sheet_about(near, radius); piece.proven)
+        if (test_.meet(piece.region, *regions_[r], piece.region) && test_.meet(piece.region, *regions_[s], piece.region))
+          return true;
     return false;
   }
 

@@ -22,27 +22,63 @@ std::vector<int> dependent_of(const std::vector<int>& free, int variables) {
   return result;
 }
 
+std::vector<Polynomial> joined(std::vector<Polynomial> a, const std::vector<Polynomial>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 }  // namespace
 
-SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions)
-    : system_(system), cover_(cover), compiled_(system, functions) {
+SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
+                     const std::vector<Polynomial>& limits)
+    : system_(system),
+      cover_(cover),
+      given_(cover.boxes.size()),
+      limits_(static_cast<int>(limits.size())),
+      compiled_(system, joined(functions, limits)),
+      test_(system) {
   const UpwardRounding rounding;
   for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
-    CORANK_CHECK(cover.boxes[i].verdict == Verdict::regular);
-    SignCell cell{static_cast<int>(i), cover.boxes[i].box, {}, {}, false};
+    const CoverBox& box = cover.boxes[i];
+    CORANK_CHECK((box.verdict == Verdict::regular || box.verdict == Verdict::boundary) && box.region >= 0);
+    SignCell cell{static_cast<int>(i), box.box, {}, {}, false, {}, {}};
+    // The sheet of a `boundary` box may go on beyond the domain.
+    if (box.verdict == Verdict::boundary)
+      for (const int d : dependent_of(box.free, system.size()))
+        cell.sides[static_cast<std::size_t>(d)] = region(cell)[static_cast<std::size_t>(d)];
+    widen_region(cell);
     evaluate(cell);
-    cells_.push_back(std::move(cell));
+    if (!is_outside(cell)) cells_.push_back(std::move(cell));
   }
+  index_boxes();
+}
+
+// A region that was lifted from a reduced system may have no width where another sheet's differs by rounding.
+void SignCells::widen_region(const SignCell& cell) {
+  certify::Sheet sheet = certify::newton_prove(compiled_, preconditioner(cell, cell.sides), cell.sides, workspace_);
+  if (!sheet.proven) return;
+  CoverBox& box = cover_.boxes[static_cast<std::size_t>(cell.box)];
+  box.region = static_cast<int>(cover_.regions.size());
+  cover_.regions.push_back(std::move(sheet.region));
+}
+
+void SignCells::index_boxes() {
   std::vector<const Box*> sides;
-  for (const CoverBox& box : cover.boxes) sides.push_back(&box.box);
-  if (!sides.empty()) boxes_ = std::make_shared<const BoxTree>(std::move(sides), cover.boxes.front().box.size());
+  for (const CoverBox& box : cover_.boxes) sides.push_back(&box.box);
+  if (!sides.empty()) boxes_ = std::make_shared<const BoxTree>(std::move(sides), cover_.boxes.front().box.size());
+}
+
+// Those that were added first of all: they are there to take over.
+bool SignCells::comes_before(int a, int b) const {
+  const auto added = [&](int i) { return static_cast<std::size_t>(i) >= given_; };
+  return added(a) != added(b) ? added(a) : a < b;
 }
 
 // Do all of the cell's solutions lie in a box that comes before its own? That box's cells hold them, too.
 bool SignCells::is_covered_before(const SignCell& cell) const {
   bool covered = false;
   boxes_->for_each_overlapping(cell.sides, 0.0, [&](std::size_t b) {
-    if (covered || static_cast<int>(b) >= cell.box) return;
+    if (covered || !comes_before(static_cast<int>(b), cell.box)) return;
     const CoverBox& other = cover_.boxes[b];
     const Box& other_region = cover_.regions[static_cast<std::size_t>(other.region)];
     for (std::size_t j = 0; j < cell.sides.size(); ++j)
@@ -85,6 +121,36 @@ void SignCells::evaluate(SignCell& cell) {
     cell.range.push_back(value);
   }
   cell.resolved = resolve(cell);
+}
+
+bool SignCells::is_outside(const SignCell& cell) const {
+  return std::any_of(cell.mixed.begin(), cell.mixed.end(),
+                     [&](int k) { return is_limit(k) && cell.range[static_cast<std::size_t>(k)].hi() <= 0; }) ||
+         std::any_of(cell.range.end() - limits_, cell.range.end(), [](const Interval& g) { return g.hi() < 0; });
+}
+
+std::size_t SignCells::choice(const SignCell& cell, const std::vector<int>& signs) const {
+  std::size_t result = 0, bit = 1;
+  for (const int k : cell.mixed) {
+    if (is_limit(k)) continue;
+    if (signs[static_cast<std::size_t>(k)] > 0) result |= bit;
+    bit *= 2;
+  }
+  return result;
+}
+
+std::vector<std::vector<int>> SignCells::choices(const SignCell& cell) const {
+  std::vector<int> open, signs;
+  for (const Interval& g : cell.range) signs.push_back(g.hi() < 0 ? -1 : 1);
+  for (const int k : cell.mixed)
+    if (!is_limit(k)) open.push_back(k);
+  std::vector<std::vector<int>> result;
+  if (open.size() > 2) return result;
+  for (std::size_t number = 0; number < std::size_t{1} << open.size(); ++number) {
+    for (std::size_t k = 0; k < open.size(); ++k) signs[static_cast<std::size_t>(open[k])] = (number >> k & 1) != 0 ? 1 : -1;
+    result.push_back(signs);
+  }
+  return result;
 }
 
 // Theorem: at a solution the sheet's tangent space is the kernel of the equations' Jacobian J; with V its basis whose free
@@ -155,6 +221,11 @@ std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) con
         d[b] = 0;
       }
   }
+  // Where three limits meet.
+  for (std::size_t signs = 0; frees.size() == 3 && signs < 4; ++signs)
+    for (const double share : {1.0, 0.4})
+      result.push_back(
+          {width(0), ((signs & 1) != 0 ? share : -share) * width(1), ((signs & 2) != 0 ? share : -share) * width(2)});
   constexpr std::size_t kBits = 64;
   if (result.size() > kBits) result.resize(kBits);
   return result;
@@ -164,27 +235,43 @@ std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) con
 bool SignCells::find_directions(SignCell& cell) {
   Slopes s;
   cell.directions = {};
-  if (cell.mixed.size() > 2 || !slopes(cell, s)) return false;
+  const std::vector<std::vector<int>> all = choices(cell);
+  if (all.empty() || !slopes(cell, s)) return false;
+  for (std::size_t c = all.size(); c < cell.directions.size(); ++c) cell.directions[c] = ~std::uint64_t{0};
   std::uint64_t bit = 1;
   for (const std::vector<double>& d : directions(cell)) {
-    std::vector<int> signs;
-    for (const std::vector<Interval>& slope : s.of) {
-      Interval along;
-      for (std::size_t f = 0; f < d.size(); ++f) along += Interval(d[f]) * slope[f];
-      signs.push_back(sign_of(along));
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      bool grow = true, shrink = true;
+      for (std::size_t k = 0; k < cell.mixed.size(); ++k) {
+        Interval along;
+        for (std::size_t f = 0; f < d.size(); ++f) along += Interval(d[f]) * s.of[k][f];
+        const int growth = sign_of(along) * all[c][static_cast<std::size_t>(cell.mixed[k])];
+        grow = grow && growth > 0;
+        shrink = shrink && growth < 0;
+      }
+      if (grow || shrink) cell.directions[c] |= bit;
     }
-    const int product = signs.front() * signs.back();
-    if (product != 0 && (signs.size() == 1 || product < 0)) cell.directions[0] |= bit;
-    if (product > 0) cell.directions[1] |= bit;
     bit <<= 1;
   }
-  return cell.directions[0] != 0 && cell.directions[1] != 0;
+  return std::find(cell.directions.begin(), cell.directions.end(), 0U) == cell.directions.end();
 }
 
 bool SignCells::resolve(SignCell& cell) {
   if (cell.mixed.empty()) return true;
-  if (cell.mixed.size() == 1) return part_of_one(cell, 1) != 0 && part_of_one(cell, -1) != 0;
+  if (cell.mixed.size() == 1)
+    return part_of_one(cell, 1) != 0 && (is_limit(cell.mixed.front()) || part_of_one(cell, -1) != 0);
   return find_directions(cell);
+}
+
+Box SignCells::solution_over(const SignCell& cell, Box sides) {
+  constexpr double kNarrow = 1e-11;
+  for (int step = 0; step < 5; ++step) {
+    certify::tighten_sheet(compiled_, preconditioner(cell, sides), sides, workspace_);
+    double widest = 0;
+    for (std::size_t j = 0; j < sides.size(); ++j) widest = std::max(widest, sides[j].width() / compiled_.scales()[j]);
+    if (widest < kNarrow) break;
+  }
+  return sides;
 }
 
 std::vector<int> SignCells::signs(const Box& box) const {
@@ -213,20 +300,31 @@ std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
   if (!(side.lo() < cut && cut < side.hi())) return std::nullopt;
   std::vector<SignCell> result;
   for (const Interval& half : {Interval(side.lo(), cut), Interval(cut, side.hi())}) {
-    SignCell child{cell.box, cell.sides, {}, {}, false, {}};
+    SignCell child{cell.box, cell.sides, {}, {}, false, {}, {}};
     child.sides[j] = half;
     evaluate(child);
-    if (!is_covered_before(child)) result.push_back(std::move(child));
+    if (!is_outside(child) && !is_covered_before(child)) result.push_back(std::move(child));
   }
   return result;
 }
 
-// Those of two mixed functions in groups that share no direction.
-std::vector<std::size_t> SignCells::touching_passages() const {
-  std::vector<std::size_t> cells, result;
+bool SignCells::has_known_parts(SignCell& cell) {
+  if (!cell.known_parts) {
+    const std::vector<std::vector<int>> all = choices(cell);
+    cell.known_parts = !all.empty() && std::all_of(all.begin(), all.end(), [&](const std::vector<int>& signs) {
+      return part_by_outflow(cell, signs) != 0;
+    });
+  }
+  return *cell.known_parts;
+}
+
+// Those of several mixed functions in groups that share no direction, but for those whose parts are known.
+std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
+  std::vector<std::size_t> cells;
+  std::vector<std::vector<std::size_t>> result;
   std::vector<const Box*> sides;
   for (std::size_t c = 0; c < cells_.size(); ++c)
-    if (cells_[c].resolved && cells_[c].mixed.size() == 2) {
+    if (cells_[c].resolved && cells_[c].mixed.size() > 1 && !has_known_parts(cells_[c])) {
       cells.push_back(c);
       sides.push_back(&cells_[c].sides);
     }
@@ -236,14 +334,37 @@ std::vector<std::size_t> SignCells::touching_passages() const {
   for (std::size_t k = 0; k < cells.size(); ++k) members[group[k]].push_back(cells[k]);
   for (const auto& [number, list] : members) {
     const SignCell& first = cells_[list.front()];
-    std::array<std::uint64_t, 2> common = first.directions;
+    auto common = first.directions;
     for (const std::size_t c : list)
-      for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t k = 0; k < common.size(); ++k)
         common[k] &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[k] : 0;
-    if (list.size() > 1 && (common[0] == 0 || common[1] == 0)) result.insert(result.end(), list.begin(), list.end());
+    if (list.size() > 1 && std::find(common.begin(), common.end(), 0U) != common.end()) result.push_back(list);
   }
-  std::sort(result.begin(), result.end());
   return result;
+}
+
+// One whose region holds all of the cells' solutions.
+std::optional<SignCell> SignCells::sheet_over(const std::vector<std::size_t>& cells) {
+  Box hull = cells_[cells.front()].sides;
+  for (const std::size_t c : cells)
+    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cells_[c].sides[j]);
+  double radius = 0;
+  for (std::size_t j = 0; j < hull.size(); ++j) radius = std::max(radius, hull[j].width() / compiled_.scales()[j]);
+  certify::Sheet sheet = test_.sheet_about(hull, radius);
+  if (!sheet.proven) return std::nullopt;
+  for (std::size_t j = 0; j < hull.size(); ++j)
+    if (!sheet.region[j].contains(hull[j])) return std::nullopt;
+  CoverBox box;
+  box.box = std::move(sheet.image);
+  box.verdict = Verdict::regular;
+  for (int j = 0; j < system_.size(); ++j)
+    if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) box.free.push_back(j);
+  box.region = static_cast<int>(cover_.regions.size());
+  cover_.regions.push_back(std::move(sheet.region));
+  cover_.boxes.push_back(std::move(box));
+  SignCell cell{static_cast<int>(cover_.boxes.size()) - 1, cover_.boxes.back().box, {}, {}, false, {}, {}};
+  evaluate(cell);
+  return cell;
 }
 
 void SignCells::refine(int halvings, int rounds, solve::Control& control) {
@@ -273,11 +394,19 @@ void SignCells::refine(int halvings, int rounds, solve::Control& control) {
   };
   work();
   for (int round = 0; round < rounds && !control.ended(); ++round) {
-    const std::vector<std::size_t> touching = touching_passages();
+    std::vector<std::size_t> touching;
+    for (const std::vector<std::size_t>& group : touching_passages()) {
+      touching.insert(touching.end(), group.begin(), group.end());
+      if (auto cell = sheet_over(group)) waiting.push_back({std::move(*cell), halvings / 2});
+    }
     if (touching.empty()) return;
+    std::sort(touching.begin(), touching.end());
+    index_boxes();
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       std::optional<std::vector<SignCell>> parts;
-      if (std::binary_search(touching.begin(), touching.end(), c)) parts = halves(cells_[c]);
+      const bool asked = std::binary_search(touching.begin(), touching.end(), c);
+      if (asked && is_covered_before(cells_[c])) continue;
+      if (asked) parts = halves(cells_[c]);
       if (!parts) done.push_back(std::move(cells_[c]));
       if (parts)
         for (SignCell& part : *parts) waiting.push_back({std::move(part), halvings / 2});

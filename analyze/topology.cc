@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "corank/analyze/aspects.h"
+#include "corank/analyze/limits.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/inertia.h"
 #include "corank/core/check.h"
@@ -123,7 +125,7 @@ HeightCount count_critical_points(const study::Question& question, int height, c
     ++result.by_index[static_cast<std::size_t>(index)];
     const int piece = piece_of(point.box, space, components);
     placed = placed && piece >= 0;
-    if (piece >= 0) euler[static_cast<std::size_t>(piece)] += index % 2 == 0 ? 1 : -1;
+    if (piece >= 0 && piece < components.pieces) euler[static_cast<std::size_t>(piece)] += index % 2 == 0 ? 1 : -1;
   }
   if (placed) result.euler_of_piece = euler;
   return result;
@@ -173,7 +175,10 @@ void find_shape(const study::Question& question, const Solved& space, const Topo
   result.euler_characteristic = result.heights.front().euler_characteristic();
   Components& components = result.components;
   for (const HeightCount& h : result.heights)
-    if (components.at_most) components.at_most = std::min(*components.at_most, h.by_index.front());
+    if (components.at_most) {
+      components.at_most = std::min(*components.at_most, h.by_index.front());
+      CORANK_CHECK(components.at_least <= *components.at_most);
+    }
   if (space.cover.dimension != 2 || !components.exact()) return;
   if (components.at_least == 1) {
     result.genus = {1 - *result.euler_characteristic / 2};
@@ -196,13 +201,53 @@ int HeightCount::euler_characteristic() const {
   return sum;
 }
 
+// Of a set that comes to ends of its domain: of what is strictly within (sign_cells.h).
+Components components_within(const System& system, const Cover& cover, const std::vector<Limit>& ends,
+                             const TopologyOptions& options, solve::Control& control) {
+  std::vector<Polynomial> functions;
+  for (const Limit& end : ends) functions.push_back(end.function);
+  const System whole = with_single_values(system);
+  Components result;
+  const auto is_sheet = [](const CoverBox& b) { return b.verdict == Verdict::regular || b.verdict == Verdict::boundary; };
+  if (!cover.complete() || static_cast<int>(whole.equations.size()) + cover.dimension != whole.size() ||
+      !std::all_of(cover.boxes.begin(), cover.boxes.end(), is_sheet)) {
+    result.reason = "boxes that are neither regular nor at an end";
+    return result;
+  }
+  SignCells cells(whole, cover, {}, functions);
+  cells.refine(options.halvings, options.rounds, control);
+  const Pieces found = pieces(cells, control);
+  result.at_least = found.at_least;
+  result.at_most = found.at_most;
+  result.reason = found.reason;
+  return result;
+}
+
 Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control) {
   Topology result;
   question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
   question.corank = 1;
   question.tolerance = 0;
   Solved space{study::system(question), {}};
-  result.components = refined_components(space, options, result.processed, control);
+  Cover whole = solved(space.system, whole_sheets(space.system), options.threads, control);
+  result.dimension = whole.dimension;
+  if (whole.complete() && whole.dimension > 0) {
+    const std::vector<Limit> ends = limits(space.system, whole);
+    // Whole sheets are wide: smaller ones show to which ends the set comes indeed.
+    Cover fine;
+    if (!ends.empty()) fine = solved(space.system, std::nullopt, options.threads, control);
+    if (!ends.empty())
+      for (const Limit& end : fine.complete() ? limits(space.system, fine) : ends) result.ends.push_back(end.name);
+    if (!ends.empty()) {
+      result.processed = whole.statistics.processed + fine.statistics.processed;
+      result.components = components_within(space.system, whole, ends, options, control);
+      result.components.piece_of_box.assign(fine.boxes.size(), -1);
+      result.reason = result.components.reason;
+      if (!result.ends.empty()) return result;
+      space.cover = std::move(fine);
+    }
+  }
+  if (space.cover.boxes.empty()) result.components = refined_components(space, options, result.processed, control);
   result.dimension = space.cover.dimension;
   const auto counts = space.cover.counts();
   const std::size_t regular = counts[static_cast<std::size_t>(Verdict::regular)];

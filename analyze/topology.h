@@ -4,7 +4,7 @@
 // smooth function all of whose critical points are nondegenerate. Then χ(M) = Σ (−1)^index over them, and every component
 // holds a minimum.
 //   M is smooth: every point of it lies in a `regular` box, where the Jacobian of the equations has full rank.
-//   M is compact and has no boundary in the search domain: `regular` pieces lie within it.
+//   M is compact and has no boundary in the search domain: no box has contact with an end of it (limits.h).
 // The critical points are all there, and distinct: the points of a complete cover, each `isolated` or `exact`; with two
 // kernel vectors ±ξ told apart by
 //   its half-space, where the points' a·ξ is not 0.
@@ -36,6 +36,8 @@ struct HeightCount {
 struct Topology {
   int dimension = 0;
   bool smooth = false;  ///< proven: a manifold without boundary in the search domain
+  /// Limits and other ends of the search domain to which the set comes: its components are those strictly within them.
+  std::vector<std::string> ends;
   Components components;
   std::optional<int> euler_characteristic;
   /// Of each component, ascending; of surfaces only, where the components' number is exact.
@@ -47,6 +49,7 @@ struct Topology {
 
 struct TopologyOptions {
   int threads = 1;
+  int halvings = 16, rounds = 16;               ///< SignCells::refine, where the set has ends
   int refinements = 6;                          ///< σ is halved so often while links or gaps are missing
   std::uint64_t most_for_a_height = 2'000'000;  ///< boxes processed in a search for critical points
 };

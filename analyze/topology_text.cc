@@ -39,6 +39,7 @@ std::string to_text(const study::Question& question, const Topology& t) {
   text += fmt::format("  dimension             {}\n", t.dimension);
   text += fmt::format("  components            {}\n", components_text(t.components));
   if (t.dimension > 0) text += fmt::format("  smooth, without ends  {}\n", t.smooth ? "proven" : "not shown");
+  if (!t.ends.empty()) text += fmt::format("  strictly within       {}\n", fmt::join(t.ends, ", "));
   if (t.euler_characteristic) text += fmt::format("  Euler characteristic  {}\n", *t.euler_characteristic);
   if (t.dimension == 1 && t.smooth && t.components.exact())
     text += fmt::format("  shape                 {}\n", counted(t.components.at_least, "closed curve"));
@@ -60,6 +61,7 @@ std::string to_json(const study::Question& question, const Topology& t, bool com
   json["dimension"] = t.dimension;
   json["components"] = {{"at_least", t.components.at_least}, {"at_most", or_null(t.components.at_most)}};
   json["smooth"] = t.smooth;
+  json["ends"] = t.ends;
   json["euler_characteristic"] = or_null(t.euler_characteristic);
   json["genus"] = t.genus;
   json["critical_points"] = t.heights.empty() ? Json() : Json(t.heights.front().points());

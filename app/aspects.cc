@@ -9,7 +9,9 @@
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
+#include "corank/report/region_map.h"
 #include "corank/result/printable.h"
+#include "corank/result/result_file.h"
 
 namespace corank::app {
 namespace {
@@ -19,19 +21,73 @@ struct AspectsCommand {
   analyze::AspectsOptions options;
   double time_limit = 0;
   bool json = false;
+  bool areas = false;
+  std::string output;
 };
 
-ExitStatus aspects(const AspectsCommand& command) {
+// The aspects in the plane of the first two outputs and in that of the first two inputs.
+report::RegionMap picture(const study::Question& question, const analyze::Aspects& aspects) {
+  report::RegionMap map;
+  map.title = fmt::format("{}: {} aspects", question.model.name(), aspects.aspects.at_least);
+  if (!aspects.aspects.exact()) map.title += " at least";
+  if (!aspects.forward_factors.empty() || !aspects.inverse_factors.empty())
+    map.title += ", by the signs of the factors of det L_y and det L_z";
+  for (std::size_t k = 0; k < aspects.aspects.signs.size(); ++k) {
+    map.labels.push_back(std::to_string(k + 1) + " ");
+    for (const int sign : aspects.aspects.signs[k]) map.labels.back() += sign > 0 ? " +" : " −";
+  }
+  const analyze::PieceDrawing& drawing = *aspects.drawing;
+  for (std::size_t c = 0; c + 1 < drawing.coordinates.size(); c += 2) {
+    report::RegionMap::Plane& plane = map.planes.emplace_back();
+    plane.x_name = drawing.coordinates[c], plane.y_name = drawing.coordinates[c + 1];
+    plane.x_angle = drawing.is_angle[c], plane.y_angle = drawing.is_angle[c + 1];
+    for (const auto& piece : drawing.pieces) {
+      auto& region = plane.regions.emplace_back();
+      for (const auto& polygon : piece) {
+        auto& points = region.emplace_back();
+        for (const auto& point : polygon) points.push_back({point[c], point[c + 1]});
+      }
+    }
+  }
+  return map;
+}
+
+// The first two outputs and inputs that are not held.
+std::vector<std::string> drawn(const symbolic::Mechanism& model) {
+  std::vector<std::string> result;
+  for (const auto& names : {model.outputs(), model.inputs()}) {
+    std::vector<std::string> two;
+    for (const std::string& name : names)
+      for (const symbolic::Coordinate& c : model.coordinates())
+        if (c.name == name && !is_fixed(c) && two.size() < 2) two.push_back(name);
+    if (two.size() == 2) result.insert(result.end(), two.begin(), two.end());
+  }
+  return result;
+}
+
+ExitStatus aspects(AspectsCommand command) {
+  if (!command.output.empty() && !command.output.ends_with(".svg"))
+    throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg", command.output));
   solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
   const study::Question question = load(command.question);
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no aspects", command.question.file));
+  if (!command.output.empty()) command.options.drawn = drawn(question.model);
+  if (command.areas && question.model.outputs().size() != 2)
+    throw UsageError(fmt::format("{}: areas need two outputs", command.question.file));
+  if (command.areas) command.options.images = question.model.outputs();
   const Interrupt interrupt;
   ProgressLine line;
   line.follow(control);
   const analyze::Aspects result = analyze::aspects(question, command.options, control);
   line.clear();
   const bool complete = !control.ended();
+  if (!command.output.empty()) {
+    if (!result.drawing || result.drawing->pieces.empty())
+      throw UsageError(fmt::format("{}: a picture needs aspects of two dimensions, with two outputs or two inputs",
+                                   command.question.file));
+    result::write_text(command.output, to_svg(picture(question, result)));
+  }
   fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
   if (complete) return kDone;
   fmt::print(stderr, "corank: stopped by {}; what is said is proven, but more could be\n", to_string(*control.ending()));
@@ -51,12 +107,17 @@ void add_aspects(CLI::App& program, Action& action) {
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
+  sub->add_option("-o", command->output, "A picture of the aspects: in the planes of two outputs and of two inputs")
+      ->type_name("FILE.svg");
+  sub->add_flag(
+      "--areas", command->areas,
+      "Of two outputs that are lengths: the area that each aspect covers, in bounds, and which share outputs; in JSON");
   sub->add_flag("--json", command->json, "Print the result as JSON");
   sub->footer(
       "aspects: pieces of C-space without forward and inverse singularities; assembly modes: without forward ones;\n"
       "working modes: without inverse ones. Every number is proven; where one is not, bounds are given.\n\n"
       "Exit status: 0 done, 1 bad input, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
-      "Example:\n  corank aspects models/dextar.cuik");
+      "Examples:\n  corank aspects models/dextar.cuik\n  corank aspects models/dextar.cuik -o aspects.svg");
   sub->callback([command, &action] { action = [command] { return aspects(*command); }; });
 }
 

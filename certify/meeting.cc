@@ -98,7 +98,7 @@ std::optional<Box> MeetingTest::solution_in(const Box& box, const Box& near) {
   return std::nullopt;
 }
 
-std::optional<Box> MeetingTest::piece_about(const Box& near, double radius) {
+Sheet MeetingTest::sheet_about(const Box& near, double radius) {
   CORANK_CHECK(UpwardRounding::active());
   std::vector<double> c;
   Box around;
@@ -107,10 +107,14 @@ std::optional<Box> MeetingTest::piece_about(const Box& near, double radius) {
     c.push_back(near[j].mid());
     around.emplace_back(c[j] - scales[j], c[j] + scales[j]);
   }
-  if (!project(around, c)) return std::nullopt;
+  if (!project(around, c)) return {};
   std::vector<Interval> x;
   for (std::size_t j = 0; j < c.size(); ++j) x.emplace_back(c[j] - radius * scales[j], c[j] + radius * scales[j]);
-  Sheet sheet = prove(x, c, scales);
+  return prove(x, c, scales);
+}
+
+std::optional<Box> MeetingTest::piece_about(const Box& near, double radius) {
+  Sheet sheet = sheet_about(near, radius);
   if (!sheet.proven) return std::nullopt;
   return std::move(sheet.region);
 }

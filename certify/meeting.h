@@ -26,9 +26,11 @@ class MeetingTest {
   /// True: a solution in both regions is proven, about `near`. False says nothing. Likewise.
   bool meet(const Box& a, const Box& b, const Box& near);
 
-  /// The region of a piece of its own about a solution near the box's middle, about so large in units of the system's
-  /// scales: for every value of n − m variables in it exactly one solution. It may join pieces whose regions end where
-  /// they touch.
+  /// A piece of its own about a solution near the box's middle, about so large in units of the system's scales: in its
+  /// region there is for every value of n − m variables exactly one solution. It may join pieces whose regions end where
+  /// they touch. Not proven where none was found.
+  Sheet sheet_about(const Box& near, double radius);
+  /// Its region.
   std::optional<Box> piece_about(const Box& near, double radius);
 
  private:

@@ -85,13 +85,17 @@ const SetDefinition& critical_set() {
 CriticalPoints critical_points(const Mechanism& mechanism, int height) {
   mechanism.validate();
   CriticalPoints result;
-  for (const Coordinate& c : mechanism.coordinates()) result.names.push_back(c.name);
+  std::vector<std::string> all;
+  for (const Coordinate& c : mechanism.coordinates()) {
+    all.push_back(c.name);
+    if (!is_fixed(c)) result.names.push_back(c.name);
+  }
   std::vector<std::string> constants;
   for (const Constant& c : mechanism.constants()) constants.push_back(c.name);
   const Expression h = height_function(mechanism, height);
 
   const GinacLock lock;
-  const GinacBridge bridge(constants, result.names);
+  const GinacBridge bridge(constants, all);
   std::vector<GiNaC::ex> functions;
   KernelQuestion kernel{critical_set(), critical_set().matrix, {result.names, {}}, {}, KernelSide::left, {}};
   for (const Constraint& c : mechanism.constraints()) {

@@ -16,11 +16,12 @@
 namespace corank::symbolic {
 
 struct CriticalPoints {
-  TrigonometricSystem system;      ///< its kernel unknowns are those of λ, then that of μ
-  std::vector<std::string> names;  ///< of the coordinates, the order of the rows and columns below
-  ExpressionMatrix jacobian;       ///< Φ_q
-  ExpressionMatrix hessian;        ///< D²(μ h + λᵀΦ), in the coordinates and the kernel unknowns, scales put in
-  Expression multiplier;           ///< μ
+  TrigonometricSystem system;  ///< its kernel unknowns are those of λ, then that of μ
+  std::vector<std::string>
+      names;                  ///< of the coordinates that are not held at one value, the order of the rows and columns below
+  ExpressionMatrix jacobian;  ///< Φ_q
+  ExpressionMatrix hessian;   ///< D²(μ h + λᵀΦ), in the coordinates and the kernel unknowns, scales put in
+  Expression multiplier;      ///< μ
 };
 
 /// `height` chooses one of several heights, 0, 1, 2 … Throws ModelError as derive() does.

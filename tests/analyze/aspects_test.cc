@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "corank/certify/angle.h"
 #include "corank/study/model.h"
@@ -56,10 +59,138 @@ TEST(Aspects, OfDextarHaveTheModesOfAFiveBar) {
   ASSERT_TRUE(a.assembly_modes.exact() && a.working_modes.exact());
   EXPECT_EQ(a.assembly_modes.at_least, 2);
   EXPECT_EQ(a.working_modes.at_least, 4);
-  EXPECT_EQ(a.aspects.at_least, 10);
-  EXPECT_GE(a.aspects.at_most.value_or(10), 10);
   EXPECT_EQ(a.forward_factors.size(), 1u);
   EXPECT_EQ(a.inverse_factors.size(), 2u);
+}
+
+// The number of connected pieces, of more than `least` cells, of a grid's cells of one sign each; 0 belongs to none. The
+// grid's border is 0, or it is a torus.
+int pieces_of_grid(std::vector<int> signs, int rows, int columns, int least) {
+  int pieces = 0;
+  std::vector<int> stack;
+  for (int start = 0; start < rows * columns; ++start) {
+    const int sign = std::exchange(signs[static_cast<std::size_t>(start)], 0);
+    if (sign == 0) continue;
+    int size = 0;
+    for (stack.push_back(start); !stack.empty(); ++size) {
+      const int at = stack.back(), i = at / columns, j = at % columns;
+      stack.pop_back();
+      for (const auto& [di, dj] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+        const int to = (i + di + rows) % rows * columns + (j + dj + columns) % columns;
+        if (signs[static_cast<std::size_t>(to)] == sign) signs[static_cast<std::size_t>(to)] = 0, stack.push_back(to);
+      }
+    }
+    pieces += size > least;
+  }
+  return pieces;
+}
+
+// Within a working mode of Dextar the place of J3 says the configuration: the pieces of a grid of places, without those so
+// near to a singularity that the grid does not show on which side they are. `limited`: with J2 and J4 above the ground.
+int dextar_pieces(bool limited) {
+  constexpr int kRows = 900;
+  constexpr double kStep = 4.0 / kRows, l = 0.9, d = 1.18;
+  const auto elbow = [&](double center, double sign, double x, double y) {
+    const double r = std::hypot(x - center, y), h = std::sqrt(std::max(l * l - r * r / 4, 0.0)) / r;
+    return std::array{center + (x - center) / 2 - sign * h * y, y / 2 + sign * h * (x - center), r};
+  };
+  int pieces = 0;
+  for (const double left : {-1.0, 1.0})
+    for (const double right : {-1.0, 1.0}) {
+      std::vector<int> side;  // of J3 to J4 and J2
+      for (int i = 0; i < kRows; ++i)
+        for (int j = 0; j < kRows; ++j) {
+          const double x = d / 2 - 2 + (i + 0.5) * kStep, y = -2 + (j + 0.5) * kStep;
+          const auto [ax, ay, a] = elbow(0, left, x, y);
+          const auto [bx, by, b] = elbow(d, right, x, y);
+          const bool there = std::min(a, b) > 3 * kStep && std::max(a, b) < 2 * l && (!limited || (ay > 0 && by > 0));
+          side.push_back(!there ? 0 : (x - ax) * (y - by) - (y - ay) * (x - bx) > 0 ? 1 : -1);
+        }
+      pieces += pieces_of_grid(side, kRows, kRows, 50);
+    }
+  return pieces;
+}
+
+TEST(Aspects, OfDextarAreThoseOfAFloodFill) {
+  const int pieces = dextar_pieces(false);
+  EXPECT_EQ(pieces, 10);
+  const Aspects a = of_model("dextar");
+  ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
+  EXPECT_EQ(a.aspects.at_least, pieces);
+  EXPECT_TRUE(a.limits.empty());
+}
+
+TEST(Aspects, OfDextarWithLimitsAreThoseOfAFloodFill) {
+  const Aspects a = of_model("dextar_limits");
+  ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
+  EXPECT_EQ(a.aspects.at_least, dextar_pieces(true));
+  EXPECT_THAT(a.limits, testing::ElementsAre("range of theta2", "range of theta5"));
+}
+
+// Nothing is singular but where arm 2 and 3 of the orthogonal robot are, on two closed curves of their torus.
+TEST(Aspects, OfAnOrthogonalArmAreThoseOfAFloodFill) {
+  constexpr int kRows = 400;
+  std::vector<int> signs;
+  for (int i = 0; i < kRows; ++i)
+    for (int j = 0; j < kRows; ++j) {
+      const double t2 = i * 2 * M_PI / kRows, t3 = j * 2 * M_PI / kRows;
+      signs.push_back(sin(t3) + cos(t2) * (2 * sin(t3) - cos(t3)) > 0 ? 1 : -1);
+    }
+  const Aspects a = of_model("serial/orthogonal_3r");
+  ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
+  EXPECT_EQ(a.aspects.at_least, pieces_of_grid(signs, kRows, kRows, 5));
+  EXPECT_EQ(a.assembly_modes.at_least, 1);
+  EXPECT_TRUE(a.limits.empty());
+}
+
+// With its first leg held the 3-RPR platform is where that leg's and the platform's angles are, as far as the other legs
+// reach. Forward singularities: the legs' lines meet in a point or are parallel.
+TEST(Aspects, OfThreeRprSlicesAreThoseOfAFloodFill) {
+  constexpr int kRows = 600;
+  const auto loaded =
+      study::read_model(CORANK_SOURCE_DIR "/models/planar/3rpr.cuik", {{"lower1", "4/5"}, {"upper1", "4/5"}});
+  std::vector<int> signs;
+  for (int i = 0; i < kRows; ++i)
+    for (int j = 0; j < kRows; ++j) {
+      const double alpha = i * 2 * M_PI / kRows, phi = j * 2 * M_PI / kRows;
+      const double c = cos(phi), s = sin(phi), x = 0.8 * cos(alpha), y = 0.8 * sin(alpha);
+      const std::array base{std::array{0.0, 0.0}, std::array{2.0, 0.0}, std::array{0.8, 1.5}};
+      const std::array ends{std::array{x, y}, std::array{x + c, y + s},
+                            std::array{x + 0.6 * c - 0.4 * s, y + 0.6 * s + 0.4 * c}};
+      std::array<std::array<double, 3>, 3> line{};
+      bool within = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double u = ends[k][0] - base[k][0], v = ends[k][1] - base[k][1], rho = std::hypot(u, v);
+        within = within && (k == 0 || (0.5 < rho && rho < 2));
+        line[k] = {u, v, base[k][0] * v - base[k][1] * u};
+      }
+      const auto& [p, q, r] = line;
+      const double det =
+          p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
+      signs.push_back(!within ? 0 : det > 0 ? 1 : -1);
+    }
+  const Aspects a = of(loaded.mechanism);
+  ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
+  EXPECT_EQ(a.aspects.at_least, pieces_of_grid(signs, kRows, kRows, 10));
+  EXPECT_EQ(a.working_modes.at_least, 1);
+  EXPECT_FALSE(a.limits.empty());
+}
+
+// Straight lines on the torus of v and w: two of v + k w = ±π/2 and two of v − m w = ±π/2, which meet in 4 (k + m) points,
+// divide it into as many pieces (Euler).
+TEST(Aspects, OfLinesThatCrossOnATorusAreItsFaces) {
+  for (const auto& [k, m] : {std::pair(1, 0), {1, 1}, {1, 2}, {2, 1}}) {
+    SCOPED_TRACE(k * 10 + m);
+    const auto line = [](int c) { return std::to_string(c) + "*w"; };
+    const Aspects a =
+        of(symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\n"
+                                 "[SYSTEM EQS]\nx = sin(v + " +
+                                     line(k) + ");\ny = sin(v - " + line(m) + ");\n[INPUTS] v, w\n[OUTPUTS] x, y\n",
+                                 "lines.cuik"));
+    ASSERT_TRUE(a.aspects.exact()) << a.reason << a.aspects.reason;
+    EXPECT_EQ(a.aspects.at_least, 4 * (k + m));
+    EXPECT_EQ(a.assembly_modes.at_least, 1);
+  }
 }
 
 TEST(Aspects, OfTheSphericalFiveBarAreCounted) {
@@ -84,6 +215,45 @@ TEST(Aspects, AreRepresentedByConfigurations) {
     EXPECT_GT(std::abs(sin(q["theta3"] - q["theta4"]) * sin(q["theta2"] - q["theta3"]) * sin(q["theta4"] - q["theta5"])),
               1e-9);
   }
+}
+
+// det L_y and det L_z are their factors' product, up to one sign for all.
+TEST(Aspects, HaveTheSignsOfTheirDeterminants) {
+  const Aspects a = of_model("dextar");
+  ASSERT_EQ(a.determinant_signs.size(), 10u);
+  const auto& [y, z] = a.determinant_signs.front();
+  const auto& first = a.aspects.signs.front();
+  for (std::size_t k = 0; k < a.determinant_signs.size(); ++k) {
+    const auto& s = a.aspects.signs[k];
+    EXPECT_NE(a.determinant_signs[k][0] * a.determinant_signs[k][1], 0);
+    EXPECT_EQ(a.determinant_signs[k][0] * y, s[0] * first[0]);
+    EXPECT_EQ(a.determinant_signs[k][1] * z, s[1] * s[2] * first[1] * first[2]);
+  }
+}
+
+// In each working mode the end reaches the lens about both motors once: of one mode no two aspects have a place in common.
+TEST(Aspects, OfDextarCoverTheLensOncePerWorkingMode) {
+  solve::Control control;
+  const Aspects a = aspects({.model = study::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik").mechanism},
+                            {.images = {"J3x", "J3y"}, .rows = 40}, control);
+  ASSERT_TRUE(a.images && a.images->areas.size() == 10);
+  const double r = 1.8, d = 1.18, lens = 2 * r * r * std::acos(d / (2 * r)) - d / 2 * std::sqrt(4 * r * r - d * d);
+  double lo = 0, hi = 0;
+  for (const Interval& area : a.images->areas) lo += area.lo(), hi += area.hi();
+  EXPECT_LE(lo, 4 * lens);
+  EXPECT_GE(hi, 4 * lens);
+  EXPECT_GT(lo, 2 * lens);
+  EXPECT_LT(hi, 6 * lens);
+  const auto& s = a.aspects.signs;
+  int shared = 0;
+  for (std::size_t p = 0; p < s.size(); ++p)
+    for (std::size_t q = 0; q < p; ++q) {
+      EXPECT_EQ(a.images->share[p][q], a.images->share[q][p]);
+      const bool same_mode = s[p][1] == s[q][1] && s[p][2] == s[q][2];
+      EXPECT_FALSE(same_mode && a.images->share[p][q].value_or(false));
+      shared += a.images->share[p][q].value_or(false);
+    }
+  EXPECT_GE(shared, 15);
 }
 
 TEST(Aspects, AreNotCountedWhereCSpaceCrossesItself) {

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "corank/study/model.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::analyze {
@@ -24,7 +25,7 @@ Topology of(symbolic::Mechanism model) {
 Topology of_text(const std::string& text) { return of(symbolic::parse_model(text, "m.cuik")); }
 
 Topology of_model(const std::string& name) {
-  return of(symbolic::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik"));
+  return of(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik").mechanism);
 }
 
 const std::string kSpace = "[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\nz : [-3, 3]\n[SYSTEM EQS]\n";
@@ -68,13 +69,45 @@ TEST(Topology, CountsTwoLinkedCircles) {
   EXPECT_EQ(t.euler_characteristic, 0);
 }
 
-// Two sheets of a hyperboloid in a cube: the set has an edge there, and nothing but two pieces at least is said of it.
-TEST(Topology, SaysNothingOfASetWithAnEdge) {
+// Two sheets of a hyperboloid in a cube: the set has an edge there.
+TEST(Topology, CountsThePiecesOfASetWithAnEdge) {
   const Topology t = of_text(kSpace + "x^2+y^2-z^2 = -1;\n");
   EXPECT_FALSE(t.smooth);
   EXPECT_FALSE(t.euler_characteristic);
-  EXPECT_FALSE(t.components.at_most);
-  EXPECT_FALSE(t.reason.empty());
+  ASSERT_TRUE(t.components.exact()) << t.components.reason;
+  EXPECT_EQ(t.components.at_least, 2);
+  EXPECT_FALSE(t.ends.empty());
+}
+
+// A circle leaves the rectangle through three of its sides and comes near the fourth: an arc there, two small ones at the
+// corners.
+TEST(Topology, CountsTheArcsOfACircleInARectangle) {
+  const Topology t = of_text("[SYSTEM VARS]\nx : [-3, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2+y^2 = 6;\n");
+  EXPECT_FALSE(t.smooth);
+  ASSERT_TRUE(t.components.exact()) << t.components.reason;
+  EXPECT_EQ(t.components.at_least, 3);
+  EXPECT_THAT(t.ends, testing::UnorderedElementsAre("upper end of x", "lower end of y", "upper end of y"));
+}
+
+// Dextar between limits of its motors is cut off there, and so are the legs of a 3-RPR platform: their C-spaces have edges.
+TEST(Topology, OfCSpacesWithLimitsIsNotThatOfClosedOnes) {
+  for (const char* model : {"dextar_limits", "planar/five_bar_sliders", "planar/3rpr_innocenti"}) {
+    SCOPED_TRACE(model);
+    const Topology t = of_model(model);
+    EXPECT_FALSE(t.smooth);
+    EXPECT_FALSE(t.euler_characteristic);
+    EXPECT_FALSE(t.ends.empty());
+    ASSERT_TRUE(t.components.exact()) << t.components.reason;
+    EXPECT_EQ(t.components.at_least, model == std::string("planar/five_bar_sliders") ? 2 : 1);
+  }
+}
+
+// The ranges of the end's position are declared or found wider than the arm reaches: they cut nothing off. One joint is
+// held.
+TEST(Topology, OfAnArmWithAHeldJointIsATorus) {
+  const Topology t = of_model("serial/orthogonal_3r");
+  EXPECT_TRUE(t.smooth) << t.reason;
+  EXPECT_EQ(t.genus, std::vector<int>{1});
 }
 
 // Two circles that cross: no manifold.

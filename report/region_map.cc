@@ -1,0 +1,196 @@
+#include "corank/report/region_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "corank/report/layout.h"
+
+namespace corank::report {
+namespace {
+
+constexpr double kPanel = 150, kGap = 16, kLeft = 46, kTop = 40, kText = 10;
+constexpr int kColumns = 5;
+constexpr const char* kRest = "#e4e6e8";
+// Apart from each other in hue and lightness, also for most of the colour-blind; then they begin again.
+constexpr std::array kColors{"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00",
+                             "#7f5fb8", "#9aa61c", "#8c564b", "#17909e", "#b03060", "#4d6f39"};
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return result;
+}
+
+std::string runs(const Label& label) {
+  std::string result;
+  for (const TextRun& run : label)
+    result += fmt::format("<tspan{}{}>{}</tspan>", run.italic ? " font-style=\"italic\"" : "",
+                          run.subscript ? " font-size=\"72%\" baseline-shift=\"sub\"" : "", escaped(run.text));
+  return result;
+}
+
+std::string text(double x, double y, const char* anchor, const std::string& content, const std::string& more = "") {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, content);
+}
+
+double cross(const std::array<double, 2>& a, const std::array<double, 2>& b, const std::array<double, 2>& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+double area(const RegionMap::Polygon& polygon) {
+  double twice = 0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) twice += cross(polygon[0], polygon[i], polygon[i + 1]);
+  return twice / 2;
+}
+
+// Without points that nobody sees: next to their neighbours' line, or next to the one before.
+RegionMap::Polygon without_straight(const RegionMap::Polygon& polygon) {
+  constexpr double kSeen = 0.06;
+  RegionMap::Polygon result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto &p = polygon[(i + polygon.size() - 1) % polygon.size()], &q = polygon[i],
+               &r = polygon[(i + 1) % polygon.size()];
+    const double length = std::hypot(r[0] - p[0], r[1] - p[1]);
+    if (std::hypot(q[0] - p[0], q[1] - p[1]) < kSeen) continue;
+    if (i % 2 == 1 && std::fabs(cross(p, q, r)) < kSeen * length) continue;
+    result.push_back(q);
+  }
+  return result;
+}
+
+// One plane's panels, `top` the first row's upper edge.
+class Block {
+ public:
+  Block(const RegionMap& map, std::size_t plane, double top)
+      : map_(map), plane_(map.planes[plane]), name_(plane), top_(top) {
+    if (plane_.x_angle) x_ = Interval(-std::numbers::pi, std::numbers::pi);
+    if (plane_.y_angle) y_ = Interval(-std::numbers::pi, std::numbers::pi);
+    bool first = true;
+    for (const auto& region : plane_.regions)
+      for (const RegionMap::Polygon& polygon : region)
+        for (const auto& [x, y] : polygon) {
+          if (!plane_.x_angle) x_ = first ? Interval(x) : Interval::hull(x_, Interval(x));
+          if (!plane_.y_angle) y_ = first ? Interval(y) : Interval::hull(y_, Interval(y));
+          first = false;
+        }
+    // One scale where both are lengths, or both angles.
+    if (!plane_.x_angle) x_ = grown(x_);
+    if (!plane_.y_angle) y_ = grown(y_);
+    const bool alike = plane_.x_angle == plane_.y_angle;
+    height_ = kPanel * (alike ? std::clamp(y_.width() / x_.width(), 0.3, 2.0) : 1.0);
+  }
+
+  double height() const { return rows() * (height_ + kTop) + 26; }
+
+  std::string svg() const {
+    std::string all, out;
+    for (const auto& region : plane_.regions) all += path(region);
+    out += fmt::format(
+        "<defs><path id=\"rest{0}\" d=\"{1}\" fill=\"{2}\" stroke=\"{2}\" stroke-width=\"0.6\"/>"
+        "<clipPath id=\"panel{0}\"><rect width=\"{3:.1f}\" height=\"{4:.1f}\"/></clipPath></defs>\n",
+        name_, all, kRest, kPanel, height_);
+    for (std::size_t k = 0; k < plane_.regions.size(); ++k) out += panel(k);
+    const double middle = kLeft + (columns() * (kPanel + kGap) - kGap) / 2, bottom = top_ + rows() * (height_ + kTop);
+    out += text(middle, bottom + 10, "middle", runs(math_label(plane_.x_name)), " font-size=\"12\"");
+    out += fmt::format("<g transform=\"translate({:.1f},{:.1f}) rotate(-90)\">{}</g>\n", 12.0,
+                       top_ + rows() * (height_ + kTop) / 2,
+                       text(0, 0, "middle", runs(math_label(plane_.y_name)), " font-size=\"12\""));
+    return out;
+  }
+
+ private:
+  static Interval grown(const Interval& range) {
+    const double margin = 0.03 * std::max(range.width(), 1e-9);
+    return Interval(range.lo() - margin, range.hi() + margin);
+  }
+  int columns() const { return std::min(kColumns, std::max(1, static_cast<int>(plane_.regions.size()))); }
+  int rows() const { return (static_cast<int>(plane_.regions.size()) + kColumns - 1) / kColumns; }
+  double x_at(double x) const { return (x - x_.lo()) / x_.width() * kPanel; }
+  double y_at(double y) const { return (y_.hi() - y) / y_.width() * height_; }
+
+  std::string path(const std::vector<RegionMap::Polygon>& region) const {
+    std::string out;
+    const auto add = [&](const RegionMap::Polygon& polygon, double dx, double dy) {
+      RegionMap::Polygon points;
+      for (const auto& [x, y] : polygon) points.push_back({x_at(x + dx), y_at(y + dy)});
+      points = without_straight(points);
+      if (points.size() < 3) return;
+      // All in one sense: where polygons of two senses lie over one another a path has a hole.
+      if (area(points) < 0) std::reverse(points.begin(), points.end());
+      char command = 'M';
+      for (const auto& [x, y] : points) {
+        out += fmt::format("{}{:.1f} {:.1f}", command, x, y);
+        command = 'L';
+      }
+      out += 'Z';
+    };
+    // An angle's polygons go on at the other end.
+    const auto turns = [](bool angle, const RegionMap::Polygon& polygon, std::size_t j) {
+      std::vector<double> result{0};
+      if (!angle) return result;
+      const auto [lo, hi] =
+          std::minmax_element(polygon.begin(), polygon.end(), [&](const auto& p, const auto& q) { return p[j] < q[j]; });
+      if ((*lo)[j] < -std::numbers::pi) result.push_back(2 * std::numbers::pi);
+      if ((*hi)[j] > std::numbers::pi) result.push_back(-2 * std::numbers::pi);
+      return result;
+    };
+    for (const RegionMap::Polygon& polygon : region)
+      for (const double dx : turns(plane_.x_angle, polygon, 0))
+        for (const double dy : turns(plane_.y_angle, polygon, 1)) add(polygon, dx, dy);
+    return out;
+  }
+
+  std::string panel(std::size_t k) const {
+    const int row = static_cast<int>(k) / kColumns, column = static_cast<int>(k) % kColumns;
+    const double left = kLeft + column * (kPanel + kGap), top = top_ + row * (height_ + kTop);
+    const char* color = kColors[k % kColors.size()];
+    std::string out = fmt::format("<g transform=\"translate({:.1f},{:.1f})\">\n", left, top);
+    out += text(0, -6, "start", escaped(map_.labels[k]), fmt::format(" font-size=\"11\" fill=\"{}\"", color));
+    out += fmt::format(
+        "<g clip-path=\"url(#panel{0})\"><use href=\"#rest{0}\"/>"
+        "<path class=\"region\" d=\"{1}\" fill=\"{2}\" stroke=\"{2}\" stroke-width=\"0.6\"/></g>\n",
+        name_, path(plane_.regions[k]), color);
+    out += fmt::format("<rect width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#333\" stroke-width=\"0.6\"/>\n",
+                       kPanel, height_);
+    for (const Tick& t : ticks(x_.lo(), x_.hi(), plane_.x_angle, 4)) {
+      out += fmt::format("<path d=\"M{0:.1f} {1:.1f}v3\" stroke=\"#333\" stroke-width=\"0.6\"/>\n", x_at(t.at), height_);
+      out += text(x_at(t.at), height_ + 13, "middle", escaped(t.text));
+    }
+    for (const Tick& t : ticks(y_.lo(), y_.hi(), plane_.y_angle, 4)) {
+      out += fmt::format("<path d=\"M0 {:.1f}h-3\" stroke=\"#333\" stroke-width=\"0.6\"/>\n", y_at(t.at));
+      if (column == 0) out += text(-5, y_at(t.at) + 3, "end", escaped(t.text));
+    }
+    return out + "</g>\n";
+  }
+
+  const RegionMap& map_;
+  const RegionMap::Plane& plane_;
+  std::size_t name_;
+  double top_, height_ = kPanel;
+  Interval x_, y_;
+};
+
+}  // namespace
+
+std::string to_svg(const RegionMap& map) {
+  std::string body;
+  double top = kTop + 14;
+  for (std::size_t p = 0; p < map.planes.size(); ++p) {
+    const Block block(map, p, top);
+    body += block.svg();
+    top += block.height();
+  }
+  const int columns = std::min(kColumns, std::max(1, static_cast<int>(map.labels.size())));
+  const double width = kLeft + columns * (kPanel + kGap), height = top - kTop + 14;
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+      "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{2}\">\n<title>{3}</title>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"{4}\" y=\"22\" "
+      "font-size=\"14\">{3}</text>\n{5}</svg>\n",
+      width, height, kText, escaped(map.title), kLeft, body);
+}
+
+}  // namespace corank::report
