@@ -64,4 +64,17 @@ struct Shard {
   Mark mark() const { return {sheets.size(), found.size(), script ? script->mark() : Recorder::Mark{}}; }
 };
 
+/// A part of a search to be run somewhere, and what was found in it.
+struct Unit {
+  std::uint64_t id = 0;
+  bool cut = false;  ///< the sheets are to be cut, to…
+  Work work{};       ///< else: is to be searched
+  Sigma sigma{};
+  std::vector<Proven> sheets{};
+};
+struct Answer {
+  std::uint64_t id = 0;
+  std::vector<Shard> shards;
+};
+
 }  // namespace corank::solve

@@ -21,6 +21,22 @@ void serialize(Archive& archive, SelfMotions::Stored& s) {
   archive(s.motions, s.observed, s.former);
 }
 
+template <class Archive>
+void serialize(Archive& archive, Unit& u) {
+  archive(u.id, u.cut, u.work, u.sigma, u.sheets);
+}
+
+template <class Archive>
+void save(Archive& archive, const Answer& a) {
+  archive(a.id, a.shards);
+}
+template <class Archive>
+void load(Archive& archive, Answer& a) {
+  cereal::size_type shards = 0;
+  archive(a.id, cereal::make_size_tag(shards));
+  for (cereal::size_type i = 0; i < shards; ++i) archive(a.shards.emplace_back(0, false));
+}
+
 namespace {
 
 template <class Range>
@@ -91,13 +107,18 @@ void read_value(std::string_view kind, std::string_view bytes, Read read) {
   }
 }
 
-constexpr std::string_view kPrepared = "question", kWork = "work", kShard = "shard", kState = "state";
+constexpr std::string_view kPrepared = "question", kWork = "work", kShard = "shard", kUnit = "unit", kAnswer = "answer",
+                           kState = "state";
 
 }  // namespace
 
 std::string to_bytes(const Prepared& prepared) { return bytes_of_value(kPrepared, prepared); }
 std::string to_bytes(const Work& work) { return bytes_of_value(kWork, work); }
 std::string to_bytes(const Shard& shard) { return bytes_of_value(kShard, shard); }
+
+std::string to_bytes(const Unit& unit) { return bytes_of_value(kUnit, unit); }
+
+std::string to_bytes(const Answer& answer) { return bytes_of_value(kAnswer, answer); }
 
 std::string to_bytes(const SearchView& state) {
   std::ostringstream stream(std::ios::binary);
@@ -138,6 +159,18 @@ Shard shard_from(std::string_view bytes) {
   Shard shard(0, false);
   read_value(kShard, bytes, [&](ByteInput& archive) { archive(shard); });
   return shard;
+}
+
+Unit unit_from(std::string_view bytes) {
+  Unit unit;
+  read_value(kUnit, bytes, [&](ByteInput& archive) { archive(unit); });
+  return unit;
+}
+
+Answer answer_from(std::string_view bytes) {
+  Answer answer;
+  read_value(kAnswer, bytes, [&](ByteInput& archive) { archive(answer); });
+  return answer;
 }
 
 SearchState state_from(std::string_view bytes, const Prepared& prepared) {

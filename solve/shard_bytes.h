@@ -22,6 +22,8 @@ class ShardError : public std::runtime_error {
 std::string to_bytes(const Prepared& prepared);
 std::string to_bytes(const Work& work);
 std::string to_bytes(const Shard& shard);
+std::string to_bytes(const Unit& unit);
+std::string to_bytes(const Answer& answer);
 std::string to_bytes(const SearchView& state);
 void write(std::ostream& out, const SearchView& state);
 /// The same value again, to the last bit. Throw ShardError. What is read is as trustworthy as who has written it: it says
@@ -29,6 +31,8 @@ void write(std::ostream& out, const SearchView& state);
 Prepared prepared_from(std::string_view bytes);
 Work work_from(std::string_view bytes);
 Shard shard_from(std::string_view bytes);
+Unit unit_from(std::string_view bytes);
+Answer answer_from(std::string_view bytes);
 SearchState state_from(std::string_view bytes, const Prepared& prepared);
 
 }  // namespace corank::solve

@@ -63,6 +63,15 @@ void check(const Shard& shard, const Prepared& prepared) {
   expect(shard.script.has_value() == prepared.options.proof || shard.found.size() + shard.sheets.size() == 0);
 }
 
+void check(const Unit& unit, const Prepared& prepared) {
+  const Sizes sizes(prepared);
+  check(unit.work, prepared);
+  for (const Proven& proven : unit.sheets) {
+    expect(proven.x.size() == sizes.variables);
+    check_sheet(proven.sheet, sizes);
+  }
+}
+
 void check(const SearchState& state, const Prepared& prepared) {
   check(state.first, prepared);
   check(state.pass, prepared);

@@ -9,6 +9,7 @@ namespace corank::solve {
 /// Throw ShardError where a box has another number of sides, or an index names nothing.
 void check(const Work& work, const Prepared& prepared);
 void check(const Shard& shard, const Prepared& prepared);
+void check(const Unit& unit, const Prepared& prepared);
 void check(const SearchState& state, const Prepared& prepared);
 
 }  // namespace corank::solve

@@ -7,7 +7,7 @@
 #include "corank/check/checker.h"
 #include "corank/solve/resumable.h"
 #include "corank/solve/shard_bytes.h"
-#include "corank/tests/solve/cover_questions.h"
+#include "corank/tests/solve/same_cover.h"
 
 namespace corank::solve {
 namespace {
@@ -42,30 +42,6 @@ class RandomJournal : public Journal {
   int most_;
 };
 
-void expect_same(const Cover& one, const Cover& other) {
-  ASSERT_EQ(one.boxes.size(), other.boxes.size());
-  for (std::size_t i = 0; i < one.boxes.size(); ++i) {
-    ASSERT_EQ(one.boxes[i].box, other.boxes[i].box) << i;
-    ASSERT_EQ(one.boxes[i].verdict, other.boxes[i].verdict) << i;
-    ASSERT_EQ(one.boxes[i].free, other.boxes[i].free) << i;
-    ASSERT_EQ(one.boxes[i].region, other.boxes[i].region) << i;
-    ASSERT_EQ(one.boxes[i].reason, other.boxes[i].reason) << i;
-  }
-  EXPECT_EQ(one.regions, other.regions);
-  EXPECT_EQ(one.sigma, other.sigma);
-  EXPECT_EQ(one.points.size(), other.points.size());
-  EXPECT_EQ(one.self_motions.size(), other.self_motions.size());
-  EXPECT_EQ(one.statistics.processed, other.statistics.processed);
-  EXPECT_EQ(one.statistics.newton_steps, other.statistics.newton_steps);
-  ASSERT_EQ(one.proof != nullptr, other.proof != nullptr);
-  EXPECT_TRUE(!one.proof || *one.proof == *other.proof);
-}
-
-Prepared prepared_with(const System& system, Options options) {
-  Control control;
-  return prepare(system, options, control);
-}
-
 // Ends the search by what `journal` and `limits` say, again and again, each time going on from the bytes of the last time.
 int expect_same_when_resumed(const System& system, Options options, int one_in, int kills) {
   int cut_sheets = 0;
@@ -97,21 +73,6 @@ int expect_same_when_resumed(const System& system, Options options, int one_in, 
     }
   }
   return cut_sheets;
-}
-
-System lemniscate() {
-  SystemBuilder b;
-  const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
-  b.equation({{"1", {{x, 4}}}, {"-1", {{x, 2}}}, {"1", {{y, 2}}}});
-  return b.system();
-}
-
-System plane_and_line() {
-  SystemBuilder b;  // x (x − y) = 0, z (x − y) = 0: a plane, and the line x = z = 0
-  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1"), z = b.variable("z", "-1", "1");
-  b.equation({{"1", {{x, 2}}}, {"-1", {{x, 1}, {y, 1}}}});
-  b.equation({{"1", {{z, 1}, {x, 1}}}, {"-1", {{z, 1}, {y, 1}}}});
-  return b.system();
 }
 
 TEST(Resuming, ASurfaceMakesTheCoverOfOneSearch) {
