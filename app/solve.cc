@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <thread>
 
 #include "corank/analyze/area_by_boundary.h"
 #include "corank/app/box_files.h"
@@ -19,6 +20,7 @@
 #include "corank/result/result_file.h"
 #include "corank/result/summary.h"
 #include "corank/study/answer.h"
+#include "corank/study/cost.h"
 #include "corank/study/run_journal.h"
 #include "corank/symbolic/boundary.h"
 
@@ -140,6 +142,19 @@ void remove_checkpoint(const SolveCommand& command, const result::Result& result
     std::filesystem::remove(command.checkpoint_path, ignored);
 }
 
+ExitStatus say_estimate(const SolveCommand& command, const std::vector<System>& systems, solve::Control& control) {
+  const solve::CostEstimate cost = study::estimate(systems, options_of(command), control);
+  const int threads = command.limits.threads > 0 ? command.limits.threads : static_cast<int>(std::thread::hardware_concurrency());
+  if (control.ended()) {
+    fmt::print(stderr, "corank: the trial was ended early\n");
+    return kIncomplete;
+  }
+  if (command.json_path && !command.json_path->empty()) result::write_text(*command.json_path, study::to_json(cost, threads));
+  fmt::print("{}", command.json_path && command.json_path->empty() ? study::to_json(cost, threads)
+                                                                   : study::to_table(cost, threads));
+  return kDone;
+}
+
 // `former`: of a run that goes on.
 ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::Checkpoint* former) {
   options_of(command).validate();
@@ -153,6 +168,7 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   for (const study::Question& part : parts) systems.push_back(system_to_solve(command, part));
   check_output(command.result_path);
   check_output(command.json_path.value_or(""));
+  if (command.estimate) return say_estimate(command, systems, control);
   if (!command.checkpoint_path.empty()) result::check_writable(command.checkpoint_path);
   study::RunJournal journal = journal_of(command, former ? *former : checkpoint_of(sub, command));
   control.ended();  // notes the stage
@@ -195,6 +211,7 @@ void add_solve(CLI::App& program, Action& action) {
       "Examples:\n  corank solve models/dextar.cuik --set forward --sigma 0.01 -o forward.h5\n"
       "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50\n"
       "  corank solve models/dextar.cuik --set inverse --corank 2    # both arms stretched at once\n"
+      "  corank solve models/3rrr.cuik --set forward --sigma 0.2 --estimate    # seconds, before hours\n"
       "  corank solve models/3rrr.cuik --set forward --sigma 0.2 -o r.h5 --checkpoint r.kept --every 10m\n"
       "  corank solve --resume r.kept --threads 8                    # after a limit, Ctrl-C, a crash or a power cut\n"
       "  corank solve models/dextar.cuik --set cspace --sigma 0.1 --keep-sheets -o coarse.h5\n"

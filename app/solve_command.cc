@@ -86,6 +86,8 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
                  "Cut the sheets of this result, solved with --keep-sheets, to another --sigma, without a search")
       ->type_name("RESULT.h5");
   sub.add_flag("--keep-sheets", command.keep_sheets, "Keep the proven sheets in RESULT.h5, for --refine");
+  sub.add_flag("--estimate", command.estimate,
+               "Solve nothing: predict boxes, time, memory and the file's size from a trial of a few seconds");
   sub.add_option_function<std::vector<std::string>>(
          "--json",
          [&command](const std::vector<std::string>& path) { command.json_path = path.empty() ? "" : path.front(); },
