@@ -144,12 +144,14 @@ void remove_checkpoint(const SolveCommand& command, const result::Result& result
 
 ExitStatus say_estimate(const SolveCommand& command, const std::vector<System>& systems, solve::Control& control) {
   const solve::CostEstimate cost = study::estimate(systems, options_of(command), control);
-  const int threads = command.limits.threads > 0 ? command.limits.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int threads =
+      command.limits.threads > 0 ? command.limits.threads : static_cast<int>(std::thread::hardware_concurrency());
   if (control.ended()) {
     fmt::print(stderr, "corank: the trial was ended early\n");
     return kIncomplete;
   }
-  if (command.json_path && !command.json_path->empty()) result::write_text(*command.json_path, study::to_json(cost, threads));
+  if (command.json_path && !command.json_path->empty())
+    result::write_text(*command.json_path, study::to_json(cost, threads));
   fmt::print("{}", command.json_path && command.json_path->empty() ? study::to_json(cost, threads)
                                                                    : study::to_table(cost, threads));
   return kDone;

@@ -15,7 +15,7 @@ namespace corank::solve {
 namespace {
 
 // Shards of one search differ in their numbers, of which recorders have 24 bits: each unit has so many.
-constexpr int kNumbers = kMostUnitThreads + 1;
+constexpr int kNumbers = 2 * (kMostUnitThreads + 1);
 constexpr std::uint64_t kMostUnits = (std::uint64_t{1} << 24) / kNumbers - 1;
 
 // Splits a list into up to so many parts, of every k-th each: neighbours cost about the same.
@@ -24,6 +24,28 @@ std::vector<std::vector<T>> dealt(std::vector<T> all, std::size_t parts) {
   std::vector<std::vector<T>> hands(std::min(parts, all.size()));
   for (std::size_t i = 0; i < all.size(); ++i) hands[i % hands.size()].push_back(std::move(all[i]));
   return hands;
+}
+
+// Does σ depend on nothing that is found? Then sheets need not travel to be cut.
+bool sigma_is_known(const Prepared& prepared) { return prepared.options.asked_length() && prepared.options.asked_angle(); }
+
+void cut_at_once(const Prepared& prepared, int last_number, Answer& answer) {
+  Control control;
+  Tally tally(prepared, control, 0);
+  Pool pool(prepared, tally, last_number);
+  pool.set_sigma({*prepared.options.asked_length(), *prepared.options.asked_angle()});
+  std::vector<Shard*> shards;
+  std::vector<std::vector<Waiting>> left;  // it is not to become pending
+  for (Shard& shard : answer.shards) {
+    shards.push_back(&shard);
+    left.push_back(std::exchange(shard.left, {}));
+  }
+  pool.cut(shards);
+  for (std::size_t i = 0; i < shards.size(); ++i) {
+    shards[i]->sheets.clear();
+    shards[i]->left = std::move(left[i]);
+  }
+  for (Shard& shard : pool.take_shards()) answer.shards.push_back(std::move(shard));
 }
 
 // Whoever runs units beside the coordinator is not to be held to its threads.
@@ -58,6 +80,8 @@ std::string run_unit(const Prepared& prepared, std::string_view bytes, const Bud
     pool.search(unit.work);
   }
   answer.shards = pool.take_shards();
+  if (!unit.cut && sigma_is_known(mine))
+    cut_at_once(mine, static_cast<int>(unit.id) * kNumbers + kMostUnitThreads + 1, answer);
   return to_bytes(answer);
 }
 

@@ -6,7 +6,7 @@
 //   Cover cover = c.assemble(control);
 //
 // Units may be run in any order, more than once, and by any number of threads: the first answer counts, and the cover is
-// solve()'s, to the last bit. What a budget leaves of a unit comes back and is given out again, in smaller parts.
+// solve()'s, to the last bit. Where σ was asked for, sheets are cut by whoever has found them. What a budget leaves of a unit comes back and is given out again, in smaller parts.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Budget {
   double seconds = 0;
   int threads = 1;  ///< 1 … kMostUnitThreads
 };
-inline constexpr int kMostUnitThreads = 63;
+inline constexpr int kMostUnitThreads = 31;
 
 /// Runs a unit of a Coordinator. Throws ShardError where the bytes are none, or of another version.
 std::string run_unit(std::string_view prepared, std::string_view unit, const Budget& budget = {});

@@ -18,13 +18,15 @@
 namespace corank::solve {
 namespace {
 
-constexpr int kTrials = 6;                       // independent, for the interval
+constexpr int kTrials = 6;                           // independent, for the interval
 constexpr std::size_t kFewest = 24, kMost = 20'000;  // boxes of a level in one trial
-constexpr double kUsualDepth = 60;               // levels: how the trial's time is divided among them
-constexpr double kSearchShare = 0.6;             // of the trial's time
-constexpr double kLeastSpread = 0.1;             // of a count that is not exact
-constexpr double kClockSpread = 0.35;            // of times: caches, other work on the machine
-constexpr double kMostPieces = 20'000;           // of one sheet: a larger one is cut more coarsely, and counted up
+constexpr double kUsualDepth = 60;                   // levels: how the trial's time is divided among them
+constexpr double kSearchShare = 0.6;                 // of the trial's time
+constexpr double kLeastSpread = 0.1;                 // of a count that is not exact
+constexpr double kClockSpread = 0.35;                // of times: caches, other work on the machine
+// Measured (bench/HISTORY.md): sorting a box and lifting it to all variables; looking whether pieces of a curve merge.
+constexpr double kStartSeconds = 3e-3, kAssemblySeconds = 1e-6, kMergingSeconds = 1.5e-6;
+constexpr double kMostPieces = 20'000;  // of one sheet: a larger one is cut more coarsely, and counted up
 
 double cpu_seconds() {
   timespec now{};
@@ -220,13 +222,16 @@ class Estimator {
     e.boxes = range_of(boxes, spread);
     const int threads = prepared_.options.threads > 0 ? prepared_.options.threads : tbb::this_task_arena::max_concurrency();
     const double cutting = spent * ratio * scale;
+    const bool curve = prepared_.reduction.system.dimension() == 1;
     const double total = search_seconds_ + cutting;
+    const double after = kStartSeconds + boxes * (kAssemblySeconds + (curve ? kMergingSeconds : 0));
     const double error = total > 0 ? std::hypot(search_seconds_ * search_error_, cutting * spread) / total : 0;
-    e.seconds = range_of(total / threads, std::hypot(error, kClockSpread / 2));
+    e.seconds = range_of(total / threads + after, std::hypot(error, kClockSpread / 2));
     const auto sides = static_cast<double>(prepared_.system.variables.size());
     constexpr double kOfABox = 3, kOfAFile = 20'000;  // bytes beside its sides
     e.file = range_of(kOfAFile + boxes * (kOfABox + kFileBytes * sides) + 16 * sides * e.sheets.likely, spread);
-    e.memory = range_of((found > 0 ? bytes / found : 0) * boxes + e.sheets.likely * 48 * sides, std::hypot(spread, kLeastSpread));
+    e.memory =
+        range_of((found > 0 ? bytes / found : 0) * boxes + e.sheets.likely * 48 * sides, std::hypot(spread, kLeastSpread));
   }
 
   const Prepared& prepared_;

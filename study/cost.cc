@@ -20,9 +20,7 @@ std::string range_text(const CostRange& range, double unit, const char* name) {
 }
 
 std::string count_text(const CostRange& range) {
-  const auto text = [](double count) {
-    return count < 1e5 ? fmt::format("{:.0f}", count) : fmt::format("{:.2g}", count);
-  };
+  const auto text = [](double count) { return count < 1e5 ? fmt::format("{:.0f}", count) : fmt::format("{:.2g}", count); };
   return fmt::format("{}  ({} to {})", text(range.likely), text(range.low), text(range.high));
 }
 
@@ -72,7 +70,8 @@ std::string to_table(const solve::CostEstimate& cost, int threads) {
                                  cost.trial_seconds, cost.sigma.length, cost.sigma.angle);
   text += "boxes to process    " + count_text(cost.processed) + "\n";
   text += "boxes returned      " + count_text(cost.boxes) + "\n";
-  text += fmt::format("time                {}, with {} thread{}\n", time_text(cost.seconds), threads, threads == 1 ? "" : "s");
+  text +=
+      fmt::format("time                {}, with {} thread{}\n", time_text(cost.seconds), threads, threads == 1 ? "" : "s");
   text += "memory              " + bytes_text(cost.memory) + "\n";
   text += "result file         " + bytes_text(cost.file) + "\n\n";
   if (cost.whole_tree) {

@@ -81,6 +81,8 @@ TEST(Cluster, MakesTheCoverOfASurface) {
   expect_same_from_units(torus().system(), options, 50);
 }
 
+TEST(Cluster, CutsSheetsLaterWhereSigmaDependsOnThem) { expect_same_from_units(lemniscate(), {}, 10); }
+
 TEST(Cluster, MakesTheCoverOfACurveThatCrossesItself) {
   Options options;
   options.sigma = 0.05;
