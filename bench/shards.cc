@@ -45,6 +45,7 @@ int measure(const std::string& model, const std::string& set, double sigma, std:
   solve::Coordinator coordinator(solve::to_bytes(prepared));
   fmt::print("{{\"line\": \"{} {} {:g}\", \"boxes\": {}, \"prepared_bytes\": {},\n \"units\": [\n", question.model.name(),
              set, sigma, boxes, coordinator.prepared_bytes().size());
+  solve::UnitRunner runner(coordinator.prepared_bytes());
   struct Given {
     int number, parent;
     std::string unit;
@@ -65,7 +66,7 @@ int measure(const std::string& model, const std::string& set, double sigma, std:
     const bool cut = solve::unit_from(given.unit).cut;
     if (cut && given.number % 4 != 0) continue;
     const auto begun = Clock::now();
-    const std::string answer = solve::run_unit(prepared, given.unit, {.boxes = boxes});
+    const std::string answer = runner.run(given.unit, {.boxes = boxes});
     const double ran = since(begun);
     const auto came = Clock::now();
     double added = 0;

@@ -29,10 +29,10 @@ std::vector<std::vector<T>> dealt(std::vector<T> all, std::size_t parts) {
 // Does σ depend on nothing that is found? Then sheets need not travel to be cut.
 bool sigma_is_known(const Prepared& prepared) { return prepared.options.asked_length() && prepared.options.asked_angle(); }
 
-void cut_at_once(const Prepared& prepared, int last_number, Answer& answer) {
+void cut_at_once(const Prepared& prepared, const Problem& problem, int last_number, Answer& answer) {
   Control control;
   Tally tally(prepared, control, 0);
-  Pool pool(prepared, tally, last_number);
+  Pool pool(prepared, tally, last_number, &problem);
   pool.set_sigma({*prepared.options.asked_length(), *prepared.options.asked_angle()});
   std::vector<Shard*> shards;
   std::vector<std::vector<Waiting>> left;  // it is not to become pending
@@ -57,31 +57,45 @@ Prepared with_all_threads(Prepared prepared) {
 }  // namespace
 
 std::string run_unit(std::string_view prepared, std::string_view unit, const Budget& budget) {
-  return run_unit(prepared_from(prepared), unit, budget);
+  return UnitRunner(prepared).run(unit, budget);
 }
 
-std::string run_unit(const Prepared& prepared, std::string_view bytes, const Budget& budget) {
-  Unit unit = unit_from(bytes);
-  check(unit, prepared);
-  Prepared mine{prepared.system, prepared.reduction, prepared.options};
-  mine.options.threads = std::clamp(budget.threads, 1, kMostUnitThreads);
-  mine.options.max_found = mine.options.max_solutions = 0;
-  Control control({.time = unit.cut ? 0 : budget.seconds});
-  Tally tally(mine, control, unit.cut ? 0 : budget.boxes);
-  Pool pool(mine, tally, static_cast<int>(unit.id) * kNumbers);
-  Answer answer{unit.id, {}};
-  if (unit.cut) {
-    Shard sheets(0, false);
-    sheets.sheets = std::move(unit.sheets);
-    pool.set_sigma(unit.sigma);
-    pool.cut({&sheets});
-  } else {
-    pool.set_sigma(sigma_of_search(mine, pool.problem()));
-    pool.search(unit.work);
+struct UnitRunner::Question {
+  explicit Question(std::string_view bytes)
+      : prepared(prepared_from(bytes)), problem(prepared.system, prepared.reduction, {}) {
+    prepared.options.max_found = prepared.options.max_solutions = 0;
   }
-  answer.shards = pool.take_shards();
-  if (!unit.cut && sigma_is_known(mine))
-    cut_at_once(mine, static_cast<int>(unit.id) * kNumbers + kMostUnitThreads + 1, answer);
+  Prepared prepared;
+  Problem problem;
+};
+
+UnitRunner::UnitRunner(std::string_view prepared) : question_(std::make_unique<Question>(prepared)) {}
+UnitRunner::~UnitRunner() = default;
+
+std::string UnitRunner::run(std::string_view bytes, const Budget& budget) {
+  Unit unit = unit_from(bytes);
+  Prepared& prepared = question_->prepared;
+  check(unit, prepared);
+  prepared.options.threads = std::clamp(budget.threads, 1, kMostUnitThreads);
+  Control control({.time = unit.cut ? 0 : budget.seconds});
+  Tally tally(prepared, control, unit.cut ? 0 : budget.boxes);
+  const int number = static_cast<int>(unit.id) * kNumbers;
+  Answer answer{unit.id, {}};
+  {
+    Pool pool(prepared, tally, number, &question_->problem);
+    if (unit.cut) {
+      Shard sheets(0, false);
+      sheets.sheets = std::move(unit.sheets);
+      pool.set_sigma(unit.sigma);
+      pool.cut({&sheets});
+    } else {
+      pool.set_sigma(sigma_of_search(prepared, pool.problem()));
+      pool.search(unit.work);
+    }
+    answer.shards = pool.take_shards();
+  }
+  if (!unit.cut && sigma_is_known(prepared))
+    cut_at_once(prepared, question_->problem, number + kMostUnitThreads + 1, answer);
   return to_bytes(answer);
 }
 

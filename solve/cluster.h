@@ -30,7 +30,20 @@ inline constexpr int kMostUnitThreads = 31;
 
 /// Runs a unit of a Coordinator. Throws ShardError where the bytes are none, or of another version.
 std::string run_unit(std::string_view prepared, std::string_view unit, const Budget& budget = {});
-std::string run_unit(const Prepared& prepared, std::string_view unit, const Budget& budget = {});
+
+/// The same for a worker that runs many units of one search: what they share is made once. Of one thread.
+class UnitRunner {
+ public:
+  explicit UnitRunner(std::string_view prepared);
+  ~UnitRunner();
+  UnitRunner(const UnitRunner&) = delete;
+  UnitRunner& operator=(const UnitRunner&) = delete;
+  std::string run(std::string_view unit, const Budget& budget = {});
+
+ private:
+  struct Question;
+  std::unique_ptr<Question> question_;
+};
 
 class Coordinator {
  public:

@@ -27,15 +27,10 @@ struct Pool::Threads {
     std::optional<Shard::Mark> finished{};  // before the first sheet that was not cut to its end
   };
 
-  Threads(const Prepared& p, Tally& t, int last_shard)
+  Threads(const Prepared& p, Tally& t, int last_shard, const Problem* like)
       : prepared(p),
         tally(t),
-        problem(p.system, p.reduction,
-                [this] {
-                  tally.report(false);
-                  count(workers.local());
-                  return tally.ended();
-                }),
+        problem(like ? *like : Problem(p.system, p.reduction, {})),
         numbers(last_shard),
         workers([this] {
           tally.keep_thread();
@@ -43,7 +38,13 @@ struct Pool::Threads {
         }),
         allowed(p.options.threads > 0 ? p.options.threads : tbb::this_task_arena::max_concurrency()),
         allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(allowed)),
-        arena(allowed) {}
+        arena(allowed) {
+    problem.ended = [this] {
+      tally.report(false);
+      count(workers.local());
+      return tally.ended();
+    };
+  }
 
   int variables() const { return problem.compiled.variables(); }
   void count(Worker& worker) { tally.count(worker.shard, worker.counted); }
@@ -124,12 +125,12 @@ struct Pool::Threads {
   tbb::task_group group;
 };
 
-Pool::Pool(const Prepared& prepared, Tally& tally, int last_shard)
-    : threads_(std::make_unique<Threads>(prepared, tally, last_shard)) {}
+Pool::Pool(const Prepared& prepared, Tally& tally, int last_shard, const Problem* like)
+    : threads_(std::make_unique<Threads>(prepared, tally, last_shard, like)) {}
 Pool::Pool(const Prepared& prepared, Tally& tally, std::vector<Shard> earlier) {
   int last = 0;
   for (const Shard& shard : earlier) last = std::max(last, shard.number);
-  threads_ = std::make_unique<Threads>(prepared, tally, last);
+  threads_ = std::make_unique<Threads>(prepared, tally, last, nullptr);
   threads_->earlier = std::move(earlier);
   for (const Shard& shard : threads_->earlier) {
     Tally::Counted counted;

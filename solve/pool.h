@@ -15,7 +15,8 @@ namespace corank::solve {
 class Pool {
  public:
   /// Its shards get numbers above `last_shard`. prepared and tally have to outlive it.
-  Pool(const Prepared& prepared, Tally& tally, int last_shard = 0);
+  /// `like`, where given: a problem of the same question, which need not be made again.
+  Pool(const Prepared& prepared, Tally& tally, int last_shard = 0, const Problem* like = nullptr);
   /// One that goes on where these shards, which are its own now, were made.
   Pool(const Prepared& prepared, Tally& tally, std::vector<Shard> earlier);
   ~Pool();
