@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Simulates the units of a search, as corank_bench_shards has measured them, on N workers of one thread each.
 
-Usage: bench/makespan.py units.json [--latency S] [--gigabits G] [--stored]
+Usage: bench/makespan.py units.json [--latency S] [--gigabits G] [--stored] [--dearer K]
 
 The model: a unit can begin once the unit that it came from has been added (those of a new pass: all before it). The client has one
-link, on which whatever is sent and received queues up at G Gbit/s, and one thread, which adds answers one after the other in
-the time that was measured; each message takes S seconds besides. Workers are given the longest-waiting unit as soon as they are idle.
+link, on which what is sent queues up at G Gbit/s, and likewise what is received, and one thread, which adds answers one after the other in
+the time that was measured; each message takes S seconds besides. A unit that has come from the client is begun
+by whichever worker is idle (clients send units ahead), the longest-waiting first.
 --stored: workers put what they have found on a store of their own, and only the boxes that are left come back over the link.
+--dearer K: the same tree, were each of its boxes K times as much work.
 Efficiency: the units' own time, divided by workers times makespan. Assembly of the result at the end is not in it.
 """
 
@@ -19,7 +21,7 @@ def simulate(units, workers, latency, bandwidth, stored):
     children, after = {}, {}
     for unit in units:
         children.setdefault(unit["parent"], []).append(unit)
-    link = client = 0.0  # when they are free next
+    link = up = client = 0.0  # when they are free next
     ready = []  # (time, order, unit)
     idle = [0.0] * workers
     heapq.heapify(idle)
@@ -40,14 +42,14 @@ def simulate(units, workers, latency, bandwidth, stored):
             client = max(client, link + latency) + (unit["client"] if not stored else min(unit["client"], 2e-4))
             end = max(end, client)
             for child in children.get(unit["id"], []):
-                heapq.heappush(ready, (client, order, child))
+                up = max(up, client) + child["sent"] / bandwidth
+                heapq.heappush(ready, (up + latency, order, child))
                 order += 1
             continue
         heapq.heappop(idle)
         _, _, unit = heapq.heappop(ready)
-        link = max(link, start) + unit["sent"] / bandwidth
         order += 1
-        heapq.heappush(finished, (link + latency + unit["seconds"], order, unit))
+        heapq.heappush(finished, (start + unit["seconds"], order, unit))
     return end
 
 
@@ -57,13 +59,14 @@ def main():
     parser.add_argument("--latency", type=float, default=1e-3)
     parser.add_argument("--gigabits", type=float, default=10)
     parser.add_argument("--stored", action="store_true")
+    parser.add_argument("--dearer", type=float, default=1)
     args = parser.parse_args()
     with open(args.file, encoding="utf-8") as file:
         data = json.load(file)
     units = []
     for unit in data["units"]:
         for copy in range(unit["stands_for"]):
-            units.append(dict(unit, id=unit["id"] + copy * 10**7, left_bytes=unit["left"]))
+            units.append(dict(unit, id=unit["id"] + copy * 10**7, left_bytes=unit["left"], seconds=unit["seconds"] * args.dearer))
     total = sum(unit["seconds"] for unit in units)
     sent, received = sum(unit["sent"] for unit in units), sum(unit["received"] for unit in units)
     print(f"{data['line']}: {len(units)} units, {total:.1f} s of work, {sent / 1e6:.0f} MB sent, {received / 1e6:.0f} MB received")

@@ -37,7 +37,7 @@ Ran run_in_random_order(const Prepared& prepared, unsigned seed, std::uint64_t b
       waiting.pop_back();
       answers.push_back(run_unit(coordinator->prepared_bytes(), unit, {.boxes = boxes, .threads = 1 + ran.units++ % 3}));
       if (one_in(4)) answers.push_back(second.run(unit, {.boxes = boxes / 2 + 1}));  // by two workers
-      if (one_in(3) && !waiting.empty()) continue;                                           // they come later
+      if (one_in(3) && !waiting.empty()) continue;                                   // they come later
     }
     std::shuffle(answers.begin(), answers.end(), random);
     while (!answers.empty()) {
