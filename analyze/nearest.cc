@@ -27,6 +27,9 @@ constexpr double kMargin = 1e-7;    // of a side: so far inside the domain a sol
 constexpr int kTries = 6;           // to prove a solution beside one that resists
 constexpr double kFirstTry = 1e-4;  // how far beside, of the typical sizes; each next one is as much farther again
 constexpr double kClose = 1e-9;     // of their typical sizes: what solves the equations nearly
+// Of kernel unknowns when it is chosen what to bisect: where nearly all boxes are empty it is the directions that show it.
+// Measured, see bench/HISTORY.md.
+constexpr double kKernelWeight = 4;
 constexpr std::size_t kBatch = 32;  // boxes that are processed at once, whatever the number of threads
 
 std::vector<double> midpoint(std::span<const Interval> x) {
@@ -108,7 +111,7 @@ Search::Search(const solve::Prepared& prepared, const std::vector<Polynomial>& d
       extended_(distance_system(prepared.reduction, differences)),
       domain_(extended_.system),
       compiled_(extended_.system, extended_.values),
-      branching_(extended_.system),
+      branching_(extended_.system, kKernelWeight),
       preconditioners_(compiled_, [&control] { return control.ended(); }),
       arena_(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency()) {
   for (int k = 0; k < arena_.max_concurrency(); ++k)

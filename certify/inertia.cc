@@ -86,6 +86,7 @@ std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::v
 
 std::optional<Inertia> inertia(const IntervalMatrix& h) {
   CORANK_CHECK(h.rows == h.columns && UpwardRounding::active());
+  if (h.rows == 0) return Inertia{};
   const Eigen::MatrixXd middle_h = middle(h);
   if (!middle_h.allFinite()) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (middle_h + middle_h.transpose()));
@@ -104,6 +105,7 @@ std::optional<Inertia> inertia(const IntervalMatrix& h) {
 
 std::optional<Inertia> inertia_on_kernel(const IntervalMatrix& h, const IntervalMatrix& a) {
   CORANK_CHECK(h.rows == h.columns && h.rows == a.columns && UpwardRounding::active());
+  if (a.rows == 0) return inertia(h);
   const Eigen::MatrixXd middle_a = middle(a);
   if (!middle_a.allFinite() || a.rows > a.columns) return std::nullopt;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(middle_a);

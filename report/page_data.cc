@@ -218,10 +218,28 @@ std::string types_payload(const Cover& cover) {
   return base64(bytes);
 }
 
+// Of a workspace boundary: for each box whether the output can pass, and two floats for each output, where barriers keep it.
+std::string passages_payload(const Cover& cover) {
+  std::vector<std::uint8_t> bytes;
+  for (const CoverBox& b : cover.boxes) bytes.push_back(static_cast<std::uint8_t>(b.passage));
+  return base64(bytes);
+}
+std::string sides_payload(const Cover& cover, std::size_t outputs) {
+  std::vector<float> numbers;
+  for (const CoverBox& b : cover.boxes)
+    for (std::size_t j = 0; j < outputs; ++j)
+      numbers.push_back(b.passage == Passage::barrier && b.side.size() == outputs ? static_cast<float>(b.side[j]) : 0.0F);
+  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)});
+}
+
 std::string set_description(const SetView& view) {
   Json locked = Json::array();
   for (const symbolic::Role role : view.set->locked) locked.push_back(to_string(role));
   const Cover& cover = view.result.cover;
+  const std::vector<std::string>& outputs = view.result.outputs;  // of a workspace boundary
+  Json passage;
+  if (!outputs.empty())
+    passage = {{"of", passages_payload(cover)}, {"outputs", outputs}, {"sides", sides_payload(cover, outputs.size())}};
   return Json{{"name", view.set->name},
               {"title", view.set->member},
               {"singular", view.set->is_singular()},
@@ -231,6 +249,7 @@ std::string set_description(const SetView& view) {
               {"dimension", cover.dimension},
               {"sigma", cover.sigma.largest()},
               {"types", types_payload(cover)},
+              {"passage", passage},
               {"complete", cover.complete()},
               {"count", cover.boxes.size()}}
       .dump();

@@ -33,7 +33,8 @@ std::string box_payload(const result::Result& result, std::span<const int> varia
 std::string verdict_payload(const result::Result& result);
 
 /// A JSON object of what every page says of a set: "name", "title" of one member, is it "singular", whose rates are
-/// "locked", "layer" and "dot" (SetDefinition), "dimension", "sigma", "complete", "count" of boxes.
+/// "locked", "layer" and "dot" (SetDefinition), "dimension", "sigma", "complete", "count" of boxes, and of a
+/// workspace boundary "passage" (null of other sets).
 std::string set_description(const SetView& view);
 /// CSS: --set-NAME, a set's colour; for elements of the class NAME it is --set, and --swatch that of a small area.
 std::string set_style();

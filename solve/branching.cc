@@ -49,9 +49,10 @@ std::vector<bool> linearly_defined(const System& system) {
 
 }  // namespace
 
-BranchingRule::BranchingRule(const System& system) : weight_(system.variables.size(), 1.0) {
+BranchingRule::BranchingRule(const System& system, double kernel_weight) : weight_(system.variables.size(), 1.0) {
   const auto defined = linearly_defined(system);
   for (std::size_t j = 0; j < weight_.size(); ++j) {
+    if (system.variables[j].kind == VariableKind::kernel) weight_[j] = kernel_weight;
     if (defined[j]) weight_[j] = 0;
   }
   if (std::all_of(weight_.begin(), weight_.end(), [](double w) { return w == 0; }))

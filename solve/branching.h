@@ -19,7 +19,8 @@ std::optional<double> split_point(const Interval& side);
 
 class BranchingRule {
  public:
-  explicit BranchingRule(const System& system);
+  /// `kernel_weight`: how much sooner than others the unknowns of a kernel vector are bisected.
+  explicit BranchingRule(const System& system, double kernel_weight = 1);
 
   /// The variable to bisect for an unproven box: the one of largest s² t² · width / typical size
   /// (certify::CompiledSystem::scales) among those wider than their limit; −1 where there is none that can be divided. s is
@@ -36,7 +37,7 @@ class BranchingRule {
  private:
   std::vector<double> smear(const certify::CompiledSystem& system, std::span<const Interval> x) const;
 
-  std::vector<double> weight_;  // 0: defined by others, see branching.cc; 1: else
+  std::vector<double> weight_;  // 0: defined by others, see branching.cc
 };
 
 }  // namespace corank::solve

@@ -9,6 +9,13 @@ export function bytesOfBase64(text) {
   return bytes;
 }
 
+const PASSAGES = ["unproven", "barrier", "traversable"];
+
+function floatsOf(bytes) {
+  const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
+  return new Float32Array(aligned.buffer, aligned.byteOffset, bytes.length / 4);
+}
+
 // The boxes of a set: bounds[2 * (size * i + j)] and the number behind it enclose variable j in box i.
 export class BoxSet {
   constructor(description, bounds, verdicts) {
@@ -17,6 +24,22 @@ export class BoxSet {
     this.bounds = bounds;
     this.verdicts = verdicts;
     this.types = bytesOfBase64(description.types || "");
+    if (description.passage) {
+      this.passages = bytesOfBase64(description.passage.of);
+      this.sides = floatsOf(bytesOfBase64(description.passage.sides));
+    }
+  }
+  // Of a workspace boundary: "unproven", "barrier" or "traversable"; of another set undefined.
+  passageOf(box) {
+    return this.passages && PASSAGES[this.passages[box]];
+  }
+  // From a barrier to where the output is kept, in the units of two outputs; null where that is not known of these axes.
+  sideOf(box, axes) {
+    if (this.passageOf(box) !== "barrier") return null;
+    const {outputs} = this.passage;
+    const places = axes.map(({name}) => outputs.indexOf(name));
+    const side = places.map((j) => (j < 0 ? NaN : this.sides[outputs.length * box + j]));
+    return Math.hypot(...side) > 0 ? side : null;
   }
   // The types of singularity that are proven of a box.
   typesOf(box) {
@@ -44,9 +67,7 @@ export class BoxSet {
 // `id`: of the elements boxes-ID and verdicts-ID.
 export function readSet(description, id) {
   const bytesOf = (what) => bytesOfBase64(document.getElementById(`${what}-${id}`).textContent.trim());
-  const bytes = bytesOf("boxes");
-  const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
-  return new BoxSet(description, new Float32Array(aligned.buffer, aligned.byteOffset, bytes.length / 4), bytesOf("verdicts"));
+  return new BoxSet(description, floatsOf(bytesOf("boxes")), bytesOf("verdicts"));
 }
 
 export function readModel() {

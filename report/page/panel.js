@@ -5,6 +5,8 @@ import {pointOfBoxes} from "./newton.js";
 import {Player} from "./player.js";
 import {coordinateValues, groupedText, htmlLabel, htmlUnit, isAngle, numberText} from "./values.js";
 
+const passageWords = {barrier: "barrier", traversable: "the output can pass", unproven: "passage open"};
+
 export class Panel {
   // The picture has room for all `configurations`; `onShow(configuration)` is told what is drawn: {set, box, x}, or null.
   constructor(model, root, configurations, onShow) {
@@ -134,7 +136,7 @@ export class Panel {
       : `${shown} the middle of the box: Newton’s method found no point in it.`;
     const arrows =
       drawn && set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
-    const types = set.typesOf(box).join(", ");
+    const types = [...set.typesOf(box), ...(set.passages ? [passageWords[set.passageOf(box)]] : [])].join(", ");
     return `<p class="headline"><span class="swatch ${set.name}"></span>${set.title} · box ${groupedText(box + 1)} of ${groupedText(
       set.count,
     )} · <span class="verdict ${verdict}">${verdict}</span>${types ? ` · ${types}` : ""}</p><table>${rows.join("")}</table><p class="fine">${how}${arrows}</p>`;

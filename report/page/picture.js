@@ -4,6 +4,7 @@ import {coverage, paintCoverage, sheetTone} from "./density.js";
 import {Projection, groupTouching} from "./projection.js";
 import {fullTurn, isAngle} from "./values.js";
 
+const stroke = {length: 6, apart: 5, directions: 8}; // to the forbidden side of a barrier, in pixels
 const reach = 9; // pixels within which a curve or a point is taken to be meant
 
 // The colours of the page's style, as an element has them.
@@ -18,6 +19,7 @@ export function pageColours(element) {
     card: colour("--card"),
     line: colour("--line-strong"),
     undecided: colour("--undecided"),
+    passage: {traversable: colour("--traversable"), unproven: colour("--open")},
     of: ({name}) => colour(`--set-${name}`),
   };
 }
@@ -77,8 +79,36 @@ export class Picture {
       if (!set.singular && set.dimension > 1) this.drawDensity(context, projection, false, colours.of(set), sheetTone);
       else this.drawBoxes(context, projection);
     }
+    for (const projection of shown) this.drawForbiddenSides(context, projection);
     for (const projection of shown) this.drawUndecided(context, projection);
     context.restore();
+  }
+
+  // Strokes of one length to the sides that barriers keep the output from, none close to another of much the same direction.
+  drawForbiddenSides(context, projection) {
+    const {set} = projection;
+    if (!set.passages) return;
+    const {plane} = this,
+      taken = new Set();
+    context.strokeStyle = this.colours.of(set);
+    context.lineWidth = 1;
+    context.beginPath();
+    for (let i = 0; i < projection.owners.length; ++i) {
+      const side = set.sideOf(projection.owners[i], this.axes);
+      if (!side) continue;
+      const {left, right, top, bottom} = this.rectangle(projection, i);
+      const [x, y] = [(left + right) / 2, (top + bottom) / 2];
+      // A normal of the plane of the outputs, where a unit has another length along the other axis.
+      const [u, v] = [-side[0] / plane.sx, side[1] / plane.sy],
+        size = Math.hypot(u, v);
+      const turn = Math.round((Math.atan2(v, u) / (2 * Math.PI)) * stroke.directions);
+      const key = [Math.round(x / stroke.apart), Math.round(y / stroke.apart), turn].join();
+      if (!(size > 0) || taken.has(key)) continue;
+      taken.add(key);
+      context.moveTo(x, y);
+      context.lineTo(x + (stroke.length * u) / size, y + (stroke.length * v) / size);
+    }
+    context.stroke();
   }
 
   // The boxes of a projection that are pending, or those that are not, in one colour.
@@ -105,6 +135,7 @@ export class Picture {
     const dots = set.dimension === 0;
     for (let i = 0; i < projection.length; ++i) {
       if (this.isPending(set, projection.owners[i])) continue;
+      if (set.passages) context.fillStyle = this.colours.passage[set.passageOf(projection.owners[i])] || this.colours.of(set);
       const {left, right, top, bottom} = this.rectangle(projection, i);
       if (dots && right - left < 7 && bottom - top < 7) {
         context.beginPath();

@@ -47,6 +47,27 @@ json set_of(const Mechanism& mechanism, SingularitySet set) {
 /// Without printing the page where it does not.
 bool holds(const std::string& page, const std::string& text) { return page.find(text) != std::string::npos; }
 
+// A result as `solve --set boundary` makes one, with passages of its own.
+TEST(Page, SaysOfEachBoxOfAWorkspaceBoundaryWhetherTheOutputCanPassAndWhereItIsKept) {
+  const Mechanism mechanism = slider();
+  result::Result result = solved(mechanism, SingularitySet::forward);
+  ASSERT_GE(result.cover.boxes.size(), 3u);
+  result.outputs = {"x", "y"};
+  result.cover.boxes[1].passage = Passage::barrier;
+  result.cover.boxes[1].side = {0.6, -0.8};
+  result.cover.boxes[2].passage = Passage::traversable;
+  const json passage =
+      json::parse(page_model(mechanism, derive(mechanism), {set_view(mechanism, result)}))["sets"][0]["passage"];
+  EXPECT_EQ(passage["outputs"], json({"x", "y"}));
+  const std::vector<std::uint8_t> of = decoded(passage["of"]);
+  ASSERT_EQ(of.size(), result.cover.boxes.size());
+  EXPECT_EQ(std::vector<int>(of.begin(), of.begin() + 3), (std::vector{0, 1, 2}));
+  const std::vector<float> sides = decoded_floats(passage["sides"]);
+  ASSERT_EQ(sides.size(), 2 * of.size());
+  EXPECT_EQ(std::vector<float>(sides.begin(), sides.begin() + 6), (std::vector<float>{0, 0, 0.6F, -0.8F, 0, 0}));
+  EXPECT_TRUE(set_of(mechanism, SingularitySet::forward)["passage"].is_null());
+}
+
 TEST(Base64, KnowsTheVectorsOfRfc4648) {
   const auto encoded = [](const std::string& text) {
     return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
