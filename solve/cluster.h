@@ -6,7 +6,8 @@
 //   Cover cover = c.assemble(control);
 //
 // Units may be run in any order, more than once, and by any number of threads: the first answer counts, and the cover is
-// solve()'s, to the last bit. Where σ was asked for, sheets are cut by whoever has found them. What a budget leaves of a unit comes back and is given out again, in smaller parts.
+// solve()'s, to the last bit. Where σ was asked for, sheets are cut by whoever has found them. What a budget leaves of a
+// unit comes back and is given out again, in smaller parts.
 #pragma once
 
 #include <cstdint>
@@ -57,8 +58,8 @@ class Coordinator {
   /// What can be done now and has not been given out, in up to so many units. None, though done() is false: the units that
   /// are under way have to be added first.
   std::vector<std::string> take_units(std::size_t wanted);
-  /// What run_unit() has returned. False: that unit has been added before, and nothing is done. Throws ShardError where it is
-  /// none of this search's.
+  /// What run_unit() has returned. False: that unit has been added before, and nothing is done. Throws ShardError where it
+  /// is none of this search's.
   bool add(std::string_view answer);
   bool done() const;
   /// So many units have been given out and not been added.

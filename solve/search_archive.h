@@ -1,4 +1,4 @@
-// How the values of a search are written and read by cereal (solve/byte_archive.h). For shard_bytes.cc and prepared_bytes.cc.
+// How the values of a search are written and read by cereal (solve/byte_archive.h). For shard_bytes.cc.
 #pragma once
 
 #include <cereal/types/map.hpp>
