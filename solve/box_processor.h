@@ -28,10 +28,9 @@ class BoxProcessor {
   BoxProcessor& operator=(const BoxProcessor&) = delete;
 
   /// Treats the box x (changed in place), which has that share of the search domain. done: it is empty, or its solutions are
-  /// in a sheet or a found box of the shard. split: it has shrunk to x and is to be bisected at
-  /// split_variable(). postponed: it is the shard's last. interrupted: the search ends, and nothing was made of the box as it
-  /// was given. `postpone`, of the typical sizes: how small a box is before it may
-  /// be postponed.
+  /// in a sheet or a found box of the shard. split: it has shrunk to x and is to be bisected at split_variable().
+  /// postponed: it is the shard's last. interrupted: the search ends, and nothing was made of the box as it was given.
+  /// `postpone`, of the typical sizes: how small a box is before it may be postponed.
   Outcome process(std::span<Interval> x, double postpone, double share);
   /// Keeps a postponed box that was proven to hold a self-motion.
   void add_proven(const Postponed& box);
