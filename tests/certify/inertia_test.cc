@@ -83,6 +83,17 @@ TEST(Inertia, IsNotClaimedWhereAMatrixWithinIsSingular) {
   }
 }
 
+// The matrix of ones is within, though no entry of the diagonal may be 0.
+TEST(Inertia, IsNotClaimedForAPositiveDiagonalAlone) {
+  const UpwardRounding rounding;
+  for (int n = 2; n <= 6; ++n) {
+    IntervalMatrix h(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) h(i, j) = i == j ? Interval(1.0) : Interval(-1, 1);
+    EXPECT_FALSE(inertia(h));
+  }
+}
+
 TEST(Inertia, IsNotClaimedOnAKernelThatMayBeLarger) {
   Planter planter(4);
   const UpwardRounding rounding;

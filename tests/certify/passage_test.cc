@@ -5,6 +5,7 @@
 
 #include "corank/core/rounding.h"
 #include "corank/tests/planted_passage.h"
+#include "corank/tests/system_builder.h"
 
 namespace corank::certify {
 namespace {
@@ -94,6 +95,43 @@ TEST(PassageOfABoundary, NeedsAKernelOfOneDimension) {
       for (int row : {0, 1, 2}) form.jacobian[static_cast<std::size_t>(row * form.columns + j)].monomials.clear();
     EXPECT_EQ(PassageTest(p.system).of(p.box(1e-7)).passage, Passage::unproven);
   }
+}
+
+// The form ((a, b), (b, c)) itself, a kernel of two dimensions without equations, or with (x, 1/10; 0, 0) for Φ_z.
+struct Entries {
+  System system;
+  int a, b, c, x, multiplier;
+
+  explicit Entries(bool equations) {
+    test::SystemBuilder s;
+    a = s.variable("a", "-9", "9"), b = s.variable("b", "-9", "9"), c = s.variable("c", "-9", "9");
+    x = s.variable("x", "-9", "9"), multiplier = s.variable("l", "-9", "9");
+    system = s.system();
+    const auto entry = [](int v) { return test::SystemBuilder::polynomial({{"1", {{v, 1}}}}); };
+    const auto number = [](const char* text) { return test::SystemBuilder::polynomial({{text, {}}}); };
+    PassageForm form;
+    form.equations = equations ? 2 : 0, form.columns = 2;
+    if (equations) form.jacobian = {entry(x), number("1/10"), {}, {}}, form.multipliers = {a, multiplier};
+    form.hessian = {entry(a), entry(b), entry(c)};
+    form.normal = {number("1"), {}};
+    system.passage = form;
+  }
+  Passage of(const Interval& a_side, const Interval& b_side, const Interval& x_side) const {
+    const UpwardRounding rounding;
+    return PassageTest(system).of({a_side, b_side, Interval(1.0), x_side, Interval(5.0)}, 0).passage;
+  }
+};
+
+TEST(PassageOfABoundary, IsNoBarrierWhereAFormWithinIsIndefinite) {
+  const Entries entries(false);
+  EXPECT_EQ(entries.of(Interval(1.0), Interval(-0.5, 0.5), Interval(1.0)), Passage::barrier);
+  EXPECT_EQ(entries.of(Interval(1.0), Interval(-1.5, 1.5), Interval(1.0)), Passage::unproven) << "its diagonal is positive";
+}
+
+TEST(PassageOfABoundary, NeedsARegularN) {
+  const Entries entries(true);
+  EXPECT_EQ(entries.of(Interval(1.0), Interval(0.0), Interval(1, 2)), Passage::barrier);
+  EXPECT_EQ(entries.of(Interval(1.0), Interval(0.0), Interval(-1, 2)), Passage::unproven) << "x may be 0";
 }
 
 }  // namespace
