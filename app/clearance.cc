@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <regex>
 
 #include "corank/app/box_files.h"
 #include "corank/app/clearance_command.h"
 #include "corank/app/interrupt.h"
+#include "corank/app/named_values.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/search_limits.h"
@@ -21,38 +21,6 @@
 
 namespace corank::app {
 namespace {
-
-// "a=1,b=[2,3]" in its parts, at commas outside of parentheses and brackets.
-std::vector<std::string> parts_of(const std::vector<std::string>& texts) {
-  std::vector<std::string> parts;
-  for (const std::string& text : texts) {
-    int depth = 0;
-    parts.emplace_back();
-    for (const char c : text) {
-      depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
-      if (c == ',' && depth == 0) {
-        parts.emplace_back();
-      } else {
-        parts.back() += c;
-      }
-    }
-  }
-  return parts;
-}
-
-std::pair<std::string, std::string> split_at_equals(const std::string& text, const std::string& option,
-                                                    const std::string& expected) {
-  const std::size_t equals = text.find('=');
-  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-    throw UsageError(fmt::format("{} {}: expected {}", option, text, expected));
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
-// An expression of the model language, in which 15deg is an angle of 15 degrees.
-symbolic::Expression expression(const std::string& text, const std::string& option) {
-  static const std::regex kDegrees(R"(([0-9]*\.?[0-9]+)deg\b)");
-  return symbolic::parse_expression(std::regex_replace(text, kDegrees, "($1*pi/180)"), option + " " + text);
-}
 
 // "±0.2", "+-0.2" about the value, or "[a,b]".
 analyze::NamedRange range_of(const std::string& text, const std::vector<analyze::NamedValue>& at,
@@ -77,10 +45,7 @@ analyze::NamedRange range_of(const std::string& text, const std::vector<analyze:
 
 analyze::BallOptions ball_of(const ClearanceCommand& command) {
   analyze::BallOptions ball;
-  for (const std::string& part : parts_of(command.at)) {
-    const auto [name, value] = split_at_equals(part, "--at", "NAME=VALUE");
-    ball.at.push_back({name, expression(value, "--at")});
-  }
+  ball.at = named_values(command.at, "--at");
   ball.in = parts_of(command.in);
   for (const std::string& part : parts_of(command.ranges)) ball.ranges.push_back(range_of(part, ball.at));
   if (!command.orientation.empty()) ball.orientation = analyze::parse_rotation(command.orientation);

@@ -38,6 +38,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   add_clearance(program, action);
   add_topology(program, action);
   add_aspects(program, action);
+  add_path(program, action);
   add_angles(program, action);
 
   try {

@@ -19,6 +19,7 @@ void add_report(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
 void add_clearance(CLI::App& program, Action& action);
 void add_aspects(CLI::App& program, Action& action);
+void add_path(CLI::App& program, Action& action);
 void add_topology(CLI::App& program, Action& action);
 void add_angles(CLI::App& program, Action& action);
 

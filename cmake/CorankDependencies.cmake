@@ -1,5 +1,5 @@
 # Everything comes from Debian 12 packages: scripts/packages.txt.
-foreach(package PkgConfig Threads MPFI FLINT "TBB 2021" "fmt 9")
+foreach(package PkgConfig Threads MPFI FLINT OMPL "TBB 2021" "fmt 9")
   separate_arguments(arguments UNIX_COMMAND "${package}")
   find_package(${arguments} REQUIRED)
 endforeach()

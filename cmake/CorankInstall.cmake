@@ -10,6 +10,6 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/corankConfig.cmake.in 
                               INSTALL_DESTINATION ${CORANK_INSTALL_CMAKE} PATH_VARS CORANK_INSTALL_MODELS)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/corankConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/corankConfig.cmake ${PROJECT_BINARY_DIR}/corankConfigVersion.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/CorankLibraries.cmake ${PROJECT_SOURCE_DIR}/cmake/FindMPFI.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/CorankLibraries.cmake ${PROJECT_SOURCE_DIR}/cmake/FindMPFI.cmake ${PROJECT_SOURCE_DIR}/cmake/FindOMPL.cmake
               ${PROJECT_SOURCE_DIR}/cmake/FindFLINT.cmake
         DESTINATION ${CORANK_INSTALL_CMAKE})

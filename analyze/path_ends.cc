@@ -1,0 +1,117 @@
+#include "corank/analyze/path_ends.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "corank/certify/meeting.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/exactness.h"
+#include "corank/solve/solve.h"
+#include "corank/symbolic/exact_value.h"
+
+namespace corank::analyze {
+namespace {
+
+Polynomial equals(int variable, const ExactNumber& value) {
+  Polynomial f;
+  f.monomials.emplace_back(ExactNumber(1), std::vector<Factor>{{variable, 1, Function::identity}});
+  if (!value.is_zero()) f.monomials.emplace_back(-value, std::vector<Factor>{});
+  return f;
+}
+
+// c² + s² − 1 alone: the equation that a fixed angle has no more use for.
+bool is_circle(const Polynomial& f, const Angle& angle) {
+  int squares = 0;
+  for (const Monomial& m : f.monomials) {
+    if (m.factors.empty()) continue;
+    if (m.factors.size() != 1 || m.factors[0].power != 2 || m.factors[0].function != Function::identity) return false;
+    if (m.factors[0].variable != angle.cosine && m.factors[0].variable != angle.sine) return false;
+    ++squares;
+  }
+  return squares == 2;
+}
+
+symbolic::ModelError error(const PathSpace& space, const std::string& problem, const std::string& expectation) {
+  return {{space.question().model.name(), 0, 0}, problem, expectation};
+}
+
+// The space's system with these values, exactly.
+System fixed(const PathSpace& space, const std::vector<NamedValue>& values) {
+  System system = space.system();
+  for (const NamedValue& v : values) {
+    const ExactNumber value = symbolic::exact_value(space.question().model, v.value, v.name);
+    const auto angle =
+        std::find_if(system.angles.begin(), system.angles.end(), [&](const Angle& a) { return a.name == v.name; });
+    const int length = system.find(v.name);
+    if (angle != system.angles.end()) {
+      const auto circle = std::find_if(system.equations.begin(), system.equations.end(),
+                                       [&](const Polynomial& f) { return is_circle(f, *angle); });
+      if (circle == system.equations.end()) throw error(space, "'" + v.name + "' has one value by its range", "no other");
+      system.equations.erase(circle);
+      system.equations.push_back(equals(angle->cosine, ExactNumber::apply(ConstantFunction::cos, value)));
+      system.equations.push_back(equals(angle->sine, ExactNumber::apply(ConstantFunction::sin, value)));
+    } else if (length >= 0 && length < system.configuration_size) {
+      system.equations.push_back(equals(length, value));
+    } else {
+      std::string names;
+      for (const auto& c : space.question().model.coordinates())
+        if (!c.auxiliary) names += (names.empty() ? "" : ", ") + c.name;
+      throw error(space, "there is no coordinate '" + v.name + "'", "one of " + names);
+    }
+  }
+  system.name += " end";
+  return system;
+}
+
+}  // namespace
+
+std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>& values, solve::Control& control) {
+  const auto needed = static_cast<std::size_t>(std::max(space.dimension(), 0));
+  std::vector<NamedValue> exact, further;
+  for (const NamedValue& v : values) {
+    const int index = space.question().model.find_coordinate(v.name);
+    const bool moves = index < 0 || !is_fixed(space.question().model.coordinates()[static_cast<std::size_t>(index)]);
+    (moves && exact.size() < needed ? exact : further).push_back(v);
+  }
+  if (exact.size() < needed)
+    throw EndError(fmt::format("{} value{} of {} that are needed: the mechanism can still move", exact.size(),
+                               exact.size() == 1 ? "" : "s", needed));
+  const System system = fixed(space, exact);
+  for (const NamedValue& v : further)
+    if (space.question().model.find_coordinate(v.name) < 0) fixed(space, {v});  // throws
+  const solve::Prepared prepared = solve::prepare(system, {}, control);
+  Cover cover = solve::solve(prepared, control);
+  if (!cover.complete()) throw EndError("the search for the configurations was ended by a limit");
+  if (cover.dimension == 0) solve::prove_exactly(prepared, cover, control);
+  std::vector<Box> result;
+  certify::MeetingTest test(system);
+  for (const CoverBox& point : cover.points) {
+    if (point.verdict == Verdict::boundary) throw EndError("one of the configurations may be outside the ranges");
+    if (point.verdict != Verdict::isolated && point.verdict != Verdict::exact)
+      throw EndError("these values leave configurations that are not isolated, or not proven to be; others may do");
+    // The solution that the box holds, as narrow as doubles prove it.
+    const UpwardRounding rounding;
+    result.push_back(test.solution_in(point.box, point.box).value_or(point.box));
+  }
+  if (cover.points.empty() && !cover.boxes.empty()) throw EndError("these values leave the mechanism a motion");
+  const auto is_far = [&](const Box& box) {
+    const std::vector<CoordinateValue> there = coordinate_values(space.system(), box);
+    return std::any_of(further.begin(), further.end(), [&](const NamedValue& v) {
+      const double asked = symbolic::exact_value(space.question().model, v.value, v.name).enclose().mid();
+      const auto at = std::find_if(there.begin(), there.end(), [&](const CoordinateValue& c) { return c.name == v.name; });
+      if (at == there.end()) return false;
+      const auto& angles = space.system().angles;
+      const bool angle = std::any_of(angles.begin(), angles.end(), [&](const Angle& a) { return a.name == v.name; });
+      double distance = at->value.mid() - asked;
+      if (angle) distance = std::remainder(distance, 2 * std::numbers::pi);
+      return std::fabs(distance) > PathFinder::kNear * std::max(1.0, angle ? 1.0 : std::fabs(asked));
+    });
+  };
+  result.erase(std::remove_if(result.begin(), result.end(), is_far), result.end());
+  return result;
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,186 @@
+#include "corank/analyze/path_space.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+
+#include "corank/certify/determinant_sign.h"
+#include "corank/core/rounding.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/determinant_factors.h"
+#include "corank/symbolic/velocity_blocks.h"
+
+namespace corank::analyze {
+namespace {
+
+int sign_of(const Interval& x) { return x.lo() > 0 ? 1 : x.hi() < 0 ? -1 : 0; }
+
+// GiNaC expands their determinants in no time.
+bool is_small(const PolynomialMatrix& m) {
+  constexpr int kMostColumns = 8;
+  constexpr std::size_t kMostTerms = 8;  // of an entry
+  return m.columns <= kMostColumns && std::all_of(m.entries.begin(), m.entries.end(),
+                                                  [](const Polynomial& f) { return f.monomials.size() <= kMostTerms; });
+}
+
+bool is_square(const std::vector<int>& rows, const PolynomialMatrix& m) {
+  return static_cast<int>(rows.size()) == m.columns;
+}
+
+}  // namespace
+
+PathSpace::PathSpace(study::Question question, Avoid avoid, int most_with_factors)
+    : question_(std::move(question)), avoid_(avoid) {
+  question_.set = symbolic::SingularitySet::cspace;
+  question_.corank = 1;
+  equations_ = study::equations(question_);
+  system_ = study::system(question_, equations_);
+  const bool with_factors = dimension() <= most_with_factors;
+  if (avoid != Avoid::inverse) add_matrix(symbolic::SingularitySet::forward, with_factors);
+  if (avoid != Avoid::forward) add_matrix(symbolic::SingularitySet::inverse, with_factors);
+  std::vector<Polynomial> values;
+  for (const PolynomialMatrix& m : matrices_) {
+    first_entry_.push_back(static_cast<int>(values.size()));
+    values.insert(values.end(), m.entries.begin(), m.entries.end());
+  }
+  values.insert(values.end(), factors_.begin(), factors_.end());
+  compiled_ = std::make_unique<certify::CompiledSystem>(system_, values);
+}
+
+void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
+  const auto blocks = symbolic::velocity_blocks(question_.model, set);
+  if (!blocks)
+    throw symbolic::ModelError({question_.model.name(), 0, 0}, "its velocity equation has sines of lengths",
+                               "angles in sines and cosines");
+  const Block block = set == symbolic::SingularitySet::forward ? Block::forward : Block::inverse;
+  const PolynomialMatrix& m = blocks->matrices[static_cast<std::size_t>(block)];
+  std::vector<int> filled;
+  for (int i = 0; i < m.rows; ++i) {
+    bool zero = true;
+    for (int j = 0; j < m.columns; ++j)
+      zero = zero && m.entries[static_cast<std::size_t>(i * m.columns + j)].monomials.empty();
+    if (!zero) filled.push_back(i);
+  }
+  matrices_.push_back(m);
+  ranks_.push_back(std::min(static_cast<int>(filled.size()), m.columns));
+  const bool square = is_square(filled, m);
+  filled_rows_.push_back(std::move(filled));
+  if (!square || !with_factors || !is_small(m)) return;
+  try {
+    const symbolic::Derivation derivation = symbolic::derive(question_.model);
+    const symbolic::ExpressionMatrix matrix =
+        symbolic::kernel_question(question_.model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
+    for (Polynomial& f : symbolic::polynomials(equations_, symbolic::determinant_factors(question_.model, matrix)))
+      factors_.push_back(std::move(f));
+  } catch (const symbolic::ModelError&) {
+    // too large: the determinant's own sign has to do
+  }
+}
+
+std::size_t PathSpace::sign_functions() const {
+  std::size_t count = factors_.size();
+  for (std::size_t k = 0; k < matrices_.size(); ++k) count += is_square(filled_rows_[k], matrices_[k]);
+  return count;
+}
+
+std::vector<int> PathSpace::signs(const Box& box) const {
+  std::vector<int> result;
+  for (std::size_t k = 0; k < matrices_.size(); ++k) {
+    const PolynomialMatrix& m = matrices_[k];
+    if (!is_square(filled_rows_[k], m)) continue;
+    certify::IntervalMatrix a(m.columns, m.columns);
+    for (int i = 0; i < m.columns; ++i)
+      for (int j = 0; j < m.columns; ++j)
+        a(i, j) = compiled_->evaluate(
+            compiled_->value_row(first_entry_[k] + filled_rows_[k][static_cast<std::size_t>(i)] * m.columns + j), box);
+    result.push_back(certify::determinant_sign(std::move(a)));
+  }
+  const int factors = static_cast<int>(factors_.size());
+  for (int f = compiled_->values() - factors; f < compiled_->values(); ++f)
+    result.push_back(sign_of(compiled_->evaluate(compiled_->value_row(f), box)));
+  return result;
+}
+
+Eigen::VectorXd PathSpace::residual(const Point& x) const {
+  const UpwardRounding rounding;
+  Eigen::VectorXd f(compiled_->equations());
+  for (int i = 0; i < compiled_->equations(); ++i) f(i) = compiled_->evaluate_at(i, x.data()).mid();
+  return f;
+}
+
+Eigen::MatrixXd PathSpace::jacobian(const Point& x) const {
+  std::vector<double> entries(static_cast<std::size_t>(compiled_->entries()));
+  compiled_->approximate_jacobian(x.data(), entries.data());
+  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(compiled_->equations(), size());
+  for (int i = 0; i < compiled_->equations(); ++i)
+    for (int k = compiled_->row_begin(i); k < compiled_->row_begin(i + 1); ++k)
+      j(i, compiled_->column(k)) += entries[static_cast<std::size_t>(k)];
+  return j;
+}
+
+bool PathSpace::project(Point& x, double reach) const {
+  constexpr int kSteps = 20;
+  constexpr double kSmall = 1e-14;
+  const Point from = x;
+  double before = 1e300;
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::VectorXd f = residual(x);
+    const Eigen::VectorXd change = jacobian(x).completeOrthogonalDecomposition().solve(-f);
+    if (!change.allFinite()) return false;
+    x += change;
+    const double size = change.lpNorm<Eigen::Infinity>();
+    if (size < kSmall * (1 + x.lpNorm<Eigen::Infinity>())) break;
+    if (step > 3 && size < 1e-11 && size >= before / 2) break;
+    if (step + 1 == kSteps) return false;
+    before = size;
+  }
+  return (x - from).lpNorm<Eigen::Infinity>() <= reach;
+}
+
+Eigen::MatrixXd PathSpace::tangent(const Point& x) const {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian(x).transpose());
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(size(), size());
+  return q.rightCols(dimension());
+}
+
+std::vector<double> PathSpace::values(const Point& x, int from, int count) const {
+  const UpwardRounding rounding;
+  std::vector<double> result;
+  for (int k = from; k < from + count; ++k)
+    result.push_back(compiled_->evaluate_at(compiled_->value_row(k), x.data()).mid());
+  return result;
+}
+
+PathSpace::State PathSpace::state(const Point& x) const {
+  State state;
+  state.margin = 1;
+  for (std::size_t k = 0; k < matrices_.size(); ++k) {
+    const PolynomialMatrix& m = matrices_[k];
+    const std::vector<double> entries = values(x, first_entry_[k], m.rows * m.columns);
+    Eigen::MatrixXd a(static_cast<Eigen::Index>(filled_rows_[k].size()), m.columns);
+    for (Eigen::Index i = 0; i < a.rows(); ++i)
+      for (int j = 0; j < m.columns; ++j)
+        a(i, j) = entries[static_cast<std::size_t>(filled_rows_[k][static_cast<std::size_t>(i)] * m.columns + j)];
+    if (a.size() == 0) continue;
+    const Eigen::VectorXd sigma = a.jacobiSvd().singularValues();
+    state.margin = std::min(state.margin, sigma(0) > 0 ? sigma(sigma.size() - 1) / sigma(0) : 0);
+    if (a.rows() == a.cols()) state.signs.push_back(a.determinant() > 0 ? 1 : -1);
+  }
+  const int factors = static_cast<int>(factors_.size());
+  for (const double f : values(x, compiled_->values() - factors, factors)) state.signs.push_back(f > 0 ? 1 : -1);
+  state.inside = true;
+  for (int j = 0; j < size() && state.inside; ++j) {
+    const Variable& v = system_.variables[static_cast<std::size_t>(j)];
+    const double slack = 1e-9;
+    if ((!v.lower_implied && x(j) < v.domain.lo() - (v.kind == VariableKind::length ? 0 : slack)) ||
+        (!v.upper_implied && x(j) > v.domain.hi() + (v.kind == VariableKind::length ? 0 : slack)))
+      state.inside = false;
+  }
+  const UpwardRounding rounding;
+  for (int row = compiled_->equations(); row < compiled_->rows() && state.inside; ++row)
+    state.inside = compiled_->evaluate_at(row, x.data()).lo() > 0;
+  return state;
+}
+
+}  // namespace corank::analyze

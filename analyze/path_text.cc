@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corank/analyze/path.h"
+
+namespace corank::analyze {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json values_of(const System& system, const Box& box) {
+  Json json = Json::object();
+  for (const CoordinateValue& v : coordinate_values(system, box)) json[v.name] = v.value.mid();
+  return json;
+}
+
+}  // namespace
+
+const char* to_string(Avoid avoid) {
+  switch (avoid) {
+    case Avoid::forward: return "forward";
+    case Avoid::inverse: return "inverse";
+    case Avoid::both: return "both";
+  }
+  return "?";
+}
+
+std::string to_text(const PathFinder& finder, const Path& path) {
+  std::string text =
+      fmt::format("{}, {} singularities avoided\n", finder.question().model.name(),
+                  finder.options().avoid == Avoid::both ? "forward and inverse" : to_string(finder.options().avoid));
+  const auto line = [&](const std::string& name, const std::string& value) {
+    text += fmt::format("  {:<10}  {}\n", name, value);
+  };
+  line("status", path.status == Path::Status::path        ? "path, proven"
+                 : path.status == Path::Status::separated ? "separated: no such path exists, proven"
+                                                          : "unknown");
+  if (!path.reason.empty()) line("", path.reason);
+  if (path.tube) {
+    line("radius", fmt::format("{:.3g}", path.tube->radius()));
+    line("length", fmt::format("{:.4g}", path.length));
+    line("pieces",
+         fmt::format("{}, found {}", path.tube->pieces.size(), path.method == "direct" ? "directly" : "by " + path.method));
+  } else if (path.resolution > 0) {
+    line("resolution", fmt::format("{:g}", path.resolution));
+  }
+  return text;
+}
+
+std::string to_json(const PathFinder& finder, const Path& path) {
+  Json json{{"model", finder.question().model.name()},
+            {"status", to_string(path.status)},
+            {"avoid", to_string(finder.options().avoid)},
+            {"from", values_of(finder.system(), path.from)},
+            {"to", values_of(finder.system(), path.to)},
+            {"waypoints", Json::array()},
+            {"radius", nullptr},
+            {"radii", Json::array()},
+            {"length", nullptr},
+            {"method", path.method.empty() ? Json() : Json(path.method)},
+            {"reason", path.reason.empty() ? Json() : Json(path.reason)},
+            {"resolution", path.resolution > 0 ? Json(path.resolution) : Json()},
+            {"seconds", path.seconds}};
+  if (path.tube) {
+    std::vector<std::string> names;
+    for (const std::vector<double>& row : node_values(finder.system(), *path.tube, names)) {
+      Json point = Json::object();
+      for (std::size_t j = 0; j < names.size(); ++j) point[names[j]] = row[j];
+      json["waypoints"].push_back(std::move(point));
+    }
+    json["radius"] = path.tube->radius();
+    json["radii"] = path.tube->radii;
+    json["length"] = path.length;
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string to_csv(const PathFinder& finder, const Path& path) {
+  if (!path.tube) return "";
+  std::vector<std::string> names;
+  const auto rows = node_values(finder.system(), *path.tube, names);
+  std::string text;
+  for (const std::string& name : names) text += name + ",";
+  text += "radius\n";
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    for (const double value : rows[k]) text += fmt::format("{:.17g},", value);
+    text += k < path.tube->radii.size() ? fmt::format("{:.17g}\n", path.tube->radii[k]) : "\n";
+  }
+  return text;
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,140 @@
+#include "corank/analyze/tube_builder.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "corank/core/rounding.h"
+
+namespace corank::analyze {
+namespace {
+
+constexpr int kMostHalvings = 26;
+constexpr double kLeastRadius = 1e-9;
+constexpr double kShortest = 1e-7;  // step
+
+std::vector<double> to_vector(const PathSpace::Point& x) { return {x.data(), x.data() + x.size()}; }
+
+}  // namespace
+
+TubeBuilder::TubeBuilder(const PathSpace& space) : space_(space), prover_(space.system(), space.matrices(), space.ranks()) {}
+
+// The rows of T follow each other along the path as nearly as tangent spaces allow: the rotation of the basis that is
+// nearest to the basis before, by the singular vectors of their products.
+std::optional<TubeBuilder::Node> TubeBuilder::node(const PathSpace::Point& x, const Node* before) {
+  Node result;
+  result.point = x;
+  const Eigen::MatrixXd basis = space_.tangent(x);
+  if (!basis.allFinite() || basis.cols() != space_.dimension()) return std::nullopt;
+  if (before) {
+    const Eigen::MatrixXd product = before->across * basis;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    result.across = svd.matrixU() * svd.matrixV().transpose() * basis.transpose();
+  } else {
+    result.across = basis.transpose();
+  }
+  const Eigen::VectorXd c = result.across * x;
+  for (Eigen::Index i = 0; i < result.across.rows(); ++i)
+    for (Eigen::Index j = 0; j < result.across.cols(); ++j) result.node.rows.push_back(result.across(i, j));
+  result.node.values = {c.data(), c.data() + c.size()};
+  const UpwardRounding rounding;
+  const auto box = prover_.node(result.node.rows, result.node.values, to_vector(x));
+  if (!box) return std::nullopt;
+  result.node.box = *box;
+  return result;
+}
+
+// The node at b is made anew from the one that comes before it: over a long way their bases may have turned against each
+// other.
+std::optional<TubeBuilder::Node> TubeBuilder::connect(Tube& tube, const Node& a, const PathSpace::Point& b, double radius,
+                                                      int depth, const solve::Control& control) {
+  const double length = (b - a.point).norm();
+  if (hope_ == 0 || length <= hope_) {
+    if (std::optional<Node> end = node(b, &a)) {
+      const UpwardRounding rounding;
+      const auto piece = prover_.piece(a.node, end->node);
+      if (piece && prover_.is_free(*piece, radius)) {
+        hope_ = std::max(hope_, 2 * length);
+        tube.nodes.push_back(end->node);
+        tube.pieces.push_back(*piece);
+        tube.radii.push_back(radius);
+        return end;
+      }
+    }
+  }
+  if (depth >= kMostHalvings || length < kShortest || control.ended()) return std::nullopt;
+  hope_ = std::min(hope_ == 0 ? length : hope_, 0.75 * length);
+  PathSpace::Point x = 0.5 * (a.point + b);
+  if (!space_.project(x, length)) return std::nullopt;
+  const std::optional<Node> middle = connect(tube, a, x, radius, depth + 1, control);
+  return middle ? connect(tube, *middle, b, radius, depth + 1, control) : std::nullopt;
+}
+
+// By doubling and halving; about a tenth of it is given away.
+double TubeBuilder::widest_radius(const Box& piece, double known, double guess) const {
+  double low = known, high = std::max(guess, 2 * known);
+  if (prover_.is_free(piece, high)) {
+    while (low = high, high *= 2, high < 1e6 && prover_.is_free(piece, high)) {
+    }
+  } else {
+    while (high > 4 * low && !prover_.is_free(piece, high)) high /= 2;
+    if (prover_.is_free(piece, high)) low = high, high *= 2;
+  }
+  for (int k = 0; k < 3; ++k) {
+    const double middle = std::sqrt(low * high);
+    (prover_.is_free(piece, middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+TubeBuilder::Outcome TubeBuilder::build(const Box& from, const Points& points, const Box& to, double radius,
+                                        const solve::Control& control) {
+  Tube tube;
+  hope_ = 0;
+  radius = std::max(radius, kLeastRadius);
+  std::optional<Node> last = node(points.front(), nullptr);
+  if (!last) return {};
+  tube.nodes.push_back(last->node);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    // Points that are one but for rounding add nothing.
+    if (k + 1 < points.size() && (points[k] - last->point).norm() < 10 * kShortest) continue;
+    last = connect(tube, *last, points[k], radius, 0, control);
+    if (!last) return {std::nullopt, k - 1};
+  }
+  const UpwardRounding rounding;
+  double guess = radius;
+  for (std::size_t k = 0; k < tube.pieces.size() && !control.ended(); ++k)
+    guess = tube.radii[k] = widest_radius(tube.pieces[k], radius, guess);
+  const auto about = [&](std::size_t k) {
+    Box box = tube.pieces[k];
+    for (Interval& side : box) side = Interval(side.lo() - tube.radii[k] / 2, side.hi() + tube.radii[k] / 2);
+    return box;
+  };
+  if (!prover_.joins(from, tube.nodes.front().box, about(0))) return {std::nullopt, 0};
+  if (!prover_.joins(to, tube.nodes.back().box, about(tube.pieces.size() - 1))) return {std::nullopt, points.size() - 2};
+  return {std::move(tube), 0};
+}
+
+TubeBuilder::Points TubeBuilder::shortcut(const Points& points, double share, const solve::Control& control) const {
+  double least = 1, length = 0;
+  for (const auto& x : points) least = std::min(least, space_.state(x).margin);
+  for (std::size_t k = 1; k < points.size(); ++k) length += (points[k] - points[k - 1]).norm();
+  const std::vector<int> signs = space_.state(points.front()).signs;
+  const double step = std::max(length / 200, 1e-3);
+  const auto accept = [&](const PathSpace::Point& x) {
+    const PathSpace::State s = space_.state(x);
+    return s.inside && s.margin >= share * least && s.signs == signs;
+  };
+  Points result{points.front()};
+  for (std::size_t at = 0; at + 1 < points.size();) {
+    std::size_t next = points.size() - 1;
+    // The farthest that is seen, by halving the way: what is seen need not be monotone.
+    while (next > at + 1 && !control.ended() && !follow(points[at], points[next], step, accept)) next = at + (next - at) / 2;
+    if (control.ended()) next = at + 1;
+    result.push_back(points[next]);
+    at = next;
+  }
+  return result;
+}
+
+}  // namespace corank::analyze

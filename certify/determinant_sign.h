@@ -1,0 +1,14 @@
+// The sign that the determinant of every matrix in an interval matrix has.
+#pragma once
+
+#include "corank/certify/inertia.h"
+
+namespace corank::certify {
+
+/// ±1, or 0 where it is not shown. Requires a square matrix and UpwardRounding::active(). Theorem (interval Gaussian
+/// elimination, key Neumaier1990, ch. 4): for each matrix A in the interval matrix, elimination with rows and columns
+/// exchanged alike keeps det A but for the exchanges' signs; the pivots of A lie in the interval pivots, so none is 0 where
+/// none of those has a 0, and det A is their product.
+int determinant_sign(IntervalMatrix a);
+
+}  // namespace corank::certify

@@ -1,0 +1,153 @@
+#include "corank/certify/tube.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corank/certify/meeting.h"
+#include "corank/certify/preconditioning.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+
+namespace corank::certify {
+namespace {
+
+constexpr int kHalvings = 5;  // of a box in which a matrix is to have its rank
+
+bool contains(const Box& outer, const Box& inner) {
+  for (std::size_t j = 0; j < inner.size(); ++j)
+    if (!outer[j].contains(inner[j])) return false;
+  return true;
+}
+
+System without_inequalities(System system) {
+  system.inequalities.clear();
+  system.claimed.clear();
+  system.implied.clear();
+  system.passage.reset();
+  return system;
+}
+
+// All sides but the last, t's.
+bool has_spare_room(const Sheet& sheet) {
+  constexpr double kSpare = 0.06;
+  for (std::size_t j = 0; j + 1 < sheet.region.size(); ++j) {
+    const Interval &outer = sheet.region[j], &inner = sheet.image[j];
+    const double spare = kSpare * outer.width();
+    if (inner.lo() - outer.lo() < spare || outer.hi() - inner.hi() < spare) return false;
+  }
+  return true;
+}
+
+std::vector<Interval> inflated(std::vector<Interval> x) {
+  constexpr double kRoom = 0.25, kTiny = 1e-11;
+  for (std::size_t j = 0; j + 1 < x.size(); ++j) {
+    const double room = kRoom * x[j].width() + kTiny * (1 + x[j].mag());
+    x[j] += Interval(-room, room);
+  }
+  return x;
+}
+
+void add_term(Polynomial& f, double coefficient, std::vector<Factor> factors) {
+  if (coefficient != 0) f.monomials.emplace_back(ExactNumber::dyadic(coefficient), std::move(factors));
+}
+
+}  // namespace
+
+TubeProver::TubeProver(const System& system, const std::vector<PolynomialMatrix>& matrices, std::vector<int> ranks)
+    : bare_(without_inequalities(system)), compiled_(system), domain_(system), system_(system) {
+  CORANK_CHECK(matrices.size() == ranks.size());
+  for (std::size_t k = 0; k < matrices.size(); ++k) {
+    bounds_.emplace_back(system, matrices[k]);
+    most_.push_back(matrices[k].columns - ranks[k]);
+  }
+}
+
+System TubeProver::extended(const TubeNode& a, const TubeNode& b) const {
+  System result = bare_;
+  const int n = bare_.size();
+  result.variables.emplace_back("t", VariableKind::auxiliary, ExactNumber(0), ExactNumber(1));
+  const auto at = [](int v) { return std::vector<Factor>{{v, 1, Function::identity}}; };
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    // (1 − t)(T·x − c) + t (T'·x − c') term by term: the coefficients are those doubles.
+    Polynomial f;
+    for (int j = 0; j < n; ++j) {
+      const auto k = i * static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
+      add_term(f, a.rows[k], at(j));
+      if (a.rows[k] == b.rows[k]) continue;
+      const ExactNumber change = ExactNumber::dyadic(b.rows[k]) - ExactNumber::dyadic(a.rows[k]);
+      f.monomials.emplace_back(change, std::vector<Factor>{{j, 1, Function::identity}, {n, 1, Function::identity}});
+    }
+    add_term(f, -a.values[i], {});
+    const ExactNumber change = ExactNumber::dyadic(a.values[i]) - ExactNumber::dyadic(b.values[i]);
+    if (!change.is_zero()) f.monomials.emplace_back(change, at(n));
+    result.equations.push_back(std::move(f));
+  }
+  return result;
+}
+
+Sheet TubeProver::prove(const TubeNode& a, const TubeNode& b, std::vector<Interval> x) {
+  CORANK_CHECK(UpwardRounding::active());
+  const CompiledSystem compiled(extended(a, b));
+  if (compiled.equations() != bare_.size()) return {};
+  std::vector<int> dependent;
+  std::vector<double> middle;
+  for (int j = 0; j < bare_.size(); ++j) dependent.push_back(j);
+  for (const Interval& side : x) middle.push_back(side.mid());
+  return newton_prove(compiled, midpoint_preconditioner(compiled, middle, dependent), x, workspace_);
+}
+
+std::optional<Box> TubeProver::node(const std::vector<double>& rows, const std::vector<double>& values,
+                                    const std::vector<double>& near) {
+  constexpr double kRadius = 1e-11, kRoom = 1e-14;
+  const TubeNode node{rows, values, {}};
+  std::vector<Interval> x;
+  for (const double c : near) x.emplace_back(c - kRadius * (1 + std::fabs(c)), c + kRadius * (1 + std::fabs(c)));
+  x.emplace_back(0.0);
+  Sheet sheet = prove(node, node, std::move(x));
+  if (!sheet.proven) return std::nullopt;
+  sheet.image.pop_back();
+  // A little room, for whoever proves it again with another Y.
+  for (Interval& side : sheet.image) side += Interval(-1, 1) * Interval(kRoom * (1 + side.mag()));
+  return std::move(sheet.image);
+}
+
+std::optional<Box> TubeProver::piece(const TubeNode& a, const TubeNode& b) {
+  std::vector<Interval> x;
+  for (std::size_t j = 0; j < a.box.size(); ++j) x.push_back(Interval::hull(a.box[j], b.box[j]));
+  x.emplace_back(0.0, 1.0);
+  // Proven in a box with room to spare, for whoever proves it again with another Y. A side that is as wide as the others
+  // make it follows them one step later.
+  constexpr int kTries = 6;
+  for (int tries = 0; tries < kTries; ++tries) {
+    Sheet sheet = prove(a, b, x);
+    if (!sheet.proven) return std::nullopt;
+    if (has_spare_room(sheet)) {
+      sheet.region.pop_back();
+      if (!contains(sheet.region, a.box) || !contains(sheet.region, b.box)) return std::nullopt;
+      return std::move(sheet.region);
+    }
+    x = inflated(std::move(sheet.image));
+  }
+  return std::nullopt;
+}
+
+bool TubeProver::is_free(const Box& piece, double r) const {
+  CORANK_CHECK(UpwardRounding::active());
+  Box box = piece;
+  for (Interval& side : box) side += Interval(-r, r);
+  if (domain_.locate(compiled_, box) != Location::inside) return false;
+  for (std::size_t k = 0; k < bounds_.size(); ++k)
+    if (bounds_[k].at_most(box, kHalvings) > most_[k]) return false;
+  return true;
+}
+
+bool TubeProver::joins(const Box& a, const Box& b, const Box& within) {
+  MeetingTest test(bare_);
+  for (const double radius : {1e-9, 1e-7, 1e-5, 1e-4}) {
+    const std::optional<Box> piece = test.piece_about(a, radius);
+    if (piece && contains(*piece, a) && contains(*piece, b) && contains(within, *piece)) return true;
+  }
+  return false;
+}
+
+}  // namespace corank::certify

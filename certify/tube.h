@@ -1,0 +1,54 @@
+// A path on a solution set that is proven from end to end: one lift over each piece, and no singularity about it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "corank/certify/compiled_system.h"
+#include "corank/certify/domain.h"
+#include "corank/certify/kernel_bound.h"
+#include "corank/certify/newton.h"
+#include "corank/core/singularity_types.h"
+#include "corank/core/tube.h"
+
+namespace corank::certify {
+
+/// For a system F of m equations in n variables, and matrices that are to keep their full rank.
+///
+/// Theorem: let F(x) = 0, (1 − t)(T·x − c) + t (T'·x − c') = 0 have for every t ∈ [0, 1] exactly one solution x(t) in the
+/// box P, by newton_prove with the free variable t: the Jacobian in x is regular there, so x(t) is continuous (implicit
+/// function theorem). Where the box N of a node lies in the boxes P, P' of both its pieces and holds a solution of F = 0,
+/// T·x = c, that is P's at t = 1 and P''s at t = 0, since each has one only: the pieces are one path.
+/// Every x with F(x) = 0 in P inflated by r has matrices of full rank and is in the domain, where is_free(P, r).
+class TubeProver {
+ public:
+  /// ranks: of each matrix, the one that it is to have.
+  TubeProver(const System& system, const std::vector<PolynomialMatrix>& matrices, std::vector<int> ranks);
+
+  /// The node's box about the point, nothing where none is proven. Each of these requires UpwardRounding::active().
+  std::optional<Box> node(const std::vector<double>& rows, const std::vector<double>& values,
+                          const std::vector<double>& near);
+  /// The box of the piece between two nodes; it holds theirs.
+  std::optional<Box> piece(const TubeNode& a, const TubeNode& b);
+  /// Over the whole box with r added to each side: every matrix has its rank, the domain and the inequalities hold.
+  bool is_free(const Box& piece, double r) const;
+  /// A connected piece of the solution set that holds a solution in each of the boxes, and lies in `within`: the graph over
+  /// a box of n − m variables, for every value of which it has exactly one solution.
+  bool joins(const Box& a, const Box& b, const Box& within);
+
+ private:
+  // F and (1 − t)(T·x − c) + t (T'·x − c'), t the last variable, in [0, 1].
+  System extended(const TubeNode& a, const TubeNode& b) const;
+  Sheet prove(const TubeNode& a, const TubeNode& b, std::vector<Interval> x);
+
+  System bare_;  // without inequalities and further rows
+  CompiledSystem compiled_;
+  DomainTest domain_;
+  std::vector<KernelBound> bounds_;
+  std::vector<int> most_;  // of each matrix, the largest kernel that it may have
+  NewtonWorkspace workspace_;
+  System system_;
+};
+
+}  // namespace corank::certify

@@ -1,0 +1,10 @@
+# Finds OMPL (its pkg-config file asks for another C++ standard). Its headers show Eigen and Boost. Defines OMPL::OMPL.
+find_path(OMPL_INCLUDE_DIR ompl/base/Constraint.h PATH_SUFFIXES ompl-1.5 ompl-1.6)
+find_library(OMPL_LIBRARY ompl)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OMPL REQUIRED_VARS OMPL_LIBRARY OMPL_INCLUDE_DIR)
+mark_as_advanced(OMPL_INCLUDE_DIR OMPL_LIBRARY)
+if(OMPL_FOUND AND NOT TARGET OMPL::OMPL)
+  add_library(OMPL::OMPL UNKNOWN IMPORTED)
+  set_target_properties(OMPL::OMPL PROPERTIES IMPORTED_LOCATION "${OMPL_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${OMPL_INCLUDE_DIR}")
+endif()

@@ -1,0 +1,24 @@
+#include "corank/symbolic/exact_value.h"
+
+#include <stdexcept>
+
+#include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/ginac_lock.h"
+#include "corank/symbolic/polynomial_expander.h"
+
+namespace corank::symbolic {
+
+ExactNumber exact_value(const Mechanism& mechanism, const Expression& expression, const std::string& what) {
+  const GinacLock lock;
+  const SourceLocation where{mechanism.name(), 0, 0};
+  try {
+    PolynomialExpander expander;
+    for (const Constant& c : mechanism.constants())
+      expander.add_constant(c.name, expander.constant(c.value, "the constant " + in_quotes(c.name), c.where));
+    return expander.constant(expression, "the value of " + in_quotes(what), where).exact();
+  } catch (const std::domain_error& error) {
+    throw ModelError(where, "the value of " + in_quotes(what) + " is no real number: " + error.what(), "a real number");
+  }
+}
+
+}  // namespace corank::symbolic

@@ -1,0 +1,69 @@
+// corank path, from the command line to the file that corank verify takes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corank/tests/app/program.h"
+
+namespace corank::app {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::vector<std::string> dextar(const std::string& to_mode, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> args{"path", model("dextar"), "--from",        "J3x=0.5,J3y=1", "--from-mode",
+                                "1",    "--to",          "J3x=0.7,J3y=1", "--to-mode",     to_mode};
+  args.insert(args.end(), more.begin(), more.end());
+  return args;
+}
+
+TEST(Path, WritesWhatVerifyConfirms) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_corank(dextar("3", {"-o", folder.file("p.h5"), "--csv", folder.file("p.csv"), "--json"}));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json path = json::parse(outcome.out);
+  EXPECT_EQ(path["status"], "path");
+  EXPECT_GT(path["radius"], 0.0);
+  EXPECT_EQ(path["radii"].size() + 1, path["waypoints"].size());
+  EXPECT_NEAR(path["waypoints"].back()["J3x"], 0.7, 1e-12);
+  const Outcome verified = run_corank({"verify", folder.file("p.h5")});
+  EXPECT_EQ(verified.status, 0);
+  EXPECT_THAT(verified.out, AllOf(HasSubstr("a path without forward singularities"), HasSubstr("\nverified\n")));
+  EXPECT_EQ(json::parse(run_corank({"verify", "--json", folder.file("p.h5")}).out)["verified"], true);
+  EXPECT_THAT(read_text(folder.file("p.csv")), HasSubstr("J3x,J3y,theta2,theta3,theta4,theta5,radius\n0.5"));
+}
+
+TEST(Path, SaysThatNoneExistsAndReturnsZero) {
+  const Outcome outcome = run_corank(dextar("2"));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("separated: no such path exists, proven"));
+}
+
+TEST(Path, ListsTheConfigurationsToChooseFrom) {
+  const Outcome outcome = run_corank({"path", model("dextar"), "--from", "J3x=0.5,J3y=1", "--to", "J3x=0.7,J3y=1"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("--from: 4 configurations have these values"), HasSubstr("\n  4: J3x=0.5 J3y=1")));
+}
+
+TEST(Path, RefusesWhatMakesNoSense) {
+  const auto run = [](const std::string& from) {
+    return run_corank({"path", model("dextar"), "--from", from, "--to", "J3x=0,J3y=1"});
+  };
+  EXPECT_THAT(run("J3x=0.5").err, HasSubstr("1 value of 2 that are needed"));
+  EXPECT_THAT(run("J3x=0.5,knee=1").err, HasSubstr("there is no coordinate 'knee'"));
+  EXPECT_THAT(run("J3x=9,J3y=1").err, HasSubstr("there is no configuration with these values"));
+  EXPECT_EQ(run("J3x").status, 2);
+  EXPECT_EQ(run("J3x=y,J3y=1").status, 1);
+}
+
+TEST(Path, EndsByItsTimeLimit) {
+  const Outcome outcome = run_corank(dextar("4", {"--time-limit", "1e-9"}));
+  EXPECT_EQ(outcome.status, 3);
+}
+
+}  // namespace
+}  // namespace corank::app
