@@ -5,34 +5,27 @@
 
 #include <algorithm>
 #include <memory>
+#include <thread>
 
 #include "corank/analyze/area_by_boundary.h"
 #include "corank/app/box_files.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/resume.h"
+#include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/cuik_param.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 #include "corank/result/summary.h"
 #include "corank/study/answer.h"
+#include "corank/study/cost.h"
+#include "corank/study/run_journal.h"
 #include "corank/symbolic/boundary.h"
 
 namespace corank::app {
 namespace {
-
-struct SolveCommand {
-  QuestionOptions question;
-  std::optional<double> sigma, sigma_length, sigma_angle, tolerance;
-  SearchLimits limits{.threads = 1};
-  std::optional<std::uint64_t> max_solutions;
-  int digits = 0;
-  bool proof = false, area = false;
-  std::string param_path, result_path;
-  std::optional<std::string> json_path;  ///< "": standard output
-};
 
 solve::Options options_of(const SolveCommand& command) {
   solve::Options options;
@@ -122,14 +115,50 @@ ExitStatus say(const SolveCommand& command, const result::Result& result, const 
   fmt::print(stderr, "corank: {}; {}\n", study::stopped_words(result),
              result.cover.complete() ? "the cover is complete, but less is proven of it than could be"
                                      : "the result is incomplete");
+  if (!command.checkpoint_path.empty()) {
+    std::error_code error;
+    const bool kept = std::filesystem::exists(command.checkpoint_path, error);
+    fmt::print(stderr, "corank: {}\n",
+               result::printable_line(kept ? fmt::format("to go on: corank solve --resume {}", command.checkpoint_path)
+                                           : "no search had begun: there is nothing to go on from"));
+  }
   return kIncomplete;
 }
 
-ExitStatus solve_model(SolveCommand command) {
-  // `--json FILE` without another file: CLI11 took the model for the path of the summary.
-  if (command.question.file.empty() && command.json_path && !command.json_path->empty()) {
-    command.question.file.swap(*command.json_path);
+study::RunJournal journal_of(const SolveCommand& command, result::Checkpoint from) {
+  const bool to_result = std::filesystem::path(command.result_path).extension() == ".h5";
+  if (command.keep_sheets && !to_result) throw UsageError("--keep-sheets: expected -o RESULT.h5, the file that keeps them");
+  return study::RunJournal(std::move(from), {.path = command.checkpoint_path,
+                                             .every = command.every,
+                                             .keep_end = to_result,
+                                             .keep_sheets = command.keep_sheets,
+                                             .refine = !command.refine_path.empty()});
+}
+
+// What nobody needs any more.
+void remove_checkpoint(const SolveCommand& command, const result::Result& result) {
+  std::error_code ignored;
+  if (!command.checkpoint_path.empty() && result.cover.complete() && result.stopped.empty())
+    std::filesystem::remove(command.checkpoint_path, ignored);
+}
+
+ExitStatus say_estimate(const SolveCommand& command, const std::vector<System>& systems, solve::Control& control) {
+  const solve::CostEstimate cost = study::estimate(systems, options_of(command), control);
+  const int threads =
+      command.limits.threads > 0 ? command.limits.threads : static_cast<int>(std::thread::hardware_concurrency());
+  if (control.ended()) {
+    fmt::print(stderr, "corank: the trial was ended early\n");
+    return kIncomplete;
   }
+  if (command.json_path && !command.json_path->empty())
+    result::write_text(*command.json_path, study::to_json(cost, threads));
+  fmt::print("{}", command.json_path && command.json_path->empty() ? study::to_json(cost, threads)
+                                                                   : study::to_table(cost, threads));
+  return kDone;
+}
+
+// `former`: of a run that goes on.
+ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::Checkpoint* former) {
   options_of(command).validate();
   solve::Control control(limits_of(options_of(command), &Interrupt::stop()));  // reading the model takes its time, too
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
@@ -141,6 +170,9 @@ ExitStatus solve_model(SolveCommand command) {
   for (const study::Question& part : parts) systems.push_back(system_to_solve(command, part));
   check_output(command.result_path);
   check_output(command.json_path.value_or(""));
+  if (command.estimate) return say_estimate(command, systems, control);
+  if (!command.checkpoint_path.empty()) result::check_writable(command.checkpoint_path);
+  study::RunJournal journal = journal_of(command, former ? *former : checkpoint_of(sub, command));
   control.ended();  // notes the stage
 
   study::Options options{options_of(command), command.digits};
@@ -148,21 +180,26 @@ ExitStatus solve_model(SolveCommand command) {
   ProgressLine line;
   line.follow(control);
   stage.reset();
-  const result::Result result = study::answer(parts, systems, options, control);
+  result::Result result = study::answer(parts, systems, options, control, &journal);
+  result.search = journal.search();
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result);
   const std::optional<Interval> area = area_of(command, question, result, control);
   line.clear();
+  remove_checkpoint(command, result);
   return say(command, result, area);
 }
 
-CLI::Validator tolerance() {
-  const auto check = [](const std::string& text) -> std::string {
-    double value = 0;
-    const bool good = CLI::detail::lexical_cast(text, value) && value >= 0 && value < kCoefficientToleranceLimit;
-    return good ? "" : fmt::format("{} is not a number from 0 to below {}", text, kCoefficientToleranceLimit);
-  };
-  return {check, ""};
+ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {
+  if (!command.resume_path.empty() || !command.refine_path.empty()) {
+    const Resumed resumed(sub, command);
+    return solve_model(sub, resumed.command, &resumed.checkpoint);
+  }
+  // `--json FILE` without another file: CLI11 took the model for the path of the summary.
+  if (command.question.file.empty() && command.json_path && !command.json_path->empty()) {
+    command.question.file.swap(*command.json_path);
+  }
+  return solve_model(sub, std::move(command), nullptr);
 }
 
 }  // namespace
@@ -170,52 +207,20 @@ CLI::Validator tolerance() {
 void add_solve(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand("solve", "Enclose every solution of a system or of a mechanism's set in boxes");
   const auto command = std::make_shared<SolveCommand>();
-  command->question.add_options(*sub);
-  sub->add_option("--sigma", command->sigma,
-                  "Largest edge that a box may have, in lengths and in the sines and cosines of angles;\n"
-                  "default: 1/200 of the size of the set found for a curve, 1/60 for a surface, 1/20 for more");
-  sub->add_option("--sigma-length", command->sigma_length, "The same for lengths alone, in the model's unit");
-  sub->add_option("--sigma-angle", command->sigma_angle, "The same for the sines and cosines of angles alone");
-  sub->add_option("--tolerance", command->tolerance,
-                  "Take the coefficients that are no integers within so much of their size, each on its own; 0: exact;\n"
-                  "default: 1e-6 for a plain system with more equations than variables, else 0")
-      ->type_name("REL")
-      ->check(tolerance());
-  command->limits.add_options(*sub, "the search");
-  sub->add_option("--max-solutions", command->max_solutions,
-                  "End the search after so many proven boxes, or distinct isolated solutions; 0: all")
-      ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_option("--digits", command->digits,
-                  "Isolated points with so many proven digits after the point; 0: only what boxes of doubles show")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1000, "a number from 0 to 1000"));
-  sub->add_flag("--proof", command->proof,
-                "Keep the search tree in RESULT.h5, so that corank verify can replay why nothing was lost");
-  sub->add_flag(
-      "--area", command->area,
-      "Of --set boundary with two lengths as outputs: bounds of the workspace's area also where its boundary does not\n"
-      "give them, since a range that is no limit cuts it or the model has inequalities; takes long");
-  sub->add_option("-o", command->result_path,
-                  "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's layout\n"
-                  "where its name ends in .sol")
-      ->type_name("RESULT.h5|.sol");
-  sub->add_option("--param", command->param_path,
-                  "A parameter file of the CUIK suite; its SIGMA and N_SOLUTIONS give way to --sigma and --max-solutions;\n"
-                  "default: for NAME.world NAME.param, where that exists")
-      ->type_name("FILE.param");
-  CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
-      "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },
-      "Write the summary as JSON to PATH, or to standard output instead of the table");
-  json->type_name("[PATH]")->expected(0, 1);
+  add_solve_options(*sub, *command);
   sub->footer(
       "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --sigma 0.01 -o forward.h5\n"
       "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50\n"
-      "  corank solve models/dextar.cuik --set inverse --corank 2    # both arms stretched at once");
-  sub->callback([command, json, &action] {
-    if (json->count() > 0 && !command->json_path) command->json_path = "";
-    action = [command] { return solve_model(*command); };
+      "  corank solve models/dextar.cuik --set inverse --corank 2    # both arms stretched at once\n"
+      "  corank solve models/3rrr.cuik --set forward --sigma 0.2 --estimate    # seconds, before hours\n"
+      "  corank solve models/3rrr.cuik --set forward --sigma 0.2 -o r.h5 --checkpoint r.kept --every 10m\n"
+      "  corank solve --resume r.kept --threads 8                    # after a limit, Ctrl-C, a crash or a power cut\n"
+      "  corank solve models/dextar.cuik --set cspace --sigma 0.1 --keep-sheets -o coarse.h5\n"
+      "  corank solve --refine coarse.h5 --sigma 0.01 -o fine.h5");
+  sub->callback([command, sub, &action] {
+    if (sub->get_option("--json")->count() > 0 && !command->json_path) command->json_path = "";
+    action = [command, sub] { return run_solve(*sub, *command); };
   });
 }
 

@@ -82,10 +82,11 @@ void describe_type(hid_t type, Item& item) {
   item.type = ItemType::text;
 }
 
-class Contents {
+class ContentsCopy {
  public:
-  Contents(const std::string& path, ByteSink& sink)
+  ContentsCopy(const std::string& path, ByteSink& sink, Contents wanted)
       : sink_(sink),
+        wanted_(wanted),
         file_size_(std::filesystem::file_size(path)),
         most_(static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) / 2),
         file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
@@ -131,6 +132,7 @@ class Contents {
     for (const std::string& name : names(list, path)) {
       const std::string item = (path == "/" ? path : path + "/") + name;
       count_item(item);
+      if (path == "/" && (name == kSearchGroup) != (wanted_ == Contents::search)) continue;
       H5L_info_t link;
       if (H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT) < 0) refuse(item + " is a damaged link");
       if (link.type != H5L_TYPE_HARD) refuse(item + " is a link to elsewhere: a result holds all that it is made of");
@@ -260,6 +262,7 @@ class Contents {
   }
 
   ByteSink& sink_;
+  const Contents wanted_;
   std::uint64_t file_size_, most_;
   Handle file_;
   int items_ = 0;
@@ -268,10 +271,10 @@ class Contents {
 
 }  // namespace
 
-void copy_contents(const std::string& path, ByteSink& sink) {
+void copy_contents(const std::string& path, ByteSink& sink, Contents wanted) {
   const QuietErrors quiet;
   H5PLset_loading_state(0);  // a filter of the file must not bring code with it
-  Contents(path, sink).copy();
+  ContentsCopy(path, sink, wanted).copy();
 }
 
 }  // namespace corank::result

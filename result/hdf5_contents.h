@@ -12,9 +12,13 @@
 
 namespace corank::result {
 
+/// What of a file is wanted: the result, or the state of its search (result/checkpoint.h), which lies in a group of its own.
+enum class Contents : bool { result, search };
+inline constexpr const char* kSearchGroup = "search";
+
 /// Writes all groups, arrays and attributes of the file as items (report/plain_items.h). To be called where a crash or a
 /// hang of the HDF5 library does no harm: it has both in store for damaged files. Throws std::runtime_error that names the
 /// item, not the file.
-void copy_contents(const std::string& path, ByteSink& sink);
+void copy_contents(const std::string& path, ByteSink& sink, Contents wanted = Contents::result);
 
 }  // namespace corank::result

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "corank/result/guarded_process.h"
+#include "corank/result/hdf5_contents.h"
 #include "corank/result/plain_items.h"
 
 namespace corank::result {
@@ -66,7 +67,7 @@ class Hdf5Writer {
 /// a check of the file's structure (report/hdf5_contents.h); what comes back is plain.
 class Hdf5Reader {
  public:
-  explicit Hdf5Reader(const std::string& path);
+  explicit Hdf5Reader(const std::string& path, Contents wanted = Contents::result);
   /// Items that are in memory already, as report/plain_items.h lays them out; `path` is for messages. The bytes have to
   /// outlive the reader.
   Hdf5Reader(std::string path, std::span<const std::byte> items);

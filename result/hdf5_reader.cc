@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t kMemory = std::uint64_t{256} << 20;
 constexpr std::uint64_t kSeconds = 4, kBytesPerSecond = std::uint64_t{10} << 20;
 
-SharedBytes read_guarded(const std::string& path) {
+SharedBytes read_guarded(const std::string& path, Contents wanted) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     throw ResultFileError(printable_line(path) + ": cannot read this: " + (error ? error.message() : "it is no file"));
@@ -22,7 +22,7 @@ SharedBytes read_guarded(const std::string& path) {
   if (error) throw ResultFileError(printable_line(path) + ": cannot read this: " + error.message());
   try {
     return run_guarded({kMemory + size, kSeconds + size / kBytesPerSecond},
-                       [&path](ByteSink& sink) { copy_contents(path, sink); });
+                       [&](ByteSink& sink) { copy_contents(path, sink, wanted); });
   } catch (const GuardedWorkError& problem) {
     throw ResultFileError(printable_line(path + ": " + problem.what()));
   }
@@ -50,7 +50,8 @@ std::string unpadded(std::span<const std::byte> data) {
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(const std::string& path) : path_(printable_line(path)), bytes_(read_guarded(path)) {
+Hdf5Reader::Hdf5Reader(const std::string& path, Contents wanted)
+    : path_(printable_line(path)), bytes_(read_guarded(path, wanted)) {
   parse(bytes_->bytes());
 }
 

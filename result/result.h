@@ -99,6 +99,9 @@ struct Result {
   /// What ended the run early, and where: "the time limit, in the stage exact points"; empty where it ran to its end. A
   /// cover may be complete all the same: then less is proven of it than could be.
   std::string stopped;
+  /// From what the search can go on, as a checkpoint holds it (result/checkpoint.h); empty: nothing was kept. read_result()
+  /// does not read it.
+  std::string search;
   Cover cover;
   /// Where boxes are undecided along a set of degenerate solutions: the dimension of the kernel that the singular values in
   /// most of them suggest, where that is above options.corank; 0: nothing. Computed from the others by

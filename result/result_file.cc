@@ -6,6 +6,7 @@
 
 #include "corank/core/check.h"
 #include "corank/result/certificate_file.h"
+#include "corank/result/checkpoint.h"
 #include "corank/result/output_file.h"
 #include "corank/result/printable.h"
 
@@ -473,6 +474,10 @@ void write_result(const std::filesystem::path& path, const Result& result) {
     file.enter("/parts/" + std::to_string(i));
     file.attribute("/", "part", result.parts[i].part);
     write_own(file, result.parts[i]);
+  }
+  if (!result.search.empty()) {
+    file.enter("");
+    write_search(file, result.search);
   }
   file.close();
   target.finish();

@@ -114,11 +114,12 @@ void BoxProcessor::add_proven(const Postponed& postponed) {
   shard_.sheets.push_back({x, postponed.proof, go_on_later()});
 }
 
-void BoxProcessor::cut(const Proven& proven, bool whole) {
+bool BoxProcessor::cut(const Proven& proven, bool whole) {
   const auto start = std::chrono::steady_clock::now();
   if (recorder_) recorder_->begin(proven.node, proven.x, problem_.compiled.variables());
-  slicer_.slice(proven.sheet, proven.x, shard_.found, whole);
+  const bool finished = slicer_.slice(proven.sheet, proven.x, shard_.found, whole);
   shard_.statistics.seconds_certify += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return finished && !preconditioners_.over();
 }
 
 std::vector<double> BoxProcessor::midpoint(std::span<const Interval> x) const {
@@ -175,11 +176,7 @@ BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpo
     if (recorder_) recorder_->leaf_empty();
     return Outcome::done;
   }
-  if (preconditioners_.over()) {  // the search ends
-    if (recorder_) recorder_->keep(x);
-    shard_.left.push_back({copy_of(x), share, go_on_later()});
-    return Outcome::done;
-  }
+  if (preconditioners_.over()) return Outcome::interrupted;
   if (contractor_.worth_proving() && certify(x, Proof::full)) return Outcome::done;
   std::optional<LocalSolution> near;
   split_variable_ = choose_split(x, postpone, near);

@@ -20,7 +20,7 @@ namespace corank::solve {
 /// One per thread.
 class BoxProcessor {
  public:
-  enum class Outcome { done, split, postponed };
+  enum class Outcome { done, split, postponed, interrupted };
 
   /// What is found goes to the shard, and what is done to its script, where it has one.
   BoxProcessor(const Problem& problem, Shard& shard);
@@ -28,14 +28,14 @@ class BoxProcessor {
   BoxProcessor& operator=(const BoxProcessor&) = delete;
 
   /// Treats the box x (changed in place), which has that share of the search domain. done: it is empty, or its solutions are
-  /// in a sheet or a found box of the shard, or it is left. split: it has shrunk to x and is to be bisected at
-  /// split_variable(). postponed: it is the shard's last. `postpone`, of the typical sizes: how small a box is before it may
-  /// be postponed.
+  /// in a sheet or a found box of the shard. split: it has shrunk to x and is to be bisected at split_variable().
+  /// postponed: it is the shard's last. interrupted: the search ends, and nothing was made of the box as it was given.
+  /// `postpone`, of the typical sizes: how small a box is before it may be postponed.
   Outcome process(std::span<Interval> x, double postpone, double share);
   /// Keeps a postponed box that was proven to hold a self-motion.
   void add_proven(const Postponed& box);
-  /// Cuts a sheet into found pieces, or leaves it whole.
-  void cut(const Proven& proven, bool whole);
+  /// Cuts a sheet into found pieces, or leaves it whole. False: the search ended meanwhile, some are pending.
+  bool cut(const Proven& proven, bool whole);
   /// Makes a box that a limit has left a pending one, unless it is outside the domain.
   void leave(const Waiting& box);
   /// Adds x, which nothing could be proven of, to the found boxes.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <utility>
 
 #include "corank/certify/polynomial_algebra.h"
@@ -215,6 +216,25 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
     }
   }
   return reasons;
+}
+
+SelfMotions::Stored SelfMotions::stored() const {
+  Stored result{{}, observed_, former_};
+  for (const Known& known : known_) result.motions.push_back({known.dimension, known.motion.relations});
+  return result;
+}
+
+SelfMotions SelfMotions::restored(const System& system, Stored stored) {
+  const UpwardRounding rounding;
+  SelfMotions result;
+  result.observed_ = stored.observed;
+  result.former_ = stored.former;
+  for (SelfMotionRecord& record : stored.motions) {
+    auto motion = certify::self_motion(system, std::move(record.relations), record.dimension);
+    if (!motion) throw std::invalid_argument("the relations of a self-motion are none of this system");
+    result.known_.push_back({std::move(*motion), record.dimension});
+  }
+  return result;
 }
 
 std::vector<SelfMotionRecord> SelfMotions::records(const certify::Reduction& reduction) const {

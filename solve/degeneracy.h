@@ -22,6 +22,15 @@ class SelfMotions {
   bool none() const { return known_.empty(); }
   /// The largest dimension of a set that was met, as its samples show; 0: none is larger than expected. No claim.
   int observed_dimension() const { return observed_; }
+  /// From what restored() makes the same again, with the same reduced system.
+  struct Stored {
+    std::vector<SelfMotionRecord> motions;  ///< in the kept variables
+    int observed = 0;
+    std::uint64_t former = 0;
+  };
+  Stored stored() const;
+  /// Throws std::invalid_argument where a record is none of a self-motion of the system.
+  static SelfMotions restored(const System& system, Stored stored);
   /// In all variables.
   std::vector<SelfMotionRecord> records(const certify::Reduction& reduction) const;
 

@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include <algorithm>
 #include <atomic>
 #include <iterator>
 #include <utility>
@@ -23,17 +24,13 @@ struct Pool::Threads {
     Shard shard;
     BoxProcessor processor;
     Tally::Counted counted{};
+    std::optional<Shard::Mark> finished{};  // before the first sheet that was not cut to its end
   };
 
-  Threads(const Prepared& p, Tally& t, int last_shard)
+  Threads(const Prepared& p, Tally& t, int last_shard, const Problem* like)
       : prepared(p),
         tally(t),
-        problem(p.system, p.reduction,
-                [this] {
-                  tally.report(false);
-                  count(workers.local());
-                  return tally.ended();
-                }),
+        problem(like ? *like : Problem(p.system, p.reduction, {})),
         numbers(last_shard),
         workers([this] {
           tally.keep_thread();
@@ -41,7 +38,13 @@ struct Pool::Threads {
         }),
         allowed(p.options.threads > 0 ? p.options.threads : tbb::this_task_arena::max_concurrency()),
         allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(allowed)),
-        arena(allowed) {}
+        arena(allowed) {
+    problem.ended = [this] {
+      tally.report(false);
+      count(workers.local());
+      return tally.ended();
+    };
+  }
 
   int variables() const { return problem.compiled.variables(); }
   void count(Worker& worker) { tally.count(worker.shard, worker.counted); }
@@ -60,15 +63,24 @@ struct Pool::Threads {
     Worker& worker = workers.local();
     BoxProcessor& processor = worker.processor;
     std::optional<Recorder>& script = worker.shard.script;
-    std::vector<Interval> x(static_cast<std::size_t>(variables()));
+    std::vector<Interval> x(static_cast<std::size_t>(variables())), given;
     std::int64_t listed = 0;
     while (!list.empty()) {
       tally.keep_waiting(list.size(), listed);
-      if (!tally.count_box()) break;
+      if (tally.pausing() || !tally.count_box()) break;
       const NodeId node = list.node();
       const double share = list.pop(x);
+      given = x;
+      const Recorder::Mark before = script ? script->mark() : Recorder::Mark{};
+      const Statistics counted = worker.shard.statistics;
       if (script) script->begin(node, x, variables());
       const auto outcome = processor.process(x, postpone, share);
+      if (outcome == BoxProcessor::Outcome::interrupted) {
+        if (script) script->go_back_to(before);
+        worker.shard.statistics = counted;
+        worker.shard.left.push_back({given, share, node});
+        continue;
+      }
       if (outcome == BoxProcessor::Outcome::split) {
         const auto j = static_cast<std::size_t>(processor.split_variable());
         const Interval side = x[j];
@@ -102,6 +114,8 @@ struct Pool::Threads {
 
   const Prepared& prepared;
   Tally& tally;
+  std::vector<Shard> earlier;
+  bool cutting = false, whole = false;
   Problem problem;
   std::atomic<int> numbers, busy{0};
   tbb::enumerable_thread_specific<Worker> workers;
@@ -111,8 +125,18 @@ struct Pool::Threads {
   tbb::task_group group;
 };
 
-Pool::Pool(const Prepared& prepared, Tally& tally, int last_shard)
-    : threads_(std::make_unique<Threads>(prepared, tally, last_shard)) {}
+Pool::Pool(const Prepared& prepared, Tally& tally, int last_shard, const Problem* like)
+    : threads_(std::make_unique<Threads>(prepared, tally, last_shard, like)) {}
+Pool::Pool(const Prepared& prepared, Tally& tally, std::vector<Shard> earlier) {
+  int last = 0;
+  for (const Shard& shard : earlier) last = std::max(last, shard.number);
+  threads_ = std::make_unique<Threads>(prepared, tally, last, nullptr);
+  threads_->earlier = std::move(earlier);
+  for (const Shard& shard : threads_->earlier) {
+    Tally::Counted counted;
+    tally.count(shard, counted);
+  }
+}
 Pool::~Pool() = default;
 
 const Problem& Pool::problem() const { return threads_->problem; }
@@ -145,6 +169,15 @@ std::vector<Postponed> take_postponed(const std::vector<Shard*>& shards) {
   return all;
 }
 
+std::vector<Waiting> take_left(const std::vector<Shard*>& shards) {
+  std::vector<Waiting> all;
+  for (Shard* shard : shards) {
+    std::move(shard->left.begin(), shard->left.end(), std::back_inserter(all));
+    shard->left.clear();
+  }
+  return all;
+}
+
 void Pool::add_proven(const Postponed& box) {
   Threads::Worker& worker = threads_->workers.local();
   worker.processor.add_proven(box);
@@ -160,23 +193,29 @@ void Pool::give_up(const Postponed& box, Reason reason) {
   threads_->count(worker);
 }
 
-void Pool::cut(const std::vector<Shard*>& shards) {
+bool Pool::cut(const std::vector<Shard*>& shards) {
   Threads& t = *threads_;
-  const bool whole = t.tally.begin_cutting();
-  std::vector<const Proven*> sheets;
-  std::vector<const Waiting*> left;
-  for (const Shard* shard : shards) {
-    for (const Proven& sheet : shard->sheets) sheets.push_back(&sheet);
-    for (const Waiting& box : shard->left) left.push_back(&box);
-  }
+  if (!std::exchange(t.cutting, true)) t.whole = t.tally.begin_cutting();
+  std::vector<Proven*> sheets;
+  for (Shard* shard : shards)
+    for (Proven& sheet : shard->sheets)
+      if (!sheet.cut) sheets.push_back(&sheet);
+  const std::vector<Waiting> left = take_left(shards);
+  std::atomic<bool> paused{false};
   execute([&] {
     const auto cut_one = [&](std::size_t i) {
       const UpwardRounding rounding;
       Threads::Worker& worker = t.workers.local();
       if (i < sheets.size()) {
-        worker.processor.cut(*sheets[i], whole);
+        if (t.tally.pausing()) {
+          paused = true;
+          return;
+        }
+        const Shard::Mark before = worker.shard.mark();
+        sheets[i]->cut = worker.processor.cut(*sheets[i], t.whole);
+        if (!sheets[i]->cut && !worker.finished) worker.finished = before;
       } else {
-        worker.processor.leave(*left[i - sheets.size()]);
+        worker.processor.leave(left[i - sheets.size()]);
       }
       t.count(worker);
     };
@@ -187,16 +226,30 @@ void Pool::cut(const std::vector<Shard*>& shards) {
       tbb::parallel_for(std::size_t{0}, all, cut_one);
     }
   });
+  return !paused;
 }
 
 std::vector<Shard*> Pool::shards() {
   std::vector<Shard*> all;
+  for (Shard& shard : threads_->earlier) all.push_back(&shard);
   for (Threads::Worker& w : threads_->workers) all.push_back(&w.shard);
   return all;
 }
 
+std::vector<SearchView::Part> Pool::finished() {
+  std::vector<SearchView::Part> all;
+  for (const Shard& shard : threads_->earlier) all.push_back({&shard, {}});
+  for (const Threads::Worker& w : threads_->workers) all.push_back({&w.shard, w.finished});
+  return all;
+}
+
+SearchView::Part Pool::end_of_mine() {
+  const Shard& shard = threads_->workers.local().shard;
+  return {&shard, shard.mark()};
+}
+
 std::vector<Shard> Pool::take_shards() {
-  std::vector<Shard> all;
+  std::vector<Shard> all = std::move(threads_->earlier);
   for (Threads::Worker& w : threads_->workers) all.push_back(std::move(w.shard));
   return all;
 }

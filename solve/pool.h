@@ -15,7 +15,10 @@ namespace corank::solve {
 class Pool {
  public:
   /// Its shards get numbers above `last_shard`. prepared and tally have to outlive it.
-  Pool(const Prepared& prepared, Tally& tally, int last_shard = 0);
+  /// `like`, where given: a problem of the same question, which need not be made again.
+  Pool(const Prepared& prepared, Tally& tally, int last_shard = 0, const Problem* like = nullptr);
+  /// One that goes on where these shards, which are its own now, were made.
+  Pool(const Prepared& prepared, Tally& tally, std::vector<Shard> earlier);
   ~Pool();
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
@@ -27,8 +30,8 @@ class Pool {
   /// f() where its parallel parts have the threads that the options allow.
   void execute(const std::function<void()>& f);
 
-  /// Depth first, so that memory grows with the depth and the results. Once a limit ends the search, what is not processed
-  /// goes to Shard::left.
+  /// Depth first, so that memory grows with the depth and the results. Once a limit ends the search, or the tally pauses,
+  /// what is not processed goes to Shard::left.
   void search(const Work& work);
   bool ended() const;
   /// Keeps a postponed box that was proven to hold a self-motion.
@@ -36,10 +39,15 @@ class Pool {
   /// A postponed box that is not divided any further.
   void give_up(const Postponed& box, Reason reason);
   /// Cuts the sheets, those that other pools have found as well, to σ, into boxes of its own shards; what is left becomes
-  /// `pending` boxes.
-  void cut(const std::vector<Shard*>& shards);
+  /// `pending` boxes. Returns false where the tally pauses before all are cut: to be called again.
+  bool cut(const std::vector<Shard*>& shards);
 
+  /// Those that it was given, and its own.
   std::vector<Shard*> shards();
+  /// The shards, each up to the first sheet that is not cut as it would have been, had nothing ended the search.
+  std::vector<SearchView::Part> finished();
+  /// Where the calling thread's shard ends now.
+  SearchView::Part end_of_mine();
   /// Of the pool, which is not to be used any more.
   std::vector<Shard> take_shards();
 
@@ -50,5 +58,7 @@ class Pool {
 
 /// Takes the postponed boxes out of the shards.
 std::vector<Postponed> take_postponed(const std::vector<Shard*>& shards);
+/// The same of those that are left: newest first, as Pool::search takes them.
+std::vector<Waiting> take_left(const std::vector<Shard*>& shards);
 
 }  // namespace corank::solve

@@ -11,6 +11,10 @@ using Step = Proof::Step;
 
 constexpr std::uint64_t kBlock = 16;  // of an allocation's own
 
+std::uint64_t bytes_of(const Proof::Combination& c) {
+  return sizeof(c) + kBlock * 3 + sizeof(float) * (c.equations.size() + c.dependent.size() + c.y.size());
+}
+
 bool fits_float(double y) { return y == 0 || (std::fabs(y) > 1e-30 && std::fabs(y) < 1e30); }
 
 }  // namespace
@@ -24,6 +28,21 @@ void round_to_floats(certify::Preconditioner& p) {
   }
   if (!(fits_float(least) && fits_float(greatest))) return;
   for (double& y : p.y) y = static_cast<double>(static_cast<float>(y));
+}
+
+Recorder::Mark Recorder::mark() const {
+  return {script_.steps.size(), script_.integers.size(), script_.reals.size(), script_.combinations.size(), nodes_.size()};
+}
+
+void Recorder::go_back_to(const Mark& mark) {
+  script_.steps.resize(mark.step);
+  script_.integers.resize(mark.integer);
+  script_.reals.resize(mark.real);
+  for (std::size_t k = mark.combinations; k < script_.combinations.size(); ++k)
+    combination_bytes_ -= bytes_of(script_.combinations[k]);
+  script_.combinations.resize(mark.combinations);
+  std::erase_if(nodes_, [&](const auto& node) { return node.second.number >= mark.nodes; });
+  open_ = nullptr;
 }
 
 std::uint64_t Recorder::bytes() const {
@@ -41,7 +60,9 @@ void Recorder::close() { open_->end = {script_.steps.size(), script_.integers.si
 
 void Recorder::begin(NodeId node, std::span<const Interval> x, int variables) {
   const Cursor here{script_.steps.size(), script_.integers.size(), script_.reals.size()};
-  open_ = &nodes_.try_emplace(node, Node{here, here}).first->second;
+  Node begun{here, here};
+  begun.number = nodes_.size();
+  open_ = &nodes_.try_emplace(node, begun).first->second;
   kept_.assign(x.begin(), x.begin() + variables);
 }
 
@@ -55,8 +76,7 @@ void Recorder::newton(const certify::Preconditioner& p, std::span<const Interval
   keep(x);
   script_.integers.push_back(static_cast<std::int32_t>(script_.combinations.size()));
   script_.combinations.push_back({p.equations, p.dependent, {p.y.begin(), p.y.end()}});
-  combination_bytes_ += sizeof(script_.combinations.back()) + kBlock * 3 +
-                        sizeof(float) * (p.equations.size() + p.dependent.size() + p.y.size());
+  combination_bytes_ += bytes_of(script_.combinations.back());
   step(Step::newton);
 }
 

@@ -24,6 +24,15 @@ class Recorder {
 
   /// What it keeps, nearly.
   std::uint64_t bytes() const;
+
+  /// How much has been recorded: a moment between two boxes.
+  struct Mark {
+    std::uint64_t step = 0, integer = 0, real = 0, combinations = 0, nodes = 0;
+  };
+  Mark mark() const;
+  /// As it was then, but that no identifier is given out twice.
+  void go_back_to(const Mark& mark);
+
   NodeId new_node() { return prefix_ | next_++; }
   LeafId leaf(std::size_t found) const { return prefix_ | found; }
 
@@ -65,9 +74,10 @@ class Recorder {
     Cursor begin, end;
     NodeId lower = 0, upper = 0;  // where it was split; upper alone: where its script goes on
     bool is_split = false, goes_on = false;
+    std::uint64_t number = 0;  // so many were begun before
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(begin, end, lower, upper, is_split, goes_on);
+      archive(begin, end, lower, upper, is_split, goes_on, number);
     }
   };
   void step(Proof::Step s);

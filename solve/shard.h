@@ -23,7 +23,8 @@ struct Waiting {
 struct Proven {
   Box x;
   certify::Sheet sheet;
-  NodeId node = 0;  ///< its script goes on there
+  NodeId node = 0;   ///< its script goes on there
+  bool cut = false;  ///< its boxes are among those found
 };
 
 /// A small box that resists proof next to a solution at which the Jacobian has not its full rank.
@@ -54,6 +55,26 @@ struct Shard {
   std::vector<Waiting> left{};  ///< what a limit has left unprocessed
   std::optional<Recorder> script{};
   Statistics statistics{};
+
+  /// A moment in its life, between two boxes.
+  struct Mark {
+    std::size_t sheets = 0, found = 0;
+    Recorder::Mark script{};
+  };
+  Mark mark() const { return {sheets.size(), found.size(), script ? script->mark() : Recorder::Mark{}}; }
+};
+
+/// A part of a search to be run somewhere, and what was found in it.
+struct Unit {
+  std::uint64_t id = 0;
+  bool cut = false;  ///< the sheets are to be cut, to…
+  Work work{};       ///< else: is to be searched
+  Sigma sigma{};
+  std::vector<Proven> sheets{};
+};
+struct Answer {
+  std::uint64_t id = 0;
+  std::vector<Shard> shards;
 };
 
 }  // namespace corank::solve

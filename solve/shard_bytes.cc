@@ -1,147 +1,190 @@
 #include "corank/solve/shard_bytes.h"
 
-#include <cereal/archives/portable_binary.hpp>
-#include <cereal/types/map.hpp>
-#include <cereal/types/memory.hpp>
-#include <cereal/types/optional.hpp>
-#include <cereal/types/vector.hpp>
-#include <new>
+#include <algorithm>
 #include <sstream>
 
-// Each type beside the namespace that it lives in, where the archive looks for it.
+#include "corank/solve/engine_version.h"
+#include "corank/solve/prepared_archive.h"
+#include "corank/solve/shard_check.h"
+
 namespace corank {
 
 template <class Archive>
-void save(Archive& archive, const Interval& x) {
-  archive(x.lo(), x.hi());
+void serialize(Archive& archive, SelfMotionRecord& r) {
+  archive(r.dimension, r.relations);
 }
-template <class Archive>
-void load(Archive& archive, Interval& x) {
-  double lo = 0, hi = 0;
-  archive(lo, hi);
-  if (!(lo <= hi)) throw solve::ShardError("a part of a search holds an interval without a number");
-  x = Interval(lo, hi);
-}
-
-template <class Archive>
-void serialize(Archive& archive, CoverBox& b) {
-  archive(b.box, b.verdict, b.free, b.region, b.point, b.kernel_at_most, b.motion, b.reason);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Statistics& s) {
-  archive(s.processed, s.newton_steps, s.proofs_tried, s.seconds_total, s.seconds_search, s.seconds_certify);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Proof::Combination& c) {
-  archive(c.equations, c.dependent, c.y);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Proof& p) {
-  archive(p.roots, p.steps, p.integers, p.reals, p.combinations);
-}
-
-namespace certify {
-
-template <class Archive>
-void serialize(Archive& archive, Preconditioner& p) {
-  archive(p.equations, p.dependent, p.y);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Sheet& s) {
-  archive(s.proven, s.equations, s.motion, s.dependent, s.region, s.image);
-}
-
-}  // namespace certify
 
 namespace solve {
 
 template <class Archive>
-void serialize(Archive& archive, Waiting& w) {
-  archive(w.x, w.share, w.node);
+void serialize(Archive& archive, SelfMotions::Stored& s) {
+  archive(s.motions, s.observed, s.former);
 }
 
 template <class Archive>
-void serialize(Archive& archive, Proven& p) {
-  archive(p.x, p.sheet, p.node);
+void serialize(Archive& archive, Unit& u) {
+  archive(u.id, u.cut, u.work, u.sigma, u.sheets);
 }
 
 template <class Archive>
-void serialize(Archive& archive, LocalSolution& s) {
-  archive(s.x, s.rank);
+void save(Archive& archive, const Answer& a) {
+  archive(a.id, a.shards);
 }
-
 template <class Archive>
-void serialize(Archive& archive, Postponed& p) {
-  archive(p.box, p.near, p.noisy, p.proof, p.step);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Found& f) {
-  archive(f.box, f.sheet, f.region, f.leaves);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Work& w) {
-  archive(w.boxes, w.postpone);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Shard& s) {
-  archive(s.number, s.sheets, s.postponed, s.found, s.left, s.script, s.statistics);
+void load(Archive& archive, Answer& a) {
+  cereal::size_type shards = 0;
+  archive(a.id, cereal::make_size_tag(shards));
+  for (cereal::size_type i = 0; i < shards; ++i) archive(a.shards.emplace_back(0, false));
 }
 
 namespace {
 
-// Says what follows, and changes with it.
-constexpr std::uint32_t kWork = 0x636b5701, kShard = 0x636b5301;
+template <class Range>
+void write_some(ByteOutput& archive, const Range& all, std::size_t count) {
+  archive(cereal::make_size_tag(static_cast<cereal::size_type>(count)));
+  for (std::size_t i = 0; i < count; ++i) archive(all[i]);
+}
 
-template <class Value>
-std::string bytes_of_value(std::uint32_t kind, const Value& value) {
-  std::ostringstream stream(std::ios::binary);
-  {
-    cereal::PortableBinaryOutputArchive archive(stream);
-    archive(kind, value);
+// As a Shard without what is left.
+void write_part(ByteOutput& archive, const SearchView::Part& part) {
+  const Shard& shard = *part.shard;
+  const Shard::Mark end = part.end.value_or(shard.mark());
+  std::vector<const Proven*> open;  // sheets to be cut
+  for (std::size_t i = 0; i < end.sheets; ++i)
+    if (!shard.sheets[i].cut) open.push_back(&shard.sheets[i]);
+  archive(shard.number, cereal::make_size_tag(static_cast<cereal::size_type>(open.size())));
+  for (const Proven* sheet : open) archive(*sheet);
+  archive(shard.postponed);
+  write_some(archive, shard.found, end.found);
+  archive(std::vector<Waiting>{});
+  if (shard.script && part.end) {
+    std::optional<Recorder> script = shard.script;
+    script->go_back_to(end.script);
+    archive(script);
+  } else {
+    archive(shard.script);
   }
-  return std::move(stream).str();
+  archive(shard.statistics);
+}
+
+std::string first_line(std::string_view kind) {
+  return "corank " + std::string(kind) + ", version " + engine_version() + "\n";
 }
 
 template <class Value>
-void read_value(std::uint32_t kind, const std::string& bytes, Value& value) {
-  std::istringstream stream(bytes, std::ios::binary);
+std::string bytes_of_value(std::string_view kind, const Value& value) {
+  std::ostringstream stream(std::ios::binary);
+  stream << first_line(kind);
+  ByteOutput archive(stream);
+  archive(value);
+  return std::move(stream).str();
+}
+
+template <class Read>
+void read_value(std::string_view kind, std::string_view bytes, Read read) {
+  const std::string begin = "corank " + std::string(kind) + ", version ";
+  const std::size_t end = bytes.substr(0, 200).find('\n');
+  if (end == std::string_view::npos || !bytes.starts_with(begin))
+    throw ShardError("these bytes are no " + std::string(kind) + " of corank");
+  const std::string_view version = bytes.substr(begin.size(), end - begin.size());
+  if (version != engine_version()) {
+    std::string named(version);
+    std::replace_if(
+        named.begin(), named.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    throw ShardError("this " + std::string(kind) + " was made by corank " + named + ", and this is corank " +
+                     engine_version());
+  }
   try {
-    cereal::PortableBinaryInputArchive archive(stream);
-    std::uint32_t found = 0;
-    archive(found);
-    if (found != kind) throw ShardError("these bytes are no part of a search by this version of corank");
-    archive(value);
+    ByteInput archive(bytes.substr(end + 1));
+    read(archive);
+    if (!archive.at_end()) throw ShardError("a part of a search cannot be read: more follows than belongs to it");
   } catch (const cereal::Exception& error) {
     throw ShardError(std::string("a part of a search cannot be read: ") + error.what());
-  } catch (const std::length_error&) {
-    throw ShardError("a part of a search cannot be read: it says that it holds more than there can be");
+  } catch (const std::logic_error& error) {  // numbers that are none, lengths that cannot be
+    throw ShardError(std::string("a part of a search cannot be read: ") + error.what());
   } catch (const std::bad_alloc&) {
     throw ShardError("a part of a search cannot be read: it says that it holds more than there is memory for");
   }
 }
 
+constexpr std::string_view kPrepared = "question", kWork = "work", kShard = "shard", kUnit = "unit", kAnswer = "answer",
+                           kState = "state";
+
 }  // namespace
 
+std::string to_bytes(const Prepared& prepared) { return bytes_of_value(kPrepared, prepared); }
 std::string to_bytes(const Work& work) { return bytes_of_value(kWork, work); }
 std::string to_bytes(const Shard& shard) { return bytes_of_value(kShard, shard); }
 
-Work work_from(const std::string& bytes) {
+std::string to_bytes(const Unit& unit) { return bytes_of_value(kUnit, unit); }
+
+std::string to_bytes(const Answer& answer) { return bytes_of_value(kAnswer, answer); }
+
+std::string to_bytes(const SearchView& state) {
+  std::ostringstream stream(std::ios::binary);
+  write(stream, state);
+  return std::move(stream).str();
+}
+
+void write(std::ostream& out, const SearchView& state) {
+  out << first_line(kState);
+  ByteOutput archive(out);
+  archive(state.first, state.pass, state.motions.stored(), state.cutting, state.sigma, state.seconds);
+  const bool more = state.postponed != nullptr;
+  archive(cereal::make_size_tag(static_cast<cereal::size_type>(state.parts.size() + more)));
+  for (const SearchView::Part& part : state.parts) write_part(archive, part);
+  if (!more) return;
+  Shard beside(0, false);
+  beside.postponed = *state.postponed;
+  archive(beside);
+}
+
+Prepared prepared_from(std::string_view bytes) {
+  Prepared prepared;
+  read_value(kPrepared, bytes, [&](ByteInput& archive) {
+    archive(prepared);
+    prepared.system.validate();
+    prepared.reduction.system.validate();
+  });
+  return prepared;
+}
+
+Work work_from(std::string_view bytes) {
   Work work;
-  read_value(kWork, bytes, work);
+  read_value(kWork, bytes, [&](ByteInput& archive) { archive(work); });
   return work;
 }
 
-Shard shard_from(const std::string& bytes) {
+Shard shard_from(std::string_view bytes) {
   Shard shard(0, false);
-  read_value(kShard, bytes, shard);
+  read_value(kShard, bytes, [&](ByteInput& archive) { archive(shard); });
   return shard;
+}
+
+Unit unit_from(std::string_view bytes) {
+  Unit unit;
+  read_value(kUnit, bytes, [&](ByteInput& archive) { archive(unit); });
+  return unit;
+}
+
+Answer answer_from(std::string_view bytes) {
+  Answer answer;
+  read_value(kAnswer, bytes, [&](ByteInput& archive) { archive(answer); });
+  return answer;
+}
+
+SearchState state_from(std::string_view bytes, const Prepared& prepared) {
+  SearchState state;
+  read_value(kState, bytes, [&](ByteInput& archive) {
+    SelfMotions::Stored motions;
+    archive(state.first, state.pass, motions, state.cutting, state.sigma, state.seconds);
+    state.motions = SelfMotions::restored(prepared.reduction.system, std::move(motions));
+    cereal::size_type shards = 0;
+    archive(cereal::make_size_tag(shards));
+    for (cereal::size_type i = 0; i < shards; ++i) archive(state.shards.emplace_back(0, false));
+    check(state, prepared);
+  });
+  return state;
 }
 
 }  // namespace solve

@@ -1,24 +1,38 @@
-// Parts of a search as bytes, to be stored or sent: the same on every machine that corank runs on.
+// What a search is about, its parts and its state as bytes, to be stored or sent: the same on every machine that corank
+// runs on. Each begins with a line that says what it is and which version has made it.
 #pragma once
 
+#include <iosfwd>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
+#include "corank/solve/journal.h"
+#include "corank/solve/prepared.h"
 #include "corank/solve/shard.h"
 
 namespace corank::solve {
 
-/// What was read is no work or shard of this version of corank.
+/// What was read is not what was expected, or another version of corank has made it: what() names both.
 class ShardError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
+std::string to_bytes(const Prepared& prepared);
 std::string to_bytes(const Work& work);
 std::string to_bytes(const Shard& shard);
+std::string to_bytes(const Unit& unit);
+std::string to_bytes(const Answer& answer);
+std::string to_bytes(const SearchView& state);
+void write(std::ostream& out, const SearchView& state);
 /// The same value again, to the last bit. Throw ShardError. What is read is as trustworthy as who has written it: it says
 /// what is proven.
-Work work_from(const std::string& bytes);
-Shard shard_from(const std::string& bytes);
+Prepared prepared_from(std::string_view bytes);
+Work work_from(std::string_view bytes);
+Shard shard_from(std::string_view bytes);
+Unit unit_from(std::string_view bytes);
+Answer answer_from(std::string_view bytes);
+SearchState state_from(std::string_view bytes, const Prepared& prepared);
 
 }  // namespace corank::solve

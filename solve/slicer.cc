@@ -208,6 +208,7 @@ bool Slicer::slice_in_chart(Task& task, Box sides, const std::vector<int>& depen
 void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole,
                    bool rechartable) {
   if (!whole && problem_.ended()) {
+    left_some_ = true;
     leave(found, Box(x.begin(), x.begin() + problem_.compiled.variables()));
     return;
   }
@@ -225,6 +226,7 @@ void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, std::vector<
 }
 
 void Slicer::leave_piece(Task& task, Box sides) {
+  left_some_ = true;
   bool here = true;
   sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
   for (std::size_t j = 0; j < sides.size(); ++j) here = here && sides[j].intersect(task.x[j]);

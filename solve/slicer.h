@@ -28,9 +28,11 @@ class Slicer {
       : problem_(problem), preconditioners_(preconditioners), workspace_(workspace), recorder_(recorder) {}
 
   /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so.
-  /// Where the search ends meanwhile, the rest is added as pending boxes. `whole`: the sheet is not cut at all.
-  void slice(const certify::Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole = false) {
+  /// Where the search ends meanwhile, the rest is added as pending boxes: false. `whole`: the sheet is not cut at all.
+  bool slice(const certify::Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole = false) {
+    left_some_ = false;
     slice(sheet, x, found, whole, true);
+    return !left_some_;
   }
 
   /// Does a piece of the sheet lie in the domain, and do the equations that its proof does not speak of hold within the
@@ -107,6 +109,7 @@ class Slicer {
   certify::NewtonWorkspace& workspace_;
   Recorder* recorder_;
   Box met_;
+  bool left_some_ = false;  // of the sheet, since the search has ended
   CutPlanner planner_{problem_};
 };
 

@@ -1,9 +1,155 @@
 #include "corank/solve/solve.h"
 
+#include <utility>
+
 #include "corank/solve/assembly.h"
 #include "corank/solve/passes.h"
+#include "corank/solve/resumable.h"
 
 namespace corank::solve {
+namespace {
+
+SearchState beginning(const Prepared& prepared) {
+  SearchState state;
+  state.first = state.pass = first_pass(prepared);
+  return state;
+}
+
+// One search, from a state on.
+class Search {
+ public:
+  Search(const Prepared& prepared, Control& control, std::uint64_t most, Journal* journal, SearchState from)
+      : prepared_(prepared),
+        control_(control),
+        journal_(journal),
+        first_(std::move(from.first)),
+        pass_(std::move(from.pass)),
+        motions_(std::move(from.motions)),
+        cutting_(from.cutting),
+        seconds_before_(from.seconds),
+        tally_(prepared, control, most, journal),
+        pool_(prepared, tally_, std::move(from.shards)),
+        sigma_(cutting_ ? from.sigma : sigma_of_search(prepared, pool_.problem())) {
+    pool_.set_sigma(sigma_);
+  }
+
+  Cover run() {
+    if (prepared_.reduction.consistent) {
+      const InStage stage(control_, Stage::search);
+      if (!cutting_) search();
+      cut();
+    }
+    Cover cover;
+    pool_.execute([&] { cover = assemble(prepared_, pool_.problem(), pool_.shards(), first_, motions_, sigma_, control_); });
+    cover.statistics.seconds_certify /= pool_.threads();
+    cover.statistics.seconds_total = seconds();
+    cover.statistics.seconds_search = cover.statistics.seconds_total - cover.statistics.seconds_certify;
+    tally_.report(true);
+    return cover;
+  }
+
+ private:
+  double seconds() const { return seconds_before_ + tally_.seconds(); }
+
+  void search() {
+    while (search_pass() && next()) {
+    }
+    if (journal_) keep(view(), Moment::searched);
+  }
+
+  // False: nothing was there to search.
+  bool search_pass() {
+    bool any = !pass_.boxes.empty();
+    for (const Shard* shard : pool_.shards()) any = any || !shard->postponed.empty();
+    while (any) {
+      pool_.search(pass_);
+      if (tally_.ended() || !tally_.pausing()) break;
+      pass_.boxes = take_left(pool_.shards());
+      keep(view(), Moment::paused);
+      tally_.resume();
+    }
+    return any;
+  }
+
+  // The pass after this one; false: there is none.
+  bool next() {
+    const double postpone = pass_.postpone;
+    if (journal_) {
+      pass_.boxes = left();
+      if (tally_.ended() || !pass_.boxes.empty()) end(view());
+    }
+    pass_.boxes.clear();
+    if (!journal_) return advance(take_postponed(pool_.shards()));
+    // What ends meanwhile is done again by whoever resumes: as it is before.
+    const SelfMotions motions = motions_;
+    const std::vector<Postponed> postponed = take_postponed(pool_.shards());
+    const Work done{{}, postpone};
+    SearchView before{.first = first_, .pass = done, .motions = motions, .parts = pool_.finished()};
+    const SearchView::Part mine = pool_.end_of_mine();
+    std::erase_if(before.parts, [&](const auto& part) { return part.shard == mine.shard; });
+    before.parts.push_back(mine);
+    before.postponed = &postponed;
+    before.seconds = seconds();
+    const bool more = advance(postponed);
+    if (tally_.ended()) end(std::move(before));
+    return more;
+  }
+
+  bool advance(std::vector<Postponed> postponed) {
+    pass_ = next_pass(prepared_, pass_, std::move(postponed), pool_, motions_);
+    return !pass_.boxes.empty();
+  }
+
+  void cut() {
+    if (!cutting_ && !pool_.problem().tolerant) sigma_ = sigma_of_set(prepared_, pool_.problem(), pool_.shards());
+    cutting_ = true;
+    pool_.set_sigma(sigma_);
+    while (!pool_.cut(pool_.shards())) {
+      keep(view(), Moment::paused);
+      tally_.resume();
+    }
+    if (journal_) keep(view(), tally_.ended() ? Moment::ended : Moment::cut);
+  }
+
+  std::vector<Waiting> left() {
+    std::vector<Waiting> all;
+    for (const Shard* shard : pool_.shards()) all.insert(all.end(), shard->left.begin(), shard->left.end());
+    return all;
+  }
+
+  SearchView view() {
+    return {.first = first_,
+            .pass = pass_,
+            .motions = motions_,
+            .cutting = cutting_,
+            .sigma = sigma_,
+            .parts = pool_.finished(),
+            .seconds = seconds()};
+  }
+
+  void keep(const SearchView& state, Moment moment) { journal_->keep(state, moment); }
+
+  // The last state that can be gone on from: what follows is made for the result.
+  void end(const SearchView& state) {
+    keep(state, Moment::ended);
+    journal_ = nullptr;
+    tally_.forget_journal();
+  }
+
+  const Prepared& prepared_;
+  Control& control_;
+  Journal* journal_;
+  const Work first_;
+  Work pass_;
+  SelfMotions motions_;
+  bool cutting_;
+  const double seconds_before_;
+  Tally tally_;
+  Pool pool_;
+  Sigma sigma_;
+};
+
+}  // namespace
 
 double printed_tolerance(const System& system) {
   constexpr double kPrintedDecimals = 1e-6;
@@ -16,28 +162,15 @@ Cover solve(const System& system, const Options& options) {
 }
 
 Cover solve(const Prepared& prepared, Control& control, std::uint64_t most) {
-  Tally tally(prepared, control, most);
-  Pool pool(prepared, tally);
-  SelfMotions motions;
-  const Work first = first_pass(prepared);
-  Sigma sigma = sigma_of_search(prepared, pool.problem());
-  pool.set_sigma(sigma);
-  if (prepared.reduction.consistent) {
-    const InStage stage(control, Stage::search);
-    for (Work pass = first; !pass.boxes.empty();
-         pass = next_pass(prepared, pass, take_postponed(pool.shards()), pool, motions))
-      pool.search(pass);
-    if (!pool.problem().tolerant) sigma = sigma_of_set(prepared, pool.problem(), pool.shards());
-    pool.set_sigma(sigma);
-    pool.cut(pool.shards());
-  }
-  Cover cover;
-  pool.execute([&] { cover = assemble(prepared, pool.problem(), pool.shards(), first, motions, sigma, control); });
-  cover.statistics.seconds_certify /= pool.threads();
-  cover.statistics.seconds_total = tally.seconds();
-  cover.statistics.seconds_search = cover.statistics.seconds_total - cover.statistics.seconds_certify;
-  tally.report(true);
-  return cover;
+  return Search(prepared, control, most, nullptr, beginning(prepared)).run();
+}
+
+Cover solve_on(const Prepared& prepared, Control& control, Journal* journal, std::optional<SearchState> from) {
+  return Search(prepared, control, 0, journal, from ? std::move(*from) : beginning(prepared)).run();
+}
+
+bool refinable(const Prepared& prepared) {
+  return !Problem(prepared.system, prepared.reduction, [] { return false; }).tolerant;
 }
 
 }  // namespace corank::solve

@@ -11,10 +11,11 @@ namespace {
 constexpr std::uint64_t kBoxesBetweenReports = 64;
 }
 
-Tally::Tally(const Prepared& prepared, Control& control, std::uint64_t most)
+Tally::Tally(const Prepared& prepared, Control& control, std::uint64_t most, Journal* journal)
     : options_(prepared.options),
       control_(control),
       most_(most),
+      journal_(journal),
       memory_(prepared.reduction, control.limits().later_bytes),
       soon_found_(memory_.of_found(2 * kPiecesBetweenChecks * static_cast<std::size_t>(std::max(1, options_.threads)))) {}
 
@@ -45,6 +46,12 @@ bool Tally::ended() {
   const bool over = control_.search_ended() || (most_ > 0 && processed_.load(std::memory_order_relaxed) >= most_);
   if (over) ended_ = true;
   return over;
+}
+
+bool Tally::pausing() {
+  if (!journal_) return false;
+  if (!pausing_.load(std::memory_order_relaxed) && journal_->due()) pausing_ = true;
+  return pausing_.load(std::memory_order_relaxed);
 }
 
 bool Tally::begin_cutting() {

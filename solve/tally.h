@@ -9,6 +9,7 @@
 
 #include "corank/solve/control.h"
 #include "corank/solve/distinct_solutions.h"
+#include "corank/solve/journal.h"
 #include "corank/solve/memory.h"
 #include "corank/solve/prepared.h"
 #include "corank/solve/shard.h"
@@ -17,8 +18,9 @@ namespace corank::solve {
 
 class Tally {
  public:
-  /// `most`: ends after so many processed boxes, which is no limit of the run; 0: no limit.
-  Tally(const Prepared& prepared, Control& control, std::uint64_t most);
+  /// `most`: ends after so many processed boxes, which is no limit of the run; 0: no limit. `journal`, where given, says
+  /// when the threads are to pause.
+  Tally(const Prepared& prepared, Control& control, std::uint64_t most, Journal* journal = nullptr);
   ~Tally() { control_.keep(-kept_); }
   Tally(const Tally&) = delete;
   Tally& operator=(const Tally&) = delete;
@@ -41,6 +43,11 @@ class Tally {
   void keep_waiting(std::size_t boxes, std::int64_t& before);
 
   bool ended();
+  /// All threads are to stop between two boxes or sheets, until resume().
+  bool pausing();
+  void resume() { pausing_ = false; }
+  /// No pause any more.
+  void forget_journal() { journal_ = nullptr; }
   /// From now on sheets are cut. True: the search was long enough, and what it has found is to stay whole. What another
   /// limit has ended is cut all the same.
   bool begin_cutting();
@@ -57,6 +64,8 @@ class Tally {
   const Options& options_;
   Control& control_;
   const std::uint64_t most_;
+  Journal* journal_;
+  std::atomic<bool> pausing_{false};
   MemoryEstimate memory_;
   const std::int64_t soon_found_;      // bytes of the pieces that threads cut before they look again, and of those in hand
   std::atomic<std::int64_t> kept_{0};  // bytes that this search has told the control of

@@ -11,6 +11,7 @@
 #include "corank/solve/type_labels.h"
 #include "corank/study/node_search.h"
 #include "corank/study/robot_state.h"
+#include "corank/study/run_journal.h"
 #include "corank/symbolic/printer.h"
 #include "corank/symbolic/velocity_blocks.h"
 
@@ -73,10 +74,11 @@ result::Result answer(const Question& question, const Options& options) {
 }
 
 result::Result answer(const std::vector<Question>& parts, const std::vector<System>& systems, const Options& options,
-                      solve::Control& control) {
+                      solve::Control& control, RunJournal* journal) {
+  if (journal) journal->expect(parts.size());
   CORANK_CHECK(!parts.empty() && parts.size() == systems.size());
   const Question& first = parts.front();
-  if (!first.part) return answer(first, systems.front(), options, control);
+  if (!first.part) return answer(first, systems.front(), options, control, journal);
   result::Result whole;
   whole.model = first.model.name();
   whole.model_text = first.model.source_text();
@@ -85,7 +87,7 @@ result::Result answer(const std::vector<Question>& parts, const std::vector<Syst
   result::describe_system(common, whole);
   whole.system_text = symbolic::to_cuik(common);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    whole.parts.push_back(answer(parts[i], systems[i], options, control));
+    whole.parts.push_back(answer(parts[i], systems[i], options, control, journal));
     whole.parts.back().part = parts[i].part->text();
   }
   result::merge_parts(whole);
@@ -93,7 +95,8 @@ result::Result answer(const std::vector<Question>& parts, const std::vector<Syst
   return whole;
 }
 
-result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control) {
+result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control,
+                      RunJournal* journal) {
   solve::Options searched = options.search;
   NodeSearch nodes;
   if (symbolic::definition(question.set).part == symbolic::LocusPart::nodes && !searched.proof && searched.roots.empty()) {
@@ -106,7 +109,11 @@ result::Result answer(const Question& question, const System& system, const Opti
   result.model_text = question.model.source_text();
   result.set = symbolic::definition(question.set).name;
   result.system_text = symbolic::to_cuik(system);
-  result.cover = solve::solve(prepared, control);
+  if (journal) {
+    result.cover = solve::solve_on(prepared, control, journal, journal->next_search(prepared));
+  } else {
+    result.cover = solve::solve(prepared, control);
+  }
   result.cover.statistics.processed += nodes.processed;
   control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
   solve::prove_exactly(prepared, result.cover, control);

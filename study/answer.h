@@ -8,6 +8,8 @@
 
 namespace corank::study {
 
+class RunJournal;
+
 struct Options {
   solve::Options search;  ///< σ, limits, threads, progress
   int digits = 0;         ///< isolated points get so many proven digits after the point; 0: none
@@ -19,12 +21,14 @@ struct Options {
 /// does.
 result::Result answer(const Question& question, const Options& options = {});
 
-/// The same of system(question), made before; `control` takes the place of the options' limits.
-result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control);
+/// The same of system(question), made before; `control` takes the place of the options' limits. A journal, where one is
+/// given, says from where the search goes on, and keeps it.
+result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control,
+                      RunJournal* journal = nullptr);
 
 /// The same of all parts of a question (parts_of) and of their systems, in one run.
 result::Result answer(const std::vector<Question>& parts, const std::vector<System>& systems, const Options& options,
-                      solve::Control& control);
+                      solve::Control& control, RunJournal* journal = nullptr);
 
 /// "stopped by the time limit, in the stage search".
 std::string stopped_words(const result::Result& result);

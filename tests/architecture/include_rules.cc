@@ -57,7 +57,8 @@ const std::vector<LibraryRule>& library_rules() {
        true},
       {std::regex("^flint/|^coin/"), {"solve"}, true},  // guesses, no proofs
       {std::regex("^hdf5|^H5"), {"result"}, true},
-      {std::regex("^(cairo|zlib)"), {"report"}, true},
+      {std::regex("^cairo"), {"report"}, true},
+      {std::regex("^zlib"), {"report", "result"}, true},
       {std::regex("^pugi"), {"kinematics", "report"}, true},
       {std::regex("^urdf_"), {}, true},  // another reader of URDF, for comparison
       {std::regex("^CLI/"), {"app"}, false},

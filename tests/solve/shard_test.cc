@@ -8,7 +8,7 @@
 #include "corank/solve/passes.h"
 #include "corank/solve/shard_bytes.h"
 #include "corank/solve/solve.h"
-#include "corank/tests/solve/cover_questions.h"
+#include "corank/tests/solve/same_cover.h"
 
 namespace corank::solve {
 namespace {
@@ -98,22 +98,6 @@ class Pieces {
   std::size_t parts_ = 0;
   std::vector<Shard> shards_;
 };
-
-void expect_same(const Cover& one, const Cover& other) {
-  ASSERT_EQ(one.boxes.size(), other.boxes.size());
-  for (std::size_t i = 0; i < one.boxes.size(); ++i) {
-    ASSERT_EQ(one.boxes[i].box, other.boxes[i].box) << i;
-    ASSERT_EQ(one.boxes[i].verdict, other.boxes[i].verdict) << i;
-    ASSERT_EQ(one.boxes[i].free, other.boxes[i].free) << i;
-    ASSERT_EQ(one.boxes[i].region, other.boxes[i].region) << i;
-    ASSERT_EQ(one.boxes[i].reason, other.boxes[i].reason) << i;
-  }
-  EXPECT_EQ(one.regions, other.regions);
-  EXPECT_EQ(one.points.size(), other.points.size());
-  EXPECT_EQ(one.sigma, other.sigma);
-  EXPECT_EQ(one.statistics.processed, other.statistics.processed);
-  EXPECT_EQ(one.statistics.newton_steps, other.statistics.newton_steps);
-}
 
 void expect_same_in_shards(const System& system, Options options, std::uint64_t most, std::size_t fewest_parts) {
   Control control;

@@ -1,0 +1,13 @@
+# Writes OUT: the hash of the sources in the folders of SOURCE_DIR that decide what a search does.
+set(all "")
+foreach(folder core certify solve)
+  file(GLOB files ${SOURCE_DIR}/${folder}/*.cc ${SOURCE_DIR}/${folder}/*.h)
+  list(SORT files)
+  foreach(file IN LISTS files)
+    file(SHA256 ${file} hash)
+    string(APPEND all ${hash})
+  endforeach()
+endforeach()
+string(SHA256 hash "${all}")
+string(SUBSTRING ${hash} 0 12 hash)
+file(WRITE ${OUT} "namespace corank::solve {\nextern const char* const kEngineHash;\nconst char* const kEngineHash = \"${hash}\";\n}\n")

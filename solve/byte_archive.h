@@ -1,0 +1,112 @@
+// Plain values as bytes for cereal: little-endian on every machine, and a reader that is never made to allocate much more
+// than it was given.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cereal/cereal.hpp>
+#include <cstring>
+#include <ostream>
+#include <string_view>
+
+#include "corank/solve/shard_bytes.h"
+
+namespace corank::solve {
+
+template <class T>
+T little_endian(T value) {
+  if constexpr (std::endian::native == std::endian::big && sizeof(T) > 1) {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(T));
+    std::reverse(bytes.begin(), bytes.end());
+    std::memcpy(&value, bytes.data(), sizeof(T));
+  }
+  return value;
+}
+
+class ByteOutput : public cereal::OutputArchive<ByteOutput, cereal::AllowEmptyClassElision> {
+ public:
+  explicit ByteOutput(std::ostream& out) : OutputArchive(this), buffer_(*out.rdbuf()) {}
+  template <class T>
+  void number(T value) {
+    value = little_endian(value);
+    if (buffer_.sputn(reinterpret_cast<const char*>(&value), sizeof(T)) != sizeof(T))
+      throw ShardError("a part of a search cannot be written");
+  }
+  template <class T>
+  void numbers(const T* values, std::uint64_t bytes) {
+    for (std::uint64_t i = 0; i < bytes / sizeof(T); ++i) number(values[i]);
+  }
+
+ private:
+  std::streambuf& buffer_;
+};
+
+class ByteInput : public cereal::InputArchive<ByteInput, cereal::AllowEmptyClassElision> {
+ public:
+  explicit ByteInput(std::string_view bytes) : InputArchive(this), rest_(bytes) {}
+  template <class T>
+  void number(T& value) {
+    need(sizeof(T));
+    std::memcpy(&value, rest_.data(), sizeof(T));
+    value = little_endian(value);
+    rest_.remove_prefix(sizeof(T));
+  }
+  template <class T>
+  void numbers(T* values, std::uint64_t bytes) {
+    need(bytes);
+    for (std::uint64_t i = 0; i < bytes / sizeof(T); ++i) number(values[i]);
+  }
+  /// There are to be so many more values, each of a byte at least.
+  void need(std::uint64_t values) const {
+    if (values > rest_.size()) throw ShardError("a part of a search cannot be read: it is cut short");
+  }
+  bool at_end() const { return rest_.empty(); }
+
+ private:
+  std::string_view rest_;
+};
+
+template <class T, cereal::traits::EnableIf<std::is_arithmetic_v<T>> = cereal::traits::sfinae>
+void CEREAL_SAVE_FUNCTION_NAME(ByteOutput& archive, const T& value) {
+  archive.number(value);
+}
+template <class T, cereal::traits::EnableIf<std::is_arithmetic_v<T>> = cereal::traits::sfinae>
+void CEREAL_LOAD_FUNCTION_NAME(ByteInput& archive, T& value) {
+  archive.number(value);
+}
+inline void CEREAL_LOAD_FUNCTION_NAME(ByteInput& archive, bool& value) {
+  std::uint8_t byte = 0;
+  archive.number(byte);
+  if (byte > 1) throw ShardError("a part of a search cannot be read: it is damaged");
+  value = byte == 1;
+}
+template <class T>
+void CEREAL_SAVE_FUNCTION_NAME(ByteOutput& archive, const cereal::BinaryData<T>& data) {
+  using Element = std::remove_cv_t<std::remove_pointer_t<std::remove_reference_t<T>>>;
+  archive.numbers(static_cast<const Element*>(data.data), data.size);
+}
+template <class T>
+void CEREAL_LOAD_FUNCTION_NAME(ByteInput& archive, cereal::BinaryData<T>& data) {
+  using Element = std::remove_cv_t<std::remove_pointer_t<std::remove_reference_t<T>>>;
+  archive.numbers(static_cast<Element*>(data.data), data.size);
+}
+template <class Archive, class T>
+requires std::is_same_v<Archive, ByteOutput> || std::is_same_v<Archive, ByteInput>
+void CEREAL_SERIALIZE_FUNCTION_NAME(Archive& archive, cereal::NameValuePair<T>& pair) { archive(pair.value); }
+template <class T>
+void CEREAL_SAVE_FUNCTION_NAME(ByteOutput& archive, const cereal::SizeTag<T>& tag) {
+  archive.number(static_cast<std::uint64_t>(tag.size));
+}
+template <class T>
+void CEREAL_LOAD_FUNCTION_NAME(ByteInput& archive, cereal::SizeTag<T>& tag) {
+  std::uint64_t size = 0;
+  archive.number(size);
+  archive.need(size);
+  tag.size = size;
+}
+
+}  // namespace corank::solve
+
+CEREAL_SETUP_ARCHIVE_TRAITS(corank::solve::ByteInput, corank::solve::ByteOutput)

@@ -1,0 +1,267 @@
+#include "corank/solve/cluster.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/assembly.h"
+#include "corank/solve/passes.h"
+#include "corank/solve/shard_bytes.h"
+#include "corank/solve/shard_check.h"
+
+namespace corank::solve {
+namespace {
+
+// Shards of one search differ in their numbers, of which recorders have 24 bits: each unit has so many.
+constexpr int kNumbers = 2 * (kMostUnitThreads + 1);
+constexpr std::uint64_t kMostUnits = (std::uint64_t{1} << 24) / kNumbers - 1;
+
+// Splits a list into up to so many parts, of every k-th each: neighbours cost about the same.
+template <class T>
+std::vector<std::vector<T>> dealt(std::vector<T> all, std::size_t parts) {
+  std::vector<std::vector<T>> hands(std::min(parts, all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) hands[i % hands.size()].push_back(std::move(all[i]));
+  return hands;
+}
+
+// Does σ depend on nothing that is found? Then sheets need not travel to be cut.
+bool sigma_is_known(const Prepared& prepared) { return prepared.options.asked_length() && prepared.options.asked_angle(); }
+
+void cut_at_once(const Prepared& prepared, const Problem& problem, int last_number, Answer& answer) {
+  Control control;
+  Tally tally(prepared, control, 0);
+  Pool pool(prepared, tally, last_number, &problem);
+  pool.set_sigma({*prepared.options.asked_length(), *prepared.options.asked_angle()});
+  std::vector<Shard*> shards;
+  std::vector<std::vector<Waiting>> left;  // it is not to become pending
+  for (Shard& shard : answer.shards) {
+    shards.push_back(&shard);
+    left.push_back(std::exchange(shard.left, {}));
+  }
+  pool.cut(shards);
+  for (std::size_t i = 0; i < shards.size(); ++i) {
+    shards[i]->sheets.clear();
+    shards[i]->left = std::move(left[i]);
+  }
+  for (Shard& shard : pool.take_shards()) answer.shards.push_back(std::move(shard));
+}
+
+// Whoever runs units beside the coordinator is not to be held to its threads.
+Prepared with_all_threads(Prepared prepared) {
+  prepared.options.threads = 0;
+  return prepared;
+}
+
+}  // namespace
+
+std::string run_unit(std::string_view prepared, std::string_view unit, const Budget& budget) {
+  return UnitRunner(prepared).run(unit, budget);
+}
+
+struct UnitRunner::Question {
+  explicit Question(std::string_view bytes)
+      : prepared(prepared_from(bytes)), problem(prepared.system, prepared.reduction, {}) {
+    prepared.options.max_found = prepared.options.max_solutions = 0;
+  }
+  Prepared prepared;
+  Problem problem;
+};
+
+UnitRunner::UnitRunner(std::string_view prepared) : question_(std::make_unique<Question>(prepared)) {}
+UnitRunner::~UnitRunner() = default;
+
+std::string UnitRunner::run(std::string_view bytes, const Budget& budget) {
+  Unit unit = unit_from(bytes);
+  Prepared& prepared = question_->prepared;
+  check(unit, prepared);
+  prepared.options.threads = std::clamp(budget.threads, 1, kMostUnitThreads);
+  Control control({.time = unit.cut ? 0 : budget.seconds});
+  Tally tally(prepared, control, unit.cut ? 0 : budget.boxes);
+  const int number = static_cast<int>(unit.id) * kNumbers;
+  Answer answer{unit.id, {}};
+  {
+    Pool pool(prepared, tally, number, &question_->problem);
+    if (unit.cut) {
+      Shard sheets(0, false);
+      sheets.sheets = std::move(unit.sheets);
+      pool.set_sigma(unit.sigma);
+      pool.cut({&sheets});
+    } else {
+      pool.set_sigma(sigma_of_search(prepared, pool.problem()));
+      pool.search(unit.work);
+    }
+    answer.shards = pool.take_shards();
+  }
+  if (!unit.cut && sigma_is_known(prepared))
+    cut_at_once(prepared, question_->problem, number + kMostUnitThreads + 1, answer);
+  return to_bytes(answer);
+}
+
+struct Coordinator::Search {
+  Search(std::string bytes, const std::optional<std::string>& from)
+      : prepared_text(std::move(bytes)),
+        prepared(with_all_threads(prepared_from(prepared_text))),
+        state(from ? state_from(*from, prepared) : SearchState{}),
+        tally(prepared, control, 0),
+        judge(prepared, tally, last_number()) {
+    if (!from) state.first = state.pass = first_pass(prepared);
+    for (Shard& shard : state.shards) shards.push_back(std::make_unique<Shard>(std::move(shard)));
+    next_id = static_cast<std::uint64_t>(last_number() / kNumbers) + 2;  // the judge has one of its own
+    open = std::exchange(state.pass.boxes, {});
+    judge.set_sigma(state.cutting ? state.sigma : sigma_of_search(prepared, judge.problem()));
+    if (state.cutting) list_sheets();
+    advance();
+  }
+
+  int last_number() const {
+    int last = 0;
+    for (const Shard& shard : state.shards) last = std::max(last, shard.number);
+    return (last / kNumbers + 1) * kNumbers;
+  }
+
+  std::vector<Shard*> all_shards() {
+    std::vector<Shard*> all = judge.shards();
+    for (const auto& shard : shards) all.push_back(shard.get());
+    return all;
+  }
+
+  void list_sheets() {
+    for (Shard* shard : all_shards())
+      for (Proven& sheet : shard->sheets)
+        if (!sheet.cut) open_sheets.push_back(&sheet);
+  }
+
+  // Where a pass is done, the next one begins; after the last one sheets are to be cut.
+  void advance() {
+    while (!state.cutting && open.empty() && under_way.empty()) {
+      std::vector<Postponed> postponed = take_postponed(all_shards());
+      if (!postponed.empty()) {
+        state.pass = next_pass(prepared, state.pass, std::move(postponed), judge, state.motions);
+        open = std::exchange(state.pass.boxes, {});
+        if (!open.empty()) return;
+      }
+      state.sigma = judge.problem().tolerant ? sigma_of_search(prepared, judge.problem())
+                                             : sigma_of_set(prepared, judge.problem(), all_shards());
+      judge.set_sigma(state.sigma);
+      state.cutting = true;
+      list_sheets();
+    }
+  }
+
+  // What a unit is made of, as long as it is under way.
+  struct Given {
+    std::vector<Waiting> boxes;
+    std::vector<Proven*> sheets;
+  };
+
+  const std::string prepared_text;
+  Prepared prepared;
+  Control control;
+  SearchState state;  // its pass without boxes, and no shards
+  Tally tally;
+  Pool judge;
+  std::vector<std::unique_ptr<Shard>> shards;
+  std::vector<Waiting> open;
+  std::vector<Proven*> open_sheets;
+  std::map<std::uint64_t, Given> under_way;
+  std::uint64_t next_id = 1;
+};
+
+Coordinator::Coordinator(std::string prepared, std::optional<std::string> from)
+    : search_(std::make_unique<Search>(std::move(prepared), from)) {}
+Coordinator::~Coordinator() = default;
+
+const std::string& Coordinator::prepared_bytes() const { return search_->prepared_text; }
+std::size_t Coordinator::under_way() const { return search_->under_way.size(); }
+bool Coordinator::done() const {
+  return search_->state.cutting && search_->open_sheets.empty() && search_->under_way.empty();
+}
+
+double Coordinator::share_done() const {
+  double waits = 0;
+  for (const Waiting& box : search_->open) waits += box.share;
+  for (const auto& [id, given] : search_->under_way)
+    for (const Waiting& box : given.boxes) waits += box.share;
+  return std::clamp(1 - waits, 0.0, 1.0);
+}
+
+std::vector<std::string> Coordinator::take_units(std::size_t wanted) {
+  Search& s = *search_;
+  std::vector<std::string> units;
+  const auto give = [&](Unit unit, Search::Given given) {
+    if (s.next_id >= kMostUnits) throw ShardError("this search has been cut into more units than can be told apart");
+    unit.id = s.next_id++;
+    units.push_back(to_bytes(unit));
+    s.under_way.emplace(unit.id, std::move(given));
+  };
+  if (!s.state.cutting) {
+    for (std::vector<Waiting>& boxes : dealt(std::exchange(s.open, {}), wanted)) {
+      Unit unit{.work = {boxes, s.state.pass.postpone}};
+      give(std::move(unit), {std::move(boxes), {}});
+    }
+  } else {
+    for (std::vector<Proven*>& sheets : dealt(std::exchange(s.open_sheets, {}), wanted)) {
+      Unit unit{.cut = true, .sigma = s.state.sigma};
+      for (const Proven* sheet : sheets) unit.sheets.push_back(*sheet);
+      give(std::move(unit), {{}, std::move(sheets)});
+    }
+  }
+  return units;
+}
+
+bool Coordinator::add(std::string_view bytes) {
+  Search& s = *search_;
+  Answer answer = answer_from(bytes);
+  const auto given = s.under_way.find(answer.id);
+  if (given == s.under_way.end()) {
+    if (answer.id >= s.next_id) throw ShardError("the answer to a unit that was never given out");
+    return false;
+  }
+  for (const Shard& shard : answer.shards) {
+    check(shard, s.prepared);
+    if (shard.number / kNumbers != static_cast<int>(answer.id)) throw ShardError("an answer with another unit's numbers");
+  }
+  for (Proven* sheet : given->second.sheets) {
+    *sheet = {.x = {}, .sheet = {}, .node = sheet->node, .cut = true};  // its boxes are there now
+  }
+  s.under_way.erase(given);
+  for (Shard& shard : answer.shards) {
+    std::move(shard.left.begin(), shard.left.end(), std::back_inserter(s.open));
+    shard.left.clear();
+    s.shards.push_back(std::make_unique<Shard>(std::move(shard)));
+  }
+  s.advance();
+  return true;
+}
+
+std::string Coordinator::state() const {
+  const Search& s = *search_;
+  Work pass{s.open, s.state.pass.postpone};
+  for (const auto& [id, given] : s.under_way) pass.boxes.insert(pass.boxes.end(), given.boxes.begin(), given.boxes.end());
+  SearchView view{.first = s.state.first,
+                  .pass = pass,
+                  .motions = s.state.motions,
+                  .cutting = s.state.cutting,
+                  .sigma = s.state.sigma,
+                  .seconds = s.state.seconds};
+  for (const Shard* shard : search_->judge.shards()) view.parts.push_back({shard, {}});
+  for (const auto& shard : s.shards) view.parts.push_back({shard.get(), {}});
+  return to_bytes(view);
+}
+
+Cover Coordinator::assemble(Control& control) {
+  CORANK_CHECK(done());
+  Search& s = *search_;
+  Cover cover;
+  s.judge.execute([&] {
+    cover = solve::assemble(s.prepared, s.judge.problem(), s.all_shards(), s.state.first, s.state.motions, s.state.sigma,
+                            control);
+  });
+  cover.statistics.seconds_total = s.state.seconds + s.tally.seconds();
+  cover.statistics.seconds_search = cover.statistics.seconds_total - cover.statistics.seconds_certify;
+  return cover;
+}
+
+}  // namespace corank::solve

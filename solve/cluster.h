@@ -1,0 +1,79 @@
+// A search whose parts run anywhere: work and what was found in it are bytes, and running a part is a pure function of them.
+//
+//   Coordinator c(to_bytes(prepare(system, options, control)));
+//   while (!c.done())
+//     for (const std::string& unit : c.take_units(idle workers)) c.add(run_unit(c.prepared_bytes(), unit, budget));
+//   Cover cover = c.assemble(control);
+//
+// Units may be run in any order, more than once, and by any number of threads: the first answer counts, and the cover is
+// solve()'s, to the last bit. Where σ was asked for, sheets are cut by whoever has found them. What a budget leaves of a
+// unit comes back and is given out again, in smaller parts.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "corank/solve/resumable.h"
+
+namespace corank::solve {
+
+/// What running one unit may take; 0: no limit. Sheets are cut to the end, whatever the budget.
+struct Budget {
+  std::uint64_t boxes = 0;  ///< processed
+  double seconds = 0;
+  int threads = 1;  ///< 1 … kMostUnitThreads
+};
+inline constexpr int kMostUnitThreads = 31;
+
+/// Runs a unit of a Coordinator. Throws ShardError where the bytes are none, or of another version.
+std::string run_unit(std::string_view prepared, std::string_view unit, const Budget& budget = {});
+
+/// The same for a worker that runs many units of one search: what they share is made once. Of one thread.
+class UnitRunner {
+ public:
+  explicit UnitRunner(std::string_view prepared);
+  ~UnitRunner();
+  UnitRunner(const UnitRunner&) = delete;
+  UnitRunner& operator=(const UnitRunner&) = delete;
+  std::string run(std::string_view unit, const Budget& budget = {});
+
+ private:
+  struct Question;
+  std::unique_ptr<Question> question_;
+};
+
+class Coordinator {
+ public:
+  /// `prepared`: of to_bytes(). `from`: a state of the same search to go on from. Throws ShardError.
+  explicit Coordinator(std::string prepared, std::optional<std::string> from = {});
+  ~Coordinator();
+  Coordinator(const Coordinator&) = delete;
+  Coordinator& operator=(const Coordinator&) = delete;
+
+  const std::string& prepared_bytes() const;
+  /// What can be done now and has not been given out, in up to so many units. None, though done() is false: the units that
+  /// are under way have to be added first.
+  std::vector<std::string> take_units(std::size_t wanted);
+  /// What run_unit() has returned. False: that unit has been added before, and nothing is done. Throws ShardError where it
+  /// is none of this search's.
+  bool add(std::string_view answer);
+  bool done() const;
+  /// So many units have been given out and not been added.
+  std::size_t under_way() const;
+  /// Of the search domain: the share that is done with.
+  double share_done() const;
+  /// For a checkpoint (solve::SearchState): units that are under way count as not begun.
+  std::string state() const;
+  /// Of a search that is done. The coordinator is not to be used any more.
+  Cover assemble(Control& control);
+
+ private:
+  struct Search;
+  std::unique_ptr<Search> search_;
+};
+
+}  // namespace corank::solve

@@ -1,0 +1,81 @@
+#include "corank/solve/shard_check.h"
+
+#include <cmath>
+
+#include "corank/solve/shard_bytes.h"
+
+namespace corank::solve {
+namespace {
+
+void expect(bool fits) {
+  if (!fits) throw ShardError("a part of a search cannot be read: it does not fit the system");
+}
+
+struct Sizes {
+  explicit Sizes(const Prepared& prepared)
+      : variables(prepared.reduction.kept.size()),
+        sides(variables + prepared.reduction.definitions.size()),
+        equations(prepared.reduction.system.equations.size()) {}
+  std::size_t variables, sides, equations;
+};
+
+void check_indices(const std::vector<int>& indices, std::size_t below) {
+  for (const int i : indices) expect(i >= 0 && static_cast<std::size_t>(i) < below);
+}
+
+void check_waiting(const Waiting& box, const Sizes& sizes) { expect(box.x.size() == sizes.variables); }
+
+void check_sheet(const certify::Sheet& sheet, const Sizes& sizes) {
+  expect(sheet.region.size() == sizes.variables && sheet.image.size() == sizes.variables &&
+         sheet.dependent.size() <= sizes.variables);
+  check_indices(sheet.dependent, sizes.variables);
+  check_indices(sheet.equations, sizes.equations);
+}
+
+void check_found(const Found& found, const Sizes& sizes) {
+  expect(found.box.box.size() == sizes.sides && static_cast<int>(found.box.verdict) < kVerdicts &&
+         static_cast<int>(found.box.reason) < kReasons && (!found.region || found.region->size() == sizes.sides));
+  check_indices(found.box.free, sizes.variables);
+  if (found.sheet) check_sheet(*found.sheet, sizes);
+}
+
+}  // namespace
+
+void check(const Work& work, const Prepared& prepared) {
+  const Sizes sizes(prepared);
+  for (const Waiting& box : work.boxes) check_waiting(box, sizes);
+  expect(work.postpone >= 0 && std::isfinite(work.postpone));
+}
+
+void check(const Shard& shard, const Prepared& prepared) {
+  const Sizes sizes(prepared);
+  for (const Waiting& box : shard.left) check_waiting(box, sizes);
+  for (const Found& found : shard.found) check_found(found, sizes);
+  for (const Proven& proven : shard.sheets) {
+    expect(proven.x.size() == sizes.variables);
+    check_sheet(proven.sheet, sizes);
+  }
+  for (const Postponed& postponed : shard.postponed) {
+    check_waiting(postponed.box, sizes);
+    expect(postponed.near.x.size() == sizes.variables);
+    if (postponed.proof.proven) check_sheet(postponed.proof, sizes);
+  }
+  expect(shard.script.has_value() == prepared.options.proof || shard.found.size() + shard.sheets.size() == 0);
+}
+
+void check(const Unit& unit, const Prepared& prepared) {
+  const Sizes sizes(prepared);
+  check(unit.work, prepared);
+  for (const Proven& proven : unit.sheets) {
+    expect(proven.x.size() == sizes.variables);
+    check_sheet(proven.sheet, sizes);
+  }
+}
+
+void check(const SearchState& state, const Prepared& prepared) {
+  check(state.first, prepared);
+  check(state.pass, prepared);
+  for (const Shard& shard : state.shards) check(shard, prepared);
+}
+
+}  // namespace corank::solve

@@ -1,0 +1,102 @@
+#include "corank/study/run_journal.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "corank/solve/engine_version.h"
+#include "corank/solve/shard_bytes.h"
+
+namespace corank::study {
+namespace {
+
+void check_refinable(const solve::Prepared& prepared, const std::optional<solve::SearchState>& state) {
+  if (!solve::refinable(prepared))
+    throw result::ResultFileError(
+        "the search itself depends on sigma here, since coefficients carry a tolerance; expected it to be solved anew");
+  bool searched = state && !state->cutting && state->pass.boxes.empty();
+  if (searched)
+    for (const solve::Shard& shard : state->shards) searched = searched && shard.postponed.empty() && shard.left.empty();
+  if (!searched)
+    throw result::ResultFileError("the search was ended early; expected a complete one: go on with it first (--resume)");
+}
+
+constexpr std::uint64_t kMostInResult = std::uint64_t{1} << 30;  // it is made in memory: more is a matter for a checkpoint
+
+// Of a state, nearly.
+std::uint64_t bytes_of(const solve::SearchView& state) {
+  constexpr std::uint64_t kBeside = 100;
+  std::uint64_t sum = 0;
+  for (const auto& part : state.parts) {
+    if (!part.shard->found.empty())
+      sum += part.shard->found.size() * (kBeside + sizeof(Interval) * part.shard->found[0].box.box.size());
+    if (!part.shard->sheets.empty())
+      sum += part.shard->sheets.size() * (kBeside + 3 * sizeof(Interval) * part.shard->sheets[0].x.size());
+    if (part.shard->script) sum += part.shard->script->bytes();
+  }
+  return sum;
+}
+
+}  // namespace
+
+RunJournal::RunJournal(result::Checkpoint from, Plan plan) : known_(std::move(from)), plan_(std::move(plan)) {
+  plan_next(Clock::now());
+}
+
+std::optional<solve::SearchState> RunJournal::next_search(const solve::Prepared& prepared) {
+  if (ended_) return std::nullopt;
+  const std::size_t index = searches_++;
+  if (index > 0 && index > known_.finished.size()) known_.finished.push_back(std::exchange(last_, {}));
+  const bool resumed = index < known_.finished.size();
+  const std::string state = resumed ? known_.finished[index] : std::exchange(known_.state, {});
+  if (state.empty() && !plan_.refine) return std::nullopt;
+  std::optional<solve::SearchState> from;
+  try {
+    if (!state.empty()) from = solve::state_from(state, prepared);
+  } catch (const solve::ShardError& error) {
+    throw result::ResultFileError(error.what());
+  }
+  if (plan_.refine) check_refinable(prepared, from);
+  return from;
+}
+
+bool RunJournal::due() {
+  if (plan_.path.empty() || ended_) return false;
+  const auto now = Clock::now().time_since_epoch().count();
+  if (now < next_.load(std::memory_order_relaxed)) return false;
+  Clock::duration::rep never = 0;
+  asked_.compare_exchange_strong(never, now);  // the threads come to their next boxes meanwhile
+  return true;
+}
+
+void RunJournal::plan_next(Clock::time_point begun) {
+  const auto now = Clock::now();
+  const std::chrono::duration<double> took = now - begun;
+  const double wait = std::max(plan_.every, took.count() * (1 / kMostShare - 1));
+  constexpr double kLongest = 1e8;  // seconds: no overflow
+  next_ = (now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(wait, kLongest))))
+              .time_since_epoch()
+              .count();
+}
+
+void RunJournal::keep(const solve::SearchView& state, solve::Moment moment) {
+  using solve::Moment;
+  const auto asked = asked_.exchange(0);
+  const auto begun = asked > 0 ? Clock::time_point(Clock::duration(asked)) : Clock::now();
+  // What is done was kept before; what follows an end is not of the run any more.
+  if (ended_ || searches_ <= known_.finished.size()) return;
+  const auto state_writer = [&state](std::ostream& out) { solve::write(out, state); };
+  ended_ = moment == Moment::ended;
+  const bool to_file = ended_ || moment == Moment::paused || (moment == Moment::cut && due());
+  if (to_file && !plan_.path.empty()) {
+    result::write_checkpoint(plan_.path, solve::engine_version(), known_, state_writer);
+    ++written_;
+    asked_ = 0;
+    plan_next(begun);
+  }
+  if ((plan_.keep_end && ended_ && bytes_of(state) < kMostInResult) || (plan_.keep_sheets && moment == Moment::searched))
+    search_ = result::checkpoint_bytes(solve::engine_version(), known_, state_writer);
+  if (searches_ < expected_ && moment == (plan_.keep_sheets ? Moment::searched : Moment::cut))
+    last_ = solve::to_bytes(state);
+}
+
+}  // namespace corank::study

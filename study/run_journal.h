@@ -1,0 +1,58 @@
+// What a run of several searches, one after the other, keeps of them: each goes on from where it was.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "corank/result/checkpoint.h"
+#include "corank/solve/resumable.h"
+
+namespace corank::study {
+
+class RunJournal : public solve::Journal {
+ public:
+  struct Plan {
+    std::filesystem::path path;  ///< of the checkpoint's file; empty: there is none
+    double every = 60;           ///< seconds between two checkpoints, at least
+    bool keep_end = false;       ///< search() is to be what a limit has left
+    bool keep_sheets = false;    ///< search() is to be all sheets, so that they can be cut to another σ
+    bool refine = false;         ///< the former run's sheets are to be cut to another σ
+  };
+  /// Of all seconds, checkpoints take no more than this share: where one takes long, the next comes later.
+  static constexpr double kMostShare = 0.02;
+
+  /// `from`: what a former run has kept, or the arguments and files of a new one.
+  RunJournal(result::Checkpoint from, Plan plan);
+
+  /// So many searches are to come, unless another number is said.
+  void expect(std::size_t searches) { expected_ = searches; }
+  /// The next of the run's searches begins: the state from which it goes on, or nothing. Throws solve::ShardError; where the
+  /// plan asks to refine what cannot be refined, result::ResultFileError.
+  std::optional<solve::SearchState> next_search(const solve::Prepared& prepared);
+  bool due() override;
+  void keep(const solve::SearchView& state, solve::Moment moment) override;
+
+  /// How many checkpoints have been written.
+  int written() const { return written_; }
+  /// What of the run is to go into its result (result::Result::search): nothing, unless the plan says so.
+  const std::string& search() const { return search_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void plan_next(Clock::time_point begun);
+
+  result::Checkpoint known_;  // the searches before, and what a former run has left of the one that is to come
+  const Plan plan_;
+  std::size_t searches_ = 0, expected_ = 1;
+  std::string last_;  // of the search that is under way, where others follow it
+  bool ended_ = false;
+  std::atomic<Clock::duration::rep> next_;
+  std::atomic<Clock::duration::rep> asked_{0};
+  int written_ = 0;
+  std::string search_;
+};
+
+}  // namespace corank::study
