@@ -4,19 +4,15 @@
 // A cell is the part of a proven sheet over a box X_F of its free variables; g_1 … g_r are functions on it. Its *parts*
 // are the sets of its points where the g_k have given signs, none 0.
 //   Lemma 1: where every g_k has one sign all over the cell, its one part is the cell, which is connected.
-// Lemma 2: let one function g have both signs, s be one of them, and s·∂g/∂f > 0 all over the cell (derivatives along the
-// sheet) for a free
-// variable f or < 0. Then the part of sign s is connected or empty where its part on the face of X_F at f's end where s·g
-// is larger is; and
-// each of its points is joined to one of that face. Proof: along f from any point s·g grows until the face. So the part
-// contracts onto its
-// part on the face. On the face the lemma may be used again, with its other free variables; a face where s·g > 0 all over
-// is connected.
-// Lemma 3: let there be a direction d of free variables with s_k·∂g_k/∂d > 0 all over the cell for each g_k that has not
-// one sign there. Then
-// each point of the part of signs s is joined in it to a point on the cell's border, which is another cell's, too: the
-// part adds no piece.
-// Lemma 4: let the dimension be 2 and d as in lemma 3, with s_k·∂g_k/∂d > 0. The sides of X_F through which d points out
+//   Lemma 2: let one function g have both signs, s be one of them, and s·∂g/∂f > 0 all over the cell (derivatives
+// along the sheet) for a free variable f or < 0. Then the part of sign s is connected or empty where its part on the
+// face of X_F at f's end where s·g is larger is; and each of its points is joined to one of that face. Proof: along
+// f from any point s·g grows until the face. So the part contracts onto its part on the face. On the face the lemma
+// may be used again, with its other free variables; a face where s·g > 0 all over is connected.
+//   Lemma 3: let there be a direction d of free variables with s_k·∂g_k/∂d > 0 all over the cell for each g_k that
+// has not one sign there. Then each point of the part of signs s is joined in it to a point on the cell's border,
+// which is another cell's, too: the part adds no piece.
+//   Lemma 4: let the dimension be 2 and d as in lemma 3, with s_k·∂g_k/∂d > 0. The sides of X_F through which d points out
 // of it are one arc. Along d every point of the part of signs s comes to that arc without leaving the part: so the part is
 // connected where its points on the arc are, and empty where there are none.
 #pragma once

@@ -17,9 +17,8 @@ void clip_to_domain(const System& system, std::vector<Interval>& x);
 
 enum class Location { inside, outside, across };
 
-/// Is every point of x in the domain (implied sides need no check) and does it satisfy every inequality (inside), does no
-/// point
-/// (outside), or is neither proven (across)?
+/// Is every point of x in the domain (implied sides need no check) and does it satisfy every inequality (inside), does
+/// no point (outside), or is neither proven (across)?
 class DomainTest {
  public:
   explicit DomainTest(const System& system);

@@ -10,8 +10,7 @@ namespace corank::check {
 
 /// Lemma (squares): Σ aᵢxᵢ² = b with every aᵢ > 0 implies a_y y² ≤ b.
 /// Lemma (products; Cauchy–Schwarz): a y = Σ bₖ uₖ vₖ + b₀ with distinct uₖ, Σ eᵢuᵢ² ≤ U, and distinct vₖ, Σ fᵢvᵢ² ≤ V,
-/// implies
-/// (|a y| − |b₀|)² ≤ max bₖ² · U V/(min e · min f) where |a y| ≥ |b₀|.
+/// implies (|a y| − |b₀|)² ≤ max bₖ² · U V/(min e · min f) where |a y| ≥ |b₀|.
 /// Lemma (sums): a y = Σ bᵢ tᵢ + b₀, each tᵢ a sine, a cosine or a variable with a bound known for the side in question,
 /// implies the bound of the right side. For bounds of variables the ends of their domains are taken, where these are implied
 /// in turn. The equations are those given, and f − q·g for two that are linear where that has fewer terms than one of them.
