@@ -66,6 +66,8 @@ struct AspectsOptions {
 /// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.
 Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control);
 
+/// "10 aspects, 2 assembly modes, 4 working modes", or bounds. Requires that something is known.
+std::string summary(const Aspects& aspects);
 /// A few lines for a terminal.
 std::string to_text(const study::Question& question, const Aspects& aspects);
 /// {"aspects": {"at_least", "at_most"}, "assembly_modes", "working_modes", "representatives" …}; doc/topology.md.

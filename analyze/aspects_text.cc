@@ -33,6 +33,15 @@ std::string bounds(const Pieces& p) {
 
 }  // namespace
 
+std::string summary(const Aspects& a) {
+  const auto counted = [](const Pieces& p, const char* what) {
+    return fmt::format("{} {}{}", bounds(p), what, p.exact() && p.at_least == 1 ? "" : "s");
+  };
+  return fmt::format("{}, {}, {}.{}", counted(a.aspects, "aspect"), counted(a.assembly_modes, "assembly mode"),
+                     counted(a.working_modes, "working mode"),
+                     a.limits.empty() ? "" : fmt::format(" Strictly within {}.", fmt::join(a.limits, ", ")));
+}
+
 std::string to_text(const study::Question& question, const Aspects& a) {
   std::string text = question.model.name() + "\n";
   if (!a.reason.empty()) return text + "  not known: " + a.reason + "\n";

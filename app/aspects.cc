@@ -5,11 +5,11 @@
 
 #include <memory>
 
+#include "corank/app/aspects_picture.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/region_map.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 
@@ -25,46 +25,6 @@ struct AspectsCommand {
   std::string output;
 };
 
-// The aspects in the plane of the first two outputs and in that of the first two inputs.
-report::RegionMap picture(const study::Question& question, const analyze::Aspects& aspects) {
-  report::RegionMap map;
-  map.title = fmt::format("{}: {} aspects", question.model.name(), aspects.aspects.at_least);
-  if (!aspects.aspects.exact()) map.title += " at least";
-  if (!aspects.forward_factors.empty() || !aspects.inverse_factors.empty())
-    map.title += ", by the signs of the factors of det L_y and det L_z";
-  for (std::size_t k = 0; k < aspects.aspects.signs.size(); ++k) {
-    map.labels.push_back(std::to_string(k + 1) + " ");
-    for (const int sign : aspects.aspects.signs[k]) map.labels.back() += sign > 0 ? " +" : " −";
-  }
-  const analyze::PieceDrawing& drawing = *aspects.drawing;
-  for (std::size_t c = 0; c + 1 < drawing.coordinates.size(); c += 2) {
-    report::RegionMap::Plane& plane = map.planes.emplace_back();
-    plane.x_name = drawing.coordinates[c], plane.y_name = drawing.coordinates[c + 1];
-    plane.x_angle = drawing.is_angle[c], plane.y_angle = drawing.is_angle[c + 1];
-    for (const auto& piece : drawing.pieces) {
-      auto& region = plane.regions.emplace_back();
-      for (const auto& polygon : piece) {
-        auto& points = region.emplace_back();
-        for (const auto& point : polygon) points.push_back({point[c], point[c + 1]});
-      }
-    }
-  }
-  return map;
-}
-
-// The first two outputs and inputs that are not held.
-std::vector<std::string> drawn(const symbolic::Mechanism& model) {
-  std::vector<std::string> result;
-  for (const auto& names : {model.outputs(), model.inputs()}) {
-    std::vector<std::string> two;
-    for (const std::string& name : names)
-      for (const symbolic::Coordinate& c : model.coordinates())
-        if (c.name == name && !is_fixed(c) && two.size() < 2) two.push_back(name);
-    if (two.size() == 2) result.insert(result.end(), two.begin(), two.end());
-  }
-  return result;
-}
-
 ExitStatus aspects(AspectsCommand command) {
   if (!command.output.empty() && !command.output.ends_with(".svg"))
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg", command.output));
@@ -72,7 +32,7 @@ ExitStatus aspects(AspectsCommand command) {
   const study::Question question = load(command.question);
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no aspects", command.question.file));
-  if (!command.output.empty()) command.options.drawn = drawn(question.model);
+  if (!command.output.empty()) command.options.drawn = drawn_coordinates(question.model);
   if (command.areas && question.model.outputs().size() != 2)
     throw UsageError(fmt::format("{}: areas need two outputs", command.question.file));
   if (command.areas) command.options.images = question.model.outputs();
@@ -86,7 +46,7 @@ ExitStatus aspects(AspectsCommand command) {
     if (!result.drawing || result.drawing->pieces.empty())
       throw UsageError(fmt::format("{}: a picture needs aspects of two dimensions, with two outputs or two inputs",
                                    command.question.file));
-    result::write_text(command.output, to_svg(picture(question, result)));
+    result::write_text(command.output, to_svg(aspects_picture(question, result)));
   }
   fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
   if (complete) return kDone;

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "corank/app/aspects_picture.h"
 #include "corank/app/box_files.h"
 #include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
@@ -67,6 +68,26 @@ std::vector<report::SetView> solve_all(const ReportCommand& command, const study
     taken += solve::bytes_of(views.back().result.cover, solve::kPageBytes);
   }
   return views;
+}
+
+/// Aspects of curves and surfaces, within their own time: the page is to be there soon.
+void add_aspects(const ReportCommand& command, const study::Question& question, const std::vector<report::SetView>& views,
+                 report::PageOptions& options) {
+  constexpr double kTime = 5;
+  const auto cspace = std::find_if(views.begin(), views.end(), [](const report::SetView& v) { return v.set->is_cspace(); });
+  if (cspace == views.end() || !cspace->result.cover.complete() || cspace->result.cover.dimension > 2) return;
+  solve::Control control({.time = kTime, .stop = &Interrupt::stop()});
+  ProgressLine line("aspects");
+  line.follow(control);
+  analyze::AspectsOptions wanted{.threads = command.search.limits.threads};
+  wanted.drawn = drawn_coordinates(question.model);
+  try {
+    const analyze::Aspects found = analyze::aspects(question, wanted, control);
+    if (control.ended() || !found.reason.empty()) return;
+    options.aspects = summary(found);
+    if (found.drawing && !found.drawing->pieces.empty()) options.aspects_picture = to_svg(aspects_picture(question, found));
+  } catch (const symbolic::ModelError&) {  // of matrices that are not square nothing is said
+  }
 }
 
 /// What a stranger's result says of its variables has to be so before a picture relies on it.
@@ -135,6 +156,7 @@ ExitStatus write_report(ReportCommand command) {
     options.command = "corank report --results " + fmt::format("{}", fmt::join(command.results, " "));
     for (const std::string& path : command.results) options.files.push_back(std::filesystem::path(path).filename().string());
   }
+  if (command.results.empty()) add_aspects(command, question, views, options);
   const Figures figures = write_figures(folder / "figures", mechanism, views, Interrupt::stop());
   for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
   {

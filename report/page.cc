@@ -150,6 +150,9 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["version"] = result::version();
   page["modelText"] = mechanism.source_text();
   page.set("incomplete", truth(!complete));
+  page.set("hasAspects", truth(!options.aspects.empty()));
+  page["aspects"] = options.aspects;
+  page["aspectsPicture"] = options.aspects_picture;
   page.set("passages",
            truth(std::any_of(views.begin(), views.end(), [](const SetView& view) { return !view.result.outputs.empty(); })));
   mustache::data figures{mustache::data::type::list};

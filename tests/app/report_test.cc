@@ -72,6 +72,7 @@ TEST(Report, OfTheThreeSliderHoldsItsResultFiles) {
   const std::string page = read_text(to + "/index.html");
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   EXPECT_NE(page.find("corank report three_slider.cuik"), std::string::npos);
+  EXPECT_NE(page.find("8 aspects, 8 assembly modes, 4 working modes."), std::string::npos);
   expect_page_of_results(page, to);
   for (const char* figure : {"output-portrait.svg", "output-portrait.pdf", "input-portrait.svg", "input-portrait.pdf"}) {
     EXPECT_GT(std::filesystem::file_size(to + "/figures/" + figure), 1000u) << figure;
