@@ -107,12 +107,19 @@ struct Coordinator::Search {
         tally(prepared, control, 0),
         judge(prepared, tally, last_number()) {
     if (!from) state.first = state.pass = first_pass(prepared);
+    if (!prepared.reduction.consistent) finish_without_search();
     for (Shard& shard : state.shards) shards.push_back(std::make_unique<Shard>(std::move(shard)));
     next_id = static_cast<std::uint64_t>(last_number() / kNumbers) + 2;  // the judge has one of its own
     open = std::exchange(state.pass.boxes, {});
     judge.set_sigma(state.cutting ? state.sigma : sigma_of_search(prepared, judge.problem()));
     if (state.cutting) list_sheets();
     advance();
+  }
+
+  void finish_without_search() {
+    state.pass.boxes.clear();
+    state.cutting = true;
+    state.sigma = sigma_of_search(prepared, judge.problem());
   }
 
   int last_number() const {

@@ -9,9 +9,9 @@
 #include "corank/solve/decimals.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/type_labels.h"
-#include "corank/study/node_search.h"
 #include "corank/study/robot_state.h"
 #include "corank/study/run_journal.h"
+#include "corank/study/search_steps.h"
 #include "corank/symbolic/printer.h"
 #include "corank/symbolic/velocity_blocks.h"
 
@@ -73,12 +73,20 @@ result::Result answer(const Question& question, const Options& options) {
   return answer(parts, systems, options, control);
 }
 
-result::Result answer(const std::vector<Question>& parts, const std::vector<System>& systems, const Options& options,
-                      solve::Control& control, RunJournal* journal) {
-  if (journal) journal->expect(parts.size());
-  CORANK_CHECK(!parts.empty() && parts.size() == systems.size());
+Asked prepare(const Question& question, const System& system, const Options& options, solve::Control& control) {
+  solve::Options searched = options.search;
+  NodeSearch nodes;
+  if (symbolic::definition(question.set).part == symbolic::LocusPart::nodes && !searched.proof && searched.roots.empty()) {
+    nodes = node_search(question, system, searched, control);
+    searched.roots = std::move(nodes.roots);
+  }
+  return {solve::prepare(system, searched, control), nodes.processed};
+}
+
+result::Result join(const std::vector<Question>& parts, std::vector<result::Result> results) {
+  CORANK_CHECK(!parts.empty() && parts.size() == results.size());
   const Question& first = parts.front();
-  if (!first.part) return answer(first, systems.front(), options, control, journal);
+  if (!first.part) return std::move(results.front());
   result::Result whole;
   whole.model = first.model.name();
   whole.model_text = first.model.source_text();
@@ -87,7 +95,7 @@ result::Result answer(const std::vector<Question>& parts, const std::vector<Syst
   result::describe_system(common, whole);
   whole.system_text = symbolic::to_cuik(common);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    whole.parts.push_back(answer(parts[i], systems[i], options, control, journal));
+    whole.parts.push_back(std::move(results[i]));
     whole.parts.back().part = parts[i].part->text();
   }
   result::merge_parts(whole);
@@ -95,26 +103,34 @@ result::Result answer(const std::vector<Question>& parts, const std::vector<Syst
   return whole;
 }
 
+result::Result answer(const std::vector<Question>& parts, const std::vector<System>& systems, const Options& options,
+                      solve::Control& control, RunJournal* journal) {
+  if (journal) journal->expect(parts.size());
+  CORANK_CHECK(!parts.empty() && parts.size() == systems.size());
+  std::vector<result::Result> results;
+  for (std::size_t i = 0; i < parts.size(); ++i) results.push_back(answer(parts[i], systems[i], options, control, journal));
+  return join(parts, std::move(results));
+}
+
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control,
                       RunJournal* journal) {
-  solve::Options searched = options.search;
-  NodeSearch nodes;
-  if (symbolic::definition(question.set).part == symbolic::LocusPart::nodes && !searched.proof && searched.roots.empty()) {
-    nodes = node_search(question, system, searched, control);
-    searched.roots = std::move(nodes.roots);
-  }
-  const solve::Prepared prepared = solve::prepare(system, searched, control);
+  const Asked asked = prepare(question, system, options, control);
+  const solve::Prepared& prepared = asked.prepared;
+  Cover cover = journal ? solve::solve_on(prepared, control, journal, journal->next_search(prepared))
+                        : solve::solve(prepared, control);
+  return finish(question, system, options, asked, std::move(cover), control);
+}
+
+result::Result finish(const Question& question, const System& system, const Options& options, const Asked& asked,
+                      Cover cover, solve::Control& control) {
+  const solve::Prepared& prepared = asked.prepared;
   result::Result result;
   result.model = question.model.name();
   result.model_text = question.model.source_text();
   result.set = symbolic::definition(question.set).name;
   result.system_text = symbolic::to_cuik(system);
-  if (journal) {
-    result.cover = solve::solve_on(prepared, control, journal, journal->next_search(prepared));
-  } else {
-    result.cover = solve::solve(prepared, control);
-  }
-  result.cover.statistics.processed += nodes.processed;
+  result.cover = std::move(cover);
+  result.cover.statistics.processed += asked.processed_before;
   control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
   solve::prove_exactly(prepared, result.cover, control);
   describe_types(question, prepared, control, result.cover);

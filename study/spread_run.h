@@ -1,0 +1,52 @@
+// A run whose searches are cut into units (solve/cluster.h) that somebody else gets done, wherever: what study::answer does
+// with its own threads.
+//
+//   SpreadRun run(question, options, &stop);
+//   while (run.finished() < run.searches()) {
+//     solve::Coordinator& search = run.begin();
+//     … until search.done()
+//     run.finish();
+//   }
+//   result::Result result = run.result();
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/solve/cluster.h"
+#include "corank/study/answer.h"
+#include "corank/study/search_steps.h"
+
+namespace corank::study {
+
+class SpreadRun {
+ public:
+  /// Derives the systems. Limits among the options are refused (solve::OptionError): a search is done, or goes on from its
+  /// state. Throws as answer() does. `stop`, where given, ends what this object does itself.
+  SpreadRun(const Question& question, Options options, const std::atomic<bool>* stop = nullptr);
+
+  std::size_t searches() const { return parts_.size(); }
+  std::size_t finished() const { return results_.size(); }
+  /// The next search, from a state on where one is given. Throws solve::ShardError where the state is none of it.
+  solve::Coordinator& begin(std::optional<std::string> state = {});
+  /// The one that has begun.
+  solve::Coordinator& search();
+  /// Its cover becomes a result: proves exactly what can be. The search is done and is forgotten.
+  void finish();
+  /// Of a run of which everything is finished.
+  result::Result result();
+
+ private:
+  const Options options_;
+  solve::Control control_;
+  std::vector<Question> parts_;
+  std::vector<System> systems_;
+  std::optional<Asked> asked_;
+  std::unique_ptr<solve::Coordinator> search_;
+  std::vector<result::Result> results_;
+};
+
+}  // namespace corank::study
