@@ -42,7 +42,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-corank)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy (>= 1:1.22)")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-pandas, python3-sympy, python3-tqdm")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-pandas, python3-sympy, python3-tqdm, python3-distributed")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "singularities of robot mechanisms (Python package)
 corank takes the model of a robot mechanism and returns all its
 singularities in boxes, with a proof of what each box holds: as arrays of

@@ -218,6 +218,7 @@ class Mechanism:
         memory_limit: Optional[int] = None,
         coarser: float = 1,
         progress: ProgressOption = None,
+        client: Any = None,
     ) -> Result:
         """Encloses a set in boxes, and proves what each box holds.
 
@@ -237,6 +238,8 @@ class Mechanism:
                 limit. memory_limit None: three quarters of the machine's memory.
             coarser: the default of sigma is multiplied by this.
             progress: None: shown on a terminal and in a notebook; True, False, or a function (stage, share, text).
+            client: of dask.distributed, whose workers search (corank.cluster); threads are then those of one unit, 0: one,
+                and there are no limits but Ctrl-C.
 
         Raises:
             ModelError: where the model does not answer such a question.
@@ -256,6 +259,11 @@ class Mechanism:
             memory_limit=memory_limit,
             coarser=coarser,
         )
+        if client is not None:
+            from . import cluster  # needs a package that is not always there
+
+            run = _corank.SpreadRun(self._core, set, kernel, corank, list(outputs), tolerance, options, digits)
+            return cluster.solve_run(run, client, cluster.Plan(threads=threads or 1), progress=progress)
         with Shown(progress) as show:
             core, raised = _corank.solve(self._core, set, kernel, corank, list(outputs), tolerance, options, digits, show)
         return deliver(Result(core), raised)

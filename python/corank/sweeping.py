@@ -133,6 +133,7 @@ def sweep(
     max_found: int = 0,
     time_limit: float = 0,
     progress: ProgressOption = None,
+    client: Any = None,
 ) -> Sweep:
     """Solves sets of a family of mechanisms that differ in one constant.
 
@@ -141,6 +142,7 @@ def sweep(
         values: of it, exact: texts, fractions; corank.linspace(0.9, 1.6, 8).
         sets, sigma, cspace_sigma: as for report(); the default of sigma is twice that of solve().
         max_boxes, max_found, time_limit: what ends each search; 0: no limit.
+        client: of dask.distributed, whose workers do the searches, as for solve().
 
     Raises:
         ModelError: where a value makes no mechanism; before the first search.
@@ -171,6 +173,7 @@ def sweep(
                     time_limit=time_limit,
                     coarser=2,
                     progress=progress,
+                    client=client,
                 )
             except Interrupted as early:
                 member.results[name] = early.result

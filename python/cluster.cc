@@ -1,0 +1,138 @@
+// Searches whose units dask's workers run: what corank.cluster stands on.
+#include "corank/python/bindings.h"
+#include "corank/python/model.h"
+#include "corank/python/result.h"
+#include "corank/python/watched.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+
+#include "corank/result/checkpoint.h"
+#include "corank/solve/engine_version.h"
+#include "corank/study/spread_run.h"
+
+namespace corank::python {
+namespace {
+
+using Files = std::vector<std::tuple<std::string, std::string, std::string>>;
+
+py::list bytes_list(const std::vector<std::string>& texts) {
+  py::list list;
+  for (const std::string& text : texts) list.append(py::bytes(text));
+  return list;
+}
+
+template <class F>
+auto unlocked(F f) {
+  const py::gil_scoped_release released;
+  return f();
+}
+
+// The client's side: long work of its own runs where Ctrl-C is heard, what is left alone keeps what it needs alive.
+class Run {
+ public:
+  Run(const Model& model, const std::optional<std::string>& set, const std::optional<std::string>& kernel, int corank,
+      const std::vector<std::string>& outputs, const std::optional<double>& tolerance, const solve::Options& options,
+      int digits) {
+    study::Question question = question_of(model, set, kernel, corank, outputs);
+    question.tolerance = tolerance;
+    run_ = run_whole(py::none(), [question = std::move(question), options, digits](Watcher&) {
+      return std::make_shared<study::SpreadRun>(question, study::Options{options, digits});
+    });
+  }
+
+  std::size_t searches() const { return run_->searches(); }
+  std::size_t finished() const { return run_->finished(); }
+  void begin(const std::optional<std::string>& state) {
+    run_here([run = run_, state](Watcher&) { run->begin(state); });
+  }
+  void finish() {
+    run_here([run = run_](Watcher&) { run->finish(); });
+  }
+  Result result() { return Result(run_->result()); }
+
+  py::bytes prepared() { return run_->search().prepared_bytes(); }
+  py::list take_units(std::size_t wanted) {
+    return bytes_list(unlocked([&] { return run_->search().take_units(wanted); }));
+  }
+  bool add(const py::buffer& answer) {
+    const py::buffer_info info = answer.request();
+    if (info.itemsize != 1 || info.ndim != 1 || info.strides[0] != 1)
+      throw std::invalid_argument("an answer is an array of bytes");
+    const std::string_view bytes(static_cast<const char*>(info.ptr), static_cast<std::size_t>(info.size));
+    return unlocked([&] { return run_->search().add(bytes); });
+  }
+  bool done() { return run_->search().done(); }
+  std::size_t under_way() { return run_->search().under_way(); }
+  double share_done() { return run_->search().share_done(); }
+  py::bytes state() {
+    return unlocked([&] { return run_->search().state(); });
+  }
+
+ private:
+  static void run_here(std::function<void(Watcher&)> work) {
+    const py::object raised = python::run(py::none(), std::move(work));
+    if (raised.is_none()) return;
+    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(raised.ptr())), raised.ptr());
+    throw py::error_already_set();
+  }
+
+  std::shared_ptr<study::SpreadRun> run_;
+};
+
+// The worker's side. Units of one search come one after the other: what they share is kept, by each thread.
+py::bytes run_unit(std::string_view prepared, std::string_view unit, std::uint64_t boxes, double seconds, int threads) {
+  thread_local std::string known;
+  thread_local std::unique_ptr<solve::UnitRunner> runner;
+  return unlocked([&] {
+    if (!runner || known != prepared) {
+      runner = std::make_unique<solve::UnitRunner>(prepared);
+      known = prepared;
+    }
+    return runner->run(unit, {.boxes = boxes, .seconds = seconds, .threads = threads});
+  });
+}
+
+void write_checkpoint(const std::filesystem::path& path, const std::vector<std::string>& arguments, const Files& files,
+                      const std::vector<std::string>& finished, std::string_view state) {
+  const py::gil_scoped_release unlocked;
+  result::Checkpoint checkpoint{.arguments = arguments, .files = {}, .finished = finished, .state = {}};
+  for (const auto& [option, name, text] : files) checkpoint.files.push_back({option, name, text});
+  result::write_checkpoint(path, solve::engine_version(), checkpoint, [state](std::ostream& out) { out << state; });
+}
+
+py::tuple read_checkpoint(const std::filesystem::path& path) {
+  const result::Checkpoint c = result::read_checkpoint(path, solve::engine_version());
+  py::list files;
+  for (const auto& file : c.files) files.append(py::make_tuple(file.option, file.path, file.text));
+  return py::make_tuple(c.arguments, files, bytes_list(c.finished), py::bytes(c.state));
+}
+
+}  // namespace
+
+void bind_cluster(py::module_& module) {
+  module.attr("engine_version") = solve::engine_version();
+  module.attr("most_unit_threads") = solve::kMostUnitThreads;
+  py::class_<Run>(module, "SpreadRun")
+      .def(py::init<const Model&, const std::optional<std::string>&, const std::optional<std::string>&, int,
+                    const std::vector<std::string>&, const std::optional<double>&, const solve::Options&, int>())
+      .def_property_readonly("searches", &Run::searches)
+      .def_property_readonly("finished", &Run::finished)
+      .def("begin", &Run::begin)
+      .def("finish", &Run::finish)
+      .def("result", &Run::result)
+      .def_property_readonly("prepared", &Run::prepared)
+      .def("take_units", &Run::take_units)
+      .def("add", &Run::add)
+      .def_property_readonly("done", &Run::done)
+      .def_property_readonly("under_way", &Run::under_way)
+      .def_property_readonly("share_done", &Run::share_done)
+      .def("state", &Run::state);
+  module.def("run_unit", &run_unit);
+  module.def("write_checkpoint", &write_checkpoint);
+  module.def("read_checkpoint", &read_checkpoint);
+}
+
+}  // namespace corank::python

@@ -1,0 +1,190 @@
+"""The client's side of a search on a cluster: it gives units out, puts their answers together, and keeps checkpoints."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple
+
+from distributed import Client
+
+from .. import _corank
+from ..errors import ResultFileError
+from ..progress import ProgressOption, Shown
+from ..result import PathLike, Result
+from .units import ClusterError, Plan, Units, check_versions
+
+if TYPE_CHECKING:
+    from ..mechanism import Mechanism
+
+_Show = Callable[[str, float, str], None]
+
+_AHEAD = 2  # units for each thread of the workers: the next one is there when one is done
+_PARTS = 8  # for each thread, of what a search begins a phase with: parts take their time differently
+_MOST_SHARE = 0.02  # of all seconds, for checkpoints
+
+
+class Checkpoints:
+    """The state of a run in a file, now and then: `corank solve --resume` goes on from it, too.
+
+    arguments, files: of corank solve's command line, and what it reads (option, path, text). former: what read() has returned.
+    """
+
+    def __init__(
+        self, path: PathLike, every: float, arguments: Sequence[str], files: Sequence[Tuple[str, str, str]]
+    ) -> None:
+        self.path = os.fspath(path)
+        self.every = every
+        self.arguments = list(arguments)
+        self.files = list(files)
+        self.finished: List[bytes] = []
+        self.state: Optional[bytes] = None
+        self._next = time.monotonic() + every
+
+    @classmethod
+    def read(cls, path: PathLike, every: float = 60.0) -> "Checkpoints":
+        """Raises ResultFileError where there is none, or one of another version."""
+        arguments, files, finished, state = _corank.read_checkpoint(os.fspath(path))
+        known = cls(path, every, arguments, files)
+        known.finished, known.state = finished, state or None
+        return known
+
+    def next_state(self, search: int) -> Optional[bytes]:
+        """From where this search goes on."""
+        if search < len(self.finished):
+            return self.finished[search]
+        state, self.state = self.state, None
+        return state
+
+    def keep(self, run: _corank.SpreadRun, now: bool = False) -> None:
+        """Writes the file where it is time to, or at once. Where it cannot be written, the last one stays."""
+        begun = time.monotonic()
+        if (begun < self._next and not now) or run.finished < len(self.finished):
+            return
+        try:
+            _corank.write_checkpoint(self.path, self.arguments, self.files, self.finished, run.state())
+        except OSError as error:
+            print(
+                f"corank.cluster: no checkpoint could be written, the last good one stays: {error}",
+                file=sys.stderr,
+                flush=True,
+            )
+        took = time.monotonic() - begun
+        self._next = time.monotonic() + max(self.every, took * (1 / _MOST_SHARE - 1))
+
+    def finish(self, run: _corank.SpreadRun) -> None:
+        """The search is done; its last state is kept beside the next one's."""
+        if run.finished >= len(self.finished) and run.finished + 1 < run.searches:
+            self.finished.append(run.state())
+        else:
+            self.keep(run, now=True)
+
+
+class _Workers:
+    """How many threads they have, asked for now and then."""
+
+    def __init__(self, client: Client) -> None:
+        self._client = client
+        self._until = 0.0
+        self.threads = 0
+
+    def look(self) -> int:
+        now = time.monotonic()
+        if now >= self._until:
+            try:
+                self.threads = sum(self._client.nthreads().values())
+            except OSError as error:
+                raise ClusterError(f"the connection to the scheduler is lost: {error}") from None
+            self._until = now + 2
+        return self.threads
+
+
+def _search(
+    run: _corank.SpreadRun, client: Client, plan: Plan, checkpoints: Optional[Checkpoints], show: Optional[_Show]
+) -> None:
+    units = Units(client, run.prepared, plan)
+    workers = _Workers(client)
+    begun = time.monotonic()
+    answered = 0
+    try:
+        while not run.done:
+            threads = workers.look()
+            if threads > 0 or len(units) > 0:
+                most = max(1, threads) * (_PARTS if len(units) == 0 else _AHEAD)
+                seconds = min(plan.unit_seconds, max(0.1, (time.monotonic() - begun) / 20))
+                if most > len(units):
+                    units.submit(run.take_units(most - len(units)), seconds)
+            for answer in units.answers(0.5):
+                answered += run.add(answer)
+            units.look_after()
+            if checkpoints is not None:
+                checkpoints.keep(run)
+            if show is not None:
+                show(
+                    "search",
+                    run.share_done,
+                    f"{answered} units done, {len(units)} under way" if threads else "no workers yet",
+                )
+    finally:
+        units.cancel()
+
+
+def solve_run(
+    run: _corank.SpreadRun,
+    client: Client,
+    plan: Plan,
+    checkpoints: Optional[Checkpoints] = None,
+    progress: ProgressOption = None,
+) -> Result:
+    """Does all searches of a run. Where it ends early, by an exception, the last checkpoint says from where to go on."""
+    if client.asynchronous:
+        raise ValueError("client: expected one that is not asynchronous")
+    if not 1 <= plan.threads <= _corank.most_unit_threads:
+        raise ValueError(f"threads: expected 1 to {_corank.most_unit_threads} for each unit")
+    check_versions(client)
+    with Shown(progress) as show:
+        while run.finished < run.searches:
+            try:
+                run.begin(checkpoints.next_state(run.finished) if checkpoints is not None else None)
+            except RuntimeError as error:  # of a state
+                raise ResultFileError(f"nothing to go on from: {error}") from None
+            try:
+                _search(run, client, plan, checkpoints, show)
+            except BaseException:
+                if checkpoints is not None:
+                    checkpoints.keep(run, now=True)
+                raise
+            if checkpoints is not None:
+                checkpoints.finish(run)
+            run.finish()
+    return Result(run.result())
+
+
+def solve(
+    mechanism: "Mechanism",
+    client: Client,
+    set: Optional[str] = None,
+    *,
+    kernel: Optional[str] = None,
+    corank: int = 1,
+    outputs: Sequence[str] = (),
+    tolerance: Optional[float] = None,
+    digits: int = 0,
+    plan: Plan = Plan(),
+    checkpoints: Optional[Checkpoints] = None,
+    progress: ProgressOption = None,
+    **options: Any,
+) -> Result:
+    """Mechanism.solve by the workers of a dask cluster: the same boxes. There are no limits but Ctrl-C.
+
+    Raises:
+        ClusterError: where the cluster cannot do the work.
+    """
+    from ..mechanism import _options
+
+    run = _corank.SpreadRun(mechanism._core, set, kernel, corank, list(outputs), tolerance, _options(**options), digits)
+    return solve_run(run, client, plan, checkpoints, progress)
+
+
+__all__ = ["Checkpoints", "ClusterError", "Plan", "solve", "solve_run"]

@@ -1,0 +1,79 @@
+"""Schedulers: one of one's own, with worker processes on this machine, or one that runs already."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import Iterator, Optional
+
+import dask.config
+from distributed import Client, LocalCluster
+from distributed.security import Security
+
+from .units import ClusterError
+
+
+# Without one, dask's pages about schedulers and workers listen on every network.
+_ANY_PORT = "127.0.0.1:0"
+_SETTINGS = {
+    "distributed.scheduler.allowed-failures": 1000,  # Plan.failures says when a unit is to blame for a worker's death
+    "distributed.comm.compression": None,  # takes longer than sending to another process of the machine
+    # Workers keep memory between units, which dask by default makes them give back and fetch anew.
+    "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 30,
+    "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 1 << 30,
+}
+
+
+def security(ca: Optional[str] = None, cert: Optional[str] = None, key: Optional[str] = None) -> Optional[Security]:
+    """TLS by dask's own means, from PEM files; None where none is given, and dask's configuration counts."""
+    if ca is None and cert is None and key is None:
+        return None
+    if ca is None or cert is None:
+        raise ClusterError(
+            "TLS needs the files of the authority and of the certificate: --tls-ca, --tls-cert (and --tls-key)"
+        )
+    files = {
+        f"tls_{role}_{kind}": name
+        for role in ("client", "scheduler", "worker")
+        for kind, name in (("cert", cert), ("key", key))
+        if name is not None
+    }
+    return Security(tls_ca_file=ca, require_encryption=True, **files)
+
+
+@contextlib.contextmanager
+def local_client(
+    workers: int = 2, *, host: str = "127.0.0.1", dashboard: Optional[int] = None, tls: Optional[Security] = None
+) -> Iterator[Client]:
+    """A client with so many worker processes on this machine, each with one thread, which end with it.
+
+    Args:
+        host: where the scheduler listens; loopback unless told otherwise. dashboard: dask's, at this port; it needs bokeh.
+    """
+    if dashboard is not None:
+        try:
+            import bokeh  # noqa: F401
+        except ImportError:
+            raise ClusterError("dask's dashboard needs the package bokeh, which is not there") from None
+    pages = {"dashboard": dashboard is not None, "dashboard_address": f"{host}:{dashboard}" if dashboard else _ANY_PORT}
+    with dask.config.set(_SETTINGS):
+        with LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            host=host,
+            security=tls,
+            scheduler_kwargs=pages,
+            worker_dashboard_address=_ANY_PORT,
+        ) as cluster, Client(cluster, direct_to_workers=True) as client:
+            yield client
+
+
+@contextlib.contextmanager
+def remote_client(address: str, tls: Optional[Security] = None) -> Iterator[Client]:
+    """A client of the scheduler at an address such as tcp://10.0.0.1:8786, or tls://…"""
+    try:
+        client = Client(address, security=tls, timeout="20s")
+    except (OSError, ValueError) as error:
+        raise ClusterError(f"no scheduler at {address}: {error}") from None
+    with client:
+        yield client
