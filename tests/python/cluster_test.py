@@ -1,0 +1,259 @@
+"""Searches on a cluster of worker processes come to corank solve's boxes, whatever happens to the processes."""
+
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import corank
+from corank import _corank
+
+pytest.importorskip("distributed", reason="no package distributed: clusters are not tested")
+psutil = pytest.importorskip("psutil")
+
+from corank import cluster  # noqa: E402
+
+SIGMA = 0.04
+QUICK = cluster.Plan(unit_seconds=0.02)
+
+
+@pytest.fixture(scope="module")
+def client():
+    with cluster.local_client(workers=2) as client:
+        yield client
+
+
+@pytest.fixture(scope="module")
+def cspace(dextar):
+    return dextar.solve("cspace", sigma=SIGMA)
+
+
+def expect_same(one, other):
+    assert one.complete and other.complete and one.variables == other.variables
+    assert np.array_equal(one.boxes, other.boxes)
+    for name, array in one._core.boxes().items():
+        assert np.array_equal(array, other._core.boxes()[name]), name
+
+
+class AtUnit:
+    """A progress function that does something once, as soon as some units are done."""
+
+    def __init__(self, action, units=3):
+        self.action = action
+        self.units = units
+        self.share = None
+
+    def __call__(self, stage, share, text):
+        if self.share is None and text.split()[0].isdigit() and int(text.split()[0]) >= self.units:
+            self.share = share
+            self.action()
+
+
+def test_two_workers_make_the_boxes_of_one_process(client, dextar, models):
+    expect_same(dextar.solve("cspace", sigma=0.2), dextar.solve("cspace", sigma=0.2, client=client))
+    platform = corank.load(models / "3rrr_fixed_orientation.cuik")
+    expect_same(platform.solve("forward", sigma=0.1), platform.solve("forward", sigma=0.1, client=client))
+
+
+def test_a_default_sigma_proof_and_points_are_those_of_one_process(client, dextar, three_slider):
+    one, other = dextar.solve("forward", proof=True), dextar.solve("forward", proof=True, client=client)
+    expect_same(one, other)
+    assert one.sigma == other.sigma and other.verify().complete
+    one, other = three_slider.solve("inverse", digits=30), three_slider.solve("inverse", digits=30, client=client)
+    assert [p.decimals for p in one.points] == [p.decimals for p in other.points] and one.points
+
+
+def test_a_set_of_several_searches_is_that_of_one_process(client, models):
+    limited = corank.load(models / "dextar_limits.cuik")
+    one, other = (limited.solve("boundary", sigma=0.2, client=c) for c in (None, client))
+    expect_same(one, other)
+    assert len(one._core.parts) == len(other._core.parts) > 1
+
+
+def test_a_sweep_on_a_cluster_has_the_members_of_one_process(client, dextar):
+    one, other = (dextar.sweep("l2", ["0.9", "1.1"], sets=["forward"], sigma=0.1, client=c) for c in (None, client))
+    assert one.complete and other.complete and len(other) == 2
+    for member, same in zip(one, other):
+        expect_same(member.results["forward"], same.results["forward"])
+
+
+def test_what_has_no_solution_is_done_at_once(client):
+    empty = corank.parse("[SYSTEM VARS]\nx : [-1, 1]\ny : [-1, 1]\n[SYSTEM EQS]\nx + y = 3; 2*x + 2*y = 7;\n")
+    one, other = (empty.solve(client=c) for c in (None, client))
+    assert one.complete and other.complete and len(one) == len(other) == 0
+
+
+def test_a_killed_worker_costs_nothing_but_time(client, dextar, cspace):
+    victim = next(iter(client.run(os.getpid).values()))
+    kill = AtUnit(lambda: os.kill(victim, signal.SIGKILL))
+    run = cluster.solve(dextar, client, "cspace", sigma=SIGMA, plan=QUICK, progress=kill)
+    assert kill.share is not None and kill.share < 1
+    expect_same(cspace, run)
+
+
+def test_what_a_worker_that_hangs_holds_is_done_by_another(client, dextar, cspace):
+    client.wait_for_workers(2)
+    victim = next(iter(client.run(os.getpid).values()))
+    hang = AtUnit(lambda: os.kill(victim, signal.SIGSTOP))
+    try:
+        plan = cluster.Plan(unit_seconds=0.02, hang_seconds=0.5)
+        run = cluster.solve(dextar, client, "cspace", sigma=SIGMA, plan=plan, progress=hang)
+        assert hang.share is not None and hang.share < 1
+        assert psutil.Process(victim).status() == psutil.STATUS_STOPPED
+    finally:
+        os.kill(victim, signal.SIGCONT)
+    expect_same(cspace, run)
+
+
+def test_a_unit_that_is_answered_twice_counts_once(dextar, cspace):
+    options = corank.mechanism._options(sigma=SIGMA)
+    run = _corank.SpreadRun(dextar._core, "cspace", None, 1, [], None, options, 0)
+    run.begin(None)
+    while not run.done:
+        for unit in run.take_units(2):
+            answer = _corank.run_unit(run.prepared, unit, 300, 0, 1)
+            again = _corank.run_unit(run.prepared, unit, 100, 0, 2)
+            assert run.add(answer) and not run.add(again) and not run.add(answer)
+    run.finish()
+    expect_same(cspace, corank.Result(run.result()))
+
+
+def test_another_version_is_refused_by_name_before_work_begins(client, dextar):
+    client.wait_for_workers(2)
+    other = next(iter(client.run(os.getpid)))
+
+    def pretend(version):
+        from corank import _corank
+
+        former, _corank.engine_version = _corank.engine_version, version
+        return former
+
+    own = client.run(pretend, "0.0.9 (search other)", workers=[other])[other]
+    never = AtUnit(None, units=0)
+    try:
+        with pytest.raises(cluster.ClusterError) as refused:
+            dextar.solve("cspace", sigma=0.2, client=client, progress=never)
+    finally:
+        client.run(pretend, own, workers=[other])
+    assert f"{other}: corank 0.0.9 (search other)" in str(refused.value) and own in str(refused.value)
+    assert never.share is None
+
+
+def test_everything_listens_on_loopback_only(client):
+    def listening():
+        import psutil
+
+        return [c.laddr.ip for c in psutil.Process().connections("inet") if c.status == psutil.CONN_LISTEN]
+
+    client.wait_for_workers(2)
+    addresses = sum(client.run(listening).values(), listening())
+    assert len(addresses) > 3 and set(addresses) == {"127.0.0.1"}
+
+
+def test_limits_and_too_many_threads_are_refused(client, dextar):
+    with pytest.raises(corank.OptionError, match="max_boxes: a search on a cluster has no such limit"):
+        dextar.solve("cspace", sigma=0.2, max_boxes=5, client=client)
+    with pytest.raises(ValueError, match="threads: expected 1 to 31"):
+        dextar.solve("cspace", sigma=0.2, threads=32, client=client)
+
+
+def test_a_full_disk_leaves_the_last_good_checkpoint(dextar, tmp_path, capfd):
+    options = corank.mechanism._options(sigma=SIGMA)
+    run = _corank.SpreadRun(dextar._core, "cspace", None, 1, [], None, options, 0)
+    run.begin(None)
+    kept = cluster.Checkpoints(tmp_path / "kept", 60, [], [])
+    kept.keep(run, now=True)
+    good = (tmp_path / "kept").read_bytes()
+    for unit in run.take_units(1):
+        run.add(_corank.run_unit(run.prepared, unit, 2000, 0, 1))
+    assert len(run.state()) > 2 * len(good)
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # writing fails, as on a full disk
+    resource.setrlimit(resource.RLIMIT_FSIZE, (len(good), limits[1]))
+    try:
+        kept.keep(run, now=True)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, handler)
+    assert "the last good one stays" in capfd.readouterr().err
+    assert (tmp_path / "kept").read_bytes() == good and os.listdir(tmp_path) == ["kept"]
+    assert cluster.Checkpoints.read(tmp_path / "kept").next_state(0)
+
+
+def test_a_killed_client_resumes_to_the_same_file(models, cspace, tmp_path):
+    kept, result = tmp_path / "kept", tmp_path / "r.h5"
+    program = [
+        sys.executable,
+        "-m",
+        "corank.cluster",
+        "solve",
+        "--workers",
+        "2",
+        "--unit-time",
+        "0.02",
+        "--quiet",
+        "--every",
+        "0.01",
+    ]
+    question = [
+        str(models / "dextar.cuik"),
+        "--set",
+        "cspace",
+        "--sigma",
+        str(SIGMA),
+        "-o",
+        str(result),
+        "--checkpoint",
+        str(kept),
+    ]
+    first = subprocess.Popen(program + question, stdout=subprocess.DEVNULL)
+    while not kept.exists():
+        try:
+            assert first.wait(timeout=0.02) is None, "ended before it was killed"
+        except subprocess.TimeoutExpired:
+            pass
+    first.kill()
+    first.wait()
+    assert not result.exists()
+    shutil.copy(kept, tmp_path / "copy")
+    done = subprocess.run(program + ["--resume", str(kept)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert not kept.exists()
+    expect_same(cspace, corank.open(result))
+    cspace.save(tmp_path / "one.h5")
+    for part in ("/boxes", "/certificates", "/variables"):
+        assert subprocess.run(["h5diff", str(tmp_path / "one.h5"), str(result), part], check=False).returncode == 0, part
+    # One process goes on from there as well.
+    corank_solve = pathlib.Path(os.environ["CORANK_BUILD_DIR"]) / "app" / "corank"
+    if corank_solve.exists():
+        arguments = ["solve", "--resume", str(tmp_path / "copy"), "-o", str(tmp_path / "alone.h5")]
+        subprocess.run([str(corank_solve), *arguments], stdout=subprocess.DEVNULL, check=True)
+        expect_same(cspace, corank.open(tmp_path / "alone.h5"))
+
+
+def test_a_run_goes_on_from_its_checkpoint_and_another_question_does_not(client, dextar, cspace, tmp_path):
+    options = corank.mechanism._options(sigma=SIGMA)
+    run = _corank.SpreadRun(dextar._core, "cspace", None, 1, [], None, options, 0)
+    run.begin(None)
+    run.add(_corank.run_unit(run.prepared, run.take_units(1)[0], 500, 0, 1))
+    cluster.Checkpoints(tmp_path / "kept", 60, ["--set", "cspace"], [("FILE", "m.cuik", "text")]).keep(run, now=True)
+    known = cluster.Checkpoints.read(tmp_path / "kept")
+    assert known.arguments == ["--set", "cspace"] and known.files == [("FILE", "m.cuik", "text")]
+    expect_same(cspace, cluster.solve(dextar, client, "cspace", sigma=SIGMA, checkpoints=known))
+    with pytest.raises(corank.ResultFileError, match="nothing to go on from"):
+        known = cluster.Checkpoints.read(tmp_path / "kept")
+        cluster.solve(dextar, client, "forward", sigma=SIGMA, checkpoints=known)
+
+
+def test_bad_input_and_usage_have_the_exit_statuses_of_corank_solve(models):
+    program = [sys.executable, "-m", "corank.cluster", "solve", str(models / "dextar.cuik"), "--set", "cspace"]
+    done = subprocess.run(program + ["--tls-cert", "c.pem"], capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and "TLS needs the files of the authority" in done.stderr
+    done = subprocess.run(program + ["--resume", "kept"], capture_output=True, text=True, check=False)
+    assert done.returncode == 2 and "expected MODEL, or --resume FILE" in done.stderr
