@@ -37,7 +37,8 @@ std::string page(const std::vector<Result>& results, const std::string& command,
                  const std::vector<std::string>& files) {
   const py::gil_scoped_release unlocked;
   const symbolic::Mechanism mechanism = mechanism_of(results);
-  return report::report_page(mechanism, views_of(mechanism, results), {command, figures, files});
+  const report::PageOptions options{command, figures, "", "", files};
+  return report::report_page(mechanism, views_of(mechanism, results), options);
 }
 
 using Members = std::vector<std::tuple<std::string, std::vector<Result>, std::vector<std::string>>>;
