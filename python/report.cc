@@ -37,7 +37,7 @@ std::string page(const std::vector<Result>& results, const std::string& command,
                  const std::vector<std::string>& files) {
   const py::gil_scoped_release unlocked;
   const symbolic::Mechanism mechanism = mechanism_of(results);
-  const report::PageOptions options{command, figures, "", "", files};
+  const report::PageOptions options{command, figures, files};
   return report::report_page(mechanism, views_of(mechanism, results), options);
 }
 

@@ -13,9 +13,9 @@ namespace corank::report {
 struct PageOptions {
   std::string command;               ///< the command line that made it; shown
   std::vector<std::string> figures;  ///< files, shown and linked
-  std::string aspects;               ///< what is known of the mechanism's aspects, in words; empty: nothing
-  std::string aspects_picture;       ///< an SVG of them; empty: none
   std::vector<std::string> files;    ///< of the results, in their order; shown and linked. May be empty
+  std::string aspects{};             ///< what is known of the mechanism's aspects, in words; empty: nothing
+  std::string aspects_picture{};     ///< an SVG of them; empty: none
 };
 
 /// Of a mechanism and sets of it. Throws ModelError where it has no singularities to speak of (a plain system).
