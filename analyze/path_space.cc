@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "corank/analyze/signs.h"
 #include "corank/certify/determinant_sign.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebrizer.h"
@@ -13,8 +14,6 @@
 
 namespace corank::analyze {
 namespace {
-
-int sign_of(const Interval& x) { return x.lo() > 0 ? 1 : x.hi() < 0 ? -1 : 0; }
 
 // GiNaC expands their determinants in no time.
 bool is_small(const PolynomialMatrix& m) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "corank/analyze/signs.h"
 #include "corank/certify/inertia.h"
 #include "corank/certify/preconditioning.h"
 #include "corank/core/box_tree.h"
@@ -13,21 +14,19 @@
 namespace corank::analyze {
 namespace {
 
-int sign_of(const Interval& x) { return x.lo() > 0 ? 1 : x.hi() < 0 ? -1 : 0; }
-
-std::vector<int> dependent_of(const std::vector<int>& free, int variables) {
-  std::vector<int> result;
-  for (int j = 0; j < variables; ++j)
-    if (std::find(free.begin(), free.end(), j) == free.end()) result.push_back(j);
-  return result;
-}
-
 std::vector<Polynomial> joined(std::vector<Polynomial> a, const std::vector<Polynomial>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
 
 }  // namespace
+
+std::vector<int> SignCells::dependent_of(const std::vector<int>& free) const {
+  std::vector<int> result;
+  for (int j = 0; j < system_.size(); ++j)
+    if (std::find(free.begin(), free.end(), j) == free.end()) result.push_back(j);
+  return result;
+}
 
 SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
                      const std::vector<Polynomial>& limits)
@@ -44,7 +43,7 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
     SignCell cell{static_cast<int>(i), box.box, {}, {}, false, {}, {}};
     // The sheet of a `boundary` box may go on beyond the domain.
     if (box.verdict == Verdict::boundary)
-      for (const int d : dependent_of(box.free, system.size()))
+      for (const int d : dependent_of(box.free))
         cell.sides[static_cast<std::size_t>(d)] = region(cell)[static_cast<std::size_t>(d)];
     widen_region(cell);
     evaluate(cell);
@@ -97,7 +96,7 @@ const Box& SignCells::region(const SignCell& cell) const {
 certify::Preconditioner SignCells::preconditioner(const SignCell& cell, const Box& sides) const {
   std::vector<double> c;
   for (const Interval& side : sides) c.push_back(side.mid());
-  return certify::midpoint_preconditioner(compiled_, c, dependent_of(free(cell), system_.size()));
+  return certify::midpoint_preconditioner(compiled_, c, dependent_of(free(cell)));
 }
 
 // Shrinks the dependent sides and bounds the function over the sheet's solutions there.
@@ -165,7 +164,7 @@ bool SignCells::slopes(const SignCell& cell, Slopes& result) {
   };
   certify::IntervalMatrix jacobian(m, n);
   for (int i = 0; i < m; ++i) dense(i, [&](int j, const Interval& e) { jacobian(i, j) += e; });
-  const auto basis = certify::kernel_basis(jacobian, dependent_of(free(cell), n));
+  const auto basis = certify::kernel_basis(jacobian, dependent_of(free(cell)));
   if (!basis) return false;
   result.of.clear();
   for (const int g : cell.mixed) {

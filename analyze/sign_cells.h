@@ -98,6 +98,7 @@ class SignCells {
     std::vector<std::vector<Interval>> of;  // of each mixed function by each free variable
   };
 
+  std::vector<int> dependent_of(const std::vector<int>& free) const;
   void evaluate(SignCell& cell);
   void widen_region(const SignCell& cell);
   bool is_outside(const SignCell& cell) const;

@@ -2,24 +2,12 @@
 #include <algorithm>
 
 #include "corank/analyze/sign_cells.h"
+#include "corank/analyze/signs.h"
 #include "corank/certify/preconditioning.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
-namespace {
-
-int sign_of(const Interval& x) { return x.lo() > 0 ? 1 : x.hi() < 0 ? -1 : 0; }
-
-std::vector<int> dependent_of(const std::vector<int>& free, int variables) {
-  std::vector<int> result;
-  for (int j = 0; j < variables; ++j)
-    if (std::find(free.begin(), free.end(), j) == free.end()) result.push_back(j);
-  return result;
-}
-
-}  // namespace
-
 // Counts the intervals of a part on an arc, segment after segment.
 struct SignCells::Arc {
   int intervals = 0;
@@ -128,7 +116,7 @@ bool SignCells::has_graph_over(const Box& at, const std::vector<int>& free, cons
                                const std::vector<int>& wanted) {
   const std::optional<Box> point = test_.solution_in(at, at);
   if (!point) return false;
-  const std::vector<int> dependent = dependent_of(free, system_.size());
+  const std::vector<int> dependent = dependent_of(free);
   std::vector<double> c;
   Box around = *point;
   for (const Interval& side : *point) c.push_back(side.mid());

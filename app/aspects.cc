@@ -7,6 +7,7 @@
 
 #include "corank/app/aspects_picture.h"
 #include "corank/app/interrupt.h"
+#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
@@ -49,9 +50,7 @@ ExitStatus aspects(AspectsCommand command) {
     result::write_text(command.output, to_svg(aspects_picture(question, result)));
   }
   fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
-  if (complete) return kDone;
-  fmt::print(stderr, "corank: stopped by {}; what is said is proven, but more could be\n", to_string(*control.ending()));
-  return kIncomplete;
+  return complete ? kDone : stopped_early(control);
 }
 
 }  // namespace

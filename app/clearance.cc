@@ -11,6 +11,7 @@
 #include "corank/app/clearance_command.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/named_values.h"
+#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/search_limits.h"
@@ -82,15 +83,8 @@ std::vector<analyze::NamedRange> region_of(const std::vector<std::string>& texts
 namespace {
 
 ExitStatus say(const ClearanceCommand& command, const analyze::Clearance& clearance) {
-  if (command.json_path) {
-    const std::string json = to_json(clearance) + "\n";
-    if (command.json_path->empty()) {
-      fmt::print("{}", json);
-    } else {
-      result::write_text(*command.json_path, json);
-    }
-  }
-  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", result::printable(to_table(clearance)));
+  if (say_json(command.json_path, [&] { return to_json(clearance); }))
+    fmt::print("{}", result::printable(to_table(clearance)));
   if (clearance.nearest.complete) return kDone;
   if (!clearance.stopped.empty()) {
     fmt::print(stderr, "corank: stopped by {}; the bounds hold, but are not as close as asked for\n", clearance.stopped);
@@ -122,8 +116,7 @@ bool write_claims(const ClearanceCommand& command, const analyze::Clearance& cle
 ExitStatus run_clearance(ClearanceCommand command) {
   if (command.at.empty()) throw UsageError("--at is required, but for --best and --map");
   if (command.in.empty()) throw UsageError("--in is required, but for --best and --map");
-  if (command.question.file.empty() && command.json_path && !command.json_path->empty())
-    command.question.file.swap(*command.json_path);
+  give_back_model(command.question, command.json_path);
   const solve::Options search = options_of(command);
   search.validate();
   solve::Control control(limits_of(search, &Interrupt::stop()));

@@ -5,6 +5,7 @@
 #include "corank/app/box_files.h"
 #include "corank/app/clearance_command.h"
 #include "corank/app/interrupt.h"
+#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
@@ -12,8 +13,7 @@
 namespace corank::app {
 
 ExitStatus run_best(ClearanceCommand command) {
-  if (command.question.file.empty() && command.json_path && !command.json_path->empty())
-    command.question.file.swap(*command.json_path);
+  give_back_model(command.question, command.json_path);
   const solve::Options search = options_of(command);
   search.validate();
   solve::Control control(limits_of(search, &Interrupt::stop()));
@@ -30,9 +30,7 @@ ExitStatus run_best(ClearanceCommand command) {
   };
   const analyze::Best best = analyze::best_center(question, ball, region, options, search, control);
   line.clear();
-  if (command.json_path && command.json_path->empty()) fmt::print("{}\n", to_json(best));
-  if (command.json_path && !command.json_path->empty()) result::write_text(*command.json_path, to_json(best) + "\n");
-  if (!command.json_path || !command.json_path->empty()) fmt::print("{}", result::printable(to_table(best)));
+  if (say_json(command.json_path, [&] { return to_json(best); })) fmt::print("{}", result::printable(to_table(best)));
   if (best.complete) return kDone;
   fmt::print(stderr, "corank: {}the bounds hold, but are not as close as asked for\n",
              best.stopped.empty() ? "" : "stopped by " + best.stopped + "; ");

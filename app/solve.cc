@@ -10,6 +10,7 @@
 #include "corank/analyze/area_by_boundary.h"
 #include "corank/app/box_files.h"
 #include "corank/app/interrupt.h"
+#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/resume.h"
@@ -97,15 +98,7 @@ std::optional<Interval> area_of(const SolveCommand& command, const study::Questi
 }
 
 ExitStatus say(const SolveCommand& command, const result::Result& result, const std::optional<Interval>& area) {
-  if (command.json_path) {
-    const std::string json = result::to_json(result, area) + "\n";
-    if (command.json_path->empty()) {
-      fmt::print("{}", json);
-    } else {
-      result::write_text(*command.json_path, json);
-    }
-  }
-  if (!command.json_path || !command.json_path->empty()) {
+  if (say_json(command.json_path, [&] { return result::to_json(result, area); })) {
     fmt::print("{}", result::printable(result::to_table(result)));
     constexpr double kRoom = 1e-6;  // more than what the digits round
     if (area)
@@ -195,10 +188,7 @@ ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {
     const Resumed resumed(sub, command);
     return solve_model(sub, resumed.command, &resumed.checkpoint);
   }
-  // `--json FILE` without another file: CLI11 took the model for the path of the summary.
-  if (command.question.file.empty() && command.json_path && !command.json_path->empty()) {
-    command.question.file.swap(*command.json_path);
-  }
+  give_back_model(command.question, command.json_path);
   return solve_model(sub, std::move(command), nullptr);
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "corank/app/interrupt.h"
+#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
@@ -31,9 +32,7 @@ ExitStatus topology(const TopologyCommand& command) {
   line.clear();
   const bool complete = !control.ended();
   fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
-  if (complete) return kDone;
-  fmt::print(stderr, "corank: stopped by {}; what is said is proven, but more could be\n", to_string(*control.ending()));
-  return kIncomplete;
+  return complete ? kDone : stopped_early(control);
 }
 
 }  // namespace

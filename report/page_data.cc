@@ -173,6 +173,12 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
+namespace {
+std::string base64_of(const std::vector<float>& numbers) {
+  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)});
+}
+}  // namespace
+
 float float_below(double x) {
   const auto f = static_cast<float>(x);
   return static_cast<double>(f) <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
@@ -196,7 +202,7 @@ std::string box_payload(const result::Result& result, std::span<const int> varia
       numbers.push_back(float_above(side.hi()));
     }
   }
-  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)});
+  return base64_of(numbers);
 }
 
 std::string script_safe(std::string text) {
@@ -229,7 +235,7 @@ std::string sides_payload(const Cover& cover, std::size_t outputs) {
   for (const CoverBox& b : cover.boxes)
     for (std::size_t j = 0; j < outputs; ++j)
       numbers.push_back(b.passage == Passage::barrier && b.side.size() == outputs ? static_cast<float>(b.side[j]) : 0.0F);
-  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)});
+  return base64_of(numbers);
 }
 
 std::string set_description(const SetView& view) {
