@@ -46,6 +46,8 @@ class CellSearch {
  private:
   enum class Outcome { empty, proven, open };
   Outcome shrink(const ParameterCell& cell, Box& x, std::optional<certify::Sheet>& sheet);
+  /// Of each variable: so wide it may stay where nothing is proven.
+  std::vector<double> limits(const Box& x, std::vector<double> least);
   void put_in(const Box& sides, Box& x) const;
 
   const Problem& problem_;
