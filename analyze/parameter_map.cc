@@ -27,10 +27,11 @@ namespace {
 
 using symbolic::ModelError;
 
-// Of a cell's share of the region's sides: as wide, in typical sizes, as an open box is left to the cell's parts; at last a
-// tenth of it. Measured, see bench/HISTORY.md.
-constexpr double kOpenShare = 0.5, kLastOpenShare = 0.05, kFinestShare = 1e-7;
-constexpr std::uint64_t kMostOfCell = 20'000, kMostOfCentre = 4'000, kMostOfFolds = 200'000;
+// As wide, in typical sizes, as a box next to a fold is left to the cell's parts, for a cell that is the whole region; at most,
+// for the narrowest cells; and where that does not do, at last. Measured, see bench/HISTORY.md.
+constexpr double kOpenShare = 4, kLastOpenShare = 0.1, kFinestOpenShare = 0.02;
+constexpr double kCentreShare = 1e-6;  // the same of a centre
+constexpr std::uint64_t kMostOfCell = 200'000, kMostOfLast = 50'000, kMostOfCentre = 4'000, kMostOfFolds = 200'000;
 constexpr std::size_t kMostRoots = 4;  // of a cell's boxes that are searched for folds each; more are one
 constexpr double kFoldWidth = 1;       // of a box of the curve, in edges of the narrowest cells
 
@@ -192,8 +193,14 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
                                     std::vector<Box>& roots, solve::Control& control) const {
   const bool last = level == depth();
   const double share = 1.0 / (kTiles << level);
-  const bool finished = search.refine(cell, share * (last ? kLastOpenShare : kOpenShare), kMostOfCell, control);
-  if (const std::optional<int> count = search.count(cell)) {
+  bool finished =
+      search.refine(cell, last ? std::min(kLastOpenShare, kOpenShare * share) : kOpenShare * share, kMostOfCell, control);
+  std::optional<int> count = search.count(cell);
+  if (last && finished && !count) {
+    finished = search.refine(cell, kFinestOpenShare, kMostOfLast, control);
+    count = search.count(cell);
+  }
+  if (count) {
     CORANK_CHECK(*count % family->copies == 0);
     tile.cells.push_back({cell.sides, MapCellAnswer::Kind::proven, *count / family->copies, {}});
     return;
@@ -211,7 +218,7 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
   }
   MapCellAnswer answer{cell.sides, MapCellAnswer::Kind::undecided, {}, {}};
   solve::ParameterCell centre = search.part(cell, {Interval(cell.sides[0].mid()), Interval(cell.sides[1].mid())});
-  search.refine(centre, kFinestShare, kMostOfCentre, control);
+  search.refine(centre, kCentreShare, kMostOfCentre, control);
   answer.at_centre = search.count(centre);
   if (answer.at_centre) *answer.at_centre /= family->copies;
   tile.cells.push_back(std::move(answer));

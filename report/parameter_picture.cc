@@ -64,7 +64,7 @@ class Drawing {
     };
     const int x0 = at(x_share(x.lo()), -1), x1 = at(x_share(x.hi()), 1), y0 = at(y_share(y.hi()), -1),
               y1 = at(y_share(y.lo()), 1);
-    if (x1 > x0 && y1 > y0) cells.add(x0, y0, x1 - 1, y1 - 1);
+    if (x1 > x0 && y1 > y0) cells.add(x0, y0, x1, y1);
   }
 
   void add_shape(const std::string& label, const Color& color, const CellUnion& cells) {

@@ -14,9 +14,10 @@ namespace {
 constexpr double kProofSpread = 2;  // try a proof below this spread |I − Y·S|
 constexpr double kGain = 0.3;       // repeat Newton while some variable loses this share
 constexpr int kRepeats = 4;
-// A side is not worth bisecting where it is so many times as wide as the solutions move over the cell; but wider than so many
-// times the cell's share where they move without bounds, next to a fold.
-constexpr double kFollow = 1.5, kMostFollow = 4;
+// A side is not worth bisecting where it is so many times as wide as the solutions move over the cell.
+constexpr double kFollow = 2.5;
+constexpr double kLeastShare = 0.5;  // of the movement of what moves most: what hardly moves is bisected in vain
+constexpr double kFinest = 1e-8;     // of the typical sizes
 
 }  // namespace
 
@@ -74,18 +75,21 @@ CellSearch::Outcome CellSearch::shrink(const ParameterCell& cell, Box& x, std::o
   return Outcome::proven;
 }
 
-std::vector<double> CellSearch::limits(const Box& x, std::vector<double> limits) {
+std::vector<double> CellSearch::limits(const Box& x, double share) {
   const certify::Preconditioner& p = preconditioners_.at_midpoint(x, &unknowns_);
+  std::vector<double> limits = problem_.limits(share);  // where the solutions move without bounds, next to a fold
   const std::vector<double>& scales = problem_.compiled.scales();
-  double cell = 0;  // the widest side of the parameters
-  for (const int k : parameters_)
-    cell = std::max(cell, x[static_cast<std::size_t>(k)].width() / (2 * scales[static_cast<std::size_t>(k)]));
+  std::vector<double> moves(scales.size(), 0);
+  double most = kFinest;  // of the typical sizes
   for (int a = 0; a < p.rank(); ++a) {
     const auto j = static_cast<std::size_t>(p.dependent[static_cast<std::size_t>(a)]);
-    double moves = 0;
     for (const int k : parameters_)
-      moves += std::fabs(preconditioners_.sensitivity(a, k)) * x[static_cast<std::size_t>(k)].width();
-    limits[j] = std::max(limits[j], std::min(kFollow * moves, kMostFollow * cell * 2 * scales[j]));
+      moves[j] += std::fabs(preconditioners_.sensitivity(a, k)) * x[static_cast<std::size_t>(k)].width();
+    most = std::max(most, moves[j] / scales[j]);
+  }
+  for (const int d : p.dependent) {
+    const auto j = static_cast<std::size_t>(d);
+    limits[j] = std::min(limits[j], kFollow * std::max(moves[j], kLeastShare * most * scales[j]));
   }
   for (const int k : parameters_) limits[static_cast<std::size_t>(k)] = std::numeric_limits<double>::infinity();
   return limits;
@@ -93,7 +97,6 @@ std::vector<double> CellSearch::limits(const Box& x, std::vector<double> limits)
 
 bool CellSearch::refine(ParameterCell& cell, double share, std::uint64_t most, Control& control) {
   CORANK_CHECK(UpwardRounding::active());
-  const std::vector<double> least = problem_.limits(share);
   std::vector<Box> waiting = std::exchange(cell.open, {});
   std::uint64_t processed = 0;
   bool ended = false;
@@ -119,7 +122,7 @@ bool CellSearch::refine(ParameterCell& cell, double share, std::uint64_t most, C
       }
       case Outcome::open: break;
     }
-    const int split = problem_.branching.choose(problem_.compiled, x, limits(x, least));
+    const int split = problem_.branching.choose(problem_.compiled, x, limits(x, share));
     const std::optional<double> at = split < 0 ? std::nullopt : split_point(x[static_cast<std::size_t>(split)]);
     if (!at) {
       cell.open.push_back(std::move(x));

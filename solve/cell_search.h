@@ -33,8 +33,8 @@ class CellSearch {
   /// What is known over a part of the cell, or over one value of the parameters in it.
   ParameterCell part(const ParameterCell& cell, const Box& sides);
 
-  /// Proves, excludes and bisects the open boxes until those that are left are no wider than `share` of the typical sizes;
-  /// at most `most` boxes, and none once the control has ended: what is left then stays open. False: it has ended.
+  /// Proves, excludes and bisects the open boxes until those that are left are no wider than the solutions in them move over
+  /// the cell, or `share` of the typical sizes where they move more; at most `most` boxes, and none once the control has ended: what is left then stays open. False: it has ended.
   bool refine(ParameterCell& cell, double share, std::uint64_t most, Control& control);
 
   /// The number of solutions in the domain for every value in the cell; nothing where boxes are open, where two sheets are
@@ -47,7 +47,7 @@ class CellSearch {
   enum class Outcome { empty, proven, open };
   Outcome shrink(const ParameterCell& cell, Box& x, std::optional<certify::Sheet>& sheet);
   /// Of each variable: so wide it may stay where nothing is proven.
-  std::vector<double> limits(const Box& x, std::vector<double> least);
+  std::vector<double> limits(const Box& x, double share);
   void put_in(const Box& sides, Box& x) const;
 
   const Problem& problem_;
