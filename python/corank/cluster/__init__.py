@@ -11,6 +11,7 @@ It needs the package distributed. doc/cluster.md says how workers on other machi
 
 from .engine import Checkpoints, solve, solve_run
 from .local import local_client, remote_client, security
+from .tasks import map_tiles, solve_members
 from .units import ClusterError, Plan, check_versions
 
 __all__ = [
@@ -19,8 +20,10 @@ __all__ = [
     "Plan",
     "check_versions",
     "local_client",
+    "map_tiles",
     "remote_client",
     "security",
     "solve",
+    "solve_members",
     "solve_run",
 ]
