@@ -100,3 +100,16 @@ def test_a_checker_of_types_finds_the_users_fault_and_no_other(tmp_path):
     )
     faults = [line for line in done.stdout.splitlines() if "error" in line]
     assert "user.py:4: error: Incompatible types" in faults[0] and len(faults) == 2, done.stdout
+
+
+def test_what_is_not_installed_is_named_with_its_package(monkeypatch):
+    from corank.optional import require
+
+    monkeypatch.setitem(sys.modules, "sympy", None)
+    with pytest.raises(ModuleNotFoundError, match="apt-get install python3-sympy"):
+        corank.symbol("x") + require("sympy").Symbol("y")
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    for name in [n for n in sys.modules if n.startswith("corank.cluster")]:
+        monkeypatch.delitem(sys.modules, name)
+    with pytest.raises(ModuleNotFoundError, match="apt-get install python3-distributed"):
+        import corank.cluster  # noqa: F401
