@@ -8,6 +8,7 @@ from . import _corank
 from .analyses import Analysis, RangeLike, _ranges
 from .errors import Interrupted, deliver
 from .expression import ExpressionLike, as_expression
+from .optional import require
 from .progress import ProgressOption, Shown
 
 if TYPE_CHECKING:
@@ -32,7 +33,8 @@ class ParameterMap(Analysis):
 
     def __init__(self, text: str, table: str) -> None:
         super().__init__(text, table)
-        self.names: Tuple[str, str] = tuple(self.data["over"])
+        x, y = self.data["over"]
+        self.names: Tuple[str, str] = (x, y)
         self.region: Tuple[Tuple[float, float], ...] = tuple((lo, hi) for lo, hi in self.data["over"].values())
         self.count: str = self.data["count"]
         self.resolution: int = self.data["resolution"]
@@ -44,7 +46,7 @@ class ParameterMap(Analysis):
     def to_pandas(self) -> "pandas.DataFrame":
         """A row for each cell: its lower and upper ends, the kind ("proven": `count` holds for every value in it; "undecided",
         "centre": `at_centre` is proven for its centre alone; "pending": not examined), both numbers or NA."""
-        import pandas
+        pandas = require("pandas")
 
         x, y = self.names
         columns = [f"{x}_lo", f"{x}_hi", f"{y}_lo", f"{y}_hi", "kind", "count", "at_centre"]
@@ -83,12 +85,11 @@ class ParameterMap(Analysis):
 
     def plot(self, ax: Optional["Axes"] = None) -> "Axes":
         """Regions in colours by number, what is known of centres alone as dots, the curve on which solutions meet dark."""
-        import matplotlib.pyplot as plt
+        plt = require("matplotlib.pyplot")
         from matplotlib.collections import PatchCollection
         from matplotlib.patches import Patch, Rectangle
 
-        if ax is None:
-            _, ax = plt.subplots()
+        axes: Any = ax if ax is not None else plt.subplots()[1]
         cells = self.data["cells"]
         numbers = sorted({c[5] if c[5] is not None else c[6] for c in cells} - {None})
         shades = plt.get_cmap("YlGnBu")
@@ -99,7 +100,7 @@ class ParameterMap(Analysis):
             for xl, xu, yl, yu in (box[:4] for box in boxes):
                 w, h = (xu - xl) * shrink, (yu - yl) * shrink
                 rectangles.append(Rectangle(((xl + xu - w) / 2, (yl + yu - h) / 2), w, h))
-            ax.add_collection(PatchCollection(rectangles, facecolor=color, edgecolor=color, linewidth=0.1))
+            axes.add_collection(PatchCollection(rectangles, facecolor=color, edgecolor=color, linewidth=0.1))
 
         legend = []
         for n in reversed(numbers):
@@ -116,12 +117,12 @@ class ParameterMap(Analysis):
         add(proven, "0.13")
         if proven:
             legend.append(Patch(facecolor="0.13", label="solutions meet"))
-        ax.set_xlim(*self.region[0])
-        ax.set_ylim(*self.region[1])
-        ax.set_xlabel(self.names[0])
-        ax.set_ylabel(self.names[1])
-        ax.legend(handles=legend, loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0, fontsize="small")
-        return ax
+        axes.set_xlim(*self.region[0])
+        axes.set_ylim(*self.region[1])
+        axes.set_xlabel(self.names[0])
+        axes.set_ylabel(self.names[1])
+        axes.legend(handles=legend, loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0, fontsize="small")
+        return axes
 
 
 def map(

@@ -21,9 +21,11 @@ std::string content(const std::string& file) {
 
 TEST(MapCommand, CountsDrawsAndWritesCells) {
   const TemporaryFolder folder;
-  const auto run = run_corank({"map", model("dextar"), "--over", "l2=1/2:3/2", "--over", "l3=1/2:3/2", "--fix", "theta2=pi/3",
-                               "--fix", "theta5=2", "--resolution", "16", "-o", folder.file("m.svg"), "-o",
-                               folder.file("m.csv"), "-o", folder.file("m.pdf"), "-o", folder.file("m.json")});
+  const auto run =
+      run_corank({"map",   model("dextar"),      "--over", "l2=1/2:3/2",         "--over",       "l3=1/2:3/2",
+                  "--fix", "theta2=pi/3",        "--fix",  "theta5=2",           "--resolution", "16",
+                  "-o",    folder.file("m.svg"), "-o",     folder.file("m.csv"), "-o",           folder.file("m.pdf"),
+                  "-o",    folder.file("m.json")});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("2 solutions"));
   EXPECT_THAT(run.out, HasSubstr("proven for every value there"));

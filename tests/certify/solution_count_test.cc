@@ -100,14 +100,13 @@ TEST_F(SheetsOverAParameter, HoldOverAPartOfTheirValues) {
   EXPECT_FALSE(lies_on(plus, std::vector<Interval>{{-1.2, 1.2}, all_}));
 }
 
-TEST_F(SheetsOverAParameter, AreNotProvenOverAFold) {
-  EXPECT_FALSE(prove(system_, {-0.5, 0.5}, {-0.1, 0.1}).proven);
-}
+TEST_F(SheetsOverAParameter, AreNotProvenOverAFold) { EXPECT_FALSE(prove(system_, {-0.5, 0.5}, {-0.1, 0.1}).proven); }
 
 TEST(ReductionWithParameters, KeepsThemAndTheirDomains) {
   // y = p and x = y + 1 in [0, 1.5]: without care p would be y, and its domain that of x less 1.
   test::SystemBuilder builder;
-  const int x = builder.variable("x", "0", "1.5"), y = builder.variable("y", "-5", "5"), p = builder.variable("p", "-2", "2");
+  const int x = builder.variable("x", "0", "1.5"), y = builder.variable("y", "-5", "5"),
+            p = builder.variable("p", "-2", "2");
   builder.equation({{"1", {{y, 1}}}, {"-1", {{p, 1}}}});
   builder.equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}, {"-1", {}}});
   const Reduction usual = reduce(builder.system());
