@@ -27,8 +27,8 @@ namespace {
 
 using symbolic::ModelError;
 
-// As wide, in typical sizes, as a box next to a fold is left to the cell's parts, for a cell that is the whole region; at most,
-// for the narrowest cells; and where that does not do, at last. Measured, see bench/HISTORY.md.
+// As wide, in typical sizes, as a box next to a fold is left to the cell's parts, for a cell that is the whole region; at
+// most, for the narrowest cells; and where that does not do, at last. Measured, see bench/HISTORY.md.
 constexpr double kOpenShare = 4, kLastOpenShare = 0.1, kFinestOpenShare = 0.02;
 constexpr double kCentreShare = 1e-6;  // the same of a centre
 constexpr std::uint64_t kMostOfCell = 200'000, kMostOfLast = 50'000, kMostOfCentre = 4'000, kMostOfFolds = 200'000;

@@ -89,7 +89,8 @@ struct ParameterMap {
 class ParameterMapper {
  public:
   /// Throws symbolic::ModelError where the set has another dimension than 0 over fixed parameters, has parts or is that of a
-  /// type, where there are not two parameters, or a constant of a robot from parts is asked for, whose equations depend on it.
+  /// type, where there are not two parameters, or a constant of a robot from parts is asked for, whose equations depend on
+  /// it.
   ParameterMapper(MapQuestion question, const ParameterMapOptions& options);
   ~ParameterMapper();
   ParameterMapper(ParameterMapper&&) noexcept;
@@ -111,8 +112,8 @@ ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOption
 std::string to_table(const ParameterMap& map);
 /// x_lo, x_hi, y_lo, y_hi, kind, count, at_centre in each row, after a heading.
 std::string to_csv(const ParameterMap& map);
-/// {"model", "set", "count", "over": {name: [lo, hi]}, "fixed", "resolution", "cells": [[x_lo, x_hi, y_lo, y_hi, kind, count,
-/// at_centre]], "boundary": [[x_lo, x_hi, y_lo, y_hi, proven]], "shares" …}; doc/maps.md.
+/// {"model", "set", "count", "over": {name: [lo, hi]}, "fixed", "resolution", "cells": [[x_lo, x_hi, y_lo, y_hi, kind,
+/// count, at_centre]], "boundary": [[x_lo, x_hi, y_lo, y_hi, proven]], "shares" …}; doc/maps.md.
 std::string to_json(const ParameterMap& map);
 /// For transport: a tile as text, and back. Throws std::invalid_argument.
 std::string to_json(const MapTile& tile);

@@ -25,8 +25,8 @@
 namespace corank::certify {
 
 /// Two sheets over the same box of parameters, with the same dependent variables and all rows: are they one? Disjoint
-/// images, over P or over one p, say no; an image over one p inside the other's region says yes, by (b). All of these require
-/// UpwardRounding::active().
+/// images, over P or over one p, say no; an image over one p inside the other's region says yes, by (b). All of these
+/// require UpwardRounding::active().
 Identity compare_over(const CompiledSystem& system, const Sheet& a, const Sheet& b, NewtonWorkspace& w);
 
 /// The sheet over a part of its box of parameters, whose sides are those of the free variables in `box`; its image may be

@@ -34,7 +34,8 @@ class CellSearch {
   ParameterCell part(const ParameterCell& cell, const Box& sides);
 
   /// Proves, excludes and bisects the open boxes until those that are left are no wider than the solutions in them move over
-  /// the cell, or `share` of the typical sizes where they move more; at most `most` boxes, and none once the control has ended: what is left then stays open. False: it has ended.
+  /// the cell, or than `share` of the typical sizes where they move more; at most `most` boxes, and none once the control
+  /// has ended: what is left then stays open. False: it has ended.
   bool refine(ParameterCell& cell, double share, std::uint64_t most, Control& control);
 
   /// The number of solutions in the domain for every value in the cell; nothing where boxes are open, where two sheets are

@@ -228,7 +228,7 @@ TEST(ParameterMap, RefusesWhatHasNoNumber) {
            .over = {{"l2", "1/2", "1"}, {"l3", "1/2", "1"}}});
 }
 
-// Random systems of two polynomials in two unknowns, their coefficients linear in two parameters: whatever is proven of a cell
+// Random systems of two polynomials in two unknowns, their coefficients linear in two parameters: what is proven of a cell
 // holds at random values in it, where the ordinary search counts.
 TEST(ParameterMap, AgreesWithSearchesAtRandomValuesInProvenCells) {
   std::mt19937 random(20);
