@@ -1,4 +1,5 @@
 // Puts the page together.
+import {axisOrder, firstOf} from "./axis_choice.js";
 import {readModel} from "./data.js";
 import {drawnPoints} from "./mechanism.js";
 import {mechanismPicture} from "./mechanism_picture.js";
@@ -36,20 +37,6 @@ function clearest(model, samples) {
     if (!best || score > best.score) best = {score, ...sample};
   }
   return best;
-}
-
-// Outputs, inputs, passive coordinates; those of one value are no axes.
-function axisOrder(model) {
-  const rank = {output: 0, input: 1, passive: 2, auxiliary: 3};
-  const indices = model.coordinates
-    .map((_, i) => i)
-    .filter((i) => model.coordinates[i].range[1] - model.coordinates[i].range[0] > 1e-9);
-  return indices.sort((a, b) => rank[model.coordinates[a].role] - rank[model.coordinates[b].role] || a - b);
-}
-
-function firstOf(order, model, role) {
-  const own = order.filter((i) => model.coordinates[i].role === role);
-  return [...own, ...order.filter((i) => !own.includes(i))].slice(0, 2);
 }
 
 function main() {

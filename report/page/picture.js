@@ -2,7 +2,7 @@
 import {Plane, drawAxes} from "./axes.js";
 import {coverage, paintCoverage, sheetTone} from "./density.js";
 import {Projection, groupTouching} from "./projection.js";
-import {fullTurn, isAngle} from "./values.js";
+import {coordinateValue, fullTurn, isAngle} from "./values.js";
 
 const stroke = {length: 6, apart: 5, directions: 8}; // to the forbidden side of a barrier, in pixels
 const reach = 9; // pixels within which a curve or a point is taken to be meant
@@ -20,16 +20,18 @@ export function pageColours(element) {
     line: colour("--line-strong"),
     undecided: colour("--undecided"),
     passage: {traversable: colour("--traversable"), unproven: colour("--open")},
+    way: colour("--way"),
     of: ({name}) => colour(`--set-${name}`),
   };
 }
 
 export class Picture {
-  // Of these sets over two coordinates.
-  constructor(model, sets, axes) {
+  // Of these sets over two coordinates, and of more configurations, `points`.
+  constructor(model, sets, axes, points = []) {
     this.model = model;
     this.sets = sets;
     this.axes = axes;
+    this.points = points;
     this.hidden = new Set(); // names of sets
     this.projections = sets.map((set) => new Projection(set, ...axes));
     this.limits = [0, 1].map((k) => this.range(k));
@@ -43,6 +45,11 @@ export class Picture {
       const [a, b] = projection.hull(k);
       low = Math.min(low, a);
       high = Math.max(high, b);
+    }
+    for (const x of this.points) {
+      const value = coordinateValue(x, this.axes[k]);
+      low = Math.min(low, value);
+      high = Math.max(high, value);
     }
     if (!(low < high)) [low, high] = low === high ? [low - 1, high + 1] : [-1, 1];
     if (isAngle(this.axes[k]) && high - low > 0.6 * fullTurn) return [-Math.PI, Math.PI];

@@ -3,11 +3,12 @@ import {Picture, pageColours} from "./picture.js";
 import {coordinateValue, htmlLabel, htmlUnit, numberText, plainLabel} from "./values.js";
 
 export class Portrait {
-  // `listener` has hover(candidates, place, portrait), pin(…), step(direction), escape().
-  constructor(model, root, axes, listener) {
+  // `listener` has hover(candidates, place, portrait), pin(…), step(direction), escape(). `trace`: a path to be drawn.
+  constructor(model, root, axes, listener, trace = null) {
     this.model = model;
     this.root = root;
     this.listener = listener;
+    this.trace = trace;
     this.frame = root.querySelector(".frame");
     this.base = root.querySelector("canvas.base");
     this.overlay = root.querySelector("canvas.overlay");
@@ -35,6 +36,7 @@ export class Portrait {
       this.model,
       this.model.sets,
       axes.map((i) => this.model.coordinates[i]),
+      this.trace?.points,
     );
     this.picture.hidden = this.hidden;
     this.cursor = null;
@@ -64,6 +66,7 @@ export class Portrait {
     const context = this.overlay.getContext("2d");
     context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     context.clearRect(0, 0, this.width, this.overlay.height);
+    this.trace?.draw(context, this.picture);
     const {pad, inner, height} = this.picture.plane;
     if (this.cursor && document.activeElement === this.frame) {
       const [x, y] = [this.picture.plane.toX(this.cursor[0]), this.picture.plane.toY(this.cursor[1])];
