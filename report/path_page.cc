@@ -52,7 +52,9 @@ void put_facts(mustache::data& page, const symbolic::Mechanism& mechanism, const
   if (path.tube) {
     page["pieces"] = grouped(path.tube->pieces.size());
     page["nodes"] = grouped(path.tube->nodes.size());
-    page["found"] = path.method == "direct" ? "straight" : "by " + path.method;
+    page["found"] = path.method == "direct"  ? "straight"
+                    : path.method == "graph" ? "on a graph of boxes"
+                                             : "by " + path.method;
     page["length"] = fmt::format("{:.4g}", path.length);
     page["radius"] = fmt::format("{:.3g}", path.tube->radius());
   }

@@ -67,13 +67,17 @@ export class Playback {
     let before = null;
     const frame = (now) => {
       if (!this.playing) return;
-      // A page that was hidden for a while goes on where it was.
-      const share = before === null ? 0 : Math.min(0.1, (now - before) / 1000) / secondsOf(this.curve.length);
+      this.advance(before === null ? 0 : this.stepOf((now - before) / 1000));
       before = now;
-      this.advance(share * this.curve.length * Number(this.speed?.value ?? 1));
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
+  }
+
+  // How far the mechanism comes in so many seconds. A page that was hidden for a while goes on where it was.
+  stepOf(seconds) {
+    const {length} = this.curve;
+    return (Math.min(0.1, seconds) / secondsOf(length)) * length * Number(this.speed?.value ?? 1);
   }
 
   // Round and round a closed curve, to and fro on one with ends.
