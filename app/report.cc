@@ -48,23 +48,21 @@ std::vector<report::SetView> solve_all(const ReportCommand& command, const study
   return views;
 }
 
-/// Aspects of curves and surfaces, within their own time: the page is to be there soon.
+/// Aspects of curves and surfaces, within the time that a search may take.
 void add_aspects(const ReportCommand& command, const study::Question& question, const std::vector<report::SetView>& views,
                  report::PageOptions& options) {
-  constexpr double kTime = 5;
   const auto cspace = std::find_if(views.begin(), views.end(), [](const report::SetView& v) { return v.set->is_cspace(); });
   if (cspace == views.end() || !cspace->result.cover.complete() || cspace->result.cover.dimension > 2) return;
-  solve::Control control({.time = kTime, .stop = &Interrupt::stop()});
+  solve::Control control({.time = command.search.limits.time_limit, .stop = &Interrupt::stop()});
   ProgressLine line("aspects");
   line.follow(control);
   analyze::AspectsOptions wanted{.threads = command.search.limits.threads};
   wanted.drawn = report::drawn_coordinates(question.model);
+  wanted.placed = &cspace->result.cover;
   try {
     const analyze::Aspects found = analyze::aspects(question, wanted, control);
     if (control.ended() || !found.reason.empty()) return;
-    options.aspects = summary(found);
-    if (found.drawing && !found.drawing->pieces.empty())
-      options.aspects_picture = to_svg(report::aspects_picture(question.model.name(), found));
+    options.aspects = report::page_aspects(question.model.name(), found);
   } catch (const symbolic::ModelError&) {  // of matrices that are not square nothing is said
   }
 }

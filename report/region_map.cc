@@ -15,7 +15,6 @@ namespace {
 constexpr double kPanel = 150, kGap = 16, kLeft = 46, kTop = 40, kText = 10;
 constexpr int kColumns = 5;
 constexpr const char* kRest = "#e4e6e8";
-// Apart from each other in hue and lightness, also for most of the colour-blind; then they begin again.
 constexpr std::array kColors{"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00",
                              "#7f5fb8", "#9aa61c", "#8c564b", "#17909e", "#b03060", "#4d6f39"};
 
@@ -139,7 +138,7 @@ class Block {
   std::string panel(std::size_t k) const {
     const int row = static_cast<int>(k) / kColumns, column = static_cast<int>(k) % kColumns;
     const double left = kLeft + column * (kPanel + kGap), top = top_ + row * (height_ + kTop);
-    const char* color = kColors[k % kColors.size()];
+    const char* color = region_color(k);
     std::string out = fmt::format("<g transform=\"translate({:.1f},{:.1f})\">\n", left, top);
     out += text(0, -6, "start", escaped(map_.labels[k]), fmt::format(" font-size=\"11\" fill=\"{}\"", color));
     out += fmt::format(
@@ -168,6 +167,8 @@ class Block {
 };
 
 }  // namespace
+
+const char* region_color(std::size_t k) { return kColors[k % kColors.size()]; }
 
 std::string to_svg(const RegionMap& map) {
   std::string body;

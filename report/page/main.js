@@ -1,4 +1,5 @@
 // Puts the page together.
+import {aspectLegend, readAspects} from "./aspects.js";
 import {axisOrder, firstOf} from "./axis_choice.js";
 import {readModel} from "./data.js";
 import {drawnPoints} from "./mechanism.js";
@@ -41,8 +42,9 @@ function clearest(model, samples) {
 
 function main() {
   takeTheme();
-  const model = readModel(),
-    filled = (test = () => true) => model.sets.find((set) => set.count > 0 && test(set));
+  const model = readModel();
+  readAspects(model);
+  const filled = (test = () => true) => model.sets.find((set) => set.count > 0 && test(set));
   const samples = sampleConfigurations(model, filled((set) => !set.singular) || filled(), 300);
   const everywhere = model.sets.flatMap((set) => sampleConfigurations(model, set, 150));
   const typical = clearest(model, samples);
@@ -91,6 +93,16 @@ function main() {
       for (const portrait of views) portrait.draw();
       if (space) space.build();
     });
+  }
+  if (model.aspects) {
+    const redraw = () => {
+      for (const portrait of views) portrait.draw();
+      if (space) space.build();
+    };
+    const inPlane = (on) => views.forEach((portrait) => portrait.setByAspect(on));
+    aspectLegend(model.aspects, document.getElementById("portraits"), inPlane, redraw);
+    if (space) aspectLegend(model.aspects, document.getElementById("space"), (on) => (space.byAspect = on), redraw);
+    if (space) space.build();
   }
   for (const button of document.querySelectorAll(".show-point"))
     button.addEventListener("click", () => showPoint(model, panel, button));

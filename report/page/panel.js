@@ -126,10 +126,12 @@ export class Panel {
       : `${shown} the middle of the box: Newton’s method found no point in it.`;
     const arrows =
       drawn && set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
+    const {aspects} = this.model;
+    const aspect = aspects?.set === set ? aspects.htmlOf(box) : "";
     const types = [...set.typesOf(box), ...(set.passages ? [passageWords[set.passageOf(box)]] : [])].join(", ");
     return `<p class="headline"><span class="swatch ${set.name}"></span>${set.title} · box ${groupedText(box + 1)} of ${groupedText(
       set.count,
-    )} · <span class="verdict ${verdict}">${verdict}</span>${types ? ` · ${types}` : ""}</p>${coordinateTable(this.model, values)}<p class="fine">${how}${arrows}</p>`;
+    )} · <span class="verdict ${verdict}">${verdict}</span>${types ? ` · ${types}` : ""}${aspect ? ` · ${aspect}` : ""}</p>${coordinateTable(this.model, values)}<p class="fine">${how}${arrows}</p>`;
   }
 
   showNothing(place, portrait) {

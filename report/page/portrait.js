@@ -14,6 +14,7 @@ export class Portrait {
     this.overlay = root.querySelector("canvas.overlay");
     this.selects = [...root.querySelectorAll("select")];
     this.hidden = new Set();
+    this.byAspect = false;
     this.cursor = null; // in the units of the axes
     this.shown = null; // the variables of what is shown, with its set
     this.fillSelects(axes);
@@ -39,6 +40,7 @@ export class Portrait {
       this.trace?.points,
     );
     this.picture.hidden = this.hidden;
+    this.picture.byAspect = this.byAspect;
     this.cursor = null;
     if (this.width) this.draw();
   }
@@ -97,6 +99,10 @@ export class Portrait {
         context.stroke();
       }
     }
+  }
+
+  setByAspect(byAspect) {
+    this.byAspect = this.picture.byAspect = byAspect;
   }
 
   // Marks the configuration that the panel shows.
