@@ -10,13 +10,18 @@ class AspectColours(page_case.PageCase):
         self.run_js("document.querySelectorAll('input.aspect').forEach((box) => { if (!box.checked) box.click(); })")
 
     def by_aspect(self, section, on):
-        self.run_js(f"(() => {{ const box = document.querySelector('#{section} input.by-aspect'); if (box.checked !== {str(on).lower()}) box.click(); }})()")
+        self.run_js(
+            f"(() => {{ const box = document.querySelector('#{section} input.by-aspect'); if (box.checked !== {str(on).lower()}) box.click(); }})()"
+        )
 
     def only(self, number):
-        self.run_js(f"document.querySelectorAll('#space input.aspect').forEach((box) => {{ if ((box.value === '{number}') !== box.checked) box.click(); }})")
+        self.run_js(
+            f"document.querySelectorAll('#space input.aspect').forEach((box) => {{ if ((box.value === '{number}') !== box.checked) box.click(); }})"
+        )
 
     def test_a_box_off_the_loci_has_the_aspect_of_its_signs(self):
-        boxes = self.run_js("""(() => {
+        boxes = self.run_js(
+            """(() => {
           const {aspects, coordinates} = corank.model, {set} = aspects, found = [];
           const angle = (box, name) => {
             const {cosine, sine} = coordinates.find((c) => c.name === name);
@@ -27,7 +32,8 @@ class AspectColours(page_case.PageCase):
             found.push([aspects.of[box], Math.sin(t4 - t3), Math.sin(t3 - t2), Math.sin(t5 - t4)]);
           }
           return found;
-        })()""")
+        })()"""
+        )
         labels = self.run_js("corank.model.aspects.labels")
         self.assertEqual(len(labels), 10)
         clear = [(number, signs) for number, *signs in boxes if min(map(abs, signs)) > 0.2]
@@ -42,13 +48,19 @@ class AspectColours(page_case.PageCase):
     def test_an_aspect_is_hidden_in_all_pictures_at_once(self):
         self.only(3)
         self.by_aspect("portraits", True)
-        self.assertEqual(self.run_js("[...document.querySelectorAll('#portraits input.aspect')].map((b) => b.checked).indexOf(true)"), 2)
-        numbers = self.run_js("""(() => {
+        self.assertEqual(
+            self.run_js("[...document.querySelectorAll('#portraits input.aspect')].map((b) => b.checked).indexOf(true)"), 2
+        )
+        numbers = self.run_js(
+            """(() => {
           const cloud = corank.space.clouds?.find(({set}) => !set.singular);
           return cloud ? [...new Set(Array.from(cloud.owners, (box) => corank.model.aspects.of[box]))] : null;
-        })()""")
+        })()"""
+        )
         self.assertIn(numbers, ([3], None))
-        over = self.run_js("corank.portraits[0].picture.candidates([0.6, 0.8]).filter(({set}) => !set.singular).map(({box}) => corank.model.aspects.of[box])")
+        over = self.run_js(
+            "corank.portraits[0].picture.candidates([0.6, 0.8]).filter(({set}) => !set.singular).map(({box}) => corank.model.aspects.of[box])"
+        )
         self.assertEqual(set(over), {3})
         self.by_aspect("portraits", False)
 
@@ -56,10 +68,12 @@ class AspectColours(page_case.PageCase):
         self.by_aspect("portraits", True)
         for number, at in ((1, (-0.2, 0.8)), (3, (0.6, 0.9))):
             self.only(number)
-            pixel = self.run_js(f"""(() => {{
+            pixel = self.run_js(
+                f"""(() => {{
               const {{base, picture, ratio}} = corank.portraits[0];
               return [...base.getContext("2d").getImageData(picture.plane.toX({at[0]}) * ratio, picture.plane.toY({at[1]}) * ratio, 1, 1).data];
-            }})()""")
+            }})()"""
+            )
             colour = self.run_js(f"corank.model.aspects.colours[{number - 1}]")
             wanted = [int(colour[k : k + 2], 16) for k in (1, 3, 5)]
             # Over white paper: each channel is as much darker as the colour is, in one proportion.

@@ -15,19 +15,23 @@ class PathPage(page_case.PageCase):
 
     def frame(self, share):
         """At a share of the way: the coordinates, and whether the point lies in the tube."""
-        return self.run_js(f"""(() => {{
+        return self.run_js(
+            f"""(() => {{
           const {{curve}} = corank.show, at = curve.at({share} * curve.length);
           return {{moved: at.moved, piece: at.piece, residual: at.residual,
                   values: Object.fromEntries(corank.model.coordinates.map((c) =>
                     [c.name, c.cosine === undefined ? at.x[c.index] : Math.atan2(at.x[c.sine], at.x[c.cosine])]))}};
-        }})()""")
+        }})()"""
+        )
 
     def drawn_joints(self):
         """The places of the joints in the panel's drawing, in pixels."""
-        return self.run_js("""[...document.querySelectorAll("#panel .picture svg .joint")].map((j) => {
+        return self.run_js(
+            """[...document.querySelectorAll("#panel .picture svg .joint")].map((j) => {
           const box = j.getBoundingClientRect();
           return [box.left + box.width / 2, box.top + box.height / 2];
-        })""")
+        })"""
+        )
 
     def test_the_ends_are_the_configurations_that_were_asked_for(self):
         start, end = self.frame(0)["values"], self.frame(1)["values"]
@@ -65,24 +69,32 @@ class PathPage(page_case.PageCase):
 
     def test_plays_to_and_fro_and_stops(self):
         self.browser.click(*self.middle(".player .play"))
-        self.run_js("new Promise((done) => { const look = () => corank.show.player.t > 0.05 ? done() : setTimeout(look, 20); look(); })")
+        self.run_js(
+            "new Promise((done) => { const look = () => corank.show.player.t > 0.05 ? done() : setTimeout(look, 20); look(); })"
+        )
         self.browser.click(*self.middle(".player .play"))
         self.assertFalse(self.run_js("corank.show.player.playing"))
-        self.run_js("corank.show.player.seek(corank.show.curve.length); corank.show.player.direction = 1; corank.show.player.advance(0.1)")
+        self.run_js(
+            "corank.show.player.seek(corank.show.curve.length); corank.show.player.direction = 1; corank.show.player.advance(0.1)"
+        )
         self.assertEqual(self.run_js("corank.show.player.direction"), -1)
 
     def test_the_speed_is_what_is_chosen(self):
-        steps = self.run_js("""["1", "4", "0.25", "1"].map((speed) => {
+        steps = self.run_js(
+            """["1", "4", "0.25", "1"].map((speed) => {
           document.querySelector(".player .speed").value = speed;
           return corank.show.player.stepOf(0.05);
-        })""")
+        })"""
+        )
         self.assertGreater(steps[0], 0)
         for step, times in zip(steps, (1, 4, 0.25, 1)):
             self.assertAlmostEqual(step, times * steps[0], delta=1e-12)
 
     def test_the_slider_the_plot_and_the_table_go_to_a_place(self):
         half = self.run_js("corank.show.curve.length / 2")
-        self.run_js("(() => { const s = document.querySelector('.player input'); s.value = 500; s.dispatchEvent(new Event('input')); })()")
+        self.run_js(
+            "(() => { const s = document.querySelector('.player input'); s.value = 500; s.dispatchEvent(new Event('input')); })()"
+        )
         self.assertAlmostEqual(self.run_js("corank.show.player.t"), half, delta=1e-6)
         right = self.run_js("document.querySelector('.radius .axis').getBoundingClientRect().right")
         left = self.run_js("document.querySelector('.radius .axis').getBoundingClientRect().left")
@@ -90,15 +102,22 @@ class PathPage(page_case.PageCase):
         self.browser.click(left + 0.25 * (right - left), y)
         self.assertAlmostEqual(self.run_js("corank.show.player.t"), 0.5 * half, delta=0.03 * half)
         self.browser.click(*self.middle("#waypoints tbody tr:nth-child(3) td"))
-        self.assertEqual(self.run_js("[corank.show.player.t === corank.show.curve.starts[2], document.querySelector('#waypoints .current').dataset.node]"), [True, "2"])
+        self.assertEqual(
+            self.run_js(
+                "[corank.show.player.t === corank.show.curve.starts[2], document.querySelector('#waypoints .current').dataset.node]"
+            ),
+            [True, "2"],
+        )
 
     def test_a_click_next_to_the_path_in_a_portrait_goes_there(self):
         self.run_js("document.querySelector('#output-portrait').scrollIntoView({block: 'center'})")
-        x, y = self.run_js("""(() => {
+        x, y = self.run_js(
+            """(() => {
           const portrait = corank.show.portraits[0], {plane} = portrait.picture, box = portrait.overlay.getBoundingClientRect();
           const {x} = corank.show.curve.at(0.5 * corank.show.curve.length);
           return [box.left + plane.toX(x[0]), box.top + plane.toY(x[1])];
-        })()""")
+        })()"""
+        )
         self.browser.click(x, y)
         share = self.run_js("corank.show.player.t / corank.show.curve.length")
         shown = self.run_js("Array.from(corank.show.current.x)")
@@ -106,8 +125,10 @@ class PathPage(page_case.PageCase):
         self.assertLess(math.dist(shown[:2], there[:2]), 0.03, share)
 
     def test_the_line_has_no_jump_where_an_angle_begins_anew(self):
-        gaps = self.run_js("""corank.show.trace.stretches(corank.show.portraits[1].picture.axes)
-          .flatMap((s) => s.slice(1).map(([x, y], i) => Math.hypot(x - s[i][0], y - s[i][1])))""")
+        gaps = self.run_js(
+            """corank.show.trace.stretches(corank.show.portraits[1].picture.axes)
+          .flatMap((s) => s.slice(1).map(([x, y], i) => Math.hypot(x - s[i][0], y - s[i][1])))"""
+        )
         self.assertLess(max(gaps), 0.3)
 
     def test_a_set_is_hidden_by_its_box_in_the_legend(self):
