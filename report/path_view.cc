@@ -74,6 +74,7 @@ PathView path_view(const analyze::PathFinder& finder, const analyze::Path& path)
 std::string path_json(const PathView& view, const std::vector<std::string>& order) {
   const std::vector<std::size_t> places = places_of(view.system, order);
   Json json = {{"status", to_string(view.path.status)},
+               {"avoided", view.avoid == analyze::Avoid::both ? "forward or inverse" : to_string(view.avoid)},
                {"ends", {middle(view.path.from, places), middle(view.path.to, places)}},
                {"nodes", Json::array()},
                {"pieces", Json::array()}};

@@ -21,8 +21,8 @@ struct RegionMap {
   std::vector<Plane> planes;
 };
 
-/// "#0072b2": of region `k`; apart from each other in hue and lightness, also for most of the colour-blind. After twelve they
-/// begin again.
+/// "#0072b2": of region `k`. Apart from each other in hue and lightness, also for most of the colour-blind; after twelve
+/// they begin again.
 const char* region_color(std::size_t k);
 
 std::string to_svg(const RegionMap& map);

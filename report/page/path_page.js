@@ -16,6 +16,7 @@ class PathShow {
   constructor(model, path) {
     this.model = model;
     this.ends = path.ends;
+    this.avoided = path.avoided;
     this.text = document.getElementById("panel-text");
     this.curve = path.nodes.length > 0 ? new TubeCurve(model.constraints, path) : null;
     this.samples = this.curve ? this.curve.samples() : [];
@@ -78,7 +79,7 @@ class PathShow {
     const how = moved
       ? "A point of the proven tube, found by Newton’s method."
       : "Newton’s method found no point of the tube here.";
-    this.text.innerHTML = `<p class="headline">piece ${groupedText(piece + 1)} of ${groupedText(count)} · nothing singular within ${numberText(
+    this.text.innerHTML = `<p class="headline">piece ${groupedText(piece + 1)} of ${groupedText(count)} · no ${this.avoided} singularity within ${numberText(
       this.curve.pieces[piece].radius,
       3,
     )}</p>${coordinateTable(this.model, values)}<p class="fine">${how}</p>`;
