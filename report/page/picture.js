@@ -139,10 +139,7 @@ export class Picture {
       .filter((number) => !aspects.hidden.has(number))
       .map((number) => ({
         colour: aspects.colourOf(number, plain),
-        counts: this.countsOf(
-          projection,
-          (box) => aspects.of[box] !== number || this.isPending(projection.set, box),
-        ),
+        counts: this.countsOf(projection, (box) => aspects.of[box] !== number || this.isPending(projection.set, box)),
       }));
     this.drawLayer(context, (layer, width, rows) => paintMixture(layer, sheets, width, rows));
   }
@@ -173,7 +170,8 @@ export class Picture {
     const dots = set.dimension === 0;
     for (let i = 0; i < projection.length; ++i) {
       if (this.isPending(set, projection.owners[i])) continue;
-      if (set.passages) context.fillStyle = this.colours.passage[set.passageOf(projection.owners[i])] || this.colours.of(set);
+      if (set.passages)
+        context.fillStyle = this.colours.passage[set.passageOf(projection.owners[i])] || this.colours.of(set);
       const {left, right, top, bottom} = this.rectangle(projection, i);
       if (dots && right - left < 7 && bottom - top < 7) {
         context.beginPath();

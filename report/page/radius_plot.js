@@ -46,7 +46,9 @@ export class RadiusPlot {
       least = Math.min(...this.radii),
       floor = this.toY(0),
       right = size.width - size.right;
-    const steps = this.radii.map((r, k) => `${this.toX(starts[k])} ${this.toY(r)} L${this.toX(starts[k + 1])} ${this.toY(r)}`);
+    const steps = this.radii.map(
+      (r, k) => `${this.toX(starts[k])} ${this.toY(r)} L${this.toX(starts[k + 1])} ${this.toY(r)}`,
+    );
     this.add("path", {class: "area", d: `M${size.left} ${floor} L${steps.join(" L")} L${right} ${floor} Z`});
     this.add("path", {class: "step", d: `M${steps.join(" L")}`});
     this.add("path", {class: "axis", d: `M${size.left} ${floor} H${right}`});
