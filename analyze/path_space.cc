@@ -5,9 +5,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "corank/analyze/signs.h"
 #include "corank/certify/determinant_sign.h"
 #include "corank/core/rounding.h"
+#include "corank/core/signs.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/determinant_factors.h"
 #include "corank/symbolic/velocity_blocks.h"

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include "corank/analyze/signs.h"
-#include "corank/certify/inertia.h"
-#include "corank/certify/preconditioning.h"
 #include "corank/core/box_tree.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
+#include "corank/core/signs.h"
 
 namespace corank::analyze {
 namespace {
@@ -21,30 +19,24 @@ std::vector<Polynomial> joined(std::vector<Polynomial> a, const std::vector<Poly
 
 }  // namespace
 
-std::vector<int> SignCells::dependent_of(const std::vector<int>& free) const {
-  std::vector<int> result;
-  for (int j = 0; j < system_.size(); ++j)
-    if (std::find(free.begin(), free.end(), j) == free.end()) result.push_back(j);
-  return result;
-}
-
 SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
                      const std::vector<Polynomial>& limits)
     : system_(system),
       cover_(cover),
       given_(cover.boxes.size()),
       limits_(static_cast<int>(limits.size())),
-      compiled_(system, joined(functions, limits)),
+      proof_(system, joined(functions, limits)),
       test_(system) {
   const UpwardRounding rounding;
   for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
     const CoverBox& box = cover.boxes[i];
     CORANK_CHECK((box.verdict == Verdict::regular || box.verdict == Verdict::boundary) && box.region >= 0);
-    SignCell cell{static_cast<int>(i), box.box, {}, {}, false, {}, {}};
+    SignCell cell{{box.free, box.box}, static_cast<int>(i)};
     // The sheet of a `boundary` box may go on beyond the domain.
     if (box.verdict == Verdict::boundary)
-      for (const int d : dependent_of(box.free))
-        cell.sides[static_cast<std::size_t>(d)] = region(cell)[static_cast<std::size_t>(d)];
+      for (std::size_t d = 0; d < cell.sides.size(); ++d)
+        if (std::find(box.free.begin(), box.free.end(), static_cast<int>(d)) == box.free.end())
+          cell.sides[d] = region(cell)[d];
     widen_region(cell);
     evaluate(cell);
     if (!is_outside(cell)) cells_.push_back(std::move(cell));
@@ -54,7 +46,7 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
 
 // A region that was lifted from a reduced system may have no width where another sheet's differs by rounding.
 void SignCells::widen_region(const SignCell& cell) {
-  certify::Sheet sheet = certify::newton_prove(compiled_, preconditioner(cell, cell.sides), cell.sides, workspace_);
+  certify::Sheet sheet = proof_.sheet_over(cell);
   if (!sheet.proven) return;
   CoverBox& box = cover_.boxes[static_cast<std::size_t>(cell.box)];
   box.region = static_cast<int>(cover_.regions.size());
@@ -93,33 +85,15 @@ const Box& SignCells::region(const SignCell& cell) const {
   return cover_.regions[static_cast<std::size_t>(cover_.boxes[static_cast<std::size_t>(cell.box)].region)];
 }
 
-certify::Preconditioner SignCells::preconditioner(const SignCell& cell, const Box& sides) const {
-  std::vector<double> c;
-  for (const Interval& side : sides) c.push_back(side.mid());
-  return certify::midpoint_preconditioner(compiled_, c, dependent_of(free(cell)));
-}
-
-// Shrinks the dependent sides and bounds the function over the sheet's solutions there.
-Interval SignCells::range(const SignCell& cell, int function, Box& sides) {
-  const certify::NewtonStep step = certify::tighten_sheet(compiled_, preconditioner(cell, sides), sides, workspace_);
-  Interval value = step.value_at_zeros(compiled_.value_row(function), sides);
-  CORANK_CHECK(value.intersect(compiled_.evaluate(compiled_.value_row(function), sides)));
-  return value;
-}
-
 void SignCells::evaluate(SignCell& cell) {
-  certify::tighten_sheet(compiled_, preconditioner(cell, cell.sides), cell.sides, workspace_);
-  const certify::NewtonStep step =
-      certify::tighten_sheet(compiled_, preconditioner(cell, cell.sides), cell.sides, workspace_);
-  cell.range.clear();
-  cell.mixed.clear();
-  for (int k = 0; k < functions(); ++k) {
-    Interval value = step.value_at_zeros(compiled_.value_row(k), cell.sides);
-    CORANK_CHECK(value.intersect(compiled_.evaluate(compiled_.value_row(k), cell.sides)));
-    if (sign_of(value) == 0) cell.mixed.push_back(k);
-    cell.range.push_back(value);
-  }
+  proof_.bound(cell, 2);
   cell.resolved = resolve(cell);
+}
+
+SignCell SignCells::cell_over(const SignCell& cell, Box sides) {
+  SignCell result{{cell.free, std::move(sides)}, cell.box};
+  proof_.bound(result, 1);
+  return result;
 }
 
 bool SignCells::is_outside(const SignCell& cell) const {
@@ -152,60 +126,9 @@ std::vector<std::vector<int>> SignCells::choices(const SignCell& cell) const {
   return result;
 }
 
-// Theorem: at a solution the sheet's tangent space is the kernel of the equations' Jacobian J; with V its basis whose free
-// block is the identity (certify::kernel_basis), ∂g/∂f along the sheet is ∇g·V_f.
-bool SignCells::slopes(const SignCell& cell, Slopes& result) {
-  const int m = compiled_.equations(), n = system_.size();
-  const auto dense = [&](int row, auto&& set) {
-    std::vector<Interval> entries(static_cast<std::size_t>(compiled_.entries()));
-    compiled_.jacobian(row, cell.sides, entries);
-    for (int k = compiled_.row_begin(row); k < compiled_.row_begin(row + 1); ++k)
-      set(compiled_.column(k), entries[static_cast<std::size_t>(k)]);
-  };
-  certify::IntervalMatrix jacobian(m, n);
-  for (int i = 0; i < m; ++i) dense(i, [&](int j, const Interval& e) { jacobian(i, j) += e; });
-  const auto basis = certify::kernel_basis(jacobian, dependent_of(free(cell)));
-  if (!basis) return false;
-  result.of.clear();
-  for (const int g : cell.mixed) {
-    std::vector<Interval>& by_free = result.of.emplace_back(static_cast<std::size_t>(basis->columns));
-    dense(compiled_.value_row(g), [&](int j, const Interval& e) {
-      for (int f = 0; f < basis->columns; ++f) by_free[static_cast<std::size_t>(f)] += e * (*basis)(j, f);
-    });
-  }
-  return true;
-}
-
-// Lemma 2, from the whole of X_F to its faces. `open`: the free variables that still have their sides.
-int SignCells::connected(const SignCell& cell, int function, int sign, const std::vector<Interval>& slope, Box sides,
-                         std::vector<int> open) {
-  const Interval value = range(cell, function, sides);
-  if (sign_of(value) == sign) return 1;
-  if (sign_of(value) == -sign) return -1;
-  const std::vector<int>& frees = free(cell);
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    const auto f = static_cast<std::size_t>(std::find(frees.begin(), frees.end(), open[i]) - frees.begin());
-    const int growth = sign * sign_of(slope[f]);
-    if (growth == 0) continue;
-    Interval& side = sides[static_cast<std::size_t>(open[i])];
-    side = Interval(growth > 0 ? side.hi() : side.lo());
-    open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
-    return connected(cell, function, sign, slope, std::move(sides), std::move(open));
-  }
-  return 0;
-}
-
-int SignCells::part_of_one(const SignCell& cell, int sign) {
-  CORANK_CHECK(cell.mixed.size() == 1 && UpwardRounding::active());
-  Slopes s;
-  if (!slopes(cell, s)) return 0;
-  return connected(cell, cell.mixed.front(), sign, s.of.front(), cell.sides, free(cell));
-}
-
-// Along free variables and between two of them, in shares of their sides of the cover's box.
 std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) const {
   std::vector<std::vector<double>> result;
-  const std::vector<int>& frees = free(cell);
+  const std::vector<int>& frees = cell.free;
   const auto width = [&](std::size_t f) {
     return cover_.boxes[static_cast<std::size_t>(cell.box)].box[static_cast<std::size_t>(frees[f])].width();
   };
@@ -232,24 +155,15 @@ std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) con
 
 // Lemma 3; false: there are none for some choice of signs.
 bool SignCells::find_directions(SignCell& cell) {
-  Slopes s;
+  certify::SignCellTest::Slopes s;
   cell.directions = {};
   const std::vector<std::vector<int>> all = choices(cell);
-  if (all.empty() || !slopes(cell, s)) return false;
+  if (all.empty() || !proof_.slopes(cell, s)) return false;
   for (std::size_t c = all.size(); c < cell.directions.size(); ++c) cell.directions[c] = ~std::uint64_t{0};
   std::uint64_t bit = 1;
   for (const std::vector<double>& d : directions(cell)) {
-    for (std::size_t c = 0; c < all.size(); ++c) {
-      bool grow = true, shrink = true;
-      for (std::size_t k = 0; k < cell.mixed.size(); ++k) {
-        Interval along;
-        for (std::size_t f = 0; f < d.size(); ++f) along += Interval(d[f]) * s.of[k][f];
-        const int growth = sign_of(along) * all[c][static_cast<std::size_t>(cell.mixed[k])];
-        grow = grow && growth > 0;
-        shrink = shrink && growth < 0;
-      }
-      if (grow || shrink) cell.directions[c] |= bit;
-    }
+    for (std::size_t c = 0; c < all.size(); ++c)
+      if (certify::SignCellTest::growth(cell, s, d, all[c]) != 0) cell.directions[c] |= bit;
     bit <<= 1;
   }
   return std::find(cell.directions.begin(), cell.directions.end(), 0U) == cell.directions.end();
@@ -262,35 +176,18 @@ bool SignCells::resolve(SignCell& cell) {
   return find_directions(cell);
 }
 
-Box SignCells::solution_over(const SignCell& cell, Box sides) {
-  constexpr double kNarrow = 1e-11;
-  for (int step = 0; step < 5; ++step) {
-    certify::tighten_sheet(compiled_, preconditioner(cell, sides), sides, workspace_);
-    double widest = 0;
-    for (std::size_t j = 0; j < sides.size(); ++j) widest = std::max(widest, sides[j].width() / compiled_.scales()[j]);
-    if (widest < kNarrow) break;
-  }
-  return sides;
-}
-
-std::vector<int> SignCells::signs(const Box& box) const {
-  std::vector<int> result;
-  for (int k = 0; k < functions(); ++k) result.push_back(sign_of(compiled_.evaluate(compiled_.value_row(k), box)));
-  return result;
-}
-
 // Cut where the functions vary most; nothing where rounding leaves no room.
 std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
-  Slopes s;
-  const std::vector<int>& frees = free(cell);
-  const bool known = slopes(cell, s);
+  certify::SignCellTest::Slopes s;
+  const std::vector<int>& frees = cell.free;
+  const bool known = proof_.slopes(cell, s);
   std::size_t best = 0;
   double most = -1;
   for (std::size_t f = 0; f < frees.size(); ++f) {
     const double width = cell.sides[static_cast<std::size_t>(frees[f])].width();
     double variation = known ? 0 : width;
     if (known)
-      for (const auto& slope : s.of) variation = std::max(variation, slope[f].mag() * width);
+      for (const auto& slope : s) variation = std::max(variation, slope[f].mag() * width);
     if (variation > most) most = variation, best = f;
   }
   const auto j = static_cast<std::size_t>(frees[best]);
@@ -299,7 +196,7 @@ std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
   if (!(side.lo() < cut && cut < side.hi())) return std::nullopt;
   std::vector<SignCell> result;
   for (const Interval& half : {Interval(side.lo(), cut), Interval(cut, side.hi())}) {
-    SignCell child{cell.box, cell.sides, {}, {}, false, {}, {}};
+    SignCell child{{cell.free, cell.sides}, cell.box};
     child.sides[j] = half;
     evaluate(child);
     if (!is_outside(child) && !is_covered_before(child)) result.push_back(std::move(child));
@@ -348,7 +245,7 @@ std::optional<SignCell> SignCells::sheet_over(const std::vector<std::size_t>& ce
   for (const std::size_t c : cells)
     for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cells_[c].sides[j]);
   double radius = 0;
-  for (std::size_t j = 0; j < hull.size(); ++j) radius = std::max(radius, hull[j].width() / compiled_.scales()[j]);
+  for (std::size_t j = 0; j < hull.size(); ++j) radius = std::max(radius, hull[j].width() / proof_.compiled().scales()[j]);
   certify::Sheet sheet = test_.sheet_about(hull, radius);
   if (!sheet.proven) return std::nullopt;
   for (std::size_t j = 0; j < hull.size(); ++j)
@@ -361,7 +258,7 @@ std::optional<SignCell> SignCells::sheet_over(const std::vector<std::size_t>& ce
   box.region = static_cast<int>(cover_.regions.size());
   cover_.regions.push_back(std::move(sheet.region));
   cover_.boxes.push_back(std::move(box));
-  SignCell cell{static_cast<int>(cover_.boxes.size()) - 1, cover_.boxes.back().box, {}, {}, false, {}, {}};
+  SignCell cell{{cover_.boxes.back().free, cover_.boxes.back().box}, static_cast<int>(cover_.boxes.size()) - 1};
   evaluate(cell);
   return cell;
 }
@@ -412,6 +309,14 @@ void SignCells::refine(int halvings, int rounds, solve::Control& control) {
     }
     work();
   }
+}
+
+bool SignCells::has_graph_over(const Box& at, const std::vector<int>& free, const std::vector<Interval>& over,
+                               const std::vector<int>& wanted) {
+  const std::optional<Box> point = test_.solution_in(at, at);
+  if (!point) return false;
+  const certify::Sheet sheet = proof_.graph_over(*point, free, over);
+  return sheet.proven && signs(sheet.image) == wanted;
 }
 
 }  // namespace corank::analyze

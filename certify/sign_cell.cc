@@ -1,0 +1,152 @@
+#include "corank/certify/sign_cell.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "corank/certify/inertia.h"
+#include "corank/certify/preconditioning.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+#include "corank/core/signs.h"
+
+namespace corank::certify {
+
+SignCellTest::SignCellTest(const System& system, const std::vector<Polynomial>& functions) : compiled_(system, functions) {}
+
+std::vector<int> SignCellTest::dependent_of(const std::vector<int>& free) const {
+  std::vector<int> result;
+  for (int j = 0; j < compiled_.variables(); ++j)
+    if (std::find(free.begin(), free.end(), j) == free.end()) result.push_back(j);
+  return result;
+}
+
+Preconditioner SignCellTest::preconditioner(const std::vector<int>& free, const Box& sides) const {
+  std::vector<double> c;
+  for (const Interval& side : sides) c.push_back(side.mid());
+  return midpoint_preconditioner(compiled_, c, dependent_of(free));
+}
+
+// Shrinks the dependent sides and bounds the function over the sheet's solutions there.
+Interval SignCellTest::range(const SheetCell& cell, int function, Box& sides) {
+  const NewtonStep step = tighten_sheet(compiled_, preconditioner(cell.free, sides), sides, workspace_);
+  Interval value = step.value_at_zeros(compiled_.value_row(function), sides);
+  CORANK_CHECK(value.intersect(compiled_.evaluate(compiled_.value_row(function), sides)));
+  return value;
+}
+
+void SignCellTest::bound(SheetCell& cell, int steps) {
+  CORANK_CHECK(steps > 0 && UpwardRounding::active());
+  for (int k = 1; k < steps; ++k) tighten_sheet(compiled_, preconditioner(cell.free, cell.sides), cell.sides, workspace_);
+  const NewtonStep step = tighten_sheet(compiled_, preconditioner(cell.free, cell.sides), cell.sides, workspace_);
+  cell.range.clear();
+  cell.mixed.clear();
+  for (int k = 0; k < functions(); ++k) {
+    Interval value = step.value_at_zeros(compiled_.value_row(k), cell.sides);
+    CORANK_CHECK(value.intersect(compiled_.evaluate(compiled_.value_row(k), cell.sides)));
+    if (sign_of(value) == 0) cell.mixed.push_back(k);
+    cell.range.push_back(value);
+  }
+}
+
+int SignCellTest::holds(const SheetCell& cell, const std::vector<int>& signs) {
+  bool all = true;
+  for (std::size_t k = 0; k < signs.size(); ++k) {
+    const int sign = sign_of(cell.range[k]);
+    if (sign == -signs[k]) return -1;
+    all = all && sign != 0;
+  }
+  return all ? 1 : 0;
+}
+
+bool SignCellTest::slopes(const SheetCell& cell, Slopes& result) const {
+  CORANK_CHECK(UpwardRounding::active());
+  const int m = compiled_.equations(), n = compiled_.variables();
+  const auto dense = [&](int row, auto&& set) {
+    std::vector<Interval> entries(static_cast<std::size_t>(compiled_.entries()));
+    compiled_.jacobian(row, cell.sides, entries);
+    for (int k = compiled_.row_begin(row); k < compiled_.row_begin(row + 1); ++k)
+      set(compiled_.column(k), entries[static_cast<std::size_t>(k)]);
+  };
+  IntervalMatrix jacobian(m, n);
+  for (int i = 0; i < m; ++i) dense(i, [&](int j, const Interval& e) { jacobian(i, j) += e; });
+  const auto basis = kernel_basis(jacobian, dependent_of(cell.free));
+  if (!basis) return false;
+  result.clear();
+  for (const int g : cell.mixed) {
+    std::vector<Interval>& by_free = result.emplace_back(static_cast<std::size_t>(basis->columns));
+    dense(compiled_.value_row(g), [&](int j, const Interval& e) {
+      for (int f = 0; f < basis->columns; ++f) by_free[static_cast<std::size_t>(f)] += e * (*basis)(j, f);
+    });
+  }
+  return true;
+}
+
+int SignCellTest::growth(const SheetCell& cell, const Slopes& slopes, const std::vector<double>& direction,
+                         const std::vector<int>& signs) {
+  CORANK_CHECK(UpwardRounding::active() && slopes.size() == cell.mixed.size());
+  bool grow = true, shrink = true;
+  for (std::size_t k = 0; k < cell.mixed.size(); ++k) {
+    Interval along;
+    for (std::size_t f = 0; f < direction.size(); ++f) along += Interval(direction[f]) * slopes[k][f];
+    const int growth = sign_of(along) * signs[static_cast<std::size_t>(cell.mixed[k])];
+    grow = grow && growth > 0;
+    shrink = shrink && growth < 0;
+  }
+  return grow ? 1 : shrink ? -1 : 0;
+}
+
+int SignCellTest::connected(const SheetCell& cell, int function, int sign, const std::vector<Interval>& slope, Box sides,
+                            std::vector<int> open) {
+  const Interval value = range(cell, function, sides);
+  if (sign_of(value) == sign) return 1;
+  if (sign_of(value) == -sign) return -1;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const auto f = static_cast<std::size_t>(std::find(cell.free.begin(), cell.free.end(), open[i]) - cell.free.begin());
+    const int growth = sign * sign_of(slope[f]);
+    if (growth == 0) continue;
+    Interval& side = sides[static_cast<std::size_t>(open[i])];
+    side = Interval(growth > 0 ? side.hi() : side.lo());
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+    return connected(cell, function, sign, slope, std::move(sides), std::move(open));
+  }
+  return 0;
+}
+
+int SignCellTest::part_of_one(const SheetCell& cell, int sign) {
+  CORANK_CHECK(cell.mixed.size() == 1 && UpwardRounding::active());
+  Slopes s;
+  if (!slopes(cell, s)) return 0;
+  return connected(cell, cell.mixed.front(), sign, s.front(), cell.sides, cell.free);
+}
+
+Box SignCellTest::solution_over(const SheetCell& cell, Box sides) {
+  constexpr double kNarrow = 1e-11;
+  for (int step = 0; step < 5; ++step) {
+    tighten_sheet(compiled_, preconditioner(cell.free, sides), sides, workspace_);
+    double widest = 0;
+    for (std::size_t j = 0; j < sides.size(); ++j) widest = std::max(widest, sides[j].width() / compiled_.scales()[j]);
+    if (widest < kNarrow) break;
+  }
+  return sides;
+}
+
+Sheet SignCellTest::sheet_over(const SheetCell& cell) {
+  return newton_prove(compiled_, preconditioner(cell.free, cell.sides), cell.sides, workspace_);
+}
+
+std::vector<int> SignCellTest::signs(const Box& box) const {
+  std::vector<int> result;
+  for (int k = 0; k < functions(); ++k) result.push_back(sign_of(compiled_.evaluate(compiled_.value_row(k), box)));
+  return result;
+}
+
+Sheet SignCellTest::graph_over(const Box& point, const std::vector<int>& free, const std::vector<Interval>& over) {
+  Box around = point;
+  for (std::size_t k = 0; k < free.size(); ++k) around[static_cast<std::size_t>(free[k])] = over[k];
+  Sheet sheet = newton_prove(compiled_, preconditioner(free, point), around, workspace_);
+  for (std::size_t j = 0; sheet.proven && j < point.size(); ++j)
+    if (!sheet.region[j].contains(point[j])) sheet.proven = false;
+  return sheet;
+}
+
+}  // namespace corank::certify

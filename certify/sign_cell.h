@@ -1,0 +1,92 @@
+// Parts of a cell of a proven sheet on which given functions have given signs: which of them are connected, which empty.
+//
+// A cell is the part of a proven sheet over a box X_F of its free variables; g_1 … g_r are functions on it. Its *parts*
+// are the sets of its points where the g_k have given signs, none 0.
+//   Lemma 1: where every g_k has one sign all over the cell, its one part is the cell, which is connected.
+//   Lemma 2: let one function g have both signs, s be one of them, and s·∂g/∂f > 0 all over the cell (derivatives
+// along the sheet) for a free variable f or < 0. Then the part of sign s is connected or empty where its part on the
+// face of X_F at f's end where s·g is larger is; and each of its points is joined to one of that face. Proof: along
+// f from any point s·g grows until the face. So the part contracts onto its part on the face. On the face the lemma
+// may be used again, with its other free variables; a face where s·g > 0 all over is connected.
+//   Lemma 3: let there be a direction d of free variables with s_k·∂g_k/∂d > 0 all over the cell for each g_k that
+// has not one sign there. Then each point of the part of signs s is joined in it to a point on the cell's border,
+// which is another cell's, too: the part adds no piece.
+//   Lemma 4: let the dimension be 2 and d as in lemma 3, with s_k·∂g_k/∂d > 0. The sides of X_F through which d points out
+// of it are one arc. Along d every point of the part of signs s comes to that arc without leaving the part: so the part is
+// connected where its points on the arc are, and empty where there are none.
+#pragma once
+
+#include <vector>
+
+#include "corank/certify/compiled_system.h"
+#include "corank/certify/newton.h"
+#include "corank/core/cover.h"
+
+namespace corank::certify {
+
+/// The part of a sheet over other free sides, with what is known of the functions on it.
+struct SheetCell {
+  std::vector<int> free{};        ///< variables of the sheet
+  Box sides{};                    ///< all variables; the free ones' are X_F, the others' hold the sheet's solutions over it
+  std::vector<Interval> range{};  ///< of each function
+  std::vector<int> mixed{};       ///< functions that have not one sign, as far as is known
+};
+
+/// Every function requires UpwardRounding::active(), and a cell whose sides hold for each value of X_F the one solution that
+/// the sheet has there.
+class SignCellTest {
+ public:
+  /// Of each mixed function by each free variable.
+  using Slopes = std::vector<std::vector<Interval>>;
+
+  SignCellTest(const System& system, const std::vector<Polynomial>& functions);
+
+  int functions() const { return compiled_.values(); }
+  const CompiledSystem& compiled() const { return compiled_; }
+
+  /// Shrinks the dependent sides so many times, and bounds every function over the sheet's solutions. Theorem: tighten_sheet
+  /// loses none of them, and NewtonStep::value_at_zeros and the natural extension both enclose the function there.
+  void bound(SheetCell& cell, int steps);
+  /// Lemma 1: all of the cell is in the part of these signs (1), nothing of it is (−1); 0: not known. After bound().
+  static int holds(const SheetCell& cell, const std::vector<int>& signs);
+  /// Encloses the derivatives along the sheet over the cell; false: not known. Theorem: at a solution the sheet's tangent
+  /// space is the kernel of the equations' Jacobian J; with V its basis whose free block is the identity
+  /// (certify::kernel_basis), ∂g/∂f along the sheet is ∇g·V_f.
+  bool slopes(const SheetCell& cell, Slopes& result) const;
+  /// Hypothesis of lemma 3: s_k·∂g_k/∂d > 0 for each mixed function (1), or < 0 for each, so that −d does (−1); or neither
+  /// (0). `signs`: of all functions; `direction`: of the free variables.
+  static int growth(const SheetCell& cell, const Slopes& slopes, const std::vector<double>& direction,
+                    const std::vector<int>& signs);
+  /// Lemma 2 for the one mixed function of a cell and a sign: is the part proven to be connected and not empty (1), empty
+  /// (−1), or neither (0)?
+  int part_of_one(const SheetCell& cell, int sign);
+  /// Lemma 4 for the part of these signs, one of each function, likewise; of the directions a few are tried.
+  int part_by_outflow(const SheetCell& cell, const std::vector<int>& signs,
+                      const std::vector<std::vector<double>>& directions);
+  /// Where the free sides are points of X_F: encloses the sheet's solution over them, as narrow as a few steps make it.
+  Box solution_over(const SheetCell& cell, Box sides);
+  /// newton_prove over all of the cell's sides.
+  Sheet sheet_over(const SheetCell& cell);
+  /// Signs ±1 of the functions in the box; 0 where one is not known.
+  std::vector<int> signs(const Box& box) const;
+  /// A sheet about a point, over these sides of the variables `free`, whose region holds the point. Not proven: no claim.
+  Sheet graph_over(const Box& point, const std::vector<int>& free, const std::vector<Interval>& over);
+
+ private:
+  struct Arc;
+
+  std::vector<int> dependent_of(const std::vector<int>& free) const;
+  Preconditioner preconditioner(const std::vector<int>& free, const Box& sides) const;
+  Interval range(const SheetCell& cell, int function, Box& sides);
+  // Lemma 2, from the whole of X_F to its faces. `open`: the free variables that still have their sides.
+  int connected(const SheetCell& cell, int function, int sign, const std::vector<Interval>& slope, Box sides,
+                std::vector<int> open);
+  // The part of these signs on a segment of a side of X_F; false: not known.
+  bool add_segment(const SheetCell& cell, const std::vector<int>& signs, int along, bool upwards, int depth, Arc& arc);
+  SheetCell over(const SheetCell& cell, Box sides);
+
+  CompiledSystem compiled_;  // value rows: the functions
+  NewtonWorkspace workspace_;
+};
+
+}  // namespace corank::certify
