@@ -27,8 +27,9 @@ struct PathView {
 
 PathView path_view(const analyze::PathFinder& finder, const analyze::Path& path);
 
-/// A JSON object for the page's script: "status", the singularities "avoided", the "ends" and, of a tube, "nodes", "pieces" and "radii", in the variables
-/// `order` (System::variables' names). Throws std::invalid_argument where the view has none of such a name.
+/// A JSON object for the page's script: "status", the singularities "avoided", the "ends" and, of a tube, "nodes", "pieces"
+/// and "radii", in the variables `order` (System::variables' names). Throws std::invalid_argument where the view has none of
+/// such a name.
 std::string path_json(const PathView& view, const std::vector<std::string>& order);
 
 }  // namespace corank::report
