@@ -49,12 +49,11 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
   const Tube& tube = *view.path.tube;
   const std::size_t n = tube.pieces.size();
   words.finding = "There is a path, proven from end to end.";
-  words.proven.push_back(
-      fmt::format("{} of configurations from the start to the end, in {} piece{}: in each a Newton test with one parameter "
-                  "proves one lift "
-                  "onto C-space, and the pieces meet.",
-                  "One unbroken way", grouped(n), n == 1 ? "" : "s"));
-  words.proven.push_back(fmt::format("No {} singularity on it: {} keep{} full rank all along.", avoided(view.avoid),
+  const std::string test = "a Newton test with one parameter proves one lift onto C-space";
+  words.proven.push_back("One unbroken way of configurations from the start to the end: " +
+                         (n == 1 ? test : fmt::format("{} pieces that meet, in each of which {}", grouped(n), test)) + ".");
+  words.proven.push_back(fmt::format("No {} singularity on it: {} keep{} full rank all along.",
+                                     view.avoid == Avoid::both ? "forward or inverse" : avoided(view.avoid),
                                      kept_rank(view.avoid), view.avoid == Avoid::both ? "" : "s"));
   if (const std::string bounds = bounds_of(mechanism, view.system); !bounds.empty())
     words.proven.push_back(fmt::format("It keeps to {}.", bounds));

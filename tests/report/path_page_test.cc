@@ -15,6 +15,7 @@ namespace corank::report {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
@@ -89,6 +90,16 @@ TEST(PathWords, SayWhatIsProvenOfAPath) {
   EXPECT_THAT(words.proven, Contains(HasSubstr("No forward singularity on it")));
   EXPECT_THAT(words.proven, Contains(HasSubstr("It keeps to the ranges of <i>J</i><sub>3x</sub>")));
   EXPECT_THAT(words.unproven, Not(Contains(HasSubstr("asked for"))));
+}
+
+TEST(PathWords, SpeakOfBothKindsOfSingularityWhereBothAreAvoided) {
+  const Asked a = asked("three_slider", {{"x_C", "0.3"}}, 4, {{"x_C", "0.5"}}, 4, {.avoid = analyze::Avoid::both});
+  ASSERT_TRUE(a.view.path.tube);
+  const PathWords words = path_words(a.mechanism, a.view);
+  EXPECT_EQ(words.kicker, "A path without forward and inverse singularities");
+  EXPECT_THAT(words.proven, Contains(HasSubstr("No forward or inverse singularity on it")));
+  EXPECT_EQ(a.view.signs[0].size(), a.view.signs[1].size());
+  EXPECT_THAT(signs_html(a.view), AllOf(HasSubstr("det <i>L<sub>y</sub></i>"), HasSubstr("det <i>L<sub>z</sub></i>")));
 }
 
 TEST(PathWords, NameTheRadiusThatWasNotReached) {
