@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _corank, notebook, plotting
 from .errors import deliver
+from .optional import require
 from .point import Interval, Point
 from .progress import ProgressOption, Shown
 
@@ -270,7 +271,7 @@ class Result:
     def to_pandas(self, angles: bool = False) -> "pandas.DataFrame":
         """A data frame with a row for each box: its verdict, and NAME_lo and NAME_hi of each variable; with `angles` those
         of each angle, in radians, too."""
-        import pandas
+        pandas = require("pandas")
 
         n = len(self)
         columns = [f"{name}_{end}" for name in self.variables for end in ("lo", "hi")]
