@@ -23,31 +23,42 @@ class Places {
     if (!tree_) return -1;
     near_.clear();
     tree_->for_each_overlapping(box, 0.0, [&](std::size_t c) { near_.push_back(c); });
-    int only = -1;
-    bool several = false;
-    for (const std::size_t c : near_)
-      for (const auto& [signs, piece] : parts_[c]) {
-        several = several || (only >= 0 && only != piece);
-        only = piece;
-      }
-    return several ? in_the_middle(box) : only;
+    const std::optional<int> only = only_piece();
+    return only ? *only : in_the_middle(box);
   }
 
  private:
+  // Of all parts of the cells nearby; −1: they have none. Nothing: there are several.
+  std::optional<int> only_piece() const {
+    int only = -1;
+    for (const std::size_t c : near_)
+      for (const auto& [signs, piece] : parts_[c]) {
+        if (only >= 0 && only != piece) return {};
+        only = piece;
+      }
+    return only;
+  }
+
+  bool is_over_middle(std::size_t c, const Box& box) const {
+    const SignCell& cell = cells_.cells()[c];
+    const std::vector<int>& frees = cells_.free(cell);
+    return std::all_of(frees.begin(), frees.end(), [&](int f) {
+      const auto j = static_cast<std::size_t>(f);
+      return cell.sides[j].contains(box[j].mid());
+    });
+  }
+
   // Of the solutions over the middle's free values the one that is nearest to it.
   int in_the_middle(const Box& box) {
+    std::erase_if(near_, [&](std::size_t c) { return !is_over_middle(c, box); });
+    if (const auto only = only_piece()) return *only;
     int best = -1;
     double least = 0;
     for (const std::size_t c : near_) {
       const SignCell& cell = cells_.cells()[c];
       Box at = cell.sides;
-      bool over = true;
-      for (const int f : cells_.free(cell)) {
-        const auto j = static_cast<std::size_t>(f);
-        over = over && cell.sides[j].contains(box[j].mid());
-        at[j] = Interval(box[j].mid());
-      }
-      if (!over) continue;
+      for (const int f : cells_.free(cell))
+        at[static_cast<std::size_t>(f)] = Interval(box[static_cast<std::size_t>(f)].mid());
       const Box solution = cells_.solution_over(cell, std::move(at));
       const auto part = parts_[c].find(cells_.signs(solution));
       if (part == parts_[c].end()) continue;
