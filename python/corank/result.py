@@ -310,7 +310,7 @@ class Result:
 
     def page(self) -> "notebook.Page":
         """A report of this set alone as one HTML page; a notebook shows it with its 3-D view and its moving mechanism."""
-        return notebook.Page(_corank.report_page([self._core], "", [], []))
+        return notebook.Page(_corank.report_page([self._core], "", [], [], None))
 
     def show(self, height: int = 600) -> "notebook.Page":
         """The same, for the end of a notebook's cell. `height`: in pixels."""
