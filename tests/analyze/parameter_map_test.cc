@@ -270,7 +270,7 @@ TEST(ParameterMap, AgreesWithSearchesAtRandomValuesInProvenCells) {
     }
   }
   EXPECT_EQ(compared, 160);
-  EXPECT_GT(several, 50);
+  EXPECT_GT(several, 40);  // the comparisons are not all of 0 or 1
 }
 
 }  // namespace
