@@ -13,6 +13,7 @@
 #include "corank/result/path_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/result/shape_file.h"
 #include "corank/result/verification.h"
 
 namespace corank::app {
@@ -76,11 +77,26 @@ ExitStatus verify_path(const VerifyCommand& command, Watch& watch) {
   return report.verified() ? kDone : report.failures.empty() ? kIncomplete : kBadInput;
 }
 
+ExitStatus verify_shape(const VerifyCommand& command, Watch& watch) {
+  const result::ShapeFile file = result::read_shape(command.input);
+  watch.enter("the check");
+  check::Options options;
+  options.threads = command.threads;
+  options.stop = &watch.stop();
+  const check::ShapeReport report = result::verify(file, options);
+  watch.done();
+  fmt::print("{}", command.json ? result::to_json(report, file) + "\n" : result::to_table(report, file));
+  if (report.complete()) return kDone;
+  if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
+  return report.failures.empty() ? kIncomplete : kBadInput;
+}
+
 ExitStatus verify(const VerifyCommand& command) {
   const Interrupt interrupt;
   Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
   watch.enter("reading the file");
   if (result::is_path_file(command.input)) return verify_path(command, watch);
+  if (result::is_shape_file(command.input)) return verify_shape(command, watch);
   const result::Result result = result::read_result(command.input);
   watch.enter("deriving the equations from the model");
   const System system = result::system_of(result);
