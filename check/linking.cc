@@ -49,7 +49,7 @@ std::string Linking::region_fault(std::size_t sheet) const {
   if (!contradiction_[sheet].empty() || checked_by_its_box_[sheet]) return contradiction_[sheet];
   CoverBox box;
   box.box = region(sheet);
-  box.verdict = Verdict::boundary;
+  box.verdict = Verdict::regular;
   box.free = free_[sheet];
   for (int j = 0; j < system_.size(); ++j)
     if (problem_.place(j) < 0) box.box[static_cast<std::size_t>(j)] = Interval(-kAnywhere, kAnywhere);

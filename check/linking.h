@@ -20,8 +20,8 @@ class Linking {
   std::size_t sheets() const { return free_.size(); }
   /// The box's region; −1 where it is none.
   int sheet_of_box(std::size_t box) const { return cover_.boxes[box].region; }
-  /// What is wrong with the sheet, or nothing. Of a region: as a whole, which is more than what its boxes say. Of a bridge: it
-  /// has to keep to the domain and the inequalities, too, since what it joins lies there.
+  /// What is wrong with the sheet as a whole, or nothing; it has to keep to the domain and the inequalities, too, since what it
+  /// joins is to lie there.
   std::string sheet_fault(std::size_t sheet) const;
   /// Is there a solution in both sheets, near the point that the link names? Else why not.
   std::string link_fault(const SheetLink& link) const;
