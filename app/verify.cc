@@ -11,6 +11,7 @@
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
 #include "corank/result/path_file.h"
+#include "corank/result/pieces_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 #include "corank/result/shape_file.h"
@@ -91,12 +92,27 @@ ExitStatus verify_shape(const VerifyCommand& command, Watch& watch) {
   return report.failures.empty() ? kIncomplete : kBadInput;
 }
 
+// Upper bounds stay unchecked: never kDone.
+ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch) {
+  const result::PiecesFile file = result::read_pieces(command.input);
+  watch.enter("the check");
+  check::Options options;
+  options.threads = command.threads;
+  options.stop = &watch.stop();
+  const check::PiecesReport report = result::verify(file, options);
+  watch.done();
+  fmt::print("{}", command.json ? result::to_json(report, file) + "\n" : result::to_table(report, file));
+  if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
+  return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
+}
+
 ExitStatus verify(const VerifyCommand& command) {
   const Interrupt interrupt;
   Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
   watch.enter("reading the file");
   if (result::is_path_file(command.input)) return verify_path(command, watch);
   if (result::is_shape_file(command.input)) return verify_shape(command, watch);
+  if (result::is_pieces_file(command.input)) return verify_pieces(command, watch);
   const result::Result result = result::read_result(command.input);
   watch.enter("deriving the equations from the model");
   const System system = result::system_of(result);
