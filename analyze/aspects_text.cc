@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -42,6 +43,11 @@ result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
   file.model_text = question.model.source_text();
   file.constants = question.constants;
   file.space = *a.cover;
+  file.lists[0].factors = file.lists[1].factors = a.forward_factors;
+  file.lists[2].factors = a.inverse_factors;
+  for (const std::string& f : a.inverse_factors)
+    if (std::find(a.forward_factors.begin(), a.forward_factors.end(), f) == a.forward_factors.end())
+      file.lists[0].factors.push_back(f);
   const std::array<const Pieces*, 3> lists{&a.aspects, &a.assembly_modes, &a.working_modes};
   for (std::size_t k = 0; k < lists.size(); ++k) {
     PieceClaims& claims = file.lists[k];

@@ -51,6 +51,7 @@ class PieceCheck {
   }
 
   PieceReport run() {
+    if (!functions_match()) return fail("its functions are not the factors of the model's determinants"), std::move(report_);
     if (rows_.size() > kMostFunctions) return fail("there are too many functions"), std::move(report_);
     if (claims_.at_least < 0 || static_cast<std::size_t>(claims_.at_least) != claims_.members.size())
       return fail("there is not one member of each piece that is claimed"), std::move(report_);
@@ -73,6 +74,18 @@ class PieceCheck {
 
  private:
   void fail(std::string what) { report_.failures.push_back(std::move(what)); }
+
+  // Each is a multiple of one of the others, either way.
+  bool functions_match() const {
+    const auto within = [](const std::vector<Polynomial>& list, const std::vector<Polynomial>& others) {
+      return std::all_of(list.begin(), list.end(), [&](const Polynomial& f) {
+        const Terms terms(f, 0);
+        return !terms.list().empty() && std::any_of(others.begin(), others.end(),
+                                                    [&](const Polynomial& g) { return terms.is_multiple_of(Terms(g, 0)); });
+      });
+    };
+    return within(functions_.functions, functions_.factors) && within(functions_.factors, functions_.functions);
+  }
 
   bool is_end(const Condition& c) const {
     if (c.implied) return false;

@@ -19,7 +19,8 @@ namespace corank::check {
 
 /// Over the variables of the system. The matrices are square: L_y, L_z.
 struct PieceFunctions {
-  std::vector<Polynomial> functions;
+  std::vector<Polynomial> functions;  ///< as the file names them, which fixes their signs
+  std::vector<Polynomial> factors;    ///< as the model gives them: the same, but for their order and rational multiples
   std::array<PolynomialMatrix, 2> matrices;
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "corank/core/cover.h"
@@ -21,6 +22,7 @@ struct PieceClaims {
   int at_least = 0;
   std::optional<int> at_most;
   std::vector<PieceMember> members;  ///< one of each piece that is claimed to be there
+  std::vector<std::string> factors;  ///< of the determinants: the functions, in the order of the signs
 };
 
 }  // namespace corank

@@ -12,6 +12,7 @@
 #include "corank/result/printable.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/determinant_factors.h"
+#include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::result {
@@ -35,7 +36,7 @@ symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model) {
   return symbolic::singularity_system(model, symbolic::SingularitySet::cspace, std::nullopt, {}, 1);
 }
 
-std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model) {
+std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model, const PiecesFile& file) {
   const symbolic::TrigonometricSystem equations = equations_of(model);
   const symbolic::Derivation derivation = symbolic::derive(model);
   std::array<PolynomialMatrix, 2> matrices;
@@ -52,9 +53,12 @@ std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model
   for (const auto& e : factors[1])
     if (std::none_of(factors[0].begin(), factors[0].end(), [&](const auto& f) { return same_tree(e, f); }))
       both.push_back(e);
-  return {{symbolic::polynomials(equations, both), matrices},
-          {symbolic::polynomials(equations, factors[0]), matrices},
-          {symbolic::polynomials(equations, factors[1]), matrices}};
+  const auto list = [&](const PieceClaims& claims, const std::vector<symbolic::Expression>& own) {
+    std::vector<symbolic::Expression> named;
+    for (const std::string& text : claims.factors) named.push_back(symbolic::parse_expression(text, "a factor"));
+    return check::PieceFunctions{symbolic::polynomials(equations, named), symbolic::polynomials(equations, own), matrices};
+  };
+  return {list(file.lists[0], both), list(file.lists[1], factors[0]), list(file.lists[2], factors[1])};
 }
 
 std::vector<std::string> names(const System& system) {
@@ -83,6 +87,7 @@ void write_list(Hdf5Writer& file, const std::string& name, const PieceClaims& cl
   file.doubles("/upper", upper, claims.members.size(), n);
   file.integers("/free", free);
   file.integers("/signs", signs);
+  file.texts("/factors", claims.factors);
   file.integers("/determinant_signs", determinants);
 }
 
@@ -99,6 +104,7 @@ PieceClaims read_list(Hdf5Reader& file, const std::string& name, std::size_t n, 
   if (most != kNone) claims.at_most = number(most, 0, kMostPieces);
   const std::vector<std::int64_t> free = file.integers("/free"), signs = file.integers("/signs"),
                                   determinants = file.integers("/determinant_signs");
+  claims.factors = file.texts("/factors");
   const std::size_t members = determinants.size() / 2, functions = members == 0 ? 0 : signs.size() / members;
   if (determinants.size() != 2 * members || free.size() != members * dimension || signs.size() != members * functions)
     refuse("its members differ in length");
@@ -175,7 +181,7 @@ PiecesFile read_pieces(const std::filesystem::path& path) {
 check::PiecesReport verify(const PiecesFile& file, const check::Options& options) {
   const symbolic::Mechanism model = model_in(file);
   return check::check_pieces(symbolic::algebrize(equations_of(model)), file.space, {file.lists.begin(), file.lists.end()},
-                             functions_of(model), options);
+                             functions_of(model, file), options);
 }
 
 namespace {

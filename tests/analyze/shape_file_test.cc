@@ -147,6 +147,16 @@ struct Change {
 TEST(ShapeFile, ThatSomebodyChangedIsRefused) {
   const std::vector<Change> changes{
       {"a component more", ovals, [](Shape& s) { ++s.at_least; }, "3 components are claimed"},
+      {"two components of one, without a link", sphere,
+       [](Shape& s) {
+         s.links.clear();
+         s.heights.clear();
+         s.genus.clear();
+         s.at_most.reset();
+         s.euler_characteristic.reset();
+         s.at_least = 2;
+       },
+       "2 components are claimed, 1 shown"},
       {"a component fewer", ovals, [](Shape& s) { s.at_most = 1; }, "at most 1 components are claimed"},
       {"another characteristic", sphere, [](Shape& s) { *s.euler_characteristic -= 2; }, "Euler characteristic 2"},
       {"a characteristic of a curve", ovals, [](Shape& s) { s.euler_characteristic = 2; }, "odd dimension"},
