@@ -18,7 +18,7 @@
 namespace corank::result {
 namespace {
 
-constexpr const char* kFormat = "corank aspects";
+constexpr const char* kFormat = kPiecesFormat;
 constexpr std::int64_t kFormatVersion = 1;
 constexpr std::size_t kShownFailures = 10;
 constexpr std::int64_t kMostPieces = 1'000'000, kNone = -1;
@@ -150,10 +150,7 @@ void write_pieces(const std::filesystem::path& path, const PiecesFile& data) {
   target.finish();
 }
 
-bool is_pieces_file(const std::filesystem::path& path) {
-  const Hdf5Reader file(path.string());
-  return file.has_attribute("/", "format") && file.text_attribute("/", "format") == kFormat;
-}
+bool is_pieces_file(const std::filesystem::path& path) { return format_of(path.string()) == kFormat; }
 
 PiecesFile read_pieces(const std::filesystem::path& path) {
   Hdf5Reader file(path.string());

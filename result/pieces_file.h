@@ -21,6 +21,9 @@ struct PiecesFile {
   std::array<PieceClaims, 3> lists;  ///< aspects, assembly modes, working modes
 };
 
+/// What format_of() says of it.
+inline constexpr const char* kPiecesFormat = "corank aspects";
+
 /// Layout: doc/certificates.md. Throw ResultFileError; writing, symbolic::ModelError where the model has no such pieces.
 void write_pieces(const std::filesystem::path& path, const PiecesFile& file);
 PiecesFile read_pieces(const std::filesystem::path& path);

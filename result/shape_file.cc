@@ -18,7 +18,7 @@
 namespace corank::result {
 namespace {
 
-constexpr const char* kFormat = "corank topology";
+constexpr const char* kFormat = kShapeFormat;
 constexpr std::int64_t kFormatVersion = 1;
 constexpr std::size_t kShownFailures = 10;
 constexpr std::int64_t kMostHeights = 16, kMostHeightNumber = 1000, kMostVariables = 100'000;
@@ -126,10 +126,7 @@ void write_shape(const std::filesystem::path& path, const ShapeFile& data) {
   target.finish();
 }
 
-bool is_shape_file(const std::filesystem::path& path) {
-  const Hdf5Reader file(path.string());
-  return file.has_attribute("/", "format") && file.text_attribute("/", "format") == kFormat;
-}
+bool is_shape_file(const std::filesystem::path& path) { return format_of(path.string()) == kFormat; }
 
 namespace {
 

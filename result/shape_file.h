@@ -19,6 +19,9 @@ struct ShapeFile {
   Shape shape;
 };
 
+/// What format_of() says of it.
+inline constexpr const char* kShapeFormat = "corank topology";
+
 /// Layout: doc/certificates.md. Throw ResultFileError; writing, symbolic::ModelError where the model has no such heights.
 void write_shape(const std::filesystem::path& path, const ShapeFile& file);
 ShapeFile read_shape(const std::filesystem::path& path);

@@ -32,6 +32,9 @@ TEST(Inertia, OnAKernelIsThatOfTheFormThere) {
   EXPECT_EQ(inertia_on_kernel(form, matrix({{2, -1, 0}})), (Inertia{1, 1}));
   EXPECT_EQ(inertia_on_kernel(form, matrix({{0, 0, 1}, {1, -2, 0}})), (Inertia{1, 0}));
   EXPECT_FALSE(inertia_on_kernel(form, matrix({{1, -2, 0}, {2, -4, 0}})));
+  // 2xy where x = y, and where x = −y.
+  EXPECT_EQ(inertia_on_kernel(matrix({{0, 1}, {1, 0}}), matrix({{1, -1}})), (Inertia{1, 0}));
+  EXPECT_EQ(inertia_on_kernel(matrix({{0, 1}, {1, 0}}), matrix({{1, 1}})), (Inertia{0, 1}));
 }
 
 TEST(Inertia, IsNotShownWhereAnEigenvalueMayBeZero) {
