@@ -59,6 +59,7 @@ struct Aspects {
   std::optional<PieceImages> images;    ///< of the aspects, where AspectsOptions::images asks for them
   std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
   std::shared_ptr<const Cover> cover;   ///< of C-space with its proof, where AspectsOptions::certificate asks for it
+  std::vector<int> places;              ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places.h)
 };
 
 struct AspectsOptions {
@@ -69,6 +70,7 @@ struct AspectsOptions {
   std::vector<std::string> images{};  ///< two lengths, of a C-space of two dimensions
   int rows = 120;                     ///< of the images' grid
   bool certificate = false;           ///< keep what it takes to check the result
+  const Cover* placed = nullptr;      ///< of C-space, to be looked at
 };
 
 /// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.
