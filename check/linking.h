@@ -1,7 +1,7 @@
 // Sheets that solutions join to pieces.
 //
-// Theorem: a sheet holds, for every value of its free variables, exactly one solution: a graph over a box, which is connected.
-// A solution in two sheets is on both graphs, so they are parts of one component.
+// Theorem: a sheet holds, for every value of its free variables, exactly one solution: a graph over a box, which is
+// connected. A solution in two sheets is on both graphs, so they are parts of one component.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ class Linking {
   std::size_t sheets() const { return free_.size(); }
   /// The box's region; −1 where it is none.
   int sheet_of_box(std::size_t box) const { return cover_.boxes[box].region; }
-  /// What is wrong with the sheet as a whole, or nothing; it has to keep to the domain and the inequalities, too, since what it
-  /// joins is to lie there.
+  /// What is wrong with the sheet as a whole, or nothing; it has to keep to the domain and the inequalities, too, since
+  /// what it joins is to lie there.
   std::string sheet_fault(std::size_t sheet) const;
   /// Is there a solution in both sheets, near the point that the link names? Else why not.
   std::string link_fault(const SheetLink& link) const;

@@ -1,10 +1,11 @@
 // Into how many pieces do functions divide a solution set, at least? Found anew, on cells of the checker's own.
 //
 // Theorem: let a cover hold all solutions in the domain, its boxes confirmed (check/checker.h); let each box be divided over
-// its free variables into cells, closed boxes that hold its solutions there, and cells without a solution in the domain be left
-// out. Two solutions that a path joins in the set, on which no function is 0, have the same signs, and cells along the path
-// follow each other that touch and in which these signs are possible. So members that hang together in no such way are in
-// different pieces. A member is a solution, within the ends of the domain, where each function has the sign that is claimed.
+// its free variables into cells, closed boxes that hold its solutions there, and cells without a solution in the domain be
+// left out. Two solutions that a path joins in the set, on which no function is 0, have the same signs, and cells along
+// the path follow each other that touch and in which these signs are possible. So members that hang together in no such
+// way are in different pieces. A member is a solution, within the ends of the domain, where each function has the sign
+// that is claimed.
 //
 // at_most is not checked: that no further piece hides about the functions' zeros (lemmas 2 to 4 of doc/theory.md).
 #pragma once

@@ -160,7 +160,8 @@ class ShapeCheck {
     report_.at_least = static_cast<int>(distinct.size());
   }
 
-  // Of every box: each end of the domain, and each inequality, that the equations do not imply holds strictly at its solutions.
+  // Of every box: each end of the domain, and each inequality, that the equations do not imply holds strictly at its
+  // solutions.
   void check_closed(const Problem& problem) {
     for (std::size_t i = 0; i < shape_.space.boxes.size(); ++i)
       for (const Condition& c : problem.conditions()) {

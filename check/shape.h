@@ -1,5 +1,5 @@
-// Is the shape of a solution set (core/shape.h) what is claimed? Everything is found anew from the system; trusted is nothing
-// but where to look.
+// Is the shape of a solution set (core/shape.h) what is claimed? Everything is found anew from the system; trusted is
+// nothing but where to look.
 //
 //   the cover    check/checker.h, with its proof of completeness; every box is `regular`
 //   at_most      the classes into which links that are confirmed join the sheets (check/linking.h): every solution lies in

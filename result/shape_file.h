@@ -28,8 +28,8 @@ ShapeFile read_shape(const std::filesystem::path& path);
 /// Is it a shape's file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
 bool is_shape_file(const std::filesystem::path& path);
 
-/// Rebuilds the set and the critical points' systems from the model's text, and checks the shape. Throws symbolic::ModelError
-/// where the text is no model.
+/// Rebuilds the set and the critical points' systems from the model's text, and checks the shape. Throws
+/// symbolic::ModelError where the text is no model.
 check::ShapeReport verify(const ShapeFile& file, const check::Options& options = {});
 
 std::string to_table(const check::ShapeReport& report, const ShapeFile& file);

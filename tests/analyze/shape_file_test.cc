@@ -1,5 +1,5 @@
-// A shape's file: what is written is read and verified; whatever is changed in it is found out, or the counts that are left are
-// true all the same.
+// A shape's file: what is written is read and verified; whatever is changed in it is found out, or the counts that are
+// left are true all the same.
 #include "corank/result/shape_file.h"
 
 #include <gmock/gmock.h>
