@@ -285,6 +285,7 @@ class PieceCounter {
         at[static_cast<std::size_t>(f)] = Interval(cell.sides[static_cast<std::size_t>(f)].mid());
       const std::optional<Box> point = cell.mixed.empty() ? cells_.solution_over(cell, at) : parts_[p].solution;
       result.representatives.push_back(point.value_or(cell.sides));
+      result.free.push_back(cells_.free(cell));
       result.signs.emplace_back(parts_[p].signs.begin(), parts_[p].signs.end() - cells_.limits());
     }
   }
@@ -347,6 +348,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
 
   solve::Options search;
   search.threads = options.threads;
+  search.proof = options.certificate;
   const std::vector<Interval> domain = result.system.domain();
   search.sigma = 2 * std::max_element(domain.begin(), domain.end(),
                                       [](const Interval& a, const Interval& b) { return a.width() < b.width(); })
@@ -363,6 +365,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     result.reason = "C-space could not be covered";
     return result;
   }
+  if (options.certificate) result.cover = std::make_shared<const Cover>(cover);
   std::vector<symbolic::Expression> both = forward;
   for (const auto& e : inverse)
     if (std::none_of(forward.begin(), forward.end(), [&](const auto& f) { return same_tree(e, f); })) both.push_back(e);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@
 #include "corank/analyze/aspects_drawing.h"
 #include "corank/analyze/sign_cells.h"
 #include "corank/study/question.h"
+
+namespace corank::result {
+struct PiecesFile;
+}
 
 namespace corank::analyze {
 
@@ -25,6 +30,7 @@ struct Pieces {
   /// Of each piece known to be there a box with a solution of it; of pieces not known to differ one box each.
   std::vector<Box> representatives;
   std::vector<std::vector<int>> signs;  ///< of the factors in each representative
+  std::vector<std::vector<int>> free;   ///< variables that may be held at its middle to find it
   struct Part {
     std::size_t cell;
     std::vector<int> signs;  ///< of all functions, the limits among them
@@ -52,6 +58,7 @@ struct Aspects {
   std::vector<std::array<int, 2>> determinant_signs;
   std::optional<PieceImages> images;    ///< of the aspects, where AspectsOptions::images asks for them
   std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
+  std::shared_ptr<const Cover> cover;   ///< of C-space with its proof, where AspectsOptions::certificate asks for it
   std::vector<int> places;              ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places.h)
 };
 
@@ -62,6 +69,7 @@ struct AspectsOptions {
   std::vector<std::string> drawn{};   ///< coordinates
   std::vector<std::string> images{};  ///< two lengths, of a C-space of two dimensions
   int rows = 120;                     ///< of the images' grid
+  bool certificate = false;           ///< keep what it takes to check the result
   const Cover* placed = nullptr;      ///< of C-space, to be looked at
 };
 
@@ -70,6 +78,8 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
 
 /// "10 aspects, 2 assembly modes, 4 working modes", or bounds. Requires that something is known.
 std::string summary(const Aspects& aspects);
+/// What is written of it, for others to check. Requires its cover.
+result::PiecesFile to_file(const study::Question& question, const Aspects& aspects);
 /// A few lines for a terminal.
 std::string to_text(const study::Question& question, const Aspects& aspects);
 /// {"aspects": {"at_least", "at_most"}, "assembly_modes", "working_modes", "representatives" …}; doc/topology.md.

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
 #include "corank/certify/angle.h"
+#include "corank/core/check.h"
+#include "corank/result/pieces_file.h"
 
 namespace corank::analyze {
 namespace {
@@ -32,6 +35,31 @@ std::string bounds(const Pieces& p) {
 }
 
 }  // namespace
+
+result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
+  CORANK_CHECK(a.cover != nullptr);
+  result::PiecesFile file;
+  file.model = question.model.name();
+  file.model_text = question.model.source_text();
+  file.constants = question.constants;
+  file.space = *a.cover;
+  file.lists[0].factors = file.lists[1].factors = a.forward_factors;
+  file.lists[2].factors = a.inverse_factors;
+  for (const std::string& f : a.inverse_factors)
+    if (std::find(a.forward_factors.begin(), a.forward_factors.end(), f) == a.forward_factors.end())
+      file.lists[0].factors.push_back(f);
+  const std::array<const Pieces*, 3> lists{&a.aspects, &a.assembly_modes, &a.working_modes};
+  for (std::size_t k = 0; k < lists.size(); ++k) {
+    PieceClaims& claims = file.lists[k];
+    claims.at_least = lists[k]->at_least;
+    claims.at_most = lists[k]->at_most;
+    // Of pieces that are not known to differ there may be more.
+    for (std::size_t i = 0; i < static_cast<std::size_t>(claims.at_least); ++i)
+      claims.members.push_back({lists[k]->representatives[i], lists[k]->free[i], lists[k]->signs[i],
+                                k == 0 ? a.determinant_signs[i] : std::array<int, 2>{}});
+  }
+  return file;
+}
 
 std::string summary(const Aspects& a) {
   const auto counted = [](const Pieces& p, const char* what) {

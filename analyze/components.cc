@@ -87,11 +87,12 @@ Box hull(const std::vector<int>& boxes, const Cover& cover) {
 // The pieces that the regions of regular boxes make.
 class Linker {
  public:
-  Linker(const System& system, const Cover& cover) : cover_(cover), test_(system) {
+  Linker(const System& system, const Cover& cover) : system_(system), cover_(cover), compiled_(system), test_(system) {
     for (std::size_t i = 0; i < cover.boxes.size(); ++i)
       if (cover.boxes[i].verdict == Verdict::regular) boxes_of_[cover.boxes[i].region].push_back(static_cast<int>(i));
     for (const auto& [region, boxes] : boxes_of_) {
       index_[region] = regions_.size();
+      region_numbers_.push_back(region);
       regions_.push_back(&cover.regions[static_cast<std::size_t>(region)]);
       hulls_.push_back(hull(boxes, cover));
       free_.push_back(cover.boxes[static_cast<std::size_t>(boxes.front())].free);
@@ -123,6 +124,8 @@ class Linker {
       result.piece_of_box[i] = numbers.emplace(set, static_cast<int>(numbers.size())).first->second;
     }
     result.pieces = static_cast<int>(numbers.size());
+    result.links = std::move(links_);
+    result.bridges = std::move(bridges_);
   }
 
  private:
@@ -135,10 +138,10 @@ class Linker {
           const Interval& side = hulls_[r][static_cast<std::size_t>(f)];
           at[static_cast<std::size_t>(f)] = Interval(f != face ? side.mid() : upper ? side.hi() : side.lo());
         }
-        const std::optional<Box> point = test_.solution_in(at, at);
+        const std::optional<certify::Sheet> point = test_.sheet_in(at, at);
         if (!point) continue;
-        tree.for_each_overlapping(*point, 0.0, [&](std::size_t s) {
-          if (contains(*regions_[s], *point)) sets_.union_set(r, s);
+        tree.for_each_overlapping(point->image, 0.0, [&](std::size_t s) {
+          if (contains(*regions_[s], point->image) && sets_.find_set(r) != sets_.find_set(s)) join(r, s, *point);
         });
       }
   }
@@ -149,21 +152,68 @@ class Linker {
       Box near = hulls_[r];
       for (std::size_t j = 0; j < near.size(); ++j)
         if (!near[j].intersect(hulls_[s][j])) near[j] = Interval::hull(hulls_[r][j], hulls_[s][j]);
-      if (test_.meet(*regions_[r], *regions_[s], near) || bridge(r, s, near)) sets_.union_set(r, s);
+      if (const auto point = test_.common(*regions_[r], *regions_[s], near)) {
+        join(r, s, *point);
+      } else {
+        bridge(r, s, near);
+      }
     });
   }
 
   // Where both regions end where they touch, a small piece about that place may meet both.
-  bool bridge(std::size_t r, std::size_t s, const Box& near) {
-    for (const double radius : {1e-2, 1e-4, 1e-6})
-      if (const certify::Sheet piece = test_.sheet_about(near, radius); piece.proven)
-        if (test_.meet(piece.region, *regions_[r], piece.region) && test_.meet(piece.region, *regions_[s], piece.region))
-          return true;
-    return false;
+  // It has to stay in the domain: beyond it the set may join what it does not join inside.
+  void bridge(std::size_t r, std::size_t s, const Box& near) {
+    for (const double radius : {1e-2, 1e-4, 1e-6}) {
+      const certify::Sheet piece = test_.sheet_about(near, radius);
+      if (!piece.proven || !is_in_domain(piece.image)) continue;
+      const auto first = test_.common(piece.region, *regions_[r], piece.region),
+                 second = test_.common(piece.region, *regions_[s], piece.region);
+      if (!first || !second) continue;
+      sets_.union_set(r, s);
+      const int number = static_cast<int>(cover_.regions.size() + bridges_.size());
+      bridges_.push_back({free_of(piece), piece.region});
+      links_.push_back(link(region_numbers_[r], number, *first));
+      links_.push_back(link(region_numbers_[s], number, *second));
+      return;
+    }
   }
 
+  bool is_in_domain(const Box& box) const {
+    for (std::size_t j = 0; j < box.size(); ++j) {
+      const Variable& v = system_.variables[j];
+      if ((!v.lower_implied && !(box[j].lo() > v.domain.lo())) || (!v.upper_implied && !(box[j].hi() < v.domain.hi())))
+        return false;
+    }
+    for (int row = compiled_.equations(); row < compiled_.rows(); ++row)
+      if (!(compiled_.evaluate(row, box).lo() >= 0)) return false;
+    return true;
+  }
+
+  std::vector<int> free_of(const certify::Sheet& sheet) const {
+    std::vector<int> free;
+    for (int j = 0; j < system_.size(); ++j)
+      if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) free.push_back(j);
+    return free;
+  }
+
+  SheetLink link(int a, int b, const certify::Sheet& point) const {
+    SheetLink result{a, b, free_of(point), {}};
+    for (const Interval& side : point.image) result.point.push_back(side.mid());
+    return result;
+  }
+
+  void join(std::size_t r, std::size_t s, const certify::Sheet& point) {
+    sets_.union_set(r, s);
+    links_.push_back(link(region_numbers_[r], region_numbers_[s], point));
+  }
+
+  const System& system_;
   const Cover& cover_;
+  certify::CompiledSystem compiled_;
   certify::MeetingTest test_;
+  std::vector<int> region_numbers_;  // in the cover
+  std::vector<SheetLink> links_;
+  std::vector<SheetBridge> bridges_;
   std::map<int, std::vector<int>> boxes_of_;  // of each region
   std::map<int, std::size_t> index_;          // of each region in the lists below
   std::vector<const Box*> regions_;

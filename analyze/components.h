@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "corank/core/cover.h"
+#include "corank/core/shape.h"
 #include "corank/solve/control.h"
 
 namespace corank::analyze {
@@ -16,6 +16,8 @@ struct Components {
   std::vector<int>
       piece_of_box;  ///< of each box: boxes of one piece are proven to be parts of one component; −1: nothing is proven
   int pieces = 0;
+  std::vector<SheetLink> links;      ///< that make the pieces
+  std::vector<SheetBridge> bridges;  ///< of which some of them speak
   /// Why the bounds are apart, in words; empty where they are not.
   std::string reason;
 

@@ -28,11 +28,12 @@ struct Solved {
 };
 
 // `most`: ends the search after so many boxes; 0: never.
-Cover solved(const System& system, std::optional<double> sigma, int threads, solve::Control& control,
+Cover solved(const System& system, std::optional<double> sigma, const TopologyOptions& how, solve::Control& control,
              std::uint64_t most = 0) {
   solve::Options options;
   options.sigma = sigma;
-  options.threads = threads;
+  options.threads = how.threads;
+  options.proof = how.certificate;
   const solve::Prepared prepared = solve::prepare(system, options, control);
   Cover cover = solve::solve(prepared, control, most);
   if (cover.dimension == 0) solve::prove_exactly(prepared, cover, control);
@@ -100,7 +101,7 @@ HeightCount count_critical_points(const study::Question& question, int height, c
   result.by_index.assign(static_cast<std::size_t>(space.cover.dimension) + 1, 0);
   const symbolic::CriticalPoints critical = symbolic::critical_points(question.model, height);
   const System system = study::system(question, critical.system);
-  const Cover cover = solved(system, std::nullopt, options.threads, control, options.most_for_a_height);
+  Cover cover = solved(system, std::nullopt, options, control, options.most_for_a_height);
   processed += cover.statistics.processed;
   if (!cover.complete()) {
     result.problem = "the search for critical points was ended by a limit";
@@ -128,6 +129,7 @@ HeightCount count_critical_points(const study::Question& question, int height, c
     if (piece >= 0 && piece < components.pieces) euler[static_cast<std::size_t>(piece)] += index % 2 == 0 ? 1 : -1;
   }
   if (placed) result.euler_of_piece = euler;
+  if (options.certificate) result.cover = HeightCover{height, std::move(cover), result.by_index};
   return result;
 }
 
@@ -137,7 +139,7 @@ Components refined_components(Solved& space, const TopologyOptions& options, std
   double sigma = whole_sheets(space.system);
   Components best;
   for (int k = 0; k <= options.refinements; ++k, sigma /= k == 1 ? 16 : 2) {
-    Cover cover = solved(space.system, sigma, options.threads, control);
+    Cover cover = solved(space.system, sigma, options, control);
     processed += cover.statistics.processed;
     const Components found = components(space.system, cover, control);
     if (k > 0 && !cover.complete()) break;
@@ -223,19 +225,17 @@ Components components_within(const System& system, const Cover& cover, const std
   return result;
 }
 
-Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control) {
+namespace {
+
+Topology found(const study::Question& question, Solved& space, const TopologyOptions& options, solve::Control& control) {
   Topology result;
-  question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
-  question.corank = 1;
-  question.tolerance = 0;
-  Solved space{study::system(question), {}};
-  Cover whole = solved(space.system, whole_sheets(space.system), options.threads, control);
+  Cover whole = solved(space.system, whole_sheets(space.system), options, control);
   result.dimension = whole.dimension;
   if (whole.complete() && whole.dimension > 0) {
     const std::vector<Limit> ends = limits(space.system, whole);
     // Whole sheets are wide: smaller ones show to which ends the set comes indeed.
     Cover fine;
-    if (!ends.empty()) fine = solved(space.system, std::nullopt, options.threads, control);
+    if (!ends.empty()) fine = solved(space.system, std::nullopt, options, control);
     if (!ends.empty())
       for (const Limit& end : fine.complete() ? limits(space.system, fine) : ends) result.ends.push_back(end.name);
     if (!ends.empty()) {
@@ -263,6 +263,37 @@ Topology topology(study::Question question, const TopologyOptions& options, solv
     return result;
   }
   find_shape(question, space, options, result, control);
+  return result;
+}
+
+std::shared_ptr<const Shape> certificate(const Topology& result, Solved& space, solve::Control& control) {
+  if (!result.smooth || !result.ends.empty() || result.dimension < 1 || control.ended() ||
+      static_cast<int>(space.system.equations.size()) + result.dimension != space.system.size())
+    return nullptr;
+  Shape shape;
+  shape.at_least = result.components.at_least;
+  shape.at_most = result.components.at_most;
+  shape.euler_characteristic = result.euler_characteristic;
+  shape.genus = result.genus;
+  for (const HeightCount& h : result.heights) shape.heights.push_back(h.cover.value());
+  Components linked = result.components;
+  // They may have been counted on cells.
+  if (linked.pieces == 0) linked = components(space.system, space.cover, control);
+  shape.links = std::move(linked.links);
+  shape.bridges = std::move(linked.bridges);
+  shape.space = std::move(space.cover);
+  return std::make_shared<const Shape>(std::move(shape));
+}
+
+}  // namespace
+
+Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control) {
+  question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
+  question.corank = 1;
+  question.tolerance = 0;
+  Solved space{study::system(question), {}};
+  Topology result = found(question, space, options, control);
+  if (options.certificate) result.certificate = certificate(result, space, control);
   return result;
 }
 

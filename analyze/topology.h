@@ -13,12 +13,18 @@
 // and lines, so it is orientable, and a closed surface of genus 1 − χ/2 where its dimension is 2 and it is connected.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "corank/analyze/components.h"
+#include "corank/core/shape.h"
 #include "corank/study/question.h"
+
+namespace corank::result {
+struct ShapeFile;
+}
 
 namespace corank::analyze {
 
@@ -28,6 +34,8 @@ struct HeightCount {
   std::vector<int>
       euler_of_piece;   ///< Σ (−1)^index over the points on each piece; empty where some point is on no known one
   std::string problem;  ///< why nothing follows; empty where something does
+  /// The points, where a certificate is asked for.
+  std::optional<HeightCover> cover;
 
   int points() const;
   int euler_characteristic() const;
@@ -45,6 +53,8 @@ struct Topology {
   std::vector<HeightCount> heights;  ///< two that agree, where the characteristic is known
   std::string reason;                ///< what is not known, and why; empty where all is
   std::uint64_t processed = 0;       ///< boxes of all searches
+  /// Where it was asked for and can be given: for others to check. Nothing of sets that come to an end, and of points.
+  std::shared_ptr<const Shape> certificate;
 };
 
 struct TopologyOptions {
@@ -52,11 +62,15 @@ struct TopologyOptions {
   int halvings = 16, rounds = 16;               ///< SignCells::refine, where the set has ends
   int refinements = 6;                          ///< σ is halved so often while links or gaps are missing
   std::uint64_t most_for_a_height = 2'000'000;  ///< boxes processed in a search for critical points
+  bool certificate = false;                     ///< keep what it takes to check the result
 };
 
 /// Of the configurations (Question::set is ignored) of a mechanism, or of the solutions of a plain system. Where the
 /// control ends it early, what is proven so far. Throws symbolic::ModelError as study::system does.
 Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control);
+
+/// What is written of it, for others to check. Requires its certificate.
+result::ShapeFile to_file(const study::Question& question, const Topology& topology);
 
 /// A few lines for a terminal.
 std::string to_text(const study::Question& question, const Topology& topology);

@@ -5,6 +5,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "corank/core/check.h"
+#include "corank/result/shape_file.h"
+
 namespace corank::analyze {
 namespace {
 
@@ -32,6 +35,16 @@ std::string shapes(const std::vector<int>& genus) {
 }
 
 }  // namespace
+
+result::ShapeFile to_file(const study::Question& question, const Topology& topology) {
+  CORANK_CHECK(topology.certificate != nullptr);
+  result::ShapeFile file;
+  file.model = question.model.name();
+  file.model_text = question.model.source_text();
+  file.constants = question.constants;
+  file.shape = *topology.certificate;
+  return file;
+}
 
 std::string to_text(const study::Question& question, const Topology& t) {
   std::string text = fmt::format("{}, {}\n", question.model.name(),

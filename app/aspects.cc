@@ -11,6 +11,7 @@
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/aspects_picture.h"
+#include "corank/result/pieces_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 
@@ -27,13 +28,15 @@ struct AspectsCommand {
 };
 
 ExitStatus aspects(AspectsCommand command) {
-  if (!command.output.empty() && !command.output.ends_with(".svg"))
-    throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg", command.output));
+  const bool drawn = command.output.ends_with(".svg");
+  command.options.certificate = command.output.ends_with(".h5");
+  if (!command.output.empty() && !drawn && !command.options.certificate)
+    throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg or .h5", command.output));
   solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
   const study::Question question = load(command.question);
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no aspects", command.question.file));
-  if (!command.output.empty()) command.options.drawn = report::drawn_coordinates(question.model);
+  if (drawn) command.options.drawn = report::drawn_coordinates(question.model);
   if (command.areas && question.model.outputs().size() != 2)
     throw UsageError(fmt::format("{}: areas need two outputs", command.question.file));
   if (command.areas) command.options.images = question.model.outputs();
@@ -43,14 +46,22 @@ ExitStatus aspects(AspectsCommand command) {
   const analyze::Aspects result = analyze::aspects(question, command.options, control);
   line.clear();
   const bool complete = !control.ended();
-  if (!command.output.empty()) {
+  if (drawn) {
     if (!result.drawing || result.drawing->pieces.empty())
       throw UsageError(fmt::format("{}: a picture needs aspects of two dimensions, with two outputs or two inputs",
                                    command.question.file));
     result::write_text(command.output, to_svg(report::aspects_picture(question.model.name(), result)));
   }
   fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
-  return complete ? kDone : stopped_early(control);
+  if (!complete) return stopped_early(control);
+  if (!command.options.certificate) return kDone;
+  if (!result.cover) {
+    fmt::print(stderr, "corank: {} is not written: nothing is known that it could prove\n",
+               result::printable_line(command.output));
+    return kBadInput;
+  }
+  result::write_pieces(command.output, to_file(question, result));
+  return kDone;
 }
 
 }  // namespace
@@ -66,8 +77,10 @@ void add_aspects(CLI::App& program, Action& action) {
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("-o", command->output, "A picture of the aspects: in the planes of two outputs and of two inputs")
-      ->type_name("FILE.svg");
+  sub->add_option(
+         "-o", command->output,
+         "A picture of the aspects, in the planes of two outputs and of two inputs; or what corank verify checks (.h5)")
+      ->type_name("FILE.svg|FILE.h5");
   sub->add_flag(
       "--areas", command->areas,
       "Of two outputs that are lengths: the area that each aspect covers, in bounds, and which share outputs; in JSON");
@@ -75,8 +88,9 @@ void add_aspects(CLI::App& program, Action& action) {
   sub->footer(
       "aspects: pieces of C-space without forward and inverse singularities; assembly modes: without forward ones;\n"
       "working modes: without inverse ones. Every number is proven; where one is not, bounds are given.\n\n"
-      "Exit status: 0 done, 1 bad input, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
-      "Examples:\n  corank aspects models/dextar.cuik\n  corank aspects models/dextar.cuik -o aspects.svg");
+      "Exit status: 0 done, 1 bad input or nothing to write, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
+      "Examples:\n  corank aspects models/dextar.cuik\n  corank aspects models/dextar.cuik -o aspects.svg\n"
+      "  corank aspects models/dextar.cuik -o aspects.h5\n  corank verify aspects.h5");
   sub->callback([command, &action] { action = [command] { return aspects(*command); }; });
 }
 

@@ -11,6 +11,8 @@
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/printable.h"
+#include "corank/result/result_file.h"
+#include "corank/result/shape_file.h"
 
 namespace corank::app {
 namespace {
@@ -20,9 +22,14 @@ struct TopologyCommand {
   analyze::TopologyOptions options;
   double time_limit = 0;
   bool json = false;
+  std::string output;
 };
 
-ExitStatus topology(const TopologyCommand& command) {
+ExitStatus topology(TopologyCommand command) {
+  if (!command.output.empty() && !command.output.ends_with(".h5"))
+    throw UsageError(fmt::format("-o {}: expected a file name that ends in .h5", command.output));
+  if (!command.output.empty()) result::check_writable(command.output);
+  command.options.certificate = !command.output.empty();
   solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
   const study::Question question = load(command.question);
   const Interrupt interrupt;
@@ -32,7 +39,17 @@ ExitStatus topology(const TopologyCommand& command) {
   line.clear();
   const bool complete = !control.ended();
   fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
-  return complete ? kDone : stopped_early(control);
+  if (!complete) return stopped_early(control);
+  if (command.output.empty()) return kDone;
+  if (!result.certificate) {
+    fmt::print(stderr,
+               "corank: {} is not written: there is a certificate of sets that are proven to be smooth, of dimension "
+               "1 or more and without ends\n",
+               result::printable_line(command.output));
+    return kBadInput;
+  }
+  result::write_shape(command.output, to_file(question, result));
+  return kDone;
 }
 
 }  // namespace
@@ -48,11 +65,16 @@ void add_topology(CLI::App& program, Action& action) {
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
+  sub->add_option(
+         "-o,--output", command->output,
+         "Write the certificate: boxes, links and critical points, which corank verify checks; of a set without ends")
+      ->type_name("FILE.h5");
   sub->add_flag("--json", command->json, "Print the result as JSON");
   sub->footer(
       "Every number is proven; where one is not, bounds are given and what stands in the way.\n\n"
-      "Exit status: 0 done, 1 bad input, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
-      "Example:\n  corank topology models/dextar.cuik");
+      "Exit status: 0 done, 1 bad input or no certificate to write, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
+      "Examples:\n  corank topology models/dextar.cuik\n  corank topology models/dextar.cuik -o shape.h5\n  corank verify "
+      "shape.h5");
   sub->callback([command, &action] { action = [command] { return topology(*command); }; });
 }
 

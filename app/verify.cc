@@ -11,8 +11,10 @@
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
 #include "corank/result/path_file.h"
+#include "corank/result/pieces_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/result/shape_file.h"
 #include "corank/result/verification.h"
 
 namespace corank::app {
@@ -76,11 +78,42 @@ ExitStatus verify_path(const VerifyCommand& command, Watch& watch) {
   return report.verified() ? kDone : report.failures.empty() ? kIncomplete : kBadInput;
 }
 
+ExitStatus verify_shape(const VerifyCommand& command, Watch& watch) {
+  const result::ShapeFile file = result::read_shape(command.input);
+  watch.enter("the check");
+  check::Options options;
+  options.threads = command.threads;
+  options.stop = &watch.stop();
+  const check::ShapeReport report = result::verify(file, options);
+  watch.done();
+  fmt::print("{}", command.json ? result::to_json(report, file) + "\n" : result::to_table(report, file));
+  if (report.complete()) return kDone;
+  if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
+  return report.failures.empty() ? kIncomplete : kBadInput;
+}
+
+// Upper bounds stay unchecked: never kDone.
+ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch) {
+  const result::PiecesFile file = result::read_pieces(command.input);
+  watch.enter("the check");
+  check::Options options;
+  options.threads = command.threads;
+  options.stop = &watch.stop();
+  const check::PiecesReport report = result::verify(file, options);
+  watch.done();
+  fmt::print("{}", command.json ? result::to_json(report, file) + "\n" : result::to_table(report, file));
+  if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
+  return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
+}
+
 ExitStatus verify(const VerifyCommand& command) {
   const Interrupt interrupt;
   Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
   watch.enter("reading the file");
-  if (result::is_path_file(command.input)) return verify_path(command, watch);
+  const std::string format = result::format_of(command.input);
+  if (format == result::kPathFormat) return verify_path(command, watch);
+  if (format == result::kShapeFormat) return verify_shape(command, watch);
+  if (format == result::kPiecesFormat) return verify_pieces(command, watch);
   const result::Result result = result::read_result(command.input);
   watch.enter("deriving the equations from the model");
   const System system = result::system_of(result);
@@ -100,7 +133,7 @@ void add_verify(CLI::App& program, Action& action) {
   CLI::App* sub =
       program.add_subcommand("verify", "Check a result against its model, with code that shares nothing with the solver");
   const auto command = std::make_shared<VerifyCommand>();
-  sub->add_option("RESULT", command->input, "The result (.h5)")->required();
+  sub->add_option("RESULT", command->input, "The file (.h5)")->required();
   sub->add_flag("--json", command->json, "Print JSON instead of the table");
   sub->add_flag("--require-proof", command->require_proof,
                 "Fail where the file does not prove that its boxes hold all solutions in the search domain");
@@ -115,10 +148,15 @@ void add_verify(CLI::App& program, Action& action) {
       "isolated or boundary, in exact arithmetic where it is exact or has an exact point. An undecided box without one\n"
       "and a pending box claim nothing; a partial box is not checkable. Where the file holds a proof that the cover is\n"
       "complete (corank solve --proof), it is replayed.\n\n"
+      "What corank path, topology and aspects write is checked, too: a tube; components, Euler characteristic and genus; "
+      "of\n"
+      "aspects and modes a member of each, its signs, and how many there are at least (that there are no more is not\n"
+      "checked: exit status 4).\n\n"
       "Exit status: 0 all verified, completeness included; 1 something failed or is not checkable, or the file cannot be\n"
       "read; 2 usage; 3 ended early (limit or interrupt), nothing was found wrong so far; 4 all verified, but not its\n"
       "completeness: the file has no proof of it, or the search had ended early (1 with --require-proof).\n\n"
-      "Example:\n  corank solve models/dextar.cuik --set forward --proof -o forward.h5\n  corank verify forward.h5");
+      "Examples:\n  corank solve models/dextar.cuik --set forward --proof -o forward.h5\n  corank verify forward.h5\n"
+      "  corank topology models/dextar.cuik -o shape.h5\n  corank verify shape.h5");
   sub->callback([command, &action] { action = [command] { return verify(*command); }; });
 }
 

@@ -79,7 +79,7 @@ Sheet MeetingTest::prove(std::vector<Interval> x, const std::vector<double>& c, 
   return newton_prove(system_, p, x, workspace_);
 }
 
-std::optional<Box> MeetingTest::solution_in(const Box& box, const Box& near) {
+std::optional<Sheet> MeetingTest::sheet_in(const Box& box, const Box& near) {
   CORANK_CHECK(UpwardRounding::active());
   // From the middle, then from points on the way to the ends of its sides.
   for (const double share : {0.5, 0.2, 0.8, 0.05, 0.95}) {
@@ -93,9 +93,15 @@ std::optional<Box> MeetingTest::solution_in(const Box& box, const Box& near) {
     std::vector<double> widths;
     for (const Interval& side : box) widths.push_back(side.width());
     Sheet sheet = prove({c.begin(), c.end()}, c, widths);
-    if (sheet.proven && contains(box, sheet.image)) return std::move(sheet.image);
+    if (sheet.proven && contains(box, sheet.image)) return sheet;
   }
   return std::nullopt;
+}
+
+std::optional<Box> MeetingTest::solution_in(const Box& box, const Box& near) {
+  std::optional<Sheet> sheet = sheet_in(box, near);
+  if (!sheet) return std::nullopt;
+  return std::move(sheet->image);
 }
 
 Sheet MeetingTest::sheet_about(const Box& near, double radius) {
@@ -119,11 +125,11 @@ std::optional<Box> MeetingTest::piece_about(const Box& near, double radius) {
   return std::move(sheet.region);
 }
 
-bool MeetingTest::meet(const Box& a, const Box& b, const Box& near) {
+std::optional<Sheet> MeetingTest::common(const Box& a, const Box& b, const Box& near) {
   Box common = a;
   for (std::size_t j = 0; j < common.size(); ++j)
-    if (!common[j].intersect(b[j])) return false;
-  return solution_in(common, near).has_value();
+    if (!common[j].intersect(b[j])) return std::nullopt;
+  return sheet_in(common, near);
 }
 
 }  // namespace corank::certify

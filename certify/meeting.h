@@ -23,8 +23,12 @@ class MeetingTest {
   /// of n − m variables, those whose sides have no width among them. Sought about the middle of `near`. Nothing: none was
   /// proven. Requires UpwardRounding::active().
   std::optional<Box> solution_in(const Box& box, const Box& near);
+  /// The same as the sheet that was proven, whose image that box is: a point in the variables that are not dependent.
+  std::optional<Sheet> sheet_in(const Box& box, const Box& near);
   /// True: a solution in both regions is proven, about `near`. False says nothing. Likewise.
-  bool meet(const Box& a, const Box& b, const Box& near);
+  bool meet(const Box& a, const Box& b, const Box& near) { return common(a, b, near).has_value(); }
+  /// That solution, as sheet_in() gives it.
+  std::optional<Sheet> common(const Box& a, const Box& b, const Box& near);
 
   /// A piece of its own about a solution near the box's middle, about so large in units of the system's scales: in its
   /// region there is for every value of n − m variables exactly one solution. It may join pieces whose regions end where

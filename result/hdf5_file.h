@@ -117,4 +117,8 @@ class Hdf5Reader {
   std::map<std::string, Item> items_;
 };
 
+/// Of what kind is the file, as its first words say: the text attribute `format` of its root; empty where it has none.
+/// Throws ResultFileError where it is no readable HDF5 file.
+std::string format_of(const std::string& path);
+
 }  // namespace corank::result

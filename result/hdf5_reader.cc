@@ -197,4 +197,9 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
   return unpadded(item.data);
 }
 
+std::string format_of(const std::string& path) {
+  const Hdf5Reader file(path);
+  return file.has_attribute("/", "format") ? file.text_attribute("/", "format") : std::string();
+}
+
 }  // namespace corank::result

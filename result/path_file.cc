@@ -15,7 +15,7 @@
 namespace corank::result {
 namespace {
 
-constexpr const char* kFormat = "corank path";
+constexpr const char* kFormat = kPathFormat;
 constexpr std::int64_t kFormatVersion = 1;
 constexpr std::size_t kShownFailures = 10;
 constexpr std::int64_t kMostNodes = 10'000'000, kMostVariables = 100'000;
@@ -87,10 +87,7 @@ void write_path(const std::filesystem::path& path, const PathFile& data) {
   target.finish();
 }
 
-bool is_path_file(const std::filesystem::path& path) {
-  const Hdf5Reader file(path.string());
-  return file.has_attribute("/", "format") && file.text_attribute("/", "format") == kFormat;
-}
+bool is_path_file(const std::filesystem::path& path) { return format_of(path.string()) == kFormat; }
 
 PathFile read_path(const std::filesystem::path& path) {
   const Hdf5Reader file(path.string());

@@ -21,6 +21,9 @@ struct PathFile {
   Tube tube;
 };
 
+/// What format_of() says of it.
+inline constexpr const char* kPathFormat = "corank path";
+
 /// Layout: doc/paths.md. Throw ResultFileError.
 void write_path(const std::filesystem::path& path, const PathFile& file);
 PathFile read_path(const std::filesystem::path& path);

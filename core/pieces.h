@@ -1,0 +1,28 @@
+// What is claimed of the pieces of a solution set without the zeros of some functions.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/core/cover.h"
+
+namespace corank {
+
+/// A configuration of a piece.
+struct PieceMember {
+  Box box;                                 ///< about it
+  std::vector<int> free;                   ///< variables that may be held at the box's middle to find it
+  std::vector<int> signs;                  ///< ±1, of each function
+  std::array<int, 2> determinant_signs{};  ///< of det L_y and det L_z; 0: nothing is claimed
+};
+
+struct PieceClaims {
+  int at_least = 0;
+  std::optional<int> at_most;
+  std::vector<PieceMember> members;  ///< one of each piece that is claimed to be there
+  std::vector<std::string> factors;  ///< of the determinants: the functions, in the order of the signs
+};
+
+}  // namespace corank

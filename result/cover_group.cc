@@ -1,0 +1,77 @@
+#include "corank/result/cover_group.h"
+
+#include "corank/core/check.h"
+#include "corank/result/certificate_file.h"
+
+namespace corank::result {
+namespace {
+
+std::vector<std::string> verdict_words() {
+  std::vector<std::string> words;
+  for (int i = 0; i < kVerdicts; ++i) words.emplace_back(to_string(static_cast<Verdict>(i)));
+  return words;
+}
+
+void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, std::size_t n) {
+  std::vector<double> lower, upper;
+  std::vector<std::uint8_t> verdict, free(boxes.size() * n, 0);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    CORANK_CHECK(boxes[i].box.size() == n);
+    for (const Interval& side : boxes[i].box) {
+      lower.push_back(side.lo());
+      upper.push_back(side.hi());
+    }
+    verdict.push_back(static_cast<std::uint8_t>(boxes[i].verdict));
+    for (const int f : boxes[i].free) free.at(i * n + static_cast<std::size_t>(f)) = 1;
+  }
+  file.doubles(group + "/lower", lower, boxes.size(), n);
+  file.doubles(group + "/upper", upper, boxes.size(), n);
+  file.enumeration(group + "/verdict", verdict, verdict_words());
+  file.bytes(group + "/free", free, boxes.size(), n);
+}
+
+std::vector<CoverBox> read_boxes(const Hdf5Reader& file, const std::string& group, std::size_t n) {
+  const std::vector<std::uint8_t> verdict = file.enumeration(group + "/verdict", verdict_words());
+  const std::vector<double> lower = file.doubles(group + "/lower", verdict.size(), n),
+                            upper = file.doubles(group + "/upper", verdict.size(), n);
+  const std::vector<std::uint8_t> free = file.bytes(group + "/free", verdict.size(), n);
+  std::vector<CoverBox> boxes(verdict.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    boxes[i].verdict = static_cast<Verdict>(verdict[i]);
+    for (std::size_t j = i * n; j < (i + 1) * n; ++j) {
+      if (!(lower[j] <= upper[j])) throw ResultFileError(file.path() + ": a box in " + group + " is none");
+      boxes[i].box.emplace_back(lower[j], upper[j]);
+      if (free[j] != 0) boxes[i].free.push_back(static_cast<int>(j - i * n));
+    }
+  }
+  return boxes;
+}
+
+}  // namespace
+
+void write_cover(Hdf5Writer& file, const std::string& group, const Cover& cover, std::size_t variables) {
+  file.enter(group);
+  file.attribute("/", "dimension", std::int64_t{cover.dimension});
+  file.attribute("/", "sigma_length", cover.sigma.length);
+  file.attribute("/", "sigma_angle", cover.sigma.angle);
+  write_boxes(file, "/boxes", cover.boxes, variables);
+  write_boxes(file, "/points", cover.points, variables);
+  write_certificates(file, cover, variables);
+}
+
+Cover read_cover(Hdf5Reader& file, const std::string& group, std::size_t variables) {
+  file.enter(group);
+  Cover cover;
+  const std::int64_t dimension = file.integer_attribute("/", "dimension");
+  if (dimension < 0 || dimension > static_cast<std::int64_t>(variables))
+    throw ResultFileError(file.path() + ": the attribute dimension of " + group + " is out of range");
+  cover.dimension = static_cast<int>(dimension);
+  cover.sigma = {file.double_attribute("/", "sigma_length"), file.double_attribute("/", "sigma_angle")};
+  cover.boxes = read_boxes(file, "/boxes", variables);
+  cover.points = read_boxes(file, "/points", variables);
+  read_certificates(file, cover, variables);
+  file.enter("");
+  return cover;
+}
+
+}  // namespace corank::result

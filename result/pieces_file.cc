@@ -1,0 +1,237 @@
+#include "corank/result/pieces_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "corank/core/check.h"
+#include "corank/result/cover_group.h"
+#include "corank/result/hdf5_file.h"
+#include "corank/result/output_file.h"
+#include "corank/result/printable.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/determinant_factors.h"
+#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/singularity_system.h"
+
+namespace corank::result {
+namespace {
+
+constexpr const char* kFormat = kPiecesFormat;
+constexpr std::int64_t kFormatVersion = 1;
+constexpr std::size_t kShownFailures = 10;
+constexpr std::int64_t kMostPieces = 1'000'000, kNone = -1;
+constexpr std::array<const char*, 3> kLists{"aspects", "assembly_modes", "working_modes"};
+
+symbolic::Mechanism model_in(const PiecesFile& file) {
+  Result result;
+  result.model = file.model;
+  result.model_text = file.model_text;
+  result.options.constants = file.constants;
+  return model_of(result);
+}
+
+symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model) {
+  return symbolic::singularity_system(model, symbolic::SingularitySet::cspace, std::nullopt, {}, 1);
+}
+
+std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model, const PiecesFile& file) {
+  const symbolic::TrigonometricSystem equations = equations_of(model);
+  const symbolic::Derivation derivation = symbolic::derive(model);
+  std::array<PolynomialMatrix, 2> matrices;
+  std::array<std::vector<symbolic::Expression>, 2> factors;
+  for (const auto& [k, set] : {std::pair(0U, symbolic::SingularitySet::forward), {1U, symbolic::SingularitySet::inverse}}) {
+    const symbolic::ExpressionMatrix m =
+        symbolic::kernel_question(model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
+    factors[k] = symbolic::determinant_factors(model, m);
+    matrices[k].rows = matrices[k].columns = static_cast<int>(m.rows.size());
+    for (const auto& row : m.rows)
+      for (Polynomial& f : symbolic::polynomials(equations, row)) matrices[k].entries.push_back(std::move(f));
+  }
+  std::vector<symbolic::Expression> both = factors[0];
+  for (const auto& e : factors[1])
+    if (std::none_of(factors[0].begin(), factors[0].end(), [&](const auto& f) { return same_tree(e, f); }))
+      both.push_back(e);
+  const auto list = [&](const PieceClaims& claims, const std::vector<symbolic::Expression>& own) {
+    std::vector<symbolic::Expression> named;
+    for (const std::string& text : claims.factors) named.push_back(symbolic::parse_expression(text, "a factor"));
+    return check::PieceFunctions{symbolic::polynomials(equations, named), symbolic::polynomials(equations, own), matrices};
+  };
+  return {list(file.lists[0], both), list(file.lists[1], factors[0]), list(file.lists[2], factors[1])};
+}
+
+std::vector<std::string> names(const System& system) {
+  std::vector<std::string> list;
+  for (const Variable& v : system.variables) list.push_back(v.name);
+  return list;
+}
+
+void write_list(Hdf5Writer& file, const std::string& name, const PieceClaims& claims, std::size_t n, std::size_t dimension) {
+  std::vector<double> lower, upper;
+  std::vector<std::int64_t> free, signs, determinants;
+  for (const PieceMember& m : claims.members) {
+    CORANK_CHECK(m.box.size() == n && m.free.size() == dimension && m.signs.size() == claims.members.front().signs.size());
+    for (const Interval& side : m.box) {
+      lower.push_back(side.lo());
+      upper.push_back(side.hi());
+    }
+    free.insert(free.end(), m.free.begin(), m.free.end());
+    signs.insert(signs.end(), m.signs.begin(), m.signs.end());
+    determinants.insert(determinants.end(), m.determinant_signs.begin(), m.determinant_signs.end());
+  }
+  file.enter("/" + name);
+  file.attribute("/", "at_least", std::int64_t{claims.at_least});
+  file.attribute("/", "at_most", claims.at_most ? std::int64_t{*claims.at_most} : kNone);
+  file.doubles("/lower", lower, claims.members.size(), n);
+  file.doubles("/upper", upper, claims.members.size(), n);
+  file.integers("/free", free);
+  file.integers("/signs", signs);
+  file.texts("/factors", claims.factors);
+  file.integers("/determinant_signs", determinants);
+}
+
+PieceClaims read_list(Hdf5Reader& file, const std::string& name, std::size_t n, std::size_t dimension) {
+  const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": /" + name + ": " + what); };
+  const auto number = [&](std::int64_t value, std::int64_t least, std::int64_t most) {
+    if (value < least || value > most) refuse("a number is out of range");
+    return static_cast<int>(value);
+  };
+  file.enter("/" + name);
+  PieceClaims claims;
+  claims.at_least = number(file.integer_attribute("/", "at_least"), 0, kMostPieces);
+  const std::int64_t most = file.integer_attribute("/", "at_most");
+  if (most != kNone) claims.at_most = number(most, 0, kMostPieces);
+  const std::vector<std::int64_t> free = file.integers("/free"), signs = file.integers("/signs"),
+                                  determinants = file.integers("/determinant_signs");
+  claims.factors = file.texts("/factors");
+  const std::size_t members = determinants.size() / 2, functions = members == 0 ? 0 : signs.size() / members;
+  if (determinants.size() != 2 * members || free.size() != members * dimension || signs.size() != members * functions)
+    refuse("its members differ in length");
+  const std::vector<double> lower = file.doubles("/lower", members, n), upper = file.doubles("/upper", members, n);
+  for (std::size_t k = 0; k < members; ++k) {
+    PieceMember& m = claims.members.emplace_back();
+    for (std::size_t j = k * n; j < (k + 1) * n; ++j) {
+      if (!(lower[j] <= upper[j])) refuse("a box is none");
+      m.box.emplace_back(lower[j], upper[j]);
+    }
+    for (std::size_t j = 0; j < dimension; ++j) m.free.push_back(number(free[k * dimension + j], 0, kMostPieces));
+    for (std::size_t g = 0; g < functions; ++g) m.signs.push_back(number(signs[k * functions + g], -1, 1));
+    for (std::size_t d = 0; d < 2; ++d) m.determinant_signs[d] = number(determinants[2 * k + d], -1, 1);
+  }
+  file.enter("");
+  return claims;
+}
+
+}  // namespace
+
+void write_pieces(const std::filesystem::path& path, const PiecesFile& data) {
+  const System system = symbolic::algebrize(equations_of(model_in(data)));
+  const std::size_t n = system.variables.size();
+  const OutputFile target(path);
+  Hdf5Writer file(target.part().string());
+  file.attribute("/", "format", std::string(kFormat));
+  file.attribute("/", "format_version", kFormatVersion);
+  file.attribute("/", "version", data.version);
+  file.attribute("/", "model", data.model);
+  file.text("/model/text", data.model_text);
+  std::vector<std::string> constants, expressions;
+  for (const ConstantOverride& c : data.constants) {
+    constants.push_back(c.name);
+    expressions.push_back(c.expression);
+  }
+  file.texts("/model/constants/names", constants);
+  file.texts("/model/constants/expressions", expressions);
+  file.texts("/variables", names(system));
+  write_cover(file, "/space", data.space, n);
+  for (std::size_t k = 0; k < kLists.size(); ++k)
+    write_list(file, kLists[k], data.lists[k], n, static_cast<std::size_t>(data.space.dimension));
+  file.close();
+  target.finish();
+}
+
+bool is_pieces_file(const std::filesystem::path& path) { return format_of(path.string()) == kFormat; }
+
+PiecesFile read_pieces(const std::filesystem::path& path) {
+  Hdf5Reader file(path.string());
+  const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": " + what); };
+  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != kFormat)
+    refuse("this is no corank aspects");
+  if (file.integer_attribute("/", "format_version") != kFormatVersion)
+    refuse("a format version that this corank cannot read");
+  PiecesFile data;
+  data.version = file.text_attribute("/", "version");
+  data.model = file.text_attribute("/", "model");
+  data.model_text = file.text("/model/text");
+  const std::vector<std::string> constants = file.texts("/model/constants/names"),
+                                 expressions = file.texts("/model/constants/expressions");
+  if (constants.size() != expressions.size()) refuse("its constants have not a value each");
+  for (std::size_t k = 0; k < constants.size(); ++k) data.constants.push_back({constants[k], expressions[k]});
+  const std::vector<std::string> expected = names(symbolic::algebrize(equations_of(model_in(data))));
+  if (file.texts("/variables") != expected) refuse("its variables are not those of the model");
+  data.space = read_cover(file, "/space", expected.size());
+  for (std::size_t k = 0; k < kLists.size(); ++k)
+    data.lists[k] = read_list(file, kLists[k], expected.size(), static_cast<std::size_t>(data.space.dimension));
+  return data;
+}
+
+check::PiecesReport verify(const PiecesFile& file, const check::Options& options) {
+  const symbolic::Mechanism model = model_in(file);
+  return check::check_pieces(symbolic::algebrize(equations_of(model)), file.space, {file.lists.begin(), file.lists.end()},
+                             functions_of(model, file), options);
+}
+
+namespace {
+
+std::vector<std::string> all_failures(const check::PiecesReport& report) {
+  std::vector<std::string> list = report.failures;
+  for (std::size_t k = 0; k < report.lists.size(); ++k)
+    for (const std::string& f : report.lists[k].failures) list.push_back(std::string(kLists[k]) + ": " + f);
+  return list;
+}
+
+std::string claimed(const PieceClaims& c) {
+  if (!c.at_most) return fmt::format("at least {}", c.at_least);
+  return *c.at_most == c.at_least ? std::to_string(c.at_least) : fmt::format("{} to {}", c.at_least, *c.at_most);
+}
+
+}  // namespace
+
+std::string to_table(const check::PiecesReport& report, const PiecesFile& file) {
+  std::string text = printable_line(file.model) + ": the pieces of C-space\n";
+  for (std::size_t k = 0; k < report.lists.size(); ++k)
+    text +=
+        fmt::format("  {:<14}  claimed: {}; confirmed: at least {}, {} members with their signs, on {} cells\n", kLists[k],
+                    claimed(file.lists[k]), report.lists[k].at_least, report.lists[k].members, report.lists[k].cells);
+  const std::vector<std::string> failures = all_failures(report);
+  for (std::size_t k = 0; k < std::min(failures.size(), kShownFailures); ++k)
+    text += "  " + printable_line(failures[k]) + "\n";
+  if (failures.size() > kShownFailures) text += fmt::format("  … and {} more\n", failures.size() - kShownFailures);
+  if (!report.verified())
+    return text + (report.interrupted && failures.empty()
+                       ? "interrupted in " + report.stage + "; nothing is said of the rest\n"
+                       : "NOT VERIFIED\n");
+  text += "not checked: that there are no more pieces than these\n";
+  if (!report.space.complete())
+    text += "not proven by the file: that its boxes hold all of C-space, on which the counts rest\n";
+  return text + "verified, but not its completeness\n";
+}
+
+std::string to_json(const check::PiecesReport& report, const PiecesFile& file) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"verified", report.verified()},
+            {"complete", false},
+            {"covers_cspace", report.covered()},
+            {"interrupted", report.interrupted}};
+  for (std::size_t k = 0; k < report.lists.size(); ++k)
+    json[kLists[k]] = {
+        {"claimed",
+         {{"at_least", file.lists[k].at_least}, {"at_most", file.lists[k].at_most ? Json(*file.lists[k].at_most) : Json()}}},
+        {"at_least", report.lists[k].at_least},
+        {"members", report.lists[k].members}};
+  json["failures"] = all_failures(report);
+  if (report.interrupted) json["stage"] = report.stage;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace corank::result

@@ -1,0 +1,41 @@
+// A file of the pieces into which singularities divide a C-space: members of aspects, assembly modes and working modes
+// (core/pieces.h), the cover and the model, as HDF5; and its verification by check/, which shares nothing with what made it.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "corank/check/pieces.h"
+#include "corank/core/pieces.h"
+#include "corank/result/result.h"
+
+namespace corank::result {
+
+struct PiecesFile {
+  std::string version = result::version();  ///< of the corank that made it
+  std::string model, model_text;            ///< as Result::model, model_text
+  std::vector<ConstantOverride> constants{};
+  Cover space;
+  std::array<PieceClaims, 3> lists;  ///< aspects, assembly modes, working modes
+};
+
+/// What format_of() says of it.
+inline constexpr const char* kPiecesFormat = "corank aspects";
+
+/// Layout: doc/certificates.md. Throw ResultFileError; writing, symbolic::ModelError where the model has no such pieces.
+void write_pieces(const std::filesystem::path& path, const PiecesFile& file);
+PiecesFile read_pieces(const std::filesystem::path& path);
+/// Is it such a file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
+bool is_pieces_file(const std::filesystem::path& path);
+
+/// Rebuilds C-space and the factors of the determinants from the model's text, and checks the claims. Throws
+/// symbolic::ModelError where the text is no model of a mechanism with such singularities.
+check::PiecesReport verify(const PiecesFile& file, const check::Options& options = {});
+
+std::string to_table(const check::PiecesReport& report, const PiecesFile& file);
+/// {"verified", "complete": false, "interrupted", "aspects": {"claimed", "at_least", "members"} …}: doc/certificates.md.
+std::string to_json(const check::PiecesReport& report, const PiecesFile& file);
+
+}  // namespace corank::result

@@ -1,0 +1,39 @@
+// A shape's file: components, links and critical points of a set (core/shape.h) with the model that they belong to, as HDF5;
+// and its verification by check/, which shares nothing with what made it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "corank/check/shape.h"
+#include "corank/core/shape.h"
+#include "corank/result/result.h"
+
+namespace corank::result {
+
+struct ShapeFile {
+  std::string version = result::version();  ///< of the corank that made it
+  std::string model, model_text;            ///< as Result::model, model_text
+  std::vector<ConstantOverride> constants{};
+  Shape shape;
+};
+
+/// What format_of() says of it.
+inline constexpr const char* kShapeFormat = "corank topology";
+
+/// Layout: doc/certificates.md. Throw ResultFileError; writing, symbolic::ModelError where the model has no such heights.
+void write_shape(const std::filesystem::path& path, const ShapeFile& file);
+ShapeFile read_shape(const std::filesystem::path& path);
+/// Is it a shape's file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
+bool is_shape_file(const std::filesystem::path& path);
+
+/// Rebuilds the set and the critical points' systems from the model's text, and checks the shape. Throws
+/// symbolic::ModelError where the text is no model.
+check::ShapeReport verify(const ShapeFile& file, const check::Options& options = {});
+
+std::string to_table(const check::ShapeReport& report, const ShapeFile& file);
+/// {"verified", "complete", "interrupted", "components": {"at_least", "at_most"}, …}: doc/certificates.md.
+std::string to_json(const check::ShapeReport& report, const ShapeFile& file);
+
+}  // namespace corank::result

@@ -1,0 +1,376 @@
+// A shape's file: what is written is read and verified; whatever is changed in it is found out, or the counts that are
+// left are true all the same.
+#include "corank/result/shape_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <random>
+
+#include "corank/analyze/topology.h"
+#include "corank/study/model.h"
+#include "corank/symbolic/model_file.h"
+
+namespace corank::analyze {
+namespace {
+
+using result::ShapeFile;
+using ::testing::HasSubstr;
+
+ShapeFile make_file(symbolic::Mechanism model) {
+  const study::Question question{.model = std::move(model)};
+  solve::Control control;
+  TopologyOptions options;
+  options.certificate = true;
+  return to_file(question, topology(question, options, control));
+}
+
+ShapeFile of_text(const std::string& text) { return make_file(symbolic::parse_model(text, "m.cuik")); }
+
+const ShapeFile& sphere() {
+  static const ShapeFile file =
+      of_text("[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\nz : [-3, 3]\n[SYSTEM EQS]\nx^2+y^2+z^2 = 1;\n");
+  return file;
+}
+
+// Two ovals that nearly touch.
+const ShapeFile& ovals() {
+  static const ShapeFile file =
+      of_text("[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\n(x^2+y^2)^2 - 2*(x^2-y^2) = -1/1000;\n");
+  return file;
+}
+
+const ShapeFile& slider() {
+  static const ShapeFile file =
+      make_file(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/three_slider.cuik").mechanism);
+  return file;
+}
+
+TEST(ShapeFile, IsReadAsItWasWritten) {
+  const std::string path = ::testing::TempDir() + "shape_file_test.h5";
+  result::write_shape(path, slider());
+  EXPECT_TRUE(result::is_shape_file(path));
+  const ShapeFile read = result::read_shape(path);
+  EXPECT_EQ(read.model_text, slider().model_text);
+  EXPECT_EQ(read.shape.at_most, slider().shape.at_most);
+  EXPECT_EQ(read.shape.genus, slider().shape.genus);
+  ASSERT_EQ(read.shape.links.size(), slider().shape.links.size());
+  EXPECT_EQ(read.shape.links.back().point, slider().shape.links.back().point);
+  EXPECT_EQ(read.shape.links.back().held, slider().shape.links.back().held);
+  ASSERT_EQ(read.shape.bridges.size(), slider().shape.bridges.size());
+  EXPECT_FALSE(read.shape.bridges.empty());
+  EXPECT_EQ(read.shape.bridges.back().region, slider().shape.bridges.back().region);
+  EXPECT_EQ(read.shape.space.regions, slider().shape.space.regions);
+  EXPECT_TRUE(result::verify(read).complete());
+}
+
+TEST(ShapeFile, OfKnownShapesIsVerified) {
+  for (const ShapeFile* file : {&sphere(), &ovals(), &slider()}) {
+    const check::ShapeReport report = result::verify(*file);
+    EXPECT_TRUE(report.complete()) << result::to_table(report, *file);
+    EXPECT_EQ(report.at_least, file->shape.at_least);
+    EXPECT_EQ(report.at_most, file->shape.at_most);
+  }
+}
+
+TEST(ShapeFile, OfDextarIsVerified) {
+  const ShapeFile file = make_file(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik").mechanism);
+  const check::ShapeReport report = result::verify(file);
+  EXPECT_TRUE(report.complete()) << result::to_table(report, file);
+  EXPECT_EQ(file.shape.genus, std::vector<int>{4});
+}
+
+TEST(ShapeFile, IsNotGivenOfASetWithAnEnd) {
+  const study::Question question{
+      .model = symbolic::parse_model("[SYSTEM VARS]\nx : [-3, 1/2]\ny : [-3, 3]\n[SYSTEM EQS]\nx^2+y^2 = 1;\n", "m.cuik")};
+  solve::Control control;
+  TopologyOptions options;
+  options.certificate = true;
+  EXPECT_EQ(topology(question, options, control).certificate, nullptr);
+}
+
+// y² = 1 − x in a strip that ends before the vertex: two arcs, written down by hand, in boxes that touch.
+ShapeFile arcs() {
+  ShapeFile file;
+  file.model = "m";
+  file.model_text = "[SYSTEM VARS]\nx : [-3, 99/100]\ny : [-3, 3]\n[SYSTEM EQS]\nx + y^2 = 1;\n";
+  Cover& cover = file.shape.space;
+  cover.dimension = 1;
+  cover.sigma = {10, 10};
+  const Interval x(-3, 0.99);
+  cover.regions = {{x, {-2.1, 0}}, {x, {0, 2.1}}};
+  for (int k = 0; k < 2; ++k) cover.boxes.push_back({cover.regions[static_cast<std::size_t>(k)], Verdict::regular, {0}, k});
+  file.shape.at_least = file.shape.at_most.emplace(2);
+  return file;
+}
+
+TEST(ShapeFile, TellsBoxesThatTouchApart) {
+  const check::ShapeReport report = result::verify(arcs());
+  EXPECT_TRUE(report.verified()) << result::to_table(report, arcs());
+  EXPECT_EQ(report.at_least, 2);
+  EXPECT_EQ(report.apart, 1U);
+}
+
+// They meet beyond the end of the range, which joins nothing inside; and no critical point says how many there are.
+TEST(ShapeFile, ThatJoinsArcsBeyondTheEndOfARangeIsRefused) {
+  ShapeFile file = arcs();
+  file.shape.at_least = file.shape.at_most.emplace(1);
+  file.shape.bridges = {{{1}, {{0.9, 1.1}, {-0.15, 0.15}}}};
+  file.shape.links = {{0, 2, {1}, {0.9856, -0.12}}, {1, 2, {1}, {0.9856, 0.12}}};
+  check::ShapeReport report = result::verify(file);
+  EXPECT_FALSE(report.verified());
+  EXPECT_THAT(report.failures, testing::ElementsAre(HasSubstr("violate the domain of x")));
+  file = arcs();
+  file.shape.euler_characteristic = 0;
+  report = result::verify(file);
+  EXPECT_THAT(report.failures, testing::ElementsAre(HasSubstr("may come to an end of x")));
+}
+
+// The arcs of a circle that a range cuts off are joined beyond its end, and not inside.
+TEST(ShapeFile, ThatHasACutSetForAClosedOneIsRefused) {
+  ShapeFile file = sphere();
+  const std::string from = "z : [-3, 3]", to = "z : [-3, 9/10]";
+  file.model_text.replace(file.model_text.find(from), from.size(), to);
+  EXPECT_FALSE(result::verify(file).verified());
+}
+
+struct Change {
+  const char* name;
+  const ShapeFile& (*of)();
+  std::function<void(Shape&)> apply;
+  const char* words;
+};
+
+TEST(ShapeFile, ThatSomebodyChangedIsRefused) {
+  const std::vector<Change> changes{
+      {"a component more", ovals, [](Shape& s) { ++s.at_least; }, "3 components are claimed"},
+      {"two components of one, without a link", sphere,
+       [](Shape& s) {
+         s.links.clear();
+         s.heights.clear();
+         s.genus.clear();
+         s.at_most.reset();
+         s.euler_characteristic.reset();
+         s.at_least = 2;
+       },
+       "2 components are claimed, 1 shown"},
+      {"a component fewer", ovals, [](Shape& s) { s.at_most = 1; }, "at most 1 components are claimed"},
+      {"another characteristic", sphere, [](Shape& s) { *s.euler_characteristic -= 2; }, "Euler characteristic 2"},
+      {"a characteristic of a curve", ovals, [](Shape& s) { s.euler_characteristic = 2; }, "odd dimension"},
+      {"a characteristic without a height", sphere, [](Shape& s) { s.heights.clear(), s.genus.clear(); }, "no height"},
+      {"a handle", sphere, [](Shape& s) { s.genus = {1}; }, "the genus"},
+      {"a second surface", sphere,
+       [](Shape& s) {
+         s.genus = {0, 0};
+       },
+       "the genus"},
+      {"a genus of a curve", ovals,
+       [](Shape& s) {
+         s.genus = {0, 0};
+       },
+       "closed surfaces"},
+      {"a maximum for a minimum", sphere,
+       [](Shape& s) {
+         s.heights[0].by_index = {2, 0, 0};
+       },
+       "numbers by index"},
+      {"a critical point is dropped", sphere,
+       [](Shape& s) {
+         s.heights[0].cover.points.erase(s.heights[0].cover.points.begin());
+         s.heights[0].by_index = {0, 0, 1};
+       },
+       "no entry of the list of points"},
+      {"a link that names no sheet", sphere, [](Shape& s) { s.links[0].second = 1'000'000; }, "names a sheet that is none"},
+      {"a link that holds a variable twice", sphere, [](Shape& s) { s.links[0].held[1] = s.links[0].held[0]; },
+       "no variable"},
+      {"a link that holds too few", sphere, [](Shape& s) { s.links[0].held.pop_back(); }, "holds not as many"},
+      {"a link's point is moved away", sphere,
+       [](Shape& s) { s.links[0].point[static_cast<std::size_t>(s.links[0].held[0])] += 0.5; }, "link 1"},
+      {"a link between the ovals", ovals,
+       [](Shape& s) {
+         const SheetLink& first = s.links.front();
+         for (std::size_t k = 0; k < s.space.boxes.size(); ++k)
+           if ((s.space.boxes[k].box[0].mid() > 0) != (first.point[0] > 0)) {
+             s.links.push_back(first);
+             s.links.back().second = s.space.boxes[k].region;
+             return;
+           }
+       },
+       "both sheets"},
+      {"a sheet as wide as both ovals", ovals,
+       [](Shape& s) {
+         s.space.regions[0] = {{-1.5, 1.5}, {-1, 1}};
+       },
+       "box 1"},
+      {"a bridge that is no sheet", slider,
+       [](Shape& s) {
+         s.bridges[0].region[0] = {-0.9, 0.9};
+       },
+       "sheet 13"},
+      {"a box that is not regular", sphere, [](Shape& s) { s.space.boxes[0].verdict = Verdict::boundary; }, "not regular"}};
+  for (const Change& change : changes) {
+    SCOPED_TRACE(change.name);
+    ShapeFile file = change.of();
+    change.apply(file.shape);
+    const check::ShapeReport report = result::verify(file);
+    EXPECT_FALSE(report.verified());
+    std::string all;
+    for (const std::string& f : report.failures) all += f + "\n";
+    for (const check::Report& r : report.heights)
+      for (const check::Failure& f : r.failures) all += f.reason + "\n";
+    EXPECT_THAT(all, HasSubstr(change.words));
+  }
+}
+
+TEST(ShapeFile, WithoutAProofOfCompletenessIsNotShownComplete) {
+  for (const bool of_space : {true, false}) {
+    ShapeFile file = sphere();
+    (of_space ? file.shape.space : file.shape.heights[0].cover).proof = nullptr;
+    const check::ShapeReport report = result::verify(file);
+    EXPECT_TRUE(report.verified());
+    EXPECT_FALSE(report.complete());
+    EXPECT_THAT(result::to_table(report, file), HasSubstr("verified, but not its completeness"));
+  }
+}
+
+// Changes one thing, whatever it is. What is still confirmed has to be true.
+class Damage {
+ public:
+  explicit Damage(unsigned seed) : random_(seed) {}
+
+  std::string apply(Shape& s) {
+    const auto number = below(kinds().size());
+    kinds()[number].second(*this, s);
+    return kinds()[number].first;
+  }
+
+ private:
+  using Kind = std::pair<const char*, std::function<void(Damage&, Shape&)>>;
+
+  std::size_t below(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
+  template <class List>
+  auto& any(List& items) {
+    return items[below(items.size())];
+  }
+  double small() { return std::array{-1e-1, -1e-3, -1e-9, 1e-9, 1e-3, 1e-1}[below(6)]; }
+  int one() { return below(2) == 0 ? 1 : -1; }
+  void move(Interval& side) {
+    const double a = side.lo() + (below(2) == 0 ? small() : 0), b = side.hi() + (below(2) == 0 ? small() : 0);
+    side = Interval(std::min(a, b), std::max(a, b));
+  }
+  static void erase(auto& items, std::size_t k) { items.erase(items.begin() + static_cast<std::ptrdiff_t>(k)); }
+
+  static const std::vector<Kind>& kinds() {
+    static const std::vector<Kind> list{
+        {"at_least", [](Damage& d, Shape& s) { s.at_least += d.one(); }},
+        {"at_most", [](Damage& d, Shape& s) { *s.at_most += d.one(); }},
+        {"characteristic", [](Damage& d, Shape& s) { *s.euler_characteristic += 2 * d.one(); }},
+        {"genus", [](Damage& d, Shape& s) { s.genus.empty() ? s.genus.push_back(0) : void(d.any(s.genus) += 1); }},
+        {"index", [](Damage& d, Shape& s) { d.any(d.any(s.heights).by_index) += d.one(); }},
+        {"index moved",
+         [](Damage& d, Shape& s) {
+           auto& numbers = d.any(s.heights).by_index;
+           std::swap(numbers.front(), numbers[1 + d.below(numbers.size() - 1)]);
+         }},
+        {"height", [](Damage& d, Shape& s) { d.any(s.heights).height += 1; }},
+        {"critical point dropped",
+         [](Damage& d, Shape& s) {
+           HeightCover& h = d.any(s.heights);
+           const std::size_t k = d.below(h.cover.points.size());
+           erase(h.cover.points, k);
+           if (d.below(2) == 0) erase(h.cover.boxes, std::min(k, h.cover.boxes.size() - 1));
+           h.by_index[d.below(h.by_index.size())] -= 1;
+         }},
+        {"critical point moved",
+         [](Damage& d, Shape& s) {
+           auto& p = d.any(d.any(s.heights).cover.points);
+           d.move(d.any(p.box));
+         }},
+        {"box dropped", [](Damage& d, Shape& s) { erase(s.space.boxes, d.below(s.space.boxes.size())); }},
+        {"box moved", [](Damage& d, Shape& s) { d.move(d.any(d.any(s.space.boxes).box)); }},
+        {"region moved", [](Damage& d, Shape& s) { d.move(d.any(d.any(s.space.regions))); }},
+        {"region of another box",
+         [](Damage& d, Shape& s) { d.any(s.space.boxes).region = static_cast<int>(d.below(s.space.regions.size())); }},
+        {"free variable",
+         [](Damage& d, Shape& s) {
+           d.any(s.space.boxes).free.front() = static_cast<int>(d.below(s.space.boxes[0].box.size()));
+         }},
+        {"link dropped", [](Damage& d, Shape& s) { erase(s.links, d.below(s.links.size())); }},
+        {"link to another sheet",
+         [](Damage& d, Shape& s) {
+           auto& link = d.any(s.links);
+           (d.below(2) == 0 ? link.first : link.second) = static_cast<int>(d.below(s.space.regions.size()));
+         }},
+        {"link's point", [](Damage& d, Shape& s) { d.any(d.any(s.links).point) += d.small(); }},
+        {"link's held variable",
+         [](Damage& d, Shape& s) {
+           auto& link = d.any(s.links);
+           link.held.front() = static_cast<int>(d.below(link.point.size()));
+         }},
+        {"link of two components, and one fewer claimed",
+         [](Damage& d, Shape& s) {
+           s.links.push_back(d.any(s.links));
+           s.links.back().second = static_cast<int>(d.below(s.space.regions.size()));
+           *s.at_most -= 1;
+           s.at_least = std::min(s.at_least, *s.at_most);
+         }},
+        {"bridge",
+         [](Damage& d, Shape& s) {
+           if (s.bridges.empty()) {
+             s.bridges.push_back({s.space.boxes[0].free, s.space.regions[0]});
+             s.links.push_back(d.any(s.links));
+             s.links.back().second = static_cast<int>(s.space.regions.size());
+             *s.at_most -= 1;
+           }
+           for (Interval& side : d.any(s.bridges).region) side = Interval(side.lo() - 1, side.hi() + 1);
+         }},
+        {"proof's step", [](Damage& d, Shape& s) {
+           Cover& cover = d.below(2) == 0 ? s.space : d.any(s.heights).cover;
+           auto proof = std::make_shared<Proof>(*cover.proof);
+           d.any(proof->steps) ^= 1;
+           cover.proof = proof;
+         }}};
+    return list;
+  }
+
+  std::mt19937 random_;
+};
+
+bool is_true(const Shape& claimed, const Shape& truth) {
+  return claimed.at_least <= truth.at_least && claimed.at_most.value_or(1 << 30) >= *truth.at_most &&
+         (!claimed.euler_characteristic || claimed.euler_characteristic == truth.euler_characteristic) &&
+         (claimed.genus.empty() || claimed.genus == truth.genus);
+}
+
+TEST(ShapeFile, ThatIsDamagedAtRandomClaimsNothingFalse) {
+  int refused = 0, weaker = 0, count = 0;
+  std::map<std::string, int> refused_of;
+  for (const ShapeFile* good : {&sphere(), &ovals(), &slider()})
+    for (unsigned seed = 0; seed < 120; ++seed, ++count) {
+      ShapeFile file = *good;
+      const std::string kind = Damage(seed).apply(file.shape);
+      SCOPED_TRACE(kind + ", " + std::to_string(seed));
+      const check::ShapeReport report = result::verify(file);
+      if (!report.complete()) {
+        ++refused;
+        ++refused_of[kind];
+        continue;
+      }
+      ++weaker;
+      EXPECT_TRUE(is_true(file.shape, good->shape)) << result::to_table(report, file);
+    }
+  EXPECT_GT(refused, count / 2);
+  // What moves a claim the wrong way half of the time, or takes away what it rests on.
+  for (const char* kind :
+       {"at_least", "at_most", "characteristic", "genus", "index", "critical point dropped", "box dropped"})
+    EXPECT_GT(refused_of[kind], 0) << kind;
+  RecordProperty("refused", refused);
+  RecordProperty("true_all_the_same", weaker);
+  std::printf("%d damages: %d refused, %d true all the same\n", count, refused, weaker);
+}
+
+}  // namespace
+}  // namespace corank::analyze
