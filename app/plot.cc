@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <list>
 #include <map>
 #include <memory>
 
@@ -25,9 +26,10 @@ struct PlotCommand {
   report::PortraitOptions portrait;
 };
 
-report::PictureSource read_source(const std::string& path) {
-  if (std::filesystem::path(path).extension() == ".h5") return report::picture_source(result::read_result(path), path);
-  return report::picture_source(result::read_sol(path), path);
+/// Of a result nothing is copied: it is kept in the list.
+report::PictureSource read_source(const std::string& path, std::list<result::Result>& results) {
+  if (std::filesystem::path(path).extension() != ".h5") return report::picture_source(result::read_sol(path), path);
+  return report::picture_view(results.emplace_back(result::read_result(path)), path);
 }
 
 void check_format(const PlotCommand& command) {
@@ -49,8 +51,9 @@ void check_format(const PlotCommand& command) {
 
 ExitStatus plot(const PlotCommand& command) {
   check_format(command);
+  std::list<result::Result> results;
   std::vector<report::PictureSource> sources;
-  for (const std::string& path : command.inputs) sources.push_back(read_source(path));
+  for (const std::string& path : command.inputs) sources.push_back(read_source(path, results));
   report::Picture picture;
   try {
     picture = report::make_picture(sources, command.picture);
@@ -70,7 +73,11 @@ ExitStatus plot(const PlotCommand& command) {
                        report::to_gcl(picture, {std::filesystem::path(command.inputs[0]).stem().string(), words}));
   }
   ExitStatus status = kDone;
-  for (const report::PictureSource& source : sources) status = std::max(status, completeness(source.boxes, source.file));
+  for (const report::PictureSource& source : sources) {
+    bool complete = true;
+    for (std::size_t k = 0; k < source.count() && complete; ++k) complete = source.verdict(k) != Verdict::pending;
+    status = std::max(status, completeness(complete, source.file));
+  }
   return status;
 }
 

@@ -42,25 +42,26 @@ const std::vector<std::string>& kind_words() {
   return words;
 }
 
+// One array after the other, and none of them as a whole beside the boxes.
 void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, std::size_t n) {
-  std::vector<double> lower(boxes.size() * n), upper(lower.size());
-  std::vector<std::uint8_t> verdict(boxes.size()), reason(boxes.size()), free(lower.size(), 0);
-  for (std::size_t i = 0, first = 0; i < boxes.size(); ++i, first += n) {
-    const CoverBox& b = boxes[i];
-    CORANK_CHECK(b.box.size() == n);
-    for (std::size_t j = 0; j < n; ++j) {
-      lower[first + j] = b.box[j].lo();
-      upper[first + j] = b.box[j].hi();
+  for (const CoverBox& b : boxes) CORANK_CHECK(b.box.size() == n);
+  file.doubles(group + "/lower", boxes.size(), n, [&](std::size_t i, std::span<double> to) {
+    for (std::size_t j = 0; j < n; ++j) to[j] = boxes[i].box[j].lo();
+  });
+  file.doubles(group + "/upper", boxes.size(), n, [&](std::size_t i, std::span<double> to) {
+    for (std::size_t j = 0; j < n; ++j) to[j] = boxes[i].box[j].hi();
+  });
+  std::vector<std::uint8_t> words(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) words[i] = static_cast<std::uint8_t>(boxes[i].verdict);
+  file.enumeration(group + "/verdict", words, verdict_words());
+  file.bytes(group + "/free", boxes.size(), n, [&](std::size_t i, std::span<std::uint8_t> to) {
+    for (const int v : boxes[i].free) {
+      CORANK_CHECK(static_cast<std::size_t>(v) < n);
+      to[static_cast<std::size_t>(v)] = 1;
     }
-    verdict[i] = static_cast<std::uint8_t>(b.verdict);
-    reason[i] = static_cast<std::uint8_t>(b.reason);
-    for (const int v : b.free) free.at(first + static_cast<std::size_t>(v)) = 1;
-  }
-  file.doubles(group + "/lower", lower, boxes.size(), n);
-  file.doubles(group + "/upper", upper, boxes.size(), n);
-  file.enumeration(group + "/verdict", verdict, verdict_words());
-  file.bytes(group + "/free", free, boxes.size(), n);
-  file.enumeration(group + "/reason", reason, reason_words());
+  });
+  for (std::size_t i = 0; i < boxes.size(); ++i) words[i] = static_cast<std::uint8_t>(boxes[i].reason);
+  file.enumeration(group + "/reason", words, reason_words());
 }
 
 // Of a workspace boundary; of the whole, from which part each box comes.
@@ -92,6 +93,8 @@ void write_types(Hdf5Writer& file, const Cover& cover) {
   file.attribute("/boxes", "types_left_out", std::uint64_t{cover.types.left_out});
   for (const auto& [group, list] : {std::pair("/boxes", &cover.boxes), std::pair("/points", &cover.points)}) {
     std::vector<std::uint8_t> proven, excluded;
+    proven.reserve(list->size());
+    excluded.reserve(list->size());
     for (const CoverBox& box : *list) {
       proven.push_back(box.types.proven);
       excluded.push_back(box.types.excluded);
@@ -401,22 +404,25 @@ class ResultReader {
     statistics.seconds_certify = file_.double_attribute("/statistics", "seconds_certify");
   }
 
-  std::vector<CoverBox> boxes(const std::string& group, std::size_t n) const {
+  std::vector<CoverBox> boxes(const std::string& group, std::size_t n) {
     const std::vector<std::uint8_t> verdict = file_.enumeration(group + "/verdict", verdict_words());
-    const std::vector<double> lower = file_.doubles(group + "/lower", verdict.size(), n);
-    const std::vector<double> upper = file_.doubles(group + "/upper", verdict.size(), n);
-    const std::vector<std::uint8_t> free = file_.bytes(group + "/free", verdict.size(), n);
     std::vector<std::uint8_t> reason(verdict.size(), 0);
     if (format_ >= kFirstWithScales) reason = file_.enumeration(group + "/reason", reason_words());
     if (reason.size() != verdict.size()) refuse(group + "/reason has another length than the verdicts");
     std::vector<CoverBox> boxes(verdict.size());
+    file_.take_rows({group + "/lower", group + "/upper"}, group + "/free", boxes.size(), n,
+                    [&](std::size_t i, std::span<const std::span<const double>> ends, std::span<const std::uint8_t> free) {
+                      CoverBox& b = boxes[i];
+                      b.box.reserve(n);  // no more: there may be many
+                      b.free.reserve(static_cast<std::size_t>(n - std::count(free.begin(), free.end(), 0)));
+                      for (std::size_t v = 0; v < n; ++v) {
+                        b.box.push_back(interval(ends[0][v], ends[1][v], group));
+                        if (free[v] != 0) b.free.push_back(static_cast<int>(v));
+                      }
+                    });
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       boxes[i].verdict = static_cast<Verdict>(verdict[i]);
       boxes[i].reason = static_cast<Reason>(reason[i]);
-      for (std::size_t v = 0; v < n; ++v) {
-        boxes[i].box.push_back(interval(lower[i * n + v], upper[i * n + v], group));
-        if (free[i * n + v] != 0) boxes[i].free.push_back(static_cast<int>(v));
-      }
     }
     return boxes;
   }

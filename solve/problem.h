@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <span>
@@ -67,7 +68,11 @@ struct Found {
   std::unique_ptr<const certify::Sheet> sheet;  ///< of an isolated solution
   std::shared_ptr<const Box> region;  ///< that of the proof, as `box` has its sides; one for all boxes cut from a sheet
   std::vector<std::uint64_t> leaves;  ///< of a recorded search: those whose solutions are in the box (solve/recorder.h)
+  static constexpr std::uint32_t kNowhere = 0xffffffff;
+  std::uint32_t place = kNowhere;  ///< in the cover, once the boxes are sorted
 };
+/// Growing moves none of them, and what is taken from the front gives its memory back: a large search holds each box once.
+using FoundList = std::deque<Found>;
 
 /// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the
 /// reverse.

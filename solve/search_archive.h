@@ -1,6 +1,7 @@
 // How the values of a search are written and read by cereal (solve/byte_archive.h). For shard_bytes.cc.
 #pragma once
 
+#include <cereal/types/deque.hpp>
 #include <cereal/types/map.hpp>
 #include <cereal/types/memory.hpp>
 #include <cereal/types/optional.hpp>

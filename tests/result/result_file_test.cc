@@ -265,7 +265,7 @@ class InconsistentFile : public ResultFile {
       file.doubles(group + "/upper", std::vector{0.5}, 1, 1);
       unless_changed(group + "/verdict",
                      [&] { file.enumeration(group + "/verdict", std::vector<std::uint8_t>{0}, {"regular"}); });
-      file.bytes(group + "/free", std::vector<std::uint8_t>{0}, 1, 1);
+      file.bytes(group + "/free", 1, 1, [](std::size_t, std::span<std::uint8_t>) {});
       file.enumeration(group + "/reason", std::vector<std::uint8_t>{0}, {"none"});
     }
     file.group("/statistics");
