@@ -5,6 +5,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "corank/app/box_files.h"
 #include "corank/app/subcommands.h"
@@ -26,10 +27,30 @@ struct PlotCommand {
   report::PortraitOptions portrait;
 };
 
-/// Of a result nothing is copied: it is kept in the list.
-report::PictureSource read_source(const std::string& path, std::list<result::Result>& results) {
+/// What the axes show: variables, and the cosine and the sine of angles; all where an axis is none of them or a number.
+std::vector<int> shown_variables(const result::Result& result, const std::vector<std::string>& axes) {
+  std::set<int> shown;
+  for (const std::string& axis : axes) {
+    const std::size_t before = shown.size();
+    bool known = false;
+    for (std::size_t v = 0; v < result.variables.size(); ++v)
+      if (result.variables[v].name == axis) known = true, shown.insert(static_cast<int>(v));
+    for (const Angle& a : result.angles)
+      if (a.name == axis) known = true, shown.insert({a.cosine, a.sine});
+    for (const Angle& a : result.angles)  // of which a variable is the cosine or the sine: the axis says so
+      if (shown.size() > before && (shown.contains(a.cosine) || shown.contains(a.sine))) shown.insert({a.cosine, a.sine});
+    if (known) continue;
+    for (std::size_t v = 0; v < result.variables.size(); ++v) shown.insert(static_cast<int>(v));
+  }
+  return {shown.begin(), shown.end()};
+}
+
+/// Of a result nothing is copied, and what the picture does not show is not read: it is kept in the list.
+report::PictureSource read_source(const PlotCommand& command, const std::string& path, std::list<result::Result>& results) {
   if (std::filesystem::path(path).extension() != ".h5") return report::picture_source(result::read_sol(path), path);
-  return report::picture_view(results.emplace_back(result::read_result(path)), path);
+  const result::Reading reading{
+      .free = false, .sides = [&](const result::Result& r) { return shown_variables(r, command.picture.axes); }};
+  return report::picture_view(results.emplace_back(result::read_result(path, reading)), path);
 }
 
 void check_format(const PlotCommand& command) {
@@ -53,7 +74,7 @@ ExitStatus plot(const PlotCommand& command) {
   check_format(command);
   std::list<result::Result> results;
   std::vector<report::PictureSource> sources;
-  for (const std::string& path : command.inputs) sources.push_back(read_source(path, results));
+  for (const std::string& path : command.inputs) sources.push_back(read_source(command, path, results));
   report::Picture picture;
   try {
     picture = report::make_picture(sources, command.picture);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 
 #include "corank/core/check.h"
 #include "corank/result/certificate_file.h"
@@ -178,7 +179,7 @@ void write_statistics(Hdf5Writer& file, const Statistics& statistics) {
 
 class ResultReader {
  public:
-  explicit ResultReader(Hdf5Reader file) : file_(std::move(file)) {
+  explicit ResultReader(Hdf5Reader file, Reading reading = {}) : file_(std::move(file)), reading_(std::move(reading)) {
     if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != kFormat) {
       refuse("this is no corank result");
     }
@@ -189,8 +190,9 @@ class ResultReader {
   }
 
   Result read() {
+    reading_.free = reading_.free || file_.has_attribute("/", "parts");
     Result result = read_one(nullptr);
-    if (!file_.has_attribute("/", "parts")) return result;
+    if (!file_.has_attribute("/", "parts") || reading_.sides) return result;
     const std::int64_t parts = file_.integer_attribute("/", "parts");
     if (parts < 1 || parts > kMostParts) refuse("the attribute parts is out of range");
     for (std::int64_t i = 0; i < parts; ++i) {
@@ -225,6 +227,9 @@ class ResultReader {
     result.system_text = file_.text("/model/system");
     read_variables(result);
     read_angles(result);
+    sides_.resize(result.variables.size());
+    std::iota(sides_.begin(), sides_.end(), 0);
+    if (reading_.sides) sides_ = reading_.sides(result);
     result.configuration_size = count("configuration_size");
     result.equations = count("equations");
     result.inequalities = count("inequalities");
@@ -251,7 +256,7 @@ class ResultReader {
         result.cover.observed_dimension = static_cast<int>(observed);
       }
       read_types(result.cover);
-      read_certificates(file_, result.cover, result.variables.size());
+      if (!reading_.sides) read_certificates(file_, result.cover, result.variables.size());
     }
     if (file_.has("/outputs")) {
       result.outputs = words("/outputs");
@@ -259,7 +264,26 @@ class ResultReader {
       read_passages("/boxes", result.outputs.size(), result.cover.boxes);
       read_passages("/points", result.outputs.size(), result.cover.points);
     }
+    if (reading_.sides) keep_sides(result);
     return result;
+  }
+
+  // As the boxes are already.
+  void keep_sides(Result& result) const {
+    const auto place = [&](int v) {
+      const auto at = std::lower_bound(sides_.begin(), sides_.end(), v);
+      return at != sides_.end() && *at == v ? static_cast<int>(at - sides_.begin()) : -1;
+    };
+    std::vector<ResultVariable> variables;
+    for (const int v : sides_) variables.push_back(result.variables[static_cast<std::size_t>(v)]);
+    for (Angle& a : result.angles) {
+      a.cosine = place(a.cosine);
+      a.sine = place(a.sine);
+    }
+    std::erase_if(result.angles, [](const Angle& a) { return a.cosine < 0 || a.sine < 0; });
+    result.configuration_size =
+        static_cast<int>(std::lower_bound(sides_.begin(), sides_.end(), result.configuration_size) - sides_.begin());
+    result.variables = std::move(variables);
   }
 
   void read_passages(const std::string& group, std::size_t n, std::vector<CoverBox>& boxes) const {
@@ -413,12 +437,15 @@ class ResultReader {
     file_.take_rows({group + "/lower", group + "/upper"}, group + "/free", boxes.size(), n,
                     [&](std::size_t i, std::span<const std::span<const double>> ends, std::span<const std::uint8_t> free) {
                       CoverBox& b = boxes[i];
-                      b.box.reserve(n);  // no more: there may be many
-                      b.free.reserve(static_cast<std::size_t>(n - std::count(free.begin(), free.end(), 0)));
-                      for (std::size_t v = 0; v < n; ++v) {
+                      b.box.reserve(sides_.size());  // no more: there may be many
+                      for (const int side : sides_) {
+                        const auto v = static_cast<std::size_t>(side);
                         b.box.push_back(interval(ends[0][v], ends[1][v], group));
-                        if (free[v] != 0) b.free.push_back(static_cast<int>(v));
                       }
+                      if (!reading_.free) return;
+                      b.free.reserve(n - static_cast<std::size_t>(std::count(free.begin(), free.end(), 0)));
+                      for (std::size_t v = 0; v < n; ++v)
+                        if (free[v] != 0) b.free.push_back(static_cast<int>(v));
                     });
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       boxes[i].verdict = static_cast<Verdict>(verdict[i]);
@@ -428,6 +455,8 @@ class ResultReader {
   }
 
   Hdf5Reader file_;
+  Reading reading_;
+  std::vector<int> sides_;
   std::int64_t format_ = 0;
 };
 
@@ -489,7 +518,11 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   target.finish();
 }
 
-Result read_result(const std::filesystem::path& path) { return ResultReader(Hdf5Reader(path.string())).read(); }
+Result read_result(const std::filesystem::path& path) { return read_result(path, Reading{}); }
+
+Result read_result(const std::filesystem::path& path, const Reading& reading) {
+  return ResultReader(Hdf5Reader(path.string()), reading).read();
+}
 
 Result read_result(const std::string& name, std::span<const std::byte> items) {
   return ResultReader(Hdf5Reader(name, items)).read();

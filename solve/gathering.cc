@@ -88,6 +88,7 @@ std::vector<Box> number_regions(const certify::Reduction& reduction, const std::
 
 CoverBox lifted(const System& system, const certify::Reduction& reduction, CoverBox box) {
   box.box = reduction.lift(box.box);
+  box.box.shrink_to_fit();  // there may be many
   if (box.verdict == Verdict::undecided || box.verdict == Verdict::pending) certify::clip_to_domain(system, box.box);
   for (int& j : box.free) j = reduction.kept[static_cast<std::size_t>(j)];
   return box;
