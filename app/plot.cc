@@ -48,8 +48,8 @@ std::vector<int> shown_variables(const result::Result& result, const std::vector
 /// Of a result nothing is copied, and what the picture does not show is not read: it is kept in the list.
 report::PictureSource read_source(const PlotCommand& command, const std::string& path, std::list<result::Result>& results) {
   if (std::filesystem::path(path).extension() != ".h5") return report::picture_source(result::read_sol(path), path);
-  const result::Reading reading{
-      .free = false, .sides = [&](const result::Result& r) { return shown_variables(r, command.picture.axes); }};
+  const result::Reading reading{.free = false,
+                                .sides = [&](const result::Result& r) { return shown_variables(r, command.picture.axes); }};
   return report::picture_view(results.emplace_back(result::read_result(path, reading)), path);
 }
 

@@ -1,5 +1,6 @@
 #include "corank/solve/gathering.h"
 
+#include <malloc.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -61,6 +62,14 @@ void sort_by_keys(std::vector<Found*>& found) {
   for (std::size_t i = 0; i < keys.size(); ++i) found[i] = keys[i].found;
 }
 
+// Whole pages in the midst of what is in use, which the C library keeps otherwise.
+constexpr std::size_t kBetweenTrims = std::size_t{1} << 19;
+void give_memory_back() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 }  // namespace
 
 void sort(std::vector<Found*>& found) {
@@ -108,6 +117,7 @@ std::vector<CoverBox> take_lifted(const System& system, const certify::Reduction
       if (list->front().place == Found::kNowhere) continue;  // merged into another
       boxes.push_back(std::move(list->front().box));
       places.push_back(list->front().place);
+      if (boxes.size() % kBetweenTrims == 0) give_memory_back();
     }
   for (std::size_t i = 0; i < boxes.size(); ++i)
     while (places[i] != i) {

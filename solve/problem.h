@@ -1,8 +1,8 @@
 // What all threads of a search share, and what each of them finds.
 #pragma once
 
+#include <boost/container/deque.hpp>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <span>
@@ -71,8 +71,11 @@ struct Found {
   static constexpr std::uint32_t kNowhere = 0xffffffff;
   std::uint32_t place = kNowhere;  ///< in the cover, once the boxes are sorted
 };
-/// Growing moves none of them, and what is taken from the front gives its memory back: a large search holds each box once.
-using FoundList = std::deque<Found>;
+/// Growing moves none of them, and what is taken from the front gives its memory back in whole pages: a large search holds
+/// each box once.
+using FoundList =
+    boost::container::deque<Found, void,
+                            boost::container::deque_options_t<boost::container::block_bytes<std::size_t{1} << 16>>>;
 
 /// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the
 /// reverse.

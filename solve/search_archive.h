@@ -1,7 +1,6 @@
 // How the values of a search are written and read by cereal (solve/byte_archive.h). For shard_bytes.cc.
 #pragma once
 
-#include <cereal/types/deque.hpp>
 #include <cereal/types/map.hpp>
 #include <cereal/types/memory.hpp>
 #include <cereal/types/optional.hpp>
@@ -85,6 +84,20 @@ void serialize(Archive& archive, Postponed& p) {
 template <class Archive>
 void serialize(Archive& archive, Found& f) {
   archive(f.box, f.sheet, f.region, f.leaves);
+}
+
+// As cereal writes vectors.
+template <class Archive>
+void save(Archive& archive, const FoundList& list) {
+  archive(cereal::make_size_tag(static_cast<cereal::size_type>(list.size())));
+  for (const Found& found : list) archive(found);
+}
+template <class Archive>
+void load(Archive& archive, FoundList& list) {
+  cereal::size_type size = 0;
+  archive(cereal::make_size_tag(size));
+  list.clear();
+  for (cereal::size_type i = 0; i < size; ++i) archive(list.emplace_back());
 }
 
 template <class Archive>
