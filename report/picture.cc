@@ -119,7 +119,7 @@ void add_layers(const PictureSource& source, const SetStyle& style, const std::v
   const std::size_t begin = layers.size();
   if (options.color != ColorScheme::verdict) {
     layers.push_back(layer_of(source, style, options.color, std::nullopt));
-    if (!only) layers.back().boxes.reserve(source.count());
+    if (!only) layers.back().boxes.reserve(source.count() + source.count() / 4);  // some in two pieces; else all are moved
   }
   std::map<std::optional<Verdict>, std::size_t> index;
   for (std::size_t k = 0; k < source.count(); ++k) {
