@@ -35,6 +35,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   add_plot(program, action);
   add_report(program, action);
   add_sweep(program, action);
+  add_map(program, action);
   add_clearance(program, action);
   add_topology(program, action);
   add_aspects(program, action);

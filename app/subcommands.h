@@ -22,5 +22,6 @@ void add_aspects(CLI::App& program, Action& action);
 void add_path(CLI::App& program, Action& action);
 void add_topology(CLI::App& program, Action& action);
 void add_angles(CLI::App& program, Action& action);
+void add_map(CLI::App& program, Action& action);
 
 }  // namespace corank::app

@@ -9,6 +9,7 @@
 
 #include "corank/certify/domain.h"
 #include "corank/certify/elimination.h"
+#include "corank/certify/parametric_reduction.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/shortening.h"
 #include "corank/core/check.h"
@@ -67,7 +68,7 @@ struct GivenUp {};
 
 class Reducer {
  public:
-  Reducer(const System& system, Eliminate eliminate, const Ended& ended);
+  Reducer(const System& system, Eliminate eliminate, const Ended& ended, std::vector<int> parameters = {});
   Reduction run();
 
  private:
@@ -109,8 +110,9 @@ class Reducer {
   const Eliminate eliminate_;
   const bool tolerant_;
   const Ended& ended_;
+  const std::vector<int> parameters_;  // stay, with their domains
   std::vector<bool> gone_;
-  std::vector<bool> is_argument_;                        // of a sine or cosine: stays
+  std::vector<bool> is_argument_;                        // of a sine or cosine, or a parameter: stays
   std::vector<std::pair<int, Polynomial>> definitions_;  // values in variables that are kept, by original index
   std::vector<ReductionStep> steps_;
   std::vector<int> origins_;    // of each equation: its index in the system as given
@@ -120,11 +122,12 @@ class Reducer {
   bool consistent_ = true;
 };
 
-Reducer::Reducer(const System& system, Eliminate eliminate, const Ended& ended)
+Reducer::Reducer(const System& system, Eliminate eliminate, const Ended& ended, std::vector<int> parameters)
     : system_(system),
       eliminate_(eliminate),
       tolerant_(system.coefficient_tolerance > 0 && eliminate != Eliminate::exact),
       ended_(ended),
+      parameters_(std::move(parameters)),
       gone_(system.variables.size(), false),
       is_argument_(system.variables.size(), false) {
   system.validate();
@@ -132,6 +135,7 @@ Reducer::Reducer(const System& system, Eliminate eliminate, const Ended& ended)
     for (const Polynomial& f : *rows)
       for (const Monomial& m : f.monomials)
         if (m.is_trigonometric()) is_argument_[static_cast<std::size_t>(m.factors[0].variable)] = true;
+  for (const int p : parameters_) is_argument_[static_cast<std::size_t>(p)] = true;
   // From here on the tolerance stands in the enclosures.
   if (tolerant_)
     for (auto* rows : {&system_.equations, &system_.inequalities})
@@ -259,7 +263,8 @@ void Reducer::drop_repeated() {
 void Reducer::carry_domain(int x, const Polynomial& value) {
   const Variable& from = system_.variables[static_cast<std::size_t>(x)];
   const std::vector<int> others = variables_of(value);
-  if (others.size() == 1 && is_affine(value)) {
+  const auto is_parameter = [&](int j) { return std::find(parameters_.begin(), parameters_.end(), j) != parameters_.end(); };
+  if (others.size() == 1 && is_affine(value) && !is_parameter(others[0])) {
     // x = a·y + c ∈ [l, u]  ⇔  y ∈ [(l − c)/a, (u − c)/a], swapped where a < 0.
     Variable& y = system_.variables[static_cast<std::size_t>(others[0])];
     ExactNumber a, c;
@@ -518,6 +523,14 @@ std::vector<Interval> Reduction::lift(const std::vector<Interval>& sides) const 
 Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended) {
   try {
     return Reducer(system, eliminate, ended).run();
+  } catch (const GivenUp&) {
+    return unreduced(system);
+  }
+}
+
+Reduction reduce_with_parameters(const System& system, const std::vector<int>& parameters, const Ended& ended) {
+  try {
+    return Reducer(system, Eliminate::exact, ended, parameters).run();
   } catch (const GivenUp&) {
     return unreduced(system);
   }

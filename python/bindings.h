@@ -13,6 +13,7 @@ void bind_options(py::module_& module);
 void bind_result(py::module_& module);
 void bind_solve(py::module_& module);
 void bind_analyses(py::module_& module);
+void bind_maps(py::module_& module);
 void bind_report(py::module_& module);
 void bind_cluster(py::module_& module);
 void bind_errors();

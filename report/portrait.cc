@@ -10,6 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "corank/report/drawing_file.h"
 #include "corank/report/layout_svg.h"
 #include "corank/result/result_file.h"
 
@@ -163,6 +164,25 @@ bool is_portrait_format(const std::filesystem::path& path) {
   return extension == ".svg" || extension == ".pdf" || extension == ".png";
 }
 
+void write_drawing(const std::filesystem::path& path, const Layout& drawing, const std::string& title,
+                   double dots_per_inch) {
+  if (!is_portrait_format(path))
+    throw std::invalid_argument(path.string() + ": the picture has an unknown format; expected .svg, .pdf or .png");
+  const std::string extension = path.extension().string();
+  result::write_text(path, extension == ".svg"   ? to_svg(drawing, title)
+                           : extension == ".pdf" ? to_pdf(drawing, title, path.string())
+                                                 : to_png(drawing, dots_per_inch, path.string()));
+}
+
+double drawn_width(const Label& label, double size) {
+  double width = 0;
+  measured([&](const TextWidth& text_width) {
+    width = text_width(label, size);
+    return Layout{};
+  });
+  return width;
+}
+
 void write_portrait(const std::filesystem::path& path, const Picture& picture, const PortraitOptions& options) {
   if (!is_portrait_format(path))
     throw std::invalid_argument(path.string() + ": the picture has an unknown format; expected .svg, .pdf or .png");
@@ -171,11 +191,7 @@ void write_portrait(const std::filesystem::path& path, const Picture& picture, c
       !(options.dots_per_inch >= 10 && options.dots_per_inch <= 2400))
     throw std::invalid_argument(path.string() + ": expected a width from 20 to 1000 mm and 10 to 2400 dots per inch");
   if (!options.ranges && is_empty(picture)) throw std::invalid_argument(path.string() + ": there are no boxes to draw");
-  const Layout drawing = laid_out(picture, options);
-  const std::string extension = path.extension().string();
-  result::write_text(path, extension == ".svg"   ? to_svg(drawing, options.title)
-                           : extension == ".pdf" ? to_pdf(drawing, options.title, path.string())
-                                                 : to_png(drawing, options.dots_per_inch, path.string()));
+  write_drawing(path, laid_out(picture, options), options.title, options.dots_per_inch);
 }
 
 std::vector<std::string> write_small_multiples(const std::filesystem::path& folder, const std::vector<Picture>& pictures,

@@ -8,6 +8,7 @@
 
 #include "corank/core/nearest_rounding.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/ipopt_lock.h"
 
 namespace corank::solve {
 namespace {
@@ -104,6 +105,7 @@ class LeastValue : public Ipopt::TNLP {
 std::optional<std::vector<double>> local_minimum(const certify::CompiledSystem& system, int variable, const Box& box,
                                                  const std::vector<double>& start, const Ended& ended) {
   const NearestRounding nearest;
+  const IpoptLock lock;
   const Ipopt::SmartPtr<LeastValue> problem = new LeastValue(system, variable, box, start, ended);
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = IpoptApplicationFactory();
   ipopt->Options()->SetIntegerValue("print_level", 0);

@@ -9,6 +9,7 @@
 #include "corank/certify/compiled_system.h"
 #include "corank/core/nearest_rounding.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/ipopt_lock.h"
 
 namespace corank::solve {
 namespace {
@@ -119,6 +120,7 @@ class LeastSquares : public Ipopt::TNLP {
 std::optional<std::vector<double>> polish(const System& system, const Box& box, const Ended& ended) {
   const certify::CompiledSystem compiled(system);
   const NearestRounding nearest;
+  const IpoptLock lock;
   const Ipopt::SmartPtr<LeastSquares> problem = new LeastSquares(compiled, box, ended);
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = IpoptApplicationFactory();
   ipopt->Options()->SetIntegerValue("print_level", 0);

@@ -14,6 +14,7 @@ from ._corank import Expression, Relation
 from .analyses import Analysis, Aspects, BestCenter, Bounds, Clearance, ClearanceMap, Topology
 from .errors import Interrupted, ModelError, OptionError, ResultFileError
 from .expression import as_expression, as_relation, cos, degrees, linspace, pi, sin, sqrt, tan
+from .mapping import ParameterMap
 from .mechanism import Coordinate, Mechanism, load, parse
 from .notebook import Page
 from .pages import USUAL_SETS, Report
@@ -48,6 +49,7 @@ __all__ = [
     "ModelError",
     "OptionError",
     "Page",
+    "ParameterMap",
     "Path",
     "Point",
     "Relation",

@@ -215,6 +215,22 @@ def clearance_map(
     progress: Any,
 ) -> Tuple[str, str, Optional[BaseException]]: ...
 
+class ParameterMap:
+    tiles: int
+    def __init__(
+        self,
+        model: Model,
+        set: Optional[str],
+        over: _Ranges,
+        fixed: Sequence[Tuple[str, _Like]],
+        count: str,
+        resolution: int,
+        boundary: bool,
+    ) -> None: ...
+    def run(self, threads: int, time_limit: float, progress: Any) -> Tuple[str, str, Optional[BaseException]]: ...
+    def tile(self, number: int) -> str: ...
+    def assemble(self, tiles: List[str]) -> Tuple[str, str]: ...
+
 class PathPicture: ...
 
 class PathFile:

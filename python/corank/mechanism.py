@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Union
 
-from . import _corank, analyses, notebook, pages, pathing, sweeping
+from . import _corank, analyses, mapping, notebook, pages, pathing, sweeping
 from ._corank import Expression
 from .errors import deliver
 from .expression import ExpressionLike, RelationLike, as_expression, as_relation, pi, text_of
@@ -302,6 +302,7 @@ class Mechanism:
     best_center = analyses.best_center
     clearance_map = analyses.clearance_map
     area = analyses.area
+    map = mapping.map
     path = pathing.path
     report = pages.report
     sweep = sweeping.sweep

@@ -142,7 +142,7 @@ def sweep(
         values: of it, exact: texts, fractions; corank.linspace(0.9, 1.6, 8).
         sets, sigma, cspace_sigma: as for report(); the default of sigma is twice that of solve().
         max_boxes, max_found, time_limit: what ends each search; 0: no limit.
-        client: of dask.distributed, whose workers do the searches, as for solve().
+        client: of dask.distributed, whose workers do the searches, each of them one at a time with `threads` threads; 0: one.
 
     Raises:
         ModelError: where a value makes no mechanism; before the first search.
@@ -158,24 +158,45 @@ def sweep(
             )
     members: List[Member] = []
     command = f"{pages._command('sweep', self, sets, sigma, cspace_sigma)} over {constant}"
+    options: Dict[str, Any] = {"proof": proof, "threads": threads, "max_boxes": max_boxes, "max_found": max_found, "time_limit": time_limit}
+    options["coarser"] = 2
+    sigmas = {name: cspace_sigma if name == "cspace" else sigma for name in sets}
+    if client is not None:
+        return _by_workers(constant, texts, plans, sigmas, {**options, "threads": threads or 1}, command, client, progress)
     for text, plan in zip(texts, plans):
         member = Member(text, plan, {})
         members.append(member)
         for name in sets:
             try:
-                member.results[name] = plan.solve(
-                    name,
-                    sigma=cspace_sigma if name == "cspace" else sigma,
-                    proof=proof,
-                    threads=threads,
-                    max_boxes=max_boxes,
-                    max_found=max_found,
-                    time_limit=time_limit,
-                    coarser=2,
-                    progress=progress,
-                    client=client,
-                )
+                member.results[name] = plan.solve(name, sigma=sigmas[name], progress=progress, **options)
             except Interrupted as early:
                 member.results[name] = early.result
                 raise Interrupted(Sweep(constant, members, len(texts), command)) from None
     return Sweep(constant, members, len(texts), command)
+
+
+def _by_workers(
+    constant: str,
+    texts: List[str],
+    plans: List["Mechanism"],
+    sigmas: Dict[str, Optional[float]],
+    options: Dict[str, Any],
+    command: str,
+    client: Any,
+    progress: ProgressOption,
+) -> Sweep:
+    """All searches at once, each by one worker to its end."""
+    from . import cluster  # needs a package that is not always there
+
+    searches = [(plan, name, {"sigma": s, **options}) for plan in plans for name, s in sigmas.items()]
+    results, whole = cluster.solve_members(searches, client, progress=progress)
+    members = []
+    for k, (text, plan) in enumerate(zip(texts, plans)):
+        own = {name: results.get(k * len(sigmas) + j) for j, name in enumerate(sigmas)}
+        done = {name: result for name, result in own.items() if result is not None}
+        if len(done) == len(sigmas):
+            members.append(Member(text, plan, done))
+    family = Sweep(constant, members, len(texts), command)
+    if not whole:
+        raise Interrupted(family)
+    return family

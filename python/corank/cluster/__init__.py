@@ -15,6 +15,7 @@ require("distributed")
 
 from .engine import Checkpoints, solve, solve_run  # noqa: E402
 from .local import local_client, remote_client, security  # noqa: E402
+from .tasks import map_tiles, solve_members  # noqa: E402
 from .units import ClusterError, Plan, check_versions  # noqa: E402
 
 __all__ = [
@@ -23,8 +24,10 @@ __all__ = [
     "Plan",
     "check_versions",
     "local_client",
+    "map_tiles",
     "remote_client",
     "security",
     "solve",
+    "solve_members",
     "solve_run",
 ]

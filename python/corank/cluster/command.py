@@ -5,13 +5,16 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from typing import List, Optional, Sequence, Tuple
+from typing import ContextManager, List, Optional, Sequence, Tuple
+
+from distributed import Client
 
 from .. import _corank, mechanism
 from ..errors import ModelError, OptionError, ResultFileError
 from ..result import Result
 from .engine import Checkpoints, solve
 from .local import local_client, remote_client, security
+from .parts_command import add_map, add_sweep
 from .units import ClusterError, Plan
 
 DONE, BAD_INPUT, USAGE, INCOMPLETE = 0, 1, 2, 3  # corank solve's exit statuses
@@ -56,23 +59,9 @@ def _question() -> argparse.ArgumentParser:
     return p
 
 
-def _parser() -> argparse.ArgumentParser:
-    program = argparse.ArgumentParser(
-        prog="python3 -m corank.cluster",
-        description=(
-            "Searches on many machines by dask.distributed. Exit statuses are those of corank solve: 0 done and complete, 1 bad input "
-            "or a cluster that cannot do the work, 2 usage, 3 ended early."
-        ),
-    )
-    sub = program.add_subparsers(dest="command", required=True).add_parser(
-        "solve",
-        parents=[_question()],
-        allow_abbrev=False,
-        help="corank solve by workers: the same boxes",
-        epilog="Example: python3 -m corank.cluster solve models/dextar.cuik --set cspace --sigma 0.01 --workers 2 -o cspace.h5",
-    )
-    sub.add_argument("--json", metavar="FILE", help="write a summary there")
-    where = sub.add_argument_group("the cluster")
+def _where() -> argparse.ArgumentParser:
+    p = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+    where = p.add_argument_group("the cluster")
     where.add_argument(
         "--workers", type=_positive, metavar="N", help="so many processes of this machine; default: one for each core"
     )
@@ -84,13 +73,35 @@ def _parser() -> argparse.ArgumentParser:
     where.add_argument("--tls-cert", metavar="FILE.pem")
     where.add_argument("--tls-key", metavar="FILE.pem")
     where.add_argument("--dashboard", type=int, metavar="PORT", help="dask's, of one's own scheduler; it needs bokeh")
+    where.add_argument("--quiet", action="store_true", help="no progress")
+    return p
+
+
+def _parser() -> argparse.ArgumentParser:
+    program = argparse.ArgumentParser(
+        prog="python3 -m corank.cluster",
+        description=(
+            "Searches on many machines by dask.distributed. Exit statuses are those of corank solve: 0 done and complete, 1 bad input "
+            "or a cluster that cannot do the work, 2 usage, 3 ended early."
+        ),
+    )
+    subcommands = program.add_subparsers(dest="command", required=True)
+    add_map(subcommands, [_where()])
+    add_sweep(subcommands, [_where()])
+    sub = subcommands.add_parser(
+        "solve",
+        parents=[_question(), _where()],
+        allow_abbrev=False,
+        help="corank solve by workers: the same boxes",
+        epilog="Example: python3 -m corank.cluster solve models/dextar.cuik --set cspace --sigma 0.01 --workers 2 -o cspace.h5",
+    )
+    sub.add_argument("--json", metavar="FILE", help="write a summary there")
     how = sub.add_argument_group("units")
     how.add_argument("--unit-time", type=_seconds, default=1.0, help="of one unit, at most; default: 1s")
     how.add_argument("--threads", type=_positive, default=1, help="of one unit; default: 1")
     how.add_argument(
         "--hang-time", type=_seconds, help="a unit that was not answered by then is given to another worker, too"
     )
-    how.add_argument("--quiet", action="store_true", help="no progress")
     keep = sub.add_argument_group("checkpoints")
     keep.add_argument(
         "--checkpoint", metavar="FILE", help="write from where the run goes on now and then; removed once it is complete"
@@ -165,13 +176,7 @@ def _solve(args: argparse.Namespace, parser: argparse.ArgumentParser) -> Result:
         if args.checkpoint:
             checkpoints = Checkpoints(args.checkpoint, args.every, _arguments(args), files)
     model = _model(args, files)
-    tls = security(args.tls_ca, args.tls_cert, args.tls_key)
-    cluster = (
-        remote_client(args.scheduler, tls)
-        if args.scheduler
-        else local_client(args.workers or os.cpu_count() or 1, host=args.host, dashboard=args.dashboard, tls=tls)
-    )
-    with cluster as client:
+    with _client(args) as client:
         result = solve(
             model,
             client,
@@ -196,10 +201,31 @@ def _solve(args: argparse.Namespace, parser: argparse.ArgumentParser) -> Result:
     return result
 
 
+def _client(args: argparse.Namespace) -> ContextManager[Client]:
+    tls = security(args.tls_ca, args.tls_cert, args.tls_key)
+    if args.scheduler:
+        return remote_client(args.scheduler, tls)
+    return local_client(args.workers or os.cpu_count() or 1, host=args.host, dashboard=args.dashboard, tls=tls)
+
+
+def _parts(args: argparse.Namespace) -> int:
+    try:
+        with _client(args) as client:
+            return args.run(args, client)
+    except KeyboardInterrupt:
+        print("corank.cluster: ended early", file=sys.stderr)
+        return INCOMPLETE
+    except (ModelError, OptionError, ClusterError, OSError, ValueError) as error:
+        print(f"corank.cluster: {error}", file=sys.stderr)
+        return BAD_INPUT
+
+
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Returns the exit status."""
     parser = _parser()
     args = parser.parse_args(arguments)
+    if args.command != "solve":
+        return _parts(args)
     if (args.file is None) == (args.resume is None):
         parser.error("expected MODEL, or --resume FILE")
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import queue
 import time
 from concurrent.futures import CancelledError
-from typing import Any, Dict, Iterable, List, NamedTuple, Optional, Set
+from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Set
 
 import numpy as np
 from distributed import Client, Future, KilledWorker
@@ -52,12 +52,15 @@ _LOST = (KilledWorker, CancelledError, CommClosedError, OSError, MemoryError, Ti
 
 
 class Units:
-    """The units of one search that are under way. Of one thread."""
+    """The units of one search that are under way, or of other work that is done in parts. Of one thread."""
 
-    def __init__(self, client: Client, prepared: bytes, plan: Plan) -> None:
+    def __init__(
+        self, client: Client, prepared: bytes, plan: Plan, work: Callable[..., np.ndarray] = worker.run_unit
+    ) -> None:
         self._client = client
         self._prepared = prepared
         self._plan = plan
+        self._work = work
         self._given: Dict[str, _Given] = {}  # by the keys of its futures
         self._units: Set[_Given] = set()
         self._came: "queue.Queue[Future]" = queue.Queue()
@@ -123,7 +126,7 @@ class Units:
         more = {"workers": workers, "allow_other_workers": True} if workers else {}
         try:
             future = self._client.submit(
-                worker.run_unit,
+                self._work,
                 self._prepared,
                 given.unit,
                 given.seconds,

@@ -1,8 +1,14 @@
 """What workers run. Clients send these functions by their names: a worker executes its own copy of corank, and nothing else."""
 
+import functools
+import pickle
+from typing import Any
+
 import numpy as np
 
 from .. import _corank
+from ..analyses import _ranges
+from ..expression import as_expression
 
 
 def run_unit(prepared: bytes, unit: bytes, seconds: float, threads: int) -> np.ndarray:
@@ -10,6 +16,25 @@ def run_unit(prepared: bytes, unit: bytes, seconds: float, threads: int) -> np.n
 
     The bytes are an array, since dask sends arrays without copying them."""
     return np.frombuffer(_corank.run_unit(prepared, unit, 0, seconds, threads), dtype=np.uint8)
+
+
+@functools.lru_cache(maxsize=1)
+def _parameter_map(question: bytes) -> Any:
+    mechanism, set, over, fixed, count, resolution, boundary = pickle.loads(question)
+    values = [(name, as_expression(value)) for name, value in fixed.items()]
+    return _corank.ParameterMap(mechanism._core, set, _ranges(over), values, count, resolution, boundary)
+
+
+def run_tile(question: bytes, unit: bytes, seconds: float, threads: int) -> np.ndarray:
+    """A part of a map over two parameters, to its end, with one thread."""
+    return np.frombuffer(_parameter_map(question).tile(int(unit)).encode(), dtype=np.uint8)
+
+
+def run_member(question: bytes, unit: bytes, seconds: float, threads: int) -> np.ndarray:
+    """A search of a family's, to its end: its number and its result."""
+    mechanism, set, options = pickle.loads(question)[int(unit)]
+    result = mechanism.solve(set, progress=False, **options)
+    return np.frombuffer(pickle.dumps((int(unit), result)), dtype=np.uint8)
 
 
 def engine_version() -> str:

@@ -1,0 +1,159 @@
+// corank map: a number over a plane of two constants or coordinates.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "corank/analyze/parameter_map.h"
+#include "corank/app/interrupt.h"
+#include "corank/app/output.h"
+#include "corank/app/progress.h"
+#include "corank/app/question.h"
+#include "corank/app/subcommands.h"
+#include "corank/report/parameter_picture.h"
+#include "corank/result/printable.h"
+#include "corank/result/result_file.h"
+#include "corank/symbolic/model_file.h"
+
+namespace corank::app {
+namespace {
+
+struct MapCommand {
+  QuestionOptions question;
+  std::vector<std::string> over, fixed;
+  std::string count = "solutions";
+  analyze::ParameterMapOptions options{.resolution = 64, .boundary = true, .threads = 0, .progress = {}};
+  bool no_boundary = false;
+  double time_limit = 0;
+  std::vector<std::string> outputs;
+  JsonPath json;
+};
+
+// "NAME=FROM:TO".
+symbolic::Parameter parameter(const std::string& text) {
+  const std::size_t equals = text.find('='), colon = text.find(':', equals == std::string::npos ? 0 : equals);
+  if (equals == 0 || equals == std::string::npos || colon == std::string::npos || colon == equals + 1 ||
+      colon + 1 == text.size())
+    throw UsageError(fmt::format("--over {}: expected NAME=FROM:TO", text));
+  const std::string name = text.substr(0, equals);
+  const auto end = [&](const std::string& part) { return symbolic::parse_expression(part, "--over " + name); };
+  return {name, end(text.substr(equals + 1, colon - equals - 1)), end(text.substr(colon + 1))};
+}
+
+symbolic::FixedCoordinate fixed(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
+    throw UsageError(fmt::format("--fix {}: expected NAME=EXPR", text));
+  const std::string name = text.substr(0, equals);
+  return {name, symbolic::parse_expression(text.substr(equals + 1), "--fix " + name)};
+}
+
+analyze::MapQuestion question_of(const MapCommand& command) {
+  analyze::MapQuestion question;
+  question.question = load(command.question);
+  question.answer = *analyze::map_answer_from_string(command.count);
+  QuestionOptions set = command.question;
+  const bool plain = question.question.model.is_plain_system();
+  if (question.answer != analyze::MapAnswer::solutions && !set.set.empty())
+    throw UsageError(fmt::format("--count {}: belongs to all configurations and has no --set", command.count));
+  if (set.set.empty() && !plain) set.set = "cspace";
+  question.question.set = chosen_set(set, question.question.model);
+  for (const std::string& text : command.over) question.over.push_back(parameter(text));
+  for (const std::string& text : command.fixed) question.fixed.push_back(fixed(text));
+  return question;
+}
+
+report::ParameterPicture picture(const analyze::ParameterMap& map) {
+  report::ParameterPicture result;
+  result.title = map.model;
+  result.what = map.answer == analyze::MapAnswer::solutions ? map.set : analyze::to_string(map.answer);
+  result.x_name = map.names[0], result.y_name = map.names[1];
+  result.x_range = map.region[0], result.y_range = map.region[1];
+  using Kind = analyze::MapCellAnswer::Kind;
+  for (const analyze::MapCellAnswer& c : map.cells)
+    result.cells.push_back({c.sides[0], c.sides[1], c.kind == Kind::proven ? c.count : c.at_centre, c.kind == Kind::proven});
+  for (const analyze::MapBoundaryBox& b : map.boundary) result.boundary.push_back({b.sides[0], b.sides[1], b.proven});
+  return result;
+}
+
+ExitStatus write_map(MapCommand command) {
+  give_back_model(command.question, command.json);
+  for (const std::string& name : command.outputs) {
+    const bool known = name.ends_with(".json") || name.ends_with(".csv") || report::is_picture(name);
+    if (!known)
+      throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg, .pdf, .png, .csv or .json", name));
+    result::check_writable(name);
+  }
+  const int n = command.options.resolution;
+  if (n < analyze::kTiles || n > 1024 || (n & (n - 1)) != 0)
+    throw UsageError(fmt::format("--resolution {}: expected a power of two from {} to 1024", n, analyze::kTiles));
+  command.options.boundary = !command.no_boundary;
+  solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
+  const analyze::MapQuestion question = question_of(command);
+  if (question.over.size() != 2) throw UsageError("a map has two parameters: --over NAME=FROM:TO twice");
+  const Interrupt interrupt;
+  ProgressLine line;
+  command.options.progress = [&line](std::size_t done, std::size_t all) {
+    line.show(fmt::format("{} of {} parts of the plane", done, all));
+  };
+  const analyze::ParameterMap map = analyze::parameter_map(question, command.options, control);
+  line.clear();
+  for (const std::string& name : command.outputs) {
+    if (name.ends_with(".json")) {
+      result::write_text(name, to_json(map) + "\n");
+    } else if (name.ends_with(".csv")) {
+      result::write_text(name, to_csv(map));
+    } else {
+      report::write_picture(name, picture(map));
+    }
+  }
+  if (say_json(command.json, [&] { return to_json(map); })) fmt::print("{}", result::printable(to_table(map)));
+  return map.complete ? kDone : stopped_early(control);
+}
+
+}  // namespace
+
+void add_map(CLI::App& program, Action& action) {
+  CLI::App* sub = program.add_subcommand(
+      "map", "The number of solutions over a plane of two constants or coordinates, proven cell by cell");
+  const auto command = std::make_shared<MapCommand>();
+  command->question.add_options(*sub);
+  sub->add_option("--over", command->over,
+                  "A constant of the model, or a coordinate (angles in radians), that runs from FROM to TO; twice")
+      ->type_name("NAME=FROM:TO")
+      ->allow_extra_args(false);
+  sub->add_option("--fix", command->fixed, "A coordinate that keeps one value; may be repeated")
+      ->type_name("NAME=EXPR")
+      ->allow_extra_args(false);
+  sub->add_option("--count", command->count,
+                  "What is counted. solutions: of --set (default cspace), proven over whole cells;\n"
+                  "the others belong to all configurations of one mechanism, and are proven at the cells' centres alone")
+      ->check(CLI::IsMember({"solutions", "components", "aspects", "assembly-modes", "working-modes"}))
+      ->capture_default_str();
+  sub->add_option("--resolution", command->options.resolution,
+                  "The narrowest cells are so many along each side: a power of two")
+      ->capture_default_str();
+  sub->add_flag("--no-boundary", command->no_boundary, "Do not look for the curve on which two solutions meet");
+  sub->add_option("--threads", command->options.threads, "Threads; 0: one for each core")->capture_default_str();
+  sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
+      ->type_name("SECONDS")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("-o", command->outputs, "A picture (.svg, .pdf, .png) or the cells (.csv, .json); may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
+      "--json", [command](const std::vector<std::string>& path) { command->json = path.empty() ? "" : path.front(); },
+      "Write the result as JSON to PATH, or to standard output instead of the table");
+  json->type_name("[PATH]")->expected(0, 1);
+  sub->footer(
+      "In a cell that is proven the number is the same for every value of the parameters, and all solutions are regular.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
+      "Examples, the assembly modes of a five-bar over its motors' angles, and over two lengths:\n"
+      "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.svg\n"
+      "  corank map models/dextar.cuik --over l2=1/2:3/2 --over l3=1/2:3/2 --fix theta2=pi/3 --fix theta5=2 -o lengths.svg");
+  sub->callback([command, json, &action] {
+    if (json->count() > 0 && !command->json) command->json = "";
+    action = [command] { return write_map(*command); };
+  });
+}
+
+}  // namespace corank::app

@@ -1,0 +1,112 @@
+#include "corank/certify/solution_count.h"
+
+#include <algorithm>
+
+#include "corank/certify/preconditioning.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+
+namespace corank::certify {
+namespace {
+
+constexpr int kSteps = 4;  // of Newton's, until an image over one value is small
+
+bool contains(std::span<const Interval> outer, std::span<const Interval> inner) {
+  for (std::size_t j = 0; j < outer.size(); ++j)
+    if (!outer[j].contains(inner[j])) return false;
+  return true;
+}
+
+bool overlap(const std::vector<Interval>& a, const std::vector<Interval>& b) {
+  for (std::size_t j = 0; j < a.size(); ++j)
+    if (!a[j].overlaps(b[j])) return false;
+  return true;
+}
+
+std::vector<double> middle(std::span<const Interval> x) {
+  std::vector<double> point;
+  for (const Interval& side : x) point.push_back(side.mid());
+  return point;
+}
+
+bool is_dependent(const Sheet& sheet, std::size_t j) {
+  return std::find(sheet.dependent.begin(), sheet.dependent.end(), static_cast<int>(j)) != sheet.dependent.end();
+}
+
+// Shrinks the dependent sides of x, which hold the sheet's zeros over its free sides.
+NewtonStep tighten(const CompiledSystem& system, const Sheet& sheet, std::span<Interval> x, NewtonWorkspace& w) {
+  return tighten_sheet(system, midpoint_preconditioner(system, middle(x), sheet.dependent), x, w);
+}
+
+// Encloses the sheet's zero over the middle of its parameters.
+std::vector<Interval> image_at_middle(const CompiledSystem& system, const Sheet& sheet, NewtonWorkspace& w) {
+  std::vector<Interval> x = sheet.image;
+  for (std::size_t j = 0; j < x.size(); ++j)
+    if (!is_dependent(sheet, j)) x[j] = Interval(x[j].mid());
+  for (int step = 0; step < kSteps; ++step) tighten(system, sheet, x, w);
+  return x;
+}
+
+}  // namespace
+
+Identity compare_over(const CompiledSystem& system, const Sheet& a, const Sheet& b, NewtonWorkspace& w) {
+  CORANK_CHECK(UpwardRounding::active() && a.proven && b.proven && a.dependent.size() == b.dependent.size());
+  CORANK_CHECK(static_cast<int>(a.equations.size()) == system.equations() && a.equations.size() == a.dependent.size() &&
+               a.equations.size() == b.equations.size());
+  for (std::size_t j = 0; j < a.image.size(); ++j)
+    CORANK_CHECK(is_dependent(a, j) == is_dependent(b, j) && (is_dependent(a, j) || a.image[j] == b.image[j]));
+  if (!overlap(a.image, b.image)) return Identity::different;
+  if (contains(a.region, b.image) || contains(b.region, a.image)) return Identity::same;
+  const std::vector<Interval> at_a = image_at_middle(system, a, w), at_b = image_at_middle(system, b, w);
+  if (!overlap(at_a, at_b)) return Identity::different;
+  if (contains(a.region, at_b) || contains(b.region, at_a)) return Identity::same;
+  return Identity::unknown;
+}
+
+Sheet restricted(const CompiledSystem& system, const Sheet& sheet, std::span<const Interval> box, NewtonWorkspace& w) {
+  CORANK_CHECK(UpwardRounding::active() && sheet.proven);
+  Sheet part = sheet;
+  for (std::size_t j = 0; j < part.region.size(); ++j) {
+    if (is_dependent(sheet, j)) continue;
+    CORANK_CHECK(sheet.region[j].contains(box[j]));
+    part.region[j] = part.image[j] = box[j];
+  }
+  tighten(system, part, part.image, w);
+  return part;
+}
+
+bool lies_on(const Sheet& sheet, std::span<const Interval> box) { return sheet.proven && contains(sheet.region, box); }
+
+bool keep_distinct(const CompiledSystem& system, std::vector<Sheet>& sheets, NewtonWorkspace& w) {
+  bool known = true;
+  std::vector<Sheet> kept;
+  for (Sheet& sheet : sheets) {
+    bool is_new = true;
+    for (std::size_t k = 0; k < kept.size() && is_new; ++k) {
+      const Identity identity = compare_over(system, kept[k], sheet, w);
+      is_new = identity != Identity::same;
+      known = known && identity != Identity::unknown;
+    }
+    if (is_new) kept.push_back(std::move(sheet));
+  }
+  sheets = std::move(kept);
+  return known;
+}
+
+std::optional<int> count_inside(const CompiledSystem& system, const DomainTest& domain, const std::vector<Sheet>& sheets,
+                                NewtonWorkspace& w) {
+  CORANK_CHECK(UpwardRounding::active());
+  int inside = 0;
+  for (const Sheet& sheet : sheets) {
+    std::vector<Interval> x = sheet.image;
+    const NewtonStep step = tighten(system, sheet, x, w);
+    switch (domain.locate_zeros(step, x)) {
+      case Location::inside: ++inside; break;
+      case Location::outside: break;
+      case Location::across: return std::nullopt;
+    }
+  }
+  return inside;
+}
+
+}  // namespace corank::certify

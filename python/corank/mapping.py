@@ -1,0 +1,180 @@
+"""Numbers over a plane of two parameters, constants or coordinates of a model."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Tuple
+
+from . import _corank
+from .analyses import Analysis, RangeLike, _ranges
+from .errors import Interrupted, deliver
+from .expression import ExpressionLike, as_expression
+from .optional import require
+from .progress import ProgressOption, Shown
+
+if TYPE_CHECKING:
+    import numpy
+    import pandas
+    from matplotlib.axes import Axes
+
+    from .mechanism import Mechanism
+
+
+class ParameterMap(Analysis):
+    """A number over a plane of two parameters, cell by cell.
+
+    Attributes:
+        names: of the two parameters. region: (lower, upper) of each. count: what was counted.
+        resolution: the narrowest cells are so many along each side.
+        shares: of the plane's area that is proven to have each number; of centre answers, of the cells.
+        proven_share: of the plane's area, over which the number is known for every value.
+        complete: was the whole plane examined?
+        boundary_known: do the boxes of boundary() hold all values in undecided cells at which two solutions meet?
+    """
+
+    def __init__(self, text: str, table: str) -> None:
+        super().__init__(text, table)
+        x, y = self.data["over"]
+        self.names: Tuple[str, str] = (x, y)
+        self.region: Tuple[Tuple[float, float], ...] = tuple((lo, hi) for lo, hi in self.data["over"].values())
+        self.count: str = self.data["count"]
+        self.resolution: int = self.data["resolution"]
+        self.shares = {int(n): share for n, share in self.data["shares"].items()}
+        self.proven_share: float = self.data["proven_share"]
+        self.complete: bool = self.data["complete"]
+        self.boundary_known: bool = self.data["boundary_known"]
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A row for each cell: its lower and upper ends, the kind ("proven": `count` holds for every value in it; "undecided",
+        "centre": `at_centre` is proven for its centre alone; "pending": not examined), both numbers or NA."""
+        pandas = require("pandas")
+
+        x, y = self.names
+        columns = [f"{x}_lo", f"{x}_hi", f"{y}_lo", f"{y}_hi", "kind", "count", "at_centre"]
+        frame = pandas.DataFrame(self.data["cells"], columns=columns)
+        return frame.astype({"count": "Int64", "at_centre": "Int64"})
+
+    def boundary(self) -> "numpy.ndarray":
+        """An array of shape (n, 5): lower and upper ends in both parameters of boxes where two solutions may meet, and whether
+        a piece of the curve on which they do is proven in it, 1 or 0."""
+        import numpy
+
+        return numpy.array(self.data["boundary"], dtype=float).reshape(-1, 5)
+
+    def grid(self) -> "numpy.ma.MaskedArray":
+        """The numbers as an array of shape (resolution, resolution), the second parameter along the first axis, both
+        ascending; masked where nothing is proven for the whole cell (of centre answers, for its centre)."""
+        import numpy
+
+        numbers = numpy.ma.masked_all((self.resolution, self.resolution), dtype=int)
+        (x0, x1), (y0, y1) = self.region
+        for xl, xu, yl, yu, kind, count, at_centre in self.data["cells"]:
+            number = at_centre if kind == "centre" else count
+            if number is None:
+                continue
+            columns = [round((x - x0) / (x1 - x0) * self.resolution) for x in (xl, xu)]
+            rows = [round((y - y0) / (y1 - y0) * self.resolution) for y in (yl, yu)]
+            numbers[rows[0] : rows[1], columns[0] : columns[1]] = number
+        return numbers
+
+    def at(self, x: float, y: float) -> Optional[int]:
+        """The number that is proven for the cell with these values; None where none is."""
+        for xl, xu, yl, yu, _, count, _ in self.data["cells"]:
+            if xl <= x <= xu and yl <= y <= yu and count is not None:
+                return count
+        return None
+
+    def plot(self, ax: Optional["Axes"] = None) -> "Axes":
+        """Regions in colours by number, what is known of centres alone as dots, the curve on which solutions meet dark."""
+        plt = require("matplotlib.pyplot")
+        from matplotlib.collections import PatchCollection
+        from matplotlib.patches import Patch, Rectangle
+
+        axes: Any = ax if ax is not None else plt.subplots()[1]
+        cells = self.data["cells"]
+        numbers = sorted({c[5] if c[5] is not None else c[6] for c in cells} - {None})
+        shades = plt.get_cmap("YlGnBu")
+        colors = {n: shades(0.12 + 0.63 * k / max(1, len(numbers) - 1)) for k, n in enumerate(numbers)}
+
+        def add(boxes: List[Any], color: Any, shrink: float = 1.0) -> None:
+            rectangles = []
+            for xl, xu, yl, yu in (box[:4] for box in boxes):
+                w, h = (xu - xl) * shrink, (yu - yl) * shrink
+                rectangles.append(Rectangle(((xl + xu - w) / 2, (yl + yu - h) / 2), w, h))
+            axes.add_collection(PatchCollection(rectangles, facecolor=color, edgecolor=color, linewidth=0.1))
+
+        legend = []
+        for n in reversed(numbers):
+            add([c for c in cells if c[5] == n], colors[n])
+            legend.append(Patch(facecolor=colors[n], label=str(n)))
+        open_cells = [c for c in cells if c[5] is None]
+        if open_cells:
+            add(open_cells, "0.85")
+            legend.append(Patch(facecolor="0.85", label="not known for whole cells; dots: at the centre"))
+        for n in numbers:
+            add([c for c in open_cells if c[6] == n], colors[n], 0.5)
+        proven = [b for b in self.data["boundary"] if b[4]]
+        add([b for b in self.data["boundary"] if not b[4]], "0.55")
+        add(proven, "0.13")
+        if proven:
+            legend.append(Patch(facecolor="0.13", label="solutions meet"))
+        axes.set_xlim(*self.region[0])
+        axes.set_ylim(*self.region[1])
+        axes.set_xlabel(self.names[0])
+        axes.set_ylabel(self.names[1])
+        axes.legend(handles=legend, loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0, fontsize="small")
+        return axes
+
+
+def map(
+    self: "Mechanism",
+    over: Mapping[str, RangeLike],
+    *,
+    set: Optional[str] = None,
+    fixed: Optional[Mapping[str, ExpressionLike]] = None,
+    count: str = "solutions",
+    resolution: int = 64,
+    boundary: bool = True,
+    threads: int = 0,
+    time_limit: float = 0,
+    progress: ProgressOption = None,
+    client: Any = None,
+) -> ParameterMap:
+    """The number of solutions over a plane of two parameters, proven cell by cell.
+
+    Args:
+        over: two constants or coordinates with their ranges: {"l2": ("1/2", "3/2"), "theta2": (-corank.pi, corank.pi)}.
+        set: whose solutions, isolated once the parameters have values; None: the configurations, or a plain system's solutions.
+        fixed: coordinates that keep one value.
+        count: "solutions"; or "components", "aspects", "assembly-modes", "working-modes" of all configurations, which are
+            proven at the centres of cells alone.
+        resolution: the narrowest cells are so many along each side: a power of two from 8 to 1024.
+        boundary: look for the curve on which two solutions meet.
+        threads: 0: one for each core. time_limit: seconds, 0: none. The map does not depend on the threads.
+        client: of dask.distributed, whose workers do the map's parts (corank.cluster), each with one thread.
+
+    Raises:
+        ModelError: where there is no such number.
+        Interrupted: by Ctrl-C, with what is known by then; the rest is pending.
+    """
+    core = _corank.ParameterMap(
+        self._core,
+        set,
+        _ranges(over),
+        [(name, as_expression(value)) for name, value in (fixed or {}).items()],
+        count,
+        resolution,
+        boundary,
+    )
+    if client is None:
+        with Shown(progress) as show:
+            json, text, raised = core.run(threads, time_limit, show)
+        return deliver(ParameterMap(json, text), raised)
+
+    from . import cluster  # needs a package that is not always there
+
+    question = (self, set, dict(over), dict(fixed or {}), count, resolution, boundary)
+    tiles, whole = cluster.map_tiles(question, core.tiles, client, progress=progress)
+    result = ParameterMap(*core.assemble(tiles))
+    if not whole:
+        raise Interrupted(result)
+    return result

@@ -1,0 +1,147 @@
+#include "corank/solve/cell_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+
+namespace corank::solve {
+namespace {
+
+constexpr double kProofSpread = 2;  // try a proof below this spread |I − Y·S|
+constexpr double kGain = 0.3;       // repeat Newton while some variable loses this share
+constexpr int kRepeats = 4;
+// A side is not worth bisecting where it is so many times as wide as the solutions move over the cell.
+constexpr double kFollow = 2.5;
+constexpr double kLeastShare = 0.5;  // of the movement of what moves most: what hardly moves is bisected in vain
+constexpr double kFinest = 1e-8;     // of the typical sizes
+
+}  // namespace
+
+CellSearch::CellSearch(const Problem& problem, std::vector<int> parameters)
+    : problem_(problem),
+      parameters_(std::move(parameters)),
+      unknowns_(other_variables(parameters_, problem.compiled.variables())),
+      preconditioners_(problem.compiled, problem.ended) {
+  CORANK_CHECK(static_cast<int>(unknowns_.size()) == problem.compiled.equations());
+}
+
+void CellSearch::put_in(const Box& sides, Box& x) const {
+  for (std::size_t k = 0; k < parameters_.size(); ++k) x[static_cast<std::size_t>(parameters_[k])] = sides[k];
+}
+
+ParameterCell CellSearch::whole(const Box& sides, const Box& domain) const {
+  ParameterCell cell{sides, {}, {domain}};
+  put_in(sides, cell.open[0]);
+  return cell;
+}
+
+ParameterCell CellSearch::part(const ParameterCell& cell, const Box& sides) {
+  ParameterCell part{sides, {}, cell.open};
+  for (Box& x : part.open) put_in(sides, x);
+  Box box(static_cast<std::size_t>(problem_.compiled.variables()));
+  put_in(sides, box);
+  for (const certify::Sheet& sheet : cell.sheets)
+    part.sheets.push_back(certify::restricted(problem_.compiled, sheet, box, workspace_));
+  return part;
+}
+
+CellSearch::Outcome CellSearch::shrink(const ParameterCell& cell, Box& x, std::optional<certify::Sheet>& sheet) {
+  const certify::CompiledSystem& system = problem_.compiled;
+  bool near = false;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    if (!propagator_.run(system, x)) return Outcome::empty;
+    const Box before = x;
+    const certify::NewtonStep step(system, preconditioners_.at_midpoint(x, &unknowns_), x, workspace_);
+    if (step.outcome().empty || !step.contract_free(x)) return Outcome::empty;
+    near = step.outcome().regular && step.outcome().spread < kProofSpread;
+    bool gained = false;
+    for (std::size_t j = 0; j < x.size() && !gained; ++j) gained = x[j].width() < (1 - kGain) * before[j].width();
+    if (!gained) break;
+  }
+  // What holds the solutions over a part of the cell holds them over all of it where there are none over the rest.
+  put_in(cell.sides, x);
+  for (const certify::Sheet& known : cell.sheets)
+    if (certify::lies_on(known, x)) return Outcome::empty;
+  if (!near) return Outcome::open;
+  const certify::Preconditioner& p = preconditioners_.at_midpoint(x, &unknowns_);
+  if (p.rank() < system.equations()) return Outcome::open;
+  certify::Sheet proof = certify::newton_prove(system, p, x, workspace_);
+  if (!proof.proven) return Outcome::open;
+  sheet = std::move(proof);
+  return Outcome::proven;
+}
+
+std::vector<double> CellSearch::limits(const Box& x, double share) {
+  const certify::Preconditioner& p = preconditioners_.at_midpoint(x, &unknowns_);
+  std::vector<double> limits = problem_.limits(share);  // where the solutions move without bounds, next to a fold
+  const std::vector<double>& scales = problem_.compiled.scales();
+  std::vector<double> moves(scales.size(), 0);
+  double most = kFinest;  // of the typical sizes
+  for (int a = 0; a < p.rank(); ++a) {
+    const auto j = static_cast<std::size_t>(p.dependent[static_cast<std::size_t>(a)]);
+    for (const int k : parameters_)
+      moves[j] += std::fabs(preconditioners_.sensitivity(a, k)) * x[static_cast<std::size_t>(k)].width();
+    most = std::max(most, moves[j] / scales[j]);
+  }
+  for (const int d : p.dependent) {
+    const auto j = static_cast<std::size_t>(d);
+    limits[j] = std::min(limits[j], kFollow * std::max(moves[j], kLeastShare * most * scales[j]));
+  }
+  for (const int k : parameters_) limits[static_cast<std::size_t>(k)] = std::numeric_limits<double>::infinity();
+  return limits;
+}
+
+bool CellSearch::refine(ParameterCell& cell, double share, std::uint64_t most, Control& control) {
+  CORANK_CHECK(UpwardRounding::active());
+  std::vector<Box> waiting = std::exchange(cell.open, {});
+  std::uint64_t processed = 0;
+  bool ended = false;
+  while (!waiting.empty()) {
+    Box x = std::move(waiting.back());
+    waiting.pop_back();
+    ended = ended || control.search_ended() || !control.count_box();
+    if (ended || processed++ >= most) {
+      cell.open.push_back(std::move(x));
+      continue;
+    }
+    ++processed_;
+    std::optional<certify::Sheet> sheet;
+    switch (shrink(cell, x, sheet)) {
+      case Outcome::empty: continue;
+      case Outcome::proven: {
+        // Its zeros are those of a known sheet where both are one: boxes that overlap find the same.
+        const bool is_new = std::none_of(cell.sheets.begin(), cell.sheets.end(), [&](const certify::Sheet& known) {
+          return certify::compare_over(problem_.compiled, known, *sheet, workspace_) == certify::Identity::same;
+        });
+        if (is_new) cell.sheets.push_back(std::move(*sheet));
+        continue;
+      }
+      case Outcome::open: break;
+    }
+    const int split = problem_.branching.choose(problem_.compiled, x, limits(x, share));
+    const std::optional<double> at = split < 0 ? std::nullopt : split_point(x[static_cast<std::size_t>(split)]);
+    if (!at) {
+      cell.open.push_back(std::move(x));
+      continue;
+    }
+    Box upper = x;
+    const auto j = static_cast<std::size_t>(split);
+    upper[j] = Interval(*at, x[j].hi());
+    x[j] = Interval(x[j].lo(), *at);
+    waiting.push_back(std::move(upper));
+    waiting.push_back(std::move(x));
+  }
+  return !ended;
+}
+
+std::optional<int> CellSearch::count(ParameterCell& cell) {
+  CORANK_CHECK(UpwardRounding::active());
+  if (!cell.open.empty() || !certify::keep_distinct(problem_.compiled, cell.sheets, workspace_)) return std::nullopt;
+  return certify::count_inside(problem_.compiled, problem_.domain, cell.sheets, workspace_);
+}
+
+}  // namespace corank::solve

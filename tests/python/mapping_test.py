@@ -1,0 +1,87 @@
+"""Maps over two parameters, against a closed form, on this process and on worker processes."""
+
+import numpy as np
+import pytest
+
+import corank
+
+CUBIC = """[CONSTANTS]
+a := 0
+b := 0
+[SYSTEM VARS]
+x : [-4, 4]
+[SYSTEM EQS]
+x^3 + a*x + b = 0;"""
+OVER = {"a": (-2, 1), "b": (-1, 1)}
+
+
+@pytest.fixture(scope="module")
+def cubic():
+    return corank.parse(CUBIC)
+
+
+@pytest.fixture(scope="module")
+def cusp(cubic):
+    return cubic.map(OVER, resolution=32)
+
+
+def test_a_cubic_has_three_roots_within_its_cusp(cusp):
+    assert cusp.complete and cusp.boundary_known and cusp.names == ("a", "b") and set(cusp.shares) == {1, 3}
+    numbers = cusp.grid()
+    assert numbers.shape == (32, 32) and 0.8 < cusp.proven_share < 1
+    at = -2 + 3 * (np.arange(32) + 0.5) / 32, -1 + 2 * (np.arange(32) + 0.5) / 32
+    a, b = np.meshgrid(*at)
+    roots = np.where(4 * a**3 + 27 * b**2 < 0, 3, 1)
+    assert (numbers == roots).all() and abs(numbers.count() / 1024 - cusp.proven_share) < 1e-9
+    assert cusp.at(-1.5, 0.1) == 3 and cusp.at(0.9, 0.5) == 1 and cusp.at(0, 0) is None
+
+
+def test_its_cells_are_a_data_frame_and_its_curve_an_array(cusp):
+    frame = cusp.to_pandas()
+    assert list(frame.columns) == ["a_lo", "a_hi", "b_lo", "b_hi", "kind", "count", "at_centre"]
+    assert set(frame.kind) == {"proven", "undecided"} and frame[frame.kind == "proven"]["count"].notna().all()
+    area = ((frame.a_hi - frame.a_lo) * (frame.b_hi - frame.b_lo)).sum()
+    assert abs(area - 6) < 1e-9
+    curve = cusp.boundary()
+    assert curve.shape[1] == 5 and (curve[:, 4] == 1).sum() > 20 and (curve[:, 0] <= curve[:, 1]).all()
+
+
+def test_it_is_drawn_with_a_legend(cusp):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    ax = cusp.plot()
+    words = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert words[:2] == ["3", "1"] and "solutions meet" in words and ax.get_xlabel() == "a"
+
+
+def test_what_has_no_number_is_refused(cubic, dextar):
+    with pytest.raises(corank.ModelError, match="no number of solutions"):
+        dextar.map({"l2": (1, 2), "l3": (1, 2)})
+    with pytest.raises(corank.ModelError, match="two parameters"):
+        cubic.map({"a": (0, 1)})
+    with pytest.raises(ValueError, match="count"):
+        cubic.map(OVER, count="roots")
+
+
+def test_workers_make_the_same_map_and_family(cubic, cusp, three_slider):
+    pytest.importorskip("distributed")
+    from corank import cluster
+
+    with cluster.local_client(workers=2) as client:
+        spread = cubic.map(OVER, resolution=32, client=client, progress=False)
+        values = corank.linspace("4/5", 1, 3)
+        family = three_slider.sweep("L2", values, sets=["forward", "inverse"], client=client, progress=False)
+
+        def interrupt(stage, share, text):
+            raise KeyboardInterrupt
+
+        with pytest.raises(corank.Interrupted) as ended:
+            cubic.map(OVER, resolution=32, client=client, progress=interrupt)
+    one, other = dict(cusp.data), dict(spread.data)
+    assert one.pop("seconds") >= 0 and other.pop("seconds") >= 0 and one == other
+    assert family.complete and [len(m.results["forward"].points) for m in family] == [8, 8, 6]
+    here = three_slider.sweep("L2", values, sets=["forward", "inverse"])
+    for a, b in zip(here, family):
+        assert a.value == b.value and all(np.array_equal(a.results[s].boxes, b.results[s].boxes) for s in a.results)
+    early = ended.value.result
+    assert not early.complete and "pending" in set(early.to_pandas().kind)
