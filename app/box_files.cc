@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "corank/result/printable.h"
@@ -23,12 +24,14 @@ int variable_index(const result::SolFile& boxes, const std::string& file, const 
 }
 
 ExitStatus completeness(const result::SolFile& boxes, const std::string& file) {
-  for (const result::SolBox& box : boxes.boxes) {
-    if (box.verdict != Verdict::pending) continue;
-    fmt::print(stderr, "corank: {} is incomplete: its search ended before its end\n", result::printable_line(file));
-    return kIncomplete;
-  }
-  return kDone;
+  const auto pending = [](const result::SolBox& box) { return box.verdict == Verdict::pending; };
+  return completeness(std::none_of(boxes.boxes.begin(), boxes.boxes.end(), pending), file);
+}
+
+ExitStatus completeness(bool complete, const std::string& file) {
+  if (complete) return kDone;
+  fmt::print(stderr, "corank: {} is incomplete: its search ended before its end\n", result::printable_line(file));
+  return kIncomplete;
 }
 
 void check_output(const std::string& path) {

@@ -16,6 +16,7 @@ int variable_index(const result::SolFile& boxes, const std::string& file, const 
 
 /// kDone, or, said on standard error, kIncomplete where a box is pending.
 ExitStatus completeness(const result::SolFile& boxes, const std::string& file);
+ExitStatus completeness(bool complete, const std::string& file);
 
 /// Throws UsageError where the path looks like an input of ours (.cuik, .param), ResultFileError where no file can be made
 /// there.

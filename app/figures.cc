@@ -36,7 +36,7 @@ Figures write_figures(const std::filesystem::path& folder, const symbolic::Mecha
   ProgressLine line;
   std::vector<report::PictureSource> sources;
   for (const report::SetView& view : views)
-    if (!view.result.cover.boxes.empty()) sources.push_back(report::picture_source(view.result, view.result.set));
+    if (!view.result.cover.boxes.empty()) sources.push_back(report::picture_view(view.result, view.result.set));
   Figures figures;
   for (const auto& [name, first] :
        {std::pair{"output-portrait", &mechanism.outputs()}, std::pair{"input-portrait", &mechanism.inputs()}}) {
@@ -66,7 +66,7 @@ Figures write_family_figures(const std::filesystem::path& folder, const std::vec
     if (stop) return {{}, true};
     line.show(fmt::format("figures: {} of {}", pictures.size(), members.size()));
     std::vector<report::PictureSource> sources;
-    for (const report::SetView& view : member.sets) sources.push_back(report::picture_source(view.result, view.result.set));
+    for (const report::SetView& view : member.sets) sources.push_back(report::picture_view(view.result, view.result.set));
     pictures.push_back(report::make_picture(sources, plane));
     titles.push_back(options.constant + " = " + member.value);
   }

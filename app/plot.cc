@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <list>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "corank/app/box_files.h"
 #include "corank/app/subcommands.h"
@@ -25,9 +27,30 @@ struct PlotCommand {
   report::PortraitOptions portrait;
 };
 
-report::PictureSource read_source(const std::string& path) {
-  if (std::filesystem::path(path).extension() == ".h5") return report::picture_source(result::read_result(path), path);
-  return report::picture_source(result::read_sol(path), path);
+/// What the axes show: variables, and the cosine and the sine of angles; all where an axis is none of them or a number.
+std::vector<int> shown_variables(const result::Result& result, const std::vector<std::string>& axes) {
+  std::set<int> shown;
+  for (const std::string& axis : axes) {
+    const std::size_t before = shown.size();
+    bool known = false;
+    for (std::size_t v = 0; v < result.variables.size(); ++v)
+      if (result.variables[v].name == axis) known = true, shown.insert(static_cast<int>(v));
+    for (const Angle& a : result.angles)
+      if (a.name == axis) known = true, shown.insert({a.cosine, a.sine});
+    for (const Angle& a : result.angles)  // of which a variable is the cosine or the sine: the axis says so
+      if (shown.size() > before && (shown.contains(a.cosine) || shown.contains(a.sine))) shown.insert({a.cosine, a.sine});
+    if (known) continue;
+    for (std::size_t v = 0; v < result.variables.size(); ++v) shown.insert(static_cast<int>(v));
+  }
+  return {shown.begin(), shown.end()};
+}
+
+/// Of a result nothing is copied, and what the picture does not show is not read: it is kept in the list.
+report::PictureSource read_source(const PlotCommand& command, const std::string& path, std::list<result::Result>& results) {
+  if (std::filesystem::path(path).extension() != ".h5") return report::picture_source(result::read_sol(path), path);
+  const result::Reading reading{.free = false,
+                                .sides = [&](const result::Result& r) { return shown_variables(r, command.picture.axes); }};
+  return report::picture_view(results.emplace_back(result::read_result(path, reading)), path);
 }
 
 void check_format(const PlotCommand& command) {
@@ -49,8 +72,9 @@ void check_format(const PlotCommand& command) {
 
 ExitStatus plot(const PlotCommand& command) {
   check_format(command);
+  std::list<result::Result> results;
   std::vector<report::PictureSource> sources;
-  for (const std::string& path : command.inputs) sources.push_back(read_source(path));
+  for (const std::string& path : command.inputs) sources.push_back(read_source(command, path, results));
   report::Picture picture;
   try {
     picture = report::make_picture(sources, command.picture);
@@ -70,7 +94,11 @@ ExitStatus plot(const PlotCommand& command) {
                        report::to_gcl(picture, {std::filesystem::path(command.inputs[0]).stem().string(), words}));
   }
   ExitStatus status = kDone;
-  for (const report::PictureSource& source : sources) status = std::max(status, completeness(source.boxes, source.file));
+  for (const report::PictureSource& source : sources) {
+    bool complete = true;
+    for (std::size_t k = 0; k < source.count() && complete; ++k) complete = source.verdict(k) != Verdict::pending;
+    status = std::max(status, completeness(complete, source.file));
+  }
   return status;
 }
 

@@ -73,7 +73,7 @@ void add_aspects(const ReportCommand& command, const study::Question& question, 
 
 /// What a stranger's result says of its variables has to be so before a picture relies on it.
 report::SetView read_one(const std::string& path) {
-  result::Result result = result::read_result(path);
+  result::Result result = result::read_result(path, {.free = false});
   const symbolic::Mechanism mechanism = result::model_of(result);
   System system = result::system_of(mechanism, result);
   auto contradictions = result::contradictions(result, system, symbolic::to_cuik(system));

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <random>
 
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
@@ -28,13 +29,16 @@ struct VerifyCommand {
   bool require_proof = false;
   int threads = 1;
   double time_limit = 0;
+  std::size_t sample = 0;
 };
 
-result::Verification check(const result::Result& result, const System& system, int threads, Watch& watch) {
+result::Verification check(const result::Result& result, const System& system, const VerifyCommand& command, Watch& watch) {
   using Clock = std::chrono::steady_clock;
   ProgressLine line;
   check::Options options;
-  options.threads = threads;
+  options.threads = command.threads;
+  options.sample = command.sample;
+  if (command.sample > 0) options.seed = std::random_device()();  // nobody can have prepared the file for it
   options.stop = &watch.stop();
   if (line.visible()) {
     options.progress = [&line, next = Clock::now()](const check::Progress& p) mutable {
@@ -62,7 +66,9 @@ result::Verification check(const result::Result& result, const System& system, i
 ExitStatus status(const result::Verification& verification, const VerifyCommand& command) {
   if (verification.complete()) return kDone;
   if (verification.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
-  const bool open = verification.report.interrupted && verification.report.failures.empty();
+  const check::Report& report = verification.report;
+  if (report.left_out > 0 && verification.contradictions.empty() && report.confirmed()) return kIncomplete;
+  const bool open = report.interrupted && report.failures.empty();
   return open ? kIncomplete : kBadInput;
 }
 
@@ -118,7 +124,7 @@ ExitStatus verify(const VerifyCommand& command) {
   watch.enter("deriving the equations from the model");
   const System system = result::system_of(result);
   watch.enter("the check");
-  const result::Verification verification = check(result, system, command.threads, watch);
+  const result::Verification verification = check(result, system, command, watch);
   watch.done();
   fmt::print("{}", command.json ? result::to_json(verification) + "\n" : result::to_table(verification, result));
   const ExitStatus result_status = status(verification, command);
@@ -140,6 +146,12 @@ void add_verify(CLI::App& program, Action& action) {
   sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  sub->add_option("--sample", command->sample,
+                  "Check so many boxes only, chosen at random anew each time, and no proof of completeness;\n"
+                  "for files that take too long to check as a whole; 0: all boxes")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes("--require-proof");
   sub->add_option("--time-limit", command->time_limit, "End the check after so many seconds; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
@@ -153,7 +165,8 @@ void add_verify(CLI::App& program, Action& action) {
       "aspects and modes a member of each, its signs, and how many there are at least (that there are no more is not\n"
       "checked: exit status 4).\n\n"
       "Exit status: 0 all verified, completeness included; 1 something failed or is not checkable, or the file cannot be\n"
-      "read; 2 usage; 3 ended early (limit or interrupt), nothing was found wrong so far; 4 all verified, but not its\n"
+      "read; 2 usage; 3 ended early (limit, interrupt or --sample), nothing was found wrong so far; 4 all verified, but not "
+      "its\n"
       "completeness: the file has no proof of it, or the search had ended early (1 with --require-proof).\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --proof -o forward.h5\n  corank verify forward.h5\n"
       "  corank topology models/dextar.cuik -o shape.h5\n  corank verify shape.h5");

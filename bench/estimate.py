@@ -36,7 +36,7 @@ def main():
     parser.add_argument("--threads", default="1")
     parser.add_argument("word", nargs="?", default="")
     args = parser.parse_args()
-    print(f"{'problem':36}{'processed':>22}{'boxes':>22}{'seconds':>20}{'file MB':>16}   trial")
+    print(f"{'problem':36}{'processed':>22}{'boxes':>22}{'seconds':>20}{'file MB':>16}{'memory MB':>24}   trial")
     for model, which, sigma in LINES:
         name = f"{model} {which} {sigma:g}"
         if args.word not in name:
@@ -48,7 +48,14 @@ def main():
         trial = time.monotonic() - begun
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "r.h5")
-            real = json.loads(subprocess.run(base + ["-o", path], check=True, capture_output=True).stdout)
+            said = os.path.join(folder, "said")
+            with open(said, "w") as out:
+                solving = subprocess.Popen(base + ["-o", path], stdout=out, stderr=subprocess.DEVNULL)
+                _, status, used = os.wait4(solving.pid, 0)
+            if status != 0:
+                raise SystemExit(f"{name}: corank solve ended with {status}")
+            with open(said) as out:
+                real = json.load(out)
             size = os.path.getsize(path)
 
         counts = real["boxes"]
@@ -60,7 +67,8 @@ def main():
             return f"{likely / unit:.3g} : {value / unit:.3g} = {likely / value:.2f}" if value else "-"
 
         print(f"{name:36}{pair('processed', processed):>22}{pair('boxes', boxes):>22}"
-              f"{pair('seconds', real['seconds']['total']):>20}{pair('file_bytes', size, 1e6):>16}   {trial:.1f} s", flush=True)
+              f"{pair('seconds', real['seconds']['total']):>20}{pair('file_bytes', size, 1e6):>16}"
+              f"{pair('memory_bytes', 1024 * used.ru_maxrss, 1e6):>24}   {trial:.1f} s", flush=True)
 
 
 if __name__ == "__main__":

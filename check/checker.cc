@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <optional>
+#include <random>
 #include <stdexcept>
 
 #include "corank/check/blow_up.h"
@@ -97,7 +101,7 @@ class Checker {
     enter("the points");
     check_points();
     check_distinct();
-    if (!cover_.proof) return;
+    if (!cover_.proof || options_.sample > 0) return;
     enter("the proof of completeness");
     check_proof();
   }
@@ -272,9 +276,22 @@ class Checker {
     return box.verdict == Verdict::exact ? exact_[p]->within(cover_.exact_points[p].sole_within, box.box) : "";
   }
 
+  // All boxes, or the sample: any so many of them with the same probability.
+  std::vector<std::size_t> chosen() const {
+    std::vector<std::size_t> all(cover_.boxes.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (options_.sample == 0 || options_.sample >= all.size()) return all;
+    std::vector<std::size_t> some;
+    std::sample(all.begin(), all.end(), std::back_inserter(some), options_.sample, std::mt19937_64(options_.seed));
+    return some;
+  }
+
   void check_boxes() {
-    const std::size_t n = cover_.boxes.size();
-    std::vector<std::string> reasons(n);
+    const std::vector<std::size_t> places = chosen();
+    const std::size_t n = places.size();
+    report_.left_out = cover_.boxes.size() - n;
+    std::map<std::size_t, std::string> reasons;
+    std::mutex adding;
     std::vector<unsigned char> checkable(n, 0), done(n, 0);
     std::atomic<std::uint64_t> count{0};
     std::atomic<bool> stopped{false};
@@ -287,7 +304,11 @@ class Checker {
         const NearestRounding nearest;
         bool can = false;
         try {
-          reasons[i] = check_box(cover_.boxes[i], can);
+          std::string reason = check_box(cover_.boxes[places[i]], can);
+          if (!reason.empty()) {
+            const std::scoped_lock lock(adding);
+            reasons[i] = std::move(reason);
+          }
         } catch (const Stopped&) {
           stopped = true;
           return;
@@ -298,21 +319,21 @@ class Checker {
         if (so_far % 32 == 0) progress(so_far, 0);
       });
     });
-    tally_boxes(reasons, checkable, done);
+    tally_boxes(places, reasons, checkable, done);
     if (stopped) throw Stopped{};
   }
 
-  void tally_boxes(const std::vector<std::string>& reasons, const std::vector<unsigned char>& checkable,
-                   const std::vector<unsigned char>& done) {
-    for (std::size_t i = 0; i < cover_.boxes.size(); ++i) {
-      Tally& tally = report_.boxes[static_cast<std::size_t>(cover_.boxes[i].verdict)];
+  void tally_boxes(const std::vector<std::size_t>& places, const std::map<std::size_t, std::string>& reasons,
+                   const std::vector<unsigned char>& checkable, const std::vector<unsigned char>& done) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      Tally& tally = report_.boxes[static_cast<std::size_t>(cover_.boxes[places[i]].verdict)];
       if (!done[i] || !checkable[i]) {
         ++tally.unchecked;
-      } else if (reasons[i].empty()) {
+      } else if (!reasons.contains(i)) {
         ++tally.verified;
       } else {
         ++tally.failed;
-        fail(Place::box, i, reasons[i]);
+        fail(Place::box, places[i], reasons.at(i));
       }
     }
   }
@@ -401,7 +422,7 @@ class Checker {
 
   void check_proof() {
     const auto step = [this](std::uint64_t number) {
-      progress(cover_.boxes.size(), number);
+      progress(cover_.boxes.size() - report_.left_out, number);
       return stop_.is_set();
     };
     Replayed result = arena_.execute([&] { return replay(*problem_, cover_, step); });
@@ -414,7 +435,8 @@ class Checker {
     if (!options_.progress) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (lock.owns_lock())
-      options_.progress({boxes, cover_.boxes.size(), steps, cover_.proof ? cover_.proof->steps.size() : 0});
+      options_.progress(
+          {boxes, cover_.boxes.size() - report_.left_out, steps, cover_.proof ? cover_.proof->steps.size() : 0});
   }
 
   const System& system_;
@@ -439,7 +461,7 @@ class Checker {
 
 }  // namespace
 
-bool Report::verified() const {
+bool Report::confirmed() const {
   if (!consistent() || (proof.present && !proof.verified) || points.unchecked > points_without_claim) return false;
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
@@ -448,6 +470,8 @@ bool Report::verified() const {
   }
   return true;
 }
+
+bool Report::verified() const { return left_out == 0 && confirmed(); }
 
 bool Report::complete() const {
   const Tally& pending = boxes[static_cast<std::size_t>(Verdict::pending)];

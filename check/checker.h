@@ -52,6 +52,7 @@ struct Report {
   Tally exact_points;
   ProofTally proof;
   std::vector<Failure> failures;  ///< in the order of places and indices
+  std::size_t left_out = 0;       ///< boxes that are not of the sample
   bool interrupted = false;
   std::string stage;  ///< where it ended early: "the boxes", "the proof" …
 
@@ -60,6 +61,8 @@ struct Report {
   /// consistent(), and every claim is confirmed; but nothing is said of completeness. An undecided box without an exact
   /// point and a pending one claim nothing.
   bool verified() const;
+  /// The same of the boxes that were looked at, all or a sample.
+  bool confirmed() const;
   /// verified(), and that nothing is missing in the search domain is shown, too.
   bool complete() const;
 };
@@ -72,6 +75,10 @@ struct Options {
   int threads = 1;                                ///< 0: one for each core
   std::function<void(const Progress&)> progress;  ///< called now and then, from one thread at a time
   const std::atomic<bool>* stop = nullptr;
+  /// 0: all boxes; else so many, chosen at random, and completeness is not looked at. What takes little is checked of all:
+  /// that boxes are in order and in bounds, exact points, points.
+  std::size_t sample = 0;
+  std::uint64_t seed = 0;  ///< of that choice; who wrote the file must not know it
 };
 
 /// Never throws for what a cover says. Throws std::invalid_argument where the system is not valid. `blocks`: of the

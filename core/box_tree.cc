@@ -9,7 +9,7 @@
 namespace corank {
 namespace {
 
-constexpr std::size_t kLeaf = 8;
+constexpr std::size_t kLeaf = 8, kManyBoxes = 1'000'000, kLeafOfMany = 32;  // fewer nodes, whose bounds take memory
 constexpr std::size_t kBetweenChecks = 256;
 
 }  // namespace
@@ -29,7 +29,7 @@ std::size_t BoxTree::build(std::size_t begin, std::size_t end) {
     hull[j] = (*boxes_[order_[begin]])[j];
     for (std::size_t k = begin + 1; k < end; ++k) hull[j] = Interval::hull(hull[j], (*boxes_[order_[k]])[j]);
   }
-  if (end - begin <= kLeaf) return node;
+  if (end - begin <= (boxes_.size() < kManyBoxes ? kLeaf : kLeafOfMany)) return node;
   // Halves by the midpoints along the side in which they spread most.
   std::size_t along = 0;
   double most = -1;

@@ -119,7 +119,7 @@ report::Picture picture(const std::vector<Result>& results, const std::vector<st
                   : color == "verdict" ? report::ColorScheme::verdict
                                        : report::ColorScheme::plain;
   std::vector<report::PictureSource> sources;
-  for (const Result& r : results) sources.push_back(report::picture_source(*r, r->set));
+  for (const Result& r : results) sources.push_back(report::picture_view(*r, r->set));
   return report::make_picture(sources, options);
 }
 

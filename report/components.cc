@@ -9,9 +9,11 @@ namespace corank::report {
 Components components(const result::Result& result) {
   const std::vector<CoverBox>& boxes = result.cover.boxes;
   std::vector<const Box*> sides;
+  sides.reserve(boxes.size());
   for (const CoverBox& b : boxes) sides.push_back(&b.box);
   const BoxTree tree(std::move(sides), static_cast<std::size_t>(result.configuration_size));
   Components found;
+  found.of_box.reserve(boxes.size());
   for (const std::size_t group : tree.groups(0, {})) found.of_box.push_back(static_cast<int>(group));
   const int last = boxes.empty() ? -1 : *std::max_element(found.of_box.begin(), found.of_box.end());
   std::vector<bool> proven(static_cast<std::size_t>(last + 1));

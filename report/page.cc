@@ -5,6 +5,7 @@
 #include <kainjow/mustache.hpp>
 #include <stdexcept>
 
+#include "corank/report/drawn_boxes.h"
 #include "corank/report/page_assets.h"
 #include "corank/report/page_card.h"
 #include "corank/report/page_data.h"
@@ -56,6 +57,17 @@ mustache::data payload(const result::Result& result) {
   data["boxes"] = box_payload(result);
   data["verdicts"] = verdict_payload(result);
   return data;
+}
+
+/// With hulls in place of the boxes where these are too many to be drawn; nothing where they are not.
+std::vector<SetView> drawn_views(const std::vector<SetView>& views) {
+  std::vector<SetView> list;
+  if (std::none_of(views.begin(), views.end(), [](const SetView& v) { return boxes_in_one(v.result) > 1; })) return list;
+  for (const SetView& view : views) {
+    const std::size_t in_one = boxes_in_one(view.result);
+    list.push_back({in_one > 1 ? drawn(view.result, in_one) : view.result, view.set, view.system, {}, view.words});
+  }
+  return list;
 }
 
 /// Coordinates with a range of one value: "φ = π/10".
@@ -111,10 +123,12 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   const symbolic::Derivation derivation = derive(mechanism);
   mustache::data cards{mustache::data::type::list}, runs{mustache::data::type::list}, payloads{mustache::data::type::list};
   bool complete = true;
+  const std::vector<SetView> fewer = drawn_views(views);
+  const std::vector<SetView>& pictured = fewer.empty() ? views : fewer;
   for (std::size_t i = 0; i < views.size(); ++i) {
     cards << set_entry(views[i]);
     runs << run_row(views[i], i < options.files.size() ? options.files[i] : "");
-    payloads << payload(views[i].result);
+    payloads << payload(pictured[i].result);
     complete = complete && views[i].result.cover.complete();
   }
   mustache::data page;
@@ -122,7 +136,7 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["style"] = std::string(kPageStyle) + set_style();
   page["script"] = std::string(kPageScript);
   page["three"] = std::string(kThree);
-  page["data"] = page_model(mechanism, derivation, views);
+  page["data"] = page_model(mechanism, derivation, pictured);
   page["inputs"] = chosen_html(mechanism.inputs(), derivation.velocity, symbolic::Role::input);
   page["outputs"] = chosen_html(mechanism.outputs(), derivation.velocity, symbolic::Role::output);
   const std::string found = found_html(views);

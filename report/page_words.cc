@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "corank/report/drawn_boxes.h"
 #include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/number_text.h"
@@ -286,6 +287,8 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
     if (const std::size_t n = cover.count(verdict); n > 0)
       words.shares.push_back({verdict, n, static_cast<double>(n) / static_cast<double>(cover.boxes.size())});
   }
+  if (const std::size_t in_one = boxes_in_one(result); in_one > 1)
+    words.meaning += fmt::format("; drawn here: hulls of up to {} neighbouring boxes of one verdict each", in_one);
   if (cover.boxes.empty()) {
     words.finding = "None";
     const char* const none = given_velocity_equation && set.given_none ? set.given_none : set.none;

@@ -115,20 +115,24 @@ int rank(const PictureLayer& layer) {
 }
 
 void add_layers(const PictureSource& source, const SetStyle& style, const std::vector<Coordinate>& coordinates,
-                const PictureOptions& options, std::vector<PictureLayer>& layers) {
+                const PictureOptions& options, const std::optional<Passage>& only, std::vector<PictureLayer>& layers) {
   const std::size_t begin = layers.size();
-  if (options.color != ColorScheme::verdict) layers.push_back(layer_of(source, style, options.color, std::nullopt));
+  if (options.color != ColorScheme::verdict) {
+    layers.push_back(layer_of(source, style, options.color, std::nullopt));
+    if (!only) layers.back().boxes.reserve(source.count() + source.count() / 4);  // some in two pieces; else all are moved
+  }
   std::map<std::optional<Verdict>, std::size_t> index;
-  for (std::size_t k = 0; k < source.boxes.boxes.size(); ++k) {
-    const result::SolBox& from = source.boxes.boxes[k];
+  for (std::size_t k = 0; k < source.count(); ++k) {
+    if (only && source.passages[k] != *only) continue;
+    const std::optional<Verdict> verdict = source.verdict(k);
     const bool own =
-        options.color == ColorScheme::verdict || (options.color == ColorScheme::set && from.verdict == Verdict::pending);
-    const auto [at, is_new] = index.try_emplace(from.verdict, own ? layers.size() : begin);
-    if (is_new && own) layers.push_back(layer_of(source, style, options.color, from.verdict));
-    std::vector<PictureBox> parts{{{}, from.verdict, static_cast<int>(k)}};
+        options.color == ColorScheme::verdict || (options.color == ColorScheme::set && verdict == Verdict::pending);
+    const auto [at, is_new] = index.try_emplace(verdict, own ? layers.size() : begin);
+    if (is_new && own) layers.push_back(layer_of(source, style, options.color, verdict));
+    std::vector<PictureBox> parts{{{}, verdict, static_cast<int>(k)}};
     for (std::size_t j = 0; j < coordinates.size(); ++j) {
       std::vector<PictureBox> next;
-      for (const Interval& value : coordinates[j].values(from.box, options.size)) {
+      for (const Interval& value : coordinates[j].values(source.box(k), options.size)) {
         for (PictureBox part : parts) {
           part.sides[j] = value;
           next.push_back(part);
@@ -146,22 +150,11 @@ void add_passages(const PictureSource& source, const SetStyle& style, const std:
                   const PictureOptions& options, std::vector<PictureLayer>& layers) {
   constexpr Color kOpen{0.93, 0.60, 0.12}, kUnknown{0.45, 0.45, 0.47};
   for (const Passage passage : {Passage::traversable, Passage::barrier, Passage::unproven}) {
-    PictureSource part = source;
-    part.boxes.boxes.clear();
-    std::vector<int> numbers;
-    for (std::size_t k = 0; k < source.boxes.boxes.size(); ++k) {
-      if (source.passages[k] != passage) continue;
-      part.boxes.boxes.push_back(source.boxes.boxes[k]);
-      numbers.push_back(static_cast<int>(k));
-    }
-    if (numbers.empty()) continue;
+    if (std::find(source.passages.begin(), source.passages.end(), passage) == source.passages.end()) continue;
     SetStyle own = style;
     own.label += std::string(": ") + to_string(passage);
     if (passage != Passage::barrier) own.color = passage == Passage::traversable ? kOpen : kUnknown;
-    const std::size_t begin = layers.size();
-    add_layers(part, own, coordinates, options, layers);
-    for (std::size_t l = begin; l < layers.size(); ++l)
-      for (PictureBox& box : layers[l].boxes) box.number = numbers[static_cast<std::size_t>(box.number)];
+    add_layers(source, own, coordinates, options, passage, layers);
   }
 }
 
@@ -174,11 +167,11 @@ void add_hatches(const PictureSource& source, const std::vector<Coordinate>& coo
     if (at == source.outputs.end()) return;
     place[j] = static_cast<std::size_t>(at - source.outputs.begin());
   }
-  for (std::size_t k = 0; k < source.boxes.boxes.size(); ++k) {
+  for (std::size_t k = 0; k < source.count(); ++k) {
     if (source.passages[k] != Passage::barrier || source.sides[k].size() != source.outputs.size()) continue;
     PictureHatch hatch{};
     for (std::size_t j = 0; j < 2; ++j) {
-      hatch.from[j] = coordinates[j].values(source.boxes.boxes[k].box, 0).front().mid();
+      hatch.from[j] = coordinates[j].values(source.box(k), 0).front().mid();
       hatch.direction[j] = -source.sides[k][place[j]];
     }
     hatches.push_back(hatch);
@@ -188,7 +181,16 @@ void add_hatches(const PictureSource& source, const std::vector<Coordinate>& coo
 }  // namespace
 
 PictureSource picture_source(const result::Result& result, const std::string& file) {
-  PictureSource source{file, result.set, boxes_of(result), result.angles, result.cover.dimension};
+  PictureSource source = picture_view(result, file);
+  source.boxes = boxes_of(result);
+  source.cover = nullptr;
+  return source;
+}
+
+PictureSource picture_view(const result::Result& result, const std::string& file) {
+  PictureSource source{file, result.set, {}, result.angles, result.cover.dimension};
+  for (const result::ResultVariable& v : result.variables) source.boxes.variables.push_back(v.name);
+  source.cover = &result.cover.boxes;
   if (result.outputs.empty()) return source;
   source.outputs = result.outputs;
   for (const CoverBox& box : result.cover.boxes) {
@@ -234,7 +236,10 @@ Picture make_picture(const std::vector<PictureSource>& sources, const PictureOpt
         there.range = Interval::hull(*there.range, *here.range);
     }
     const bool passes = !source->passages.empty() && options.color == ColorScheme::set;
-    (passes ? add_passages : add_layers)(*source, styles[k], coordinates, options, picture.layers);
+    if (passes)
+      add_passages(*source, styles[k], coordinates, options, picture.layers);
+    else
+      add_layers(*source, styles[k], coordinates, options, {}, picture.layers);
     if (passes && coordinates.size() == 2) add_hatches(*source, coordinates, options.axes, picture.hatches);
   }
   if (options.color == ColorScheme::verdict) {

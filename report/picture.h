@@ -37,8 +37,17 @@ struct PictureSource {
   std::vector<Passage> passages = {};
   std::vector<std::vector<double>> sides = {};
   std::vector<std::string> outputs = {};
+  /// In place of boxes.boxes, where given: somebody else's, of which no copy is made.
+  const std::vector<CoverBox>* cover = nullptr;
+
+  std::size_t count() const { return cover ? cover->size() : boxes.boxes.size(); }
+  const Box& box(std::size_t k) const { return cover ? (*cover)[k].box : boxes.boxes[k].box; }
+  std::optional<Verdict> verdict(std::size_t k) const { return cover ? (*cover)[k].verdict : boxes.boxes[k].verdict; }
 };
 PictureSource picture_source(const result::Result& result, const std::string& file);
+/// The same without a copy of the boxes: the result has to outlive it.
+PictureSource picture_view(const result::Result& result, const std::string& file);
+PictureSource picture_view(const result::Result&&, const std::string&) = delete;
 /// A solution file says nothing about angles: c_NAME and s_NAME are taken for the cosine and sine of the angle NAME in [−π,
 /// π].
 PictureSource picture_source(const result::SolFile& boxes, const std::string& file);

@@ -31,17 +31,13 @@ std::string to_text(const RationalPolynomial& f) {
 }
 
 void write_indices(Hdf5Writer& file, const std::string& name, const std::vector<CoverBox>& boxes) {
-  std::vector<std::int32_t> regions, points, coranks, motions;
-  for (const CoverBox& box : boxes) {
-    motions.push_back(box.motion);
-    regions.push_back(box.region);
-    points.push_back(box.point);
-    coranks.push_back(box.kernel_at_most);
+  std::vector<std::int32_t> indices(boxes.size());
+  for (const auto& [word, member] :
+       {std::pair("_corank", &CoverBox::kernel_at_most), std::pair("_region", &CoverBox::region),
+        std::pair("_point", &CoverBox::point), std::pair("_motion", &CoverBox::motion)}) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) indices[i] = boxes[i].*member;
+    file.packed(kGroup + name + word, indices);
   }
-  file.packed(kGroup + name + "_corank", coranks);
-  file.packed(kGroup + name + "_region", regions);
-  file.packed(kGroup + name + "_point", points);
-  file.packed(kGroup + name + "_motion", motions);
 }
 
 // The relations of all self-motions, one after the other, each with a coefficient for every variable and a constant.

@@ -116,13 +116,27 @@ SharedBytes::SharedBytes(int descriptor) {
   void* data = mmap(nullptr, size_, PROT_READ, MAP_SHARED, descriptor, 0);
   if (data == MAP_FAILED) fail("cannot read from a process");
   data_ = static_cast<const std::byte*>(data);
+  descriptor_ = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
 }
 
 SharedBytes::SharedBytes(SharedBytes&& other) noexcept
-    : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+    : data_(std::exchange(other.data_, nullptr)),
+      size_(std::exchange(other.size_, 0)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 SharedBytes::~SharedBytes() {
   if (data_) munmap(const_cast<std::byte*>(data_), size_);
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void SharedBytes::forget(std::span<const std::byte> part) {
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = static_cast<std::size_t>(part.data() - data_), end = begin + part.size();
+  const std::size_t first = (begin + page - 1) / page * page, last = end / page * page;
+  if (descriptor_ < 0 || first >= last) return;
+  // Where it is refused, the memory is given back at the end.
+  [[maybe_unused]] const int refused = fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+                                                 static_cast<off_t>(first), static_cast<off_t>(last - first));
 }
 
 void ByteSink::write(std::span<const std::byte> bytes) {

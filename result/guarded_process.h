@@ -32,10 +32,13 @@ class SharedBytes {
   SharedBytes(const SharedBytes&) = delete;
   SharedBytes& operator=(const SharedBytes&) = delete;
   std::span<const std::byte> bytes() const { return {data_, size_}; }
+  /// Gives the memory of these back, which have to be part of bytes() and read as zeros from now on; whole pages only.
+  void forget(std::span<const std::byte> part);
 
  private:
   const std::byte* data_ = nullptr;
   std::size_t size_ = 0;
+  int descriptor_ = -1;
 };
 
 /// Where the child puts its results. Throws std::runtime_error where there is no room left.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -36,7 +37,11 @@ class Hdf5Writer {
   void group(const std::string& name);
   /// rows × columns doubles, row-major, bit for bit; columns = 0: a vector of `rows`.
   void doubles(const std::string& name, std::span<const double> data, std::size_t rows, std::size_t columns);
-  void bytes(const std::string& name, std::span<const std::uint8_t> data, std::size_t rows, std::size_t columns);
+  /// The same row by row, so that no copy of all is made: `fill` sets the next row, which has `columns` > 0 zeros before.
+  template <class T>
+  using FillRow = std::function<void(std::size_t row, std::span<T> to)>;
+  void doubles(const std::string& name, std::size_t rows, std::size_t columns, const FillRow<double>& fill);
+  void bytes(const std::string& name, std::size_t rows, std::size_t columns, const FillRow<std::uint8_t>& fill);
   void integers(const std::string& name, std::span<const std::int64_t> data);
   /// Values that index `words`, stored as an enumeration of these words.
   void enumeration(const std::string& name, std::span<const std::uint8_t> data, const std::vector<std::string>& words);
@@ -77,7 +82,12 @@ class Hdf5Reader {
 
   /// Each throws where the item is missing, or has another shape or type.
   std::vector<double> doubles(const std::string& name, std::size_t rows, std::size_t columns) const;
-  std::vector<std::uint8_t> bytes(const std::string& name, std::size_t rows, std::size_t columns) const;
+  /// The same row by row, of one or several arrays of this shape at once. What has been read is forgotten: a large array
+  /// cannot be read twice, and is never there as a whole beside what is made of it.
+  using UseRow = std::function<void(std::size_t row, std::span<const std::span<const double>> rows,
+                                    std::span<const std::uint8_t> bytes)>;
+  void take_rows(const std::vector<std::string>& doubles, const std::string& bytes, std::size_t rows, std::size_t columns,
+                 const UseRow& use);
   std::vector<std::int64_t> integers(const std::string& name) const;
   /// Vectors of any length.
   void read(const std::string& name, std::vector<std::uint8_t>& data) const;

@@ -100,8 +100,35 @@ std::vector<double> Hdf5Reader::doubles(const std::string& name, std::size_t row
   return copied<double>(shaped(name, ItemType::float64, rows, columns, "floating-point numbers"));
 }
 
-std::vector<std::uint8_t> Hdf5Reader::bytes(const std::string& name, std::size_t rows, std::size_t columns) const {
-  return copied<std::uint8_t>(shaped(name, ItemType::uint8, rows, columns, "integers of one byte"));
+void Hdf5Reader::take_rows(const std::vector<std::string>& doubles, const std::string& bytes, std::size_t rows,
+                           std::size_t columns, const UseRow& use) {
+  constexpr std::size_t kBlock = std::size_t{4} << 20;
+  std::vector<const Item*> items;
+  for (const std::string& name : doubles)
+    items.push_back(&shaped(name, ItemType::float64, rows, columns, "floating-point numbers"));
+  const Item& masks = shaped(bytes, ItemType::uint8, rows, columns, "integers of one byte");
+  if (columns == 0) return;
+  const std::size_t at_once = std::max<std::size_t>(1, kBlock / (columns * sizeof(double)));
+  std::vector<std::vector<double>> blocks(items.size());
+  std::vector<std::span<const double>> row(items.size());
+  std::vector<std::uint8_t> mask;
+  const auto take = [this](std::span<const std::byte> data, auto& block) {
+    std::memcpy(block.data(), data.data(), data.size());
+    if (bytes_) bytes_->forget(data);
+  };
+  for (std::size_t from = 0; from < rows; from += at_once) {
+    const std::size_t first = from * columns, count = std::min(at_once, rows - from) * columns;
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      blocks[k].resize(count);
+      take(items[k]->data.subspan(first * sizeof(double), count * sizeof(double)), blocks[k]);
+    }
+    mask.resize(count);
+    take(masks.data.subspan(first, count), mask);
+    for (std::size_t i = 0; i < count; i += columns) {
+      for (std::size_t k = 0; k < items.size(); ++k) row[k] = std::span(blocks[k]).subspan(i, columns);
+      use((first + i) / columns, row, std::span(mask).subspan(i, columns));
+    }
+  }
 }
 
 std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name) const {

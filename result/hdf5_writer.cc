@@ -50,15 +50,40 @@ struct Scalar : OwnHandle {
   explicit Scalar(const std::string& path) : OwnHandle(H5Screate(H5S_SCALAR), H5Sclose, path, "cannot describe a value") {}
 };
 
+hid_t create_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space,
+                     hid_t properties = H5P_DEFAULT) {
+  const OwnHandle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path, "cannot write " + name);
+  H5Pset_create_intermediate_group(links, 1);
+  return H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT);
+}
+
 void write_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space, const void* data,
                    hid_t properties = H5P_DEFAULT) {
   const QuietErrors quiet;
-  const OwnHandle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path, "cannot write " + name);
-  H5Pset_create_intermediate_group(links, 1);
-  const OwnHandle set(H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT), H5Dclose, path,
-                      "cannot write " + name);
+  const OwnHandle set(create_dataset(file, path, name, type, space, properties), H5Dclose, path, "cannot write " + name);
   if (H5Sget_simple_extent_npoints(space) == 0) return;
   if (H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail(path, "cannot write " + name + " (disk full?)");
+}
+
+// So much at a time that what it takes does not depend on the array's size.
+template <class T>
+void write_rows(hid_t file, const std::string& path, const std::string& name, hid_t type, std::size_t rows,
+                std::size_t columns, const Hdf5Writer::FillRow<T>& fill) {
+  constexpr std::size_t kBlock = std::size_t{4} << 20;
+  const QuietErrors quiet;
+  const Shape all(rows, columns, path);
+  const OwnHandle set(create_dataset(file, path, name, type, all), H5Dclose, path, "cannot write " + name);
+  const std::size_t at_once = std::max<std::size_t>(1, kBlock / (std::max<std::size_t>(1, columns) * sizeof(T)));
+  std::vector<T> block;
+  for (std::size_t from = 0; from < rows && columns > 0; from += at_once) {
+    const std::size_t count = std::min(at_once, rows - from);
+    block.assign(count * columns, T{});
+    for (std::size_t k = 0; k < count; ++k) fill(from + k, std::span(block).subspan(k * columns, columns));
+    const std::array<hsize_t, 2> start{from, 0}, size{count, columns};
+    if (H5Sselect_hyperslab(all, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) < 0 ||
+        H5Dwrite(set, type, Shape(count, columns, path), all, H5P_DEFAULT, block.data()) < 0)
+      fail(path, "cannot write " + name + " (disk full?)");
+  }
 }
 
 void write_packed(hid_t file, const std::string& path, const std::string& name, hid_t type, std::size_t size,
@@ -123,8 +148,12 @@ void Hdf5Writer::doubles(const std::string& name, std::span<const double> data, 
   write_dataset(file_, path_, at(name), H5T_NATIVE_DOUBLE, Shape(rows, columns, path_), data.data());
 }
 
-void Hdf5Writer::bytes(const std::string& name, std::span<const std::uint8_t> data, std::size_t rows, std::size_t columns) {
-  write_dataset(file_, path_, at(name), H5T_NATIVE_UINT8, Shape(rows, columns, path_), data.data());
+void Hdf5Writer::doubles(const std::string& name, std::size_t rows, std::size_t columns, const FillRow<double>& fill) {
+  write_rows(file_, path_, at(name), H5T_NATIVE_DOUBLE, rows, columns, fill);
+}
+
+void Hdf5Writer::bytes(const std::string& name, std::size_t rows, std::size_t columns, const FillRow<std::uint8_t>& fill) {
+  write_rows(file_, path_, at(name), H5T_NATIVE_UINT8, rows, columns, fill);
 }
 
 void Hdf5Writer::integers(const std::string& name, std::span<const std::int64_t> data) {

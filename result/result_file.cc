@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 
 #include "corank/core/check.h"
 #include "corank/result/certificate_file.h"
@@ -42,25 +43,26 @@ const std::vector<std::string>& kind_words() {
   return words;
 }
 
+// One array after the other, and none of them as a whole beside the boxes.
 void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, std::size_t n) {
-  std::vector<double> lower(boxes.size() * n), upper(lower.size());
-  std::vector<std::uint8_t> verdict(boxes.size()), reason(boxes.size()), free(lower.size(), 0);
-  for (std::size_t i = 0, first = 0; i < boxes.size(); ++i, first += n) {
-    const CoverBox& b = boxes[i];
-    CORANK_CHECK(b.box.size() == n);
-    for (std::size_t j = 0; j < n; ++j) {
-      lower[first + j] = b.box[j].lo();
-      upper[first + j] = b.box[j].hi();
+  for (const CoverBox& b : boxes) CORANK_CHECK(b.box.size() == n);
+  file.doubles(group + "/lower", boxes.size(), n, [&](std::size_t i, std::span<double> to) {
+    for (std::size_t j = 0; j < n; ++j) to[j] = boxes[i].box[j].lo();
+  });
+  file.doubles(group + "/upper", boxes.size(), n, [&](std::size_t i, std::span<double> to) {
+    for (std::size_t j = 0; j < n; ++j) to[j] = boxes[i].box[j].hi();
+  });
+  std::vector<std::uint8_t> words(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) words[i] = static_cast<std::uint8_t>(boxes[i].verdict);
+  file.enumeration(group + "/verdict", words, verdict_words());
+  file.bytes(group + "/free", boxes.size(), n, [&](std::size_t i, std::span<std::uint8_t> to) {
+    for (const int v : boxes[i].free) {
+      CORANK_CHECK(static_cast<std::size_t>(v) < n);
+      to[static_cast<std::size_t>(v)] = 1;
     }
-    verdict[i] = static_cast<std::uint8_t>(b.verdict);
-    reason[i] = static_cast<std::uint8_t>(b.reason);
-    for (const int v : b.free) free.at(first + static_cast<std::size_t>(v)) = 1;
-  }
-  file.doubles(group + "/lower", lower, boxes.size(), n);
-  file.doubles(group + "/upper", upper, boxes.size(), n);
-  file.enumeration(group + "/verdict", verdict, verdict_words());
-  file.bytes(group + "/free", free, boxes.size(), n);
-  file.enumeration(group + "/reason", reason, reason_words());
+  });
+  for (std::size_t i = 0; i < boxes.size(); ++i) words[i] = static_cast<std::uint8_t>(boxes[i].reason);
+  file.enumeration(group + "/reason", words, reason_words());
 }
 
 // Of a workspace boundary; of the whole, from which part each box comes.
@@ -92,6 +94,8 @@ void write_types(Hdf5Writer& file, const Cover& cover) {
   file.attribute("/boxes", "types_left_out", std::uint64_t{cover.types.left_out});
   for (const auto& [group, list] : {std::pair("/boxes", &cover.boxes), std::pair("/points", &cover.points)}) {
     std::vector<std::uint8_t> proven, excluded;
+    proven.reserve(list->size());
+    excluded.reserve(list->size());
     for (const CoverBox& box : *list) {
       proven.push_back(box.types.proven);
       excluded.push_back(box.types.excluded);
@@ -175,7 +179,7 @@ void write_statistics(Hdf5Writer& file, const Statistics& statistics) {
 
 class ResultReader {
  public:
-  explicit ResultReader(Hdf5Reader file) : file_(std::move(file)) {
+  explicit ResultReader(Hdf5Reader file, Reading reading = {}) : file_(std::move(file)), reading_(std::move(reading)) {
     if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != kFormat) {
       refuse("this is no corank result");
     }
@@ -186,8 +190,9 @@ class ResultReader {
   }
 
   Result read() {
+    reading_.free = reading_.free || file_.has_attribute("/", "parts");
     Result result = read_one(nullptr);
-    if (!file_.has_attribute("/", "parts")) return result;
+    if (!file_.has_attribute("/", "parts") || reading_.sides) return result;
     const std::int64_t parts = file_.integer_attribute("/", "parts");
     if (parts < 1 || parts > kMostParts) refuse("the attribute parts is out of range");
     for (std::int64_t i = 0; i < parts; ++i) {
@@ -222,6 +227,9 @@ class ResultReader {
     result.system_text = file_.text("/model/system");
     read_variables(result);
     read_angles(result);
+    sides_.resize(result.variables.size());
+    std::iota(sides_.begin(), sides_.end(), 0);
+    if (reading_.sides) sides_ = reading_.sides(result);
     result.configuration_size = count("configuration_size");
     result.equations = count("equations");
     result.inequalities = count("inequalities");
@@ -248,7 +256,7 @@ class ResultReader {
         result.cover.observed_dimension = static_cast<int>(observed);
       }
       read_types(result.cover);
-      read_certificates(file_, result.cover, result.variables.size());
+      if (!reading_.sides) read_certificates(file_, result.cover, result.variables.size());
     }
     if (file_.has("/outputs")) {
       result.outputs = words("/outputs");
@@ -256,7 +264,26 @@ class ResultReader {
       read_passages("/boxes", result.outputs.size(), result.cover.boxes);
       read_passages("/points", result.outputs.size(), result.cover.points);
     }
+    if (reading_.sides) keep_sides(result);
     return result;
+  }
+
+  // As the boxes are already.
+  void keep_sides(Result& result) const {
+    const auto place = [&](int v) {
+      const auto at = std::lower_bound(sides_.begin(), sides_.end(), v);
+      return at != sides_.end() && *at == v ? static_cast<int>(at - sides_.begin()) : -1;
+    };
+    std::vector<ResultVariable> variables;
+    for (const int v : sides_) variables.push_back(result.variables[static_cast<std::size_t>(v)]);
+    for (Angle& a : result.angles) {
+      a.cosine = place(a.cosine);
+      a.sine = place(a.sine);
+    }
+    std::erase_if(result.angles, [](const Angle& a) { return a.cosine < 0 || a.sine < 0; });
+    result.configuration_size =
+        static_cast<int>(std::lower_bound(sides_.begin(), sides_.end(), result.configuration_size) - sides_.begin());
+    result.variables = std::move(variables);
   }
 
   void read_passages(const std::string& group, std::size_t n, std::vector<CoverBox>& boxes) const {
@@ -401,27 +428,35 @@ class ResultReader {
     statistics.seconds_certify = file_.double_attribute("/statistics", "seconds_certify");
   }
 
-  std::vector<CoverBox> boxes(const std::string& group, std::size_t n) const {
+  std::vector<CoverBox> boxes(const std::string& group, std::size_t n) {
     const std::vector<std::uint8_t> verdict = file_.enumeration(group + "/verdict", verdict_words());
-    const std::vector<double> lower = file_.doubles(group + "/lower", verdict.size(), n);
-    const std::vector<double> upper = file_.doubles(group + "/upper", verdict.size(), n);
-    const std::vector<std::uint8_t> free = file_.bytes(group + "/free", verdict.size(), n);
     std::vector<std::uint8_t> reason(verdict.size(), 0);
     if (format_ >= kFirstWithScales) reason = file_.enumeration(group + "/reason", reason_words());
     if (reason.size() != verdict.size()) refuse(group + "/reason has another length than the verdicts");
     std::vector<CoverBox> boxes(verdict.size());
+    file_.take_rows({group + "/lower", group + "/upper"}, group + "/free", boxes.size(), n,
+                    [&](std::size_t i, std::span<const std::span<const double>> ends, std::span<const std::uint8_t> free) {
+                      CoverBox& b = boxes[i];
+                      b.box.reserve(sides_.size());  // no more: there may be many
+                      for (const int side : sides_) {
+                        const auto v = static_cast<std::size_t>(side);
+                        b.box.push_back(interval(ends[0][v], ends[1][v], group));
+                      }
+                      if (!reading_.free) return;
+                      b.free.reserve(n - static_cast<std::size_t>(std::count(free.begin(), free.end(), 0)));
+                      for (std::size_t v = 0; v < n; ++v)
+                        if (free[v] != 0) b.free.push_back(static_cast<int>(v));
+                    });
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       boxes[i].verdict = static_cast<Verdict>(verdict[i]);
       boxes[i].reason = static_cast<Reason>(reason[i]);
-      for (std::size_t v = 0; v < n; ++v) {
-        boxes[i].box.push_back(interval(lower[i * n + v], upper[i * n + v], group));
-        if (free[i * n + v] != 0) boxes[i].free.push_back(static_cast<int>(v));
-      }
     }
     return boxes;
   }
 
   Hdf5Reader file_;
+  Reading reading_;
+  std::vector<int> sides_;
   std::int64_t format_ = 0;
 };
 
@@ -483,7 +518,11 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   target.finish();
 }
 
-Result read_result(const std::filesystem::path& path) { return ResultReader(Hdf5Reader(path.string())).read(); }
+Result read_result(const std::filesystem::path& path) { return read_result(path, Reading{}); }
+
+Result read_result(const std::filesystem::path& path, const Reading& reading) {
+  return ResultReader(Hdf5Reader(path.string()), reading).read();
+}
 
 Result read_result(const std::string& name, std::span<const std::byte> items) {
   return ResultReader(Hdf5Reader(name, items)).read();

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -39,6 +40,15 @@ void write_result(const std::filesystem::path& path, const Result& result);
 /// visible). The file may be a stranger's: throws ResultFileError, a printable line, for one that is missing, foreign, cut
 /// short, damaged or inconsistent, or that takes another file's contents for its own.
 Result read_result(const std::filesystem::path& path);
+
+/// What may be left out, since it takes memory for each box.
+struct Reading {
+  bool free = true;  ///< CoverBox::free; kept all the same where the result has parts
+  /// Where given: the variables whose sides are kept, in ascending order, called when the result's variables and angles are
+  /// known. What comes back knows only these and the angles made of them, and has neither certificates nor parts.
+  std::function<std::vector<int>(const Result&)> sides{};
+};
+Result read_result(const std::filesystem::path& path, const Reading& reading);
 /// The same from items in memory (report/plain_items.h); `name` is for messages.
 Result read_result(const std::string& name, std::span<const std::byte> items);
 

@@ -57,7 +57,7 @@ std::string row(const std::string& name, const Tally& t) {
 
 std::string completeness(const Report& report, bool complete) {
   const check::ProofTally& proof = report.proof;
-  if (!proof.present && report.interrupted) return "";
+  if (!proof.present && (report.interrupted || report.left_out > 0)) return "";
   if (!proof.present) return "completeness: no proof in the file\n";
   std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched anew\n",
                                  proof.verified       ? "replayed"
@@ -99,6 +99,18 @@ std::string conclusion(const Verification& verification, const Result& result) {
     for (const Tally& t : report.boxes) checked += t.verified + t.failed;
     return fmt::format("interrupted in {}: {} of {} boxes were checked{}; nothing is said of the rest\n", report.stage,
                        checked, result.cover.boxes.size(), report.failures.empty() ? "" : ", NOT VERIFIED");
+  }
+  if (report.left_out > 0) {
+    constexpr double kSurely = 3;  // (1 − 3/n)^n < 5 %
+    const std::size_t all = result.cover.boxes.size(), n = all - report.left_out;
+    text = fmt::format("a sample: {} of {} boxes, chosen at random, were checked; nothing is said of the others{}\n", n, all,
+                       result.cover.proof ? ", nor of completeness" : "");
+    if (!verification.contradictions.empty() || !report.confirmed()) return text + "NOT VERIFIED\n";
+    if (static_cast<double>(n) > kSurely)
+      text +=
+          fmt::format("were more than {:.2g} % of all boxes wrong, at least 95 % of such samples would hold one of them\n",
+                      100 * kSurely / static_cast<double>(n));
+    return text + "verified, the sample alone\n";
   }
   if (open > 0) text += fmt::format("{} undecided box{} nothing\n", open, open == 1 ? " claims" : "es claim");
   if (pending > 0) text += fmt::format("{} pending box{} not searched\n", pending, pending == 1 ? " was" : "es were");
@@ -176,6 +188,7 @@ void add(const Report& part, const std::string& name, bool first, Report& sum) {
   add(part.points, sum.points);
   add(part.exact_points, sum.exact_points);
   sum.points_without_claim += part.points_without_claim;
+  sum.left_out += part.left_out;
   sum.proof.present = part.proof.present && (first || sum.proof.present);
   sum.proof.verified = part.proof.verified && (first || sum.proof.verified);
   sum.proof.steps += part.proof.steps;
@@ -317,6 +330,7 @@ std::string to_json(const Verification& verification) {
   json["complete"] = verification.complete();
   json["interrupted"] = report.interrupted;
   if (report.interrupted) json["stage"] = report.stage;
+  if (report.left_out > 0) json["not_in_sample"] = report.left_out;
   for (int v = 0; v < kVerdicts; ++v)
     json["verdicts"][to_string(static_cast<Verdict>(v))] = to_json(report.boxes[static_cast<std::size_t>(v)]);
   json["points"] = to_json(report.points);

@@ -49,7 +49,8 @@ std::vector<std::string> contradictions(const Result& result, const System& syst
 /// A table of counts per verdict, the completeness proof, the first failures.
 std::string to_table(const Verification& verification, const Result& result);
 
-/// {"verified", "complete", "interrupted", "stage" (where it ended early), "verdicts": {"regular": {"verified", "failed",
+/// {"verified", "complete", "interrupted", "stage" (where it ended early), "not_in_sample" (boxes, of a sample),
+/// "verdicts": {"regular": {"verified", "failed",
 /// "not_checkable"} …}, "points", "exact_points", "completeness": {"proof", "verified", "steps", "leaves", "searched"},
 /// "contradictions", "failures": [{"what", "number", "reason"}]}; numbers count from 1.
 std::string to_json(const Verification& verification);

@@ -97,7 +97,9 @@ Cover assemble(const Prepared& prepared, const Problem& problem, const std::vect
   if (std::any_of(found.begin(), found.end(), [](const Found* f) { return f->box.reason == Reason::degenerate_set; }))
     cover.observed_dimension = motions.observed_dimension();
   for (CoverBox& point : cover.points) point = lifted(prepared.system, reduction, std::move(point));
-  cover.boxes = lifted(prepared.system, reduction, found);
+  std::vector<FoundList*> lists;
+  for (Shard* shard : shards) lists.push_back(&shard->found);
+  cover.boxes = take_lifted(prepared.system, reduction, std::move(found), lists);
   return cover;
 }
 

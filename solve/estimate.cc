@@ -229,9 +229,10 @@ class Estimator {
     e.seconds = range_of(total / threads + after, std::hypot(error, kClockSpread / 2));
     const auto sides = static_cast<double>(prepared_.system.variables.size());
     constexpr double kOfABox = 3, kOfAFile = 20'000;  // bytes beside its sides
+    constexpr double kOfAProcess = 42e6;
     e.file = range_of(kOfAFile + boxes * (kOfABox + kFileBytes * sides) + 16 * sides * e.sheets.likely, spread);
-    e.memory =
-        range_of((found > 0 ? bytes / found : 0) * boxes + e.sheets.likely * 48 * sides, std::hypot(spread, kLeastSpread));
+    e.memory = range_of(kOfAProcess + (found > 0 ? bytes / found : 0) * boxes + e.sheets.likely * 48 * sides,
+                        std::hypot(spread, kLeastSpread));
   }
 
   const Prepared& prepared_;

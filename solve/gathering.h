@@ -20,7 +20,9 @@ std::vector<Box> number_regions(const certify::Reduction& reduction, const std::
 /// The box in all variables of the system that was reduced.
 CoverBox lifted(const System& system, const certify::Reduction& reduction, CoverBox box);
 
-/// The same of all boxes, which are moved from.
-std::vector<CoverBox> lifted(const System& system, const certify::Reduction& reduction, const std::vector<Found*>& found);
+/// The same of those boxes of the lists that `found` names, in its order. The lists are emptied as their boxes are taken, so
+/// that no box is held twice.
+std::vector<CoverBox> take_lifted(const System& system, const certify::Reduction& reduction, std::vector<Found*> found,
+                                  const std::vector<FoundList*>& lists);
 
 }  // namespace corank::solve

@@ -1,13 +1,15 @@
 #include "corank/solve/memory.h"
 
+#include <algorithm>
+
 #include "corank/solve/control.h"
 #include "corank/solve/recorder.h"
 
 namespace corank::solve {
 namespace {
 
-constexpr std::int64_t kBlock = 16;                            // of an allocation's own
-constexpr std::int64_t kSortedBytes = 2 * 6 * sizeof(double);  // pointers and keys, twice while they are sorted
+constexpr std::int64_t kBlock = 16;                        // of an allocation's own
+constexpr std::int64_t kSortedBytes = 6 * sizeof(double);  // pointers and keys
 
 template <class T>
 std::int64_t bytes(std::int64_t count) {
@@ -21,8 +23,10 @@ MemoryEstimate::MemoryEstimate(const certify::Reduction& reduction, std::uint64_
   const auto n = static_cast<std::int64_t>(reduction.kept.size());
   const auto m = static_cast<std::int64_t>(reduction.system.equations.size());
   const std::int64_t own = bytes<Interval>(sides) + kBlock;
-  box_ = bytes<Found>(1) + bytes<CoverBox>(1) + 2 * own + 2 * kBlock + kSortedBytes +
-         static_cast<std::int64_t>(later_bytes) * sides;
+  // Each box is there once: found, then in the cover.
+  const std::int64_t found = bytes<Found>(1) + own + kBlock + kSortedBytes,
+                     in_cover = bytes<CoverBox>(1) + own + kBlock + static_cast<std::int64_t>(later_bytes) * sides;
+  box_ = std::max(found, in_cover);
   region_ = 2 * own + bytes<Box>(2) + 3 * kBlock + static_cast<std::int64_t>(kFileBytes) * sides;
   // Its region and image; a point of the cover beside the box.
   sheet_ = bytes<certify::Sheet>(1) + bytes<Interval>(2 * n) + bytes<int>(2 * m) + 5 * kBlock + bytes<CoverBox>(1) + own;

@@ -10,8 +10,8 @@ class MemoryEstimate {
   /// `later_bytes`: what later stages take for a side of a box.
   MemoryEstimate(const certify::Reduction& reduction, std::uint64_t later_bytes);
 
-  /// A found box: itself, its copy in all variables, its place in the sorted list, and what later stages make of it; its
-  /// region where it is not that of the box found before.
+  /// A found box: itself and its place in the sorted list, or what becomes of it in the cover and later, whichever is more;
+  /// its region where it is not that of the box found before.
   std::int64_t of(const Found& found, const Found* former) const;
   /// A part of the script: itself, the copy in the cover, and the file's.
   std::int64_t of_script(std::uint64_t bytes) const { return 3 * static_cast<std::int64_t>(bytes); }

@@ -50,7 +50,11 @@ void Options::validate(const System& system) const {
 }
 
 Control::Limits limits_of(const Options& options, const std::atomic<bool>* stop) {
-  return {.time = options.time_limit, .boxes = options.max_boxes, .memory = options.memory_limit, .stop = stop};
+  return {.time = options.time_limit,
+          .boxes = options.max_boxes,
+          .memory = options.memory_limit,
+          .stop = stop,
+          .later_bytes = 0};  // files are written without a copy
 }
 
 Sigma smallest_sigma(const System& system) {

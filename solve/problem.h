@@ -1,6 +1,7 @@
 // What all threads of a search share, and what each of them finds.
 #pragma once
 
+#include <boost/container/deque.hpp>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -67,7 +68,14 @@ struct Found {
   std::unique_ptr<const certify::Sheet> sheet;  ///< of an isolated solution
   std::shared_ptr<const Box> region;  ///< that of the proof, as `box` has its sides; one for all boxes cut from a sheet
   std::vector<std::uint64_t> leaves;  ///< of a recorded search: those whose solutions are in the box (solve/recorder.h)
+  static constexpr std::uint32_t kNowhere = 0xffffffff;
+  std::uint32_t place = kNowhere;  ///< in the cover, once the boxes are sorted
 };
+/// Growing moves none of them, and what is taken from the front gives its memory back in whole pages: a large search holds
+/// each box once.
+using FoundList =
+    boost::container::deque<Found, void,
+                            boost::container::deque_options_t<boost::container::block_bytes<std::size_t{1} << 16>>>;
 
 /// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the
 /// reverse.

@@ -86,6 +86,20 @@ void serialize(Archive& archive, Found& f) {
   archive(f.box, f.sheet, f.region, f.leaves);
 }
 
+// As cereal writes vectors.
+template <class Archive>
+void save(Archive& archive, const FoundList& list) {
+  archive(cereal::make_size_tag(static_cast<cereal::size_type>(list.size())));
+  for (const Found& found : list) archive(found);
+}
+template <class Archive>
+void load(Archive& archive, FoundList& list) {
+  cereal::size_type size = 0;
+  archive(cereal::make_size_tag(size));
+  list.clear();
+  for (cereal::size_type i = 0; i < size; ++i) archive(list.emplace_back());
+}
+
 template <class Archive>
 void serialize(Archive& archive, Work& w) {
   archive(w.boxes, w.postpone);

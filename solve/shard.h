@@ -48,10 +48,12 @@ struct Shard {
   Shard(int n, bool recorded) : number(n) {
     if (recorded) script.emplace(n);
   }
+  Shard(Shard&&) noexcept = default;  // lists of shards grow
+  Shard& operator=(Shard&&) noexcept = default;
   int number;
   std::vector<Proven> sheets{};
   std::vector<Postponed> postponed{};
-  std::vector<Found> found{};   ///< boxes of the cover: pieces of sheets, and what nothing could be proven of
+  FoundList found{};            ///< boxes of the cover: pieces of sheets, and what nothing could be proven of
   std::vector<Waiting> left{};  ///< what a limit has left unprocessed
   std::optional<Recorder> script{};
   Statistics statistics{};

@@ -169,7 +169,7 @@ void Slicer::add(Task& task, Box piece, Location location) {
   task.found.push_back(std::move(found));
 }
 
-void Slicer::leave(std::vector<Found>& found, Box sides) {
+void Slicer::leave(FoundList& found, Box sides) {
   if (problem_.domain.locate(problem_.compiled, sides) == Location::outside) {
     if (recorder_) recorder_->leaf_elsewhere();
     return;
@@ -205,8 +205,7 @@ bool Slicer::slice_in_chart(Task& task, Box sides, const std::vector<int>& depen
   return sheet.proven;
 }
 
-void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole,
-                   bool rechartable) {
+void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, FoundList& found, bool whole, bool rechartable) {
   if (!whole && problem_.ended()) {
     left_some_ = true;
     leave(found, Box(x.begin(), x.begin() + problem_.compiled.variables()));

@@ -29,7 +29,7 @@ class Slicer {
 
   /// Adds the pieces of the sheet that meet x and the domain to `found`, each no wider than σ unless rounding keeps it so.
   /// Where the search ends meanwhile, the rest is added as pending boxes: false. `whole`: the sheet is not cut at all.
-  bool slice(const certify::Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole = false) {
+  bool slice(const certify::Sheet& sheet, std::span<const Interval> x, FoundList& found, bool whole = false) {
     left_some_ = false;
     slice(sheet, x, found, whole, true);
     return !left_some_;
@@ -40,8 +40,7 @@ class Slicer {
   bool holds_on_parts(const certify::Sheet& sheet, const std::vector<int>& free, Box piece, int depth);
 
  private:
-  void slice(const certify::Sheet& sheet, std::span<const Interval> x, std::vector<Found>& found, bool whole,
-             bool rechartable);
+  void slice(const certify::Sheet& sheet, std::span<const Interval> x, FoundList& found, bool whole, bool rechartable);
   // A piece: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower; how
   // far Y·S was from I in the last step, on this piece or on the one that it was cut from.
   struct Piece {
@@ -62,7 +61,7 @@ class Slicer {
   struct Task {
     const certify::Sheet& sheet;
     std::span<const Interval> x;
-    std::vector<Found>& found;
+    FoundList& found;
     std::vector<int> free;
     std::shared_ptr<const Box> region;
     bool whole = false;
@@ -102,7 +101,7 @@ class Slicer {
   // What a limit leaves of a piece.
   void leave_piece(Task& task, Box sides);
   // What a limit leaves, unless it is outside the domain.
-  void leave(std::vector<Found>& found, Box sides);
+  void leave(FoundList& found, Box sides);
 
   const Problem& problem_;
   PreconditionerFactory& preconditioners_;

@@ -57,6 +57,29 @@ TEST_F(Verify, PrintsJson) {
   EXPECT_TRUE(summary["failures"].empty());
 }
 
+TEST_F(Verify, OfASampleSaysThatNothingIsSaidOfTheRest) {
+  const Outcome some = run_corank({"verify", path(), "--sample", "5"});
+  EXPECT_EQ(some.status, 3) << some.out;
+  EXPECT_THAT(some.out, HasSubstr("isolated              5          0              0\n"));
+  EXPECT_THAT(some.out, HasSubstr("a sample: 5 of 8 boxes, chosen at random, were checked; nothing is said of the others"));
+  EXPECT_THAT(some.out, HasSubstr(", nor of completeness\nwere more than 60 % of all boxes wrong"));
+  EXPECT_THAT(some.out, testing::EndsWith("\nverified, the sample alone\n"));
+  const json summary = json::parse(run_corank({"verify", path(), "--sample", "5", "--json"}).out);
+  EXPECT_EQ(summary["not_in_sample"], 3);
+  EXPECT_EQ(summary["verified"], false);
+  EXPECT_EQ(run_corank({"verify", path(), "--sample", "8", "--require-proof"}).status, 2);
+}
+
+TEST_F(Verify, OfASampleThatHoldsEachBoxFailsWhereOneIsWrong) {
+  change([](result::Result& result) {
+    for (CoverBox& box : result.cover.boxes) box.region = -1;
+  });
+  const Outcome outcome = run_corank({"verify", path(), "--sample", "3"});
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("the file has no region for it"));
+  EXPECT_THAT(outcome.out, testing::EndsWith("NOT VERIFIED\n"));
+}
+
 TEST_F(Verify, NamesTheBoxThatFails) {
   change([](result::Result& r) { r.cover.boxes[2].box[3] = {0.25, 0.5}; });
   const Outcome outcome = run_corank({"verify", path()});

@@ -1,5 +1,6 @@
 """Searches on a cluster of worker processes come to corank solve's boxes, whatever happens to the processes."""
 
+import json
 import os
 import pathlib
 import resource
@@ -257,3 +258,56 @@ def test_bad_input_and_usage_have_the_exit_statuses_of_corank_solve(models):
     assert done.returncode == 1 and "TLS needs the files of the authority" in done.stderr
     done = subprocess.run(program + ["--resume", "kept"], capture_output=True, text=True, check=False)
     assert done.returncode == 2 and "expected MODEL, or --resume FILE" in done.stderr
+
+
+def certificate(folder, name, authority=None):
+    """The options of dask's that say so: of an authority of its own, or signed by another; of the folder alone."""
+    new = ["openssl", "req", "-newkey", "rsa:2048", "-nodes", "-subj", f"/CN={name}", "-keyout", f"{name}.key"]
+    if authority is None:
+        steps = [[*new, "-x509", "-days", "2", "-out", f"{name}.pem"]]
+    else:
+        signed = ["openssl", "x509", "-req", "-days", "2", "-in", f"{name}.csr", "-out", f"{name}.pem"]
+        steps = [
+            [*new, "-out", f"{name}.csr"],
+            [*signed, "-CA", f"{authority}.pem", "-CAkey", f"{authority}.key", "-CAcreateserial"],
+        ]
+    for step in steps:
+        subprocess.run(step, cwd=folder, check=True, capture_output=True)
+    return ["--tls-cert", str(folder / f"{name}.pem"), "--tls-key", str(folder / f"{name}.key")]
+
+
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="no openssl: there is no certificate to test TLS with")
+def test_by_tls_only_who_has_a_certificate_of_the_authority_is_served(models, cspace, tmp_path):
+    certificate(tmp_path, "authority")
+    mine, others = certificate(tmp_path, "me", "authority"), certificate(tmp_path, "other")
+    authority = str(tmp_path / "authority.pem")
+    dask, known = [sys.executable, "-m", "dask"], tmp_path / "scheduler.json"
+    started = []
+    try:
+        with open(tmp_path / "log", "w", encoding="utf-8") as log:
+            for command in (
+                ["scheduler", "--host", "127.0.0.1", "--port", "0", "--protocol", "tls"],
+                ["worker", "--host", "127.0.0.1", "--nthreads", "1", "--local-directory", str(tmp_path)],
+            ):
+                where = ["--scheduler-file", str(known), "--no-dashboard", "--tls-ca-file", authority, *mine]
+                started.append(subprocess.Popen([*dask, *command, *where], stdout=log, stderr=log))
+        while not known.exists() or not known.read_text():
+            try:
+                assert started[0].wait(timeout=0.02) is None, (tmp_path / "log").read_text()
+            except subprocess.TimeoutExpired:
+                pass
+        address = json.loads(known.read_text())["address"]
+        assert address.startswith("tls://127.0.0.1:")
+        result = tmp_path / "r.h5"
+        program = [sys.executable, "-m", "corank.cluster", "solve", str(models / "dextar.cuik"), "--set", "cspace", "--quiet"]
+        program += ["--sigma", str(SIGMA), "-o", str(result), "--scheduler", address]
+        for refused in ([], ["--tls-ca", authority, *others]):
+            done = subprocess.run(program + refused, capture_output=True, text=True, check=False)
+            assert done.returncode == 1 and "no scheduler at tls://" in done.stderr and not result.exists()
+        done = subprocess.run([*program, "--tls-ca", authority, *mine], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        expect_same(cspace, corank.open(result))
+    finally:
+        for process in started:
+            process.kill()
+            process.wait()

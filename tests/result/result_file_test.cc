@@ -128,6 +128,39 @@ TEST_F(ResultFile, GivesBackEveryBitOfAResult) {
   expect_same(read_result(path()), sample_result());
 }
 
+TEST_F(ResultFile, GivesBackMoreBoxesThanAreReadAtOnce) {
+  Result result = sample_result();
+  const CoverBox last = result.cover.boxes.back();
+  for (int i = 0; i < 200'000; ++i) {
+    result.cover.boxes.push_back(last);
+    for (Interval& side : result.cover.boxes.back().box) side = side + Interval(0, i);
+  }
+  write_result(path(), result);
+  expect_same_boxes(read_result(path()).cover.boxes, result.cover.boxes);
+}
+
+TEST_F(ResultFile, GivesBackTheSidesThatAreAskedForAlone) {
+  const Result all = sample_result();
+  ASSERT_FALSE(all.angles.empty());
+  const Angle angle = all.angles.front();
+  const std::vector<int> kept{std::min(angle.cosine, angle.sine), std::max(angle.cosine, angle.sine)};
+  write_result(path(), all);
+  const Result some = read_result(path(), {.free = false, .sides = [&](const Result&) { return kept; }});
+  ASSERT_EQ(some.variables.size(), 2u);
+  ASSERT_EQ(some.angles.size(), 1u);
+  EXPECT_EQ(some.angles[0].name, angle.name);
+  EXPECT_EQ(some.variables[static_cast<std::size_t>(some.angles[0].cosine)].name,
+            all.variables[static_cast<std::size_t>(angle.cosine)].name);
+  ASSERT_EQ(some.cover.boxes.size(), all.cover.boxes.size());
+  for (std::size_t i = 0; i < all.cover.boxes.size(); ++i) {
+    const CoverBox &a = all.cover.boxes[i], &b = some.cover.boxes[i];
+    EXPECT_EQ(a.verdict, b.verdict);
+    EXPECT_TRUE(b.free.empty());
+    ASSERT_EQ(b.box.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_TRUE(same_bits(a.box[static_cast<std::size_t>(kept[k])], b.box[k]));
+  }
+}
+
 TEST_F(ResultFile, SaysWhatStoppedTheRun) {
   Result result = sample_result();
   result.stopped = "the memory limit, in the stage search";
@@ -265,7 +298,7 @@ class InconsistentFile : public ResultFile {
       file.doubles(group + "/upper", std::vector{0.5}, 1, 1);
       unless_changed(group + "/verdict",
                      [&] { file.enumeration(group + "/verdict", std::vector<std::uint8_t>{0}, {"regular"}); });
-      file.bytes(group + "/free", std::vector<std::uint8_t>{0}, 1, 1);
+      file.bytes(group + "/free", 1, 1, [](std::size_t, std::span<std::uint8_t>) {});
       file.enumeration(group + "/reason", std::vector<std::uint8_t>{0}, {"none"});
     }
     file.group("/statistics");

@@ -16,6 +16,8 @@ from .units import ClusterError
 _ANY_PORT = "127.0.0.1:0"
 _SETTINGS = {
     "distributed.scheduler.allowed-failures": 1000,  # Plan.failures says when a unit is to blame for a worker's death
+    # A nanny starts its worker anew, however long that takes on a busy machine; dask by default ends both after 15 s without.
+    "distributed.deploy.lost-worker-timeout": "1 day",
     "distributed.comm.compression": None,  # takes longer than sending to another process of the machine
     # Workers keep memory between units, which dask by default makes them give back and fetch anew.
     "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 30,
@@ -75,5 +77,7 @@ def remote_client(address: str, tls: Optional[Security] = None) -> Iterator[Clie
         client = Client(address, security=tls, timeout="20s")
     except (OSError, ValueError) as error:
         raise ClusterError(f"no scheduler at {address}: {error}") from None
+    except TypeError as error:  # dask's, without the files of a certificate
+        raise ClusterError(f"no scheduler at {address}: TLS needs a certificate (--tls-ca, --tls-cert): {error}") from None
     with client:
         yield client

@@ -1,0 +1,114 @@
+#include "corank/report/drawn_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace corank::report {
+namespace {
+
+class Hulls {
+ public:
+  Hulls(const std::vector<CoverBox>& boxes, std::size_t sides, std::size_t in_one)
+      : boxes_(boxes), sides_(sides), in_one_(in_one) {}
+
+  std::vector<CoverBox> run() {
+    std::map<std::pair<Verdict, int>, std::vector<std::uint32_t>> alike;
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      alike[{boxes_[i].verdict, boxes_[i].motion}].push_back(static_cast<std::uint32_t>(i));
+    for (auto& [what, list] : alike) split(list.begin(), list.end());
+    return std::move(hulls_);
+  }
+
+ private:
+  using Place = std::vector<std::uint32_t>::iterator;
+
+  double middle(std::uint32_t i, std::size_t side) const { return boxes_[i].box[side].mid(); }
+
+  // Halves along the side in which the middles spread most.
+  void split(Place begin, Place end) {
+    if (static_cast<std::size_t>(end - begin) <= in_one_) return add(begin, end);
+    std::size_t along = 0;
+    double most = -1;
+    for (std::size_t j = 0; j < sides_; ++j) {
+      double least = HUGE_VAL, greatest = -HUGE_VAL;
+      for (Place k = begin; k != end; ++k) {
+        least = std::min(least, middle(*k, j));
+        greatest = std::max(greatest, middle(*k, j));
+      }
+      if (greatest - least > most) most = greatest - least, along = j;
+    }
+    const Place half = begin + (end - begin) / 2;
+    std::nth_element(begin, half, end, [&](auto a, auto b) {
+      const double x = middle(a, along), y = middle(b, along);
+      return x != y ? x < y : a < b;
+    });
+    split(begin, half);
+    split(half, end);
+  }
+
+  void add(Place begin, Place end) {
+    const CoverBox& first = boxes_[*begin];
+    CoverBox hull;
+    hull.box = first.box;
+    hull.verdict = first.verdict;
+    hull.motion = first.motion;
+    hull.types = first.types;
+    for (Place k = begin + 1; k != end; ++k) {
+      const CoverBox& b = boxes_[*k];
+      for (std::size_t j = 0; j < hull.box.size(); ++j) hull.box[j] = Interval::hull(hull.box[j], b.box[j]);
+      hull.types.proven &= b.types.proven;
+      hull.types.excluded &= b.types.excluded;
+    }
+    hulls_.push_back(std::move(hull));
+  }
+
+  const std::vector<CoverBox>& boxes_;
+  const std::size_t sides_, in_one_;
+  std::vector<CoverBox> hulls_;
+};
+
+}  // namespace
+
+std::size_t boxes_in_one(const result::Result& result) {
+  const std::size_t n = result.cover.boxes.size();
+  return result.outputs.empty() && n > kMostDrawn ? 4 * ((n + kMostDrawn - 1) / kMostDrawn) : 1;
+}
+
+result::Result drawn(const result::Result& result, std::size_t in_one) {
+  result::Result r;
+  r.version = result.version;
+  r.model = result.model;
+  r.model_text = result.model_text;
+  r.set = result.set;
+  r.system_text = result.system_text;
+  r.options = result.options;
+  r.variables = result.variables;
+  r.angles = result.angles;
+  r.configuration_size = result.configuration_size;
+  r.equations = result.equations;
+  r.inequalities = result.inequalities;
+  r.stopped = result.stopped;
+  r.seems_of_corank = result.seems_of_corank;
+  r.domain = result.domain;
+  r.states = result.states;
+  r.motions = result.motions;
+  r.cover.points = result.cover.points;
+  r.cover.exact_points = result.cover.exact_points;
+  r.cover.self_motions = result.cover.self_motions;
+  r.cover.types = result.cover.types;
+  r.cover.observed_dimension = result.cover.observed_dimension;
+  r.cover.decimals = result.cover.decimals;
+  r.cover.dimension = result.cover.dimension;
+  r.cover.sigma = result.cover.sigma;
+  r.cover.tolerance = result.cover.tolerance;
+  r.cover.wider_than_sigma = result.cover.wider_than_sigma;
+  r.cover.statistics = result.cover.statistics;
+  r.cover.boxes = Hulls(result.cover.boxes, static_cast<std::size_t>(result.configuration_size), in_one).run();
+  return r;
+}
+
+}  // namespace corank::report

@@ -1,0 +1,22 @@
+// What a page draws of a set of very many boxes.
+#pragma once
+
+#include <cstddef>
+
+#include "corank/result/result.h"
+
+namespace corank::report {
+
+/// A page with more boxes than this opens in no browser in any useful time.
+inline constexpr std::size_t kMostDrawn = 1'000'000;
+
+/// So many neighbouring boxes at most are one when the page draws them; 1: each box is drawn. Boundaries of a workspace,
+/// whose boxes have sides, are drawn box by box.
+std::size_t boxes_in_one(const result::Result& result);
+
+/// The result with hulls of up to so many neighbouring boxes of the same verdict and self-motion in their place: whatever
+/// the boxes enclose the hulls enclose, and they have only the types that all of their boxes have. Without regions, proof
+/// and parts, since nothing is proven of hulls.
+result::Result drawn(const result::Result& result, std::size_t in_one);
+
+}  // namespace corank::report
