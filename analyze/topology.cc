@@ -7,6 +7,7 @@
 
 #include "corank/analyze/aspects.h"
 #include "corank/analyze/limits.h"
+#include "corank/analyze/topology_with_ends.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/inertia.h"
 #include "corank/core/check.h"
@@ -236,14 +237,17 @@ Topology topology(study::Question question, const TopologyOptions& options, solv
     // Whole sheets are wide: smaller ones show to which ends the set comes indeed.
     Cover fine;
     if (!ends.empty()) fine = solved(space.system, std::nullopt, options.threads, control);
-    if (!ends.empty())
-      for (const Limit& end : fine.complete() ? limits(space.system, fine) : ends) result.ends.push_back(end.name);
+    const std::vector<Limit> reached = !ends.empty() && fine.complete() ? limits(space.system, fine) : ends;
+    for (const Limit& end : reached) result.ends.push_back(end.name);
     if (!ends.empty()) {
       result.processed = whole.statistics.processed + fine.statistics.processed;
       result.components = components_within(space.system, whole, ends, options, control);
       result.components.piece_of_box.assign(fine.boxes.size(), -1);
       result.reason = result.components.reason;
-      if (!result.ends.empty()) return result;
+      if (!result.ends.empty()) {
+        find_shape_with_ends(space.system, result.dimension, reached, options, result, control);
+        return result;
+      }
       space.cover = std::move(fine);
     }
   }
