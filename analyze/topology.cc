@@ -233,22 +233,21 @@ Topology topology(study::Question question, const TopologyOptions& options, solv
   Cover whole = solved(space.system, whole_sheets(space.system), options.threads, control);
   result.dimension = whole.dimension;
   if (whole.complete() && whole.dimension > 0) {
-    const std::vector<Limit> ends = limits(space.system, whole);
-    // Whole sheets are wide: smaller ones show to which ends the set comes indeed.
-    Cover fine;
-    if (!ends.empty()) fine = solved(space.system, std::nullopt, options.threads, control);
-    const std::vector<Limit> reached = !ends.empty() && fine.complete() ? limits(space.system, fine) : ends;
-    for (const Limit& end : reached) result.ends.push_back(end.name);
-    if (!ends.empty()) {
-      result.processed = whole.statistics.processed + fine.statistics.processed;
-      result.components = components_within(space.system, whole, ends, options, control);
-      result.components.piece_of_box.assign(fine.boxes.size(), -1);
+    const std::vector<Limit> touched = limits(space.system, whole);
+    if (!touched.empty()) {
+      result.processed = whole.statistics.processed;
+      const std::vector<Limit> ends = without_unreached(space.system, touched, options, result.processed, control);
+      for (const Limit& end : ends) result.ends.push_back(end.name);
+      result.components = components_within(space.system, whole, ends.empty() ? touched : ends, options, control);
       result.reason = result.components.reason;
-      if (!result.ends.empty()) {
-        find_shape_with_ends(space.system, result.dimension, reached, options, result, control);
+      if (!ends.empty()) {
+        find_shape_with_ends(space.system, result.dimension, ends, options, result, control);
         return result;
       }
-      space.cover = std::move(fine);
+      // Whole sheets are wide: smaller ones keep clear of ends that are not reached.
+      space.cover = solved(space.system, std::nullopt, options.threads, control);
+      result.processed += space.cover.statistics.processed;
+      result.components.piece_of_box.assign(space.cover.boxes.size(), -1);
     }
   }
   if (space.cover.boxes.empty()) result.components = refined_components(space, options, result.processed, control);

@@ -17,6 +17,13 @@ namespace {
 
 constexpr int kHeights = 6;  // that are tried for two which say something
 
+// Wider than every sheet: they are not cut.
+double whole_sheets(const System& system) {
+  double widest = 1;
+  for (const Interval& side : system.domain()) widest = std::max(widest, side.width());
+  return 2 * widest;
+}
+
 struct Corner {
   int first, second;  // ends
   Box point;          // in the set's variables
@@ -89,9 +96,7 @@ class EdgePieces {
       : system_(with_single_values(strata.edge(end))) {
     solve::Options search;
     search.threads = options.threads;
-    double widest = 1;
-    for (const Interval& side : system_.domain()) widest = std::max(widest, side.width());
-    search.sigma = 2 * widest;
+    search.sigma = whole_sheets(system_);
     const Cover cover = solve::solve(solve::prepare(strata.edge(end), search, control), control);
     processed += cover.statistics.processed;
     const auto sheet = [](const CoverBox& b) { return b.verdict == Verdict::regular || b.verdict == Verdict::boundary; };
@@ -172,6 +177,22 @@ std::optional<int> boundary_curves(const certify::Strata& strata, const std::vec
 }
 
 }  // namespace
+
+std::vector<Limit> without_unreached(const System& system, std::vector<Limit> ends, const TopologyOptions& options,
+                                     std::uint64_t& processed, solve::Control& control) {
+  constexpr std::uint64_t kMost = 20'000;  // boxes of a search: an end that takes more counts as reached
+  const certify::Strata strata(system, {ends.begin(), ends.end()}, 0);
+  std::vector<Limit> reached;
+  solve::Options search;
+  search.threads = options.threads;
+  search.sigma = whole_sheets(system);
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const Cover cover = solve::solve(solve::prepare(strata.edge(static_cast<int>(k)), search, control), control, kMost);
+    processed += cover.statistics.processed;
+    if (!cover.complete() || !cover.boxes.empty() || !cover.points.empty()) reached.push_back(std::move(ends[k]));
+  }
+  return reached;
+}
 
 void find_shape_with_ends(const System& system, int dimension, const std::vector<Limit>& ends,
                           const TopologyOptions& options, Topology& result, solve::Control& control) {

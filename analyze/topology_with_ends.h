@@ -6,6 +6,10 @@
 
 namespace corank::analyze {
 
+/// Without those ends at which a search finds no solution: all solutions are strictly within them.
+std::vector<Limit> without_unreached(const System& system, std::vector<Limit> ends, const TopologyOptions& options,
+                                     std::uint64_t& processed, solve::Control& control);
+
 /// Adds to result, whose components are known, what two heights say: with_ends, the characteristic, its critical points;
 /// of a connected surface the number of curves that bound it, and so its genus.
 ///
