@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -32,10 +33,12 @@ struct Corner {
 struct StrataCount {
   HeightCount height;
   std::vector<Corner> corners;  // of a surface
-  int boundary_index = 0;       // Σ (−1)^index of the height on a surface's boundary: 0
+  int boundary_minima = 0;      // of a surface: of the height on its boundary
+  int boundary_index = 0;       // minima less maxima: 0
 };
 
-// One of a surface's boundary: its index there, where that is a critical point of the boundary.
+// A minimum (1) or a maximum (−1) of the height on a surface's boundary, or neither. At a corner the height grows along the
+// one edge as it grows inward across the other.
 int sign_on_boundary(const certify::StratumTest::Kind& kind) {
   if (kind.inward.size() == 1) return kind.index == 0 ? 1 : -1;
   if (kind.inward.size() == 2 && kind.inward[0] == kind.inward[1]) return kind.inward[0];
@@ -80,7 +83,9 @@ StrataCount count_on_strata(const certify::Strata& strata, const TopologyOptions
         ++height.by_index[static_cast<std::size_t>(kind->index)];
       else
         ++height.uncounted;
-      result.boundary_index += sign_on_boundary(*kind);
+      const int on_boundary = sign_on_boundary(*kind);
+      result.boundary_index += on_boundary;
+      result.boundary_minima += on_boundary > 0;
       if (ends.size() == 2 && strata.dimension() == 2)
         result.corners.push_back({ends[0], ends[1], Box(point.box.begin(), point.box.begin() + strata.variables())});
     }
@@ -176,6 +181,13 @@ std::optional<int> boundary_curves(const certify::Strata& strata, const std::vec
   return static_cast<int>(found.size());
 }
 
+// Where only one number b of curves is possible for a connected surface: b ≥ 1 and even or odd as the characteristic 2 − 2g
+// − b is, at most 2 − χ, and each of the curves has a minimum of the height.
+std::optional<int> only_possible(int euler, int minima) {
+  const int most = std::min(2 - euler, minima), least = euler % 2 == 0 ? 2 : 1;
+  return minima > 0 && most < least + 2 ? std::optional(least) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<Limit> without_unreached(const System& system, std::vector<Limit> ends, const TopologyOptions& options,
@@ -200,6 +212,7 @@ void find_shape_with_ends(const System& system, int dimension, const std::vector
   std::optional<certify::Strata> strata;
   std::vector<Corner> corners;
   std::string problem;
+  int minima = std::numeric_limits<int>::max();  // of the heights on the boundary
   for (int height = 0; height < kHeights && result.heights.size() < 2 && !control.ended(); ++height) {
     strata.emplace(system, plain, height);
     problem = strata->problem();
@@ -211,6 +224,7 @@ void find_shape_with_ends(const System& system, int dimension, const std::vector
     CORANK_CHECK(dimension != 2 || count.boundary_index == 0);  // of closed curves
     result.heights.push_back(std::move(count.height));
     corners = std::move(count.corners);
+    minima = std::min(minima, count.boundary_minima);
   }
   if (result.heights.empty()) {
     result.reason = result.reason.empty() ? problem : result.reason + "; " + problem;
@@ -227,13 +241,16 @@ void find_shape_with_ends(const System& system, int dimension, const std::vector
   if (components.exact()) components.reason.clear(), result.reason.clear();
   result.euler_characteristic = result.heights.front().euler_characteristic();
   if (dimension != 2 || control.ended()) return;
+  const bool connected = components.exact() && components.at_least == 1;
   std::string reason;
   result.boundary = boundary_curves(*strata, ends, corners, options, result.processed, reason, control);
+  if (connected && !result.boundary) result.boundary = only_possible(*result.euler_characteristic, minima);
+  CORANK_CHECK(!result.boundary || *result.boundary <= minima);
   if (!result.boundary) {
     if (result.reason.empty()) result.reason = reason;
     return;
   }
-  if (components.exact() && components.at_least == 1) {
+  if (connected) {
     const int twice = 2 - *result.euler_characteristic - *result.boundary;
     CORANK_CHECK(twice >= 0 && twice % 2 == 0);
     result.genus = {twice / 2};
