@@ -47,6 +47,7 @@ class Strata {
   /// d, where F has its full rank somewhere: coordinates less equations.
   int dimension() const { return static_cast<int>(coordinates_.size() - rows_.size()); }
   int variables() const { return system_.size(); }  ///< x
+  const Polynomial& height() const { return height_; }
   /// The closed stratum {F = 0, e_j = 0} of one end, in x.
   System edge(int end) const;
   /// All A with |A| ≤ dimension(), but for both ends of one variable.
