@@ -145,19 +145,22 @@ TEST(Stratum, TakesAnAngleAsOneCoordinate) {
   circle.monomials.emplace_back(1, std::vector<Factor>{{1, 2}});
   circle.monomials.emplace_back(-1, std::vector<Factor>{});
   s.equations = {circle, linear({"0", "-1", "1"}, "0")};  // x = sin t
-  s.inequalities = {linear({"1", "0", "0"}, "0")};
-  const Strata strata(s, all_ends(s), 1);
-  ASSERT_TRUE(strata.problem().empty());
-  EXPECT_EQ(strata.dimension(), 1);
-  {
-    const UpwardRounding rounding;
-    EXPECT_EQ(strata.stratum({0}).system.variables[0].domain.lo(), -1);  // the equation holds the end
-  }
-  for (const double y : {1.0, -1.0}) {
-    const auto k = kind(strata, {0}, {0, y, y});
-    ASSERT_TRUE(k);
-    const double t = 1e-3, inside = value(strata.height(), {std::sin(t), y * std::cos(t), y * std::cos(t)});
-    EXPECT_EQ(k->counted(), inside > value(strata.height(), {0, y, y}));
+  s.inequalities = {linear({"1", "0", "0"}, "-3/5")};
+  for (int height = 0; height < 4; ++height) {
+    const Strata strata(s, all_ends(s), height);
+    ASSERT_TRUE(strata.problem().empty());
+    EXPECT_EQ(strata.dimension(), 1);
+    {
+      const UpwardRounding rounding;
+      EXPECT_EQ(strata.stratum({0}).system.variables[0].domain.lo(), -1);  // the equation holds the end
+    }
+    for (const double y : {0.8, -0.8}) {
+      const auto k = kind(strata, {0}, {0.6, y, y});
+      ASSERT_TRUE(k);
+      const double t = (y > 0 ? 1 : -1) * (std::acos(0.6) - 1e-3);
+      EXPECT_EQ(k->counted(),
+                value(strata.height(), {std::cos(t), std::sin(t), std::sin(t)}) > value(strata.height(), {0.6, y, y}));
+    }
   }
 }
 
