@@ -6,6 +6,7 @@
 #include <set>
 
 #include "corank/analyze/limits.h"
+#include "corank/analyze/piece_places.h"
 #include "corank/certify/determinant.h"
 #include "corank/certify/meeting.h"
 #include "corank/core/box_tree.h"
@@ -380,6 +381,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     const int x = plane ? result.system.find(options.images[0]) : -1, y = plane ? result.system.find(options.images[1]) : -1;
     if (first && x >= 0 && y >= 0) result.images = images(cells, found, x, y, options.rows, control);
     if (first && !options.drawn.empty()) result.drawing = draw(cells, found, options.drawn);
+    if (first && options.placed) result.places = piece_places(cells, found, options.placed->boxes, control);
     return found;
   };
   result.aspects = count(both, true);

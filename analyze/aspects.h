@@ -52,6 +52,7 @@ struct Aspects {
   std::vector<std::array<int, 2>> determinant_signs;
   std::optional<PieceImages> images;    ///< of the aspects, where AspectsOptions::images asks for them
   std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
+  std::vector<int> places;              ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places.h)
 };
 
 struct AspectsOptions {
@@ -61,6 +62,7 @@ struct AspectsOptions {
   std::vector<std::string> drawn{};   ///< coordinates
   std::vector<std::string> images{};  ///< two lengths, of a C-space of two dimensions
   int rows = 120;                     ///< of the images' grid
+  const Cover* placed = nullptr;      ///< of C-space, to be looked at
 };
 
 /// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.

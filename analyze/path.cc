@@ -206,6 +206,15 @@ std::vector<Box> PathFinder::ends(const std::vector<NamedValue>& values, solve::
   return find_ends(search_->space(), values, control);
 }
 
+std::vector<PathFinder::Sign> PathFinder::signs(const Box& box) const {
+  const UpwardRounding rounding;
+  const std::vector<int> signs = search_->space().signs(box);
+  std::vector<Sign> result;
+  for (const PathSpace::SignFunction& f : search_->space().sign_names())
+    result.push_back({f.of, f.factor, signs[result.size()]});
+  return result;
+}
+
 Path PathFinder::find(const Box& from, const Box& to, solve::Control& control) { return search_->find(from, to, control); }
 
 Box PathFinder::end(const std::vector<NamedValue>& values, int mode, const std::string& option,

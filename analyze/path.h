@@ -73,6 +73,14 @@ class PathFinder {
 
   Path find(const Box& from, const Box& to, solve::Control& control);
 
+  /// In the box: the signs that separate configurations, 0 where one is not proven.
+  struct Sign {
+    Avoid of;            ///< forward: det L_y, inverse: det L_z
+    std::string factor;  ///< of that determinant; empty: itself
+    int sign;
+  };
+  std::vector<Sign> signs(const Box& box) const;
+
  private:
   class Search;
   std::unique_ptr<Search> search_;

@@ -23,6 +23,10 @@ bool is_small(const PolynomialMatrix& m) {
                                                   [](const Polynomial& f) { return f.monomials.size() <= kMostTerms; });
 }
 
+Avoid block_of(symbolic::SingularitySet set) {
+  return set == symbolic::SingularitySet::forward ? Avoid::forward : Avoid::inverse;
+}
+
 bool is_square(const std::vector<int>& rows, const PolynomialMatrix& m) {
   return static_cast<int>(rows.size()) == m.columns;
 }
@@ -62,6 +66,7 @@ void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
     if (!zero) filled.push_back(i);
   }
   matrices_.push_back(m);
+  blocks_.push_back(block_of(set));
   ranks_.push_back(std::min(static_cast<int>(filled.size()), m.columns));
   const bool square = is_square(filled, m);
   filled_rows_.push_back(std::move(filled));
@@ -70,8 +75,9 @@ void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
     const symbolic::Derivation derivation = symbolic::derive(question_.model);
     const symbolic::ExpressionMatrix matrix =
         symbolic::kernel_question(question_.model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
-    for (Polynomial& f : symbolic::polynomials(equations_, symbolic::determinant_factors(question_.model, matrix)))
-      factors_.push_back(std::move(f));
+    const std::vector<symbolic::Expression> factors = symbolic::determinant_factors(question_.model, matrix);
+    for (Polynomial& f : symbolic::polynomials(equations_, factors)) factors_.push_back(std::move(f));
+    for (const symbolic::Expression& f : factors) factor_names_.push_back({block_of(set), f.text()});
   } catch (const symbolic::ModelError&) {
     // too large: the determinant's own sign has to do
   }
@@ -81,6 +87,14 @@ std::size_t PathSpace::sign_functions() const {
   std::size_t count = factors_.size();
   for (std::size_t k = 0; k < matrices_.size(); ++k) count += is_square(filled_rows_[k], matrices_[k]);
   return count;
+}
+
+std::vector<PathSpace::SignFunction> PathSpace::sign_names() const {
+  std::vector<SignFunction> result;
+  for (std::size_t k = 0; k < matrices_.size(); ++k)
+    if (is_square(filled_rows_[k], matrices_[k])) result.push_back({blocks_[k], ""});
+  result.insert(result.end(), factor_names_.begin(), factor_names_.end());
+  return result;
 }
 
 std::vector<int> PathSpace::signs(const Box& box) const {

@@ -36,6 +36,12 @@ class PathSpace {
   std::vector<int> signs(const Box& box) const;
   /// The number of those functions: where it is 0, no signs tell configurations apart.
   std::size_t sign_functions() const;
+  /// Which determinant each of them is or divides, and of a factor its text.
+  struct SignFunction {
+    Avoid of;
+    std::string factor;
+  };
+  std::vector<SignFunction> sign_names() const;
 
   /// In doubles, no claims. F(x), ∂F/∂x.
   Eigen::VectorXd residual(const Point& x) const;
@@ -61,8 +67,10 @@ class PathSpace {
   System system_;
   std::vector<PolynomialMatrix> matrices_;
   std::vector<int> ranks_;
+  std::vector<Avoid> blocks_;                  // of the matrices
   std::vector<std::vector<int>> filled_rows_;  // of each matrix, those that are not all 0
   std::vector<Polynomial> factors_;
+  std::vector<SignFunction> factor_names_;
   std::unique_ptr<certify::CompiledSystem> compiled_;  // values: the matrices' entries, then the factors
   std::vector<int> first_entry_;                       // of each matrix among the values
 };

@@ -5,12 +5,12 @@
 
 #include <memory>
 
-#include "corank/app/aspects_picture.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
+#include "corank/report/aspects_picture.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 
@@ -33,7 +33,7 @@ ExitStatus aspects(AspectsCommand command) {
   const study::Question question = load(command.question);
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no aspects", command.question.file));
-  if (!command.output.empty()) command.options.drawn = drawn_coordinates(question.model);
+  if (!command.output.empty()) command.options.drawn = report::drawn_coordinates(question.model);
   if (command.areas && question.model.outputs().size() != 2)
     throw UsageError(fmt::format("{}: areas need two outputs", command.question.file));
   if (command.areas) command.options.images = question.model.outputs();
@@ -47,7 +47,7 @@ ExitStatus aspects(AspectsCommand command) {
     if (!result.drawing || result.drawing->pieces.empty())
       throw UsageError(fmt::format("{}: a picture needs aspects of two dimensions, with two outputs or two inputs",
                                    command.question.file));
-    result::write_text(command.output, to_svg(aspects_picture(question, result)));
+    result::write_text(command.output, to_svg(report::aspects_picture(question.model.name(), result)));
   }
   fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
   return complete ? kDone : stopped_early(control);

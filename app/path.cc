@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "corank/app/box_files.h"
@@ -10,7 +11,9 @@
 #include "corank/app/named_values.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/set_views.h"
 #include "corank/app/subcommands.h"
+#include "corank/report/path_page.h"
 #include "corank/result/path_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
@@ -22,11 +25,64 @@ struct PathCommand {
   QuestionOptions question;
   std::vector<std::string> from, to;
   int from_mode = 0, to_mode = 0;
-  std::string avoid = "forward", csv, output;
+  std::string avoid = "forward", csv, output, report;
   analyze::PathOptions options;
   double time_limit = 0;
   bool json = false;
+
+  /// What a user types for the same path.
+  std::string line() const;
 };
+
+std::string PathCommand::line() const {
+  std::string text = "corank path " + std::filesystem::path(question.file).filename().string();
+  if (!question.loops.empty()) text += " --loops " + std::filesystem::path(question.loops).filename().string();
+  for (const std::string& definition : question.definitions) text += " -D '" + definition + "'";
+  const auto add_end = [&](const std::string& name, const std::vector<std::string>& values, int mode) {
+    text += fmt::format(" {} {}", name, fmt::join(values, ","));
+    if (mode > 0) text += fmt::format(" {}-mode {}", name, mode);
+  };
+  add_end("--from", from, from_mode);
+  add_end("--to", to, to_mode);
+  if (avoid != "forward") text += " --avoid " + avoid;
+  if (options.radius > 0) text += fmt::format(" --radius {:g}", options.radius);
+  if (!output.empty()) text += " -o " + std::filesystem::path(output).filename().string();
+  return text;
+}
+
+/// What the portraits of a page show, as far as it is found soon; what is not goes to `missing`. C-space is a background.
+std::vector<report::SetView> portrayed_sets(const PathCommand& command, const study::Question& question,
+                                            std::vector<std::string>& missing) {
+  constexpr double kTimeOfEach = 4, kCoarserBackground = 3;
+  constexpr std::uint64_t kMostBoxes = 100'000;
+  std::vector<report::SetView> views;
+  for (const char* name : {"cspace", "forward", "inverse"}) {
+    const symbolic::SetDefinition& set = symbolic::definition(std::string(name));
+    const SetSearch search{
+        .coarser = set.is_cspace() ? kCoarserBackground : 1,
+        .sets = {name},
+        .limits = {.threads = command.options.threads, .max_found = kMostBoxes, .time_limit = kTimeOfEach}};
+    try {
+      report::SetView view = solve_view(search, question, 0, 0);
+      if (view.result.cover.complete())
+        views.push_back(std::move(view));
+      else
+        missing.push_back(view.words.title);
+    } catch (const symbolic::ModelError&) {  // the model does not answer such a question
+      missing.emplace_back(set.title);
+    }
+  }
+  return views;
+}
+
+void write_page(const PathCommand& command, const analyze::PathFinder& finder, const analyze::Path& found) {
+  const study::Question& question = finder.question();
+  report::PathPageOptions options;
+  options.command = command.line();
+  if (found.tube) options.file = std::filesystem::path(command.output).filename().string();
+  const std::vector<report::SetView> sets = portrayed_sets(command, question, options.missing);
+  result::write_text(command.report, report::path_page(question.model, report::path_view(finder, found), sets, options));
+}
 
 ExitStatus path(PathCommand command) {
   solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
@@ -40,6 +96,7 @@ ExitStatus path(PathCommand command) {
                                                        : analyze::Avoid::both;
   check_output(command.csv);
   check_output(command.output);
+  check_output(command.report);
   const Interrupt interrupt;
   ProgressLine line;
   line.follow(control);
@@ -56,6 +113,7 @@ ExitStatus path(PathCommand command) {
   line.clear();
   if (!command.csv.empty()) result::write_text(command.csv, to_csv(finder, found));
   if (!command.output.empty() && found.tube) result::write_path(command.output, analyze::to_file(finder, found));
+  if (!command.report.empty()) write_page(command, finder, found);
   fmt::print("{}", command.json ? to_json(finder, found) + "\n" : result::printable(to_text(finder, found)));
   return found.status == analyze::Path::Status::unknown ? kIncomplete : kDone;
 }
@@ -97,6 +155,8 @@ void add_path(CLI::App& program, Action& action) {
                   "Write the path with its tube, which corank verify checks, where there is one")
       ->type_name("FILE.h5");
   sub->add_option("--csv", command->csv, "Write the waypoints")->type_name("FILE");
+  sub->add_option("--report", command->report, "Write an HTML page on which the mechanism moves along the path")
+      ->type_name("FILE.html");
   sub->add_flag("--json", command->json, "Print the result as JSON");
   sub->footer(
       "The path keeps to the ranges, limits and inequalities of the model. Every configuration within the radius of it, in\n"
@@ -104,7 +164,7 @@ void add_path(CLI::App& program, Action& action) {
       "exist, because the ends lie in different pieces, that is proven.\n\n"
       "Exit status: 0 a path or the proof that there is none, 1 bad input, 2 usage, 3 neither.\n\n"
       "Examples:\n  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=1 --to-mode 1\\\n"
-      "      -o path.h5\n  corank verify path.h5");
+      "      -o path.h5 --report path.html\n  corank verify path.h5");
   sub->callback([command, &action] { action = [command] { return path(*command); }; });
 }
 

@@ -6,14 +6,15 @@
 #include <map>
 #include <memory>
 
-#include "corank/app/aspects_picture.h"
 #include "corank/app/box_files.h"
 #include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/set_search.h"
+#include "corank/app/set_views.h"
 #include "corank/app/subcommands.h"
+#include "corank/report/aspects_picture.h"
 #include "corank/report/page.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/printable.h"
@@ -24,8 +25,6 @@
 
 namespace corank::app {
 namespace {
-
-constexpr int kDigits = 12;  ///< of isolated points
 
 /// A page of all sets is to be there within a minute, and to open in a browser.
 constexpr double kDefaultTimeLimit = 8;
@@ -38,54 +37,32 @@ struct ReportCommand {
   std::string folder;
 };
 
-report::SetView solve_one(const ReportCommand& command, study::Question question, std::size_t index, std::uint64_t taken) {
-  const std::vector<std::string>& sets = command.search.sets;
-  question.set = symbolic::singularity_set_from_string(sets[index]);
-  if (!symbolic::definition(question.set).has_kernel()) question.corank = 1;
-  solve::Options limits;
-  command.search.limits.apply(limits);
-  solve::Control control(command.search.limits_beside(limits, taken));
-  std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  const std::vector<study::Question> parts = study::parts_of(question);
-  std::vector<System> systems;
-  for (const study::Question& part : parts) systems.push_back(study::system(part));
-  control.ended();  // notes the stage
-  stage.reset();
-  study::Options options{command.search.options(systems.front(), *question.set), kDigits};
-  ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
-  line.follow(control);
-  result::Result result = study::answer(parts, systems, options, control);
-  System system = parts.front().part ? result::system_of(question.model, result) : std::move(systems.front());
-  return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation());
-}
-
 std::vector<report::SetView> solve_all(const ReportCommand& command, const study::Question& question) {
   std::vector<report::SetView> views;
   std::uint64_t taken = 0;
   // After an interrupt the searches left end at once, with all of their domain pending.
   for (std::size_t i = 0; i < command.search.sets.size(); ++i) {
-    views.push_back(solve_one(command, question, i, taken));
+    views.push_back(solve_view(command.search, question, i, taken));
     taken += solve::bytes_of(views.back().result.cover, solve::kPageBytes);
   }
   return views;
 }
 
-/// Aspects of curves and surfaces, within their own time: the page is to be there soon.
+/// Aspects of curves and surfaces, within the time that a search may take.
 void add_aspects(const ReportCommand& command, const study::Question& question, const std::vector<report::SetView>& views,
                  report::PageOptions& options) {
-  constexpr double kTime = 5;
   const auto cspace = std::find_if(views.begin(), views.end(), [](const report::SetView& v) { return v.set->is_cspace(); });
   if (cspace == views.end() || !cspace->result.cover.complete() || cspace->result.cover.dimension > 2) return;
-  solve::Control control({.time = kTime, .stop = &Interrupt::stop()});
+  solve::Control control({.time = command.search.limits.time_limit, .stop = &Interrupt::stop()});
   ProgressLine line("aspects");
   line.follow(control);
   analyze::AspectsOptions wanted{.threads = command.search.limits.threads};
-  wanted.drawn = drawn_coordinates(question.model);
+  wanted.drawn = report::drawn_coordinates(question.model);
+  wanted.placed = &cspace->result.cover;
   try {
     const analyze::Aspects found = analyze::aspects(question, wanted, control);
     if (control.ended() || !found.reason.empty()) return;
-    options.aspects = summary(found);
-    if (found.drawing && !found.drawing->pieces.empty()) options.aspects_picture = to_svg(aspects_picture(question, found));
+    options.aspects = report::page_aspects(question.model.name(), found);
   } catch (const symbolic::ModelError&) {  // of matrices that are not square nothing is said
   }
 }

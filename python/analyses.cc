@@ -12,6 +12,7 @@
 #include "corank/analyze/workspace_area.h"
 #include "corank/python/bindings.h"
 #include "corank/python/model.h"
+#include "corank/python/path_picture.h"
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
 #include "corank/result/path_file.h"
@@ -148,7 +149,7 @@ struct End {
   int mode = 0;
 };
 
-// With the path's file, where there is a path.
+// With the path's file, where there is a path, and what a page shows of it.
 py::tuple path(const Model& model, const End& from, const End& to, const std::string& avoid, double radius, int threads,
                std::uint64_t max_boxes, double time_limit, const py::object& progress) {
   if (model.mechanism().is_plain_system())
@@ -162,6 +163,7 @@ py::tuple path(const Model& model, const End& from, const End& to, const std::st
   struct Said {
     Texts texts;
     std::shared_ptr<result::PathFile> file;
+    std::shared_ptr<PathPicture> picture;
   };
   auto [said, raised] =
       run_for(progress, [question = configurations(model), from, to, options, time_limit](Watcher& watcher) {
@@ -175,11 +177,12 @@ py::tuple path(const Model& model, const End& from, const End& to, const std::st
           ends.push_back(finder.end(values, end->mode, name, control));
         }
         const analyze::Path found = finder.find(ends[0], ends[1], control);
-        Said result{{to_json(finder, found), to_text(finder, found)}, {}};
+        Said result{{to_json(finder, found), to_text(finder, found)}, {}, {}};
+        result.picture = std::make_shared<PathPicture>(finder.question().model, report::path_view(finder, found));
         if (found.tube) result.file = std::make_shared<result::PathFile>(to_file(finder, found));
         return result;
       });
-  return py::make_tuple(said.texts.json, said.texts.table, said.file, raised);
+  return py::make_tuple(said.texts.json, said.texts.table, said.file, said.picture, raised);
 }
 
 py::tuple verify_path(const result::PathFile& file, const py::object& progress) {

@@ -5,9 +5,13 @@
 
 #include "corank/python/bindings.h"
 #include "corank/python/model.h"
+#include "corank/python/path_picture.h"
 #include "corank/python/result.h"
+#include "corank/python/watched.h"
+#include "corank/report/aspects_picture.h"
 #include "corank/report/family_page.h"
 #include "corank/report/page.h"
+#include "corank/report/path_page.h"
 #include "corank/report/picture.h"
 #include "corank/report/portrait.h"
 #include "corank/result/verification.h"
@@ -33,12 +37,49 @@ symbolic::Mechanism mechanism_of(const std::vector<Result>& results) {
   return result::model_of(*results.front());
 }
 
+using Aspects = std::shared_ptr<report::PageAspects>;
+
+// Of curves and surfaces that are known as a whole, within the time; with what ended it early.
+py::tuple page_aspects(const std::vector<Result>& results, int threads, double time_limit, const py::object& progress) {
+  const auto is_cspace = [](const Result& r) { return symbolic::definition(r->set).is_cspace(); };
+  const auto cspace = std::find_if(results.begin(), results.end(), is_cspace);
+  if (cspace == results.end() || !(*cspace)->cover.complete() || (*cspace)->cover.dimension > 2)
+    return py::make_tuple(Aspects(), py::none());
+  const auto work = [cspace = *cspace, question = study::Question{.model = mechanism_of(results)}, threads,
+                     time_limit](Watcher& watcher) -> Aspects {
+    solve::Control control({.time = time_limit, .stop = &watcher.stop});
+    watcher.follow(control);
+    analyze::AspectsOptions wanted{.threads = threads};
+    wanted.drawn = report::drawn_coordinates(question.model);
+    wanted.placed = &cspace->cover;
+    try {
+      const analyze::Aspects found = analyze::aspects(question, wanted, control);
+      if (control.ended() || !found.reason.empty()) return {};
+      return std::make_shared<report::PageAspects>(report::page_aspects(question.model.name(), found));
+    } catch (const symbolic::ModelError&) {  // of matrices that are not square nothing is said
+      return {};
+    }
+  };
+  auto [aspects, raised] = run_for(progress, work);
+  return py::make_tuple(aspects, raised);
+}
+
 std::string page(const std::vector<Result>& results, const std::string& command, const std::vector<std::string>& figures,
-                 const std::vector<std::string>& files) {
+                 const std::vector<std::string>& files, const Aspects& aspects) {
   const py::gil_scoped_release unlocked;
   const symbolic::Mechanism mechanism = mechanism_of(results);
-  const report::PageOptions options{command, figures, files};
+  report::PageOptions options{command, figures, files};
+  if (aspects) options.aspects = *aspects;
   return report::report_page(mechanism, views_of(mechanism, results), options);
+}
+
+std::string path_page(const PathPicture& path, const std::vector<Result>& results, const std::vector<std::string>& missing,
+                      const std::string& command) {
+  const py::gil_scoped_release unlocked;
+  if (!results.empty() && mechanism_of(results).source_text() != path.mechanism.source_text())
+    throw std::invalid_argument("the results are of another model than the path");
+  return report::path_page(path.mechanism, path.view, views_of(path.mechanism, results),
+                           {.command = command, .missing = missing});
 }
 
 using Members = std::vector<std::tuple<std::string, std::vector<Result>, std::vector<std::string>>>;
@@ -131,7 +172,11 @@ std::vector<std::string> write_small_multiples(const std::filesystem::path& fold
 }  // namespace
 
 void bind_report(py::module_& module) {
+  py::class_<PathPicture, std::shared_ptr<PathPicture>>(module, "PathPicture");
+  py::class_<report::PageAspects, Aspects>(module, "PageAspects");
+  module.def("page_aspects", &page_aspects);
   module.def("report_page", &page);
+  module.def("path_page", &path_page);
   module.def("family_page", &family_page);
   module.def("geometry", &geometry);
   module.def("write_portrait", &write_portrait);

@@ -150,9 +150,12 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["version"] = result::version();
   page["modelText"] = mechanism.source_text();
   page.set("incomplete", truth(!complete));
-  page.set("hasAspects", truth(!options.aspects.empty()));
-  page["aspects"] = options.aspects;
-  page["aspectsPicture"] = options.aspects_picture;
+  page.set("hasAspects", truth(options.aspects.has_value()));
+  page["aspects"] = options.aspects ? options.aspects->summary : "";
+  page["aspectsPicture"] = options.aspects ? options.aspects->picture : "";
+  const std::string aspects_data = options.aspects ? aspects_json(*options.aspects) : "null";
+  page["aspectsData"] = aspects_data;
+  page.set("hasAspectColours", truth(aspects_data != "null"));
   page.set("passages",
            truth(std::any_of(views.begin(), views.end(), [](const SetView& view) { return !view.result.outputs.empty(); })));
   mustache::data figures{mustache::data::type::list};

@@ -2,20 +2,21 @@
 // describes it for users.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "corank/report/page_aspects.h"
 #include "corank/report/set_view.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
 
 struct PageOptions {
-  std::string command;               ///< the command line that made it; shown
-  std::vector<std::string> figures;  ///< files, shown and linked
-  std::vector<std::string> files;    ///< of the results, in their order; shown and linked. May be empty
-  std::string aspects{};             ///< what is known of the mechanism's aspects, in words; empty: nothing
-  std::string aspects_picture{};     ///< an SVG of them; empty: none
+  std::string command;                   ///< the command line that made it; shown
+  std::vector<std::string> figures;      ///< files, shown and linked
+  std::vector<std::string> files;        ///< of the results, in their order; shown and linked. May be empty
+  std::optional<PageAspects> aspects{};  ///< what is known of the mechanism's aspects
 };
 
 /// Of a mechanism and sets of it. Throws ModelError where it has no singularities to speak of (a plain system).

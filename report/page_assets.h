@@ -12,6 +12,9 @@ extern const std::string_view kCardTemplate;    ///< card.html, a set's card on 
 extern const std::string_view kFamilyTemplate;  ///< family.html, for mustache
 extern const std::string_view kFamilyStyle;     ///< family.css, which adds to page.css
 extern const std::string_view kFamilyScript;    ///< the modules of that page as one
+extern const std::string_view kPathTemplate;    ///< path.html, for mustache
+extern const std::string_view kPathStyle;       ///< path.css, which adds to page.css
+extern const std::string_view kPathScript;      ///< the modules of that page as one
 extern const std::string_view kThree;           ///< three.js as a script that defines THREE
 
 }  // namespace corank::report

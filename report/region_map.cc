@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "corank/report/layout.h"
+#include "corank/report/polygon_union.h"
 
 namespace corank::report {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 constexpr double kPanel = 150, kGap = 16, kLeft = 46, kTop = 40, kText = 10;
 constexpr int kColumns = 5;
 constexpr const char* kRest = "#e4e6e8";
-// Apart from each other in hue and lightness, also for most of the colour-blind; then they begin again.
 constexpr std::array kColors{"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00",
                              "#7f5fb8", "#9aa61c", "#8c564b", "#17909e", "#b03060", "#4d6f39"};
 
@@ -36,29 +36,29 @@ std::string text(double x, double y, const char* anchor, const std::string& cont
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, content);
 }
 
-double cross(const std::array<double, 2>& a, const std::array<double, 2>& b, const std::array<double, 2>& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
+// Points are told apart to a tenth of a pixel, and what is nearer than that is one.
+constexpr int kSteps = 10;
+constexpr double kSeen = 1.2;
 
-double area(const RegionMap::Polygon& polygon) {
-  double twice = 0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) twice += cross(polygon[0], polygon[i], polygon[i + 1]);
-  return twice / 2;
-}
-
-// Without points that nobody sees: next to their neighbours' line, or next to the one before.
-RegionMap::Polygon without_straight(const RegionMap::Polygon& polygon) {
-  constexpr double kSeen = 0.06;
-  RegionMap::Polygon result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const auto &p = polygon[(i + polygon.size() - 1) % polygon.size()], &q = polygon[i],
-               &r = polygon[(i + 1) % polygon.size()];
-    const double length = std::hypot(r[0] - p[0], r[1] - p[1]);
-    if (std::hypot(q[0] - p[0], q[1] - p[1]) < kSeen) continue;
-    if (i % 2 == 1 && std::fabs(cross(p, q, r)) < kSeen * length) continue;
-    result.push_back(q);
+// "M120 34l5-3 2 7Z": each point from the one before.
+std::string path_data(const std::vector<GridPolygon>& rings) {
+  std::string out;
+  GridPoint last;
+  const auto add = [&](int number, bool after_letter) {
+    if (number >= 0 && !after_letter) out += ' ';
+    out += std::to_string(number);
+  };
+  for (const GridPolygon& ring : rings) {
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      if (k < 2) out += k == 0 ? 'M' : 'l';
+      const GridPoint from = k == 0 ? GridPoint{} : last;
+      add(ring[k].x - from.x, k < 2);
+      add(ring[k].y - from.y, false);
+      last = ring[k];
+    }
+    out += 'Z';
   }
-  return result;
+  return out;
 }
 
 // One plane's panels, `top` the first row's upper edge.
@@ -86,12 +86,12 @@ class Block {
   double height() const { return rows() * (height_ + kTop) + 26; }
 
   std::string svg() const {
-    std::string all, out;
-    for (const auto& region : plane_.regions) all += path(region);
+    std::string rest, out;
+    for (std::size_t k = 0; k < plane_.regions.size(); ++k) rest += fmt::format("<use href=\"#region{}-{}\"/>", name_, k);
     out += fmt::format(
-        "<defs><path id=\"rest{0}\" d=\"{1}\" fill=\"{2}\" stroke=\"{2}\" stroke-width=\"0.6\"/>"
+        "<defs><g id=\"rest{0}\" fill=\"{2}\" stroke=\"{2}\">{1}</g>"
         "<clipPath id=\"panel{0}\"><rect width=\"{3:.1f}\" height=\"{4:.1f}\"/></clipPath></defs>\n",
-        name_, all, kRest, kPanel, height_);
+        name_, rest, kRest, kPanel, height_);
     for (std::size_t k = 0; k < plane_.regions.size(); ++k) out += panel(k);
     const double middle = kLeft + (columns() * (kPanel + kGap) - kGap) / 2, bottom = top_ + rows() * (height_ + kTop);
     out += text(middle, bottom + 10, "middle", runs(math_label(plane_.x_name)), " font-size=\"12\"");
@@ -112,20 +112,12 @@ class Block {
   double y_at(double y) const { return (y_.hi() - y) / y_.width() * height_; }
 
   std::string path(const std::vector<RegionMap::Polygon>& region) const {
-    std::string out;
+    std::vector<GridPolygon> polygons;
     const auto add = [&](const RegionMap::Polygon& polygon, double dx, double dy) {
-      RegionMap::Polygon points;
-      for (const auto& [x, y] : polygon) points.push_back({x_at(x + dx), y_at(y + dy)});
-      points = without_straight(points);
-      if (points.size() < 3) return;
-      // All in one sense: where polygons of two senses lie over one another a path has a hole.
-      if (area(points) < 0) std::reverse(points.begin(), points.end());
-      char command = 'M';
-      for (const auto& [x, y] : points) {
-        out += fmt::format("{}{:.1f} {:.1f}", command, x, y);
-        command = 'L';
-      }
-      out += 'Z';
+      GridPolygon& points = polygons.emplace_back();
+      for (const auto& [x, y] : polygon)
+        points.push_back(
+            {static_cast<int>(std::lround(kSteps * x_at(x + dx))), static_cast<int>(std::lround(kSteps * y_at(y + dy)))});
     };
     // An angle's polygons go on at the other end.
     const auto turns = [](bool angle, const RegionMap::Polygon& polygon, std::size_t j) {
@@ -140,19 +132,20 @@ class Block {
     for (const RegionMap::Polygon& polygon : region)
       for (const double dx : turns(plane_.x_angle, polygon, 0))
         for (const double dy : turns(plane_.y_angle, polygon, 1)) add(polygon, dx, dy);
-    return out;
+    return path_data(outlines_of_union(polygons, kSeen));
   }
 
   std::string panel(std::size_t k) const {
     const int row = static_cast<int>(k) / kColumns, column = static_cast<int>(k) % kColumns;
     const double left = kLeft + column * (kPanel + kGap), top = top_ + row * (height_ + kTop);
-    const char* color = kColors[k % kColors.size()];
+    const char* color = region_color(k);
     std::string out = fmt::format("<g transform=\"translate({:.1f},{:.1f})\">\n", left, top);
     out += text(0, -6, "start", escaped(map_.labels[k]), fmt::format(" font-size=\"11\" fill=\"{}\"", color));
     out += fmt::format(
-        "<g clip-path=\"url(#panel{0})\"><use href=\"#rest{0}\"/>"
-        "<path class=\"region\" d=\"{1}\" fill=\"{2}\" stroke=\"{2}\" stroke-width=\"0.6\"/></g>\n",
-        name_, path(plane_.regions[k]), color);
+        "<g clip-path=\"url(#panel{0})\"><g transform=\"scale({4:g})\" stroke-width=\"{5:g}\" fill-rule=\"evenodd\">"
+        "<use href=\"#rest{0}\"/><g fill=\"{3}\" stroke=\"{3}\"><path class=\"region\" id=\"region{0}-{1}\" "
+        "d=\"{2}\"/></g></g></g>\n",
+        name_, k, path(plane_.regions[k]), color, 1.0 / kSteps, 0.6 * kSteps);
     out += fmt::format("<rect width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#333\" stroke-width=\"0.6\"/>\n",
                        kPanel, height_);
     for (const Tick& t : ticks(x_.lo(), x_.hi(), plane_.x_angle, 4)) {
@@ -174,6 +167,8 @@ class Block {
 };
 
 }  // namespace
+
+const char* region_color(std::size_t k) { return kColors[k % kColors.size()]; }
 
 std::string to_svg(const RegionMap& map) {
   std::string body;

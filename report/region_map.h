@@ -21,6 +21,10 @@ struct RegionMap {
   std::vector<Plane> planes;
 };
 
+/// "#0072b2": of region `k`. Apart from each other in hue and lightness, also for most of the colour-blind; after twelve
+/// they begin again.
+const char* region_color(std::size_t k);
+
 std::string to_svg(const RegionMap& map);
 
 }  // namespace corank::report

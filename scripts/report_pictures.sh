@@ -1,11 +1,12 @@
 #!/bin/bash
-# Makes doc/images/ anew: photographs of Dextar's report, of its family's page, and of the report of the tutorial on parts, in a headless
+# Makes doc/images/ anew: photographs of Dextar's report, of its family's page, of a path's page, and of the report of the tutorial on parts, in a headless
 # Chromium.
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
 build_release corank
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$build/app/corank" report "$root/models/dextar.cuik" -o "$work"
+"$build/app/corank" path "$root/models/dextar.cuik" --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=1 --to-mode 3 --report "$work/path.html"
 "$build/app/corank" sweep "$root/models/dextar.cuik" -D l2=1.6:0.9:8 -o "$work/family"
 (cd "$work" && PATH="$build/app:$PATH" bash -euc "$(sed -n '/^```sh$/,/^```$/{/^```/!p}' "$root/doc/tutorial_parts.md")")
 PYTHONPATH="$root/tests/browser" python3 -B - "$work/index.html" "$root/doc/images" <<'PYTHON'
@@ -25,6 +26,10 @@ with Browser(1240, 1000) as browser:
     browser.run("corank.family.choose(2)")
     browser.drawn()
     browser.photograph(".family-stage", folder / "dextar_family.png")
+    browser.open(pathlib.Path(page).parent / "path.html")
+    browser.run("corank.show.player.seek(0.3 * corank.show.curve.length)")
+    browser.drawn()
+    browser.photograph(".stage", folder / "dextar_path.png")
     browser.open(pathlib.Path(page).parent / "five_bar/index.html")
     browser.drawn()
     browser.photograph(".stage", folder / "five_bar_parts.png")

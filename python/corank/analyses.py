@@ -12,6 +12,7 @@ from . import _corank
 from ._corank import Expression
 from .errors import deliver
 from .expression import ExpressionLike, as_expression
+from .optional import require
 from .point import Interval
 from .progress import ProgressOption, Shown
 
@@ -151,7 +152,7 @@ class ClearanceMap(Analysis):
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The rows as a data frame."""
-        import pandas
+        pandas = require("pandas")
 
         return pandas.DataFrame(self.rows)
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 from typing import Any, Dict, List, Tuple
 
+from .optional import require
+
 
 def _root(coefficients: List[str], between: Tuple[str, str]) -> Any:
-    import sympy
+    sympy = require("sympy")
 
     t = sympy.Symbol("t")
     polynomial = sympy.Poly([sympy.Rational(c) for c in reversed(coefficients)], t)
@@ -27,7 +29,7 @@ def _root(coefficients: List[str], between: Tuple[str, str]) -> Any:
 
 def coordinates(point: Dict[str, Any]) -> Dict[str, Any]:
     """Of an exact point as the extension gives it: each variable's value."""
-    import sympy
+    sympy = require("sympy")
 
     values: Dict[str, Any] = {}
     t: Any = None
@@ -44,7 +46,7 @@ def coordinates(point: Dict[str, Any]) -> Dict[str, Any]:
 
 def angle(cosine: Any, sine: Any, enclosure: Tuple[float, float]) -> Any:
     """The angle in radians with this cosine and sine, in the turn of its enclosure."""
-    import sympy
+    sympy = require("sympy")
 
     value = sympy.atan2(sine, cosine)
     middle = (enclosure[0] + enclosure[1]) / 2

@@ -9,6 +9,7 @@ from typing import Any, List, Union
 
 from . import _corank
 from ._corank import Expression, Relation
+from .optional import require
 
 #: What stands for an expression: one of corank's or SymPy's, a text of the model language, a number.
 ExpressionLike = Union[Expression, str, int, float, Fraction, Any]
@@ -47,7 +48,7 @@ def as_expression(value: ExpressionLike) -> Expression:
 
 
 def _from_sympy(e: Any) -> Expression:
-    import sympy
+    sympy = require("sympy")
 
     if e.is_Symbol:
         return _corank.symbol(e.name)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Tuple
 
 from . import _corank, notebook
 from .errors import Interrupted
-from .progress import ProgressOption
+from .progress import ProgressOption, Shown
 from .result import PathLike, Result
 
 if TYPE_CHECKING:
@@ -81,7 +81,8 @@ def report(
         sets: their names; None: corank.USUAL_SETS.
         sigma, cspace_sigma: the largest edge of a box, of the singularities' sets and of C-space.
         corank: of the sets with a kernel.
-        max_boxes, max_found, time_limit: what ends each search, 0: no limit. The page says what is incomplete.
+        max_boxes, max_found, time_limit: what ends each search, 0: no limit. The page says what is incomplete. Aspects, of
+            C-spaces of one or two dimensions, are left out where they take longer than the time limit.
         results: take these, of one model, instead of solving.
 
     Raises:
@@ -108,14 +109,20 @@ def report(
             raise Interrupted([*found, early.result]) from None
     cores = [r._core for r in found]
     command = _command("report", self, sets, sigma, cspace_sigma)
+    aspects = None
+    if not results:
+        with Shown(progress) as show:
+            aspects, raised = _corank.page_aspects(cores, threads, time_limit, show)
+        if raised is not None:
+            raise Interrupted(found)
     if path is None:
-        return Report(_corank.report_page(cores, command, [], []), found, None)
+        return Report(_corank.report_page(cores, command, [], [], aspects), found, None)
     folder = os.fspath(path)
     figures = write_figures(folder, found[0].mechanism if found else self, found)
     files = [f"{r.set}.h5" for r in found]
     for r, file in zip(found, files):
         r.save(os.path.join(folder, file))
-    page = Report(_corank.report_page(cores, command, figures, files), found, os.path.join(folder, "index.html"))
+    page = Report(_corank.report_page(cores, command, figures, files, aspects), found, os.path.join(folder, "index.html"))
     page.save(os.path.join(folder, "index.html"))
     return page
 

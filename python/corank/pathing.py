@@ -4,17 +4,24 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Union
 
 from . import _corank
-from .errors import deliver
+from .errors import ModelError, deliver
 from .expression import ExpressionLike, as_expression
+from .notebook import Page
 from .progress import ProgressOption, Shown
 
 if TYPE_CHECKING:
     import pandas
 
     from .mechanism import Mechanism
+    from .result import Result
+
+#: What the portraits of a page show, as far as it is found soon.
+_PORTRAYED = ("cspace", "forward", "inverse")
+_MOST_BOXES = 100_000
+_TITLES: Dict[str, str] = {s[0]: s[1] for s in _corank.sets}
 
 
 class Path:
@@ -29,10 +36,20 @@ class Path:
         data: the JSON object, as the command line's --json prints it; str() is its table.
     """
 
-    def __init__(self, text: str, table: str, file: Optional["_corank.PathFile"] = None) -> None:
+    def __init__(
+        self,
+        text: str,
+        table: str,
+        file: Optional["_corank.PathFile"] = None,
+        picture: Optional["_corank.PathPicture"] = None,
+        mechanism: Optional["Mechanism"] = None,
+    ) -> None:
         self.data: Dict[str, Any] = json.loads(text)
         self._table = table
         self._file = file
+        self._picture = picture
+        self._mechanism = mechanism
+        self._page: Optional[Page] = None
         self.status: str = self.data["status"]
         self.waypoints: List[Dict[str, float]] = self.data["waypoints"]
         self.radius: Optional[float] = self.data["radius"]
@@ -63,6 +80,55 @@ class Path:
         with Shown(progress) as show:
             text, _, raised = _corank.verify_path(self._need(), show)
         return bool(deliver(json.loads(text), raised)["verified"])
+
+    def animate(
+        self,
+        path: Optional[Union[str, "os.PathLike[str]"]] = None,
+        *,
+        results: Optional[Sequence["Result"]] = None,
+        threads: int = 1,
+        time_limit: float = 4,
+        progress: ProgressOption = None,
+    ) -> Page:
+        """An HTML page on which the mechanism moves along the path, over the loci in the input and output portraits; where
+        there is none, it stands at both ends, and the page says why. A notebook shows it.
+
+        Args:
+            path: a file to write it to; None: the page is only returned.
+            results: of sets of the mechanism, to be drawn; None: C-space, forward and inverse singularities are solved for.
+            time_limit: seconds for each of these; a set that takes longer is not drawn, and the page says so. 0: none.
+        """
+        if self._picture is None or self._mechanism is None:
+            raise ValueError("this path does not know its mechanism")
+        drawn, missing = list(results or []), []
+        for name in () if results is not None else _PORTRAYED:
+            coarser = 3.0 if name == "cspace" else 1.0  # a background
+            try:
+                found = self._mechanism.solve(
+                    name,
+                    max_found=_MOST_BOXES,
+                    threads=threads,
+                    time_limit=time_limit,
+                    coarser=coarser,
+                    progress=progress,
+                )
+            except ModelError:
+                missing.append(_TITLES[name])
+                continue
+            if found.complete:
+                drawn.append(found)
+            else:
+                missing.append(_TITLES[name])
+        text = _corank.path_page(self._picture, [r._core for r in drawn], missing, "")
+        page = Page(text, None if path is None else os.fspath(path))
+        if path is not None:
+            page.save(path)
+        return page
+
+    def _repr_html_(self) -> str:
+        if self._page is None:
+            self._page = self.animate(progress=False)
+        return self._page._repr_html_()
 
     def to_pandas(self) -> "pandas.DataFrame":
         """A row for each waypoint, a column for each coordinate."""
@@ -97,7 +163,7 @@ def path(
     """
     ends = [[(name, as_expression(v)) for name, v in values.items()] for values in (start, end)]
     with Shown(progress) as show:
-        text, table, file, raised = _corank.path(
+        text, table, file, picture, raised = _corank.path(
             self._core, ends[0], start_mode, ends[1], end_mode, avoid, radius, threads, max_boxes, time_limit, show
         )
-    return deliver(Path(text, table, file), raised)
+    return deliver(Path(text, table, file, picture, self), raised)

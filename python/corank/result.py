@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _corank, notebook, plotting
 from .errors import deliver
+from .optional import require
 from .point import Interval, Point
 from .progress import ProgressOption, Shown
 
@@ -270,7 +271,7 @@ class Result:
     def to_pandas(self, angles: bool = False) -> "pandas.DataFrame":
         """A data frame with a row for each box: its verdict, and NAME_lo and NAME_hi of each variable; with `angles` those
         of each angle, in radians, too."""
-        import pandas
+        pandas = require("pandas")
 
         n = len(self)
         columns = [f"{name}_{end}" for name in self.variables for end in ("lo", "hi")]
@@ -309,7 +310,7 @@ class Result:
 
     def page(self) -> "notebook.Page":
         """A report of this set alone as one HTML page; a notebook shows it with its 3-D view and its moving mechanism."""
-        return notebook.Page(_corank.report_page([self._core], "", [], []))
+        return notebook.Page(_corank.report_page([self._core], "", [], [], None))
 
     def show(self, height: int = 600) -> "notebook.Page":
         """The same, for the end of a notebook's cell. `height`: in pixels."""

@@ -2,16 +2,19 @@
 
 const vertexShader = `
   attribute vec3 extent;
+  attribute vec3 tint;
+  varying vec3 colour;
   uniform float pixels;
   uniform float least;
   void main() {
+    colour = tint;
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * seen;
     float size = (extent.x + extent.y + extent.z) / 3.0;
     gl_PointSize = max(least, pixels * size * projectionMatrix[1][1] / gl_Position.w);
   }`;
 const fragmentShader = `
-  uniform vec3 colour;
+  varying vec3 colour;
   uniform float opacity;
   void main() {
     vec2 at = gl_PointCoord - 0.5;
@@ -34,50 +37,66 @@ function spreadOrder(n) {
 // A set of `dimension` 2 or more that is not singular is drawn faint: one sees the others through it.
 const isFaint = (set) => !set.singular && set.dimension > 1;
 
-const pointOpacity = (set) => (isFaint(set) ? 0.16 * Math.min(1, 9e4 / set.count) : 1);
+// Colours are told apart where they are stronger than one alone has to be.
+const opacities = {points: {plain: 0.16, coloured: 0.42}, boxes: {plain: 0.07, coloured: 0.2}};
+const pointOpacity = (set, kind) => (isFaint(set) ? opacities.points[kind] * Math.min(1, 9e4 / set.count) : 1);
 
-export function pointCloud(set, middles, extents, colourText) {
+// For each box the three numbers of its colour as the screen shows it.
+function tintsOf(count, colourOf) {
+  const known = new Map(),
+    tints = new Float32Array(3 * count);
+  for (let i = 0; i < count; ++i) {
+    const text = colourOf(i);
+    if (!known.has(text)) known.set(text, new THREE.Color(text).convertLinearToSRGB().toArray());
+    tints.set(known.get(text), 3 * i);
+  }
+  return tints;
+}
+
+// `colourOf(i)`: the colour of the i-th box, as CSS has it; `kind`: "plain" where it is that of all boxes, or "coloured". So below.
+export function pointCloud(set, middles, extents, colourOf, kind) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(middles, 3));
   geometry.setAttribute("extent", new THREE.BufferAttribute(extents, 3));
   geometry.setIndex(new THREE.BufferAttribute(spreadOrder(extents.length / 3), 1));
+  geometry.setAttribute("tint", new THREE.BufferAttribute(tintsOf(extents.length / 3, colourOf), 3));
   const faint = isFaint(set);
-  const colour = new THREE.Color(colourText);
-  colour.convertLinearToSRGB();
   const material = new THREE.ShaderMaterial({
     vertexShader,
     fragmentShader,
     transparent: true,
     depthWrite: !faint,
     uniforms: {
-      colour: {value: colour},
-      opacity: {value: pointOpacity(set)},
+      opacity: {value: pointOpacity(set, kind)},
       pixels: {value: 400},
       least: {value: faint ? 1.5 : set.dimension === 0 ? 9 : 3.5},
     },
   });
   const points = new THREE.Points(geometry, material);
   points.frustumCulled = false;
+  points.userData.kind = kind;
   return points;
 }
 
-export function boxCloud(set, middles, extents, colourText) {
+export function boxCloud(set, middles, extents, colourOf, kind) {
   const faint = isFaint(set);
   const material = new THREE.MeshBasicMaterial({
-    color: colourText,
     transparent: faint,
-    opacity: faint ? 0.07 : 1,
+    opacity: faint ? opacities.boxes[kind] : 1,
     depthWrite: !faint,
   });
   const mesh = new THREE.InstancedMesh(new THREE.BoxGeometry(1, 1, 1), material, extents.length / 3);
   const matrix = new THREE.Matrix4(),
+    colour = new THREE.Color(),
     least = set.singular ? 0.004 : 0.001;
   spreadOrder(extents.length / 3).forEach((i, place) => {
     matrix.makeScale(...[0, 1, 2].map((k) => Math.max(extents[3 * i + k], least)));
     matrix.setPosition(middles[3 * i], middles[3 * i + 1], middles[3 * i + 2]);
     mesh.setMatrixAt(place, matrix);
+    mesh.setColorAt(place, colour.set(colourOf(i)));
   });
   mesh.frustumCulled = false;
+  mesh.userData.kind = kind;
   return mesh;
 }
 
@@ -140,9 +159,9 @@ export function setDetail(set, object, count, turning) {
   const strength = Math.sqrt(count / Math.max(1, shown));
   if (object.isInstancedMesh) {
     object.count = shown;
-    if (isFaint(set)) object.material.opacity = 0.07 * strength;
+    if (isFaint(set)) object.material.opacity = opacities.boxes[object.userData.kind] * strength;
   } else {
     object.geometry.setDrawRange(0, shown);
-    object.material.uniforms.opacity.value = pointOpacity(set) * strength;
+    object.material.uniforms.opacity.value = pointOpacity(set, object.userData.kind) * strength;
   }
 }

@@ -62,3 +62,36 @@ export function paintCoverage(context, counts, width, height, colour, tone) {
   context.fillStyle = colour;
   context.fillRect(0, 0, width, height);
 }
+
+// Paints sheets {colour, counts} over one another: the mean of the colours over a pixel, the stronger the more boxes lie there.
+export function paintMixture(context, sheets, width, height) {
+  const image = context.createImageData(width, height),
+    colours = sheets.map(({colour}) => rgbOf(context, colour));
+  for (let i = 0; i < width * height; ++i) {
+    let total = 0,
+      red = 0,
+      green = 0,
+      blue = 0;
+    sheets.forEach(({counts}, k) => {
+      const count = counts[i];
+      if (count < 1e-3) return;
+      // Of two sheets of one aspect the second adds no colour.
+      const weight = Math.min(1, count);
+      total += weight;
+      red += weight * colours[k][0];
+      green += weight * colours[k][1];
+      blue += weight * colours[k][2];
+    });
+    if (total > 0) image.data.set([red / total, green / total, blue / total, 255 * Math.min(0.75, 0.55 * total)], 4 * i);
+  }
+  context.putImageData(image, 0, 0);
+}
+
+// A colour of CSS as the numbers of a pixel.
+function rgbOf(context, colour) {
+  context.fillStyle = colour;
+  context.fillRect(0, 0, 1, 1);
+  const [...pixel] = context.getImageData(0, 0, 1, 1).data;
+  context.clearRect(0, 0, 1, 1);
+  return pixel;
+}

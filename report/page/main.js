@@ -1,4 +1,6 @@
 // Puts the page together.
+import {aspectLegend, readAspects} from "./aspects.js";
+import {axisOrder, firstOf} from "./axis_choice.js";
 import {readModel} from "./data.js";
 import {drawnPoints} from "./mechanism.js";
 import {mechanismPicture} from "./mechanism_picture.js";
@@ -38,24 +40,11 @@ function clearest(model, samples) {
   return best;
 }
 
-// Outputs, inputs, passive coordinates; those of one value are no axes.
-function axisOrder(model) {
-  const rank = {output: 0, input: 1, passive: 2, auxiliary: 3};
-  const indices = model.coordinates
-    .map((_, i) => i)
-    .filter((i) => model.coordinates[i].range[1] - model.coordinates[i].range[0] > 1e-9);
-  return indices.sort((a, b) => rank[model.coordinates[a].role] - rank[model.coordinates[b].role] || a - b);
-}
-
-function firstOf(order, model, role) {
-  const own = order.filter((i) => model.coordinates[i].role === role);
-  return [...own, ...order.filter((i) => !own.includes(i))].slice(0, 2);
-}
-
 function main() {
   takeTheme();
-  const model = readModel(),
-    filled = (test = () => true) => model.sets.find((set) => set.count > 0 && test(set));
+  const model = readModel();
+  readAspects(model);
+  const filled = (test = () => true) => model.sets.find((set) => set.count > 0 && test(set));
   const samples = sampleConfigurations(model, filled((set) => !set.singular) || filled(), 300);
   const everywhere = model.sets.flatMap((set) => sampleConfigurations(model, set, 150));
   const typical = clearest(model, samples);
@@ -104,6 +93,16 @@ function main() {
       for (const portrait of views) portrait.draw();
       if (space) space.build();
     });
+  }
+  if (model.aspects) {
+    const redraw = () => {
+      for (const portrait of views) portrait.draw();
+      if (space) space.build();
+    };
+    const inPlane = (on) => views.forEach((portrait) => portrait.setByAspect(on));
+    aspectLegend(model.aspects, document.getElementById("portraits"), inPlane, redraw);
+    if (space) aspectLegend(model.aspects, document.getElementById("space"), (on) => (space.byAspect = on), redraw);
+    if (space) space.build();
   }
   for (const button of document.querySelectorAll(".show-point"))
     button.addEventListener("click", () => showPoint(model, panel, button));

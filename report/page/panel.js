@@ -3,7 +3,7 @@
 import {mechanismPicture} from "./mechanism_picture.js";
 import {pointOfBoxes} from "./newton.js";
 import {Player} from "./player.js";
-import {coordinateValues, groupedText, htmlLabel, htmlUnit, isAngle, numberText} from "./values.js";
+import {coordinateTable, coordinateValues, groupedText, isAngle} from "./values.js";
 
 const passageWords = {barrier: "barrier", traversable: "the output can pass", unproven: "passage open"};
 
@@ -119,16 +119,6 @@ export class Panel {
 
   describe({set, box, residual, moved}, values) {
     const verdict = this.model.verdicts[set.verdicts[box]];
-    const rows = this.model.coordinates
-      .filter(({role}) => role !== "auxiliary")
-      .map((coordinate) => {
-        const unit = htmlUnit(this.model, coordinate),
-          value = values[coordinate.name];
-        const degrees = isAngle(coordinate) ? ` <small>${numberText((value * 180) / Math.PI, 4)}°</small>` : "";
-        return `<tr><th>${htmlLabel(coordinate)}</th><td>${numberText(value)}${unit ? ` ${unit}` : ""}${degrees}</td><td>${
-          coordinate.role === "passive" ? "" : coordinate.role
-        }</td></tr>`;
-      });
     const drawn = this.model.drawing.points.length > 0;
     const shown = drawn ? "Drawn at" : "Values at";
     const how = moved
@@ -136,10 +126,12 @@ export class Panel {
       : `${shown} the middle of the box: Newton’s method found no point in it.`;
     const arrows =
       drawn && set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
+    const {aspects} = this.model;
+    const aspect = aspects?.set === set ? aspects.htmlOf(box) : "";
     const types = [...set.typesOf(box), ...(set.passages ? [passageWords[set.passageOf(box)]] : [])].join(", ");
     return `<p class="headline"><span class="swatch ${set.name}"></span>${set.title} · box ${groupedText(box + 1)} of ${groupedText(
       set.count,
-    )} · <span class="verdict ${verdict}">${verdict}</span>${types ? ` · ${types}` : ""}</p><table>${rows.join("")}</table><p class="fine">${how}${arrows}</p>`;
+    )} · <span class="verdict ${verdict}">${verdict}</span>${types ? ` · ${types}` : ""}${aspect ? ` · ${aspect}` : ""}</p>${coordinateTable(this.model, values)}<p class="fine">${how}${arrows}</p>`;
   }
 
   showNothing(place, portrait) {

@@ -1,8 +1,8 @@
 // A picture of C-space and the loci over two coordinates, painted on a canvas; and what lies where in it.
 import {Plane, drawAxes} from "./axes.js";
-import {coverage, paintCoverage, sheetTone} from "./density.js";
+import {coverage, paintCoverage, paintMixture, sheetTone} from "./density.js";
 import {Projection, groupTouching} from "./projection.js";
-import {fullTurn, isAngle} from "./values.js";
+import {coordinateValue, fullTurn, isAngle} from "./values.js";
 
 const stroke = {length: 6, apart: 5, directions: 8}; // to the forbidden side of a barrier, in pixels
 const reach = 9; // pixels within which a curve or a point is taken to be meant
@@ -20,17 +20,20 @@ export function pageColours(element) {
     line: colour("--line-strong"),
     undecided: colour("--undecided"),
     passage: {traversable: colour("--traversable"), unproven: colour("--open")},
+    way: colour("--way"),
     of: ({name}) => colour(`--set-${name}`),
   };
 }
 
 export class Picture {
-  // Of these sets over two coordinates.
-  constructor(model, sets, axes) {
+  // Of these sets over two coordinates, and of more configurations, `points`.
+  constructor(model, sets, axes, points = []) {
     this.model = model;
     this.sets = sets;
     this.axes = axes;
+    this.points = points;
     this.hidden = new Set(); // names of sets
+    this.byAspect = false;
     this.projections = sets.map((set) => new Projection(set, ...axes));
     this.limits = [0, 1].map((k) => this.range(k));
   }
@@ -43,6 +46,11 @@ export class Picture {
       const [a, b] = projection.hull(k);
       low = Math.min(low, a);
       high = Math.max(high, b);
+    }
+    for (const x of this.points) {
+      const value = coordinateValue(x, this.axes[k]);
+      low = Math.min(low, value);
+      high = Math.max(high, value);
     }
     if (!(low < high)) [low, high] = low === high ? [low - 1, high + 1] : [-1, 1];
     if (isAngle(this.axes[k]) && high - low > 0.6 * fullTurn) return [-Math.PI, Math.PI];
@@ -76,7 +84,8 @@ export class Picture {
     }
     for (const projection of shown.slice().sort((a, b) => a.set.layer - b.set.layer)) {
       const {set} = projection;
-      if (!set.singular && set.dimension > 1) this.drawDensity(context, projection, false, colours.of(set), sheetTone);
+      if (this.aspectsOf(set)) this.drawAspects(context, projection, this.aspectsOf(set));
+      else if (!set.singular && set.dimension > 1) this.drawDensity(context, projection, false, colours.of(set), sheetTone);
       else this.drawBoxes(context, projection);
     }
     for (const projection of shown) this.drawForbiddenSides(context, projection);
@@ -111,19 +120,45 @@ export class Picture {
     context.stroke();
   }
 
+  // The aspects whose colours a set is drawn in; null: it is not.
+  aspectsOf(set) {
+    const {aspects} = this.model;
+    return this.byAspect && aspects?.set === set && set.dimension > 1 ? aspects : null;
+  }
+
   // The boxes of a projection that are pending, or those that are not, in one colour.
   drawDensity(context, projection, pending, colour, tone) {
+    const counts = this.countsOf(projection, (box) => this.isPending(projection.set, box) !== pending);
+    this.drawLayer(context, (layer, width, rows) => paintCoverage(layer, counts, width, rows, colour, tone));
+  }
+
+  // Each box in the colour of its aspect, mixed where several lie over one another.
+  drawAspects(context, projection, aspects) {
+    const plain = this.colours.of(projection.set);
+    const sheets = aspects.numbers
+      .filter((number) => !aspects.hidden.has(number))
+      .map((number) => ({
+        colour: aspects.colourOf(number, plain),
+        counts: this.countsOf(projection, (box) => aspects.of[box] !== number || this.isPending(projection.set, box)),
+      }));
+    this.drawLayer(context, (layer, width, rows) => paintMixture(layer, sheets, width, rows));
+  }
+
+  // How many boxes lie over each pixel of the plane.
+  countsOf(projection, skip) {
     const {pad, inner, height} = this.plane;
-    const width = Math.round(inner * this.ratio);
-    const rows = Math.round(height * this.ratio);
     const toX = (x) => (this.plane.toX(x) - pad.left) * this.ratio;
     const toY = (y) => (this.plane.toY(y) - pad.top) * this.ratio;
-    const skip = (box) => this.isPending(projection.set, box) !== pending;
-    const counts = coverage(projection, width, rows, toX, toY, skip);
-    const layer = document.createElement("canvas");
-    layer.width = width;
-    layer.height = rows;
-    paintCoverage(layer.getContext("2d"), counts, width, rows, colour, tone);
+    return coverage(projection, Math.round(inner * this.ratio), Math.round(height * this.ratio), toX, toY, skip);
+  }
+
+  // What paint(context, width, rows) paints in pixels of the canvas goes over the plane.
+  drawLayer(context, paint) {
+    const {pad, inner, height} = this.plane,
+      layer = document.createElement("canvas");
+    layer.width = Math.round(inner * this.ratio);
+    layer.height = Math.round(height * this.ratio);
+    paint(layer.getContext("2d"), layer.width, layer.height);
     context.drawImage(layer, pad.left, pad.top, inner, height);
   }
 
@@ -135,7 +170,8 @@ export class Picture {
     const dots = set.dimension === 0;
     for (let i = 0; i < projection.length; ++i) {
       if (this.isPending(set, projection.owners[i])) continue;
-      if (set.passages) context.fillStyle = this.colours.passage[set.passageOf(projection.owners[i])] || this.colours.of(set);
+      if (set.passages)
+        context.fillStyle = this.colours.passage[set.passageOf(projection.owners[i])] || this.colours.of(set);
       const {left, right, top, bottom} = this.rectangle(projection, i);
       if (dots && right - left < 7 && bottom - top < 7) {
         context.beginPath();
@@ -205,7 +241,10 @@ export class Picture {
       const {set} = projection;
       if (this.hidden.has(set.name)) return;
       const surface = !set.singular && set.dimension > 1;
-      const boxes = projection.near(x, y, surface ? 0 : dx, surface ? 0 : dy);
+      const aspects = this.aspectsOf(set);
+      const boxes = projection
+        .near(x, y, surface ? 0 : dx, surface ? 0 : dy)
+        .filter(({box}) => !aspects || aspects.isShown(box));
       const groups = groupTouching(set, boxes).map((group) => ({...group, place: [x, y], axes: this.axes}));
       if (set.singular) found.unshift(...groups);
       else found.push(...groups);

@@ -3,16 +3,18 @@ import {Picture, pageColours} from "./picture.js";
 import {coordinateValue, htmlLabel, htmlUnit, numberText, plainLabel} from "./values.js";
 
 export class Portrait {
-  // `listener` has hover(candidates, place, portrait), pin(…), step(direction), escape().
-  constructor(model, root, axes, listener) {
+  // `listener` has hover(candidates, place, portrait), pin(…), step(direction), escape(). `trace`: a path to be drawn.
+  constructor(model, root, axes, listener, trace = null) {
     this.model = model;
     this.root = root;
     this.listener = listener;
+    this.trace = trace;
     this.frame = root.querySelector(".frame");
     this.base = root.querySelector("canvas.base");
     this.overlay = root.querySelector("canvas.overlay");
     this.selects = [...root.querySelectorAll("select")];
     this.hidden = new Set();
+    this.byAspect = false;
     this.cursor = null; // in the units of the axes
     this.shown = null; // the variables of what is shown, with its set
     this.fillSelects(axes);
@@ -35,8 +37,10 @@ export class Portrait {
       this.model,
       this.model.sets,
       axes.map((i) => this.model.coordinates[i]),
+      this.trace?.points,
     );
     this.picture.hidden = this.hidden;
+    this.picture.byAspect = this.byAspect;
     this.cursor = null;
     if (this.width) this.draw();
   }
@@ -64,6 +68,7 @@ export class Portrait {
     const context = this.overlay.getContext("2d");
     context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     context.clearRect(0, 0, this.width, this.overlay.height);
+    this.trace?.draw(context, this.picture);
     const {pad, inner, height} = this.picture.plane;
     if (this.cursor && document.activeElement === this.frame) {
       const [x, y] = [this.picture.plane.toX(this.cursor[0]), this.picture.plane.toY(this.cursor[1])];
@@ -94,6 +99,10 @@ export class Portrait {
         context.stroke();
       }
     }
+  }
+
+  setByAspect(byAspect) {
+    this.byAspect = this.picture.byAspect = byAspect;
   }
 
   // Marks the configuration that the panel shows.

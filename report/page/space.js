@@ -14,6 +14,7 @@ export class Space {
     this.form = root.querySelector("select.form");
     this.onPick = onPick;
     this.hidden = new Set();
+    this.byAspect = false;
     this.selects.forEach((select, k) => {
       model.coordinates.forEach((coordinate, i) => select.add(new Option(plainLabel(coordinate), i, false, i === axes[k])));
       select.addEventListener("change", () => this.build());
@@ -84,7 +85,10 @@ export class Space {
   // Middles and extents of a set's boxes in the cube; what was not searched is left out.
   cloud(set) {
     const pending = this.model.verdicts.indexOf("pending");
-    const owners = Uint32Array.from(set.verdicts.keys()).filter((box) => set.verdicts[box] !== pending);
+    const aspects = this.byAspect && this.model.aspects?.set === set ? this.model.aspects : null;
+    const owners = Uint32Array.from(set.verdicts.keys()).filter(
+      (box) => set.verdicts[box] !== pending && (!aspects || aspects.isShown(box)),
+    );
     const middles = new Float32Array(3 * owners.length);
     const extents = new Float32Array(3 * owners.length);
     const side = [0, 0];
@@ -97,7 +101,9 @@ export class Space {
       }
     });
     const make = this.form.value === "boxes" ? boxCloud : pointCloud;
-    const object = make(set, middles, extents, this.colours.of(set));
+    const plain = this.colours.of(set);
+    const colourOf = (i) => (aspects ? aspects.colourOfBox(owners[i], plain) : plain);
+    const object = make(set, middles, extents, colourOf, aspects ? "coloured" : "plain");
     object.renderOrder = set.singular ? 2 : 1;
     return {set, owners, middles, object};
   }

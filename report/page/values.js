@@ -50,6 +50,21 @@ export function coordinateValues(model, x) {
   return values;
 }
 
+// For innerHTML: a row for each coordinate with its value, its unit and what it is.
+export function coordinateTable(model, values) {
+  const rows = model.coordinates
+    .filter(({role}) => role !== "auxiliary")
+    .map((coordinate) => {
+      const unit = htmlUnit(model, coordinate),
+        value = values[coordinate.name];
+      const degrees = isAngle(coordinate) ? ` <small>${numberText((value * 180) / Math.PI, 4)}°</small>` : "";
+      return `<tr><th>${htmlLabel(coordinate)}</th><td>${numberText(value)}${unit ? ` ${unit}` : ""}${degrees}</td><td>${
+        coordinate.role === "passive" ? "" : coordinate.role
+      }</td></tr>`;
+    });
+  return `<table>${rows.join("")}</table>`;
+}
+
 // What a select box or an axis shows: "θ2", and the unit behind it.
 export const plainLabel = (item) => item.label[0] + item.label[1];
 // For innerHTML: what a model says is text, whatever it looks like.

@@ -36,6 +36,39 @@ TEST(Path, WritesWhatVerifyConfirms) {
   EXPECT_THAT(read_text(folder.file("p.csv")), HasSubstr("J3x,J3y,theta2,theta3,theta4,theta5,radius\n0.5"));
 }
 
+json path_on(const std::string& page) {
+  const std::string begin = "id=\"path\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  return json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+TEST(Path, WritesAPageWhoseFramesBeginAndEndWhereWasAsked) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_corank(dextar("3", {"--json", "--report", folder.file("p.html")}));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string page = read_text(folder.file("p.html"));
+  const json told = json::parse(outcome.out), shown = path_on(page);
+  ASSERT_EQ(shown["nodes"].size(), told["waypoints"].size());
+  EXPECT_EQ(shown["pieces"].size(), told["radii"].size());
+  const auto ends = {std::pair(0.5, shown["nodes"].front()), {0.7, shown["nodes"].back()}};
+  for (const auto& [x, node] : ends) {
+    EXPECT_NEAR(node["x"][0], x, 1e-12);  // J3x, J3y, then cosines and sines
+    EXPECT_NEAR(node["x"][1], 1.0, 1e-12);
+  }
+  for (std::size_t k = 0; k < shown["pieces"].size(); ++k) EXPECT_EQ(shown["pieces"][k]["radius"], told["radii"][k]);
+  EXPECT_THAT(page, AllOf(HasSubstr("There is a path, proven from end to end."), HasSubstr("boxes-forward"),
+                          HasSubstr("--to-mode 3")));
+}
+
+TEST(Path, WritesAPageOfBothEndsWhereThereIsNoPath) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_corank(dextar("2", {"--report", folder.file("p.html")})).status, 0);
+  const std::string page = read_text(folder.file("p.html"));
+  EXPECT_TRUE(path_on(page)["nodes"].empty());
+  EXPECT_EQ(path_on(page)["ends"].size(), 2u);
+  EXPECT_THAT(page, AllOf(HasSubstr("There is no such path, proven."), HasSubstr("class=\"unlike\"")));
+}
+
 TEST(Path, SaysThatNoneExistsAndReturnsZero) {
   const Outcome outcome = run_corank(dextar("2"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;

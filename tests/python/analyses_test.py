@@ -1,5 +1,7 @@
 """Reports, sweeps, topology, aspects, clearance, with the known answers of tests/analyze."""
 
+import json
+
 import pytest
 
 import corank
@@ -49,6 +51,7 @@ def test_a_report_is_a_page_with_its_files(three_slider, tmp_path):
     assert (tmp_path / "report" / "figures" / "output-portrait.svg").exists()
     for name in corank.USUAL_SETS:
         assert corank.open(tmp_path / "report" / f"{name}.h5").set == name
+    assert "8 aspects, 8 assembly modes, 4 working modes" in page.html and 'class="by-aspect"' in page.html
     again = corank.Mechanism.report(three_slider, results=page.results)
     assert again.path is None and "three_slider" in again.html
 
@@ -87,6 +90,34 @@ def test_a_path_of_dextar_is_proven_saved_and_verified(dextar, tmp_path):
     assert list(way.to_pandas().columns) == list(way.waypoints[0]) and len(way.radii) == len(way.waypoints) - 1
     way.save(tmp_path / "way.h5")
     assert (tmp_path / "way.h5").stat().st_size > 0
+
+
+def path_data(page):
+    """What the page's script reads of the path."""
+    text = page.html.split('id="path">', 1)[1].split("</script>", 1)[0]
+    return json.loads(text)
+
+
+def test_a_path_is_a_page_on_which_the_mechanism_moves(dextar, tmp_path):
+    way = dextar.path({"J3x": 0.3, "J3y": 1}, {"J3x": 0.9, "J3y": 1.1}, start_mode=1, end_mode=1)
+    forward = dextar.solve("forward", sigma=0.1)
+    page = way.animate(tmp_path / "way.html", results=[forward])
+    assert (tmp_path / "way.html").read_text() == page.html and "boxes-forward" in page.html
+    data = path_data(page)
+    assert data["status"] == "path" and len(data["nodes"]) == len(way.waypoints)
+    assert [piece["radius"] for piece in data["pieces"]] == way.radii
+    for x, values in ((data["ends"][0], way.waypoints[0]), (data["ends"][1], way.waypoints[-1])):
+        assert x[:2] == pytest.approx([values["J3x"], values["J3y"]], abs=1e-12)
+    assert "srcdoc=" in way._repr_html_() and "forward singularities" in page.html
+
+
+def test_a_page_shows_both_ends_where_no_path_joins_them_and_takes_no_strangers(dextar, three_slider):
+    apart = dextar.path({"J3x": 0.3, "J3y": 1}, {"J3x": 0.3, "J3y": 1}, start_mode=1, end_mode=2, avoid="both")
+    page = apart.animate(results=[])
+    assert path_data(page)["nodes"] == [] and "There is no such path" in page.html and 'class="unlike"' in page.html
+    with pytest.raises(ValueError, match="another model"):
+        apart.animate(results=[three_slider.solve("forward")])
+
 
 
 def test_ends_of_unlike_signs_are_separated(dextar):

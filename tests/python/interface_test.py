@@ -3,6 +3,7 @@
 import ast
 import doctest
 import inspect
+import os
 import pathlib
 import subprocess
 import sys
@@ -100,3 +101,17 @@ def test_a_checker_of_types_finds_the_users_fault_and_no_other(tmp_path):
     )
     faults = [line for line in done.stdout.splitlines() if "error" in line]
     assert "user.py:4: error: Incompatible types" in faults[0] and len(faults) == 2, done.stdout
+
+
+@pytest.mark.parametrize("package, use", [("sympy", "expression"), ("distributed", "cluster")])
+def test_what_is_not_installed_is_named_with_its_package(package, use):
+    program = {
+        "expression": "r = corank.load('models/dextar.cuik').solve('inverse', sigma=0.1); r.exact_points",
+        "cluster": "import corank.cluster",
+    }[use]
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys; sys.modules['{package}'] = None; import corank; {program}"],
+        cwd=os.environ["CORANK_SOURCE_DIR"], capture_output=True, text=True, check=False,
+    )
+    assert done.returncode != 0
+    assert f"ModuleNotFoundError: this needs the Python package {package}: apt-get install python3-{package}" in done.stderr

@@ -9,9 +9,13 @@
 It needs the package distributed. doc/cluster.md says how workers on other machines are started, and what happens when one dies.
 """
 
-from .engine import Checkpoints, solve, solve_run
-from .local import local_client, remote_client, security
-from .units import ClusterError, Plan, check_versions
+from ..optional import require
+
+require("distributed")
+
+from .engine import Checkpoints, solve, solve_run  # noqa: E402
+from .local import local_client, remote_client, security  # noqa: E402
+from .units import ClusterError, Plan, check_versions  # noqa: E402
 
 __all__ = [
     "Checkpoints",

@@ -1,8 +1,8 @@
-#include "corank/app/aspects_picture.h"
+#include "corank/report/aspects_picture.h"
 
 #include <fmt/format.h>
 
-namespace corank::app {
+namespace corank::report {
 
 std::vector<std::string> drawn_coordinates(const symbolic::Mechanism& model) {
   std::vector<std::string> result;
@@ -16,19 +16,25 @@ std::vector<std::string> drawn_coordinates(const symbolic::Mechanism& model) {
   return result;
 }
 
-report::RegionMap aspects_picture(const study::Question& question, const analyze::Aspects& aspects) {
-  report::RegionMap map;
-  map.title = fmt::format("{}: {} aspects", question.model.name(), aspects.aspects.at_least);
+std::vector<std::string> aspect_labels(const analyze::Aspects& aspects) {
+  std::vector<std::string> labels;
+  for (const std::vector<int>& signs : aspects.aspects.signs) {
+    labels.push_back(std::to_string(labels.size() + 1) + " ");
+    for (const int sign : signs) labels.back() += sign > 0 ? " +" : " −";
+  }
+  return labels;
+}
+
+RegionMap aspects_picture(const std::string& model, const analyze::Aspects& aspects) {
+  RegionMap map;
+  map.title = fmt::format("{}: {} aspects", model, aspects.aspects.at_least);
   if (!aspects.aspects.exact()) map.title += " at least";
   if (!aspects.forward_factors.empty() || !aspects.inverse_factors.empty())
     map.title += ", by the signs of the factors of det L_y and det L_z";
-  for (std::size_t k = 0; k < aspects.aspects.signs.size(); ++k) {
-    map.labels.push_back(std::to_string(k + 1) + " ");
-    for (const int sign : aspects.aspects.signs[k]) map.labels.back() += sign > 0 ? " +" : " −";
-  }
+  map.labels = aspect_labels(aspects);
   const analyze::PieceDrawing& drawing = *aspects.drawing;
   for (std::size_t c = 0; c + 1 < drawing.coordinates.size(); c += 2) {
-    report::RegionMap::Plane& plane = map.planes.emplace_back();
+    RegionMap::Plane& plane = map.planes.emplace_back();
     plane.x_name = drawing.coordinates[c], plane.y_name = drawing.coordinates[c + 1];
     plane.x_angle = drawing.is_angle[c], plane.y_angle = drawing.is_angle[c + 1];
     for (const auto& piece : drawing.pieces) {
@@ -42,4 +48,4 @@ report::RegionMap aspects_picture(const study::Question& question, const analyze
   return map;
 }
 
-}  // namespace corank::app
+}  // namespace corank::report

@@ -1,0 +1,93 @@
+#include "corank/analyze/piece_places.h"
+
+#include <algorithm>
+#include <map>
+
+#include "corank/analyze/aspects.h"
+#include "corank/core/box_tree.h"
+#include "corank/core/rounding.h"
+
+namespace corank::analyze {
+namespace {
+
+class Places {
+ public:
+  Places(SignCells& cells, const Pieces& pieces) : cells_(cells), parts_(cells.cells().size()) {
+    for (const Pieces::Part& part : pieces.parts) parts_[part.cell].emplace(part.signs, part.piece);
+    std::vector<const Box*> sides;
+    for (const SignCell& cell : cells.cells()) sides.push_back(&cell.sides);
+    if (!sides.empty()) tree_.emplace(sides, sides.front()->size());
+  }
+
+  int of(const Box& box) {
+    if (!tree_) return -1;
+    near_.clear();
+    tree_->for_each_overlapping(box, 0.0, [&](std::size_t c) { near_.push_back(c); });
+    const std::optional<int> only = only_piece();
+    return only ? *only : in_the_middle(box);
+  }
+
+ private:
+  // Of all parts of the cells nearby; −1: they have none. Nothing: there are several.
+  std::optional<int> only_piece() const {
+    int only = -1;
+    for (const std::size_t c : near_)
+      for (const auto& [signs, piece] : parts_[c]) {
+        if (only >= 0 && only != piece) return {};
+        only = piece;
+      }
+    return only;
+  }
+
+  bool is_over_middle(std::size_t c, const Box& box) const {
+    const SignCell& cell = cells_.cells()[c];
+    const std::vector<int>& frees = cells_.free(cell);
+    return std::all_of(frees.begin(), frees.end(), [&](int f) {
+      const auto j = static_cast<std::size_t>(f);
+      return cell.sides[j].contains(box[j].mid());
+    });
+  }
+
+  // Of the solutions over the middle's free values the one that is nearest to it.
+  int in_the_middle(const Box& box) {
+    std::erase_if(near_, [&](std::size_t c) { return !is_over_middle(c, box); });
+    if (const auto only = only_piece()) return *only;
+    int best = -1;
+    double least = 0;
+    for (const std::size_t c : near_) {
+      const SignCell& cell = cells_.cells()[c];
+      Box at = cell.sides;
+      for (const int f : cells_.free(cell))
+        at[static_cast<std::size_t>(f)] = Interval(box[static_cast<std::size_t>(f)].mid());
+      const Box solution = cells_.solution_over(cell, std::move(at));
+      const auto part = parts_[c].find(cells_.signs(solution));
+      if (part == parts_[c].end()) continue;
+      double far = 0;
+      for (std::size_t j = 0; j < box.size(); ++j) far = std::max(far, std::fabs(solution[j].mid() - box[j].mid()));
+      if (best >= 0 && far >= least) continue;
+      best = part->second;
+      least = far;
+    }
+    return best;
+  }
+
+  SignCells& cells_;
+  std::vector<std::map<std::vector<int>, int>> parts_;  // of each cell, by the signs
+  std::optional<BoxTree> tree_;
+  std::vector<std::size_t> near_;
+};
+
+}  // namespace
+
+std::vector<int> piece_places(SignCells& cells, const Pieces& pieces, const std::vector<CoverBox>& boxes,
+                              const solve::Control& control) {
+  const UpwardRounding rounding;
+  Places places(cells, pieces);
+  std::vector<int> result(boxes.size(), -1);
+  for (std::size_t i = 0; i < boxes.size() && !control.ended(); ++i)
+    if (boxes[i].box.size() == static_cast<std::size_t>(cells.system().size()) && boxes[i].verdict != Verdict::pending)
+      result[i] = places.of(boxes[i].box);
+  return result;
+}
+
+}  // namespace corank::analyze

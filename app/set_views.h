@@ -1,0 +1,15 @@
+// Sets that are searched for a page.
+#pragma once
+
+#include <cstdint>
+
+#include "corank/app/set_search.h"
+#include "corank/report/set_view.h"
+#include "corank/study/question.h"
+
+namespace corank::app {
+
+/// Searches set `index` of those that `search` names, showing its progress; others on the page take `taken` bytes.
+report::SetView solve_view(const SetSearch& search, study::Question question, std::size_t index, std::uint64_t taken);
+
+}  // namespace corank::app

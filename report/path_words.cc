@@ -1,0 +1,143 @@
+#include "corank/report/path_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "corank/report/page_words.h"
+#include "corank/symbolic/display_name.h"
+
+namespace corank::report {
+namespace {
+
+using analyze::Avoid;
+using analyze::Path;
+using symbolic::html_name;
+
+std::string avoided(Avoid avoid) { return avoid == Avoid::both ? "forward and inverse" : to_string(avoid); }
+
+std::string number(double value, int digits = 4) { return with_minus(fmt::format("{:.{}g}", value, digits)); }
+
+/// What bounds the configurations, but for what the equations imply: "the limits of θ₂, the ranges of J_3x and 2
+/// inequalities".
+std::string bounds_of(const symbolic::Mechanism& mechanism, const System& system) {
+  std::vector<std::string> limits, ranges, parts;
+  for (const symbolic::Limit& limit : mechanism.limits()) limits.push_back(limit.coordinate);
+  for (const Variable& v : system.variables)
+    if (v.kind == VariableKind::length && !v.auxiliary && !(v.lower_implied && v.upper_implied)) ranges.push_back(v.name);
+  for (const Angle& a : system.angles)
+    if (a.range.width() < 2 * std::numbers::pi - 1e-9) ranges.push_back(a.name);
+  if (!limits.empty()) parts.push_back("the limits of " + names_html(limits));
+  if (!ranges.empty()) parts.push_back("the ranges of " + names_html(ranges));
+  const auto& all = mechanism.constraints();
+  const auto inequalities = std::count_if(all.begin(), all.end(), [](const symbolic::Constraint& c) {
+    return c.relation.kind != symbolic::Relation::Kind::equal;
+  });
+  if (inequalities > 0) parts.push_back(fmt::format("{} inequalit{}", inequalities, inequalities == 1 ? "y" : "ies"));
+  std::string text;
+  for (std::size_t k = 0; k < parts.size(); ++k) text += (k == 0 ? "" : k + 1 == parts.size() ? " and " : ", ") + parts[k];
+  return text;
+}
+
+std::string kept_rank(Avoid avoid) {
+  const std::string y = "<i>L<sub>y</sub></i>", z = "<i>L<sub>z</sub></i>";
+  return avoid == Avoid::forward ? y : avoid == Avoid::inverse ? z : y + " and " + z;
+}
+
+void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, PathWords& words) {
+  const Tube& tube = *view.path.tube;
+  const std::size_t n = tube.pieces.size();
+  words.finding = "There is a path, proven from end to end.";
+  const std::string test = "a Newton test with one parameter proves one lift onto C-space";
+  words.proven.push_back("One unbroken way of configurations from the start to the end: " +
+                         (n == 1 ? test : fmt::format("{} pieces that meet, in each of which {}", grouped(n), test)) + ".");
+  words.proven.push_back(fmt::format("No {} singularity on it: {} keep{} full rank all along.",
+                                     view.avoid == Avoid::both ? "forward or inverse" : avoided(view.avoid),
+                                     kept_rank(view.avoid), view.avoid == Avoid::both ? "" : "s"));
+  if (const std::string bounds = bounds_of(mechanism, view.system); !bounds.empty())
+    words.proven.push_back(fmt::format("It keeps to {}.", bounds));
+  if (const double radius = tube.radius(); radius > 0)
+    words.proven.push_back(
+        fmt::format("All of that holds about it, too: for every configuration of which no variable, a length or the sine or "
+                    "cosine of an angle, differs by more than {} from a point of the path.",
+                    number(radius, 3)));
+  if (view.radius_asked > tube.radius())
+    words.unproven.push_back(fmt::format("The radius {} that was asked for.", number(view.radius_asked, 3)));
+  words.unproven.push_back(
+      "That the path is the shortest, or the radius the true distance from singularities, which may be larger.");
+}
+
+}  // namespace
+
+PathWords path_words(const symbolic::Mechanism& mechanism, const PathView& view) {
+  PathWords words;
+  words.kicker = fmt::format("A path without {} singularities", avoided(view.avoid));
+  const std::string& reason = symbolic::html_text(view.path.reason);
+  switch (view.path.status) {
+    case Path::Status::path: say_of_a_path(mechanism, view, words); break;
+    case Path::Status::separated:
+      words.finding = "There is no such path, proven.";
+      words.proven.push_back(
+          fmt::format("The two configurations lie in different pieces of C-space without {} singularities: {}.",
+                      avoided(view.avoid), reason));
+      words.proven.push_back(
+          fmt::format("Whoever moves from the one to the other comes through {} {} singularity, or leaves the ranges.",
+                      view.avoid == Avoid::inverse ? "an" : "a",
+                      view.avoid == Avoid::both ? "forward or inverse" : avoided(view.avoid)));
+      break;
+    case Path::Status::unknown:
+      words.finding = "Neither a path nor a proof that there is none was found.";
+      words.unproven.push_back(fmt::format("That the two configurations can be joined, or not: {}.", reason));
+      break;
+  }
+  return words;
+}
+
+std::string values_html(const PathView& view, const std::vector<double>& values, const std::vector<std::string>& shown) {
+  std::string html;
+  for (std::size_t k = 0; k < view.names.size(); ++k)
+    if (std::find(shown.begin(), shown.end(), view.names[k]) != shown.end())
+      html += fmt::format("{}<span class=\"constant\">{} = {}</span>", html.empty() ? "" : ", ", html_name(view.names[k]),
+                          number(values[k]));
+  return html;
+}
+
+std::string signs_html(const PathView& view) {
+  if (view.signs[0].empty()) return "";
+  const auto sign = [](int s) { return s > 0 ? "+" : s < 0 ? "−" : "not proven"; };
+  std::string html =
+      "<div class=\"scroll\"><table "
+      "class=\"signs\"><thead><tr><th>function</th><th>start</th><th>end</th></tr></thead><tbody>";
+  for (std::size_t k = 0; k < view.signs[0].size(); ++k) {
+    const auto &a = view.signs[0][k], &b = view.signs[1][k];
+    const std::string matrix = fmt::format("det <i>L<sub>{}</sub></i>", a.of == Avoid::forward ? "y" : "z");
+    const bool unlike = a.sign * b.sign < 0;
+    html += fmt::format("<tr{}><th>{}</th><td>{}</td><td>{}</td></tr>", unlike ? " class=\"unlike\"" : "",
+                        a.factor.empty() ? matrix
+                                         : fmt::format("<code>{}</code> <small>a factor of {}</small>",
+                                                       symbolic::html_text(a.factor), matrix),
+                        sign(a.sign), sign(b.sign));
+  }
+  return html + "</tbody></table></div>";
+}
+
+std::string waypoints_html(const PathView& view, const symbolic::Mechanism& mechanism) {
+  if (view.nodes.empty()) return "";
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < view.names.size(); ++k)
+    for (const symbolic::Coordinate& c : mechanism.coordinates())
+      if (c.name == view.names[k] && !c.auxiliary) shown.push_back(k);
+  std::string html = "<div class=\"scroll\"><table class=\"waypoints\"><thead><tr><th></th>";
+  for (const std::size_t k : shown) html += "<th>" + html_name(view.names[k]) + "</th>";
+  html += "<th>radius of the piece that follows</th></tr></thead><tbody>";
+  for (std::size_t i = 0; i < view.nodes.size(); ++i) {
+    html += fmt::format("<tr data-node=\"{}\"><th>{}</th>", i, i + 1);
+    for (const std::size_t k : shown) html += "<td>" + number(view.nodes[i][k]) + "</td>";
+    const std::vector<double>& radii = view.path.tube->radii;
+    html += fmt::format("<td>{}</td></tr>", i < radii.size() ? number(radii[i], 3) : "");
+  }
+  return html + "</tbody></table></div>";
+}
+
+}  // namespace corank::report
