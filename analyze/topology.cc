@@ -238,7 +238,8 @@ Topology topology(study::Question question, const TopologyOptions& options, solv
       result.processed = whole.statistics.processed;
       const std::vector<Limit> ends = without_unreached(space.system, touched, options, result.processed, control);
       for (const Limit& end : ends) result.ends.push_back(end.name);
-      result.components = components_within(space.system, whole, ends.empty() ? touched : ends, options, control);
+      // All that are touched: sheets of `boundary` boxes may go on beyond each of them.
+      result.components = components_within(space.system, whole, touched, options, control);
       result.reason = result.components.reason;
       if (!ends.empty()) {
         find_shape_with_ends(space.system, result.dimension, ends, options, result, control);

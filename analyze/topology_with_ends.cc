@@ -93,6 +93,12 @@ StrataCount count_on_strata(const certify::Strata& strata, const TopologyOptions
   return result;
 }
 
+bool same(const Polynomial& f, const Polynomial& g) {
+  return std::equal(
+      f.monomials.begin(), f.monomials.end(), g.monomials.begin(), g.monomials.end(),
+      [](const Monomial& a, const Monomial& b) { return a.factors == b.factors && a.coefficient == b.coefficient; });
+}
+
 // The pieces of an end's part of a surface's boundary, and to which of them corners belong.
 class EdgePieces {
  public:
@@ -111,6 +117,10 @@ class EdgePieces {
     std::vector<Polynomial> functions;
     for (int k = 0; k < static_cast<int>(ends.size()); ++k)
       if (k != end) others_.push_back(k), functions.push_back(ends[static_cast<std::size_t>(k)].function);
+    // Beyond whatever end this cover's boxes touch a `boundary` box's sheet may go on.
+    for (Limit& limit : limits(strata.edge(end), cover))
+      if (std::none_of(functions.begin(), functions.end(), [&](const Polynomial& f) { return same(f, limit.function); }))
+        functions.push_back(std::move(limit.function));
     if (cover.boxes.empty()) {
       count_ = 0;
       return;
