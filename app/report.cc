@@ -61,8 +61,12 @@ void add_aspects(const ReportCommand& command, const study::Question& question, 
   wanted.placed = &cspace->result.cover;
   try {
     const analyze::Aspects found = analyze::aspects(question, wanted, control);
-    if (control.ended() || !found.reason.empty()) return;
-    options.aspects = report::page_aspects(question.model.name(), found);
+    if (Interrupt::stop()) return;
+    options.aspects =
+        control.ended() ? report::no_page_aspects(fmt::format("the search did not end within {} s, which --time-limit sets",
+                                                              command.search.limits.time_limit))
+        : found.reason.empty() ? report::page_aspects(question.model.name(), found)
+                               : report::no_page_aspects(found.reason);
   } catch (const symbolic::ModelError&) {  // of matrices that are not square nothing is said
   }
 }

@@ -3,6 +3,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <fmt/format.h>
+
 #include "corank/python/bindings.h"
 #include "corank/python/model.h"
 #include "corank/python/path_picture.h"
@@ -54,8 +56,12 @@ py::tuple page_aspects(const std::vector<Result>& results, int threads, double t
     wanted.placed = &cspace->cover;
     try {
       const analyze::Aspects found = analyze::aspects(question, wanted, control);
-      if (control.ended() || !found.reason.empty()) return {};
-      return std::make_shared<report::PageAspects>(report::page_aspects(question.model.name(), found));
+      if (watcher.stop) return {};
+      return std::make_shared<report::PageAspects>(
+          control.ended()
+              ? report::no_page_aspects(fmt::format("the search did not end within {} s, the time limit", time_limit))
+          : found.reason.empty() ? report::page_aspects(question.model.name(), found)
+                                 : report::no_page_aspects(found.reason));
     } catch (const symbolic::ModelError&) {  // of matrices that are not square nothing is said
       return {};
     }

@@ -13,6 +13,10 @@ PageAspects page_aspects(const std::string& model, const analyze::Aspects& aspec
   return page;
 }
 
+PageAspects no_page_aspects(const std::string& why) {
+  return {.summary = "Not known: " + why + ".", .picture = {}, .labels = {}, .places = {}};
+}
+
 std::string aspects_json(const PageAspects& aspects) {
   if (aspects.places.empty() || aspects.labels.empty()) return "null";
   nlohmann::ordered_json json = {{"labels", aspects.labels}, {"colours", nlohmann::ordered_json::array()}};

@@ -18,6 +18,9 @@ struct PageAspects {
 /// Requires that something is known.
 PageAspects page_aspects(const std::string& model, const analyze::Aspects& aspects);
 
+/// What the page says where nothing is known.
+PageAspects no_page_aspects(const std::string& why);
+
 /// For the page's script: of each aspect its label and its colour, and two bytes for each box of C-space, its aspect's
 /// number from 1; 0: none. "null" without places.
 std::string aspects_json(const PageAspects& aspects);

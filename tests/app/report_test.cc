@@ -62,6 +62,13 @@ TEST(Report, NamesTheRangesThatCutASet) {
   EXPECT_THAT(read_text(again + "/index.html"), HasSubstr(sentence)) << "a result file holds what it takes to say so";
 }
 
+TEST(Report, SaysWhyAspectsAreNotKnown) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_corank({"report", model("planar/parallelogram"), "-o", folder.file("page")}).status, 0);
+  EXPECT_THAT(read_text(folder.file("page") + "/index.html"),
+              HasSubstr("Not known: C-space is not shown to be smooth in the search domain."));
+}
+
 TEST(Report, OfTheThreeSliderHoldsItsResultFiles) {
   const TemporaryFolder folder;
   const std::string to = folder.file("new/slider");
