@@ -7,6 +7,7 @@
 
 #include "corank/analyze/limits.h"
 #include "corank/analyze/piece_places.h"
+#include "corank/analyze/topology_with_ends.h"
 #include "corank/certify/determinant.h"
 #include "corank/certify/meeting.h"
 #include "corank/core/box_tree.h"
@@ -370,12 +371,12 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   for (const auto& e : inverse)
     if (std::none_of(forward.begin(), forward.end(), [&](const auto& f) { return same_tree(e, f); })) both.push_back(e);
   std::vector<Polynomial> ends;
-  for (const Limit& limit : limits(result.system, cover)) ends.push_back(limit.function);
-  if (!ends.empty()) {
-    search.sigma.reset();  // smaller sheets show to which of them C-space comes indeed
-    const Cover fine = solve::solve(solve::prepare(result.system, search, control), control);
-    for (const Limit& limit : limits(result.system, fine.complete() ? fine : cover)) result.limits.push_back(limit.name);
-  }
+  const std::vector<Limit> touched = limits(result.system, cover);
+  for (const Limit& limit : touched) ends.push_back(limit.function);
+  std::uint64_t processed = 0;
+  if (!touched.empty())
+    for (const Limit& limit : without_unreached(result.system, touched, {.threads = options.threads}, processed, control))
+      result.limits.push_back(limit.name);
   const auto count = [&](const std::vector<symbolic::Expression>& functions, bool first) {
     SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends);
     cells.refine(options.halvings, options.rounds, control);

@@ -19,7 +19,7 @@ std::vector<Limit> limits(const System& system, const Cover& cover) {
   for (const auto& [with, index] : found) {
     if (with == With::inequality) {
       const Polynomial& g = system.inequalities[static_cast<std::size_t>(index)];
-      result.push_back({g, g.source});
+      result.push_back({{g, with, index}, g.source});
       continue;
     }
     if (of_angles.contains(index)) continue;
@@ -29,7 +29,7 @@ std::vector<Limit> limits(const System& system, const Cover& cover) {
     const ExactNumber one = ExactNumber::rational("1");
     Polynomial g{{Monomial(lower ? one : -one, {Factor{index}}), Monomial(lower ? -v.lower : v.upper, {})}, name};
     if (g.monomials.back().coefficient.is_zero()) g.monomials.pop_back();
-    result.push_back({std::move(g), name});
+    result.push_back({{std::move(g), with, index}, name});
   }
   return result;
 }

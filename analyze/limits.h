@@ -5,14 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "corank/certify/stratum.h"
 #include "corank/core/cover.h"
 #include "corank/core/system.h"
 
 namespace corank::analyze {
 
-struct Limit {
-  Polynomial function;  ///< > 0: strictly within the limit
-  std::string name;     ///< "lower end of rho1", "range of theta2"
+/// Its function is positive strictly within the limit.
+struct Limit : certify::End {
+  std::string name;  ///< "lower end of rho1", "range of theta2"
 };
 
 /// Of a complete cover: where all of them are positive a solution is strictly inside the domain and the inequalities.

@@ -7,6 +7,7 @@
 
 #include "corank/analyze/aspects.h"
 #include "corank/analyze/limits.h"
+#include "corank/analyze/topology_with_ends.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/inertia.h"
 #include "corank/core/check.h"
@@ -232,19 +233,22 @@ Topology found(const study::Question& question, Solved& space, const TopologyOpt
   Cover whole = solved(space.system, whole_sheets(space.system), options, control);
   result.dimension = whole.dimension;
   if (whole.complete() && whole.dimension > 0) {
-    const std::vector<Limit> ends = limits(space.system, whole);
-    // Whole sheets are wide: smaller ones show to which ends the set comes indeed.
-    Cover fine;
-    if (!ends.empty()) fine = solved(space.system, std::nullopt, options, control);
-    if (!ends.empty())
-      for (const Limit& end : fine.complete() ? limits(space.system, fine) : ends) result.ends.push_back(end.name);
-    if (!ends.empty()) {
-      result.processed = whole.statistics.processed + fine.statistics.processed;
-      result.components = components_within(space.system, whole, ends, options, control);
-      result.components.piece_of_box.assign(fine.boxes.size(), -1);
+    const std::vector<Limit> touched = limits(space.system, whole);
+    if (!touched.empty()) {
+      result.processed = whole.statistics.processed;
+      const std::vector<Limit> ends = without_unreached(space.system, touched, options, result.processed, control);
+      for (const Limit& end : ends) result.ends.push_back(end.name);
+      // All that are touched: sheets of `boundary` boxes may go on beyond each of them.
+      result.components = components_within(space.system, whole, touched, options, control);
       result.reason = result.components.reason;
-      if (!result.ends.empty()) return result;
-      space.cover = std::move(fine);
+      if (!ends.empty()) {
+        find_shape_with_ends(space.system, result.dimension, ends, options, result, control);
+        return result;
+      }
+      // Whole sheets are wide: smaller ones keep clear of ends that are not reached.
+      space.cover = solved(space.system, std::nullopt, options, control);
+      result.processed += space.cover.statistics.processed;
+      result.components.piece_of_box.assign(space.cover.boxes.size(), -1);
     }
   }
   if (space.cover.boxes.empty()) result.components = refined_components(space, options, result.processed, control);

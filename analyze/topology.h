@@ -31,6 +31,7 @@ namespace corank::analyze {
 /// What one height says.
 struct HeightCount {
   std::vector<int> by_index;  ///< number of critical points of index 0, 1 … dimension
+  int uncounted = 0;          ///< critical points on the ends across which the height does not grow inward
   std::vector<int>
       euler_of_piece;   ///< Σ (−1)^index over the points on each piece; empty where some point is on no known one
   std::string problem;  ///< why nothing follows; empty where something does
@@ -46,7 +47,9 @@ struct Topology {
   bool smooth = false;  ///< proven: a manifold without boundary in the search domain
   /// Limits and other ends of the search domain to which the set comes: its components are those strictly within them.
   std::vector<std::string> ends;
+  bool with_ends = false;  ///< proven: a manifold with boundary and corners (certify/stratum.h)
   Components components;
+  std::optional<int> boundary;  ///< of a surface with ends: the closed curves that bound it
   std::optional<int> euler_characteristic;
   /// Of each component, ascending; of surfaces only, where the components' number is exact.
   std::vector<int> genus;

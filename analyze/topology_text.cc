@@ -34,6 +34,22 @@ std::string shapes(const std::vector<int>& genus) {
   return text;
 }
 
+// "2 circles", "1 arc, 1 circle": each arc has the characteristic 1.
+std::string curves(int components, int arcs) {
+  std::vector<std::string> parts;
+  if (arcs > 0) parts.push_back(counted(arcs, "arc"));
+  if (components > arcs) parts.push_back(counted(components - arcs, "closed curve"));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string bounded_surface(int genus, int curves) {
+  if (curves == 0) return fmt::format("1 × {} (genus {})", surface_name(genus), genus);
+  if (genus == 0 && curves <= 2)
+    return curves == 1 ? "1 × disk (genus 0, 1 boundary curve)" : "1 × annulus (genus 0, 2 boundary curves)";
+  return fmt::format("1 × {} with {} (genus {}, {})", surface_name(genus), counted(curves, "hole"), genus,
+                     counted(curves, "boundary curve"));
+}
+
 }  // namespace
 
 result::ShapeFile to_file(const study::Question& question, const Topology& topology) {
@@ -51,16 +67,22 @@ std::string to_text(const study::Question& question, const Topology& t) {
                                  question.model.is_plain_system() ? "solutions of the system" : "C-space");
   text += fmt::format("  dimension             {}\n", t.dimension);
   text += fmt::format("  components            {}\n", components_text(t.components));
-  if (t.dimension > 0) text += fmt::format("  smooth, without ends  {}\n", t.smooth ? "proven" : "not shown");
-  if (!t.ends.empty()) text += fmt::format("  strictly within       {}\n", fmt::join(t.ends, ", "));
+  if (t.dimension > 0 && t.ends.empty())
+    text += fmt::format("  smooth, without ends  {}\n", t.smooth ? "proven" : "not shown");
+  if (!t.ends.empty()) text += fmt::format("  smooth, with ends     {}\n", t.with_ends ? "proven" : "not shown");
+  if (!t.ends.empty()) text += fmt::format("  ends                  {}\n", fmt::join(t.ends, ", "));
   if (t.euler_characteristic) text += fmt::format("  Euler characteristic  {}\n", *t.euler_characteristic);
-  if (t.dimension == 1 && t.smooth && t.components.exact())
-    text += fmt::format("  shape                 {}\n", counted(t.components.at_least, "closed curve"));
-  if (!t.genus.empty()) text += fmt::format("  shape                 {}\n", shapes(t.genus));
+  if (t.dimension == 1 && t.euler_characteristic && t.components.exact())
+    text += fmt::format("  shape                 {}\n", curves(t.components.at_least, *t.euler_characteristic));
+  if (t.boundary) text += fmt::format("  boundary              {}\n", counted(*t.boundary, "closed curve"));
+  if (!t.genus.empty())
+    text += fmt::format("  shape                 {}\n",
+                        t.boundary ? bounded_surface(t.genus.front(), *t.boundary) : shapes(t.genus));
   for (std::size_t k = 0; k < t.heights.size(); ++k) {
     const HeightCount& h = t.heights[k];
     text += fmt::format("  {} height         {} critical points, by index: {}\n", k == 0 ? "one    " : "another", h.points(),
                         fmt::join(h.by_index, ", "));
+    if (t.with_ends) text.insert(text.size() - 1, fmt::format("; {} more on the ends do not count", h.uncounted));
   }
   if (!t.reason.empty()) text += fmt::format("  not known             {}\n", t.reason);
   return text;
@@ -75,12 +97,14 @@ std::string to_json(const study::Question& question, const Topology& t, bool com
   json["components"] = {{"at_least", t.components.at_least}, {"at_most", or_null(t.components.at_most)}};
   json["smooth"] = t.smooth;
   json["ends"] = t.ends;
+  json["smooth_with_ends"] = t.with_ends;
   json["euler_characteristic"] = or_null(t.euler_characteristic);
+  json["boundary_curves"] = or_null(t.boundary);
   json["genus"] = t.genus;
   json["critical_points"] = t.heights.empty() ? Json() : Json(t.heights.front().points());
   json["heights"] = Json::array();
   for (const HeightCount& h : t.heights)
-    json["heights"].push_back({{"critical_points", h.points()}, {"by_index", h.by_index}});
+    json["heights"].push_back({{"critical_points", h.points()}, {"by_index", h.by_index}, {"uncounted", h.uncounted}});
   json["reason"] = t.reason.empty() ? t.components.reason : t.reason;
   json["processed"] = t.processed;
   json["complete"] = complete;

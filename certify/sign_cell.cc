@@ -51,9 +51,9 @@ void SignCellTest::bound(SheetCell& cell, int steps) {
 int SignCellTest::holds(const SheetCell& cell, const std::vector<int>& signs) {
   bool all = true;
   for (std::size_t k = 0; k < signs.size(); ++k) {
-    const int sign = sign_of(cell.range[k]);
-    if (sign == -signs[k]) return -1;
-    all = all && sign != 0;
+    const Interval& value = cell.range[k];
+    if (signs[k] > 0 ? value.hi() <= 0 : value.lo() >= 0) return -1;  // also where it is 0 all over, as on an end
+    all = all && sign_of(value) != 0;
   }
   return all ? 1 : 0;
 }
