@@ -13,37 +13,39 @@ std::vector<std::string> verdict_words() {
 }
 
 void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, std::size_t n) {
-  std::vector<double> lower, upper;
-  std::vector<std::uint8_t> verdict, free(boxes.size() * n, 0);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    CORANK_CHECK(boxes[i].box.size() == n);
-    for (const Interval& side : boxes[i].box) {
-      lower.push_back(side.lo());
-      upper.push_back(side.hi());
-    }
-    verdict.push_back(static_cast<std::uint8_t>(boxes[i].verdict));
-    for (const int f : boxes[i].free) free.at(i * n + static_cast<std::size_t>(f)) = 1;
+  std::vector<std::uint8_t> verdict;
+  for (const CoverBox& box : boxes) {
+    CORANK_CHECK(box.box.size() == n);
+    verdict.push_back(static_cast<std::uint8_t>(box.verdict));
   }
-  file.doubles(group + "/lower", lower, boxes.size(), n);
-  file.doubles(group + "/upper", upper, boxes.size(), n);
+  file.doubles(group + "/lower", boxes.size(), n, [&](std::size_t i, std::span<double> to) {
+    for (std::size_t j = 0; j < n; ++j) to[j] = boxes[i].box[j].lo();
+  });
+  file.doubles(group + "/upper", boxes.size(), n, [&](std::size_t i, std::span<double> to) {
+    for (std::size_t j = 0; j < n; ++j) to[j] = boxes[i].box[j].hi();
+  });
   file.enumeration(group + "/verdict", verdict, verdict_words());
-  file.bytes(group + "/free", free, boxes.size(), n);
+  file.bytes(group + "/free", boxes.size(), n, [&](std::size_t i, std::span<std::uint8_t> to) {
+    for (const int f : boxes[i].free) {
+      CORANK_CHECK(static_cast<std::size_t>(f) < n);
+      to[static_cast<std::size_t>(f)] = 1;
+    }
+  });
 }
 
-std::vector<CoverBox> read_boxes(const Hdf5Reader& file, const std::string& group, std::size_t n) {
+std::vector<CoverBox> read_boxes(Hdf5Reader& file, const std::string& group, std::size_t n) {
   const std::vector<std::uint8_t> verdict = file.enumeration(group + "/verdict", verdict_words());
-  const std::vector<double> lower = file.doubles(group + "/lower", verdict.size(), n),
-                            upper = file.doubles(group + "/upper", verdict.size(), n);
-  const std::vector<std::uint8_t> free = file.bytes(group + "/free", verdict.size(), n);
   std::vector<CoverBox> boxes(verdict.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    boxes[i].verdict = static_cast<Verdict>(verdict[i]);
-    for (std::size_t j = i * n; j < (i + 1) * n; ++j) {
-      if (!(lower[j] <= upper[j])) throw ResultFileError(file.path() + ": a box in " + group + " is none");
-      boxes[i].box.emplace_back(lower[j], upper[j]);
-      if (free[j] != 0) boxes[i].free.push_back(static_cast<int>(j - i * n));
-    }
-  }
+  file.take_rows({group + "/lower", group + "/upper"}, group + "/free", boxes.size(), n,
+                 [&](std::size_t i, std::span<const std::span<const double>> ends, std::span<const std::uint8_t> free) {
+                   for (std::size_t j = 0; j < n; ++j) {
+                     const double lower = ends[0][j], upper = ends[1][j];
+                     if (!(lower <= upper)) throw ResultFileError(file.path() + ": a box in " + group + " is none");
+                     boxes[i].box.emplace_back(lower, upper);
+                     if (free[j] != 0) boxes[i].free.push_back(static_cast<int>(j));
+                   }
+                 });
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].verdict = static_cast<Verdict>(verdict[i]);
   return boxes;
 }
 
