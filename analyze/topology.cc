@@ -82,8 +82,15 @@ class Indices {
   certify::CompiledSystem compiled_;
 };
 
-// The piece on whose region the point lies, −1 where none is known to.
-int piece_of(const Box& point, const Solved& space, const Components& components) {
+// The piece on whose region the configuration at a critical point lies, −1 where none is known to. The variables that both
+// systems have are found by their names: auxiliary ones stand between them.
+int piece_of(const Box& critical_point, const System& critical, const Solved& space, const Components& components) {
+  Box point;
+  for (const Variable& v : space.system.variables) {
+    const int j = critical.find(v.name);
+    if (j < 0) return -1;
+    point.push_back(critical_point[static_cast<std::size_t>(j)]);
+  }
   for (std::size_t i = 0; i < space.cover.boxes.size(); ++i) {
     const CoverBox& box = space.cover.boxes[i];
     if (box.verdict != Verdict::regular) continue;
@@ -101,7 +108,15 @@ HeightCount count_critical_points(const study::Question& question, int height, c
   HeightCount result;
   result.by_index.assign(static_cast<std::size_t>(space.cover.dimension) + 1, 0);
   const symbolic::CriticalPoints critical = symbolic::critical_points(question.model, height);
-  const System system = study::system(question, critical.system);
+  System system;
+  std::optional<Indices> indices;
+  try {
+    system = study::system(question, critical.system);
+    indices.emplace(critical, system);
+  } catch (const symbolic::ModelError&) {  // no polynomials: sines of lengths
+    result.problem = "the equations of critical points are no polynomials";
+    return result;
+  }
   Cover cover = solved(system, std::nullopt, options, control, options.most_for_a_height);
   processed += cover.statistics.processed;
   if (!cover.complete()) {
@@ -109,14 +124,13 @@ HeightCount count_critical_points(const study::Question& question, int height, c
     return result;
   }
   const UpwardRounding rounding;
-  const Indices indices(critical, system);
   // −ξ is no solution where a·ξ > 0: where it is 0, a point may be counted twice.
   const certify::CompiledSystem compiled(system);
   std::vector<int> euler(static_cast<std::size_t>(components.pieces), 0);
   bool placed = true;
   for (const CoverBox& point : cover.points) {
     const bool proven = point.verdict == Verdict::isolated || point.verdict == Verdict::exact;
-    const int index = proven ? indices.index(point.box) : kUnknown;
+    const int index = proven ? indices->index(point.box) : kUnknown;
     bool apart = true;
     for (int row = compiled.equations(); row < compiled.rows(); ++row)
       apart = apart && compiled.evaluate(row, point.box).lo() > 0;
@@ -125,7 +139,7 @@ HeightCount count_critical_points(const study::Question& question, int height, c
       return result;
     }
     ++result.by_index[static_cast<std::size_t>(index)];
-    const int piece = piece_of(point.box, space, components);
+    const int piece = piece_of(point.box, system, space, components);
     placed = placed && piece >= 0;
     if (piece >= 0 && piece < components.pieces) euler[static_cast<std::size_t>(piece)] += index % 2 == 0 ? 1 : -1;
   }

@@ -4,6 +4,7 @@
 
 #include "corank/solve/control.h"
 #include "corank/solve/recorder.h"
+#include "corank/solve/shard.h"
 
 namespace corank::solve {
 namespace {
@@ -41,6 +42,12 @@ std::int64_t MemoryEstimate::of(const Found& found, const Found* former) const {
   if (found.sheet) sum += sheet_;
   if (!found.leaves.empty()) sum += bytes<std::uint64_t>(1) + kBlock;
   return sum;
+}
+
+std::int64_t MemoryEstimate::of_sheet(const certify::Sheet& sheet) const {
+  const auto sides = static_cast<std::int64_t>(sheet.region.size()),
+             numbers = static_cast<std::int64_t>(sheet.equations.size() + sheet.dependent.size());
+  return std::max(bytes<Proven>(1) + bytes<Interval>(3 * sides) + bytes<int>(numbers) + 5 * kBlock, box_);
 }
 
 std::uint64_t bytes_of(const Cover& cover, std::uint64_t later_bytes) {

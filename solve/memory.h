@@ -13,6 +13,8 @@ class MemoryEstimate {
   /// A found box: itself and its place in the sorted list, or what becomes of it in the cover and later, whichever is more;
   /// its region where it is not that of the box found before.
   std::int64_t of(const Found& found, const Found* former) const;
+  /// A sheet that waits to be cut: itself, or the `pending` box that a limit makes of it, whichever is more.
+  std::int64_t of_sheet(const certify::Sheet& sheet) const;
   /// A part of the script: itself, the copy in the cover, and the file's.
   std::int64_t of_script(std::uint64_t bytes) const { return 3 * static_cast<std::int64_t>(bytes); }
   /// Boxes that will be found before anybody looks again.

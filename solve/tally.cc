@@ -101,7 +101,7 @@ void Tally::count_sheets(const Shard& shard, Counted& counted) {
   if (options_.max_found > 0 && sheets_ + shard.postponed.size() >= options_.max_found) end(Limit::found);
   for (; counted.sheets < shard.sheets.size(); ++counted.sheets) {
     const certify::Sheet& sheet = shard.sheets[counted.sheets].sheet;
-    keep(static_cast<std::int64_t>(3 * sheet.region.size() * sizeof(Interval)));
+    keep(memory_.of_sheet(sheet));
     if (++sheets_ == options_.max_found) end(Limit::found);
     if (options_.max_solutions == 0) continue;
     const std::lock_guard lock(solutions_mutex_);

@@ -53,6 +53,17 @@ TEST(Topology, TellsTheComponentsApart) {
   EXPECT_THAT(t.genus, ElementsAre(0, 1));
 }
 
+// The critical points' equations have sin x times a multiplier.
+TEST(Topology, CountsComponentsWhereNoCriticalPointsCanBeHad) {
+  const Topology t =
+      of_text("[SYSTEM VARS]\nx : [-2, 8]\ny : [-3, 3]\nz : [-3, 3]\n[SYSTEM EQS]\n2*(1 - cos(x)) + y^2 + z^2 = 1/4;\n");
+  EXPECT_TRUE(t.smooth);
+  ASSERT_TRUE(t.components.exact()) << t.components.reason;
+  EXPECT_EQ(t.components.at_least, 2);
+  EXPECT_FALSE(t.euler_characteristic);
+  EXPECT_THAT(t.reason, testing::HasSubstr("the equations of critical points are no polynomials"));
+}
+
 TEST(Topology, KnowsASurfaceOfGenusTwo) {
   const Topology t = of_text(kSpace + "(x^2*(1-x^2)-y^2)^2 + z^2 = 1/100;\n");
   EXPECT_EQ(t.euler_characteristic, -2);
