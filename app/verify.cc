@@ -72,27 +72,28 @@ ExitStatus status(const result::Verification& verification, const VerifyCommand&
   return open ? kIncomplete : kBadInput;
 }
 
-// A path's claims leave nothing out: its check has no completeness beside it.
-ExitStatus verify_path(const VerifyCommand& command, Watch& watch) {
-  const result::PathFile file = result::read_path(command.input);
-  watch.enter("the check");
-  check::Options options;
-  options.stop = &watch.stop();
-  const check::TubeReport report = result::verify(file, options);
-  watch.done();
-  fmt::print("{}", command.json ? result::to_json(report, file) + "\n" : result::to_table(report, file));
-  return report.verified() ? kDone : report.failures.empty() ? kIncomplete : kBadInput;
-}
-
-ExitStatus verify_shape(const VerifyCommand& command, Watch& watch) {
-  const result::ShapeFile file = result::read_shape(command.input);
+// Reads a certificate, checks it, and prints what comes of it.
+template <class File>
+auto checked(const VerifyCommand& command, Watch& watch, File (*read)(const std::filesystem::path&)) {
+  const File file = read(command.input);
   watch.enter("the check");
   check::Options options;
   options.threads = command.threads;
   options.stop = &watch.stop();
-  const check::ShapeReport report = result::verify(file, options);
+  auto report = result::verify(file, options);
   watch.done();
   fmt::print("{}", command.json ? result::to_json(report, file) + "\n" : result::to_table(report, file));
+  return report;
+}
+
+// A path's claims leave nothing out: its check has no completeness beside it.
+ExitStatus verify_path(const VerifyCommand& command, Watch& watch) {
+  const check::TubeReport report = checked(command, watch, &result::read_path);
+  return report.verified() ? kDone : report.failures.empty() ? kIncomplete : kBadInput;
+}
+
+ExitStatus verify_shape(const VerifyCommand& command, Watch& watch) {
+  const check::ShapeReport report = checked(command, watch, &result::read_shape);
   if (report.complete()) return kDone;
   if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
   return report.failures.empty() ? kIncomplete : kBadInput;
@@ -100,14 +101,7 @@ ExitStatus verify_shape(const VerifyCommand& command, Watch& watch) {
 
 // Upper bounds stay unchecked: never kDone.
 ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch) {
-  const result::PiecesFile file = result::read_pieces(command.input);
-  watch.enter("the check");
-  check::Options options;
-  options.threads = command.threads;
-  options.stop = &watch.stop();
-  const check::PiecesReport report = result::verify(file, options);
-  watch.done();
-  fmt::print("{}", command.json ? result::to_json(report, file) + "\n" : result::to_table(report, file));
+  const check::PiecesReport report = checked(command, watch, &result::read_pieces);
   if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
   return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
 }

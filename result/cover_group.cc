@@ -4,7 +4,6 @@
 #include "corank/result/certificate_file.h"
 
 namespace corank::result {
-namespace {
 
 std::vector<std::string> verdict_words() {
   std::vector<std::string> words;
@@ -32,6 +31,8 @@ void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<C
     }
   });
 }
+
+namespace {
 
 std::vector<CoverBox> read_boxes(Hdf5Reader& file, const std::string& group, std::size_t n) {
   const std::vector<std::uint8_t> verdict = file.enumeration(group + "/verdict", verdict_words());

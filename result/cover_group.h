@@ -8,6 +8,11 @@
 
 namespace corank::result {
 
+std::vector<std::string> verdict_words();
+
+/// `lower`, `upper`, `verdict` and `free` of boxes with n sides each, row by row.
+void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, std::size_t n);
+
 /// Boxes, points, σ, dimension; certificates as in result/certificate_file.h. The writer's prefix is `group` then.
 void write_cover(Hdf5Writer& file, const std::string& group, const Cover& cover, std::size_t variables);
 /// Throws ResultFileError where something is missing, has other sizes, or is out of range. The reader's prefix is "" then.

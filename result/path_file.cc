@@ -9,6 +9,7 @@
 #include "corank/result/hdf5_file.h"
 #include "corank/result/output_file.h"
 #include "corank/result/printable.h"
+#include "corank/result/source_group.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/velocity_blocks.h"
 
@@ -17,7 +18,6 @@ namespace {
 
 constexpr const char* kFormat = kPathFormat;
 constexpr std::int64_t kFormatVersion = 1;
-constexpr std::size_t kShownFailures = 10;
 constexpr std::int64_t kMostNodes = 10'000'000, kMostVariables = 100'000;
 
 void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<const Box*>& boxes, std::size_t n) {
@@ -52,23 +52,12 @@ void write_path(const std::filesystem::path& path, const PathFile& data) {
   const std::size_t n = data.variables.size(), nodes = data.tube.nodes.size();
   CORANK_CHECK(nodes > 0);
   const std::size_t across = data.tube.nodes.front().values.size();
-  file.attribute("/", "format", std::string(kFormat));
-  file.attribute("/", "format_version", kFormatVersion);
-  file.attribute("/", "version", data.version);
-  file.attribute("/", "model", data.model);
+  write_source(file, kFormat, kFormatVersion, data);
   file.attribute("/", "avoid", data.avoid);
   file.attribute("/", "radius", data.tube.radius());
   file.attribute("/", "variables", static_cast<std::int64_t>(n));
   file.attribute("/", "dimension", static_cast<std::int64_t>(across));
   file.attribute("/", "nodes", static_cast<std::int64_t>(nodes));
-  file.text("/model/text", data.model_text);
-  std::vector<std::string> names, expressions;
-  for (const ConstantOverride& c : data.constants) {
-    names.push_back(c.name);
-    expressions.push_back(c.expression);
-  }
-  file.texts("/model/constants/names", names);
-  file.texts("/model/constants/expressions", expressions);
   file.texts("/variables", data.variables);
   std::vector<double> rows, values;
   std::vector<const Box*> boxes, pieces;
@@ -92,26 +81,17 @@ bool is_path_file(const std::filesystem::path& path) { return format_of(path.str
 PathFile read_path(const std::filesystem::path& path) {
   const Hdf5Reader file(path.string());
   const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": " + what); };
-  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != kFormat) refuse("this is no corank path");
-  if (file.integer_attribute("/", "format_version") != kFormatVersion)
-    refuse("a format version that this corank cannot read");
   const auto count = [&](const std::string& name, std::int64_t least, std::int64_t most) {
     const std::int64_t value = file.integer_attribute("/", name);
     if (value < least || value > most) refuse("the attribute " + name + " is out of range");
     return static_cast<std::size_t>(value);
   };
   PathFile data;
-  data.version = file.text_attribute("/", "version");
-  data.model = file.text_attribute("/", "model");
+  read_source(file, kFormat, kFormatVersion, data);
   data.avoid = file.text_attribute("/", "avoid");
   if (data.avoid != "forward" && data.avoid != "inverse" && data.avoid != "both") refuse("it avoids nothing that is known");
   const std::size_t n = count("variables", 1, kMostVariables), across = count("dimension", 1, static_cast<std::int64_t>(n)),
                     nodes = count("nodes", 2, kMostNodes);
-  data.model_text = file.text("/model/text");
-  const std::vector<std::string> names = file.texts("/model/constants/names"),
-                                 expressions = file.texts("/model/constants/expressions");
-  if (names.size() != expressions.size()) refuse("its constants have not a value each");
-  for (std::size_t k = 0; k < names.size(); ++k) data.constants.push_back({names[k], expressions[k]});
   data.variables = file.texts("/variables");
   if (data.variables.size() != n) refuse("its variables are not as many as it says");
   const std::vector<double> rows = file.doubles("/nodes/rows", nodes, across * n),
@@ -131,17 +111,11 @@ PathFile read_path(const std::filesystem::path& path) {
 }
 
 check::TubeReport verify(const PathFile& file, const check::Options& options) {
-  Result result;
-  result.model = file.model;
-  result.model_text = file.model_text;
-  result.options.constants = file.constants;
-  const symbolic::Mechanism model = model_of(result);
+  const symbolic::Mechanism model = model_of(file);
   const System system =
       symbolic::algebrize(symbolic::singularity_system(model, symbolic::SingularitySet::cspace, std::nullopt, {}, 1));
   check::TubeReport report;
-  std::vector<std::string> names;
-  for (const Variable& v : system.variables) names.push_back(v.name);
-  if (names != file.variables) {
+  if (names(system) != file.variables) {
     report.failures.emplace_back("its variables are not those of the model");
     return report;
   }
@@ -165,10 +139,7 @@ std::string to_table(const check::TubeReport& report, const PathFile& file) {
       "  radius    {:.3g}\n",
       printable_line(file.model), file.avoid == "both" ? "forward and inverse" : file.avoid, report.nodes,
       file.tube.nodes.size(), report.pieces, file.tube.pieces.size(), file.tube.radius());
-  for (std::size_t k = 0; k < std::min(report.failures.size(), kShownFailures); ++k)
-    text += "  " + printable_line(report.failures[k]) + "\n";
-  if (report.failures.size() > kShownFailures)
-    text += fmt::format("  … and {} more\n", report.failures.size() - kShownFailures);
+  text += failure_lines(report.failures);
   return text + (report.verified() ? "verified\n" : report.failures.empty() ? "interrupted\n" : "NOT VERIFIED\n");
 }
 

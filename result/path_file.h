@@ -8,14 +8,11 @@
 
 #include "corank/check/tube.h"
 #include "corank/core/tube.h"
-#include "corank/result/result.h"
+#include "corank/result/model_source.h"
 
 namespace corank::result {
 
-struct PathFile {
-  std::string version = result::version();  ///< of the corank that made it
-  std::string model, model_text;            ///< as Result::model, model_text
-  std::vector<ConstantOverride> constants{};
+struct PathFile : ModelSource {
   std::string avoid = "forward";       ///< which singularities it is without: "forward", "inverse", "both"
   std::vector<std::string> variables;  ///< of the system of C-space
   Tube tube;

@@ -10,6 +10,7 @@
 #include "corank/result/hdf5_file.h"
 #include "corank/result/output_file.h"
 #include "corank/result/printable.h"
+#include "corank/result/source_group.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/determinant_factors.h"
 #include "corank/symbolic/model_file.h"
@@ -20,17 +21,8 @@ namespace {
 
 constexpr const char* kFormat = kPiecesFormat;
 constexpr std::int64_t kFormatVersion = 1;
-constexpr std::size_t kShownFailures = 10;
 constexpr std::int64_t kMostPieces = 1'000'000, kNone = -1;
 constexpr std::array<const char*, 3> kLists{"aspects", "assembly_modes", "working_modes"};
-
-symbolic::Mechanism model_in(const PiecesFile& file) {
-  Result result;
-  result.model = file.model;
-  result.model_text = file.model_text;
-  result.options.constants = file.constants;
-  return model_of(result);
-}
 
 symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model) {
   return symbolic::singularity_system(model, symbolic::SingularitySet::cspace, std::nullopt, {}, 1);
@@ -59,12 +51,6 @@ std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model
     return check::PieceFunctions{symbolic::polynomials(equations, named), symbolic::polynomials(equations, own), matrices};
   };
   return {list(file.lists[0], both), list(file.lists[1], factors[0]), list(file.lists[2], factors[1])};
-}
-
-std::vector<std::string> names(const System& system) {
-  std::vector<std::string> list;
-  for (const Variable& v : system.variables) list.push_back(v.name);
-  return list;
 }
 
 void write_list(Hdf5Writer& file, const std::string& name, const PieceClaims& claims, std::size_t n, std::size_t dimension) {
@@ -126,22 +112,11 @@ PieceClaims read_list(Hdf5Reader& file, const std::string& name, std::size_t n, 
 }  // namespace
 
 void write_pieces(const std::filesystem::path& path, const PiecesFile& data) {
-  const System system = symbolic::algebrize(equations_of(model_in(data)));
+  const System system = symbolic::algebrize(equations_of(model_of(data)));
   const std::size_t n = system.variables.size();
   const OutputFile target(path);
   Hdf5Writer file(target.part().string());
-  file.attribute("/", "format", std::string(kFormat));
-  file.attribute("/", "format_version", kFormatVersion);
-  file.attribute("/", "version", data.version);
-  file.attribute("/", "model", data.model);
-  file.text("/model/text", data.model_text);
-  std::vector<std::string> constants, expressions;
-  for (const ConstantOverride& c : data.constants) {
-    constants.push_back(c.name);
-    expressions.push_back(c.expression);
-  }
-  file.texts("/model/constants/names", constants);
-  file.texts("/model/constants/expressions", expressions);
+  write_source(file, kFormat, kFormatVersion, data);
   file.texts("/variables", names(system));
   write_cover(file, "/space", data.space, n);
   for (std::size_t k = 0; k < kLists.size(); ++k)
@@ -155,19 +130,9 @@ bool is_pieces_file(const std::filesystem::path& path) { return format_of(path.s
 PiecesFile read_pieces(const std::filesystem::path& path) {
   Hdf5Reader file(path.string());
   const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": " + what); };
-  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != kFormat)
-    refuse("this is no corank aspects");
-  if (file.integer_attribute("/", "format_version") != kFormatVersion)
-    refuse("a format version that this corank cannot read");
   PiecesFile data;
-  data.version = file.text_attribute("/", "version");
-  data.model = file.text_attribute("/", "model");
-  data.model_text = file.text("/model/text");
-  const std::vector<std::string> constants = file.texts("/model/constants/names"),
-                                 expressions = file.texts("/model/constants/expressions");
-  if (constants.size() != expressions.size()) refuse("its constants have not a value each");
-  for (std::size_t k = 0; k < constants.size(); ++k) data.constants.push_back({constants[k], expressions[k]});
-  const std::vector<std::string> expected = names(symbolic::algebrize(equations_of(model_in(data))));
+  read_source(file, kFormat, kFormatVersion, data);
+  const std::vector<std::string> expected = names(symbolic::algebrize(equations_of(model_of(data))));
   if (file.texts("/variables") != expected) refuse("its variables are not those of the model");
   data.space = read_cover(file, "/space", expected.size());
   for (std::size_t k = 0; k < kLists.size(); ++k)
@@ -176,7 +141,7 @@ PiecesFile read_pieces(const std::filesystem::path& path) {
 }
 
 check::PiecesReport verify(const PiecesFile& file, const check::Options& options) {
-  const symbolic::Mechanism model = model_in(file);
+  const symbolic::Mechanism model = model_of(file);
   return check::check_pieces(symbolic::algebrize(equations_of(model)), file.space, {file.lists.begin(), file.lists.end()},
                              functions_of(model, file), options);
 }
@@ -204,9 +169,7 @@ std::string to_table(const check::PiecesReport& report, const PiecesFile& file) 
         fmt::format("  {:<14}  claimed: {}; confirmed: at least {}, {} members with their signs, on {} cells\n", kLists[k],
                     claimed(file.lists[k]), report.lists[k].at_least, report.lists[k].members, report.lists[k].cells);
   const std::vector<std::string> failures = all_failures(report);
-  for (std::size_t k = 0; k < std::min(failures.size(), kShownFailures); ++k)
-    text += "  " + printable_line(failures[k]) + "\n";
-  if (failures.size() > kShownFailures) text += fmt::format("  … and {} more\n", failures.size() - kShownFailures);
+  text += failure_lines(failures);
   if (!report.verified())
     return text + (report.interrupted && failures.empty()
                        ? "interrupted in " + report.stage + "; nothing is said of the rest\n"

@@ -9,14 +9,11 @@
 
 #include "corank/check/pieces.h"
 #include "corank/core/pieces.h"
-#include "corank/result/result.h"
+#include "corank/result/model_source.h"
 
 namespace corank::result {
 
-struct PiecesFile {
-  std::string version = result::version();  ///< of the corank that made it
-  std::string model, model_text;            ///< as Result::model, model_text
-  std::vector<ConstantOverride> constants{};
+struct PiecesFile : ModelSource {
   Cover space;
   std::array<PieceClaims, 3> lists;  ///< aspects, assembly modes, working modes
 };

@@ -8,6 +8,7 @@
 #include "corank/core/check.h"
 #include "corank/result/certificate_file.h"
 #include "corank/result/checkpoint.h"
+#include "corank/result/cover_group.h"
 #include "corank/result/output_file.h"
 #include "corank/result/printable.h"
 
@@ -19,12 +20,6 @@ constexpr int kFirstWithCertificates = 2;
 constexpr int kMostCorank = 1000;
 constexpr std::int64_t kMostParts = 1000;
 constexpr int kFirstWithScales = 4;  // and two sigmas, and reasons
-
-std::vector<std::string> verdict_words() {
-  std::vector<std::string> words;
-  for (int i = 0; i < kVerdicts; ++i) words.push_back(to_string(static_cast<Verdict>(i)));
-  return words;
-}
 
 std::vector<std::string> reason_words() {
   std::vector<std::string> words;
@@ -43,26 +38,10 @@ const std::vector<std::string>& kind_words() {
   return words;
 }
 
-// One array after the other, and none of them as a whole beside the boxes.
-void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, std::size_t n) {
-  for (const CoverBox& b : boxes) CORANK_CHECK(b.box.size() == n);
-  file.doubles(group + "/lower", boxes.size(), n, [&](std::size_t i, std::span<double> to) {
-    for (std::size_t j = 0; j < n; ++j) to[j] = boxes[i].box[j].lo();
-  });
-  file.doubles(group + "/upper", boxes.size(), n, [&](std::size_t i, std::span<double> to) {
-    for (std::size_t j = 0; j < n; ++j) to[j] = boxes[i].box[j].hi();
-  });
-  std::vector<std::uint8_t> words(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) words[i] = static_cast<std::uint8_t>(boxes[i].verdict);
-  file.enumeration(group + "/verdict", words, verdict_words());
-  file.bytes(group + "/free", boxes.size(), n, [&](std::size_t i, std::span<std::uint8_t> to) {
-    for (const int v : boxes[i].free) {
-      CORANK_CHECK(static_cast<std::size_t>(v) < n);
-      to[static_cast<std::size_t>(v)] = 1;
-    }
-  });
-  for (std::size_t i = 0; i < boxes.size(); ++i) words[i] = static_cast<std::uint8_t>(boxes[i].reason);
-  file.enumeration(group + "/reason", words, reason_words());
+void write_reasons(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes) {
+  std::vector<std::uint8_t> reasons(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) reasons[i] = static_cast<std::uint8_t>(boxes[i].reason);
+  file.enumeration(group + "/reason", reasons, reason_words());
 }
 
 // Of a workspace boundary; of the whole, from which part each box comes.
@@ -483,9 +462,11 @@ void write_own(Hdf5Writer& file, const Result& result) {
   write_options(file, result.options);
   if (!result.outputs.empty()) file.texts("/outputs", result.outputs);
   write_boxes(file, "/boxes", result.cover.boxes, result.variables.size());
+  write_reasons(file, "/boxes", result.cover.boxes);
   write_passages(file, "/boxes", result.cover.boxes, result);
   write_counts(file, result.cover);
   write_boxes(file, "/points", result.cover.points, result.variables.size());
+  write_reasons(file, "/points", result.cover.points);
   write_passages(file, "/points", result.cover.points, result);
   write_types(file, result.cover);
   write_statistics(file, result.cover.statistics);

@@ -12,6 +12,7 @@
 #include "corank/result/hdf5_file.h"
 #include "corank/result/output_file.h"
 #include "corank/result/printable.h"
+#include "corank/result/source_group.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/critical_points.h"
 
@@ -20,17 +21,8 @@ namespace {
 
 constexpr const char* kFormat = kShapeFormat;
 constexpr std::int64_t kFormatVersion = 1;
-constexpr std::size_t kShownFailures = 10;
 constexpr std::int64_t kMostHeights = 16, kMostHeightNumber = 1000, kMostVariables = 100'000;
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();  // of a number that is not claimed
-
-symbolic::Mechanism model_in(const ShapeFile& file) {
-  Result result;
-  result.model = file.model;
-  result.model_text = file.model_text;
-  result.options.constants = file.constants;
-  return model_of(result);
-}
 
 System space_of(const symbolic::Mechanism& model) {
   return symbolic::algebrize(
@@ -50,12 +42,6 @@ check::CriticalSystem critical_system(const symbolic::Mechanism& model, int heig
           symbolic::polynomials(critical.system, {critical.multiplier}).front()};
 }
 
-std::vector<std::string> names(const System& system) {
-  std::vector<std::string> list;
-  for (const Variable& v : system.variables) list.push_back(v.name);
-  return list;
-}
-
 std::vector<std::int64_t> wide(const std::vector<int>& list) { return {list.begin(), list.end()}; }
 
 std::string height_group(std::size_t k) { return "/heights/" + std::to_string(k); }
@@ -64,14 +50,11 @@ std::string height_group(std::size_t k) { return "/heights/" + std::to_string(k)
 
 void write_shape(const std::filesystem::path& path, const ShapeFile& data) {
   const Shape& shape = data.shape;
-  const System space = space_of(model_in(data));
+  const System space = space_of(model_of(data));
   const std::size_t n = space.variables.size();
   const OutputFile target(path);
   Hdf5Writer file(target.part().string());
-  file.attribute("/", "format", std::string(kFormat));
-  file.attribute("/", "format_version", kFormatVersion);
-  file.attribute("/", "version", data.version);
-  file.attribute("/", "model", data.model);
+  write_source(file, kFormat, kFormatVersion, data);
   file.attribute("/", "variables", static_cast<std::int64_t>(n));
   file.attribute("/", "heights", static_cast<std::int64_t>(shape.heights.size()));
   file.attribute("/", "at_least", std::int64_t{shape.at_least});
@@ -79,14 +62,6 @@ void write_shape(const std::filesystem::path& path, const ShapeFile& data) {
   file.attribute("/", "euler_characteristic",
                  shape.euler_characteristic ? std::int64_t{*shape.euler_characteristic} : kNone);
   file.integers("/genus", wide(shape.genus));
-  file.text("/model/text", data.model_text);
-  std::vector<std::string> constants, expressions;
-  for (const ConstantOverride& c : data.constants) {
-    constants.push_back(c.name);
-    expressions.push_back(c.expression);
-  }
-  file.texts("/model/constants/names", constants);
-  file.texts("/model/constants/expressions", expressions);
   file.texts("/variables", names(space));
   const std::size_t dimension = static_cast<std::size_t>(shape.space.dimension);
   std::vector<std::int64_t> first, second, held, free;
@@ -116,7 +91,7 @@ void write_shape(const std::filesystem::path& path, const ShapeFile& data) {
   write_cover(file, "/space", shape.space, n);
   for (std::size_t k = 0; k < shape.heights.size(); ++k) {
     const HeightCover& height = shape.heights[k];
-    const std::vector<std::string> unknowns = names(critical_system(model_in(data), height.height).system);
+    const std::vector<std::string> unknowns = names(critical_system(model_of(data), height.height).system);
     write_cover(file, height_group(k), height.cover, unknowns.size());
     file.attribute("/", "height", std::int64_t{height.height});
     file.texts("/variables", unknowns);
@@ -135,19 +110,9 @@ class ShapeReader {
   explicit ShapeReader(const std::filesystem::path& path) : file_(path.string()) {}
 
   ShapeFile read() {
-    if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != kFormat)
-      refuse("this is no corank topology");
-    if (file_.integer_attribute("/", "format_version") != kFormatVersion)
-      refuse("a format version that this corank cannot read");
     ShapeFile data;
-    data.version = file_.text_attribute("/", "version");
-    data.model = file_.text_attribute("/", "model");
-    data.model_text = file_.text("/model/text");
-    const std::vector<std::string> constants = file_.texts("/model/constants/names"),
-                                   expressions = file_.texts("/model/constants/expressions");
-    if (constants.size() != expressions.size()) refuse("its constants have not a value each");
-    for (std::size_t k = 0; k < constants.size(); ++k) data.constants.push_back({constants[k], expressions[k]});
-    const symbolic::Mechanism model = model_in(data);
+    read_source(file_, kFormat, kFormatVersion, data);
+    const symbolic::Mechanism model = model_of(data);
     const std::vector<std::string> expected = names(space_of(model));
     if (file_.texts("/variables") != expected) refuse("its variables are not those of the model");
     n_ = expected.size();
@@ -226,7 +191,7 @@ class ShapeReader {
 ShapeFile read_shape(const std::filesystem::path& path) { return ShapeReader(path).read(); }
 
 check::ShapeReport verify(const ShapeFile& file, const check::Options& options) {
-  const symbolic::Mechanism model = model_in(file);
+  const symbolic::Mechanism model = model_of(file);
   std::vector<check::CriticalSystem> heights;
   for (const HeightCover& height : file.shape.heights) heights.push_back(critical_system(model, height.height));
   return check::check_shape(space_of(model), file.shape, heights, options);
@@ -246,10 +211,7 @@ std::string to_table(const check::ShapeReport& report, const ShapeFile& file) {
   for (const std::vector<int>& by_index : report.by_index)
     text += fmt::format("  critical points       {} confirmed, by index: {}\n",
                         std::accumulate(by_index.begin(), by_index.end(), 0), fmt::join(by_index, ", "));
-  for (std::size_t k = 0; k < std::min(report.failures.size(), kShownFailures); ++k)
-    text += "  " + printable_line(report.failures[k]) + "\n";
-  if (report.failures.size() > kShownFailures)
-    text += fmt::format("  … and {} more\n", report.failures.size() - kShownFailures);
+  text += failure_lines(report.failures);
   if (report.complete()) return text + "verified\n";
   if (report.verified())
     return text + "the counts are those of the boxes in the file; that these hold the whole set is not proven by it\n" +

@@ -8,14 +8,11 @@
 
 #include "corank/check/shape.h"
 #include "corank/core/shape.h"
-#include "corank/result/result.h"
+#include "corank/result/model_source.h"
 
 namespace corank::result {
 
-struct ShapeFile {
-  std::string version = result::version();  ///< of the corank that made it
-  std::string model, model_text;            ///< as Result::model, model_text
-  std::vector<ConstantOverride> constants{};
+struct ShapeFile : ModelSource {
   Shape shape;
 };
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from typing import Any, Dict, List, Tuple
+from typing import Any, Callable, Dict, List, Tuple
 
 from distributed import Client
 
@@ -43,6 +43,15 @@ def _loaded(args: argparse.Namespace, constants: Dict[str, str]) -> Mechanism:
     return mechanism.load(args.file, args.loops, **constants)
 
 
+def _or_partial(work: Callable[[], Any]) -> Any:
+    """What comes of it; where it is ended early, what was proven by then."""
+    try:
+        return work()
+    except Interrupted as early:
+        print("corank.cluster: ended early", file=sys.stderr)
+        return early.result
+
+
 def add_map(subcommands: Any, parents: List[argparse.ArgumentParser]) -> None:
     """corank map's options."""
     p = subcommands.add_parser(
@@ -68,8 +77,8 @@ def _run_map(args: argparse.Namespace, client: Client) -> int:
         raise ValueError(f"-o {args.output}: expected a file name that ends in .json, .csv, .svg, .pdf or .png")
     over: Dict[str, Any] = {name: _range(ends, "--over") for name, ends in _pairs(args.over, "--over").items()}
     model = _loaded(args, _pairs(args.constants, "-D"))
-    try:
-        result = model.map(
+    result = _or_partial(
+        lambda: model.map(
             over,
             set=args.set,
             fixed=dict(_pairs(args.fix, "--fix")),
@@ -79,9 +88,7 @@ def _run_map(args: argparse.Namespace, client: Client) -> int:
             client=client,
             progress=False if args.quiet else None,
         )
-    except Interrupted as early:
-        print("corank.cluster: ended early", file=sys.stderr)
-        result = early.result
+    )
     if args.output and args.output.endswith(".json"):
         with open(args.output, "w", encoding="utf-8") as file:
             json.dump(result.data, file)
@@ -129,8 +136,8 @@ def _run_sweep(args: argparse.Namespace, client: Client) -> int:
     name, ends, count, others = _family(args.constants)
     values = linspace(ends[0], ends[1], count)
     model = _loaded(args, _pairs(others, "-D"))
-    try:
-        family = model.sweep(
+    family = _or_partial(
+        lambda: model.sweep(
             name,
             values,
             sets=args.sets.split(","),
@@ -140,9 +147,7 @@ def _run_sweep(args: argparse.Namespace, client: Client) -> int:
             client=client,
             progress=False if args.quiet else None,
         )
-    except Interrupted as early:
-        print("corank.cluster: ended early", file=sys.stderr)
-        family = early.result
+    )
     if len(family) == 0:
         return _INCOMPLETE
     print(family.report(args.output or f"{model.name}-sweep").path)
