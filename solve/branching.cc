@@ -10,6 +10,10 @@ namespace {
 
 constexpr double kLeastSmear = 1e-6;  // a variable that no equation holds has its turn, too
 
+// Measured on Peaucellier's inversor in Cartesian coordinates, see bench/HISTORY.md.
+constexpr int kManyUnknowns = 6;
+constexpr double kLateWeight = 0.01, kLatePatience = 100;
+
 // The variable x_j of a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine and at least one of them there; −1 for another
 // equation.
 int value_of_functions(const Polynomial& f) {
@@ -49,10 +53,17 @@ std::vector<bool> linearly_defined(const System& system) {
 
 }  // namespace
 
-BranchingRule::BranchingRule(const System& system, double kernel_weight) : weight_(system.variables.size(), 1.0) {
+BranchingRule::BranchingRule(const System& system, double kernel_weight)
+    : weight_(system.variables.size(), 1.0), patience_(system.variables.size(), 1.0) {
   const auto defined = linearly_defined(system);
+  const auto is_kernel = [](const Variable& v) { return v.kind == VariableKind::kernel; };
+  const bool late = system.equations.size() >= system.variables.size() &&
+                    std::count_if(system.variables.begin(), system.variables.end(), is_kernel) >= kManyUnknowns;
   for (std::size_t j = 0; j < weight_.size(); ++j) {
-    if (system.variables[j].kind == VariableKind::kernel) weight_[j] = kernel_weight;
+    if (is_kernel(system.variables[j])) {
+      weight_[j] = late ? kLateWeight * kernel_weight : kernel_weight;
+      if (late) patience_[j] = kLatePatience;
+    }
     if (defined[j]) weight_[j] = 0;
   }
   if (std::all_of(weight_.begin(), weight_.end(), [](double w) { return w == 0; }))

@@ -41,7 +41,7 @@ void Problem::set_sigma(const Sigma& s) {
 std::vector<double> Problem::limits(double share) const {
   std::vector<double> result;
   for (std::size_t j = 0; j < compiled.scales().size(); ++j) {
-    result.push_back(2 * share * compiled.scales()[j]);
+    result.push_back(2 * share * branching.patience(static_cast<int>(j)) * compiled.scales()[j]);
     if (tolerant) result.back() = std::min(result.back(), sigma[j]);
   }
   return result;

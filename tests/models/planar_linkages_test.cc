@@ -325,6 +325,41 @@ TEST(DoubleButterfly, HasTheSingularitiesOfItsLoops) {
   expect_points(m, SingularitySet::forward, forward);
 }
 
+// The same in Cartesian coordinates, as a plain list of distances: |O P| |O Q| = 21, so Q stands at x = 21/5 with
+// y_Q = 21 tan(θ)/5 for P in the direction θ, whose rate is 0 nowhere. The kernel has seven unknowns, about whose directions a
+// search knows nothing before the points are narrow.
+TEST(Peaucellier, InCartesianCoordinatesIsStoppedNowhereByItsOutput) {
+  const study::Model model = study::parse_model({
+      R"([SYSTEM VARS]
+a_x : [-5, 5]
+a_y : [-5, 5]
+b_x : [-5, 5]
+b_y : [-5, 5]
+p_x : [-7, 7]
+p_y : [-7, 7]
+q_x : [-7, 7]
+q_y : [-7, 7]
+[SYSTEM EQS]
+a_x^2 + a_y^2 = 25;
+b_x^2 + b_y^2 = 25;
+(a_x - p_x)^2 + (a_y - p_y)^2 = 4;
+(b_x - p_x)^2 + (b_y - p_y)^2 = 4;
+(a_x - q_x)^2 + (a_y - q_y)^2 = 4;
+(b_x - q_x)^2 + (b_y - q_y)^2 = 4;
+(p_x - 5/2)^2 + p_y^2 = 25/4;
+(a_x - b_x)^2 + (a_y - b_y)^2 >= 1/4;
+(p_x - q_x)^2 + (p_y - q_y)^2 >= 1/4;
+[INPUTS] p_y
+[OUTPUTS] q_y
+)",
+      "inversor.cuik"});
+  solve::Options options;
+  options.max_boxes = 100000;
+  const Cover cover = solve::solve(test::set_of(model.mechanism, SingularitySet::inverse), options);
+  EXPECT_TRUE(cover.complete());
+  EXPECT_TRUE(cover.boxes.empty());
+}
+
 // |O B| |O P| = m² − s²: P runs on a straight line.
 TEST(Peaucellier, GuidesItsPointAlongALine) {
   constexpr double k = 1, m = 3, s = 1.5, kSigma = 0.05;

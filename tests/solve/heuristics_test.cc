@@ -48,6 +48,22 @@ TEST(Branching, BisectsWhatNewtonsRowsLeaveOpen) {
   EXPECT_EQ(rule.choose(compiled, box, limits, &step), z);
 }
 
+// ξ of six unknowns on a sphere, and as many equations as variables: ξ waits. With a free variable it does not.
+TEST(Branching, LetsManyRatesWaitWhereConfigurationsAreIsolated) {
+  const auto rule = [](bool isolated) {
+    SystemBuilder b;
+    const int x = b.variable("x", "-1", "1");
+    for (int k = 1; k <= 6; ++k) b.variable("xi" + std::to_string(k), "-1", "1", VariableKind::kernel);
+    for (int k = 1; k <= (isolated ? 6 : 5); ++k) b.equation({{"1", {{x, 1}, {k, 1}}}});
+    b.equation({{"1", {{x, 2}}}, {"-1/2", {}}});
+    return BranchingRule(b.system());
+  };
+  EXPECT_LT(rule(true).weights()[1], rule(true).weights()[0]);
+  EXPECT_GT(rule(true).patience(1), rule(true).patience(0));
+  EXPECT_EQ(rule(false).weights()[1], rule(false).weights()[0]);
+  EXPECT_EQ(rule(false).patience(1), 1);
+}
+
 TEST(Preconditioner, InvertsTheDependentColumns) {
   const UpwardRounding rounding;
   const System system = circle_and_diagonal().system();
