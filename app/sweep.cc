@@ -120,9 +120,8 @@ std::string file_name(std::size_t member, std::size_t members, const std::string
   return fmt::format("member-{:0{}}{}", member + 1, std::to_string(members).size(), rest);
 }
 
-/// Describes member after member and writes each result at once. An interrupt ends the searches that are on; the one whose
-/// turn it is leaves what is not searched pending, the member's sets behind it are all pending, and the members behind it are
-/// left out.
+/// Describes member after member and writes each result at once. An interrupt ends the searches that are on. The one whose
+/// turn it is leaves what is not searched pending; so do the member's sets behind it, and further members are left out.
 std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const std::vector<Plan>& plans,
                                             const std::string& constant) {
   std::vector<report::FamilyMember> members;

@@ -22,7 +22,7 @@ Asked prepare(const Question& question, const System& system, const Options& opt
 result::Result finish(const Question& question, const System& system, const Options& options, const Asked& asked,
                       Cover cover, solve::Control& control);
 
-/// What the types of singularity are read off that boxes are labelled with (solve::label_types); nothing where they get none.
+/// What types of singularity are read off, to label boxes with them (solve::label_types); nothing where they get none.
 std::optional<VelocityBlocks> type_blocks(const Question& question);
 /// Proves exactly what can be, labels types, finds decimals. Like solve::prepare and solve::solve it knows no model, whose
 /// algebra is for one thread alone: several threads may settle covers at once.
