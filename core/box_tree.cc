@@ -19,10 +19,11 @@ constexpr std::size_t kBetweenChecks = 256;
 BoxTree::BoxTree(std::vector<const Box*> boxes, std::size_t sides)
     : boxes_(std::move(boxes)), sides_(sides), order_(boxes_.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
-  if (!boxes_.empty()) build(0, boxes_.size());
+  Room room;
+  if (!boxes_.empty()) build(0, boxes_.size(), room);
 }
 
-std::size_t BoxTree::build(std::size_t begin, std::size_t end) {
+std::size_t BoxTree::build(std::size_t begin, std::size_t end, Room& room) {
   const std::size_t node = nodes_.size();
   nodes_.push_back({begin, end});
   bounds_.resize(bounds_.size() + sides_);
@@ -38,12 +39,12 @@ std::size_t BoxTree::build(std::size_t begin, std::size_t end) {
   if (leaf) return node;
   // Halves by the midpoints along the side in which they spread most.
   const std::size_t along = widest(middles);
-  const auto place = [](std::size_t k) { return static_cast<std::ptrdiff_t>(k); };
+  halve(
+      std::span(order_).subspan(begin, end - begin), [&](std::size_t k) { return (*boxes_[k])[along].mid(); },
+      [](const auto& a, const auto& b) { return a.first < b.first; }, room);
   const std::size_t middle = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + place(begin), order_.begin() + place(middle), order_.begin() + place(end),
-                   [&](std::size_t a, std::size_t b) { return (*boxes_[a])[along].mid() < (*boxes_[b])[along].mid(); });
-  build(begin, middle);
-  const std::size_t right = build(middle, end);
+  build(begin, middle, room);
+  const std::size_t right = build(middle, end, room);
   nodes_[node].right = right;
   return node;
 }

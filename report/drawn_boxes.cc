@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,10 +40,8 @@ class Hulls {
       for (std::size_t j = 0; j < sides_; ++j) middles[j].add(middle(*k, j));
     const std::size_t along = widest(middles);
     const Place half = begin + (end - begin) / 2;
-    std::nth_element(begin, half, end, [&](auto a, auto b) {
-      const double x = middle(a, along), y = middle(b, along);
-      return x != y ? x < y : a < b;
-    });
+    halve(
+        std::span(begin, end), [&](std::uint32_t i) { return middle(i, along); }, std::less(), room_);
     split(begin, half);
     split(half, end);
   }
@@ -65,6 +65,7 @@ class Hulls {
   const std::vector<CoverBox>& boxes_;
   const std::size_t sides_, in_one_;
   std::vector<CoverBox> hulls_;
+  std::vector<std::pair<double, std::uint32_t>> room_;
 };
 
 }  // namespace
