@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <set>
 
+#include "corank/app/early_searches.h"
 #include "corank/app/family.h"
 #include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
@@ -36,7 +38,8 @@ struct SweepCommand {
 struct Plan {
   std::string value;
   study::Question question;
-  std::vector<System> systems;  ///< of the sets
+  std::vector<System> systems;                        ///< of the sets
+  std::vector<std::optional<VelocityBlocks>> blocks;  ///< likewise
 };
 
 /// A robot's equations depend on its constants: at special values its axes are parallel, and it has other coordinates.
@@ -62,30 +65,54 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
   for (std::size_t k = 0; k < family.values.size(); ++k) {
     QuestionOptions options = command.question;
     options.definitions = definitions_of(family, k, command.question.definitions);
-    Plan& p = plans.emplace_back(Plan{family.values[k], load(options, &said), {}});
+    Plan& p = plans.emplace_back(Plan{family.values[k], load(options, &said), {}, {}});
     check_alike(family.constant, plans.front(), p);
     for (const std::string& name : command.search.sets) {
       if (symbolic::definition(name).of_parts)
         throw UsageError(fmt::format("--sets {}: a family of it is not drawn; corank solve finds it of one member", name));
       p.question.set = symbolic::singularity_set_from_string(name);
       p.systems.push_back(study::system(p.question));
+      p.blocks.push_back(study::type_blocks(p.question));
     }
   }
   return plans;
 }
 
+study::Options options_of(const SweepCommand& command, const Plan& plan, std::size_t set) {
+  return {command.search.options(plan.systems[set], *symbolic::singularity_set_from_string(command.search.sets[set]))};
+}
+
+/// In the order in which solve_all() comes to them.
+std::vector<EarlyTask> early_tasks(const SweepCommand& command, const std::vector<Plan>& plans) {
+  std::vector<EarlyTask> tasks;
+  for (const Plan& plan : plans) {
+    for (std::size_t s = 0; s < plan.systems.size(); ++s) {
+      const study::Options options = options_of(command, plan, s);
+      tasks.push_back({symbolic::singularity_set_from_string(command.search.sets[s]), plan.systems[s], plan.blocks[s],
+                       options, command.search.limits_beside(options.search, 0), s});
+    }
+  }
+  return tasks;
+}
+
 report::SetView solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task,
-                          std::uint64_t taken) {
+                          std::uint64_t taken, const std::function<std::optional<EarlyFind>()>& found_early) {
   study::Question question = plan.question;
   question.set = symbolic::singularity_set_from_string(command.search.sets[set_index]);
   const System& system = plan.systems[set_index];
-  study::Options options{command.search.options(system, *question.set)};
+  const bool given = question.model.has_own_velocity_equation();
+  const study::Options options = options_of(command, plan, set_index);
   ProgressLine line(task);
   line.show(task);  // searches may be too short to tell more
-  solve::Control control(command.search.limits_beside(options.search, taken));
+  std::optional<EarlyFind> early = found_early();
+  const solve::Control::Limits limits = command.search.limits_beside(options.search, taken);
+  const bool has_room = limits.memory == 0 || limits.memory > EarlySearches::kBytes;  // or it may have been ended
+  if (early && has_room)
+    return report::set_view(study::describe(question, system, options, std::move(early->cover), {}), system, given,
+                            std::move(early->components));
+  solve::Control control(limits);
   line.follow(control);
-  return report::set_view(study::answer(question, system, options, control), system,
-                          question.model.has_own_velocity_equation());
+  return report::set_view(study::answer(question, system, options, control), system, given);
 }
 
 /// "member-03-forward.h5": members from 1, with as many digits as the last one needs.
@@ -93,19 +120,21 @@ std::string file_name(std::size_t member, std::size_t members, const std::string
   return fmt::format("member-{:0{}}{}", member + 1, std::to_string(members).size(), rest);
 }
 
-/// Solves member after member and writes each result at once. An interrupt ends the search that is on, with what it left
-/// pending; the member's sets behind it are all pending, and the members behind it are left out.
+/// Describes member after member and writes each result at once. An interrupt ends the searches that are on. The one whose
+/// turn it is leaves what is not searched pending; so do the member's sets behind it, and further members are left out.
 std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const std::vector<Plan>& plans,
                                             const std::string& constant) {
   std::vector<report::FamilyMember> members;
   std::uint64_t taken = 0;
+  EarlySearches early(early_tasks(command, plans), command.search.limits.threads);
+  const std::size_t sets = command.search.sets.size();
   for (std::size_t k = 0; k < plans.size() && !Interrupt::stop(); ++k) {
     report::FamilyMember member{plans[k].value, plans[k].question.model, {}, {}};
-    for (std::size_t s = 0; s < command.search.sets.size(); ++s) {
+    for (std::size_t s = 0; s < sets; ++s) {
       member.sets.push_back(solve_one(
           command, plans[k], s,
           fmt::format("{} = {} ({} of {}), {}", constant, plans[k].value, k + 1, plans.size(), command.search.sets[s]),
-          taken));
+          taken, [&] { return early.take(k * sets + s); }));
       const result::Result& result = member.sets.back().result;
       taken += solve::bytes_of(result.cover, solve::kPageBytes);
       member.files.push_back(file_name(k, plans.size(), "-" + command.search.sets[s] + ".h5"));

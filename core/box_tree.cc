@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "corank/core/spread.h"
+
 namespace corank {
 namespace {
 
@@ -17,37 +19,32 @@ constexpr std::size_t kBetweenChecks = 256;
 BoxTree::BoxTree(std::vector<const Box*> boxes, std::size_t sides)
     : boxes_(std::move(boxes)), sides_(sides), order_(boxes_.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
-  if (!boxes_.empty()) build(0, boxes_.size());
+  Room room;
+  if (!boxes_.empty()) build(0, boxes_.size(), room);
 }
 
-std::size_t BoxTree::build(std::size_t begin, std::size_t end) {
+std::size_t BoxTree::build(std::size_t begin, std::size_t end, Room& room) {
   const std::size_t node = nodes_.size();
   nodes_.push_back({begin, end});
   bounds_.resize(bounds_.size() + sides_);
   Interval* const hull = bounds_.data() + node * sides_;
-  for (std::size_t j = 0; j < sides_; ++j) {
-    hull[j] = (*boxes_[order_[begin]])[j];
-    for (std::size_t k = begin + 1; k < end; ++k) hull[j] = Interval::hull(hull[j], (*boxes_[order_[k]])[j]);
+  std::copy_n(boxes_[order_[begin]]->data(), sides_, hull);
+  const bool leaf = end - begin <= (boxes_.size() < kManyBoxes ? kLeaf : kLeafOfMany);
+  std::vector<Spread> middles(leaf ? 0 : sides_);
+  for (std::size_t k = begin; k < end; ++k) {  // box by box: each is somewhere else in memory
+    const Interval* const box = boxes_[order_[k]]->data();
+    for (std::size_t j = 0; j < sides_; ++j) hull[j] = Interval::hull(hull[j], box[j]);
+    for (std::size_t j = 0; j < middles.size(); ++j) middles[j].add(box[j].mid());
   }
-  if (end - begin <= (boxes_.size() < kManyBoxes ? kLeaf : kLeafOfMany)) return node;
+  if (leaf) return node;
   // Halves by the midpoints along the side in which they spread most.
-  std::size_t along = 0;
-  double most = -1;
-  for (std::size_t j = 0; j < sides_; ++j) {
-    double least = HUGE_VAL, greatest = -HUGE_VAL;
-    for (std::size_t k = begin; k < end; ++k) {
-      const double middle = (*boxes_[order_[k]])[j].mid();
-      least = std::min(least, middle);
-      greatest = std::max(greatest, middle);
-    }
-    if (greatest - least > most) most = greatest - least, along = j;
-  }
-  const auto place = [](std::size_t k) { return static_cast<std::ptrdiff_t>(k); };
+  const std::size_t along = widest(middles);
+  halve(
+      std::span(order_).subspan(begin, end - begin), [&](std::size_t k) { return (*boxes_[k])[along].mid(); },
+      [](const auto& a, const auto& b) { return a.first < b.first; }, room);
   const std::size_t middle = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + place(begin), order_.begin() + place(middle), order_.begin() + place(end),
-                   [&](std::size_t a, std::size_t b) { return (*boxes_[a])[along].mid() < (*boxes_[b])[along].mid(); });
-  build(begin, middle);
-  const std::size_t right = build(middle, end);
+  build(begin, middle, room);
+  const std::size_t right = build(middle, end, room);
   nodes_[node].right = right;
   return node;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "corank/core/cover.h"
@@ -34,7 +35,8 @@ class BoxTree {
   };
   class Grouping;
 
-  std::size_t build(std::size_t begin, std::size_t end);
+  using Room = std::vector<std::pair<double, std::size_t>>;
+  std::size_t build(std::size_t begin, std::size_t end, Room& room);
   // The bounds of a node: sides_ intervals from here on.
   const Interval* bounds(std::size_t node) const { return bounds_.data() + node * sides_; }
   bool overlap(const Interval* a, const Box& x, double gap) const {

@@ -7,11 +7,14 @@
 namespace corank::report {
 
 Components components(const result::Result& result) {
-  const std::vector<CoverBox>& boxes = result.cover.boxes;
+  return components(result.cover.boxes, static_cast<std::size_t>(result.configuration_size));
+}
+
+Components components(const std::vector<CoverBox>& boxes, std::size_t configuration_size) {
   std::vector<const Box*> sides;
   sides.reserve(boxes.size());
   for (const CoverBox& b : boxes) sides.push_back(&b.box);
-  const BoxTree tree(std::move(sides), static_cast<std::size_t>(result.configuration_size));
+  const BoxTree tree(std::move(sides), configuration_size);
   Components found;
   found.of_box.reserve(boxes.size());
   for (const std::size_t group : tree.groups(0, {})) found.of_box.push_back(static_cast<int>(group));

@@ -20,5 +20,6 @@ struct Components {
 
 /// Two boxes touch where they have a point in common; pending boxes count as any other.
 Components components(const result::Result& result);
+Components components(const std::vector<CoverBox>& boxes, std::size_t configuration_size);
 
 }  // namespace corank::report

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
+
+#include "corank/core/spread.h"
 
 namespace corank::report {
 namespace {
@@ -31,21 +35,13 @@ class Hulls {
   // Halves along the side in which the middles spread most.
   void split(Place begin, Place end) {
     if (static_cast<std::size_t>(end - begin) <= in_one_) return add(begin, end);
-    std::size_t along = 0;
-    double most = -1;
-    for (std::size_t j = 0; j < sides_; ++j) {
-      double least = HUGE_VAL, greatest = -HUGE_VAL;
-      for (Place k = begin; k != end; ++k) {
-        least = std::min(least, middle(*k, j));
-        greatest = std::max(greatest, middle(*k, j));
-      }
-      if (greatest - least > most) most = greatest - least, along = j;
-    }
+    std::vector<Spread> middles(sides_);
+    for (Place k = begin; k != end; ++k)  // box by box: each is somewhere else in memory
+      for (std::size_t j = 0; j < sides_; ++j) middles[j].add(middle(*k, j));
+    const std::size_t along = widest(middles);
     const Place half = begin + (end - begin) / 2;
-    std::nth_element(begin, half, end, [&](auto a, auto b) {
-      const double x = middle(a, along), y = middle(b, along);
-      return x != y ? x < y : a < b;
-    });
+    halve(
+        std::span(begin, end), [&](std::uint32_t i) { return middle(i, along); }, std::less(), room_);
     split(begin, half);
     split(half, end);
   }
@@ -69,6 +65,7 @@ class Hulls {
   const std::vector<CoverBox>& boxes_;
   const std::size_t sides_, in_one_;
   std::vector<CoverBox> hulls_;
+  std::vector<std::pair<double, std::uint32_t>> room_;
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ struct View {
   double extent() const { return hi - lo; }
 };
 
-View view(const std::vector<Picture>& pictures, std::size_t j) {
+View view(std::span<const Picture> pictures, std::size_t j) {
   View data{HUGE_VAL, -HUGE_VAL};
   for (const Picture& picture : pictures)
     for (const PictureLayer& layer : picture.layers)
@@ -146,7 +146,7 @@ std::pair<double, double> centre(const GridPolygon& p) {
   return {0.5 * (left->x + right->x), 0.5 * (top->y + bottom->y)};
 }
 
-std::array<Interval, 2> common_ranges(const std::vector<Picture>& pictures) {
+std::array<Interval, 2> common_ranges(std::span<const Picture> pictures) {
   CORANK_CHECK(!pictures.empty());
   const View x = view(pictures, 0), y = view(pictures, 1);
   return {Interval{x.lo, x.hi}, Interval{y.lo, y.hi}};
@@ -154,7 +154,7 @@ std::array<Interval, 2> common_ranges(const std::vector<Picture>& pictures) {
 
 Layout lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width) {
   CORANK_CHECK(picture.axes.size() == 2 && (options.ranges || !is_empty(picture)));
-  const auto [x_range, y_range] = options.ranges ? *options.ranges : common_ranges({picture});
+  const auto [x_range, y_range] = options.ranges ? *options.ranges : common_ranges({&picture, 1});
   const View x{x_range.lo(), x_range.hi()}, y{y_range.lo(), y_range.hi()};
   const double ratio = proportion(picture, x, y);
   Layout out;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,7 @@ struct Layout {
 };
 
 /// The ranges that the axes have to show for the boxes of these pictures, which have the same two axes and a box among them.
-std::array<Interval, 2> common_ranges(const std::vector<Picture>& pictures);
+std::array<Interval, 2> common_ranges(std::span<const Picture> pictures);
 
 /// Requires two axes, and a box where the options give no ranges.
 Layout lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width);

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "corank/certify/angle.h"
+#include "corank/report/drawn_angle.h"
 #include "corank/report/picture_style.h"
 #include "corank/symbolic/set_definition.h"
 
@@ -27,7 +27,7 @@ struct Coordinate {
   // The one piece, or the pieces, of a box.
   std::vector<Interval> values(const Box& box, double size) const {
     const auto side = [&](int v) { return box.at(static_cast<std::size_t>(v)); };
-    Interval x = angle ? certify::angle_enclosure(side(angle->cosine), side(angle->sine), angle->range) : side(variable);
+    Interval x = angle ? drawn_angle(side(angle->cosine), side(angle->sine), angle->range) : side(variable);
     if (size > 0) x = Interval(x.mid() - size / 2, x.mid() + size / 2);
     return angle ? pieces(x) : std::vector<Interval>{x};
   }

@@ -2,7 +2,7 @@
 // coordinates, colours and names there are; how it is drawn is the matter of portrait.h (.svg, .pdf, .png), vtp.h (ParaView)
 // and gcl.h (Geomview).
 //
-// A coordinate is a variable or an angle θ, whose values over a box are certify::angle_enclosure of the box's cosine and
+// A coordinate is a variable or an angle θ, whose values over a box are drawn_angle() of the box's cosine and
 // sine. A box across the end of the angle's range is drawn in pieces, one at each end: every piece is the box, a turn apart.
 #pragma once
 

@@ -9,8 +9,12 @@
 namespace corank::report {
 
 SetView set_view(result::Result result, System system, bool given_velocity_equation) {
-  const symbolic::SetDefinition& set = symbolic::definition(result.set);
   Components found = components(result);
+  return set_view(std::move(result), std::move(system), given_velocity_equation, std::move(found));
+}
+
+SetView set_view(result::Result result, System system, bool given_velocity_equation, Components found) {
+  const symbolic::SetDefinition& set = symbolic::definition(result.set);
   SetWords words = set_words(result, found, given_velocity_equation);
   return {std::move(result), &set, std::move(system), std::move(found), std::move(words)};
 }

@@ -24,16 +24,6 @@ std::string kernel_of(const Question& q) {
   return to_string(symbolic::kernel_question(q.model, derive(q.model).velocity, *q.set, q.kernel).side);
 }
 
-// Which types of singularity the boxes hold; of the set of a type, without those that do not.
-void describe_types(const Question& q, const solve::Prepared& prepared, solve::Control& control, Cover& cover) {
-  if (symbolic::definition(q.set).of_parts) return;
-  if (!q.set) return;
-  const auto blocks = symbolic::velocity_blocks(q.model, *q.set, q.kernel, q.corank);
-  if (!blocks) return;
-  solve::label_types(prepared, *blocks, cover, control);
-  if (const auto type = symbolic::definition(q.set).type) solve::keep_only(*type, cover);
-}
-
 }  // namespace
 
 void describe_corank(const System& system, result::Result& result) {
@@ -121,22 +111,33 @@ result::Result answer(const Question& question, const System& system, const Opti
   return finish(question, system, options, asked, std::move(cover), control);
 }
 
-result::Result finish(const Question& question, const System& system, const Options& options, const Asked& asked,
-                      Cover cover, solve::Control& control) {
+std::optional<VelocityBlocks> type_blocks(const Question& q) {
+  if (!q.set || symbolic::definition(q.set).of_parts) return std::nullopt;
+  return symbolic::velocity_blocks(q.model, *q.set, q.kernel, q.corank);
+}
+
+void settle(std::optional<symbolic::SingularitySet> set, const std::optional<VelocityBlocks>& blocks, const Options& options,
+            const Asked& asked, Cover& cover, solve::Control& control) {
   const solve::Prepared& prepared = asked.prepared;
+  cover.statistics.processed += asked.processed_before;
+  control.keep(static_cast<std::int64_t>(solve::bytes_of(cover, control.limits().later_bytes)));
+  solve::prove_exactly(prepared, cover, control);
+  if (blocks) {
+    solve::label_types(prepared, *blocks, cover, control);
+    if (const auto type = symbolic::definition(set).type) solve::keep_only(*type, cover);
+  }
+  if (options.digits > 0 && cover.dimension == 0) solve::prove_decimals(prepared, options.digits, cover, control);
+}
+
+result::Result describe(const Question& question, const System& system, const Options& options, Cover cover,
+                        const std::optional<solve::Ending>& ending) {
   result::Result result;
   result.model = question.model.name();
   result.model_text = question.model.source_text();
   result.set = symbolic::definition(question.set).name;
   result.system_text = symbolic::to_cuik(system);
   result.cover = std::move(cover);
-  result.cover.statistics.processed += asked.processed_before;
-  control.keep(static_cast<std::int64_t>(solve::bytes_of(result.cover, control.limits().later_bytes)));
-  solve::prove_exactly(prepared, result.cover, control);
-  describe_types(question, prepared, control, result.cover);
-  if (options.digits > 0 && result.cover.dimension == 0)
-    solve::prove_decimals(prepared, options.digits, result.cover, control);
-  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
+  if (ending) result.stopped = to_string(*ending);
   result::describe_system(system, result);
   result::describe_in_words(question.model, system, result);
   const solve::Options& search = options.search;
@@ -150,6 +151,12 @@ result::Result finish(const Question& question, const System& system, const Opti
   describe_corank(system, result);
   if (question.assembly) describe_states(*question.assembly, result);
   return result;
+}
+
+result::Result finish(const Question& question, const System& system, const Options& options, const Asked& asked,
+                      Cover cover, solve::Control& control) {
+  settle(question.set, type_blocks(question), options, asked, cover, control);
+  return describe(question, system, options, std::move(cover), control.ending());
 }
 
 }  // namespace corank::study

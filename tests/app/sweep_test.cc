@@ -273,23 +273,74 @@ TEST(Sweep, OfALimitedSearchSaysSoAndHasStatus3) {
   EXPECT_NE(read_text(folder.file("f/index.html")).find("A search ended before its end"), std::string::npos);
 }
 
-TEST(Sweep, LeavesWhatIsDoneWhenInterrupted) {
+TEST(Sweep, HasTheSameResultsForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  // C-space takes more memory than searches that are made ahead may; the loci do not.
+  const auto sweep = [&](const std::string& name, const std::string& threads) {
+    return run_corank({"sweep", model("dextar"), "-D", "l2=1.6:0.9:3", "--sigma", "0.02", "--cspace-sigma", "0.04",
+                       "--threads", threads, "-o", folder.file(name)});
+  };
+  const Outcome one = sweep("1", "1"), four = sweep("4", "4");
+  ASSERT_EQ(one.status, 0) << one.err;
+  ASSERT_EQ(four.status, 0) << four.err;
+  const auto findings = [](const Outcome& outcome) {
+    return outcome.out.substr(0, outcome.out.rfind('\n', outcome.out.size() - 2));
+  };
+  EXPECT_EQ(findings(one), findings(four));
+  EXPECT_EQ(page_model(folder.file("1")), page_model(folder.file("4")));
+  for (const char* figure : {"family.svg", "member-1.svg", "member-2.svg", "member-3.svg"})
+    EXPECT_EQ(read_text(folder.file("1/figures/") + figure), read_text(folder.file("4/figures/") + figure));
+  for (const char* name :
+       {"member-1-cspace.h5", "member-1-forward.h5", "member-1-inverse.h5", "member-2-cspace.h5", "member-2-forward.h5",
+        "member-2-inverse.h5", "member-3-cspace.h5", "member-3-forward.h5", "member-3-inverse.h5"}) {
+    const Result a = result::read_result(folder.file("1/") + name), b = result::read_result(folder.file("4/") + name);
+    EXPECT_EQ(a.options.threads, 1);
+    EXPECT_EQ(b.options.threads, 4);
+    EXPECT_EQ(a.cover.statistics.processed, b.cover.statistics.processed);
+    ASSERT_EQ(a.cover.boxes.size(), b.cover.boxes.size()) << name;
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < a.cover.boxes.size(); ++i) {
+      const CoverBox &x = a.cover.boxes[i], &y = b.cover.boxes[i];
+      different +=
+          x.box != y.box || x.verdict != y.verdict || x.free != y.free || x.region != y.region || x.types != y.types;
+    }
+    EXPECT_EQ(different, 0u) << name;
+    EXPECT_EQ(a.cover.regions, b.cover.regions) << name;
+  }
+}
+
+/// Interrupts a sweep of 200 members in its second; how many are on its page.
+std::size_t members_when_interrupted(const std::string& threads, Outcome& outcome) {
   constexpr std::size_t kAsked = 200;
   const TemporaryFolder folder;
-  CorankOnTerminal program(
-      {"sweep", model("dextar"), "-D", "l2=1.6:0.9:" + std::to_string(kAsked), "--sets", "inverse", "-o", folder.file("f")});
-  ASSERT_TRUE(program.wait_for("(2 of 200)"));
+  CorankOnTerminal program({"sweep", model("dextar"), "-D", "l2=1.6:0.9:" + std::to_string(kAsked), "--sets", "inverse",
+                            "--threads", threads, "-o", folder.file("f")});
+  EXPECT_TRUE(program.wait_for("(2 of 200)"));
   program.signal(SIGINT);
-  const Outcome outcome = program.finish();
+  outcome = program.finish();
   EXPECT_EQ(outcome.status, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("stopped by an interrupt, in the stage "));
   const std::size_t done = page_model(folder.file("f"))["members"].size();
   EXPECT_GE(done, 2u);
   EXPECT_LT(done, kAsked);
-  EXPECT_NE(read_text(folder.file("f/index.html"))
-                .find("The sweep ended early: " + std::to_string(done) + " of 200 mechanisms are here."),
-            std::string::npos);
+  const std::string ended = std::to_string(done) + " of 200 mechanisms are ";
+  EXPECT_NE(read_text(folder.file("f/index.html")).find("The sweep ended early: " + ended + "here."), std::string::npos);
+  EXPECT_THAT(outcome.err, HasSubstr(ended + "on the page"));
   EXPECT_TRUE(result::read_result(folder.file("f/member-001-inverse.h5")).cover.complete());
+  for (std::size_t m = 2; m < done; ++m)  // the last one may be what an interrupt has left
+    EXPECT_TRUE(
+        result::read_result(folder.file("f/member-" + std::to_string(1000 + m).substr(1) + "-inverse.h5")).cover.complete());
+  return done;
+}
+
+TEST(Sweep, LeavesWhatIsDoneWhenInterrupted) {
+  Outcome outcome;
+  members_when_interrupted("1", outcome);
+  EXPECT_THAT(outcome.err, HasSubstr("stopped by an interrupt, in the stage "));
+}
+
+TEST(Sweep, LeavesWhatIsDoneWhenInterruptedAmongSearchesThatAreMadeAhead) {
+  Outcome outcome;
+  members_when_interrupted("2", outcome);
 }
 
 }  // namespace
