@@ -99,9 +99,9 @@ ExitStatus verify_shape(const VerifyCommand& command, Watch& watch) {
   return report.failures.empty() ? kIncomplete : kBadInput;
 }
 
-// Upper bounds stay unchecked: never kDone.
 ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch) {
   const check::PiecesReport report = checked(command, watch, &result::read_pieces);
+  if (report.complete()) return kDone;
   if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
   return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
 }
