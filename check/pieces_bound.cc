@@ -73,11 +73,12 @@ class Bound {
       if (!result_.reason.empty()) return std::move(result_);
     }
     number_parts();
-    result_.reason = check_passages();
-    if (!result_.reason.empty()) return std::move(result_);
     join_whole_cells();
     join_by_links();
     join_along_borders();
+    pass_through_single_parts();
+    result_.reason = check_passages();
+    if (!result_.reason.empty()) return std::move(result_);
     std::set<std::size_t> classes;
     for (std::size_t c = 0; c < cells_.size(); ++c)
       for (std::size_t p = 0; p < cells_[c].parts.size(); ++p)
@@ -143,6 +144,13 @@ class Bound {
                        [](const Enclosure& e) { return (-e).is_nonnegative(); });
   }
 
+  // Of each function and each end.
+  std::vector<int> list(Mask signs) const {
+    std::vector<int> result(rows_.size(), 1);
+    for (std::size_t k = 0; k < functions_; ++k) result[k] = (signs >> k & 1) != 0 ? 1 : -1;
+    return result;
+  }
+
   // False: a part of it is not known.
   bool find_parts(Cell& c) const {
     std::vector<std::size_t> open;
@@ -150,13 +158,12 @@ class Bound {
       if (k < functions_) open.push_back(k);
     if (open.size() > kMostOpen) return false;
     const std::vector<SignParts::Direction> tried = directions(c.sheet);
-    std::vector<int> signs(rows_.size(), 1);
-    for (std::size_t k = 0; k < functions_; ++k) signs[k] = c.cell.range[k].is_negative() ? -1 : 1;
+    Mask known_signs = 0;
+    for (std::size_t k = 0; k < functions_; ++k) known_signs |= Mask{c.cell.range[k].is_positive()} << k;
     for (Mask choice = 0; choice < Mask{1} << open.size(); ++choice) {
-      for (std::size_t i = 0; i < open.size(); ++i) signs[open[i]] = (choice >> i & 1) != 0 ? 1 : -1;
-      PieceOf part;
-      for (std::size_t k = 0; k < functions_; ++k)
-        if (signs[k] > 0) part.signs |= Mask{1} << k;
+      PieceOf part{known_signs};
+      for (std::size_t i = 0; i < open.size(); ++i) part.signs |= (choice >> i & 1) << open[i];
+      const std::vector<int> signs = list(part.signs);
       const SignParts::Part known = parts_.part(c.cell, signs, tried);
       if (known == SignParts::Part::empty) continue;
       part.connected = known == SignParts::Part::connected;
@@ -264,6 +271,27 @@ class Bound {
             if (cells_[c].parts[p].signs == cells_[d].parts[q].signs) visit(c, p, d, q);
       });
     }
+  }
+
+  // A connected part that nothing is joined to, such as the finder takes for a passage, is one, too, where it has a direction
+  // and touches no other.
+  void pass_through_single_parts() {
+    std::vector<std::size_t> size(first_.empty() ? 0 : first_.back() + cells_.back().parts.size(), 0), near = size;
+    for (std::size_t k = 0; k < size.size(); ++k) ++size[classes_.find(k)];
+    const auto may_pass = [&](std::size_t c, std::size_t p) {
+      return !cells_[c].parts[p].connected || size[classes_.find(first_[c] + p)] == 1;
+    };
+    for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
+      near[first_[c] + p] += may_pass(d, q);
+      near[first_[d] + q] += may_pass(c, p);
+    });
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p) {
+        PieceOf& part = cells_[c].parts[p];
+        if (!part.connected || !may_pass(c, p) || near[first_[c] + p] > 0 || cells_[c].cell.mixed.empty()) continue;
+        part.passages = parts_.passages(cells_[c].cell, list(part.signs), directions(cells_[c].sheet));
+        part.connected = part.passages.none();
+      }
   }
 
   std::string check_passages() {

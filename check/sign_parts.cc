@@ -7,6 +7,8 @@
 namespace corank::check {
 namespace {
 
+constexpr double kShare = 0.53;  // of a segment: its middle may well be a zero of a function
+
 bool is_nonpositive(const Enclosure& x) { return (-x).is_nonnegative(); }
 
 // s·x
@@ -152,19 +154,22 @@ bool SignParts::add_segment(SignCell cell, std::size_t along, bool upwards, cons
   }
   const SignCell begin = face(cell, along, !upwards, 2), end = face(cell, along, upwards, 2);
   const Part at_begin = whole(begin, signs), at_end = whole(end, signs);
-  const auto is_nonpositive_at_both = [&](std::size_t k) {
-    return is_nonpositive(turned(begin.range[k], signs[k])) && is_nonpositive(turned(end.range[k], signs[k]));
-  };
   const bool holds = at_begin == Part::connected || at_end == Part::connected;
   Slopes s;
-  if (at_begin != Part::unknown && at_end != Part::unknown &&
-      (holds || std::any_of(cell.mixed.begin(), cell.mixed.end(), is_nonpositive_at_both)) && slopes(cell, s) &&
-      std::none_of(s.begin(), s.end(), [&](const Sides& slope) { return slope[along].has_zero(); })) {
-    arc.add(at_begin == Part::connected, holds);
-    return true;
+  if (slopes(cell, s) && std::none_of(s.begin(), s.end(), [&](const Sides& slope) { return slope[along].has_zero(); })) {
+    bool empty = false;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const std::size_t k = cell.mixed[i];
+      const bool at_upper = turned(s[i][along], signs[k]).is_positive();  // is s_k·g_k largest
+      empty = empty || is_nonpositive(turned((at_upper == upwards ? end : begin).range[k], signs[k]));
+    }
+    if (empty || holds) {
+      arc.add(at_begin == Part::connected, !empty);
+      return true;
+    }
   }
   const auto j = static_cast<std::size_t>((*cell.free)[along]);
-  const double from = cell.sides[j].lo(), cut = cell.sides[j].mid(), to = cell.sides[j].hi();
+  const double from = cell.sides[j].lo(), to = cell.sides[j].hi(), cut = from + kShare * (to - from);
   if (depth == 0 || !(from < cut && cut < to)) return false;
   SignCell first = cell, second = cell;
   (upwards ? first : second).sides[j] = Enclosure(from, cut);

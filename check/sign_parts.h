@@ -4,8 +4,9 @@
 // dependent variables is regular. Its part of the signs s is the set of its points where s_k·g_k > 0 for each function.
 //   Lemma 1: where every g_k has one sign on the cell, the part is the cell, or empty.
 //   Arcs: where the cell has one free variable, and along it each g_k is monotone or has one sign, the part is an interval
-// or empty; where some s_k·g_k ≤ 0 at both ends, empty. The parts on arcs that follow each other are so many intervals as
-// begin on one without its first point, and one that may begin with the first.
+// or empty: empty where some s_k·g_k ≤ 0 at the end at which it is largest, not empty where an end is in it. On arcs that
+// follow each other it is at most so many intervals as begin on one whose first point is not shown to be in the part, the
+// first arc's own among them.
 //   Outflow (lemmas 2 and 4 of doc/theory.md): let d be a direction of free variables with s_k·∂g_k/∂d > 0 all over the
 // cell for each g_k that has both signs. From a point of the part one comes along d to the faces of X_F through which d
 // leaves it, and does not leave the part: the part contracts onto its points there. So it is connected, or empty, where they
