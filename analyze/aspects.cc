@@ -256,8 +256,8 @@ class PieceCounter {
       known.union_set(joined.part, joined.other);
       proof.links.insert(proof.links.end(), joined.links.begin(), joined.links.end());
       if (!joined.bridge) continue;
-      proof.cells.push_back({static_cast<int>(cells_.given() + proof.bridges.size()),
-                             sides(joined.bridge->free, joined.bridge->region)});
+      proof.cells.push_back(
+          {static_cast<int>(cells_.given() + proof.bridges.size()), sides(joined.bridge->free, joined.bridge->region)});
       proof.bridges.push_back(*joined.bridge);
     }
   }

@@ -28,8 +28,8 @@ struct PieceFunctions {
 };
 
 struct PieceReport {
-  std::size_t members = 0;  ///< that are confirmed
-  int at_least = 0;         ///< pieces that are confirmed
+  std::size_t members = 0;     ///< that are confirmed
+  int at_least = 0;            ///< pieces that are confirmed
   std::optional<int> at_most;  ///< likewise; nothing: `unbounded` says why
   std::string unbounded;
   bool bounded = false;  ///< the upper bound that is claimed is confirmed

@@ -188,7 +188,8 @@ class Bound {
       result.push_back(std::move(c));
       return true;
     }
-    return halvings > 0 && in_halves(sheet, over, [&](const FreeSides& half) { return examine(sheet, half, halvings - 1, result); });
+    return halvings > 0 &&
+           in_halves(sheet, over, [&](const FreeSides& half) { return examine(sheet, half, halvings - 1, result); });
   }
 
   template <class Visit>
@@ -225,7 +226,8 @@ class Bound {
   bool is_elsewhere(std::size_t sheet, const FreeSides& over, int halvings) const {
     whole_.stop().poll();
     SignCell cell = parts_.cell(sheets_.free(sheet), sheets_.start(sheet, over));
-    if (!parts_.bound(cell, kSteps)) return false;
+    for (int step = 0; step < kSteps; ++step)
+      if (!parts_.bound(cell, 1)) return false;
     if (is_outside(cell)) return true;
     for (std::size_t other = 0; other < sheets_.size(); ++other) {
       if (other == sheet || !sheets_.holds(other, sheets_.over(other), cell.sides)) continue;
@@ -236,7 +238,8 @@ class Bound {
       }
       if (open_parts(there, cells_of_[other], whole_.stop()).empty()) return true;
     }
-    return halvings > 0 && in_halves(sheet, over, [&](const FreeSides& half) { return is_elsewhere(sheet, half, halvings - 1); });
+    return halvings > 0 &&
+           in_halves(sheet, over, [&](const FreeSides& half) { return is_elsewhere(sheet, half, halvings - 1); });
   }
 
   std::string check_cover() {
@@ -392,7 +395,7 @@ class Bound {
     return !(v.kind == VariableKind::length && v.lower == v.upper);
   }
 
-  static constexpr int kSteps = 3, kHalvings = 4, kHalvingsElsewhere = 8;
+  static constexpr int kSteps = 3, kHalvings = 4, kHalvingsElsewhere = 16;
 
   const Problem& whole_;
   const Cover& cover_;

@@ -11,6 +11,13 @@ constexpr double kShare = 0.53;  // of a segment: its middle may well be a zero 
 
 bool is_nonpositive(const Enclosure& x) { return (-x).is_nonnegative(); }
 
+// An m×n matrix of zeros.
+void clear(std::vector<Sides>& matrix, std::size_t m, std::size_t n) {
+  static const Enclosure zero;
+  matrix.resize(m);
+  for (Sides& row : matrix) row.assign(n, zero);
+}
+
 // s·x
 Enclosure turned(const Enclosure& x, int s) { return s > 0 ? x : -x; }
 
@@ -46,22 +53,23 @@ std::vector<int> SignParts::dependent(const SignCell& cell) const {
 bool SignParts::bound(SignCell& cell, int steps) const {
   const std::vector<int> dependent = this->dependent(cell);
   Krawczyk newton(problem_.equations(), problem_.size());
-  bool linear = false;
-  for (int step = 0; step < steps; ++step) {
-    if (!newton.set(dependent, cell.sides, Krawczyk::Center::polished)) break;
-    const Sides image = newton.image(cell.sides);
-    for (std::size_t a = 0; a < image.size(); ++a)
-      if (!cell.sides[static_cast<std::size_t>(dependent[a])].intersect(image[a])) return false;
-    linear = true;
+  for (int step = 0; step < steps && (step == 0 || !cell.mixed.empty()); ++step) {
+    const bool linear = newton.set(dependent, cell.sides, Krawczyk::Center::polished);
+    if (linear) {
+      const Sides image = newton.image(cell.sides);
+      for (std::size_t a = 0; a < image.size(); ++a)
+        if (!cell.sides[static_cast<std::size_t>(dependent[a])].intersect(image[a])) return false;
+    }
+    std::vector<std::size_t> mixed;
+    for (const std::size_t k : cell.mixed) {
+      Enclosure value = functions_[k].value(cell.sides);
+      if (linear && value.has_zero() && !value.intersect(newton.value_at_zeros(functions_[k], cell.sides))) return false;
+      if (value.has_zero()) mixed.push_back(k);
+      cell.range[k] = value;
+    }
+    cell.mixed = std::move(mixed);
+    if (!linear) break;
   }
-  std::vector<std::size_t> mixed;
-  for (const std::size_t k : cell.mixed) {
-    Enclosure value = functions_[k].value(cell.sides);
-    if (linear && value.has_zero() && !value.intersect(newton.value_at_zeros(functions_[k], cell.sides))) return false;
-    if (value.has_zero()) mixed.push_back(k);
-    cell.range[k] = value;
-  }
-  cell.mixed = std::move(mixed);
   return true;
 }
 
@@ -80,9 +88,11 @@ bool SignParts::slopes(const SignCell& cell, Slopes& result) const {
   const std::vector<Row>& equations = problem_.equations();
   const std::size_t m = equations.size(), n = cell.sides.size();
   if (dependent.size() != m) return false;
-  std::vector<Sides> jacobian(m, Sides(n));
+  thread_local std::vector<Sides> jacobian, t;  // whose memory is used again
+  thread_local Sides entries;
+  clear(jacobian, m, n);
+  clear(t, m, n);
   std::vector<double> middle(m * m);
-  Sides entries;
   const auto derive = [&](const Row& row, Sides& dense) {
     row.derivatives(cell.sides, entries);
     for (std::size_t k = 0; k < entries.size(); ++k) dense[static_cast<std::size_t>(row.columns()[k])] = entries[k];
@@ -94,7 +104,6 @@ bool SignParts::slopes(const SignCell& cell, Slopes& result) const {
   std::vector<double> y = inverse(middle, m);
   if (y.size() != m * m) return false;
   drop_noise(y, m);
-  std::vector<Sides> t(m, Sides(n));
   for (std::size_t a = 0; a < m; ++a)
     for (std::size_t b = 0; b < m; ++b)
       for (std::size_t j = 0; y[a * m + b] != 0 && j < n; ++j)
@@ -232,7 +241,8 @@ SignParts::Directions SignParts::passages(const SignCell& cell, const std::vecto
   Directions result;
   Slopes s;
   if (!slopes(cell, s)) return result;
-  for (std::size_t k = 0; k < directions.size() && k < kMostDirections; ++k) result[k] = grows(cell, s, directions[k], signs);
+  for (std::size_t k = 0; k < directions.size() && k < kMostDirections; ++k)
+    result[k] = grows(cell, s, directions[k], signs);
   return result;
 }
 
