@@ -11,15 +11,15 @@
 #include <numeric>
 #include <set>
 
+#include "corank/check/distinct.h"
 #include "corank/check/piece_sheets.h"
 #include "corank/check/sign_parts.h"
 #include "corank/check/solution.h"
-#include "corank/core/box_tree.h"
 
 namespace corank::check {
 namespace {
 
-constexpr std::size_t kMostCells = 400'000, kMostOpen = 3;
+constexpr std::size_t kMostCells = 400'000, kMostOpen = 3, kMostPairs = 20'000'000;
 
 // Bit k: function k is positive.
 using Mask = std::uint32_t;
@@ -68,11 +68,11 @@ class Bound {
 
   PieceBound run() {
     // What a step finds wrong is why nothing is confirmed.
-    for (const auto& step : {&Bound::check_bridges, &Bound::check_cells, &Bound::examine_all, &Bound::check_cover}) {
+    for (const auto& step :
+         {&Bound::check_bridges, &Bound::check_cells, &Bound::examine_all, &Bound::check_cover, &Bound::number_parts}) {
       result_.reason = (this->*step)();
       if (!result_.reason.empty()) return std::move(result_);
     }
-    number_parts();
     join_whole_cells();
     join_by_links();
     join_along_borders();
@@ -251,7 +251,7 @@ class Bound {
     return left == 0 ? "" : "its cells are not shown to cover all sheets";
   }
 
-  void number_parts() {
+  std::string number_parts() {
     std::size_t parts = 0;
     std::vector<const Box*> hulls;
     for (const Cell& c : cells_) {
@@ -260,19 +260,19 @@ class Bound {
       hulls.push_back(&c.hull);
     }
     classes_ = Classes(parts);
-    if (!hulls.empty()) tree_.emplace(hulls, hulls.front()->size());
+    touching_ = meeting_pairs(
+        hulls, [this](std::size_t, std::size_t) { return whole_.stop().poll(), false; }, kMostPairs);
+    return touching_.size() < kMostPairs ? "" : "too many cells touch";
   }
 
-  // Calls visit(c, p, d, q) for parts of like signs in cells c < d whose boxes touch.
+  // Calls visit(c, p, d, q) for parts of like signs in cells c and d whose boxes touch.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
+    for (const auto& [c, d] : touching_) {
       whole_.stop().poll();
-      tree_->for_each_overlapping(cells_[c].hull, 0.0, [&](std::size_t d) {
-        for (std::size_t p = 0; d > c && p < cells_[c].parts.size(); ++p)
-          for (std::size_t q = 0; q < cells_[d].parts.size(); ++q)
-            if (cells_[c].parts[p].signs == cells_[d].parts[q].signs) visit(c, p, d, q);
-      });
+      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p)
+        for (std::size_t q = 0; q < cells_[d].parts.size(); ++q)
+          if (cells_[c].parts[p].signs == cells_[d].parts[q].signs) visit(c, p, d, q);
     }
   }
 
@@ -347,23 +347,41 @@ class Bound {
       Sides x = solution_near(whole_, proof_.links[i].point, proof_.links[i].held, fault);
       if (fault.empty()) solutions[i] = std::move(x);
     });
-    for (const Sides& x : solutions) {
-      if (x.empty() || !tree_) continue;
-      std::vector<Enclosure> values;
-      for (const Row& row : rows_) values.push_back(row.value(x));
-      const std::optional<Mask> signs = signs_of(values);
-      if (!signs) continue;
-      Box near;
-      for (const Enclosure& side : x) near.emplace_back(side.lo(), side.hi());
-      std::vector<std::size_t> at;
-      tree_->for_each_overlapping(near, 0.0, [&](std::size_t c) {
-        if (!sheets_.holds(cells_[c].sheet, cells_[c].over, x)) return;
-        for (std::size_t p = 0; p < cells_[c].parts.size(); ++p)
-          if (cells_[c].parts[p].connected && cells_[c].parts[p].signs == *signs) at.push_back(first_[c] + p);
-      });
-      for (const std::size_t part : at) classes_.join(at.front(), part);
-      result_.links += at.size() > 1;
+    std::vector<Box> near(solutions.size());
+    std::vector<const Box*> boxes;
+    for (const Cell& c : cells_) boxes.push_back(&c.hull);
+    std::vector<std::size_t> link_of;
+    for (std::size_t i = 0; i < solutions.size(); ++i) {
+      if (solutions[i].empty()) continue;
+      for (const Enclosure& side : solutions[i]) near[i].emplace_back(side.lo(), side.hi());
+      boxes.push_back(&near[i]);
+      link_of.push_back(i);
     }
+    std::vector<std::vector<std::size_t>> cells_at(solutions.size());
+    const auto note = [&](std::size_t a, std::size_t b) {
+      whole_.stop().poll();
+      if (const auto [cell, link] = std::minmax(a, b); cell < cells_.size() && link >= cells_.size())
+        cells_at[link_of[link - cells_.size()]].push_back(cell);
+      return true;
+    };
+    meeting_pairs(boxes, note, 1);
+    for (std::size_t i = 0; i < solutions.size(); ++i) join_at(solutions[i], cells_at[i]);
+  }
+
+  void join_at(const Sides& x, const std::vector<std::size_t>& cells) {
+    if (cells.empty()) return;
+    std::vector<Enclosure> values;
+    for (const Row& row : rows_) values.push_back(row.value(x));
+    const std::optional<Mask> signs = signs_of(values);
+    if (!signs) return;
+    std::vector<std::size_t> at;
+    for (const std::size_t c : cells)
+      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p)
+        if (cells_[c].parts[p].connected && cells_[c].parts[p].signs == *signs &&
+            sheets_.holds(cells_[c].sheet, cells_[c].over, x))
+          at.push_back(first_[c] + p);
+    for (const std::size_t part : at) classes_.join(at.front(), part);
+    result_.links += at.size() > 1;
   }
 
   // Cells of one sheet that meet: the sheet's solutions over some points that they have in common.
@@ -408,7 +426,7 @@ class Bound {
   std::vector<std::vector<const FreeSides*>> cells_of_;  // of each sheet
   std::vector<Cell> cells_;
   std::vector<std::size_t> first_;  // of each cell the number of its first part
-  std::optional<BoxTree> tree_;
+  std::vector<std::pair<std::size_t, std::size_t>> touching_;
   Classes classes_{0};
   PieceBound result_;
 };

@@ -69,7 +69,7 @@ TEST(SignParts, OfCrossingLinesAreKnownByTheirSigns) {
 
 // Here the Jacobian that counts is that along the sheet: z = x y / 4.
 TEST(SignParts, FollowTheSheet) {
-  Sheet slope({"z - x*y/4 + x - 1/10"});
+  Sheet slope({"z - x*y/4 + x/10 - 1/100"});
   EXPECT_EQ(slope.part(-1, 1, -1, 1, {1}), Part::connected);
   EXPECT_EQ(slope.part(0.2, 1, -1, 1, {-1}), Part::empty);
   EXPECT_EQ(slope.part(0.2, 1, -1, 1, {1}), Part::connected);
@@ -251,6 +251,38 @@ TEST(PieceBound, OfRandomQuadricsIsNeverTooSmall) {
   EXPECT_GT(bounded, kTrials / 3);
   EXPECT_GT(exact, kTrials / 4);
   std::printf("%d bounds of %d planted numbers of pieces, %d exact, 0 too small\n", bounded, kTrials, exact);
+}
+
+// Two sheets that are the same: what the one's cells leave out the other's may hold, but not what both leave out.
+TEST(PieceBound, FindsWhatIsLeftOutInOtherSheets) {
+  Plane plane;
+  plane.cover.boxes.push_back(plane.cover.boxes.front());
+  const Quadric line{{0, 1, 0, 0, 0, 0}};
+  std::mt19937 random(4);
+  PieceProof proof;
+  cut(proof.cells, {Interval(-1, 1), Interval(-1, 1)}, 4, random);
+  for (std::size_t k = 0; k < 16; ++k) proof.cells.push_back({1, proof.cells[k].sides});
+  for (const std::size_t k : {0U, 5U, 11U}) {
+    PieceProof less = proof;
+    less.cells.erase(less.cells.begin() + static_cast<std::ptrdiff_t>(16 + k));
+    EXPECT_TRUE(plane.bound({line}, less).at_most);
+    less.cells.erase(less.cells.begin() + static_cast<std::ptrdiff_t>(k));
+    EXPECT_FALSE(plane.bound({line}, less).at_most);
+  }
+}
+
+// Both cells have points on both sides of x = 0.
+TEST(PieceBound, IsJoinedByLinksOfLikeSigns) {
+  const Plane plane;
+  const Quadric line{{0, 1, 0, 0, 0, 0}};
+  PieceProof proof;
+  proof.cells = {{0, {Interval(-1, 1), Interval(-1, 0)}}, {0, {Interval(-1, 1), Interval(0, 1)}}};
+  for (const double x : {-0.5, 0.5, 2.0}) proof.links.push_back({{x, 0, 0}, {0, 1}});
+  proof.links.push_back({{0.5, 0, 0}, {}});
+  proof.links.push_back({{}, {0, 1}});
+  const PieceBound found = plane.bound({line}, proof);
+  EXPECT_EQ(found.at_most, 2);
+  EXPECT_EQ(found.links, 2U);
 }
 
 // A disc of radius 1/2 about a cell's corner, and what is outside of it.
