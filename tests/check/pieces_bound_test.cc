@@ -70,9 +70,9 @@ TEST(SignParts, OfCrossingLinesAreKnownByTheirSigns) {
 // Here the Jacobian that counts is that along the sheet: z = x y / 4.
 TEST(SignParts, FollowTheSheet) {
   Sheet slope({"z - x*y/4 + x/10 - 1/100"});
-  EXPECT_EQ(slope.part(-1, 1, -1, 1, {1}), Part::connected);
-  EXPECT_EQ(slope.part(0.2, 1, -1, 1, {-1}), Part::empty);
-  EXPECT_EQ(slope.part(0.2, 1, -1, 1, {1}), Part::connected);
+  EXPECT_EQ(slope.part(-1, 1, 0.5, 0.7, {1}), Part::connected);
+  EXPECT_EQ(slope.part(0.2, 1, 0.5, 0.7, {-1}), Part::empty);
+  EXPECT_EQ(slope.part(0.2, 1, 0.5, 0.7, {1}), Part::connected);
 }
 
 struct Quadric {
