@@ -276,8 +276,15 @@ TEST(PieceBound, IsJoinedByLinksOfLikeSigns) {
   const Plane plane;
   const Quadric line{{0, 1, 0, 0, 0, 0}};
   PieceProof proof;
-  proof.cells = {{0, {Interval(-1, 1), Interval(-1, 0)}}, {0, {Interval(-1, 1), Interval(0, 1)}}};
-  for (const double x : {-0.5, 0.5, 2.0}) proof.links.push_back({{x, 0, 0}, {0, 1}});
+  const Interval left(-1, -0.5), middle(-0.5, 0.5), right(0.5, 1);
+  for (const auto& [x, y] : {std::pair(middle, Interval(-0.5, 0)),
+                             {middle, Interval(0, 0.5)},
+                             {left, Interval(-1, 1)},
+                             {right, Interval(-1, 1)},
+                             {middle, left},
+                             {middle, right}})
+    proof.cells.push_back({0, {x, y}});
+  for (const double x : {-0.25, 0.25, 2.0}) proof.links.push_back({{x, 0, 0}, {0, 1}});
   proof.links.push_back({{0.5, 0, 0}, {}});
   proof.links.push_back({{}, {0, 1}});
   const PieceBound found = plane.bound({line}, proof);
