@@ -5,7 +5,7 @@
 
 #include "corank/check/piece_sheets.h"
 #include "corank/check/sign_parts.h"
-#include "covers.h"
+#include "corank/tests/check/covers.h"
 
 namespace corank::check {
 namespace {
