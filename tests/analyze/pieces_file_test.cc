@@ -99,9 +99,9 @@ TEST(PiecesFile, OfOtherMechanismsIsVerified) {
   expect_complete(make_file("planar/four_bar_crank_rocker"));
   expect_complete(make_file("planar/3rpr", {{"lower1", "6/5"}, {"upper1", "6/5"}}));
 }
+
 // As in aspects_test.cc: two closed lines v + k w = ±π/2 and two v − m w = ±π/2 on a torus have 4 (k + m) faces;
 // sin(n v + a) on a circle has 2n monotone arcs.
-// on a circle 2n monotone arcs.
 TEST(PiecesFile, OfPlantedPiecesConfirmsTheirNumber) {
   std::mt19937 random(11);
   std::uniform_int_distribution<int> harmonic(1, 4), shift(2, 9);
