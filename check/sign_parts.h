@@ -42,8 +42,8 @@ class SignParts {
   SignParts(const Problem& problem, const std::vector<Row>& functions) : problem_(problem), functions_(functions) {}
 
   SignCell cell(const std::vector<int>& free, Sides sides) const;
-  /// Shrinks the dependent sides, so many times at most, and bounds the mixed functions. False: no solution is over X_F, which no sheet
-  /// says.
+  /// Shrinks the dependent sides, so many times at most, and bounds the mixed functions.
+  /// False: no solution is over X_F, which no sheet says.
   bool bound(SignCell& cell, int steps) const;
   /// The part of these signs, one of each function.
   Part part(const SignCell& cell, const std::vector<int>& signs, const std::vector<Direction>& directions) const;

@@ -1,4 +1,5 @@
-// Cells and links that show how many pieces there are at most, in HDF5: the group `proof` of a list of pieces (pieces_file.h).
+// Cells and links that show how many pieces there are at most, in HDF5: the group `proof` of a list of pieces
+// (pieces_file.h).
 #pragma once
 
 #include <string>
