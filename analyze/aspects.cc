@@ -52,6 +52,7 @@ class PieceCounter {
     }
     join_touching();
     join_at_ends();
+    keep_proof(result.proof);
     upper_bound(result);
     lower_bound(result);
     return result;
@@ -98,8 +99,9 @@ class PieceCounter {
     return true;
   }
 
-  // All parts that hold the point are of one piece. Those of cells that end there, but for rounding, may be.
-  void join_at(const Box& point) {
+  // All parts that hold the point, a solution over values of the variables `held`, are of one piece. Those of cells that end
+  // there, but for rounding, may be.
+  void join_at(const Box& point, const std::vector<int>& held) {
     constexpr double kGap = 1e-9;
     const Signs signs = cells_.signs(point);
     if (std::find(signs.begin(), signs.end(), 0) != signs.end()) return;
@@ -117,7 +119,10 @@ class PieceCounter {
         near.push_back(part->second);
         return;
       }
-      if (first) proven_.union_set(*first, part->second);
+      if (first && proven_.find_set(*first) != proven_.find_set(part->second)) {
+        proven_.union_set(*first, part->second);
+        joined_.push_back({*first, part->second, {link(point, held)}, {}});
+      }
       first = part->second;
     });
     if (!first) return;
@@ -142,7 +147,7 @@ class PieceCounter {
             const double inside = std::clamp(side.lo() + share * (side.hi() - side.lo()), side.lo(), side.hi());
             at[static_cast<std::size_t>(frees[f])] = Interval(f != face ? inside : upper ? side.hi() : side.lo());
           }
-          join_at(cells_.solution_over(cell, at));
+          join_at(cells_.solution_over(cell, at), frees);
         }
   }
 
@@ -157,10 +162,11 @@ class PieceCounter {
       for (const double radius : {1e-3, 1e-5, 1e-7}) {
         const certify::Sheet piece = test_.sheet_about(end.point, radius);
         if (!piece.proven || cells_.signs(piece.region) != parts_[end.part].signs) continue;
-        if (!meets(piece.region, cells_.cells()[parts_[end.part].cell]) ||
-            !meets(piece.region, cells_.cells()[parts_[end.other].cell]))
-          continue;
+        const std::optional<PieceLink> here = meeting(piece.region, cells_.cells()[parts_[end.part].cell]);
+        const std::optional<PieceLink> there = meeting(piece.region, cells_.cells()[parts_[end.other].cell]);
+        if (!here || !there) continue;
         proven_.union_set(end.part, end.other);
+        joined_.push_back({end.part, end.other, {*here, *there}, SheetBridge{free_of(piece), piece.region}});
         break;
       }
     }
@@ -195,17 +201,65 @@ class PieceCounter {
             const double share = f == along ? static_cast<double>(k) / count : others;
             at[j] = Interval(std::clamp(near[j].lo() + share * near[j].width(), near[j].lo(), near[j].hi()));
           }
-          join_at(cells_.solution_over(cell, at));
+          join_at(cells_.solution_over(cell, at), frees);
         }
   }
 
-  // Is a solution in the piece and in the cell proven?
-  bool meets(const Box& piece, const SignCell& cell) {
+  // A solution that is proven to be in the piece and in the cell.
+  std::optional<PieceLink> meeting(const Box& piece, const SignCell& cell) {
     Box common = cells_.region(cell);
     for (const int f : cells_.free(cell)) common[static_cast<std::size_t>(f)] = cell.sides[static_cast<std::size_t>(f)];
     for (std::size_t j = 0; j < common.size(); ++j)
-      if (!common[j].intersect(piece[j])) return false;
-    return test_.solution_in(common, common).has_value();
+      if (!common[j].intersect(piece[j])) return std::nullopt;
+    const std::optional<certify::Sheet> at = test_.sheet_in(common, common);
+    if (!at) return std::nullopt;
+    return link(at->image, free_of(*at));
+  }
+
+  static PieceLink link(const Box& point, const std::vector<int>& held) {
+    PieceLink result{{}, held};
+    for (const Interval& side : point) result.point.push_back(side.mid());
+    return result;
+  }
+
+  std::vector<int> free_of(const certify::Sheet& sheet) const {
+    std::vector<int> result;
+    for (int j = 0; j < cells_.system().size(); ++j)
+      if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) result.push_back(j);
+    return result;
+  }
+
+  // Of the links those that join what cells of one sheet do not join by themselves: where one of two that meet is all of one
+  // part, no solution needs to be named.
+  void keep_proof(PieceProof& proof) {
+    const auto sides = [&](const std::vector<int>& free, const Box& box) {
+      std::vector<Interval> result;
+      for (const int f : free) result.push_back(box[static_cast<std::size_t>(f)]);
+      return result;
+    };
+    const std::vector<CoverBox>& boxes = cells_.cover().boxes;
+    for (std::size_t b = cells_.given(); b < boxes.size(); ++b)
+      proof.bridges.push_back({boxes[b].free, cells_.cover().regions[static_cast<std::size_t>(boxes[b].region)]});
+    for (const SignCell& cell : cells_.cells()) proof.cells.push_back({cell.box, sides(cell.free, cell.sides)});
+    boost::disjoint_sets_with_storage<> known(parts_.size());
+    for (std::size_t p = 0; p < parts_.size(); ++p) known.make_set(p);
+    for_each_pair([&](std::size_t p, std::size_t q) {
+      const SignCell &a = cells_.cells()[parts_[p].cell], &b = cells_.cells()[parts_[q].cell];
+      if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected || a.box != b.box) return;
+      if (!a.mixed.empty() && !b.mixed.empty()) return;
+      for (const int f : a.free)
+        if (!a.sides[static_cast<std::size_t>(f)].overlaps(b.sides[static_cast<std::size_t>(f)])) return;
+      known.union_set(p, q);
+    });
+    for (const Joined& joined : joined_) {
+      if (known.find_set(joined.part) == known.find_set(joined.other)) continue;
+      known.union_set(joined.part, joined.other);
+      proof.links.insert(proof.links.end(), joined.links.begin(), joined.links.end());
+      if (!joined.bridge) continue;
+      proof.cells.push_back(
+          {static_cast<int>(cells_.given() + proof.bridges.size()), sides(joined.bridge->free, joined.bridge->region)});
+      proof.bridges.push_back(*joined.bridge);
+    }
   }
 
   // Parts of like signs in cells that touch.
@@ -296,6 +350,13 @@ class PieceCounter {
     Box point;
   };
 
+  // Two parts, why they are of one piece, and by which sheet of its own, if any.
+  struct Joined {
+    std::size_t part, other;
+    std::vector<PieceLink> links;
+    std::optional<SheetBridge> bridge;
+  };
+
   SignCells& cells_;
   certify::MeetingTest test_;
   solve::Control& control_;
@@ -303,6 +364,7 @@ class PieceCounter {
   std::vector<std::map<Signs, std::size_t>> part_of_;  // of each cell
   std::optional<BoxTree> tree_;
   std::vector<End> ends_;
+  std::vector<Joined> joined_;
   bool crowded_ = false;  // some cell's parts are not even listed
   boost::disjoint_sets_with_storage<> proven_;
 };

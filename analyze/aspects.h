@@ -16,6 +16,7 @@
 #include "corank/analyze/aspect_images.h"
 #include "corank/analyze/aspects_drawing.h"
 #include "corank/analyze/sign_cells.h"
+#include "corank/core/pieces.h"
 #include "corank/study/question.h"
 
 namespace corank::result {
@@ -39,6 +40,7 @@ struct Pieces {
   std::vector<Part> parts;  ///< of the cells, which make the pieces
   std::size_t cells = 0, unresolved = 0;
   std::string reason;  ///< why the bounds are apart; empty where they are not
+  PieceProof proof;    ///< of at_most, for others to check
 
   bool exact() const { return at_most && *at_most == at_least; }
 };

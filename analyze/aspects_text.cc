@@ -53,6 +53,7 @@ result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
     PieceClaims& claims = file.lists[k];
     claims.at_least = lists[k]->at_least;
     claims.at_most = lists[k]->at_most;
+    if (claims.at_most) claims.proof = lists[k]->proof;
     // Of pieces that are not known to differ there may be more.
     for (std::size_t i = 0; i < static_cast<std::size_t>(claims.at_least); ++i)
       claims.members.push_back({lists[k]->representatives[i], lists[k]->free[i], lists[k]->signs[i],

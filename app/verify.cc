@@ -99,9 +99,9 @@ ExitStatus verify_shape(const VerifyCommand& command, Watch& watch) {
   return report.failures.empty() ? kIncomplete : kBadInput;
 }
 
-// Upper bounds stay unchecked: never kDone.
 ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch) {
   const check::PiecesReport report = checked(command, watch, &result::read_pieces);
+  if (report.complete()) return kDone;
   if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
   return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
 }
@@ -156,8 +156,9 @@ void add_verify(CLI::App& program, Action& action) {
       "complete (corank solve --proof), it is replayed.\n\n"
       "What corank path, topology and aspects write is checked, too: a tube; components, Euler characteristic and genus; "
       "of\n"
-      "aspects and modes a member of each, its signs, and how many there are at least (that there are no more is not\n"
-      "checked: exit status 4).\n\n"
+      "aspects and modes a member of each, its signs, and how many there are, at least and at most (where the file does "
+      "not\n"
+      "show that there are no more: exit status 4).\n\n"
       "Exit status: 0 all verified, completeness included; 1 something failed or is not checkable, or the file cannot be\n"
       "read; 2 usage; 3 ended early (limit, interrupt or --sample), nothing was found wrong so far; 4 all verified, but not "
       "its\n"

@@ -9,6 +9,7 @@
 #include "corank/check/distinct.h"
 #include "corank/check/inertia.h"
 #include "corank/check/krawczyk.h"
+#include "corank/check/pieces_bound.h"
 #include "corank/check/solution.h"
 
 namespace corank::check {
@@ -41,8 +42,9 @@ struct Cell {
 
 class PieceCheck {
  public:
-  PieceCheck(const Problem& problem, const Cover& cover, const PieceFunctions& functions, const PieceClaims& claims)
-      : problem_(problem), cover_(cover), functions_(functions), claims_(claims) {
+  PieceCheck(const Problem& problem, const Problem& reduced, const Cover& cover, const PieceFunctions& functions,
+             const PieceClaims& claims, int threads)
+      : problem_(problem), reduced_(reduced), cover_(cover), functions_(functions), claims_(claims), threads_(threads) {
     std::vector<int> place(static_cast<std::size_t>(problem.size()));
     std::iota(place.begin(), place.end(), 0);
     for (const Polynomial& g : functions.functions) rows_.emplace_back(Terms(g, 0), place);
@@ -69,11 +71,23 @@ class PieceCheck {
            " shown");
     if (claims_.at_most && *claims_.at_most < report_.at_least)
       fail("at most " + std::to_string(*claims_.at_most) + " pieces are claimed, and there are more");
+    if (report_.failures.empty()) bound();
     return std::move(report_);
   }
 
  private:
   void fail(std::string what) { report_.failures.push_back(std::move(what)); }
+
+  void bound() {
+    report_.unbounded = "the file has no proof of it";
+    if (!claims_.proof) return;
+    PieceBound found = bound_pieces(problem_, reduced_, cover_, rows_, *claims_.proof, threads_);
+    report_.at_most = found.at_most;
+    report_.unbounded = std::move(found.reason);
+    report_.cells_of_bound = found.cells;
+    report_.links = found.links;
+    report_.bounded = claims_.at_most && found.at_most && *found.at_most <= *claims_.at_most;
+  }
 
   // Each is a multiple of one of the others, either way.
   bool functions_match() const {
@@ -243,9 +257,11 @@ class PieceCheck {
   }
 
   const Problem& problem_;
+  const Problem& reduced_;
   const Cover& cover_;
   const PieceFunctions& functions_;
   const PieceClaims& claims_;
+  int threads_;
   std::vector<Row> rows_;
   std::array<std::vector<Row>, 2> matrices_;
   std::vector<Sides> members_;
@@ -260,6 +276,10 @@ bool PiecesReport::verified() const {
 }
 
 bool PiecesReport::covered() const { return verified() && space.complete(); }
+
+bool PiecesReport::complete() const {
+  return covered() && std::all_of(lists.begin(), lists.end(), [](const PieceReport& r) { return r.bounded; });
+}
 
 PiecesReport check_pieces(const System& system, const Cover& cover, const std::vector<PieceClaims>& claims,
                           const std::vector<PieceFunctions>& functions, const Options& options) {
@@ -284,8 +304,9 @@ PiecesReport check_pieces(const System& system, const Cover& cover, const std::v
     if (claims.size() != functions.size()) fail("the lists of pieces are not those of the model");
     if (!report.failures.empty()) return report;
     report.stage = "the pieces";
+    const Problem reduced(system, cover.reduction, stop);
     for (std::size_t k = 0; k < claims.size(); ++k)
-      report.lists.push_back(PieceCheck(problem, cover, functions[k], claims[k]).run());
+      report.lists.push_back(PieceCheck(problem, reduced, cover, functions[k], claims[k], options.threads).run());
   } catch (const Stopped&) {
     report.interrupted = true;
   }

@@ -7,9 +7,11 @@
 // way are in different pieces. A member is a solution, within the ends of the domain, where each function has the sign
 // that is claimed.
 //
-// at_most is not checked: that no further piece hides about the functions' zeros (lemmas 2 to 4 of doc/theory.md).
+// at_most, that no further piece hides about the functions' zeros, is checked where the file says where to look: see
+// check/pieces_bound.h.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +28,12 @@ struct PieceFunctions {
 };
 
 struct PieceReport {
-  std::size_t members = 0;  ///< that are confirmed
-  int at_least = 0;         ///< pieces that are confirmed
-  std::size_t cells = 0;
+  std::size_t members = 0;     ///< that are confirmed
+  int at_least = 0;            ///< pieces that are confirmed
+  std::optional<int> at_most;  ///< likewise; nothing: `unbounded` says why
+  std::string unbounded;
+  bool bounded = false;  ///< the upper bound that is claimed is confirmed
+  std::size_t cells = 0, cells_of_bound = 0, links = 0;
   std::vector<std::string> failures;
 };
 
@@ -41,8 +46,10 @@ struct PiecesReport {
 
   /// Every lower bound and every member is confirmed, as far as the boxes go that the file has.
   bool verified() const;
-  /// verified(), and the boxes are proven to hold the whole set. Upper bounds stay unchecked.
+  /// verified(), and the boxes are proven to hold the whole set.
   bool covered() const;
+  /// covered(), and every upper bound is confirmed.
+  bool complete() const;
 };
 
 /// `claims` and `functions`: as many lists of pieces, of one cover. Never throws for what a claim says.

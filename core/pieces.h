@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corank/core/cover.h"
+#include "corank/core/shape.h"
 
 namespace corank {
 
@@ -18,11 +19,31 @@ struct PieceMember {
   std::array<int, 2> determinant_signs{};  ///< of det L_y and det L_z; 0: nothing is claimed
 };
 
+/// A part of a sheet: over a box of the sheet's free variables, in their order.
+struct PieceCell {
+  int sheet = 0;
+  std::vector<Interval> sides;
+};
+
+/// A solution in two or more cells.
+struct PieceLink {
+  std::vector<double> point;  ///< near it
+  std::vector<int> held;      ///< variables that have the point's values exactly; so many as the set has dimensions
+};
+
+/// Where to look for a proof that there are no more pieces. Sheets are the boxes of the cover, then the bridges.
+struct PieceProof {
+  std::vector<SheetBridge> bridges;
+  std::vector<PieceCell> cells;
+  std::vector<PieceLink> links;
+};
+
 struct PieceClaims {
   int at_least = 0;
   std::optional<int> at_most;
   std::vector<PieceMember> members;  ///< one of each piece that is claimed to be there
   std::vector<std::string> factors;  ///< of the determinants: the functions, in the order of the signs
+  std::optional<PieceProof> proof;   ///< of at_most
 };
 
 }  // namespace corank

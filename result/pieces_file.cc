@@ -9,6 +9,7 @@
 #include "corank/result/cover_group.h"
 #include "corank/result/hdf5_file.h"
 #include "corank/result/output_file.h"
+#include "corank/result/piece_proof_group.h"
 #include "corank/result/printable.h"
 #include "corank/result/source_group.h"
 #include "corank/symbolic/algebrizer.h"
@@ -23,6 +24,9 @@ constexpr const char* kFormat = kPiecesFormat;
 constexpr std::int64_t kFormatVersion = 1;
 constexpr std::int64_t kMostPieces = 1'000'000, kNone = -1;
 constexpr std::array<const char*, 3> kLists{"aspects", "assembly_modes", "working_modes"};
+constexpr std::array<const char*, 3> kWords{"aspects", "assembly modes", "working modes"};
+
+std::string proof_group(std::size_t list) { return std::string("/") + kLists[list] + "/proof"; }
 
 symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model) {
   return symbolic::singularity_system(model, symbolic::SingularitySet::cspace, std::nullopt, {}, 1);
@@ -121,6 +125,9 @@ void write_pieces(const std::filesystem::path& path, const PiecesFile& data) {
   write_cover(file, "/space", data.space, n);
   for (std::size_t k = 0; k < kLists.size(); ++k)
     write_list(file, kLists[k], data.lists[k], n, static_cast<std::size_t>(data.space.dimension));
+  for (std::size_t k = 0; k < kLists.size(); ++k)
+    if (const auto& proof = data.lists[k].proof)
+      write_piece_proof(file, proof_group(k), *proof, n, static_cast<std::size_t>(data.space.dimension));
   file.close();
   target.finish();
 }
@@ -135,8 +142,11 @@ PiecesFile read_pieces(const std::filesystem::path& path) {
   const std::vector<std::string> expected = names(symbolic::algebrize(equations_of(model_of(data))));
   if (file.texts("/variables") != expected) refuse("its variables are not those of the model");
   data.space = read_cover(file, "/space", expected.size());
-  for (std::size_t k = 0; k < kLists.size(); ++k)
-    data.lists[k] = read_list(file, kLists[k], expected.size(), static_cast<std::size_t>(data.space.dimension));
+  const auto dimension = static_cast<std::size_t>(data.space.dimension);
+  for (std::size_t k = 0; k < kLists.size(); ++k) {
+    data.lists[k] = read_list(file, kLists[k], expected.size(), dimension);
+    if (file.has(proof_group(k))) data.lists[k].proof = read_piece_proof(file, proof_group(k), expected.size(), dimension);
+  }
   return data;
 }
 
@@ -162,19 +172,43 @@ std::string claimed(const PieceClaims& c) {
 
 }  // namespace
 
+namespace {
+
+std::string confirmed(const check::PieceReport& r) {
+  if (!r.at_most) return fmt::format("at least {}", r.at_least);
+  return *r.at_most == r.at_least ? std::to_string(r.at_least) : fmt::format("{} to {}", r.at_least, *r.at_most);
+}
+
+// Why there may be more pieces than these; empty where there are not.
+std::string open_lines(const check::PiecesReport& report) {
+  std::string text;
+  for (std::size_t k = 0; k < report.lists.size(); ++k) {
+    const check::PieceReport& r = report.lists[k];
+    if (r.bounded) continue;
+    text += fmt::format("not confirmed: that there are no more {} than claimed{}{}\n", kWords[k],
+                        r.unbounded.empty() ? "" : ": ", r.unbounded);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string to_table(const check::PiecesReport& report, const PiecesFile& file) {
   std::string text = printable_line(file.model) + ": the pieces of C-space\n";
-  for (std::size_t k = 0; k < report.lists.size(); ++k)
-    text +=
-        fmt::format("  {:<14}  claimed: {}; confirmed: at least {}, {} members with their signs, on {} cells\n", kLists[k],
-                    claimed(file.lists[k]), report.lists[k].at_least, report.lists[k].members, report.lists[k].cells);
+  for (std::size_t k = 0; k < report.lists.size(); ++k) {
+    const check::PieceReport& r = report.lists[k];
+    text += fmt::format("  {:<14}  claimed: {}; confirmed: {}, {} members with their signs, on {} cells", kLists[k],
+                        claimed(file.lists[k]), confirmed(r), r.members, r.cells);
+    text += r.at_most ? fmt::format(" and {} of the file's with {} links\n", r.cells_of_bound, r.links) : "\n";
+  }
   const std::vector<std::string> failures = all_failures(report);
   text += failure_lines(failures);
   if (!report.verified())
     return text + (report.interrupted && failures.empty()
                        ? "interrupted in " + report.stage + "; nothing is said of the rest\n"
                        : "NOT VERIFIED\n");
-  text += "not checked: that there are no more pieces than these\n";
+  if (report.complete()) return text + "verified\n";
+  text += open_lines(report);
   if (!report.space.complete())
     text += "not proven by the file: that its boxes hold all of C-space, on which the counts rest\n";
   return text + "verified, but not its completeness\n";
@@ -182,16 +216,21 @@ std::string to_table(const check::PiecesReport& report, const PiecesFile& file) 
 
 std::string to_json(const check::PiecesReport& report, const PiecesFile& file) {
   using Json = nlohmann::ordered_json;
+  const auto or_null = [](const std::optional<int>& x) { return x ? Json(*x) : Json(); };
   Json json{{"verified", report.verified()},
-            {"complete", false},
+            {"complete", report.complete()},
             {"covers_cspace", report.covered()},
             {"interrupted", report.interrupted}};
-  for (std::size_t k = 0; k < report.lists.size(); ++k)
-    json[kLists[k]] = {
-        {"claimed",
-         {{"at_least", file.lists[k].at_least}, {"at_most", file.lists[k].at_most ? Json(*file.lists[k].at_most) : Json()}}},
-        {"at_least", report.lists[k].at_least},
-        {"members", report.lists[k].members}};
+  for (std::size_t k = 0; k < report.lists.size(); ++k) {
+    const check::PieceReport& r = report.lists[k];
+    json[kLists[k]] = {{"claimed", {{"at_least", file.lists[k].at_least}, {"at_most", or_null(file.lists[k].at_most)}}},
+                       {"at_least", r.at_least},
+                       {"at_most", or_null(r.at_most)},
+                       {"members", r.members},
+                       {"cells", r.cells_of_bound},
+                       {"links", r.links}};
+    if (!r.bounded) json[kLists[k]]["open"] = r.unbounded;
+  }
   json["failures"] = all_failures(report);
   if (report.interrupted) json["stage"] = report.stage;
   return json.dump(2, ' ', false, Json::error_handler_t::replace);

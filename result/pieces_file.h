@@ -32,7 +32,7 @@ bool is_pieces_file(const std::filesystem::path& path);
 check::PiecesReport verify(const PiecesFile& file, const check::Options& options = {});
 
 std::string to_table(const check::PiecesReport& report, const PiecesFile& file);
-/// {"verified", "complete": false, "interrupted", "aspects": {"claimed", "at_least", "members"} …}: doc/certificates.md.
+/// {"verified", "complete", "interrupted", "aspects": {"claimed", "at_least", "at_most", "members"} …}: doc/certificates.md.
 std::string to_json(const check::PiecesReport& report, const PiecesFile& file);
 
 }  // namespace corank::result

@@ -1,4 +1,4 @@
-// A file of aspects and modes: what is written is read and verified, but for upper bounds; what is changed is found out.
+// A file of aspects and modes: what is written is read and verified; what is changed is found out.
 #include "corank/result/pieces_file.h"
 
 #include <gmock/gmock.h>
@@ -10,6 +10,7 @@
 
 #include "corank/analyze/aspects.h"
 #include "corank/study/model.h"
+#include "corank/symbolic/model_file.h"
 
 namespace corank::analyze {
 namespace {
@@ -17,13 +18,16 @@ namespace {
 using result::PiecesFile;
 using ::testing::HasSubstr;
 
-PiecesFile make_file(const std::string& name) {
-  const study::Question question{
-      .model = study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik").mechanism};
+PiecesFile make_file(symbolic::Mechanism model) {
+  const study::Question question{.model = std::move(model)};
   solve::Control control;
   AspectsOptions options;
   options.certificate = true;
   return to_file(question, aspects(question, options, control));
+}
+
+PiecesFile make_file(const std::string& name, const std::vector<result::ConstantOverride>& constants = {}) {
+  return make_file(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik", constants).mechanism);
 }
 
 const PiecesFile& slider() {
@@ -51,24 +55,146 @@ TEST(PiecesFile, IsReadAsItWasWritten) {
     EXPECT_EQ(read.lists[k].members.back().signs, slider().lists[k].members.back().signs);
     EXPECT_EQ(read.lists[k].members.back().determinant_signs, slider().lists[k].members.back().determinant_signs);
   }
-  EXPECT_TRUE(result::verify(read).covered());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const PieceProof &now = read.lists[k].proof.value(), &before = slider().lists[k].proof.value();
+    ASSERT_EQ(now.cells.size(), before.cells.size());
+    EXPECT_EQ(now.cells.back().sides, before.cells.back().sides);
+    EXPECT_EQ(now.cells.back().sheet, before.cells.back().sheet);
+    ASSERT_EQ(now.links.size(), before.links.size());
+    EXPECT_EQ(now.links.back().point, before.links.back().point);
+    EXPECT_EQ(now.links.back().held, before.links.back().held);
+    EXPECT_EQ(now.bridges.size(), before.bridges.size());
+  }
+  EXPECT_TRUE(result::verify(read).complete());
 }
 
-TEST(PiecesFile, OfKnownAspectsIsVerifiedButForUpperBounds) {
+void expect_complete(const PiecesFile& file) {
+  const check::PiecesReport report = result::verify(file);
+  EXPECT_TRUE(report.complete()) << result::to_table(report, file);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(report.lists.at(k).at_least, file.lists[k].at_least);
+    EXPECT_EQ(report.lists[k].at_most, file.lists[k].at_most);
+  }
+}
+
+TEST(PiecesFile, OfKnownAspectsIsVerified) {
   for (const PiecesFile* file : {&slider(), &rocker()}) {
-    const check::PiecesReport report = result::verify(*file);
-    EXPECT_TRUE(report.covered()) << result::to_table(report, *file);
-    EXPECT_EQ(report.lists.at(0).at_least, 8);
-    EXPECT_THAT(result::to_table(report, *file), HasSubstr("not checked: that there are no more pieces"));
+    EXPECT_EQ(file->lists[0].at_most, 8);
+    expect_complete(*file);
+    EXPECT_THAT(result::to_table(result::verify(*file), *file), testing::EndsWith("\nverified\n"));
   }
 }
 
 // Here 10 aspects have fewer choices of signs: only cells tell them apart.
 TEST(PiecesFile, OfDextarIsVerified) {
   const PiecesFile file = make_file("dextar");
+  EXPECT_EQ(file.lists[0].at_most, 10);
+  expect_complete(file);
+}
+
+// Limits end C-space; loci cross on the border of sheets; a parallel robot's slice; a long single-loop's curve.
+TEST(PiecesFile, OfOtherMechanismsIsVerified) {
+  expect_complete(make_file("dextar_limits"));
+  expect_complete(make_file("three_slider", {{"L2", "4/5"}}));
+  expect_complete(make_file("planar/four_bar_crank_rocker"));
+  expect_complete(make_file("planar/3rpr", {{"lower1", "6/5"}, {"upper1", "6/5"}}));
+}
+
+// As in aspects_test.cc: two closed lines v + k w = ±π/2 and two v − m w = ±π/2 on a torus have 4 (k + m) faces;
+// sin(n v + a) on a circle has 2n monotone arcs.
+TEST(PiecesFile, OfPlantedPiecesConfirmsTheirNumber) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> harmonic(1, 4), shift(2, 9);
+  const auto text = [](int c) { return std::to_string(c); };
+  for (const auto& [k, m] : {std::pair(1, 0), {1, 1}, {2, 1}}) {
+    const PiecesFile file = make_file(symbolic::parse_model(
+        "[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx = sin(v + " + text(k) +
+            "*w);\ny = sin(v - " + text(m) + "*w);\n[INPUTS] v, w\n[OUTPUTS] x, y\n",
+        "lines.cuik"));
+    EXPECT_EQ(file.lists[0].at_most, 4 * (k + m));
+    expect_complete(file);
+  }
+  for (int trial = 0; trial < 6; ++trial) {
+    const int n = harmonic(random);
+    const PiecesFile file =
+        make_file(symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nu : [-2, 2]\n[SYSTEM EQS]\nu = sin(" + text(n) +
+                                            "*v + 1/" + text(shift(random)) + ");\n[INPUTS] v\n[OUTPUTS] u\n",
+                                        "wave.cuik"));
+    EXPECT_EQ(file.lists[2].at_most, 2 * n);
+    expect_complete(file);
+  }
+}
+
+// What is verified as before, with upper bounds that are not confirmed.
+void expect_open(const PiecesFile& file, const char* words) {
   const check::PiecesReport report = result::verify(file);
-  EXPECT_TRUE(report.covered()) << result::to_table(report, file);
-  EXPECT_EQ(report.lists.at(0).at_least, 10);
+  EXPECT_TRUE(report.covered());
+  EXPECT_FALSE(report.complete());
+  EXPECT_THAT(result::to_table(report, file), HasSubstr("not confirmed: that there are no more"));
+  EXPECT_THAT(result::to_table(report, file), HasSubstr(words));
+}
+
+TEST(PiecesFile, WithoutAProofOfUpperBoundsIsVerifiedButForThose) {
+  PiecesFile file = slider();
+  for (PieceClaims& claims : file.lists) claims.proof.reset();
+  const std::string path = ::testing::TempDir() + "pieces_file_test_old.h5";
+  result::write_pieces(path, file);
+  expect_open(result::read_pieces(path), "no more aspects than claimed: the file has no proof of it");
+}
+
+// Each makes a proof of too few pieces, or one with a gap.
+TEST(PiecesFile, WithAGapInItsProofConfirmsNoUpperBound) {
+  const auto with = [](const std::function<void(PieceProof&)>& change) {
+    PiecesFile file = slider();
+    change(*file.lists[0].proof);
+    return file;
+  };
+  expect_open(with([](PieceProof& p) { p.cells.erase(p.cells.begin() + 3); }), "not shown to cover");
+  expect_open(with([](PieceProof& p) { p.cells.clear(); }), "not shown to cover");
+  expect_open(with([](PieceProof& p) {
+                Interval& side = p.cells[5].sides[0];
+                side = Interval(side.lo(), side.mid());
+              }),
+              "not shown to cover");
+  expect_open(with([](PieceProof& p) {
+                Interval& side = p.cells[5].sides[0];
+                side = Interval(std::nextafter(side.lo(), side.hi()), side.hi());
+              }),
+              "not shown to cover");
+  expect_open(with([](PieceProof& p) {
+                Interval& side = p.cells[5].sides[0];
+                side = Interval(side.lo() - 1, side.hi());
+              }),
+              "a cell is not within its sheet");
+  expect_open(with([](PieceProof& p) { p.cells[5].sheet = 1'000'000; }), "a cell is of no sheet");
+  expect_open(with([](PieceProof& p) { p.cells[5].sheet = -1; }), "a cell is of no sheet");
+  expect_open(with([](PieceProof& p) { p.cells[5].sides.clear(); }), "not one side for each free variable");
+  expect_open(with([](PieceProof& p) { p.bridges.push_back({slider().space.boxes[0].free, {}}); }), "sheet of its own");
+  expect_open(with([](PieceProof& p) {
+                p.bridges.push_back({slider().space.boxes[0].free, slider().space.regions[0]});
+                for (Interval& side : p.bridges.back().region) side = Interval(side.lo() - 0.5, side.hi() + 0.5);
+              }),
+              "of its own: a part of it");
+  for (std::size_t link = 0; link < slider().lists[0].proof->links.size(); ++link) {
+    const check::PiecesReport report =
+        result::verify(with([&](PieceProof& p) { p.links.erase(p.links.begin() + static_cast<std::ptrdiff_t>(link)); }));
+    EXPECT_GE(report.lists.at(0).at_most, 8);
+    EXPECT_TRUE(report.verified());
+  }
+  expect_open(with([](PieceProof& p) { p.links.clear(); }), "claimed: 8; confirmed: 8 to ");
+}
+
+// A piece fewer, everywhere in the claims: nothing speaks against it but the count of classes.
+TEST(PiecesFile, ThatHidesAPieceConfirmsNoUpperBound) {
+  for (const PiecesFile* good : {&slider(), &rocker()})
+    for (std::size_t k = 0; k < 3; ++k) {
+      PiecesFile file = *good;
+      --file.lists[k].at_least;
+      --*file.lists[k].at_most;
+      file.lists[k].members.pop_back();
+      expect_open(file, "to ");
+      EXPECT_EQ(result::verify(file).lists[k].at_most, good->lists[k].at_most);
+    }
 }
 
 struct Change {
@@ -152,7 +278,21 @@ std::string damage(unsigned seed, PiecesFile& f) {
   PieceClaims& list = f.lists[below(3)];
   PieceMember& member = list.members[below(list.members.size())];
   CoverBox& box = f.space.boxes[below(f.space.boxes.size())];
-  switch (below(12)) {
+  PieceProof& proof = *list.proof;
+  PieceCell& cell = proof.cells[below(proof.cells.size())];
+  PieceLink& link = proof.links[below(proof.links.size())];
+  switch (below(19)) {
+    case 12: proof.cells.erase(proof.cells.begin() + (&cell - proof.cells.data())); return "cell dropped";
+    case 13: move(cell.sides[below(cell.sides.size())]); return "cell moved";
+    case 14: cell.sheet = static_cast<int>(below(f.space.boxes.size())); return "cell's sheet";
+    case 15: proof.links.erase(proof.links.begin() + (&link - proof.links.data())); return "link dropped";
+    case 16: link.point[below(link.point.size())] += std::array{-1e-1, 1e-6, 0.3}[below(3)]; return "link moved";
+    case 17: link.held.front() = static_cast<int>(below(link.point.size())); return "link's held variable";
+    case 18:
+      --*list.at_most;
+      --list.at_least;
+      list.members.pop_back();
+      return "piece hidden";
     case 0: list.at_least += 1; return "at_least";
     case 1: *list.at_most -= 1; return "at_most";
     case 2: member.signs[below(member.signs.size())] *= -1; return "sign";
@@ -168,19 +308,19 @@ std::string damage(unsigned seed, PiecesFile& f) {
     case 9: move(box.box[below(box.box.size())]); return "box moved";
     case 10: move(f.space.regions[below(f.space.regions.size())][below(box.box.size())]); return "region moved";
     default: {
-      auto proof = std::make_shared<Proof>(*f.space.proof);
-      proof->steps[below(proof->steps.size())] ^= 1;
-      f.space.proof = proof;
+      auto script = std::make_shared<Proof>(*f.space.proof);
+      script->steps[below(script->steps.size())] ^= 1;
+      f.space.proof = script;
       return "proof's step";
     }
   }
 }
 
 TEST(PiecesFile, ThatIsDamagedAtRandomClaimsNothingFalse) {
-  int refused = 0, count = 0;
-  std::map<std::string, int> refused_of;
+  int refused = 0, count = 0, open = 0;
+  std::map<std::string, int> refused_of, open_of;
   for (const PiecesFile* good : {&slider(), &rocker()})
-    for (unsigned seed = 0; seed < 150; ++seed, ++count) {
+    for (unsigned seed = 0; seed < 240; ++seed, ++count) {
       PiecesFile file = *good;
       const std::string kind = damage(seed, file);
       SCOPED_TRACE(kind + ", " + std::to_string(seed));
@@ -190,8 +330,16 @@ TEST(PiecesFile, ThatIsDamagedAtRandomClaimsNothingFalse) {
         ++refused_of[kind];
         continue;
       }
+      open += !report.complete();
+      open_of[kind] += !report.complete();
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_LE(file.lists[k].at_least, good->lists[k].at_least);
+        if (report.lists[k].at_most) {
+          EXPECT_GE(*report.lists[k].at_most, *good->lists[k].at_most);
+        }
+        if (report.complete()) {
+          EXPECT_GE(file.lists[k].at_most, good->lists[k].at_most);
+        }
         for (std::size_t i = 0; i < file.lists[k].members.size(); ++i) {
           const PieceMember &now = file.lists[k].members[i], &before = good->lists[k].members[i];
           EXPECT_EQ(now.signs, before.signs);
@@ -202,7 +350,10 @@ TEST(PiecesFile, ThatIsDamagedAtRandomClaimsNothingFalse) {
   EXPECT_GT(refused, count / 3);
   for (const char* kind : {"at_least", "sign", "determinant's sign", "member twice", "member added", "box dropped"})
     EXPECT_GT(refused_of[kind], 0) << kind;
-  std::printf("%d damages: %d refused, %d true all the same, but for upper bounds\n", count, refused, count - refused);
+  for (const char* kind : {"cell dropped", "cell moved", "cell's sheet", "piece hidden"})
+    EXPECT_GT(open_of[kind], 0) << kind;
+  std::printf("%d damages: %d refused, %d true all the same, %d of these without an upper bound\n", count, refused,
+              count - refused, open);
 }
 
 }  // namespace

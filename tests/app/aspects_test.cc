@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "corank/tests/app/program.h"
 
@@ -11,6 +12,19 @@ namespace corank::app {
 namespace {
 
 using ::testing::HasSubstr;
+
+TEST(AspectsCommand, WritesWhatIsVerified) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("aspects.h5");
+  EXPECT_EQ(run_corank({"aspects", model("three_slider"), "-o", file}).status, 0);
+  const auto table = run_corank({"verify", file, "--require-proof"});
+  EXPECT_EQ(table.status, 0);
+  EXPECT_THAT(table.out, testing::EndsWith("\nverified\n"));
+  const auto json = nlohmann::json::parse(run_corank({"verify", file, "--json"}).out);
+  EXPECT_EQ(json["complete"], true);
+  EXPECT_EQ(json["aspects"]["at_most"], 8);
+  EXPECT_EQ(json["working_modes"]["at_most"], 4);
+}
 
 TEST(AspectsCommand, DrawsEachAspectOverOutputsAndInputs) {
   const TemporaryFolder folder;

@@ -1,0 +1,442 @@
+#include "corank/check/pieces_bound.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "corank/check/distinct.h"
+#include "corank/check/piece_sheets.h"
+#include "corank/check/sign_parts.h"
+#include "corank/check/solution.h"
+
+namespace corank::check {
+namespace {
+
+constexpr std::size_t kMostCells = 400'000, kMostOpen = 3, kMostPairs = 20'000'000;
+
+// Bit k: function k is positive.
+using Mask = std::uint32_t;
+
+struct PieceOf {
+  Mask signs = 0;
+  bool connected = false;            // else a passage
+  SignParts::Directions passages{};  // of a passage
+};
+
+struct Cell {
+  std::size_t sheet = 0;
+  FreeSides over;
+  SignCell cell;
+  Box hull;  // in doubles
+  std::vector<PieceOf> parts;
+};
+
+class Classes {
+ public:
+  explicit Classes(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t find(std::size_t k) {
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+class Bound {
+ public:
+  Bound(const Problem& whole, const Problem& reduced, const Cover& cover, const std::vector<Row>& functions,
+        const PieceProof& proof, int threads)
+      : whole_(whole),
+        cover_(cover),
+        proof_(proof),
+        functions_(functions.size()),
+        rows_(functions),
+        sheets_(whole, reduced, cover, proof.bridges),
+        threads_(threads > 0 ? threads : tbb::this_task_arena::max_concurrency()) {
+    for (const Condition& c : whole.conditions())
+      if (is_end(whole, c)) rows_.push_back(c.row);
+  }
+
+  PieceBound run() {
+    // What a step finds wrong is why nothing is confirmed.
+    for (const auto& step :
+         {&Bound::check_bridges, &Bound::check_cells, &Bound::examine_all, &Bound::check_cover, &Bound::number_parts}) {
+      result_.reason = (this->*step)();
+      if (!result_.reason.empty()) return std::move(result_);
+    }
+    join_whole_cells();
+    join_by_links();
+    join_along_borders();
+    pass_through_single_parts();
+    result_.reason = check_passages();
+    if (!result_.reason.empty()) return std::move(result_);
+    std::set<std::size_t> classes;
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p)
+        if (cells_[c].parts[p].connected) classes.insert(classes_.find(first_[c] + p));
+    result_.at_most = static_cast<int>(classes.size());
+    return std::move(result_);
+  }
+
+ private:
+  template <class Work>
+  void parallel(std::size_t n, const Work& work) const {
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
+    tbb::task_arena arena(threads_);
+    std::atomic<bool> stopped = false;
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+        if (stopped) return;
+        const NearestRounding nearest;
+        try {
+          work(i);
+        } catch (const Stopped&) {
+          stopped = true;
+        }
+      });
+    });
+    if (stopped) throw Stopped{};
+  }
+
+  std::string check_bridges() {
+    for (std::size_t k = 0; k < proof_.bridges.size(); ++k) {
+      const SheetBridge& bridge = proof_.bridges[k];
+      if (bridge.region.size() != static_cast<std::size_t>(whole_.size()) || bridge.free.empty())
+        return "a sheet of its own is none";
+      if (const std::string fault = sheets_.bridge_fault(k); !fault.empty())
+        return "sheet " + std::to_string(k + 1) + " of its own: " + fault;
+    }
+    return "";
+  }
+
+  std::string check_cells() {
+    if (proof_.cells.size() > kMostCells) return "there are too many cells";
+    cells_of_.resize(sheets_.size());
+    for (const PieceCell& cell : proof_.cells) {
+      if (cell.sheet < 0 || static_cast<std::size_t>(cell.sheet) >= sheets_.size()) return "a cell is of no sheet";
+      const FreeSides over = sheets_.over(static_cast<std::size_t>(cell.sheet));
+      if (cell.sides.size() != over.size()) return "a cell has not one side for each free variable";
+      for (std::size_t k = 0; k < over.size(); ++k)
+        if (!over[k].contains(cell.sides[k])) return "a cell is not within its sheet";
+      cells_of_[static_cast<std::size_t>(cell.sheet)].push_back(&cell.sides);
+    }
+    return "";
+  }
+
+  std::vector<SignParts::Direction> directions(std::size_t sheet) const {
+    std::vector<double> widths;
+    for (const Interval& side : sheets_.over(sheet)) widths.push_back(side.width());
+    return SignParts::directions(widths);
+  }
+
+  // Is nothing of the cell in S? An end of the domain or an inequality says so.
+  bool is_outside(const SignCell& cell) const {
+    return std::any_of(cell.range.begin() + static_cast<std::ptrdiff_t>(functions_), cell.range.end(),
+                       [](const Enclosure& e) { return (-e).is_nonnegative(); });
+  }
+
+  // Of each function and each end.
+  std::vector<int> list(Mask signs) const {
+    std::vector<int> result(rows_.size(), 1);
+    for (std::size_t k = 0; k < functions_; ++k) result[k] = (signs >> k & 1) != 0 ? 1 : -1;
+    return result;
+  }
+
+  // False: a part of it is not known.
+  bool find_parts(Cell& c) const {
+    std::vector<std::size_t> open;
+    for (const std::size_t k : c.cell.mixed)
+      if (k < functions_) open.push_back(k);
+    if (open.size() > kMostOpen) return false;
+    const std::vector<SignParts::Direction> tried = directions(c.sheet);
+    Mask known_signs = 0;
+    for (std::size_t k = 0; k < functions_; ++k) known_signs |= Mask{c.cell.range[k].is_positive()} << k;
+    for (Mask choice = 0; choice < Mask{1} << open.size(); ++choice) {
+      PieceOf part{known_signs};
+      for (std::size_t i = 0; i < open.size(); ++i) part.signs |= (choice >> i & 1) << open[i];
+      const std::vector<int> signs = list(part.signs);
+      const SignParts::Part known = parts_.part(c.cell, signs, tried);
+      if (known == SignParts::Part::empty) continue;
+      part.connected = known == SignParts::Part::connected;
+      if (!part.connected) part.passages = parts_.passages(c.cell, signs, tried);
+      if (!part.connected && part.passages.none()) return false;
+      c.parts.push_back(part);
+    }
+    return true;
+  }
+
+  // Divides the cell further where need be; false: parts stay unknown.
+  bool examine(std::size_t sheet, const FreeSides& over, int halvings, std::vector<Cell>& result) const {
+    whole_.stop().poll();
+    Cell c;
+    c.sheet = sheet;
+    c.over = over;
+    c.cell = parts_.cell(sheets_.free(sheet), sheets_.start(sheet, over));
+    if (!parts_.bound(c.cell, kSteps)) return false;
+    if (is_outside(c.cell)) return true;
+    if (find_parts(c)) {
+      for (const Enclosure& side : c.cell.sides) c.hull.emplace_back(side.lo(), side.hi());
+      result.push_back(std::move(c));
+      return true;
+    }
+    return halvings > 0 &&
+           in_halves(sheet, over, [&](const FreeSides& half) { return examine(sheet, half, halvings - 1, result); });
+  }
+
+  template <class Visit>
+  bool in_halves(std::size_t sheet, const FreeSides& over, const Visit& visit) const {
+    const FreeSides all = sheets_.over(sheet);
+    std::size_t along = over.size();
+    double most = 0;
+    for (std::size_t k = 0; k < over.size(); ++k)
+      if (const double share = over[k].width() / all[k].width(); share > most) most = share, along = k;
+    if (along == over.size()) return false;
+    const double from = over[along].lo(), cut = over[along].mid(), to = over[along].hi();
+    if (!(from < cut && cut < to)) return false;
+    FreeSides half = over;
+    half[along] = Interval(from, cut);
+    if (!visit(half)) return false;
+    half[along] = Interval(cut, to);
+    return visit(half);
+  }
+
+  std::string examine_all() {
+    std::vector<std::vector<Cell>> found(proof_.cells.size());
+    std::atomic<std::size_t> unknown = 0;
+    parallel(found.size(), [&](std::size_t i) {
+      const PieceCell& cell = proof_.cells[i];
+      if (!examine(static_cast<std::size_t>(cell.sheet), cell.sides, kHalvings, found[i])) ++unknown;
+    });
+    for (std::vector<Cell>& list : found)
+      for (Cell& cell : list) cells_.push_back(std::move(cell));
+    result_.cells = cells_.size();
+    return unknown == 0 ? "" : std::to_string(unknown) + " cells have parts that are not known";
+  }
+
+  // Do all points of S on the sheet over these sides lie in cells of other sheets?
+  bool is_elsewhere(std::size_t sheet, const FreeSides& over, int halvings) const {
+    whole_.stop().poll();
+    SignCell cell = parts_.cell(sheets_.free(sheet), sheets_.start(sheet, over));
+    for (int step = 0; step < kSteps; ++step)
+      if (!parts_.bound(cell, 1)) return false;
+    if (is_outside(cell)) return true;
+    for (std::size_t other = 0; other < sheets_.size(); ++other) {
+      if (other == sheet || !sheets_.holds(other, sheets_.over(other), cell.sides)) continue;
+      FreeSides there;
+      for (const int f : sheets_.free(other)) {
+        const Enclosure& side = cell.sides[static_cast<std::size_t>(f)];
+        there.emplace_back(side.lo(), side.hi());
+      }
+      if (open_parts(there, cells_of_[other], whole_.stop()).empty()) return true;
+    }
+    return halvings > 0 &&
+           in_halves(sheet, over, [&](const FreeSides& half) { return is_elsewhere(sheet, half, halvings - 1); });
+  }
+
+  std::string check_cover() {
+    std::atomic<std::size_t> left = 0;
+    parallel(cover_.boxes.size(), [&](std::size_t b) {
+      for (const FreeSides& part : open_parts(sheets_.over(b), cells_of_[b], whole_.stop()))
+        if (!is_elsewhere(b, part, kHalvingsElsewhere)) ++left;
+    });
+    return left == 0 ? "" : "its cells are not shown to cover all sheets";
+  }
+
+  std::string number_parts() {
+    std::size_t parts = 0;
+    std::vector<const Box*> hulls;
+    for (const Cell& c : cells_) {
+      first_.push_back(parts);
+      parts += c.parts.size();
+      hulls.push_back(&c.hull);
+    }
+    classes_ = Classes(parts);
+    touching_ = meeting_pairs(
+        hulls, [this](std::size_t, std::size_t) { return whole_.stop().poll(), false; }, kMostPairs);
+    return touching_.size() < kMostPairs ? "" : "too many cells touch";
+  }
+
+  // Calls visit(c, p, d, q) for parts of like signs in cells c and d whose boxes touch.
+  template <class Visit>
+  void for_each_pair(const Visit& visit) const {
+    for (const auto& [c, d] : touching_) {
+      whole_.stop().poll();
+      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p)
+        for (std::size_t q = 0; q < cells_[d].parts.size(); ++q)
+          if (cells_[c].parts[p].signs == cells_[d].parts[q].signs) visit(c, p, d, q);
+    }
+  }
+
+  // A connected part that nothing is joined to, such as the finder takes for a passage, is one, too, where it has
+  // a direction
+  // and touches no other.
+  void pass_through_single_parts() {
+    std::vector<std::size_t> size(first_.empty() ? 0 : first_.back() + cells_.back().parts.size(), 0), near = size;
+    for (std::size_t k = 0; k < size.size(); ++k) ++size[classes_.find(k)];
+    const auto may_pass = [&](std::size_t c, std::size_t p) {
+      return !cells_[c].parts[p].connected || size[classes_.find(first_[c] + p)] == 1;
+    };
+    for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
+      near[first_[c] + p] += may_pass(d, q);
+      near[first_[d] + q] += may_pass(c, p);
+    });
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p) {
+        PieceOf& part = cells_[c].parts[p];
+        if (!part.connected || !may_pass(c, p) || near[first_[c] + p] > 0 || cells_[c].cell.mixed.empty()) continue;
+        part.passages = parts_.passages(cells_[c].cell, list(part.signs), directions(cells_[c].sheet));
+        part.connected = part.passages.none();
+      }
+  }
+
+  std::string check_passages() {
+    Classes clusters(cells_.empty() ? 0 : first_.back() + cells_.back().parts.size());
+    for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
+      if (!cells_[c].parts[p].connected && !cells_[d].parts[q].connected) clusters.join(first_[c] + p, first_[d] + q);
+    });
+    std::map<std::size_t, std::pair<std::size_t, SignParts::Directions>> common;  // its sheet, its directions
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p) {
+        const PieceOf& part = cells_[c].parts[p];
+        if (part.connected) continue;
+        const auto [place, fresh] = common.emplace(clusters.find(first_[c] + p), std::pair(cells_[c].sheet, part.passages));
+        if (!fresh && place->second.first != cells_[c].sheet) place->second.second.reset();
+        place->second.second &= part.passages;
+        if (place->second.second.none()) return "a piece might hide in cells about a crossing";
+      }
+    return "";
+  }
+
+  void join_whole_cells() {
+    for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
+      if (cells_[c].sheet != cells_[d].sheet || !cells_[c].parts[p].connected || !cells_[d].parts[q].connected) return;
+      if ((cells_[c].cell.mixed.empty() || cells_[d].cell.mixed.empty()) && common(c, d))
+        classes_.join(first_[c] + p, first_[d] + q);
+    });
+  }
+
+  std::optional<FreeSides> common(std::size_t c, std::size_t d) const {
+    FreeSides result = cells_[c].over;
+    for (std::size_t k = 0; k < result.size(); ++k)
+      if (!result[k].intersect(cells_[d].over[k])) return std::nullopt;
+    return result;
+  }
+
+  // Of a solution in S; nothing: a sign is not known, or it is not in S.
+  std::optional<Mask> signs_of(const std::vector<Enclosure>& values) const {
+    Mask signs = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (k < functions_ ? values[k].has_zero() : !values[k].is_positive()) return std::nullopt;
+      if (k < functions_ && values[k].is_positive()) signs |= Mask{1} << k;
+    }
+    return signs;
+  }
+
+  void join_by_links() {
+    std::vector<Sides> solutions(proof_.links.size());
+    parallel(solutions.size(), [&](std::size_t i) {
+      std::string fault;
+      Sides x = solution_near(whole_, proof_.links[i].point, proof_.links[i].held, fault);
+      if (fault.empty()) solutions[i] = std::move(x);
+    });
+    std::vector<Box> near(solutions.size());
+    std::vector<const Box*> boxes;
+    for (const Cell& c : cells_) boxes.push_back(&c.hull);
+    std::vector<std::size_t> link_of;
+    for (std::size_t i = 0; i < solutions.size(); ++i) {
+      if (solutions[i].empty()) continue;
+      for (const Enclosure& side : solutions[i]) near[i].emplace_back(side.lo(), side.hi());
+      boxes.push_back(&near[i]);
+      link_of.push_back(i);
+    }
+    std::vector<std::vector<std::size_t>> cells_at(solutions.size());
+    const auto note = [&](std::size_t a, std::size_t b) {
+      whole_.stop().poll();
+      if (const auto [cell, link] = std::minmax(a, b); cell < cells_.size() && link >= cells_.size())
+        cells_at[link_of[link - cells_.size()]].push_back(cell);
+      return true;
+    };
+    meeting_pairs(boxes, note, 1);
+    for (std::size_t i = 0; i < solutions.size(); ++i) join_at(solutions[i], cells_at[i]);
+  }
+
+  void join_at(const Sides& x, const std::vector<std::size_t>& cells) {
+    if (cells.empty()) return;
+    std::vector<Enclosure> values;
+    for (const Row& row : rows_) values.push_back(row.value(x));
+    const std::optional<Mask> signs = signs_of(values);
+    if (!signs) return;
+    std::vector<std::size_t> at;
+    for (const std::size_t c : cells)
+      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p)
+        if (cells_[c].parts[p].connected && cells_[c].parts[p].signs == *signs &&
+            sheets_.holds(cells_[c].sheet, cells_[c].over, x))
+          at.push_back(first_[c] + p);
+    for (const std::size_t part : at) classes_.join(at.front(), part);
+    result_.links += at.size() > 1;
+  }
+
+  // Cells of one sheet that meet: the sheet's solutions over some points that they have in common.
+  void join_along_borders() {
+    for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
+      const Cell &a = cells_[c], &b = cells_[d];
+      if (a.sheet != b.sheet || !a.parts[p].connected || !b.parts[q].connected) return;
+      if (classes_.find(first_[c] + p) == classes_.find(first_[d] + q)) return;
+      const auto both = common(c, d);
+      for (const double share : {0.5, 0.0, 1.0, 0.1, 0.9, 0.3, 0.7, 0.02, 0.98}) {
+        if (!both) return;
+        SignCell at = parts_.cell(sheets_.free(a.sheet), a.cell.sides);
+        for (std::size_t k = 0; k < both->size(); ++k) {
+          const Interval& side = (*both)[k];
+          at.sides[static_cast<std::size_t>((*at.free)[k])] =
+              Enclosure(std::clamp(side.lo() + share * side.width(), side.lo(), side.hi()));
+        }
+        if (!parts_.bound(at, kSteps) || signs_of(at.range) != std::optional(a.parts[p].signs)) continue;
+        classes_.join(first_[c] + p, first_[d] + q);
+        return;
+      }
+    });
+  }
+
+  static bool is_end(const Problem& problem, const Condition& c) {
+    if (c.implied) return false;
+    if (c.variable < 0) return true;
+    const Variable& v = problem.system().variables[static_cast<std::size_t>(c.variable)];
+    return !(v.kind == VariableKind::length && v.lower == v.upper);
+  }
+
+  static constexpr int kSteps = 3, kHalvings = 4, kHalvingsElsewhere = 16;
+
+  const Problem& whole_;
+  const Cover& cover_;
+  const PieceProof& proof_;
+  std::size_t functions_;  // then come the ends
+  std::vector<Row> rows_;
+  PieceSheets sheets_;
+  SignParts parts_{whole_, rows_};
+  int threads_;
+  std::vector<std::vector<const FreeSides*>> cells_of_;  // of each sheet
+  std::vector<Cell> cells_;
+  std::vector<std::size_t> first_;  // of each cell the number of its first part
+  std::vector<std::pair<std::size_t, std::size_t>> touching_;
+  Classes classes_{0};
+  PieceBound result_;
+};
+
+}  // namespace
+
+PieceBound bound_pieces(const Problem& whole, const Problem& reduced, const Cover& cover, const std::vector<Row>& functions,
+                        const PieceProof& proof, int threads) {
+  return Bound(whole, reduced, cover, functions, proof, threads).run();
+}
+
+}  // namespace corank::check
