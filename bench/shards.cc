@@ -29,8 +29,8 @@ double since(double begun) { return now() - begun; }
 // Of what is left to do in an answer: all that has to come back where the boxes found are stored elsewhere.
 std::size_t left_bytes(const std::string& answer) {
   solve::Work left;
-  for (solve::Shard& shard : solve::answer_from(answer).shards)
-    for (solve::Waiting& box : shard.left) left.boxes.push_back(std::move(box));
+  for (solve::Received::Part& part : solve::answer_from(answer).parts)
+    for (solve::Waiting& box : part.shard.left) left.boxes.push_back(std::move(box));
   return solve::to_bytes(left).size();
 }
 

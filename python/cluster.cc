@@ -4,6 +4,7 @@
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
 
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -58,11 +59,15 @@ class Run {
     return bytes_list(unlocked([&] { return run_->search().take_units(wanted); }));
   }
   bool add(const py::buffer& answer) {
-    const py::buffer_info info = answer.request();
-    if (info.itemsize != 1 || info.ndim != 1 || info.strides[0] != 1)
+    const std::shared_ptr<const py::buffer_info> info(new py::buffer_info(answer.request()),
+                                                      [](const py::buffer_info* held) {
+                                                        const py::gil_scoped_acquire locked;
+                                                        delete held;
+                                                      });
+    if (info->itemsize != 1 || info->ndim != 1 || info->strides[0] != 1)
       throw std::invalid_argument("an answer is an array of bytes");
-    const std::string_view bytes(static_cast<const char*>(info.ptr), static_cast<std::size_t>(info.size));
-    return unlocked([&] { return run_->search().add(bytes); });
+    const std::string_view bytes(static_cast<const char*>(info->ptr), static_cast<std::size_t>(info->size));
+    return unlocked([&] { return run_->search().add(bytes, info); });
   }
   bool done() { return run_->search().done(); }
   std::size_t under_way() { return run_->search().under_way(); }
@@ -83,16 +88,21 @@ class Run {
 };
 
 // The worker's side. Units of one search come one after the other: what they share is kept, by each thread.
-py::bytes run_unit(std::string_view prepared, std::string_view unit, std::uint64_t boxes, double seconds, int threads) {
+py::array_t<std::uint8_t> run_unit(std::string_view prepared, std::string_view unit, std::uint64_t boxes, double seconds,
+                                   int threads) {
   thread_local std::string known;
   thread_local std::unique_ptr<solve::UnitRunner> runner;
-  return unlocked([&] {
+  auto answer = std::make_unique<std::string>(unlocked([&] {
     if (!runner || known != prepared) {
       runner = std::make_unique<solve::UnitRunner>(prepared);
       known = prepared;
     }
     return runner->run(unit, {.boxes = boxes, .seconds = seconds, .threads = threads});
-  });
+  }));
+  const std::string& bytes = *answer;
+  const py::capsule owner(answer.release(), [](void* text) { delete static_cast<std::string*>(text); });
+  return py::array_t<std::uint8_t>(static_cast<py::ssize_t>(bytes.size()),
+                                   reinterpret_cast<const std::uint8_t*>(bytes.data()), owner);
 }
 
 void write_checkpoint(const std::filesystem::path& path, const std::vector<std::string>& arguments, const Files& files,

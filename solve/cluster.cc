@@ -1,5 +1,7 @@
 #include "corank/solve/cluster.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -108,7 +110,7 @@ struct Coordinator::Search {
         judge(prepared, tally, last_number()) {
     if (!from) state.first = state.pass = first_pass(prepared);
     if (!prepared.reduction.consistent) finish_without_search();
-    for (Shard& shard : state.shards) shards.push_back(std::make_unique<Shard>(std::move(shard)));
+    for (Shard& shard : state.shards) parts.push_back(std::make_unique<Part>(Part{std::move(shard), {}, {}}));
     next_id = static_cast<std::uint64_t>(last_number() / kNumbers) + 2;  // the judge has one of its own
     open = std::exchange(state.pass.boxes, {});
     judge.set_sigma(state.cutting ? state.sigma : sigma_of_search(prepared, judge.problem()));
@@ -130,8 +132,18 @@ struct Coordinator::Search {
 
   std::vector<Shard*> all_shards() {
     std::vector<Shard*> all = judge.shards();
-    for (const auto& shard : shards) all.push_back(shard.get());
+    for (const auto& part : parts) all.push_back(&part->shard);
     return all;
+  }
+
+  // In the arena. Bytes go as their boxes come.
+  void unpack() {
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      Part& part = *parts[i];
+      part.found.unpack(part.shard.found);
+      part.found = {};
+      part.owner.reset();
+    });
   }
 
   void list_sheets() {
@@ -157,6 +169,13 @@ struct Coordinator::Search {
     }
   }
 
+  // What came of a unit, or was in the state from which the search goes on.
+  struct Part {
+    Shard shard;
+    PackedFound found{};  // until the search is done
+    std::shared_ptr<const void> owner{};
+  };
+
   // What a unit is made of, as long as it is under way.
   struct Given {
     std::vector<Waiting> boxes;
@@ -169,7 +188,7 @@ struct Coordinator::Search {
   SearchState state;  // its pass without boxes, and no shards
   Tally tally;
   Pool judge;
-  std::vector<std::unique_ptr<Shard>> shards;
+  std::vector<std::unique_ptr<Part>> parts;
   std::vector<Waiting> open;
   std::vector<Proven*> open_sheets;
   std::map<std::uint64_t, Given> under_way;
@@ -218,26 +237,34 @@ std::vector<std::string> Coordinator::take_units(std::size_t wanted) {
   return units;
 }
 
-bool Coordinator::add(std::string_view bytes) {
+bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner) {
   Search& s = *search_;
-  Answer answer = answer_from(bytes);
+  if (!owner) {
+    const auto copy = std::make_shared<const std::string>(bytes);
+    bytes = *copy;
+    owner = copy;
+  }
+  Received answer = answer_from(bytes);
   const auto given = s.under_way.find(answer.id);
   if (given == s.under_way.end()) {
     if (answer.id >= s.next_id) throw ShardError("the answer to a unit that was never given out");
     return false;
   }
-  for (const Shard& shard : answer.shards) {
-    check(shard, s.prepared);
-    if (shard.number / kNumbers != static_cast<int>(answer.id)) throw ShardError("an answer with another unit's numbers");
+  for (const Received::Part& part : answer.parts) {
+    check(part, s.prepared);
+    if (part.shard.number / kNumbers != static_cast<int>(answer.id))
+      throw ShardError("an answer with another unit's numbers");
   }
   for (Proven* sheet : given->second.sheets) {
     *sheet = {.x = {}, .sheet = {}, .node = sheet->node, .cut = true};  // its boxes are there now
   }
   s.under_way.erase(given);
-  for (Shard& shard : answer.shards) {
+  for (auto& [shard, found] : answer.parts) {
     std::move(shard.left.begin(), shard.left.end(), std::back_inserter(s.open));
     shard.left.clear();
-    s.shards.push_back(std::make_unique<Shard>(std::move(shard)));
+    const bool any = found.size() > 0;
+    s.parts.push_back(std::make_unique<Search::Part>(
+        Search::Part{std::move(shard), any ? std::move(found) : PackedFound(), any ? owner : nullptr}));
   }
   s.advance();
   return true;
@@ -254,7 +281,7 @@ std::string Coordinator::state() const {
                   .sigma = s.state.sigma,
                   .seconds = s.state.seconds};
   for (const Shard* shard : search_->judge.shards()) view.parts.push_back({shard, {}});
-  for (const auto& shard : s.shards) view.parts.push_back({shard.get(), {}});
+  for (const auto& part : s.parts) view.parts.push_back({&part->shard, {}, part->owner ? &part->found : nullptr});
   return to_bytes(view);
 }
 
@@ -263,6 +290,7 @@ Cover Coordinator::assemble(Control& control) {
   Search& s = *search_;
   Cover cover;
   s.judge.execute([&] {
+    s.unpack();
     cover = solve::assemble(s.prepared, s.judge.problem(), s.all_shards(), s.state.first, s.state.motions, s.state.sigma,
                             control);
   });

@@ -59,8 +59,9 @@ class Coordinator {
   /// are under way have to be added first.
   std::vector<std::string> take_units(std::size_t wanted);
   /// What run_unit() has returned. False: that unit has been added before, and nothing is done. Throws ShardError where it
-  /// is none of this search's.
-  bool add(std::string_view answer);
+  /// is none of this search's. The boxes in it stay as they are until the search is done: in the bytes that `owner` keeps
+  /// where they are, or else in a copy.
+  bool add(std::string_view answer, std::shared_ptr<const void> owner = {});
   bool done() const;
   /// So many units have been given out and not been added.
   std::size_t under_way() const;
