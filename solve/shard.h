@@ -69,8 +69,9 @@ struct Shard {
 /// A part of a search to be run somewhere, and what was found in it.
 struct Unit {
   std::uint64_t id = 0;
-  bool cut = false;  ///< the sheets are to be cut, to…
-  Work work{};       ///< else: is to be searched
+  bool cut = false;         ///< the sheets are to be cut, to…
+  std::uint64_t boxes = 0;  ///< else: processed at most, whatever the worker's budget; 0: no limit
+  Work work{};              ///< else: is to be searched
   Sigma sigma{};
   std::vector<Proven> sheets{};
 };

@@ -25,7 +25,7 @@ void serialize(Archive& archive, SelfMotions::Stored& s) {
 
 template <class Archive>
 void serialize(Archive& archive, Unit& u) {
-  archive(u.id, u.cut, u.work, u.sigma, u.sheets);
+  archive(u.id, u.cut, u.boxes, u.work, u.sigma, u.sheets);
 }
 
 void save(ByteOutput& archive, const Shard& s) {
