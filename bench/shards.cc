@@ -43,7 +43,7 @@ double seldom_now() {
 
 // What engine.py does.
 constexpr double kUnitSeconds = 1, kLeastSeconds = 0.02, kSecondsPerUnit = 3e-3;
-constexpr std::size_t kAhead = 2, kParts = 8, kUnitsPerBox = 8;
+constexpr std::size_t kAhead = 2, kParts = 8, kUnitsPerBox = 8, kFirstBoxes = 16;
 
 struct Cluster {
   std::size_t workers = 1;
@@ -109,19 +109,31 @@ class Simulation {
     double seconds = 0;  // its budget
   };
 
-  double budget() const {
-    const double busy = static_cast<double>(std::min(cluster_.workers, under_way_));
-    const double at_least = std::max(kLeastSeconds, kSecondsPerUnit * busy);
-    return std::min(kUnitSeconds, under_way_ < cluster_.workers ? at_least : std::max(at_least, client_ / 20));
+  // As _next_units in engine.py.
+  struct Next {
+    std::size_t most, fewest;
+    double seconds;
+  };
+  Next next() const {
+    if (coordinator_.cutting()) return {cluster_.workers * kParts, 1, kUnitSeconds};
+    const std::size_t busy = under_way_ == 0 ? cluster_.workers : std::min(cluster_.workers, under_way_);
+    Next n{cluster_.workers, under_way_ / kUnitsPerBox,
+           std::max(kLeastSeconds, kSecondsPerUnit * static_cast<double>(busy))};
+    if (under_way_ == 0) {
+      n.fewest = kFirstBoxes;
+    } else if (under_way_ >= cluster_.workers) {
+      n = {cluster_.workers * kAhead, n.fewest, std::max(n.seconds, client_ / 20)};
+    }
+    n.seconds = std::min(kUnitSeconds, n.seconds);
+    return n;
   }
 
   // The client's turn: it has been busy until client_.
   void give_out() {
-    const bool idle = under_way_ > 0 && under_way_ < cluster_.workers;
-    const std::size_t most = cluster_.workers * (under_way_ == 0 ? kParts : idle ? 1 : kAhead);
+    const auto [most, fewest, seconds] = next();
     if (most <= under_way_) return;
-    const double begun = now(), seconds = budget();
-    std::vector<std::string> units = coordinator_.take_units(most - under_way_, under_way_ / kUnitsPerBox);
+    const double begun = now();
+    std::vector<std::string> units = coordinator_.take_units(most - under_way_, fewest);
     work_at_client(now() - begun);
     for (std::string& unit : units) {
       work_at_client(cluster_.task);

@@ -77,6 +77,7 @@ class Run {
     return unlocked([&] { return run_->search().add(bytes, info); });
   }
   bool done() { return run_->search().done(); }
+  bool cutting() { return run_->search().cutting(); }
   bool ended() { return run_->search().ended(); }
   double seconds_left() { return run_->seconds_left(); }
   void keep_state(const std::vector<std::string>& arguments, const Files& files, const std::vector<std::string>& finished) {
@@ -148,6 +149,7 @@ void bind_cluster(py::module_& module) {
       .def("take_units", &Run::take_units, py::arg("wanted"), py::arg("fewest_boxes") = 1)
       .def("add", &Run::add)
       .def_property_readonly("done", &Run::done)
+      .def_property_readonly("cutting", &Run::cutting)
       .def_property_readonly("ended", &Run::ended)
       .def_property_readonly("seconds_left", &Run::seconds_left)
       .def("keep_state", &Run::keep_state)

@@ -22,6 +22,9 @@ namespace {
 constexpr int kNumbers = 2 * (kMostUnitThreads + 1);
 constexpr std::uint64_t kMostUnits = (std::uint64_t{1} << 24) / kNumbers - 1;
 
+// So many times the boxes that are to wait may be processed until they do: a thin tree is not for one worker.
+constexpr std::uint64_t kBeginning = 4;
+
 // Splits a list into up to so many parts, of every k-th each: neighbours cost about the same.
 template <class T>
 std::vector<std::vector<T>> dealt(std::vector<T> all, std::size_t parts) {
@@ -249,7 +252,8 @@ struct Coordinator::Search {
   const MemoryEstimate memory;
   std::int64_t kept = 0;  // bytes that the run has been told of
   bool over = false;
-  std::uint64_t promised = 0;  // boxes, to the units that are under way
+  std::uint64_t processed = 0;  // by the units of this coordinator
+  std::uint64_t promised = 0;   // boxes, to the units that are under way
   Tally tally;
   Pool judge;
   std::vector<std::unique_ptr<Part>> parts;
@@ -265,6 +269,7 @@ Coordinator::~Coordinator() = default;
 
 const std::string& Coordinator::prepared_bytes() const { return search_->prepared_text; }
 std::size_t Coordinator::under_way() const { return search_->under_way.size(); }
+bool Coordinator::cutting() const { return search_->state.cutting; }
 bool Coordinator::ended() { return search_->ended(); }
 bool Coordinator::done() const {
   return search_->state.cutting && search_->open_sheets.empty() && search_->under_way.empty();
@@ -293,8 +298,10 @@ std::vector<std::string> Coordinator::take_units(std::size_t wanted, std::size_t
     const bool limited = s.run.limits().boxes > 0;
     std::uint64_t left = limited ? s.run.boxes_left() - s.promised : 0;
     if (limited) wanted = std::min<std::uint64_t>(wanted, left);
-    const std::size_t full = s.open.size() / std::max<std::size_t>(1, fewest_boxes);
-    wanted = std::min(wanted, s.under_way.empty() ? std::max<std::size_t>(1, full) : full);
+    // At the beginning one unit makes boxes enough for all.
+    const std::size_t enough = wanted * fewest_boxes, full = s.open.size() / std::max<std::size_t>(1, fewest_boxes);
+    const bool spread = s.under_way.empty() && s.open.size() < enough && s.processed < kBeginning * enough;
+    wanted = spread ? 1 : s.under_way.empty() ? std::min(wanted, s.open.size()) : std::min(wanted, full);
     if (wanted == 0 || s.open.empty()) return units;
     // The largest first: who waits for work gets most of it.
     std::stable_sort(s.open.begin(), s.open.end(), [](const Waiting& a, const Waiting& b) { return a.share > b.share; });
@@ -303,7 +310,7 @@ std::vector<std::string> Coordinator::take_units(std::size_t wanted, std::size_t
       const std::uint64_t most = left / (hands.size() - i);
       left -= most;
       s.promised += most;
-      Unit unit{.boxes = most, .work = {hands[i], s.state.pass.postpone}};
+      Unit unit{.boxes = most, .work = {hands[i], s.state.pass.postpone, spread ? enough : 0}};
       give(std::move(unit), {std::move(hands[i]), {}, most});
     }
   } else {
@@ -344,7 +351,10 @@ bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner)
     return false;
   }
   s.keep(more - s.memory.of_waiting(given->second.boxes.size()));
-  for (const Received::Part& part : answer.parts) s.run.count_boxes(part.shard.statistics.processed);
+  for (const Received::Part& part : answer.parts) {
+    s.run.count_boxes(part.shard.statistics.processed);
+    s.processed += part.shard.statistics.processed;
+  }
   s.promised -= given->second.most;
   for (Proven* sheet : given->second.sheets) {
     s.keep(-s.memory.of_sheet(sheet->sheet));

@@ -63,9 +63,9 @@ class Coordinator {
   Coordinator& operator=(const Coordinator&) = delete;
 
   const std::string& prepared_bytes() const;
-  /// What can be done now and has not been given out, in up to so many units, each of so many boxes or more: fewer wait for
-  /// others as long as something is under way. None, though done() is false: the units that are under way have to be added
-  /// first.
+  /// What can be done now and has not been given out, in up to so many units, each of so many boxes or more; but as long as
+  /// something is under way, fewer wait for others. None, though done() is false: the units that are under way have to be
+  /// added first. At the beginning there is one unit, which ends as soon as there are boxes enough for all.
   std::vector<std::string> take_units(std::size_t wanted, std::size_t fewest_boxes = 1);
   /// What run_unit() has returned. False: nothing is done, since that unit has been added before, or there is no memory for
   /// it. Throws ShardError where it
@@ -73,6 +73,8 @@ class Coordinator {
   /// where they are, or else in a copy.
   bool add(std::string_view answer, std::shared_ptr<const void> owner = {});
   bool done() const;
+  /// The search is done, and sheets are left to cut.
+  bool cutting() const;
   /// A limit of the control has ended the search before it was done: nothing more is given out. Answers to what is under way
   /// may still be added.
   bool ended();

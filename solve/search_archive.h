@@ -84,7 +84,7 @@ void serialize(Archive& archive, Postponed& p) {
 
 template <class Archive>
 void serialize(Archive& archive, Work& w) {
-  archive(w.boxes, w.postpone);
+  archive(w.boxes, w.postpone, w.until);
 }
 
 }  // namespace solve

@@ -40,6 +40,9 @@ struct Postponed {
 struct Work {
   std::vector<Waiting> boxes;
   double postpone = 0;  ///< of the typical sizes: how small boxes are that may be postponed
+  /// How the boxes are processed, which changes nothing of what becomes of them: the oldest first, by one thread, until so many
+  /// wait, which are left; 0: depth first.
+  std::uint64_t until = 0;
 };
 
 /// What one thread has made of its boxes. Every box that it was given, or has made of one by bisection, ends in one of the

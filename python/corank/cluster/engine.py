@@ -25,7 +25,7 @@ _PARTS = 8  # for each thread, of what a search begins a phase with: parts take 
 _MOST_SHARE = 0.02  # of all seconds, for checkpoints
 # Of a unit. While few are under way they are short, so that there soon are more. Dask takes 2 ms of one thread for each: the more
 # there are, the longer they have to be, and boxes that would make a short one wait for others.
-_LEAST_SECONDS, _SECONDS_PER_UNIT, _UNITS_PER_BOX = 0.02, 3e-3, 8
+_LEAST_SECONDS, _SECONDS_PER_UNIT, _UNITS_PER_BOX, _FIRST_BOXES = 0.02, 3e-3, 8, 16
 _GRACE = 0.5  # seconds, once a limit has ended the run
 
 
@@ -118,15 +118,17 @@ class _Workers:
         return self.threads
 
 
-def _next_units(plan: Plan, threads: int, under_way: int, elapsed: float) -> Tuple[int, int, float]:
+def _next_units(plan: Plan, threads: int, under_way: int, cutting: bool, elapsed: float) -> Tuple[int, int, float]:
     """How many units are to be under way, of how many boxes at least, for how many seconds. bench/shards.cc has the same rule."""
-    seconds = max(_LEAST_SECONDS, _SECONDS_PER_UNIT * min(threads, under_way))
-    most = threads
+    if cutting:
+        return _PARTS * threads, 1, plan.unit_seconds
+    seconds = max(_LEAST_SECONDS, _SECONDS_PER_UNIT * (threads if under_way == 0 else min(threads, under_way)))
+    most, fewest = threads, under_way // _UNITS_PER_BOX
     if under_way == 0:
-        most = _PARTS * threads
+        fewest = _FIRST_BOXES
     elif under_way >= threads:
         most, seconds = _AHEAD * threads, max(seconds, elapsed / 20)
-    return most, under_way // _UNITS_PER_BOX, min(plan.unit_seconds, seconds)
+    return most, fewest, min(plan.unit_seconds, seconds)
 
 
 def _search(
@@ -141,7 +143,7 @@ def _search(
         while not run.done and not run.ended:
             threads = workers.look()
             if threads > 0 or len(units) > 0:
-                most, fewest, seconds = _next_units(plan, max(1, threads), len(units), time.monotonic() - begun)
+                most, fewest, seconds = _next_units(plan, max(1, threads), len(units), run.cutting, time.monotonic() - begun)
                 if most > len(units):
                     given = run.take_units(most - len(units), fewest)
                     units.submit(given, max(1e-3, min(seconds, run.seconds_left)))
