@@ -42,7 +42,7 @@ double seldom_now() {
 }
 
 // What engine.py does.
-constexpr double kUnitSeconds = 1, kLeastSeconds = 0.02, kSecondsPerUnit = 3e-3;
+constexpr double kUnitSeconds = 1, kLeastSeconds = 0.05, kSecondsPerUnit = 3e-3;
 constexpr std::size_t kAhead = 2, kParts = 8, kUnitsPerBox = 8, kFirstBoxes = 16;
 
 struct Cluster {
@@ -116,16 +116,10 @@ class Simulation {
   };
   Next next() const {
     if (coordinator_.cutting()) return {cluster_.workers * kParts, 1, kUnitSeconds};
-    const std::size_t busy = under_way_ == 0 ? cluster_.workers : std::min(cluster_.workers, under_way_);
-    Next n{cluster_.workers, under_way_ / kUnitsPerBox,
-           std::max(kLeastSeconds, kSecondsPerUnit * static_cast<double>(busy))};
-    if (under_way_ == 0) {
-      n.fewest = kFirstBoxes;
-    } else if (under_way_ >= cluster_.workers) {
-      n = {cluster_.workers * kAhead, n.fewest, std::max(n.seconds, client_ / 20)};
-    }
-    n.seconds = std::min(kUnitSeconds, n.seconds);
-    return n;
+    const double seconds = std::min(
+        kUnitSeconds, std::max({kLeastSeconds, kSecondsPerUnit * static_cast<double>(cluster_.workers), client_ / 20}));
+    if (under_way_ == 0) return {cluster_.workers, kFirstBoxes, seconds};
+    return {cluster_.workers * kAhead, under_way_ / kUnitsPerBox, seconds};
   }
 
   // The client's turn: it has been busy until client_.

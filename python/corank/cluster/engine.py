@@ -23,9 +23,9 @@ _Show = Callable[[str, float, str], None]
 _AHEAD = 2  # units for each thread of the workers: the next one is there when one is done
 _PARTS = 8  # for each thread, of what a search begins a phase with: parts take their time differently
 _MOST_SHARE = 0.02  # of all seconds, for checkpoints
-# Of a unit. While few are under way they are short, so that there soon are more. Dask takes 2 ms of one thread for each: the more
-# there are, the longer they have to be, and boxes that would make a short one wait for others.
-_LEAST_SECONDS, _SECONDS_PER_UNIT, _UNITS_PER_BOX, _FIRST_BOXES = 0.02, 3e-3, 8, 16
+# Dask takes 2 ms of one thread for each unit: the more workers there are, the longer units have to be, and boxes that would make
+# a short one wait for others.
+_LEAST_SECONDS, _SECONDS_PER_UNIT, _UNITS_PER_BOX, _FIRST_BOXES = 0.05, 3e-3, 8, 16
 _GRACE = 0.5  # seconds, once a limit has ended the run
 
 
@@ -122,13 +122,10 @@ def _next_units(plan: Plan, threads: int, under_way: int, cutting: bool, elapsed
     """How many units are to be under way, of how many boxes at least, for how many seconds. bench/shards.cc has the same rule."""
     if cutting:
         return _PARTS * threads, 1, plan.unit_seconds
-    seconds = max(_LEAST_SECONDS, _SECONDS_PER_UNIT * (threads if under_way == 0 else min(threads, under_way)))
-    most, fewest = threads, under_way // _UNITS_PER_BOX
+    seconds = min(plan.unit_seconds, max(_LEAST_SECONDS, _SECONDS_PER_UNIT * threads, elapsed / 20))
     if under_way == 0:
-        fewest = _FIRST_BOXES
-    elif under_way >= threads:
-        most, seconds = _AHEAD * threads, max(seconds, elapsed / 20)
-    return most, fewest, min(plan.unit_seconds, seconds)
+        return threads, _FIRST_BOXES, seconds
+    return _AHEAD * threads, under_way // _UNITS_PER_BOX, seconds
 
 
 def _search(
