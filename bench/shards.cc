@@ -3,11 +3,11 @@
 //   corank_bench_shards MODEL SET SIGMA WORKERS [GIGABITS [LATENCY [TASK [DEARER]]]]
 // Each unit is run here, one after the other, and takes as long as this process computed for it; only the workers' clock is
 // simulated. The client has one link of so many Gbit/s (10), on which what is sent queues up, and likewise what is received;
-// each message takes LATENCY seconds besides (0.001). Client and scheduler are one thread: it adds answers and cuts units in the
-// time that this process takes for it, and does TASK seconds of dask's own work for each unit (0.002). What has come to the
-// workers' side is begun by whichever worker is idle, the longest-waiting first. Efficiency: the units' own time, divided by
-// workers times makespan; assembling the cover is not in it, and is said beside it. DEARER: the same tree, were each of its boxes so many times as
-// much work (1).
+// each message takes LATENCY seconds besides (0.001). Client and scheduler are one thread: it adds answers and cuts units in
+// the time that this process takes for it, and does TASK seconds of dask's own work for each unit (0.002). What has come to
+// the workers' side is begun by whichever worker is idle, the longest-waiting first. Efficiency: the units' own time,
+// divided by workers times makespan; assembling the cover is not in it, and is said beside it. DEARER: the same tree, were
+// each of its boxes so many times as much work (1).
 #include <fmt/format.h>
 
 #include <algorithm>

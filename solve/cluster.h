@@ -9,9 +9,9 @@
 // solve()'s, to the last bit. Where σ was asked for, sheets are cut by whoever has found them. What a budget leaves of a
 // unit comes back and is given out again, in smaller parts.
 //
-// Limits are the coordinator's business: it gives out no more boxes than may be processed, and takes no answer for which there
-// is no memory. Once one has ended the search, what was not answered counts as not begun: `pending` in the cover, and waiting
-// in the state, from which the search goes on.
+// Limits are the coordinator's business: it gives out no more boxes than may be processed, and takes no answer for which
+// there is no memory. Once one has ended the search, what was not answered counts as not begun: `pending` in the cover, and
+// waiting in the state, from which the search goes on.
 #pragma once
 
 #include <cstdint>

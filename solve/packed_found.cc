@@ -12,7 +12,7 @@
 namespace corank::solve {
 namespace {
 
-// Intervals are written as they are kept: (−lo, hi), as doubles of this machine's, which are those of all that corank runs on.
+// Intervals are written as they are kept, (−lo, hi), as doubles of this machine's: those of all that corank runs on.
 static_assert(sizeof(Interval) == 2 * sizeof(double) && std::is_trivially_copyable_v<Interval> &&
               std::endian::native == std::endian::little);
 

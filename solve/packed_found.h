@@ -1,5 +1,5 @@
-// Boxes that were found, as bytes of which little is said twice: what boxes that were cut from one sheet share is there once,
-// and their sides stand one after the other. Whoever only passes them on need not take them apart.
+// Boxes that were found, as bytes of which little is said twice: what boxes that were cut from one sheet share is there
+// once, and their sides stand one after the other. Whoever only passes them on need not take them apart.
 #pragma once
 
 #include <cstdint>

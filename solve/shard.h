@@ -40,8 +40,8 @@ struct Postponed {
 struct Work {
   std::vector<Waiting> boxes;
   double postpone = 0;  ///< of the typical sizes: how small boxes are that may be postponed
-  /// How the boxes are processed, which changes nothing of what becomes of them: the oldest first, by one thread, until so many
-  /// wait, which are left; 0: depth first.
+  /// How the boxes are processed, which changes nothing of what becomes of them: the oldest first, by one thread, until so
+  /// many wait, which are left; 0: depth first.
   std::uint64_t until = 0;
 };
 

@@ -1,5 +1,5 @@
-// The boxes that wait in a search, newest last: depth first, so that memory grows with the depth; or the oldest first, so that
-// there soon are many.
+// The boxes that wait in a search, newest last: depth first, so that memory grows with the depth; or the oldest first, so
+// that there soon are many.
 #pragma once
 
 #include <algorithm>

@@ -32,8 +32,8 @@ _GRACE = 0.5  # seconds, once a limit has ended the run
 class Checkpoints:
     """The state of a run in a file, now and then: `corank solve --resume` goes on from it, too.
 
-    path: None for none. into_result: where a limit has ended the run, its state goes into the result, too. arguments, files: of corank solve's
-    command line, and what it reads (option, path, text). former: what read() has returned.
+    path: None for none. into_result: where a limit has ended the run, its state goes into the result, too. arguments, files:
+    of corank solve's command line, and what it reads (option, path, text). former: what read() has returned.
     """
 
     def __init__(
