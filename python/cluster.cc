@@ -4,6 +4,7 @@
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
 
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -30,6 +31,13 @@ auto unlocked(F f) {
   return f();
 }
 
+result::Checkpoint checkpoint_of(const std::vector<std::string>& arguments, const Files& files,
+                                 const std::vector<std::string>& finished) {
+  result::Checkpoint checkpoint{.arguments = arguments, .files = {}, .finished = finished, .state = {}};
+  for (const auto& [option, name, text] : files) checkpoint.files.push_back({option, name, text});
+  return checkpoint;
+}
+
 // The client's side: long work of its own runs where Ctrl-C is heard, what is left alone keeps what it needs alive.
 class Run {
  public:
@@ -54,17 +62,27 @@ class Run {
   Result result() { return Result(run_->result()); }
 
   py::bytes prepared() { return run_->search().prepared_bytes(); }
-  py::list take_units(std::size_t wanted) {
-    return bytes_list(unlocked([&] { return run_->search().take_units(wanted); }));
+  py::list take_units(std::size_t wanted, std::size_t fewest_boxes) {
+    return bytes_list(unlocked([&] { return run_->search().take_units(wanted, fewest_boxes); }));
   }
   bool add(const py::buffer& answer) {
-    const py::buffer_info info = answer.request();
-    if (info.itemsize != 1 || info.ndim != 1 || info.strides[0] != 1)
+    const std::shared_ptr<const py::buffer_info> info(new py::buffer_info(answer.request()),
+                                                      [](const py::buffer_info* held) {
+                                                        const py::gil_scoped_acquire locked;
+                                                        delete held;
+                                                      });
+    if (info->itemsize != 1 || info->ndim != 1 || info->strides[0] != 1)
       throw std::invalid_argument("an answer is an array of bytes");
-    const std::string_view bytes(static_cast<const char*>(info.ptr), static_cast<std::size_t>(info.size));
-    return unlocked([&] { return run_->search().add(bytes); });
+    const std::string_view bytes(static_cast<const char*>(info->ptr), static_cast<std::size_t>(info->size));
+    return unlocked([&] { return run_->search().add(bytes, info); });
   }
   bool done() { return run_->search().done(); }
+  bool cutting() { return run_->search().cutting(); }
+  bool ended() { return run_->search().ended(); }
+  double seconds_left() { return run_->seconds_left(); }
+  void keep_state(const std::vector<std::string>& arguments, const Files& files, const std::vector<std::string>& finished) {
+    unlocked([&] { run_->keep_state(checkpoint_of(arguments, files, finished)); });
+  }
   std::size_t under_way() { return run_->search().under_way(); }
   double share_done() { return run_->search().share_done(); }
   py::bytes state() {
@@ -83,24 +101,28 @@ class Run {
 };
 
 // The worker's side. Units of one search come one after the other: what they share is kept, by each thread.
-py::bytes run_unit(std::string_view prepared, std::string_view unit, std::uint64_t boxes, double seconds, int threads) {
+py::array_t<std::uint8_t> run_unit(std::string_view prepared, std::string_view unit, std::uint64_t boxes, double seconds,
+                                   int threads) {
   thread_local std::string known;
   thread_local std::unique_ptr<solve::UnitRunner> runner;
-  return unlocked([&] {
+  auto answer = std::make_unique<std::string>(unlocked([&] {
     if (!runner || known != prepared) {
       runner = std::make_unique<solve::UnitRunner>(prepared);
       known = prepared;
     }
     return runner->run(unit, {.boxes = boxes, .seconds = seconds, .threads = threads});
-  });
+  }));
+  const std::string& bytes = *answer;
+  const py::capsule owner(answer.release(), [](void* text) { delete static_cast<std::string*>(text); });
+  return py::array_t<std::uint8_t>(static_cast<py::ssize_t>(bytes.size()),
+                                   reinterpret_cast<const std::uint8_t*>(bytes.data()), owner);
 }
 
 void write_checkpoint(const std::filesystem::path& path, const std::vector<std::string>& arguments, const Files& files,
                       const std::vector<std::string>& finished, std::string_view state) {
   const py::gil_scoped_release unlocked;
-  result::Checkpoint checkpoint{.arguments = arguments, .files = {}, .finished = finished, .state = {}};
-  for (const auto& [option, name, text] : files) checkpoint.files.push_back({option, name, text});
-  result::write_checkpoint(path, solve::engine_version(), checkpoint, [state](std::ostream& out) { out << state; });
+  result::write_checkpoint(path, solve::engine_version(), checkpoint_of(arguments, files, finished),
+                           [state](std::ostream& out) { out << state; });
 }
 
 py::tuple read_checkpoint(const std::filesystem::path& path) {
@@ -124,9 +146,13 @@ void bind_cluster(py::module_& module) {
       .def("finish", &Run::finish)
       .def("result", &Run::result)
       .def_property_readonly("prepared", &Run::prepared)
-      .def("take_units", &Run::take_units)
+      .def("take_units", &Run::take_units, py::arg("wanted"), py::arg("fewest_boxes") = 1)
       .def("add", &Run::add)
       .def_property_readonly("done", &Run::done)
+      .def_property_readonly("cutting", &Run::cutting)
+      .def_property_readonly("ended", &Run::ended)
+      .def_property_readonly("seconds_left", &Run::seconds_left)
+      .def("keep_state", &Run::keep_state)
       .def_property_readonly("under_way", &Run::under_way)
       .def_property_readonly("share_done", &Run::share_done)
       .def("state", &Run::state);

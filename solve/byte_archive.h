@@ -36,7 +36,16 @@ class ByteOutput : public cereal::OutputArchive<ByteOutput, cereal::AllowEmptyCl
   }
   template <class T>
   void numbers(const T* values, std::uint64_t bytes) {
-    for (std::uint64_t i = 0; i < bytes / sizeof(T); ++i) number(values[i]);
+    if constexpr (std::endian::native == std::endian::little) {
+      block(values, bytes);
+    } else {
+      for (std::uint64_t i = 0; i < bytes / sizeof(T); ++i) number(values[i]);
+    }
+  }
+  void block(const void* bytes, std::uint64_t count) {
+    const auto size = static_cast<std::streamsize>(count);
+    if (buffer_.sputn(static_cast<const char*>(bytes), size) != size)
+      throw ShardError("a part of a search cannot be written");
   }
 
  private:
@@ -57,6 +66,13 @@ class ByteInput : public cereal::InputArchive<ByteInput, cereal::AllowEmptyClass
   void numbers(T* values, std::uint64_t bytes) {
     need(bytes);
     for (std::uint64_t i = 0; i < bytes / sizeof(T); ++i) number(values[i]);
+  }
+  /// The next bytes as they are: so many rows.
+  std::string_view take(std::uint64_t rows, std::uint64_t row) {
+    if (row > 0 && rows > rest_.size() / row) throw ShardError("a part of a search cannot be read: it is cut short");
+    const std::string_view taken = rest_.substr(0, rows * row);
+    rest_.remove_prefix(taken.size());
+    return taken;
   }
   /// There are to be so many more values, each of a byte at least.
   void need(std::uint64_t values) const {

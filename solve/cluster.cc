@@ -1,12 +1,16 @@
 #include "corank/solve/cluster.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <utility>
 
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/assembly.h"
+#include "corank/solve/memory.h"
 #include "corank/solve/passes.h"
 #include "corank/solve/shard_bytes.h"
 #include "corank/solve/shard_check.h"
@@ -17,6 +21,9 @@ namespace {
 // Shards of one search differ in their numbers, of which recorders have 24 bits: each unit has so many.
 constexpr int kNumbers = 2 * (kMostUnitThreads + 1);
 constexpr std::uint64_t kMostUnits = (std::uint64_t{1} << 24) / kNumbers - 1;
+
+// So many times the boxes that are to wait may be processed until they do: a thin tree is not for one worker.
+constexpr std::uint64_t kBeginning = 4;
 
 // Splits a list into up to so many parts, of every k-th each: neighbours cost about the same.
 template <class T>
@@ -77,7 +84,7 @@ std::string UnitRunner::run(std::string_view bytes, const Budget& budget) {
   Prepared& prepared = question_->prepared;
   check(unit, prepared);
   prepared.options.threads = std::clamp(budget.threads, 1, kMostUnitThreads);
-  Control control({.time = unit.cut ? 0 : budget.seconds});
+  Control control({.time = unit.cut ? 0 : budget.seconds, .boxes = unit.cut ? 0 : unit.boxes, .clock = budget.clock});
   Tally tally(prepared, control, unit.cut ? 0 : budget.boxes);
   const int number = static_cast<int>(unit.id) * kNumbers;
   Answer answer{unit.id, {}};
@@ -100,21 +107,26 @@ std::string UnitRunner::run(std::string_view bytes, const Budget& budget) {
 }
 
 struct Coordinator::Search {
-  Search(std::string bytes, const std::optional<std::string>& from)
+  Search(std::string bytes, const std::optional<std::string>& from, Control* of_run)
       : prepared_text(std::move(bytes)),
         prepared(with_all_threads(prepared_from(prepared_text))),
         state(from ? state_from(*from, prepared) : SearchState{}),
+        run(of_run ? *of_run : unlimited),
+        memory(prepared.reduction, run.limits().later_bytes),
         tally(prepared, control, 0),
         judge(prepared, tally, last_number()) {
     if (!from) state.first = state.pass = first_pass(prepared);
     if (!prepared.reduction.consistent) finish_without_search();
-    for (Shard& shard : state.shards) shards.push_back(std::make_unique<Shard>(std::move(shard)));
+    for (Shard& shard : state.shards) parts.push_back(std::make_unique<Part>(Part{std::move(shard), {}, {}}));
     next_id = static_cast<std::uint64_t>(last_number() / kNumbers) + 2;  // the judge has one of its own
     open = std::exchange(state.pass.boxes, {});
     judge.set_sigma(state.cutting ? state.sigma : sigma_of_search(prepared, judge.problem()));
     if (state.cutting) list_sheets();
+    for (const auto& part : parts) keep(of(*part));
+    keep(memory.of_waiting(open.size()));
     advance();
   }
+  ~Search() { run.keep(-kept); }
 
   void finish_without_search() {
     state.pass.boxes.clear();
@@ -130,8 +142,66 @@ struct Coordinator::Search {
 
   std::vector<Shard*> all_shards() {
     std::vector<Shard*> all = judge.shards();
-    for (const auto& shard : shards) all.push_back(shard.get());
+    for (const auto& part : parts) all.push_back(&part->shard);
     return all;
+  }
+
+  // As a search with threads counts it (solve/tally.cc).
+  std::int64_t of(const Shard& shard, const PackedFound& found) const {
+    std::int64_t bytes = memory.of(found) + memory.of_waiting(shard.left.size() + shard.postponed.size());
+    for (std::size_t i = 0; i < shard.found.size(); ++i)
+      bytes += memory.of(shard.found[i], i > 0 ? &shard.found[i - 1] : nullptr);
+    for (const Proven& sheet : shard.sheets) bytes += memory.of_sheet(sheet.sheet);
+    return bytes + (shard.script ? memory.of_script(shard.script->bytes()) : 0);
+  }
+  void keep(std::int64_t bytes) {
+    kept += bytes;
+    run.keep(bytes);
+  }
+
+  bool waits() const { return !open.empty() || !open_sheets.empty() || !under_way.empty(); }
+  bool ended() {
+    if (over || (state.cutting && !waits())) return over;
+    const InStage stage(run, Stage::search);
+    over = run.search_ended();
+    const bool no_more = run.limits().boxes > 0 && run.boxes_left() == 0;
+    if (!over && no_more && !state.cutting && under_way.empty()) {
+      run.note(Limit::boxes);
+      over = true;
+    }
+    return over;
+  }
+
+  // Makes of what is left what a search with threads makes of it (solve/solve.cc).
+  void end_early() {
+    const auto by = run.ending();
+    stop = !by || by->by != Limit::boxes;
+    judge.execute([&] { static_cast<void>(judge.ended()); });
+    Shard left(static_cast<int>(next_id++) * kNumbers, prepared.options.proof);
+    left.left = std::move(open);
+    for (auto& [id, given] : under_way) std::move(given.boxes.begin(), given.boxes.end(), std::back_inserter(left.left));
+    under_way.clear();
+    if (!state.cutting) {
+      Work rest = next_pass(prepared, state.pass, take_postponed(all_shards()), judge, state.motions);
+      std::move(rest.boxes.begin(), rest.boxes.end(), std::back_inserter(left.left));
+      state.sigma = judge.problem().tolerant ? sigma_of_search(prepared, judge.problem())
+                                             : sigma_of_set(prepared, judge.problem(), all_shards());
+      judge.set_sigma(state.sigma);
+      state.cutting = true;
+    }
+    parts.push_back(std::make_unique<Part>(Part{std::move(left)}));
+    judge.cut(all_shards());
+    open_sheets.clear();
+  }
+
+  // In the arena. Bytes go as their boxes come.
+  void unpack() {
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      Part& part = *parts[i];
+      part.found.unpack(part.shard.found);
+      part.found = {};
+      part.owner.reset();
+    });
   }
 
   void list_sheets() {
@@ -157,31 +227,50 @@ struct Coordinator::Search {
     }
   }
 
+  // What came of a unit, or was in the state from which the search goes on.
+  struct Part {
+    Shard shard;
+    PackedFound found{};  // until the search is done
+    std::shared_ptr<const void> owner{};
+  };
+  std::int64_t of(const Part& part) const { return of(part.shard, part.found); }
+
   // What a unit is made of, as long as it is under way.
   struct Given {
     std::vector<Waiting> boxes;
     std::vector<Proven*> sheets;
+    std::uint64_t most = 0;  // boxes, where there is a limit
   };
 
   const std::string prepared_text;
   Prepared prepared;
-  Control control;
+  std::atomic<bool> stop{false};
+  Control control{{.stop = &stop}};  // the judge's: what it decides is the same with limits and without
+  Control unlimited;
   SearchState state;  // its pass without boxes, and no shards
+  Control& run;
+  const MemoryEstimate memory;
+  std::int64_t kept = 0;  // bytes that the run has been told of
+  bool over = false;
+  std::uint64_t processed = 0;  // by the units of this coordinator
+  std::uint64_t promised = 0;   // boxes, to the units that are under way
   Tally tally;
   Pool judge;
-  std::vector<std::unique_ptr<Shard>> shards;
+  std::vector<std::unique_ptr<Part>> parts;
   std::vector<Waiting> open;
   std::vector<Proven*> open_sheets;
   std::map<std::uint64_t, Given> under_way;
   std::uint64_t next_id = 1;
 };
 
-Coordinator::Coordinator(std::string prepared, std::optional<std::string> from)
-    : search_(std::make_unique<Search>(std::move(prepared), from)) {}
+Coordinator::Coordinator(std::string prepared, std::optional<std::string> from, Control* control)
+    : search_(std::make_unique<Search>(std::move(prepared), from, control)) {}
 Coordinator::~Coordinator() = default;
 
 const std::string& Coordinator::prepared_bytes() const { return search_->prepared_text; }
 std::size_t Coordinator::under_way() const { return search_->under_way.size(); }
+bool Coordinator::cutting() const { return search_->state.cutting; }
+bool Coordinator::ended() { return search_->ended(); }
 bool Coordinator::done() const {
   return search_->state.cutting && search_->open_sheets.empty() && search_->under_way.empty();
 }
@@ -194,7 +283,7 @@ double Coordinator::share_done() const {
   return std::clamp(1 - waits, 0.0, 1.0);
 }
 
-std::vector<std::string> Coordinator::take_units(std::size_t wanted) {
+std::vector<std::string> Coordinator::take_units(std::size_t wanted, std::size_t fewest_boxes) {
   Search& s = *search_;
   std::vector<std::string> units;
   const auto give = [&](Unit unit, Search::Given given) {
@@ -203,41 +292,81 @@ std::vector<std::string> Coordinator::take_units(std::size_t wanted) {
     units.push_back(to_bytes(unit));
     s.under_way.emplace(unit.id, std::move(given));
   };
+  if (s.ended()) return units;
   if (!s.state.cutting) {
-    for (std::vector<Waiting>& boxes : dealt(std::exchange(s.open, {}), wanted)) {
-      Unit unit{.work = {boxes, s.state.pass.postpone}};
-      give(std::move(unit), {std::move(boxes), {}});
+    // Of what may be processed each unit gets its share.
+    const bool limited = s.run.limits().boxes > 0;
+    std::uint64_t left = limited ? s.run.boxes_left() - s.promised : 0;
+    if (limited) wanted = std::min<std::uint64_t>(wanted, left);
+    // At the beginning one unit makes boxes enough for all.
+    const std::size_t enough = wanted * fewest_boxes, full = s.open.size() / std::max<std::size_t>(1, fewest_boxes);
+    const bool spread = s.under_way.empty() && s.open.size() < enough && s.processed < kBeginning * enough;
+    wanted = spread ? 1 : s.under_way.empty() ? std::min(wanted, s.open.size()) : std::min(wanted, full);
+    if (wanted == 0 || s.open.empty()) return units;
+    // The largest first: who waits for work gets most of it.
+    std::stable_sort(s.open.begin(), s.open.end(), [](const Waiting& a, const Waiting& b) { return a.share > b.share; });
+    std::vector<std::vector<Waiting>> hands = dealt(std::exchange(s.open, {}), wanted);
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+      const std::uint64_t most = left / (hands.size() - i);
+      left -= most;
+      s.promised += most;
+      Unit unit{.boxes = most, .work = {hands[i], s.state.pass.postpone, spread ? enough : 0}};
+      give(std::move(unit), {std::move(hands[i]), {}, most});
     }
   } else {
     for (std::vector<Proven*>& sheets : dealt(std::exchange(s.open_sheets, {}), wanted)) {
       Unit unit{.cut = true, .sigma = s.state.sigma};
       for (const Proven* sheet : sheets) unit.sheets.push_back(*sheet);
-      give(std::move(unit), {{}, std::move(sheets)});
+      give(std::move(unit), {{}, std::move(sheets), 0});
     }
   }
   return units;
 }
 
-bool Coordinator::add(std::string_view bytes) {
+bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner) {
   Search& s = *search_;
-  Answer answer = answer_from(bytes);
+  if (!owner) {
+    const auto copy = std::make_shared<const std::string>(bytes);
+    bytes = *copy;
+    owner = copy;
+  }
+  Received answer = answer_from(bytes);
   const auto given = s.under_way.find(answer.id);
   if (given == s.under_way.end()) {
     if (answer.id >= s.next_id) throw ShardError("the answer to a unit that was never given out");
     return false;
   }
-  for (const Shard& shard : answer.shards) {
-    check(shard, s.prepared);
-    if (shard.number / kNumbers != static_cast<int>(answer.id)) throw ShardError("an answer with another unit's numbers");
+  for (const Received::Part& part : answer.parts) {
+    check(part, s.prepared);
+    if (part.shard.number / kNumbers != static_cast<int>(answer.id))
+      throw ShardError("an answer with another unit's numbers");
   }
+  std::int64_t more = 0;
+  for (const Received::Part& part : answer.parts) more += s.of(part.shard, part.found);
+  const std::uint64_t most = s.run.limits().memory;
+  if (most > 0 && s.run.kept() + more > static_cast<std::int64_t>(most)) {
+    const InStage stage(s.run, Stage::search);
+    s.run.note(Limit::memory);
+    s.over = true;
+    return false;
+  }
+  s.keep(more - s.memory.of_waiting(given->second.boxes.size()));
+  for (const Received::Part& part : answer.parts) {
+    s.run.count_boxes(part.shard.statistics.processed);
+    s.processed += part.shard.statistics.processed;
+  }
+  s.promised -= given->second.most;
   for (Proven* sheet : given->second.sheets) {
+    s.keep(-s.memory.of_sheet(sheet->sheet));
     *sheet = {.x = {}, .sheet = {}, .node = sheet->node, .cut = true};  // its boxes are there now
   }
   s.under_way.erase(given);
-  for (Shard& shard : answer.shards) {
+  for (auto& [shard, found] : answer.parts) {
     std::move(shard.left.begin(), shard.left.end(), std::back_inserter(s.open));
     shard.left.clear();
-    s.shards.push_back(std::make_unique<Shard>(std::move(shard)));
+    const bool any = found.size() > 0;
+    s.parts.push_back(std::make_unique<Search::Part>(
+        Search::Part{std::move(shard), any ? std::move(found) : PackedFound(), any ? owner : nullptr}));
   }
   s.advance();
   return true;
@@ -254,18 +383,21 @@ std::string Coordinator::state() const {
                   .sigma = s.state.sigma,
                   .seconds = s.state.seconds};
   for (const Shard* shard : search_->judge.shards()) view.parts.push_back({shard, {}});
-  for (const auto& shard : s.shards) view.parts.push_back({shard.get(), {}});
+  for (const auto& part : s.parts) view.parts.push_back({&part->shard, {}, part->owner ? &part->found : nullptr});
   return to_bytes(view);
 }
 
 Cover Coordinator::assemble(Control& control) {
-  CORANK_CHECK(done());
+  CORANK_CHECK(done() || ended());
   Search& s = *search_;
+  if (!done()) s.end_early();
   Cover cover;
   s.judge.execute([&] {
+    s.unpack();
     cover = solve::assemble(s.prepared, s.judge.problem(), s.all_shards(), s.state.first, s.state.motions, s.state.sigma,
                             control);
   });
+  s.keep(-s.kept);
   cover.statistics.seconds_total = s.state.seconds + s.tally.seconds();
   cover.statistics.seconds_search = cover.statistics.seconds_total - cover.statistics.seconds_certify;
   return cover;

@@ -8,9 +8,14 @@
 // Units may be run in any order, more than once, and by any number of threads: the first answer counts, and the cover is
 // solve()'s, to the last bit. Where σ was asked for, sheets are cut by whoever has found them. What a budget leaves of a
 // unit comes back and is given out again, in smaller parts.
+//
+// Limits are the coordinator's business: it gives out no more boxes than may be processed, and takes no answer for which
+// there is no memory. Once one has ended the search, what was not answered counts as not begun: `pending` in the cover, and
+// waiting in the state, from which the search goes on.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -26,6 +31,8 @@ struct Budget {
   std::uint64_t boxes = 0;  ///< processed
   double seconds = 0;
   int threads = 1;  ///< 1 … kMostUnitThreads
+  /// By which the seconds are counted; default: the machine's steady clock. Called from any thread.
+  std::function<double()> clock = {};
 };
 inline constexpr int kMostUnitThreads = 31;
 
@@ -48,27 +55,36 @@ class UnitRunner {
 
 class Coordinator {
  public:
-  /// `prepared`: of to_bytes(). `from`: a state of the same search to go on from. Throws ShardError.
-  explicit Coordinator(std::string prepared, std::optional<std::string> from = {});
+  /// `prepared`: of to_bytes(). `from`: a state of the same search to go on from. `control`, where given: of the run, whose
+  /// limits hold and which is told of boxes and memory; it outlives the coordinator. Throws ShardError.
+  explicit Coordinator(std::string prepared, std::optional<std::string> from = {}, Control* control = nullptr);
   ~Coordinator();
   Coordinator(const Coordinator&) = delete;
   Coordinator& operator=(const Coordinator&) = delete;
 
   const std::string& prepared_bytes() const;
-  /// What can be done now and has not been given out, in up to so many units. None, though done() is false: the units that
-  /// are under way have to be added first.
-  std::vector<std::string> take_units(std::size_t wanted);
-  /// What run_unit() has returned. False: that unit has been added before, and nothing is done. Throws ShardError where it
-  /// is none of this search's.
-  bool add(std::string_view answer);
+  /// What can be done now and has not been given out, in up to so many units, each of so many boxes or more; but as long as
+  /// something is under way, fewer wait for others. None, though done() is false: the units that are under way have to be
+  /// added first. At the beginning there is one unit, which ends as soon as there are boxes enough for all.
+  std::vector<std::string> take_units(std::size_t wanted, std::size_t fewest_boxes = 1);
+  /// What run_unit() has returned. False: nothing is done, since that unit has been added before, or there is no memory for
+  /// it. Throws ShardError where it
+  /// is none of this search's. The boxes in it stay as they are until the search is done: in the bytes that `owner` keeps
+  /// where they are, or else in a copy.
+  bool add(std::string_view answer, std::shared_ptr<const void> owner = {});
   bool done() const;
+  /// The search is done, and sheets are left to cut.
+  bool cutting() const;
+  /// A limit of the control has ended the search before it was done: nothing more is given out. Answers to what is under way
+  /// may still be added.
+  bool ended();
   /// So many units have been given out and not been added.
   std::size_t under_way() const;
   /// Of the search domain: the share that is done with.
   double share_done() const;
   /// For a checkpoint (solve::SearchState): units that are under way count as not begun.
   std::string state() const;
-  /// Of a search that is done. The coordinator is not to be used any more.
+  /// Of a search that is done, or has ended. The coordinator is not to be used any more.
   Cover assemble(Control& control);
 
  private:

@@ -1,6 +1,7 @@
 #include "corank/solve/control.h"
 
 #include <chrono>
+#include <limits>
 
 namespace corank::solve {
 namespace {
@@ -76,6 +77,10 @@ bool Control::ended() const {
   }
   if (double never = 0; ended_at_.compare_exchange_strong(never, limits_.clock())) ended_ = true;
   return true;
+}
+
+double Control::seconds_left() const {
+  return limits_.time > 0 ? deadline_ - limits_.clock() : std::numeric_limits<double>::infinity();
 }
 
 bool Control::overdue() const { return ended() && limits_.clock() - ended_at_ >= kGrace; }

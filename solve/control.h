@@ -2,6 +2,7 @@
 // through its stages.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -84,6 +85,8 @@ class Control {
   const Limits& limits() const { return limits_; }
   /// Every stage ends soon once this is true, with a valid result; it stays true.
   bool ended() const;
+  /// Until the limit of time; infinite where there is none.
+  double seconds_left() const;
   /// For what makes a result of all that was found, and takes little time: true once the run has ended kGrace seconds ago.
   bool overdue() const;
   static constexpr double kGrace = 0.5;
@@ -92,6 +95,8 @@ class Control {
   /// A box is about to be processed; false: there is to be none.
   bool count_box();
   void count_boxes(std::uint64_t boxes) { boxes_ += boxes; }
+  /// So many may be processed still, where there is a limit.
+  std::uint64_t boxes_left() const { return limits_.boxes - std::min(limits_.boxes, boxes_.load()); }
   /// So many bytes more, or less, are kept.
   void keep(std::int64_t bytes) { kept_.fetch_add(bytes, std::memory_order_relaxed); }
   std::int64_t kept() const { return kept_; }

@@ -11,6 +11,8 @@
 
 namespace corank::solve {
 
+class PackedFound;
+
 /// All that a search knows between two boxes. Whoever has it can go on with the search, and comes to the same cover.
 struct SearchState {
   Work first;                 ///< what the search began with
@@ -26,7 +28,8 @@ struct SearchState {
 struct SearchView {
   struct Part {
     const Shard* shard;
-    std::optional<Shard::Mark> end;  ///< what came later does not count
+    std::optional<Shard::Mark> end{};     ///< what came later does not count
+    const PackedFound* packed = nullptr;  ///< where given: its found boxes, of which the shard has none
   };
   const Work& first;
   const Work& pass;

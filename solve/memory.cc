@@ -44,6 +44,13 @@ std::int64_t MemoryEstimate::of(const Found& found, const Found* former) const {
   return sum;
 }
 
+std::int64_t MemoryEstimate::of(const PackedFound& found) const {
+  std::size_t most_free = 0;
+  for (const CoverBox& kind : found.kinds()) most_free = std::max(most_free, kind.free.size());
+  return (box_ + bytes<int>(static_cast<std::int64_t>(most_free))) * static_cast<std::int64_t>(found.size()) +
+         region_ * static_cast<std::int64_t>(found.regions()) + sheet_ * static_cast<std::int64_t>(found.sheets().size());
+}
+
 std::int64_t MemoryEstimate::of_sheet(const certify::Sheet& sheet) const {
   const auto sides = static_cast<std::int64_t>(sheet.region.size()),
              numbers = static_cast<std::int64_t>(sheet.equations.size() + sheet.dependent.size());

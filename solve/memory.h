@@ -1,7 +1,7 @@
 // What a search keeps until its result is written, in bytes: an estimate that counts what there are many of.
 #pragma once
 
-#include "corank/solve/problem.h"
+#include "corank/solve/packed_found.h"
 
 namespace corank::solve {
 
@@ -13,6 +13,8 @@ class MemoryEstimate {
   /// A found box: itself and its place in the sorted list, or what becomes of it in the cover and later, whichever is more;
   /// its region where it is not that of the box found before.
   std::int64_t of(const Found& found, const Found* former) const;
+  /// The same of all boxes of a list.
+  std::int64_t of(const PackedFound& found) const;
   /// A sheet that waits to be cut: itself, or the `pending` box that a limit makes of it, whichever is more.
   std::int64_t of_sheet(const certify::Sheet& sheet) const;
   /// A part of the script: itself, the copy in the cover, and the file's.

@@ -58,7 +58,8 @@ struct Pool::Threads {
     });
   }
 
-  void work(WorkList list, double postpone) {
+  // `until`: of Work.
+  void work(WorkList list, double postpone, std::uint64_t until = 0) {
     const UpwardRounding rounding;
     Worker& worker = workers.local();
     BoxProcessor& processor = worker.processor;
@@ -67,7 +68,7 @@ struct Pool::Threads {
     std::int64_t listed = 0;
     while (!list.empty()) {
       tally.keep_waiting(list.size(), listed);
-      if (tally.pausing() || !tally.count_box()) break;
+      if ((until > 0 && list.size() >= until) || tally.pausing() || !tally.count_box()) break;
       const NodeId node = list.node();
       const double share = list.pop(x);
       given = x;
@@ -101,7 +102,7 @@ struct Pool::Threads {
       }
       if (outcome == BoxProcessor::Outcome::done) tally.done_with(share);
       count(worker);
-      if (busy.load(std::memory_order_relaxed) < allowed && allowed > 1 && list.size() > 1)
+      if (until == 0 && busy.load(std::memory_order_relaxed) < allowed && allowed > 1 && list.size() > 1)
         spawn(list.split_off(), postpone);
     }
     tally.keep_waiting(0, listed);
@@ -147,12 +148,12 @@ void Pool::execute(const std::function<void()>& f) { threads_->arena.execute(f);
 
 void Pool::search(const Work& work) {
   Threads& t = *threads_;
-  WorkList list(static_cast<std::size_t>(t.variables()));
+  WorkList list(static_cast<std::size_t>(t.variables()), work.until > 0);
   for (auto box = work.boxes.rbegin(); box != work.boxes.rend(); ++box) list.push(box->x, box->share, box->node);
   t.tally.wait_for(list.size());
   execute([&] {
-    if (t.allowed == 1) {
-      t.work(std::move(list), work.postpone);
+    if (t.allowed == 1 || work.until > 0) {
+      t.work(std::move(list), work.postpone, work.until);
     } else {
       t.spawn(std::move(list), work.postpone);
       CORANK_CHECK(t.group.wait() != tbb::canceled);  // else waiting boxes would be lost

@@ -25,9 +25,10 @@ void load(Archive& archive, Interval& x) {
   x = Interval(lo, hi);
 }
 
+// Without its sides (solve/packed_found.h).
 template <class Archive>
 void serialize(Archive& archive, CoverBox& b) {
-  archive(b.box, b.verdict, b.free, b.region, b.point, b.kernel_at_most, b.motion, b.reason);
+  archive(b.verdict, b.free, b.region, b.point, b.kernel_at_most, b.motion, b.reason);
 }
 
 template <class Archive>
@@ -82,32 +83,8 @@ void serialize(Archive& archive, Postponed& p) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Found& f) {
-  archive(f.box, f.sheet, f.region, f.leaves);
-}
-
-// As cereal writes vectors.
-template <class Archive>
-void save(Archive& archive, const FoundList& list) {
-  archive(cereal::make_size_tag(static_cast<cereal::size_type>(list.size())));
-  for (const Found& found : list) archive(found);
-}
-template <class Archive>
-void load(Archive& archive, FoundList& list) {
-  cereal::size_type size = 0;
-  archive(cereal::make_size_tag(size));
-  list.clear();
-  for (cereal::size_type i = 0; i < size; ++i) archive(list.emplace_back());
-}
-
-template <class Archive>
 void serialize(Archive& archive, Work& w) {
-  archive(w.boxes, w.postpone);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Shard& s) {
-  archive(s.number, s.sheets, s.postponed, s.found, s.left, s.script, s.statistics);
+  archive(w.boxes, w.postpone, w.until);
 }
 
 }  // namespace solve

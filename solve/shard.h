@@ -40,6 +40,9 @@ struct Postponed {
 struct Work {
   std::vector<Waiting> boxes;
   double postpone = 0;  ///< of the typical sizes: how small boxes are that may be postponed
+  /// How the boxes are processed, which changes nothing of what becomes of them: the oldest first, by one thread, until so
+  /// many wait, which are left; 0: depth first.
+  std::uint64_t until = 0;
 };
 
 /// What one thread has made of its boxes. Every box that it was given, or has made of one by bisection, ends in one of the
@@ -69,8 +72,9 @@ struct Shard {
 /// A part of a search to be run somewhere, and what was found in it.
 struct Unit {
   std::uint64_t id = 0;
-  bool cut = false;  ///< the sheets are to be cut, to…
-  Work work{};       ///< else: is to be searched
+  bool cut = false;         ///< the sheets are to be cut, to…
+  std::uint64_t boxes = 0;  ///< else: processed at most, whatever the worker's budget; 0: no limit
+  Work work{};              ///< else: is to be searched
   Sigma sigma{};
   std::vector<Proven> sheets{};
 };

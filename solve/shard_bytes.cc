@@ -1,9 +1,11 @@
 #include "corank/solve/shard_bytes.h"
 
 #include <algorithm>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
 
 #include "corank/solve/engine_version.h"
+#include "corank/solve/packed_found.h"
 #include "corank/solve/prepared_archive.h"
 #include "corank/solve/shard_check.h"
 
@@ -23,27 +25,36 @@ void serialize(Archive& archive, SelfMotions::Stored& s) {
 
 template <class Archive>
 void serialize(Archive& archive, Unit& u) {
-  archive(u.id, u.cut, u.work, u.sigma, u.sheets);
+  archive(u.id, u.cut, u.boxes, u.work, u.sigma, u.sheets);
 }
 
-template <class Archive>
-void save(Archive& archive, const Answer& a) {
-  archive(a.id, a.shards);
+void save(ByteOutput& archive, const Shard& s) {
+  archive(s.number, s.sheets, s.postponed, s.left, s.script, s.statistics);
+  pack(archive, s.found, s.found.size());
 }
-template <class Archive>
-void load(Archive& archive, Answer& a) {
+// All but what was found.
+void load_rest(ByteInput& archive, Shard& s) { archive(s.number, s.sheets, s.postponed, s.left, s.script, s.statistics); }
+void load(ByteInput& archive, Shard& s) {
+  load_rest(archive, s);
+  s.found.clear();
+  packed_in(archive).unpack(s.found);
+}
+
+void save(ByteOutput& archive, const Answer& a) {
+  archive(a.id, cereal::make_size_tag(static_cast<cereal::size_type>(a.shards.size())));
+  for (const Shard& shard : a.shards) archive(shard);
+}
+void load(ByteInput& archive, Received& a) {
   cereal::size_type shards = 0;
   archive(a.id, cereal::make_size_tag(shards));
-  for (cereal::size_type i = 0; i < shards; ++i) archive(a.shards.emplace_back(0, false));
+  for (cereal::size_type i = 0; i < shards; ++i) {
+    Received::Part& part = a.parts.emplace_back();
+    load_rest(archive, part.shard);
+    part.found = packed_in(archive);
+  }
 }
 
 namespace {
-
-template <class Range>
-void write_some(ByteOutput& archive, const Range& all, std::size_t count) {
-  archive(cereal::make_size_tag(static_cast<cereal::size_type>(count)));
-  for (std::size_t i = 0; i < count; ++i) archive(all[i]);
-}
 
 // As a Shard without what is left.
 void write_part(ByteOutput& archive, const SearchView::Part& part) {
@@ -54,9 +65,7 @@ void write_part(ByteOutput& archive, const SearchView::Part& part) {
     if (!shard.sheets[i].cut) open.push_back(&shard.sheets[i]);
   archive(shard.number, cereal::make_size_tag(static_cast<cereal::size_type>(open.size())));
   for (const Proven* sheet : open) archive(*sheet);
-  archive(shard.postponed);
-  write_some(archive, shard.found, end.found);
-  archive(std::vector<Waiting>{});
+  archive(shard.postponed, std::vector<Waiting>{});
   if (shard.script && part.end) {
     std::optional<Recorder> script = shard.script;
     script->go_back_to(end.script);
@@ -65,19 +74,43 @@ void write_part(ByteOutput& archive, const SearchView::Part& part) {
     archive(shard.script);
   }
   archive(shard.statistics);
+  if (part.packed) {
+    pack(archive, *part.packed);
+  } else {
+    pack(archive, shard.found, end.found);
+  }
 }
+
+// What is written to it is one string.
+class StringBuffer : public std::streambuf {
+ public:
+  std::string bytes;
+
+ private:
+  int_type overflow(int_type c) override {
+    if (c != traits_type::eof()) bytes.push_back(static_cast<char>(c));
+    return traits_type::not_eof(c);
+  }
+  std::streamsize xsputn(const char* some, std::streamsize count) override {
+    bytes.append(some, static_cast<std::size_t>(count));
+    return count;
+  }
+};
 
 std::string first_line(std::string_view kind) {
   return "corank " + std::string(kind) + ", version " + engine_version() + "\n";
 }
 
+// `expected`: of the bytes, nearly. Memory that a growing string leaves behind costs more than what is written to it.
 template <class Value>
-std::string bytes_of_value(std::string_view kind, const Value& value) {
-  std::ostringstream stream(std::ios::binary);
+std::string bytes_of_value(std::string_view kind, const Value& value, std::size_t expected = 0) {
+  StringBuffer buffer;
+  buffer.bytes.reserve(expected);
+  std::ostream stream(&buffer);
   stream << first_line(kind);
   ByteOutput archive(stream);
   archive(value);
-  return std::move(stream).str();
+  return std::move(buffer.bytes);
 }
 
 template <class Read>
@@ -107,6 +140,20 @@ void read_value(std::string_view kind, std::string_view bytes, Read read) {
   }
 }
 
+std::size_t expected_bytes(const Answer& answer) {
+  std::size_t bytes = 4096;
+  for (const Shard& shard : answer.shards) {
+    const Box* former = nullptr;
+    for (const Found& f : shard.found) {
+      bytes += f.box.box.size() * sizeof(Interval);
+      if (f.region.get() == former) continue;
+      former = f.region.get();
+      bytes += f.box.box.size() * sizeof(Interval) + sizeof(PackedFound::Run);
+    }
+  }
+  return bytes;
+}
+
 constexpr std::string_view kPrepared = "question", kWork = "work", kShard = "shard", kUnit = "unit", kAnswer = "answer",
                            kState = "state";
 
@@ -118,12 +165,13 @@ std::string to_bytes(const Shard& shard) { return bytes_of_value(kShard, shard);
 
 std::string to_bytes(const Unit& unit) { return bytes_of_value(kUnit, unit); }
 
-std::string to_bytes(const Answer& answer) { return bytes_of_value(kAnswer, answer); }
+std::string to_bytes(const Answer& answer) { return bytes_of_value(kAnswer, answer, expected_bytes(answer)); }
 
 std::string to_bytes(const SearchView& state) {
-  std::ostringstream stream(std::ios::binary);
+  StringBuffer buffer;
+  std::ostream stream(&buffer);
   write(stream, state);
-  return std::move(stream).str();
+  return std::move(buffer.bytes);
 }
 
 void write(std::ostream& out, const SearchView& state) {
@@ -167,8 +215,8 @@ Unit unit_from(std::string_view bytes) {
   return unit;
 }
 
-Answer answer_from(std::string_view bytes) {
-  Answer answer;
+Received answer_from(std::string_view bytes) {
+  Received answer;
   read_value(kAnswer, bytes, [&](ByteInput& archive) { archive(answer); });
   return answer;
 }

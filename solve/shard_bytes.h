@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "corank/solve/journal.h"
+#include "corank/solve/packed_found.h"
 #include "corank/solve/prepared.h"
 #include "corank/solve/shard.h"
 
@@ -17,6 +18,16 @@ namespace corank::solve {
 class ShardError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// An answer whose boxes are as they came.
+struct Received {
+  struct Part {
+    Shard shard{0, false};  ///< without found boxes: those are
+    PackedFound found{};
+  };
+  std::uint64_t id = 0;
+  std::vector<Part> parts;
 };
 
 std::string to_bytes(const Prepared& prepared);
@@ -32,7 +43,8 @@ Prepared prepared_from(std::string_view bytes);
 Work work_from(std::string_view bytes);
 Shard shard_from(std::string_view bytes);
 Unit unit_from(std::string_view bytes);
-Answer answer_from(std::string_view bytes);
+/// The bytes stay where they are, as long as the answer is there.
+Received answer_from(std::string_view bytes);
 SearchState state_from(std::string_view bytes, const Prepared& prepared);
 
 }  // namespace corank::solve

@@ -32,10 +32,14 @@ void check_sheet(const certify::Sheet& sheet, const Sizes& sizes) {
   check_indices(sheet.equations, sizes.equations);
 }
 
+void check_kind(const CoverBox& box, const Sizes& sizes) {
+  expect(static_cast<int>(box.verdict) < kVerdicts && static_cast<int>(box.reason) < kReasons);
+  check_indices(box.free, sizes.variables);
+}
+
 void check_found(const Found& found, const Sizes& sizes) {
-  expect(found.box.box.size() == sizes.sides && static_cast<int>(found.box.verdict) < kVerdicts &&
-         static_cast<int>(found.box.reason) < kReasons && (!found.region || found.region->size() == sizes.sides));
-  check_indices(found.box.free, sizes.variables);
+  expect(found.box.box.size() == sizes.sides && (!found.region || found.region->size() == sizes.sides));
+  check_kind(found.box, sizes);
   if (found.sheet) check_sheet(*found.sheet, sizes);
 }
 
@@ -47,10 +51,11 @@ void check(const Work& work, const Prepared& prepared) {
   expect(work.postpone >= 0 && std::isfinite(work.postpone));
 }
 
-void check(const Shard& shard, const Prepared& prepared) {
+namespace {
+
+void check_but_found(const Shard& shard, std::size_t found, const Prepared& prepared) {
   const Sizes sizes(prepared);
   for (const Waiting& box : shard.left) check_waiting(box, sizes);
-  for (const Found& found : shard.found) check_found(found, sizes);
   for (const Proven& proven : shard.sheets) {
     expect(proven.x.size() == sizes.variables);
     check_sheet(proven.sheet, sizes);
@@ -60,7 +65,23 @@ void check(const Shard& shard, const Prepared& prepared) {
     expect(postponed.near.x.size() == sizes.variables);
     if (postponed.proof.proven) check_sheet(postponed.proof, sizes);
   }
-  expect(shard.script.has_value() == prepared.options.proof || shard.found.size() + shard.sheets.size() == 0);
+  expect(shard.script.has_value() == prepared.options.proof || found + shard.sheets.size() == 0);
+}
+
+}  // namespace
+
+void check(const Shard& shard, const Prepared& prepared) {
+  const Sizes sizes(prepared);
+  check_but_found(shard, shard.found.size(), prepared);
+  for (const Found& found : shard.found) check_found(found, sizes);
+}
+
+void check(const Received::Part& part, const Prepared& prepared) {
+  const Sizes sizes(prepared);
+  check_but_found(part.shard, part.found.size(), prepared);
+  expect(part.found.size() == 0 || part.found.sides() == sizes.sides);
+  for (const CoverBox& kind : part.found.kinds()) check_kind(kind, sizes);
+  for (const auto& [box, sheet] : part.found.sheets()) check_sheet(sheet, sizes);
 }
 
 void check(const Unit& unit, const Prepared& prepared) {

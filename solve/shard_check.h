@@ -3,12 +3,14 @@
 
 #include "corank/solve/journal.h"
 #include "corank/solve/prepared.h"
+#include "corank/solve/shard_bytes.h"
 
 namespace corank::solve {
 
 /// Throw ShardError where a box has another number of sides, or an index names nothing.
 void check(const Work& work, const Prepared& prepared);
 void check(const Shard& shard, const Prepared& prepared);
+void check(const Received::Part& part, const Prepared& prepared);
 void check(const Unit& unit, const Prepared& prepared);
 void check(const SearchState& state, const Prepared& prepared);
 

@@ -1,33 +1,31 @@
 #include "corank/study/spread_run.h"
 
+#include <ostream>
 #include <utility>
 
 #include "corank/core/check.h"
+#include "corank/solve/engine_version.h"
 #include "corank/solve/shard_bytes.h"
 
 namespace corank::study {
 namespace {
 
-// A unit does not know what others have found, so that no limit could hold all of them.
-const Options& without_limits(const Options& options) {
+// A unit does not know which solutions others have found.
+const Options& of_cluster(const Options& options) {
   const solve::Options& o = options.search;
   const auto refuse = [](const char* option) {
-    throw solve::OptionError(option,
-                             "a search on a cluster has no such limit; it is ended by Ctrl-C, and goes on from its "
-                             "checkpoint");
+    throw solve::OptionError(option, "a search on a cluster has no such limit; it has those of time, boxes and memory");
   };
   o.validate();
-  if (o.max_boxes > 0) refuse("max_boxes");
   if (o.max_found > 0) refuse("max_found");
   if (o.max_solutions > 0) refuse("max_solutions");
-  if (o.time_limit > 0) refuse("time_limit");
   return options;
 }
 
 }  // namespace
 
 SpreadRun::SpreadRun(const Question& question, Options options, const std::atomic<bool>* stop)
-    : options_(without_limits(options)), control_(limits_of(options_.search, stop)) {
+    : options_(of_cluster(options)), control_(limits_of(options_.search, stop)) {
   const solve::InStage stage(control_, solve::Stage::model);
   parts_ = parts_of(question);
   for (const Question& part : parts_) {
@@ -42,7 +40,7 @@ SpreadRun::SpreadRun(const Question& question, Options options, const std::atomi
 solve::Coordinator& SpreadRun::begin(std::optional<std::string> state) {
   CORANK_CHECK(!search_ && finished() < searches());
   asked_ = study::prepare(parts_[finished()], systems_[finished()], options_, control_);
-  search_ = std::make_unique<solve::Coordinator>(solve::to_bytes(asked_->prepared), std::move(state));
+  search_ = std::make_unique<solve::Coordinator>(solve::to_bytes(asked_->prepared), std::move(state), &control_);
   return *search_;
 }
 
@@ -52,16 +50,26 @@ solve::Coordinator& SpreadRun::search() {
 }
 
 void SpreadRun::finish() {
-  CORANK_CHECK(search_ && search_->done());
+  CORANK_CHECK(search_ && (search_->done() || search_->ended()));
   const std::size_t i = finished();
-  results_.push_back(study::finish(parts_[i], systems_[i], options_, *asked_, search_->assemble(control_), control_));
-  search_.reset();
+  Cover cover = search_->assemble(control_);
+  search_.reset();  // its memory is not counted any more
+  results_.push_back(study::finish(parts_[i], systems_[i], options_, *asked_, std::move(cover), control_));
   asked_.reset();
+}
+
+void SpreadRun::keep_state(const result::Checkpoint& checkpoint) {
+  constexpr std::size_t kMostInResult = std::size_t{1} << 30;  // more is a matter for a checkpoint
+  const std::string state = search().state();
+  if (state.size() >= kMostInResult) return;
+  kept_ = result::checkpoint_bytes(solve::engine_version(), checkpoint, [&state](std::ostream& out) { out << state; });
 }
 
 result::Result SpreadRun::result() {
   CORANK_CHECK(finished() == searches());
-  return join(parts_, std::exchange(results_, {}));
+  result::Result whole = join(parts_, std::exchange(results_, {}));
+  whole.search = std::move(kept_);
+  return whole;
 }
 
 }  // namespace corank::study

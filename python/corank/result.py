@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import tempfile
@@ -66,7 +67,6 @@ class Result:
 
     def __init__(self, core: _corank.Result) -> None:
         self._core = core
-        self._arrays = core.boxes()
         self._angle_enclosures: Dict[Tuple[str, bool], np.ndarray] = {}
         self._points: Optional[List[Point]] = None
 
@@ -92,6 +92,10 @@ class Result:
     def domain(self) -> Dict[str, Interval]:
         """Of each variable where it was searched."""
         return {v[0]: Interval(v[2], v[3]) for v in self._core.variables}
+
+    @functools.cached_property
+    def _arrays(self) -> Dict[str, np.ndarray]:
+        return self._core.boxes()
 
     @property
     def kernel_unknowns(self) -> List[str]:

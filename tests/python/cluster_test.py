@@ -157,11 +157,62 @@ def test_everything_listens_on_loopback_only(client):
     assert len(addresses) > 3 and set(addresses) == {"127.0.0.1"}
 
 
-def test_limits_and_too_many_threads_are_refused(client, dextar):
-    with pytest.raises(corank.OptionError, match="max_boxes: a search on a cluster has no such limit"):
-        dextar.solve("cspace", sigma=0.2, max_boxes=5, client=client)
+def test_limits_of_what_is_found_and_too_many_threads_are_refused(client, dextar):
+    with pytest.raises(corank.OptionError, match="max_found: a search on a cluster has no such limit"):
+        dextar.solve("cspace", sigma=0.2, max_found=5, client=client)
     with pytest.raises(ValueError, match="threads: expected 1 to 31"):
         dextar.solve("cspace", sigma=0.2, threads=32, client=client)
+
+
+def expect_ended(result, by):
+    assert result.stopped.startswith(f"{by}, in the stage ")
+    assert not result.complete and result.counts["pending"] > 0
+
+
+def test_limits_of_boxes_time_and_memory_end_a_search_with_what_is_proven(client, dextar, cspace):
+    run = dextar.solve("cspace", sigma=SIGMA, max_boxes=2000, client=client)
+    expect_ended(run, "the box limit")
+    assert json.loads(run._core.json())["boxes"]["processed"] == 2000
+    expect_ended(dextar.solve("cspace", sigma=SIGMA, time_limit=1e-9, client=client), "the time limit")
+    expect_ended(dextar.solve("cspace", sigma=SIGMA, memory_limit=3_000_000, client=client), "the memory limit")
+    expect_same(cspace, dextar.solve("cspace", sigma=SIGMA, max_boxes=10**7, time_limit=1e6, client=client))
+
+
+def test_a_limit_in_one_of_several_searches_leaves_the_others_pending(client, models):
+    limited = corank.load(models / "dextar_limits.cuik")
+    run = limited.solve("boundary", sigma=0.2, max_boxes=3, client=client)
+    expect_ended(run, "the box limit")
+    assert len(run._core.parts) > 1
+
+
+def test_what_a_limit_has_left_goes_on_from_the_result_and_from_the_checkpoint(models, cspace, tmp_path):
+    program = [sys.executable, "-m", "corank.cluster", "solve", "--workers", "1", "--quiet", "--unit-time", "0.02"]
+    question = [str(models / "dextar.cuik"), "--set", "cspace", "--sigma", str(SIGMA), "-o", str(tmp_path / "part.h5")]
+
+    def run(*arguments):
+        return subprocess.run([*program, *arguments], capture_output=True, text=True, check=False)
+
+    done = run(*question, "--max-boxes", "1500")
+    assert done.returncode == 3 and "stopped by the box limit" in done.stderr
+    assert f"--resume {tmp_path / 'part.h5'}" in done.stderr
+    expect_ended(corank.open(tmp_path / "part.h5"), "the box limit")
+    # From the result: another limit, which leaves a checkpoint; from that to the end.
+    kept = tmp_path / "kept"
+    nothing = run(*question[:-1], str(tmp_path / "none.h5"), "--time-limit", "1e-9", "--checkpoint", str(kept))
+    assert nothing.returncode == 3 and "stopped by the time limit" in nothing.stderr
+    assert "to go on" not in nothing.stderr and not kept.exists()
+    done = run("--resume", str(tmp_path / "part.h5"), "-o", str(tmp_path / "more.h5"), "--max-boxes", "500", "--checkpoint", str(kept))
+    assert done.returncode == 3 and kept.exists() and f"--resume {kept}" in done.stderr
+    done = run("--resume", str(kept), "-o", str(tmp_path / "whole.h5"))
+    assert done.returncode == 0 and not kept.exists(), done.stderr
+    expect_same(cspace, corank.open(tmp_path / "whole.h5"))
+    assert corank.open(tmp_path / "part.h5").stopped
+    # One process goes on from the result as well.
+    corank_solve = pathlib.Path(os.environ["CORANK_BUILD_DIR"]) / "app" / "corank"
+    if corank_solve.exists():
+        arguments = ["solve", "--resume", str(tmp_path / "part.h5"), "-o", str(tmp_path / "alone.h5")]
+        subprocess.run([str(corank_solve), *arguments], stdout=subprocess.DEVNULL, check=True)
+        expect_same(cspace, corank.open(tmp_path / "alone.h5"))
 
 
 def test_a_full_disk_leaves_the_last_good_checkpoint(dextar, tmp_path, capfd):

@@ -1,6 +1,7 @@
 // A search whose units run in any order, some more than once, some by workers that are lost, makes solve()'s cover.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "corank/check/checker.h"
@@ -109,6 +110,127 @@ TEST(Cluster, KeepsExactCoefficientsAsTheyAre) {
   const Prepared again = prepared_from(to_bytes(prepared));
   EXPECT_EQ(again.system.equations[0].monomials[0].coefficient, odd);
   EXPECT_EQ(to_bytes(again), to_bytes(prepared));
+}
+
+// A search with limits, its units in random order, until it is done or has ended; `most`: of units that are under way.
+struct Limited {
+  Cover cover;
+  std::string state;
+  std::int64_t kept = 0;  // at its most
+  bool done = false;
+};
+
+Limited run_with_limits(const Prepared& prepared, Control& control, unsigned seed, std::optional<std::string> from = {}) {
+  std::mt19937 random(seed);
+  Coordinator coordinator(to_bytes(prepared), std::move(from), &control);
+  std::vector<std::string> waiting;
+  Limited ran;
+  while (!coordinator.done() && !coordinator.ended()) {
+    for (std::string& unit : coordinator.take_units(1 + random() % 4)) waiting.push_back(std::move(unit));
+    std::shuffle(waiting.begin(), waiting.end(), random);
+    if (waiting.empty()) {
+      ADD_FAILURE() << "nothing to do, and neither done nor ended";
+      break;
+    }
+    const std::string answer = run_unit(coordinator.prepared_bytes(), waiting.back(),
+                                        {.boxes = 1 + random() % 200, .threads = 1 + random() % 2 > 1 ? 2 : 1});
+    waiting.pop_back();
+    coordinator.add(answer);
+    ran.kept = std::max(ran.kept, control.kept());
+  }
+  ran.done = coordinator.done();
+  ran.state = coordinator.state();
+  ran.cover = coordinator.assemble(control);
+  EXPECT_EQ(control.kept(), 0);
+  return ran;
+}
+
+// Points of the torus lie in boxes, whether anything is proven of these or not.
+void expect_torus_covered(const Cover& cover) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> angle(0, 6.283);
+  for (int k = 0; k < 300; ++k) {
+    const double u = angle(random), v = angle(random);
+    const double r = 1 + 0.5 * std::cos(v);
+    const std::vector<double> point{r * std::cos(u), r * std::sin(u), 0.5 * std::sin(v)};
+    bool covered = false;
+    for (const CoverBox& box : cover.boxes) {
+      bool in = true;
+      for (std::size_t j = 0; j < 3; ++j)
+        in = in && box.box[j].lo() - 1e-12 <= point[j] && point[j] <= box.box[j].hi() + 1e-12;
+      covered = covered || in;
+    }
+    ASSERT_TRUE(covered) << point[0] << " " << point[1] << " " << point[2];
+  }
+}
+
+TEST(Cluster, KeepsALimitOfBoxesToTheBoxAndGoesOnFromThere) {
+  for (const bool proof : {false, true}) {
+    Options options{.sigma = 0.3, .proof = proof};
+    const Prepared prepared = prepared_with(torus().system(), options);
+    Control free;
+    const Cover whole = solve(prepared, free);
+    const std::uint64_t all = whole.statistics.processed;
+    for (const std::uint64_t most : {std::uint64_t{1}, std::uint64_t{7}, all / 3, all - 1}) {
+      Control control({.boxes = most});
+      const Limited ran = run_with_limits(prepared, control, static_cast<unsigned>(most));
+      EXPECT_FALSE(ran.done);
+      EXPECT_EQ(ran.cover.statistics.processed, most);
+      EXPECT_GT(ran.cover.count(Verdict::pending), 0u);
+      EXPECT_EQ(control.ending(), (Ending{Limit::boxes, Stage::search}));
+      expect_torus_covered(ran.cover);
+      EXPECT_TRUE(!ran.cover.proof || check::check(torus().system(), ran.cover).proof.verified);
+      Control second({.boxes = all});
+      const Limited rest = run_with_limits(prepared, second, 5, ran.state);
+      EXPECT_TRUE(rest.done);
+      expect_same(whole, rest.cover);
+    }
+  }
+}
+
+TEST(Cluster, TakesNothingThatAMemoryLimitHasNoRoomFor) {
+  Options options;
+  options.sigma = 0.3;
+  const Prepared prepared = prepared_with(torus().system(), options);
+  Control free;
+  const Limited whole = run_with_limits(prepared, free, 1);
+  ASSERT_TRUE(whole.done);
+  expect_torus_covered(whole.cover);
+  int ended = 0;
+  for (int share = 1; share < 9; ++share) {
+    const auto most = static_cast<std::uint64_t>(whole.kept * share / 8);
+    Control control({.memory = most});
+    const Limited ran = run_with_limits(prepared, control, 2);
+    EXPECT_LE(ran.kept, static_cast<std::int64_t>(most));
+    expect_torus_covered(ran.cover);
+    if (ran.done) continue;
+    ++ended;
+    EXPECT_EQ(control.ending(), (Ending{Limit::memory, Stage::search}));
+    Control second;
+    expect_same(whole.cover, run_with_limits(prepared, second, 5, ran.state).cover);
+  }
+  EXPECT_GE(ended, 6);
+}
+
+TEST(Cluster, EndsAtAnyMomentOfTheClockWithWhatIsProven) {
+  for (const System& system : {torus().system(), lemniscate()}) {
+    const Prepared prepared = prepared_with(system, {});
+    Control free;
+    const Cover whole = solve(prepared, free);
+    int ended = 0;
+    for (int ticks = 1; ticks < 30; ticks += 2) {
+      double now = 0;
+      Control control({.time = static_cast<double>(ticks), .clock = [&now] { return now += 1; }});
+      const Limited ran = run_with_limits(prepared, control, static_cast<unsigned>(ticks));
+      if (ran.done) continue;
+      ++ended;
+      EXPECT_EQ(control.ending(), (Ending{Limit::time, Stage::search}));
+      if (system.variables.size() == 3) expect_torus_covered(ran.cover);
+      Control second;
+      expect_same(whole, run_with_limits(prepared, second, 5, ran.state).cover);
+    }
+    EXPECT_GT(ended, 3);
+  }
 }
 
 TEST(Cluster, RefusesWhatIsNotItsOwn) {

@@ -34,6 +34,28 @@ def _positive(text: str) -> int:
     return int(text)
 
 
+def _bytes(text: str) -> int:
+    units = {"K": 1 << 10, "M": 1 << 20, "G": 1 << 30, "T": 1 << 40}
+    number = text.upper().removesuffix("B")
+    value = float(number[:-1]) * units[number[-1]] if number[-1:] in units else float(number)
+    if not 0 <= value < 1e18:
+        raise ValueError(text)
+    return int(value)
+
+
+def _limit(text: str) -> float:
+    if not 0 <= float(text) < 1e8:
+        raise ValueError(text)
+    return float(text)
+
+
+def _count(text: str) -> int:
+    if int(text) < 0:
+        raise ValueError(text)
+    return int(text)
+
+
+_bytes.__name__, _limit.__name__, _count.__name__ = "size such as 800M or 8G", "number of seconds", "number from 0"
 _seconds.__name__, _positive.__name__ = "time such as 60s, 10m or 1h", "number from 1"
 
 
@@ -102,6 +124,12 @@ def _parser() -> argparse.ArgumentParser:
     how.add_argument(
         "--hang-time", type=_seconds, help="a unit that was not answered by then is given to another worker, too"
     )
+    limits = sub.add_argument_group("limits", "of this run; it goes on from its checkpoint, or from a result that is a .h5 file")
+    limits.add_argument("--time-limit", type=_limit, default=0.0, metavar="SECONDS", help="0: none, which is the default")
+    limits.add_argument("--max-boxes", type=_count, default=0, metavar="N", help="processed; 0: no limit, which is the default")
+    limits.add_argument(
+        "--memory-limit", type=_bytes, metavar="BYTES", help="of the client's; 0: none; default: three quarters of the machine's"
+    )
     keep = sub.add_argument_group("checkpoints")
     keep.add_argument(
         "--checkpoint", metavar="FILE", help="write from where the run goes on now and then; removed once it is complete"
@@ -156,7 +184,8 @@ def _resumed(args: argparse.Namespace, parser: argparse.ArgumentParser) -> Check
     for name, value in vars(former).items():
         if name not in ("output", "digits", "file") or not getattr(args, name):
             setattr(args, name, value)
-    known.path = args.checkpoint or args.resume
+    from_result = args.resume.endswith(".h5")
+    known.path = args.checkpoint or (None if from_result else args.resume)
     return known
 
 
@@ -167,14 +196,13 @@ def _model(args: argparse.Namespace, files: Sequence[Tuple[str, str, str]]) -> m
 
 
 def _solve(args: argparse.Namespace, parser: argparse.ArgumentParser) -> Result:
-    checkpoints: Optional[Checkpoints] = None
     if args.resume:
         checkpoints = _resumed(args, parser)
         files: Sequence[Tuple[str, str, str]] = checkpoints.files
     else:
         files = _files(args)
-        if args.checkpoint:
-            checkpoints = Checkpoints(args.checkpoint, args.every, _arguments(args), files)
+        checkpoints = Checkpoints(args.checkpoint, args.every, _arguments(args), files)
+    checkpoints.into_result = bool(args.output and args.output.endswith(".h5"))
     model = _model(args, files)
     with _client(args) as client:
         result = solve(
@@ -190,13 +218,16 @@ def _solve(args: argparse.Namespace, parser: argparse.ArgumentParser) -> Result:
             sigma_length=args.sigma_length,
             sigma_angle=args.sigma_angle,
             proof=args.proof,
+            time_limit=args.time_limit,
+            max_boxes=args.max_boxes,
+            memory_limit=args.memory_limit,
             plan=Plan(args.unit_time, args.threads, args.hang_time),
             checkpoints=checkpoints,
             progress=False if args.quiet else None,
         )
     if args.output:
         result.save(args.output)
-    if checkpoints is not None and os.path.exists(checkpoints.path):
+    if result.complete and result.stopped is None and checkpoints.path and os.path.exists(checkpoints.path):
         os.remove(checkpoints.path)
     return result
 
@@ -220,6 +251,13 @@ def _parts(args: argparse.Namespace) -> int:
         return BAD_INPUT
 
 
+def _holds_a_state(path: Optional[str]) -> bool:
+    try:
+        return path is not None and path.endswith(".h5") and bool(Checkpoints.read(path))
+    except ResultFileError:
+        return False
+
+
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Returns the exit status."""
     parser = _parser()
@@ -228,20 +266,25 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
         return _parts(args)
     if (args.file is None) == (args.resume is None):
         parser.error("expected MODEL, or --resume FILE")
+    kept = args.checkpoint or args.resume
     try:
         result = _solve(args, parser)
         if args.json:
             with open(args.json, "w", encoding="utf-8") as file:
                 file.write(result._core.json() + "\n")
         print(result._core.table(), end="")
-        return DONE if result.complete else INCOMPLETE
+        if result.complete and result.stopped is None:
+            return DONE
+        print(f"corank.cluster: stopped by {result.stopped or 'a limit'}", file=sys.stderr)
+        status = INCOMPLETE
+        if not (kept and os.path.exists(kept)):
+            kept = args.output if _holds_a_state(args.output) else None
     except KeyboardInterrupt:
         print("corank.cluster: ended early", file=sys.stderr)
         status = INCOMPLETE
     except (ModelError, OptionError, ClusterError, OSError, ValueError) as error:
         print(f"corank.cluster: {error}", file=sys.stderr)
         status = BAD_INPUT
-    kept = args.checkpoint or args.resume
     if kept and os.path.exists(kept):
         print(f"corank.cluster: to go on: python3 -m corank.cluster solve --resume {kept}", file=sys.stderr)
     return status

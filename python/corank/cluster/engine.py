@@ -23,23 +23,30 @@ _Show = Callable[[str, float, str], None]
 _AHEAD = 2  # units for each thread of the workers: the next one is there when one is done
 _PARTS = 8  # for each thread, of what a search begins a phase with: parts take their time differently
 _MOST_SHARE = 0.02  # of all seconds, for checkpoints
+# Dask takes 2 ms of one thread for each unit: the more workers there are, the longer units have to be, and boxes that would make
+# a short one wait for others.
+_LEAST_SECONDS, _SECONDS_PER_UNIT, _UNITS_PER_BOX, _FIRST_BOXES = 0.05, 3e-3, 8, 16
+_GRACE = 0.5  # seconds, once a limit has ended the run
 
 
 class Checkpoints:
     """The state of a run in a file, now and then: `corank solve --resume` goes on from it, too.
 
-    arguments, files: of corank solve's command line, and what it reads (option, path, text). former: what read() has returned.
+    path: None for none. into_result: where a limit has ended the run, its state goes into the result, too. arguments, files:
+    of corank solve's command line, and what it reads (option, path, text). former: what read() has returned.
     """
 
     def __init__(
-        self, path: PathLike, every: float, arguments: Sequence[str], files: Sequence[Tuple[str, str, str]]
+        self, path: Optional[PathLike], every: float, arguments: Sequence[str], files: Sequence[Tuple[str, str, str]]
     ) -> None:
-        self.path = os.fspath(path)
+        self.path = None if path is None else os.fspath(path)
+        self.into_result = False
         self.every = every
         self.arguments = list(arguments)
         self.files = list(files)
         self.finished: List[bytes] = []
         self.state: Optional[bytes] = None
+        self._ended = False
         self._next = time.monotonic() + every
 
     @classmethod
@@ -60,7 +67,7 @@ class Checkpoints:
     def keep(self, run: _corank.SpreadRun, now: bool = False) -> None:
         """Writes the file where it is time to, or at once. Where it cannot be written, the last one stays."""
         begun = time.monotonic()
-        if (begun < self._next and not now) or run.finished < len(self.finished):
+        if self.path is None or self._ended or (begun < self._next and not now) or run.finished < len(self.finished):
             return
         try:
             _corank.write_checkpoint(self.path, self.arguments, self.files, self.finished, run.state())
@@ -73,8 +80,19 @@ class Checkpoints:
         took = time.monotonic() - begun
         self._next = time.monotonic() + max(self.every, took * (1 / _MOST_SHARE - 1))
 
+    def end(self, run: _corank.SpreadRun, had_begun: bool) -> None:
+        """A limit has ended the run: what follows is made for the result. Before its search had begun, which may have been
+        prepared in part only, there is nothing to go on from but what was kept before."""
+        if not self._ended and had_begun:
+            self.keep(run, now=True)
+        if not self._ended and had_begun and self.into_result:
+            run.keep_state(self.arguments, self.files, self.finished)
+        self._ended = True
+
     def finish(self, run: _corank.SpreadRun) -> None:
         """The search is done; its last state is kept beside the next one's."""
+        if self._ended:
+            return
         if run.finished >= len(self.finished) and run.finished + 1 < run.searches:
             self.finished.append(run.state())
         else:
@@ -100,6 +118,16 @@ class _Workers:
         return self.threads
 
 
+def _next_units(plan: Plan, threads: int, under_way: int, cutting: bool, elapsed: float) -> Tuple[int, int, float]:
+    """How many units are to be under way, of how many boxes at least, for how many seconds. bench/shards.cc has the same rule."""
+    if cutting:
+        return _PARTS * threads, 1, plan.unit_seconds
+    seconds = min(plan.unit_seconds, max(_LEAST_SECONDS, _SECONDS_PER_UNIT * threads, elapsed / 20))
+    if under_way == 0:
+        return threads, _FIRST_BOXES, seconds
+    return _AHEAD * threads, under_way // _UNITS_PER_BOX, seconds
+
+
 def _search(
     run: _corank.SpreadRun, client: Client, plan: Plan, checkpoints: Optional[Checkpoints], show: Optional[_Show]
 ) -> None:
@@ -107,15 +135,16 @@ def _search(
     workers = _Workers(client)
     begun = time.monotonic()
     answered = 0
+    had_begun = not run.ended
     try:
-        while not run.done:
+        while not run.done and not run.ended:
             threads = workers.look()
             if threads > 0 or len(units) > 0:
-                most = max(1, threads) * (_PARTS if len(units) == 0 else _AHEAD)
-                seconds = min(plan.unit_seconds, max(0.1, (time.monotonic() - begun) / 20))
+                most, fewest, seconds = _next_units(plan, max(1, threads), len(units), run.cutting, time.monotonic() - begun)
                 if most > len(units):
-                    units.submit(run.take_units(most - len(units)), seconds)
-            for answer in units.answers(0.5):
+                    given = run.take_units(most - len(units), fewest)
+                    units.submit(given, max(1e-3, min(seconds, run.seconds_left)))
+            for answer in units.answers(min(0.5, max(0.0, run.seconds_left))):
                 answered += run.add(answer)
             units.look_after()
             if checkpoints is not None:
@@ -126,6 +155,12 @@ def _search(
                     run.share_done,
                     f"{answered} units done, {len(units)} under way" if threads else "no workers yet",
                 )
+        grace = time.monotonic() + _GRACE  # what was under way comes to its end, too
+        while run.ended and len(units) > 0 and time.monotonic() < grace:
+            for answer in units.answers(0.05):
+                run.add(answer)
+        if run.ended and checkpoints is not None:
+            checkpoints.end(run, had_begun)
     finally:
         units.cancel()
 
@@ -176,7 +211,7 @@ def solve(
     progress: ProgressOption = None,
     **options: Any,
 ) -> Result:
-    """Mechanism.solve by the workers of a dask cluster: the same boxes. There are no limits but Ctrl-C.
+    """Mechanism.solve by the workers of a dask cluster: the same boxes. max_found and max_solutions are no limits here.
 
     Raises:
         ClusterError: where the cluster cannot do the work.

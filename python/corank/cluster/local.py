@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import multiprocessing
 from typing import Iterator, Optional
 
 import dask.config
 from distributed import Client, LocalCluster
 from distributed.security import Security
+from distributed.utils import get_mp_context
 
 from .units import ClusterError
 
@@ -22,7 +24,20 @@ _SETTINGS = {
     # Workers keep memory between units, which dask by default makes them give back and fetch anew.
     "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 30,
     "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 1 << 30,
+    # What looks at processes that do nothing takes a tenth of a core: dask's profiler 100 times a second, health checks 50 times.
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "500ms",
+    "distributed.admin.system-monitor.interval": "2s",
+    "distributed.worker.memory.monitor-interval": "1s",
+    # Workers are copies of one process that has imported what they need, once.
+    "distributed.worker.multiprocessing-method": "forkserver",
 }
+
+
+def _preload() -> None:
+    """What that process imports; to be called with the settings in force."""
+    get_mp_context()  # sets dask's own list, which this one replaces
+    multiprocessing.get_context("forkserver").set_forkserver_preload(["distributed", "corank.cluster.worker"])
 
 
 def security(ca: Optional[str] = None, cert: Optional[str] = None, key: Optional[str] = None) -> Optional[Security]:
@@ -58,6 +73,7 @@ def local_client(
             raise ClusterError("dask's dashboard needs the package bokeh, which is not there") from None
     pages = {"dashboard": dashboard is not None, "dashboard_address": f"{host}:{dashboard}" if dashboard else _ANY_PORT}
     with dask.config.set(_SETTINGS):
+        _preload()
         with LocalCluster(
             n_workers=workers,
             threads_per_worker=1,

@@ -71,9 +71,9 @@ class Units:
 
     def submit(self, units: Iterable[bytes], seconds: float) -> None:
         """Gives them out; each takes so many seconds at most, but for sheets that are cut to the end."""
-        for unit in units:
-            given = _Given(unit, seconds, self._plan.patience)
-            self._units.add(given)
+        given = [_Given(unit, seconds, self._plan.patience) for unit in units]
+        self._units.update(given)
+        if given:
             self._send(given)
 
     def answers(self, seconds: float) -> List[np.ndarray]:
@@ -112,7 +112,7 @@ class Units:
             others = [address for address, theirs in busy.items() if not keys.intersection(theirs)]
             given.patience *= 2
             given.deadline = now + given.patience
-            self._send(given, others)
+            self._send([given], others)
             self.resubmitted += 1
 
     def cancel(self) -> None:
@@ -122,24 +122,27 @@ class Units:
 
     # --- inner ---
 
-    def _send(self, given: _Given, workers: Optional[List[str]] = None) -> None:
+    def _send(self, all_given: List[_Given], workers: Optional[List[str]] = None) -> None:
+        """Together: each message of dask's costs as much as what it does for one unit."""
         more = {"workers": workers, "allow_other_workers": True} if workers else {}
+        n = len(all_given)
         try:
-            future = self._client.submit(
+            futures = self._client.map(
                 self._work,
-                self._prepared,
-                given.unit,
-                given.seconds,
-                self._plan.threads,
+                [self._prepared] * n,
+                [given.unit for given in all_given],
+                [given.seconds for given in all_given],
+                [self._plan.threads] * n,
                 pure=False,
                 retries=self._plan.failures,
                 **more,
             )
         except Exception as error:
             raise ClusterError(f"the scheduler does not answer any more: {error}") from error
-        self._given[future.key] = given
-        given.futures.add(future)
-        future.add_done_callback(self._came.put)
+        for given, future in zip(all_given, futures):
+            self._given[future.key] = given
+            given.futures.add(future)
+            future.add_done_callback(self._came.put)
 
     def _answer(self, future: Future, given: _Given) -> Optional[np.ndarray]:
         try:
@@ -157,7 +160,7 @@ class Units:
         if given.failures > self._plan.failures:
             raise ClusterError(f"a unit was lost {given.failures} times, the last time by {type(error).__name__}: {error}")
         if not given.futures:
-            self._send(given)
+            self._send([given])
             self.resubmitted += 1
 
     def _forget(self, given: _Given) -> None:

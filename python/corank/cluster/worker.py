@@ -15,7 +15,7 @@ def run_unit(prepared: bytes, unit: bytes, seconds: float, threads: int) -> np.n
     """The answer to a unit of a search; what the budget of seconds leaves of it is part of the answer.
 
     The bytes are an array, since dask sends arrays without copying them."""
-    return np.frombuffer(_corank.run_unit(prepared, unit, 0, seconds, threads), dtype=np.uint8)
+    return _corank.run_unit(prepared, unit, 0, seconds, threads)
 
 
 @functools.lru_cache(maxsize=1)
