@@ -326,8 +326,8 @@ TEST(DoubleButterfly, HasTheSingularitiesOfItsLoops) {
 }
 
 // The same in Cartesian coordinates, as a plain list of distances: |O P| |O Q| = 21, so Q stands at x = 21/5 with
-// y_Q = 21 tan(θ)/5 for P in the direction θ, whose rate is 0 nowhere. The kernel has seven unknowns, about whose directions a
-// search knows nothing before the points are narrow.
+// y_Q = 21 tan(θ)/5 for P in the direction θ, whose rate is 0 nowhere. The kernel has seven unknowns, of whose directions
+// a search knows nothing before the points are narrow.
 TEST(Peaucellier, InCartesianCoordinatesIsStoppedNowhereByItsOutput) {
   const study::Model model = study::parse_model({
       R"([SYSTEM VARS]

@@ -112,7 +112,7 @@ class Generator {
   std::vector<ExactNumber> point_;
 };
 
-// CORANK_FIRST_SEED=300 CORANK_SEEDS=100000 ./solve_test --gtest_filter='MixedSystems.*' looks further, and says how far it is.
+// CORANK_FIRST_SEED=300 CORANK_SEEDS=100000 ./solve_test --gtest_filter='MixedSystems.*' looks further.
 unsigned number(const char* name, unsigned otherwise) {
   const char* text = std::getenv(name);
   return text != nullptr ? static_cast<unsigned>(std::atoi(text)) : otherwise;
