@@ -290,14 +290,11 @@ class PieceCounter {
     for (std::size_t p = 0; p < parts_.size(); ++p)
       if (parts_[p].kind == Kind::passage) members[clusters.find_set(p)].push_back(p);
     for (const auto& [root, list] : members) {
-      std::uint64_t common = ~std::uint64_t{0};
-      for (const std::size_t p : list) {
-        const SignCell& cell = cells_.cells()[parts_[p].cell];
-        const SignCell& first = cells_.cells()[parts_[list.front()].cell];
-        const bool same = cell.box == first.box && cell.mixed == first.mixed;
-        common &= same || list.size() == 1 ? cell.directions[cells_.choice(cell, parts_[p].signs)] : 0;
-      }
-      if (common == 0) hidden = true;
+      std::vector<std::size_t> cells;
+      for (const std::size_t p : list) cells.push_back(parts_[p].cell);
+      const Signs& signs = parts_[list.front()].signs;  // of all of them
+      const auto choice = [&](std::size_t c) { return cells_.choice(cells_.cells()[c], signs); };
+      if (cells_.common_directions(cells, choice) == 0) hidden = true;
     }
     std::set<std::size_t> classes;
     for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -430,8 +427,13 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   }
   if (options.certificate) result.cover = std::make_shared<const Cover>(cover);
   std::vector<symbolic::Expression> both = forward;
-  for (const auto& e : inverse)
-    if (std::none_of(forward.begin(), forward.end(), [&](const auto& f) { return same_tree(e, f); })) both.push_back(e);
+  std::vector<LocusFactors> loci{{true, forward}, {false, inverse}};
+  for (std::size_t k = 0; k < forward.size(); ++k) loci[0].functions.push_back(k);
+  for (const auto& e : inverse) {
+    const auto same = std::find_if(forward.begin(), forward.end(), [&](const auto& f) { return same_tree(e, f); });
+    loci[1].functions.push_back(same == forward.end() ? both.size() : static_cast<std::size_t>(same - forward.begin()));
+    if (same == forward.end()) both.push_back(e);
+  }
   std::vector<Polynomial> ends;
   const std::vector<Limit> touched = limits(result.system, cover);
   for (const Limit& limit : touched) ends.push_back(limit.function);
@@ -447,6 +449,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     const int x = plane ? result.system.find(options.images[0]) : -1, y = plane ? result.system.find(options.images[1]) : -1;
     if (first && x >= 0 && y >= 0) result.images = images(cells, found, x, y, options.rows, control);
     if (first && !options.drawn.empty()) result.drawing = draw(cells, found, options.drawn);
+    if (first && options.cusps) result.cusps = aspect_cusps(question, loci, cells, found, options.threads, control);
     if (first && options.placed) result.places = piece_places(cells, found, options.placed->boxes, control);
     return found;
   };

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/analyze/aspect_cusps.h"
 #include "corank/analyze/aspect_images.h"
 #include "corank/analyze/aspects_drawing.h"
 #include "corank/analyze/sign_cells.h"
@@ -60,6 +61,7 @@ struct Aspects {
   std::vector<std::array<int, 2>> determinant_signs;
   std::optional<PieceImages> images;    ///< of the aspects, where AspectsOptions::images asks for them
   std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
+  std::optional<AspectCusps> cusps;     ///< and the aspects about them, where AspectsOptions::cusps asks for them
   std::shared_ptr<const Cover> cover;   ///< of C-space with its proof, where AspectsOptions::certificate asks for it
   std::vector<int> places;              ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places.h)
 };
@@ -71,6 +73,7 @@ struct AspectsOptions {
   std::vector<std::string> drawn{};   ///< coordinates
   std::vector<std::string> images{};  ///< two lengths, of a C-space of two dimensions
   int rows = 120;                     ///< of the images' grid
+  bool cusps = false;                 ///< look for the cusps of both loci
   bool certificate = false;           ///< keep what it takes to check the result
   const Cover* placed = nullptr;      ///< of C-space, to be looked at
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "corank/certify/angle.h"
@@ -26,6 +27,22 @@ std::vector<Value> values(const System& system, const Box& box) {
     result.push_back({a.name, certify::angle_enclosure(box[static_cast<std::size_t>(a.cosine)],
                                                        box[static_cast<std::size_t>(a.sine)], a.range)});
   return result;
+}
+
+// "4; 2 within aspect 1, 2 within aspect 2".
+std::string cusps_line(const AspectCusps& cusps) {
+  std::map<int, int> around;
+  int open = 0;
+  for (const AspectCusp& c : cusps.list) c.around ? ++around[*c.around] : ++open;
+  std::string text = std::to_string(cusps.list.size());
+  const char* before = "; ";
+  for (const auto& [aspect, count] : around) {
+    text += fmt::format("{}{} within aspect {}", before, count, aspect + 1);
+    before = ", ";
+  }
+  if (open > 0) text += fmt::format("{}{} not known in which", before, open);
+  for (const std::string& reason : cusps.reasons) text += "; " + reason;
+  return text;
 }
 
 std::string bounds(const Pieces& p) {
@@ -81,6 +98,7 @@ std::string to_text(const study::Question& question, const Aspects& a) {
                       a.forward_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.forward_factors, " = 0 or ")));
   text += fmt::format("  det L_z = 0 where {}\n",
                       a.inverse_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.inverse_factors, " = 0 or ")));
+  if (a.cusps) text += fmt::format("  cusps           {}\n", cusps_line(*a.cusps));
   text += "A configuration of each aspect:\n";
   for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {
     text += fmt::format("  {:>3}", k + 1);
@@ -124,6 +142,17 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
         if (other != k && !a.images->share[k][other]) entry["may_share_outputs_with"].push_back(other);
     }
     json["representatives"].push_back(entry);
+  }
+  if (a.cusps) {
+    json["cusps"] = Json::array();
+    for (const AspectCusp& c : a.cusps->list) {
+      Json entry = {{"locus", c.forward ? "forward" : "inverse"}, {"values", Json::object()}};
+      for (const Value& v : values(a.system, c.at)) entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+      entry["around"] = or_null(c.around);
+      entry["between"] = or_null(c.between);
+      json["cusps"].push_back(entry);
+    }
+    json["cusps_not_known"] = a.cusps->reasons;
   }
   json["reason"] = !a.reason.empty() ? a.reason : a.aspects.reason;
   json["complete"] = complete;

@@ -90,4 +90,19 @@ std::vector<int> piece_places(SignCells& cells, const Pieces& pieces, const std:
   return result;
 }
 
+std::optional<int> only_piece(const SignCells& cells, const Pieces& pieces, const Box& box, const std::vector<int>& signs) {
+  std::optional<int> only;
+  for (const Pieces::Part& part : pieces.parts) {
+    if (part.signs != signs) continue;
+    const Box& sides = cells.cells()[part.cell].sides;
+    bool meets = true;
+    for (std::size_t j = 0; j < box.size() && meets; ++j)
+      meets = !(box[j].hi() < sides[j].lo() || sides[j].hi() < box[j].lo());
+    if (!meets) continue;
+    if (only && *only != part.piece) return std::nullopt;
+    only = part.piece;
+  }
+  return only;
+}
+
 }  // namespace corank::analyze

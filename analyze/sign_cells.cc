@@ -166,13 +166,44 @@ bool SignCells::find_directions(SignCell& cell) {
       if (certify::SignCellTest::growth(cell, s, d, all[c]) != 0) cell.directions[c] |= bit;
     bit <<= 1;
   }
+  if (cell.free.size() == 2 && cell.mixed.size() <= 2) add_convex_limits(cell, s);
   return std::find(cell.directions.begin(), cell.directions.end(), 0U) == cell.directions.end();
+}
+
+// Lemma 5, which holds for each choice of the other function's sign. A limit that grows in some direction and is alone
+// does not need it.
+void SignCells::add_convex_limits(SignCell& cell, const certify::SignCellTest::Slopes& slopes) {
+  const auto grows = [&](std::size_t k) {
+    return std::any_of(slopes[k].begin(), slopes[k].end(), [](const Interval& by) { return sign_of(by) != 0; });
+  };
+  std::optional<std::vector<certify::SheetDerivatives>> mixed;
+  const auto add = [&](std::uint64_t bit) {
+    for (std::uint64_t& known : cell.directions) known |= bit;
+  };
+  for (std::size_t k = 0; k < cell.mixed.size(); ++k) {
+    if (!is_limit(cell.mixed[k]) || (cell.mixed.size() == 1 && grows(k))) continue;
+    if (!mixed) mixed = proof_.second_order(cell);
+    if (!mixed) return;
+    const certify::SheetDerivatives& e = (*mixed)[k];
+    if (cell.mixed.size() == 1) {
+      const std::vector<std::vector<double>> lines = directions(cell);
+      for (std::size_t d = 0; d < lines.size(); ++d)
+        if (certify::SignCellTest::convex_on_lines(e, lines[d])) add(std::uint64_t{1} << (kLines + d));
+      continue;
+    }
+    if (certify::SignCellTest::convex_on_levels(e, (*mixed)[1 - k])) add(std::uint64_t{1} << (kLevels + k));
+  }
 }
 
 bool SignCells::resolve(SignCell& cell) {
   if (cell.mixed.empty()) return true;
-  if (cell.mixed.size() == 1)
-    return part_of_one(cell, 1) != 0 && (is_limit(cell.mixed.front()) || part_of_one(cell, -1) != 0);
+  if (cell.mixed.size() == 1) {
+    const bool limit = is_limit(cell.mixed.front());
+    if (part_of_one(cell, 1) != 0 && (limit || part_of_one(cell, -1) != 0)) return true;
+    if (!limit || !find_directions(cell)) return false;
+    // A limit that grows somewhere is cut on until its part is known.
+    return cell.directions[0] >> kLines != 0;
+  }
   return find_directions(cell);
 }
 
@@ -220,7 +251,7 @@ std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
   std::vector<std::vector<std::size_t>> result;
   std::vector<const Box*> sides;
   for (std::size_t c = 0; c < cells_.size(); ++c)
-    if (cells_[c].resolved && cells_[c].mixed.size() > 1 && !has_known_parts(cells_[c])) {
+    if (cells_[c].resolved && (cells_[c].mixed.size() > 1 || cells_[c].directions[0] != 0) && !has_known_parts(cells_[c])) {
       cells.push_back(c);
       sides.push_back(&cells_[c].sides);
     }
@@ -229,11 +260,8 @@ std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t k = 0; k < cells.size(); ++k) members[group[k]].push_back(cells[k]);
   for (const auto& [number, list] : members) {
-    const SignCell& first = cells_[list.front()];
-    auto common = first.directions;
-    for (const std::size_t c : list)
-      for (std::size_t k = 0; k < common.size(); ++k)
-        common[k] &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[k] : 0;
+    std::array<std::uint64_t, 4> common{};
+    for (std::size_t k = 0; k < common.size(); ++k) common[k] = common_directions(list, [&](std::size_t) { return k; });
     if (list.size() > 1 && std::find(common.begin(), common.end(), 0U) != common.end()) result.push_back(list);
   }
   return result;

@@ -23,7 +23,8 @@ struct SignCell : certify::SheetCell {
   int box = 0;            ///< of the cover
   bool resolved = false;  ///< one of the lemmas holds for each choice of signs; of one mixed function the second
   /// The directions of lemma 3, as bits, for each choice of signs (SignCells::choice). They are the same for all cells of
-  /// one box of the cover: where neighbours share one, no piece hides in them together.
+  /// one box of the cover: where neighbours share one, no piece hides in them together. Likewise those of
+  /// lemma 5.
   std::array<std::uint64_t, 4> directions{};
   std::optional<bool> known_parts{};  ///< does lemma 4 hold for each choice of signs? Once it was asked
 };
@@ -54,6 +55,15 @@ class SignCells {
   std::size_t choice(const SignCell& cell, const std::vector<int>& signs) const;
   /// Of each choice that there is the signs of all functions. Nothing: more than two of them have both signs.
   std::vector<std::vector<int>> choices(const SignCell& cell) const;
+  /// The directions, as bits, that all of these cells have for a choice of signs of each. `choice`: of a cell by its number.
+  template <class Choice>
+  std::uint64_t common_directions(const std::vector<std::size_t>& cells, const Choice& choice) const {
+    std::uint64_t common = ~std::uint64_t{0};
+    const SignCell& first = cells_[cells.front()];
+    for (const std::size_t c : cells)
+      common &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[choice(c)] : 0;
+    return common;
+  }
   const std::vector<int>& free(const SignCell& cell) const { return cell.free; }
   const Box& region(const SignCell& cell) const;
 
@@ -89,6 +99,9 @@ class SignCells {
   void index_boxes();
   bool has_known_parts(SignCell& cell);
   bool find_directions(SignCell& cell);
+  void add_convex_limits(SignCell& cell, const certify::SignCellTest::Slopes& slopes);
+  // Bits of SignCell::directions: lemma 5 on lines, one for each direction; on the level lines of the other function.
+  static constexpr int kLines = 16, kLevels = 60;
   std::vector<std::vector<double>> directions(const SignCell& cell) const;
 
   const System& system_;

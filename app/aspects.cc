@@ -84,6 +84,9 @@ void add_aspects(CLI::App& program, Action& action) {
   sub->add_flag(
       "--areas", command->areas,
       "Of two outputs that are lengths: the area that each aspect covers, in bounds, and which share outputs; in JSON");
+  sub->add_flag(
+      "--cusps", command->options.cusps,
+      "Look for the cusps of both loci, and say in which aspect each lets the posture or the assembly mode change");
   sub->add_flag("--json", command->json, "Print the result as JSON");
   sub->footer(
       "aspects: pieces of C-space without forward and inverse singularities; assembly modes: without forward ones;\n"

@@ -11,7 +11,8 @@
 
 namespace corank::certify {
 
-SignCellTest::SignCellTest(const System& system, const std::vector<Polynomial>& functions) : compiled_(system, functions) {}
+SignCellTest::SignCellTest(const System& system, const std::vector<Polynomial>& functions)
+    : system_(system), functions_(functions), compiled_(system, functions) {}
 
 std::vector<int> SignCellTest::dependent_of(const std::vector<int>& free) const {
   std::vector<int> result;

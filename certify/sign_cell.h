@@ -14,12 +14,20 @@
 //   Lemma 4: let the dimension be 2 and d as in lemma 3, with s_k·∂g_k/∂d > 0. The sides of X_F through which d points out
 // of it are one arc. Along d every point of the part of signs s comes to that arc without leaving the part: so the part is
 // connected where its points on the arc are, and empty where there are none.
+//   Lemma 5: let the dimension be 2, and e be a limit, of which only the sign 1 counts. Let no function but e and h have both
+// signs, and T(T e) > 0 all over the cell, where T = (∂h/∂f_2, −∂h/∂f_1) is along the level lines of h. Then each point of a
+// part is joined in it to a point on the cell's border. Proof: go along T or −T, so that e does not shrink at first. h stays as
+// it is, and e grows faster and faster: it leaves the cell. Where e alone has both signs, h may be linear in the f's: T is a
+// constant direction. Neighbouring cells of one sheet that share e and h add no piece together, as the way goes on there.
+// Where e is critical, it is all one whether it is positive, 0 or negative there.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/newton.h"
+#include "corank/certify/second_order.h"
 #include "corank/core/cover.h"
 
 namespace corank::certify {
@@ -63,6 +71,11 @@ class SignCellTest {
   /// Lemma 4 for the part of these signs, one of each function, likewise; of the directions a few are tried.
   int part_by_outflow(const SheetCell& cell, const std::vector<int>& signs,
                       const std::vector<std::vector<double>>& directions);
+  /// The first and second derivatives of each mixed function over the cell; nothing: not known.
+  std::optional<std::vector<SheetDerivatives>> second_order(const SheetCell& cell) const;
+  /// Hypothesis of lemma 5, with the level lines of h, or with a constant direction.
+  static bool convex_on_levels(const SheetDerivatives& e, const SheetDerivatives& h);
+  static bool convex_on_lines(const SheetDerivatives& e, const std::vector<double>& direction);
   /// Where the free sides are points of X_F: encloses the sheet's solution over them, as narrow as a few steps make it.
   Box solution_over(const SheetCell& cell, Box sides);
   /// newton_prove over all of the cell's sides.
@@ -85,6 +98,8 @@ class SignCellTest {
   bool add_segment(const SheetCell& cell, const std::vector<int>& signs, int along, bool upwards, int depth, Arc& arc);
   SheetCell over(const SheetCell& cell, Box sides);
 
+  System system_;
+  std::vector<Polynomial> functions_;
   CompiledSystem compiled_;  // value rows: the functions
   NewtonWorkspace workspace_;
 };

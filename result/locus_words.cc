@@ -88,6 +88,16 @@ std::optional<double> node_distance(const Result& result) {
   return ExactNumber::rational(symbolic::kNodeDistance).enclose().mid();
 }
 
+std::vector<const CoverBox*> proven_cusps(const Result& result) {
+  const symbolic::SetDefinition& set = symbolic::definition(result.set);
+  std::vector<const CoverBox*> list;
+  if (set.part != LocusPart::cusps || result.cover.dimension != 0) return list;
+  for (const CoverBox& point : result.cover.points)
+    if (point.verdict == Verdict::isolated) list.push_back(&point);
+  if (!list.empty() && !held_and_not_locked(result, set.locked.front()).empty()) list.clear();
+  return list;
+}
+
 std::string locus_sentence(const Result& result) {
   const symbolic::SetDefinition& set = symbolic::definition(result.set);
   if (set.part == LocusPart::all) return "";

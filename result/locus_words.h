@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "corank/result/result.h"
 
@@ -15,6 +16,10 @@ namespace corank::result {
 /// Whitney's, and one of the nodes' system over a transversal crossing (doc/theory.md, "Cusps and nodes"); where a
 /// coordinate is held that is not locked, that theorem does not apply, and the sentence says so.
 std::string locus_sentence(const Result& result);
+
+/// Of a set of cusps those points that are proven to lie over one of Whitney's, by the theorem that the sentence rests on.
+/// None where a coordinate is held to which it does not apply.
+std::vector<const CoverBox*> proven_cusps(const Result& result);
 
 /// symbolic::kNodeDistance of a set of nodes.
 std::optional<double> node_distance(const Result& result);

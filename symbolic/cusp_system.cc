@@ -24,6 +24,20 @@ std::vector<Expression> symbols(const std::vector<std::string>& names) {
   return list;
 }
 
+struct Unknowns {
+  std::vector<std::string> xi, eta;
+  std::string tau;
+};
+
+Unknowns unknowns(const Mechanism& mechanism, std::size_t n) {
+  Unknowns result{kernel_names(mechanism, n, 1), kernel_names(mechanism, n, 1, "eta"),
+                  kernel_names(mechanism, 1, 1, "tau")[0]};
+  std::string& tau = result.tau;
+  tau.pop_back();  // the 1, where nothing is called tau either
+  if (mechanism.has_constant(tau) || mechanism.find_coordinate(tau) >= 0 || mechanism.find_rate(tau) >= 0) tau += "1";
+  return result;
+}
+
 }  // namespace
 
 TrigonometricSystem cusp_system(const Mechanism& mechanism, SingularitySet set, const std::vector<std::string>& scales) {
@@ -35,11 +49,7 @@ TrigonometricSystem cusp_system(const Mechanism& mechanism, SingularitySet set, 
   system.kernel_scales = scales;
 
   const std::size_t n = m.columns.size();
-  const std::vector<std::string> of_xi = kernel_names(mechanism, n, 1), of_eta = kernel_names(mechanism, n, 1, "eta");
-  std::string of_tau = kernel_names(mechanism, 1, 1, "tau")[0];
-  of_tau.pop_back();  // the 1, where nothing is called tau either
-  if (mechanism.has_constant(of_tau) || mechanism.find_coordinate(of_tau) >= 0 || mechanism.find_rate(of_tau) >= 0)
-    of_tau += "1";
+  const auto [of_xi, of_eta, of_tau] = unknowns(mechanism, n);
   for (const std::string& name : of_xi) system.further_unknowns.push_back({name});
   for (const std::string& name : of_eta) system.further_unknowns.push_back({name});
   system.further_unknowns.push_back({of_tau, 0, 1});
@@ -76,6 +86,23 @@ TrigonometricSystem cusp_system(const Mechanism& mechanism, SingularitySet set, 
   add(sum_of(lengths) == Expression(1), "norm of eta and tau", where);
   system.inequalities.push_back({sum_of(generic) >= Expression(0), "half-space of xi", where, true});
   return system;
+}
+
+std::vector<Expression> cusp_sides(const Mechanism& mechanism, SingularitySet set, const std::vector<std::string>& scales,
+                                   const std::vector<Expression>& functions) {
+  const LocusByCoordinates locus = locus_by_coordinates(mechanism, set, scales);
+  const std::vector<std::string>& columns = locus.kernel.matrix.columns;
+  const Unknowns names = unknowns(mechanism, columns.size());
+  const std::vector<Expression> rates = scaled(names.xi, locus.scales), accelerations = scaled(names.eta, locus.scales);
+  const Expression factor = scaled({names.tau}, {locus.size_per_scale})[0];
+  std::vector<Expression> result;
+  for (const Derivatives& d : derivatives(locus.mechanism, columns, functions)) {
+    std::vector<Expression> terms;
+    if (const auto first = kernel_row(d.first, accelerations)) terms.push_back(*first);
+    for (const Expression& term : second_order(d.second, rates)) terms.push_back(factor * term);
+    result.push_back(sum_of(terms));
+  }
+  return result;
 }
 
 }  // namespace corank::symbolic

@@ -141,6 +141,25 @@ std::vector<std::vector<std::vector<Expression>>> second_derivatives(const Mecha
   return result;
 }
 
+std::vector<Derivatives> derivatives(const Mechanism& mechanism, const std::vector<std::string>& coordinates,
+                                     const std::vector<Expression>& functions) {
+  const GinacLock lock;
+  const GinacBridge bridge(mechanism);
+  std::vector<Derivatives> result;
+  for (const Expression& function : functions) {
+    const GiNaC::ex f = bridge.to_ginac(function, function.where());
+    Derivatives& d = result.emplace_back();
+    for (std::size_t j = 0; j < coordinates.size(); ++j) {
+      const GiNaC::ex first = f.diff(bridge.symbol(coordinates[j]));
+      d.first.push_back(bridge.to_expression(first));
+      std::vector<Expression>& row = d.second.emplace_back();
+      for (std::size_t k = j; k < coordinates.size(); ++k)
+        row.push_back(bridge.to_expression(first.diff(bridge.symbol(coordinates[k]))));
+    }
+  }
+  return result;
+}
+
 std::string matrix_name(const SetDefinition& set, const VelocityEquation& velocity) {
   return velocity.given && set.locked.empty() ? "L" : set.matrix;
 }

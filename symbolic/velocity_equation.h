@@ -54,6 +54,14 @@ Derivation derive(const Mechanism& mechanism);
 std::vector<std::vector<std::vector<Expression>>> second_derivatives(const Mechanism& mechanism,
                                                                      const std::vector<std::string>& coordinates);
 
+/// Of a function of coordinates its first and second derivatives by these, the second as above.
+struct Derivatives {
+  std::vector<Expression> first;
+  std::vector<std::vector<Expression>> second;
+};
+std::vector<Derivatives> derivatives(const Mechanism& mechanism, const std::vector<std::string>& coordinates,
+                                     const std::vector<Expression>& functions);
+
 /// What the matrix of a set's kernel is called: "L_y"; of all of L "Phi_q", or "L" where it is given.
 std::string matrix_name(const SetDefinition& set, const VelocityEquation& velocity);
 

@@ -145,39 +145,56 @@ TEST(Aspects, OfAnOrthogonalArmAreThoseOfAFloodFill) {
 
 // With its first leg held the 3-RPR platform is where that leg's and the platform's angles are, as far as the other legs
 // reach. Forward singularities: the legs' lines meet in a point or are parallel.
+int slice_pieces(double leg) {
+  constexpr int kRows = 600;
+  std::vector<int> signs;
+  for (int i = 0; i < kRows; ++i)
+    for (int j = 0; j < kRows; ++j) {
+      const double alpha = i * 2 * M_PI / kRows, phi = j * 2 * M_PI / kRows;
+      const double c = cos(phi), s = sin(phi), x = leg * cos(alpha), y = leg * sin(alpha);
+      const std::array base{std::array{0.0, 0.0}, std::array{2.0, 0.0}, std::array{0.8, 1.5}};
+      const std::array ends{std::array{x, y}, std::array{x + c, y + s},
+                            std::array{x + 0.6 * c - 0.4 * s, y + 0.6 * s + 0.4 * c}};
+      std::array<std::array<double, 3>, 3> line{};
+      bool within = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double u = ends[k][0] - base[k][0], v = ends[k][1] - base[k][1], rho = std::hypot(u, v);
+        within = within && (k == 0 || (0.5 < rho && rho < 2));
+        line[k] = {u, v, base[k][0] * v - base[k][1] * u};
+      }
+      const auto& [p, q, r] = line;
+      const double det =
+          p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
+      signs.push_back(!within ? 0 : det > 0 ? 1 : -1);
+    }
+  return pieces_of_grid(signs, kRows, kRows, 10);
+}
+
+Aspects slice(const char* held) {
+  return of(study::read_model(CORANK_SOURCE_DIR "/models/planar/3rpr.cuik", {{"lower1", held}, {"upper1", held}}).mechanism);
+}
+
 // At 6/5 and 7/5 a limit of the second leg passes through cells where the locus ends.
 TEST(Aspects, OfThreeRprSlicesAreThoseOfAFloodFill) {
-  constexpr int kRows = 600;
   for (const auto& [leg, held] : {std::pair(0.8, "4/5"), {1.2, "6/5"}, {1.4, "7/5"}}) {
     SCOPED_TRACE(held);
-    const auto loaded =
-        study::read_model(CORANK_SOURCE_DIR "/models/planar/3rpr.cuik", {{"lower1", held}, {"upper1", held}});
-    std::vector<int> signs;
-    for (int i = 0; i < kRows; ++i)
-      for (int j = 0; j < kRows; ++j) {
-        const double alpha = i * 2 * M_PI / kRows, phi = j * 2 * M_PI / kRows;
-        const double c = cos(phi), s = sin(phi), x = leg * cos(alpha), y = leg * sin(alpha);
-        const std::array base{std::array{0.0, 0.0}, std::array{2.0, 0.0}, std::array{0.8, 1.5}};
-        const std::array ends{std::array{x, y}, std::array{x + c, y + s},
-                              std::array{x + 0.6 * c - 0.4 * s, y + 0.6 * s + 0.4 * c}};
-        std::array<std::array<double, 3>, 3> line{};
-        bool within = true;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double u = ends[k][0] - base[k][0], v = ends[k][1] - base[k][1], rho = std::hypot(u, v);
-          within = within && (k == 0 || (0.5 < rho && rho < 2));
-          line[k] = {u, v, base[k][0] * v - base[k][1] * u};
-        }
-        const auto& [p, q, r] = line;
-        const double det =
-            p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
-        signs.push_back(!within ? 0 : det > 0 ? 1 : -1);
-      }
-    const Aspects a = of(loaded.mechanism);
+    const Aspects a = slice(held);
     ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
-    EXPECT_EQ(a.aspects.at_least, pieces_of_grid(signs, kRows, kRows, 10));
+    EXPECT_EQ(a.aspects.at_least, slice_pieces(leg));
     EXPECT_EQ(a.working_modes.at_least, 1);
     EXPECT_FALSE(a.limits.empty());
   }
+}
+
+// At 3/2 the second leg's lower end is a critical value of its length: two sectors of one piece, or of two, come together at
+// that point, and which of these it is no box can tell.
+TEST(Aspects, OfASliceWhoseLimitEndsAtACriticalValueHaveAnUpperBound) {
+  const Aspects a = slice("3/2");
+  const int pieces = slice_pieces(1.5);
+  EXPECT_LE(a.aspects.at_least, pieces);
+  EXPECT_EQ(a.aspects.at_most, pieces);
+  EXPECT_GE(a.aspects.at_least, 5);
+  EXPECT_TRUE(a.working_modes.exact());
 }
 
 // Straight lines on the torus of v and w: two of v + k w = ±π/2 and two of v − m w = ±π/2, which meet in 4 (k + m) points,

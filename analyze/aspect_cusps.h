@@ -1,0 +1,45 @@
+// Aspects about cusps: two configurations with the same inputs (assembly modes), or with the same outputs (postures), that a
+// motion about a cusp joins without a singularity lie in one aspect. In which, and what lies between them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/analyze/sign_cells.h"
+#include "corank/solve/control.h"
+#include "corank/study/question.h"
+
+namespace corank::analyze {
+
+struct Pieces;
+
+/// Near a cusp of a locus' image among the locked coordinates three configurations come together; the locus divides C-space
+/// there in two sides. The outer two of the three lie on one of them, where a path about the cusp joins them, the third on
+/// the other (doc/theory.md, "Cusps and nodes").
+struct AspectCusp {
+  bool forward = true;  ///< of the forward locus, or of the inverse one
+  Box at{};             ///< the configuration over the cusp, in C-space's variables
+  /// Aspects, as indices of Pieces::representatives: of the outer two, and of the third. Nothing: not known.
+  std::optional<int> around{}, between{};
+};
+
+struct AspectCusps {
+  std::vector<AspectCusp> list;
+  std::vector<std::string> reasons;  ///< what is not known, and why; empty: these are all cusps in the search domain
+};
+
+/// The factors of a determinant, and which of a cells' functions they are.
+struct LocusFactors {
+  bool forward = true;
+  std::vector<symbolic::Expression> factors{};
+  std::vector<std::size_t> functions{};
+};
+
+/// Of pieces that are exact. The cusps are searched for (symbolic/cusp_system.h). Theorem: let one function g of the locus
+/// alone be 0 at the cusp. All points of C-space near it lie in the cells that its box meets; where all parts of these with
+/// the signs of one side are of one piece, that side is of it. Which side is which says the sign of symbolic::cusp_sides().
+AspectCusps aspect_cusps(const study::Question& question, const std::vector<LocusFactors>& loci, SignCells& cells,
+                         const Pieces& pieces, int threads, solve::Control& control);
+
+}  // namespace corank::analyze
