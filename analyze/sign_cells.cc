@@ -202,7 +202,7 @@ bool SignCells::resolve(SignCell& cell) {
     if (part_of_one(cell, 1) != 0 && (limit || part_of_one(cell, -1) != 0)) return true;
     if (!limit || !find_directions(cell)) return false;
     // A limit that grows somewhere is cut on until its part is known.
-    return cell.directions[0] >> kLines != 0;
+    return has_convex_limit(cell);
   }
   return find_directions(cell);
 }
@@ -251,7 +251,7 @@ std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
   std::vector<std::vector<std::size_t>> result;
   std::vector<const Box*> sides;
   for (std::size_t c = 0; c < cells_.size(); ++c)
-    if (cells_[c].resolved && (cells_[c].mixed.size() > 1 || cells_[c].directions[0] != 0) && !has_known_parts(cells_[c])) {
+    if (cells_[c].resolved && (cells_[c].mixed.size() > 1 || has_convex_limit(cells_[c])) && !has_known_parts(cells_[c])) {
       cells.push_back(c);
       sides.push_back(&cells_[c].sides);
     }

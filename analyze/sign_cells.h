@@ -100,6 +100,8 @@ class SignCells {
   bool has_known_parts(SignCell& cell);
   bool find_directions(SignCell& cell);
   void add_convex_limits(SignCell& cell, const certify::SignCellTest::Slopes& slopes);
+  // Of a cell with one mixed function: does lemma 5 hold?
+  static bool has_convex_limit(const SignCell& cell) { return cell.free.size() == 2 && cell.directions[0] >> kLines != 0; }
   // Bits of SignCell::directions: lemma 5 on lines, one for each direction; on the level lines of the other function.
   static constexpr int kLines = 16, kLevels = 60;
   std::vector<std::vector<double>> directions(const SignCell& cell) const;

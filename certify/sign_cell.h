@@ -14,12 +14,13 @@
 //   Lemma 4: let the dimension be 2 and d as in lemma 3, with s_k·∂g_k/∂d > 0. The sides of X_F through which d points out
 // of it are one arc. Along d every point of the part of signs s comes to that arc without leaving the part: so the part is
 // connected where its points on the arc are, and empty where there are none.
-//   Lemma 5: let the dimension be 2, and e be a limit, of which only the sign 1 counts. Let no function but e and h have both
-// signs, and T(T e) > 0 all over the cell, where T = (∂h/∂f_2, −∂h/∂f_1) is along the level lines of h. Then each point of a
-// part is joined in it to a point on the cell's border. Proof: go along T or −T, so that e does not shrink at first. h stays as
-// it is, and e grows faster and faster: it leaves the cell. Where e alone has both signs, h may be linear in the f's: T is a
-// constant direction. Neighbouring cells of one sheet that share e and h add no piece together, as the way goes on there.
-// Where e is critical, it is all one whether it is positive, 0 or negative there.
+//   Lemma 5: let the dimension be 2, and e be a limit, of which only the sign 1 counts. Let no function but e and h
+// have both signs, and T(T e) > 0 all over the cell, where T = (∂h/∂f_2, −∂h/∂f_1) is along the level lines of h.
+// Then each point of a part is joined in it to a point on the cell's border. Proof: go along T or −T, so that e does
+// not shrink at first. h stays as it is, and e grows faster and faster: it leaves the cell. Where e alone has both
+// signs, h may be linear in the f's: T is a constant direction. Neighbouring cells of one sheet that share e and h
+// add no piece together, as the way goes on there. Where e is critical, it is all one whether it is positive, 0 or
+// negative there.
 #pragma once
 
 #include <optional>

@@ -53,11 +53,11 @@ std::vector<bool> linearly_defined(const System& system) {
 
 }  // namespace
 
-BranchingRule::BranchingRule(const System& system, double kernel_weight)
+BranchingRule::BranchingRule(const System& system, double kernel_weight, int kernel_vectors)
     : weight_(system.variables.size(), 1.0), patience_(system.variables.size(), 1.0) {
   const auto defined = linearly_defined(system);
   const auto is_kernel = [](const Variable& v) { return v.kind == VariableKind::kernel; };
-  const bool late = system.equations.size() >= system.variables.size() &&
+  const bool late = kernel_vectors == 1 && system.equations.size() >= system.variables.size() &&
                     std::count_if(system.variables.begin(), system.variables.end(), is_kernel) >= kManyUnknowns;
   for (std::size_t j = 0; j < weight_.size(); ++j) {
     if (is_kernel(system.variables[j])) {

@@ -19,8 +19,9 @@ std::optional<double> split_point(const Interval& side);
 
 class BranchingRule {
  public:
-  /// `kernel_weight`: how much sooner than others the unknowns of a kernel vector are bisected.
-  explicit BranchingRule(const System& system, double kernel_weight = 1);
+  /// `kernel_weight`: how much sooner than others the unknowns of a kernel vector are bisected. `kernel_vectors`: of the
+  /// system that was reduced to this one (System::kernel_vectors).
+  explicit BranchingRule(const System& system, double kernel_weight = 1, int kernel_vectors = 1);
 
   /// The variable to bisect for an unproven box: the one of largest s² t² · width / typical size
   /// (certify::CompiledSystem::scales) among those wider than their limit; −1 where there is none that can be divided. s is
@@ -34,8 +35,8 @@ class BranchingRule {
 
   const std::vector<double>& weights() const { return weight_; }
   /// How much wider than another variable, in typical sizes, x_j may be when a box is small enough to be put off: not 1 only
-  /// for the unknowns of a large kernel whose configurations are isolated. There the directions of ξ in a box that narrower
-  /// sides of q would empty are too many to be told apart, and they wait.
+  /// for the unknowns of a kernel vector of many whose configurations are isolated. There the directions of ξ in a box that
+  /// narrower sides of q would empty are too many to be told apart, and they wait.
   double patience(int j) const { return patience_[static_cast<std::size_t>(j)]; }
 
  private:

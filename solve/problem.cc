@@ -25,7 +25,7 @@ Problem::Problem(const System& system, const certify::Reduction& reduction, std:
       subset(reduction.subset),
       tolerant(reduction.tolerant || redundant.applies()),
       rank_tolerance(reduction.tolerant ? kRoundedRankTolerance : kRedundantRankTolerance),
-      branching(reduction.system),
+      branching(reduction.system, 1, system.kernel_vectors),
       ended(std::move(e)),
       classes_(sigma_classes(system, reduction)) {
   TypicalSizes sizes = typical_sizes(compiled, reduction.system.domain());

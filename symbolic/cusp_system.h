@@ -20,9 +20,10 @@ namespace corank::symbolic {
 /// Throws ModelError where locus_by_coordinates does.
 TrigonometricSystem cusp_system(const Mechanism& mechanism, SingularitySet set, const std::vector<std::string>& scales);
 
-/// On which side of the locus the fibre through a cusp lies: of each function g of the coordinates that is 0 on the locus, and
-/// nowhere else nearby, Dg(η) + τ D²g(ξ, ξ) in the unknowns of cusp_system(). Theorem: where that is not 0, its sign is that of
-/// g at the two outer of the three configurations that come together there (doc/theory.md, "Cusps and nodes", 5).
+/// On which side of the locus the fibre through a cusp lies: of each function g of the coordinates that is 0 on the
+/// locus, and nowhere else nearby, Dg(η) + τ D²g(ξ, ξ) in the unknowns of cusp_system(). Theorem: where that is not 0,
+/// its sign is that of g at the two outer of the three configurations that come together there (doc/theory.md, "Cusps
+/// and nodes", 5).
 std::vector<Expression> cusp_sides(const Mechanism& mechanism, SingularitySet set, const std::vector<std::string>& scales,
                                    const std::vector<Expression>& functions);
 

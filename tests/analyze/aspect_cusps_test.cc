@@ -1,5 +1,5 @@
-// In which aspects cusps let a mechanism change its posture or its assembly mode: against the three configurations next to each
-// cusp that Newton's method finds in doubles, and on planted maps.
+// In which aspects cusps let a mechanism change its posture or its assembly mode: against the three configurations next
+// to each cusp that Newton's method finds in doubles, and on planted maps.
 #include "corank/analyze/aspect_cusps.h"
 
 #include <gtest/gtest.h>
@@ -48,8 +48,8 @@ bool solve_for(const Map& map, const Pair& image, const Pair& cusp, double radiu
   return false;
 }
 
-// The sign of the determinant at the outer two of the three configurations that come together at the cusp; 0: not found. From
-// images of points next to the cusp: the three are as far from it as the square root.
+// The sign of the determinant at the outer two of the three configurations that come together at the cusp; 0: not
+// found. From images of points next to the cusp: the three are as far from it as the square root.
 int outer_sign(const Map& map, const Pair& cusp) {
   for (const double radius : {0.15, 0.07, 0.03})
     for (int start = 0; start < 24; ++start) {
@@ -149,7 +149,8 @@ TEST(AspectCusps, OfA3RprSliceAreInTheAspectOfTwoOfTheThreeModesNearby) {
 }
 
 // (u, v) = P(a, w(a, b)) of a, b, which are affine in x and y: the locus is where w_b = 0. The outer two of three
-// configurations have w_b > 0 where w_bbb > 0. `bounded`: aspects that are not exact, so that nothing is said; `lost`: those that are not known.
+// configurations have w_b > 0 where w_bbb > 0. `bounded`: aspects that are not exact, so that nothing is said; `lost`:
+// those that are not known.
 TEST(AspectCusps, OfPlantedMapsAreKnownAndNoneIsFalse) {
   std::mt19937 random(23);
   const auto tenths = [&](int spread) { return std::uniform_int_distribution(-spread, spread)(random); };

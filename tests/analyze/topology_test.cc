@@ -121,6 +121,21 @@ TEST(Topology, OfAnArmWithAHeldJointIsATorus) {
   EXPECT_EQ(t.genus, std::vector<int>{1});
 }
 
+// Three loops: a critical point has 6 multipliers, whose directions say nothing before the configuration is narrow.
+TEST(Topology, OfADoubleButterflyIsTwoClosedCurves) {
+  const Topology t = of_model("planar/double_butterfly");
+  EXPECT_EQ(t.dimension, 1);
+  ASSERT_TRUE(t.components.exact()) << t.components.reason;
+  EXPECT_EQ(t.components.at_least, 2);
+  EXPECT_EQ(t.euler_characteristic, 0) << t.reason;
+  ASSERT_FALSE(t.heights.empty());
+  for (const HeightCount& height : t.heights) {
+    ASSERT_EQ(height.by_index.size(), 2u);
+    EXPECT_EQ(height.by_index[0], height.by_index[1]);
+    EXPECT_GE(height.by_index[0], 2);
+  }
+}
+
 // Two circles that cross: no manifold.
 TEST(Topology, SaysNothingOfCurvesThatCross) {
   const Topology t = of_text("[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\n(x^2+y^2-1)*((x-1)^2+y^2-1) = 0;\n");

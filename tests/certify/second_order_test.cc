@@ -1,4 +1,5 @@
-// Derivatives along sheets, and what they say of a limit on level lines: against planted functions whose derivatives are known.
+// Derivatives along sheets, and what they say of a limit on level lines: against planted functions whose derivatives
+// are known.
 #include "corank/certify/second_order.h"
 
 #include <gtest/gtest.h>
