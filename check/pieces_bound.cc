@@ -8,9 +8,9 @@
 #include <atomic>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <set>
 
+#include "corank/check/classes.h"
 #include "corank/check/distinct.h"
 #include "corank/check/piece_sheets.h"
 #include "corank/check/sign_parts.h"
@@ -36,19 +36,6 @@ struct Cell {
   SignCell cell;
   Box hull;  // in doubles
   std::vector<PieceOf> parts;
-};
-
-class Classes {
- public:
-  explicit Classes(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t find(std::size_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::size_t> parent_;
 };
 
 class Bound {
@@ -82,7 +69,7 @@ class Bound {
     std::set<std::size_t> classes;
     for (std::size_t c = 0; c < cells_.size(); ++c)
       for (std::size_t p = 0; p < cells_[c].parts.size(); ++p)
-        if (cells_[c].parts[p].connected) classes.insert(classes_.find(first_[c] + p));
+        if (cells_[c].parts[p].connected) classes.insert(classes_.of(first_[c] + p));
     result_.at_most = static_cast<int>(classes.size());
     return std::move(result_);
   }
@@ -281,9 +268,9 @@ class Bound {
   // and touches no other.
   void pass_through_single_parts() {
     std::vector<std::size_t> size(first_.empty() ? 0 : first_.back() + cells_.back().parts.size(), 0), near = size;
-    for (std::size_t k = 0; k < size.size(); ++k) ++size[classes_.find(k)];
+    for (std::size_t k = 0; k < size.size(); ++k) ++size[classes_.of(k)];
     const auto may_pass = [&](std::size_t c, std::size_t p) {
-      return !cells_[c].parts[p].connected || size[classes_.find(first_[c] + p)] == 1;
+      return !cells_[c].parts[p].connected || size[classes_.of(first_[c] + p)] == 1;
     };
     for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
       near[first_[c] + p] += may_pass(d, q);
@@ -301,14 +288,14 @@ class Bound {
   std::string check_passages() {
     Classes clusters(cells_.empty() ? 0 : first_.back() + cells_.back().parts.size());
     for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
-      if (!cells_[c].parts[p].connected && !cells_[d].parts[q].connected) clusters.join(first_[c] + p, first_[d] + q);
+      if (!cells_[c].parts[p].connected && !cells_[d].parts[q].connected) clusters.unite(first_[c] + p, first_[d] + q);
     });
     std::map<std::size_t, std::pair<std::size_t, SignParts::Directions>> common;  // its sheet, its directions
     for (std::size_t c = 0; c < cells_.size(); ++c)
       for (std::size_t p = 0; p < cells_[c].parts.size(); ++p) {
         const PieceOf& part = cells_[c].parts[p];
         if (part.connected) continue;
-        const auto [place, fresh] = common.emplace(clusters.find(first_[c] + p), std::pair(cells_[c].sheet, part.passages));
+        const auto [place, fresh] = common.emplace(clusters.of(first_[c] + p), std::pair(cells_[c].sheet, part.passages));
         if (!fresh && place->second.first != cells_[c].sheet) place->second.second.reset();
         place->second.second &= part.passages;
         if (place->second.second.none()) return "a piece might hide in cells about a crossing";
@@ -320,7 +307,7 @@ class Bound {
     for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
       if (cells_[c].sheet != cells_[d].sheet || !cells_[c].parts[p].connected || !cells_[d].parts[q].connected) return;
       if ((cells_[c].cell.mixed.empty() || cells_[d].cell.mixed.empty()) && common(c, d))
-        classes_.join(first_[c] + p, first_[d] + q);
+        classes_.unite(first_[c] + p, first_[d] + q);
     });
   }
 
@@ -381,7 +368,7 @@ class Bound {
         if (cells_[c].parts[p].connected && cells_[c].parts[p].signs == *signs &&
             sheets_.holds(cells_[c].sheet, cells_[c].over, x))
           at.push_back(first_[c] + p);
-    for (const std::size_t part : at) classes_.join(at.front(), part);
+    for (const std::size_t part : at) classes_.unite(at.front(), part);
     result_.links += at.size() > 1;
   }
 
@@ -390,7 +377,7 @@ class Bound {
     for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
       const Cell &a = cells_[c], &b = cells_[d];
       if (a.sheet != b.sheet || !a.parts[p].connected || !b.parts[q].connected) return;
-      if (classes_.find(first_[c] + p) == classes_.find(first_[d] + q)) return;
+      if (classes_.of(first_[c] + p) == classes_.of(first_[d] + q)) return;
       const auto both = common(c, d);
       for (const double share : {0.5, 0.0, 1.0, 0.1, 0.9, 0.3, 0.7, 0.02, 0.98}) {
         if (!both) return;
@@ -401,7 +388,7 @@ class Bound {
               Enclosure(std::clamp(side.lo() + share * side.width(), side.lo(), side.hi()));
         }
         if (!parts_.bound(at, kSteps) || signs_of(at.range) != std::optional(a.parts[p].signs)) continue;
-        classes_.join(first_[c] + p, first_[d] + q);
+        classes_.unite(first_[c] + p, first_[d] + q);
         return;
       }
     });

@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "corank/check/classes.h"
 #include "corank/check/distinct.h"
 #include "corank/check/inertia.h"
 #include "corank/check/linking.h"
@@ -19,19 +20,6 @@ std::vector<int> all_variables(const System& system) {
   std::iota(list.begin(), list.end(), 0);
   return list;
 }
-
-class Classes {
- public:
-  explicit Classes(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t of(std::size_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void unite(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 class ShapeCheck {
  public:
