@@ -20,6 +20,13 @@ Interval power_slope(const Interval& x, double c, int p) {
   return sum;
 }
 
+// About xᵖ, of a small p.
+double approximate_power(double x, int p) {
+  double product = 1;
+  for (; p > 0; --p) product *= x;
+  return product;
+}
+
 // (X + c)/2.
 Interval half_way(const Interval& x, double c) { return scale(0.5, x + Interval(c)); }
 
@@ -221,9 +228,9 @@ void CompiledSystem::approximate_jacobian(const double* x, double* j) const {
       case Shape::general: {
         const auto fs = factors(t);
         for (std::size_t a = 0; a < fs.size(); ++a) {
-          double product = c * fs[a].power * std::pow(x[fs[a].variable], fs[a].power - 1);
+          double product = c * fs[a].power * approximate_power(x[fs[a].variable], fs[a].power - 1);
           for (std::size_t b = 0; b < fs.size(); ++b)
-            if (b != a) product *= std::pow(x[fs[b].variable], fs[b].power);
+            if (b != a) product *= approximate_power(x[fs[b].variable], fs[b].power);
           j[fs[a].entry] += product;
         }
       }

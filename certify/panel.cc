@@ -4,20 +4,10 @@
 #include <cmath>
 #include <cstring>
 
-// The same loops for wider registers, chosen when the program starts. No fused operations: -ffp-contract=off.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define CORANK_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define CORANK_WIDE
-#endif
+#include "corank/core/lanes.h"
 
 namespace corank::certify {
 namespace {
-
-constexpr std::size_t kLanes = 4;
-using Lanes = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(sizeof(double)), may_alias));
-const Lanes& lanes(const double* x) { return *reinterpret_cast<const Lanes*>(x); }
-Lanes& lanes(double* x) { return *reinterpret_cast<Lanes*>(x); }
 
 // A real matrix, split by sign. `rows` is a multiple of kLanes.
 struct SplitMatrix {
@@ -123,7 +113,7 @@ bool Panel::set_matrix(const std::vector<double>& y, int r) {
   y_ = y;
   finite_ = std::all_of(y.begin(), y.end(), [](double entry) { return std::isfinite(entry); });
   r_ = r;
-  stride_ = (static_cast<std::size_t>(r) + kLanes - 1) / kLanes * kLanes;
+  stride_ = whole_lanes(static_cast<std::size_t>(r));
   positive_.resize(static_cast<std::size_t>(r) * stride_);
   negative_.resize(positive_.size());
   for (int b = 0; b < r; ++b) {

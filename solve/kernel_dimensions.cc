@@ -9,6 +9,7 @@
 #include "corank/certify/kernel_bound.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/box_hash.h"
+#include "corank/solve/region_hulls.h"
 
 namespace corank::solve {
 namespace {
@@ -41,13 +42,23 @@ void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& co
   const certify::KernelBound bound(system);
   if (!bound.applies()) return;
   const std::vector<certify::PointLocation> places(cover.exact_points.begin(), cover.exact_points.end());
+  std::vector<Box> hulls = hulls_by_region(cover);
+  std::vector<int> of_regions(hulls.size(), 0);  // 0: not known
   const auto bound_in = [&](CoverBox& box) {
     const UpwardRounding rounding;
-    if (box.verdict != Verdict::pending && !stopped()) box.kernel_at_most = bound.at_most(box.box);
+    if (box.verdict == Verdict::pending || stopped()) return;
+    const int known = box.region < 0 ? 0 : of_regions[static_cast<std::size_t>(box.region)];
+    box.kernel_at_most = known > 0 && known <= system.kernel_vectors ? known : bound.at_most(box.box);
   };
   tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
-  arena.execute(
-      [&] { tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) { bound_in(cover.boxes[i]); }); });
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, hulls.size(), [&](std::size_t r) {
+      const UpwardRounding rounding;
+      if (!hulls[r].empty() && !stopped()) of_regions[r] = bound.at_most(hulls[r]);
+    });
+    hulls = {};
+    tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) { bound_in(cover.boxes[i]); });
+  });
   if (!cover.points.empty()) say_of_points(cover, bound_in);
   // Few: one after the other, since a point's number is narrowed while it is compared.
   const auto explain = [&](CoverBox& box) {

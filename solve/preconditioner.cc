@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corank/solve/recorder.h"
-
+#include "corank/core/lanes.h"
 #include "corank/solve/chart.h"
 #include "corank/solve/problem.h"
+#include "corank/solve/recorder.h"
 
 namespace corank::solve {
 namespace {
@@ -14,10 +14,57 @@ namespace {
 constexpr double kRankTolerance = 1e-9;
 constexpr int kGaussNewtonSteps = 8;
 constexpr long kLargeTableau = 20'000;  // entries: a step with it is long enough to ask whether the run has ended
+
+// An m×stride tableau by rows, stride a multiple of kLanes, and what pivots are chosen by.
+struct Elimination {
+  double* tableau;
+  std::size_t stride;
+  int rows;
+  const double* allowed;    // weights of the columns, 0 where they may not be taken
+  const double* row_scale;  // weights of the rows
+  const char* done;         // rows that have had their pivot, or may have none
+  double* best;             // of each other row the size of its largest entry
+};
+
+// max |row_j|·weight_j over j < stride.
+inline double largest(const double* row, const double* weight, std::size_t stride) {
+  Lanes best = {};
+  for (std::size_t j = 0; j < stride; j += kLanes) {
+    const Lanes x = lanes(row + j), size = (x < 0 ? -x : x) * lanes(weight + j);
+    best = size > best ? size : best;
+  }
+  return std::max(std::max(best[0], best[1]), std::max(best[2], best[3]));
+}
+
+CORANK_WIDE void find_best(const Elimination& e) {
+  for (int i = 0; i < e.rows; ++i)
+    e.best[i] = e.done[i] ? 0 : largest(e.tableau + i * e.stride, e.allowed, e.stride) * e.row_scale[i];
+}
+
+// Exchange step: afterwards column `column` holds that of the inverse that belongs to equation `row`.
+CORANK_WIDE void exchange(const Elimination& e, int row, int column) {
+  double* const pivot = e.tableau + row * e.stride;
+  const double inverse = 1 / pivot[column];
+  for (std::size_t j = 0; j < e.stride; j += kLanes) lanes(pivot + j) *= inverse;
+  pivot[column] = inverse;
+  for (int i = 0; i < e.rows; ++i) {
+    double* const t = e.tableau + i * e.stride;
+    const double factor = t[column];
+    if (i == row || factor == 0) continue;
+    t[column] = 0;
+    for (std::size_t j = 0; j < e.stride; j += kLanes) lanes(t + j) -= factor * lanes(pivot + j);
+    if (!e.done[i]) e.best[i] = largest(t, e.allowed, e.stride) * e.row_scale[i];
+  }
+}
+
 }  // namespace
 
 PreconditionerFactory::PreconditionerFactory(const certify::CompiledSystem& system, Ended ended)
-    : system_(system), ended_(std::move(ended)), m_(system.equations()), n_(system.variables()) {}
+    : system_(system),
+      ended_(std::move(ended)),
+      m_(system.equations()),
+      n_(system.variables()),
+      stride_(whole_lanes(static_cast<std::size_t>(n_))) {}
 
 const certify::Preconditioner& PreconditionerFactory::at_midpoint(std::span<const Interval> x,
                                                                   const std::vector<int>* candidates,
@@ -60,11 +107,11 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
   system_.approximate_jacobian(center_.data(), sparse_.data());
 
   const std::vector<double>& scales = system_.scales();
-  tableau_.assign(static_cast<std::size_t>(m_) * n_, 0.0);
+  tableau_.assign(m_ * stride_, 0.0);
   row_scale_.assign(m_, 0.0);
   for (int i = 0; i < m_; ++i) {
     for (int k = system_.row_begin(i); k < system_.row_begin(i + 1); ++k) {
-      tableau_[static_cast<std::size_t>(i) * n_ + system_.column(k)] = sparse_[k];
+      tableau_[i * stride_ + system_.column(k)] = sparse_[k];
       row_scale_[i] = std::max(row_scale_[i], std::fabs(sparse_[k]) * scales[system_.column(k)]);
     }
     row_scale_[i] = row_scale_[i] > 0 ? 1 / row_scale_[i] : 0;
@@ -72,29 +119,18 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
   row_done_.assign(m_, rows ? 1 : 0);
   if (rows)
     for (int i : *rows) row_done_[i] = 0;
+  allowed_.assign(stride_, 0.0);
   if (candidates) {
-    allowed_.assign(n_, 0.0);
     for (int j : *candidates) allowed_[j] = scales[j];
   } else {
-    allowed_ = scales;
+    std::copy(scales.begin(), scales.end(), allowed_.begin());
   }
 
-  // Each row's largest entry among the allowed columns, renewed only when an exchange step has changed the row or taken the
-  // column.
-  const auto find_best = [&](int i) {
-    const double* t = tableau_.data() + static_cast<std::size_t>(i) * n_;
-    double best = 0;
-    int column = -1;
-    for (int j = 0; j < n_; ++j) {
-      const double size = std::fabs(t[j]) * allowed_[j];
-      if (size > best) best = size, column = j;
-    }
-    best_size_[i] = best * row_scale_[i];
-    best_column_[i] = column;
-  };
   best_size_.resize(m_);
-  best_column_.resize(m_);
-  for (int i = 0; i < m_; ++i) find_best(i);
+  const Elimination elimination{tableau_.data(),   stride_,          m_,
+                                allowed_.data(),   row_scale_.data(), row_done_.data(),
+                                best_size_.data()};
+  find_best(elimination);
 
   result_.equations.clear();
   result_.dependent.clear();
@@ -110,22 +146,14 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
     for (int i = 0; i < m_; ++i)
       if (!row_done_[i] && best_size_[i] > best) best = best_size_[i], row = i;
     if (row < 0) break;
-    const int column = best_column_[row];
-    // Exchange step: afterwards column `column` holds that of the inverse that belongs to equation `row`.
-    double* pivot_row = tableau_.data() + static_cast<std::size_t>(row) * n_;
-    const double inverse = 1 / pivot_row[column];
-    for (int j = 0; j < n_; ++j) pivot_row[j] *= inverse;
-    pivot_row[column] = inverse;
+    const double* const pivot_row = tableau_.data() + row * stride_;
+    int column = -1;
+    double largest_entry = 0;
+    for (int j = 0; j < n_; ++j)
+      if (const double entry = std::fabs(pivot_row[j]) * allowed_[j]; entry > largest_entry) largest_entry = entry, column = j;
     row_done_[row] = 1;
     allowed_[column] = 0;
-    for (int i = 0; i < m_; ++i) {
-      double* t = tableau_.data() + static_cast<std::size_t>(i) * n_;
-      const double factor = t[column];
-      if (i == row || factor == 0) continue;
-      t[column] = 0;
-      for (int j = 0; j < n_; ++j) t[j] -= factor * pivot_row[j];
-      if (!row_done_[i]) find_best(i);
-    }
+    exchange(elimination, row, column);
     result_.equations.push_back(row);
     result_.dependent.push_back(column);
   }
@@ -134,7 +162,7 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
   for (int a = 0; a < r; ++a)
     for (int b = 0; b < r; ++b)
       result_.y[static_cast<std::size_t>(a) * r + b] =
-          tableau_[static_cast<std::size_t>(result_.equations[a]) * n_ + result_.dependent[b]];
+          tableau_[result_.equations[a] * stride_ + result_.dependent[b]];
   round_to_floats(result_);
   return result_;
 }

@@ -35,7 +35,7 @@ class PreconditionerFactory {
   std::vector<int> chart_of_last(const std::vector<double>& sizes, double gain) const;
   /// After either: ∂(dependent a)/∂(free j) of the linearized system, r×n row-major, 0 for dependent columns.
   double sensitivity(int a, int j) const {
-    return a >= result_.rank() ? 0 : -tableau_[static_cast<std::size_t>(result_.equations[a]) * n_ + j];
+    return a >= result_.rank() ? 0 : -tableau_[result_.equations[a] * stride_ + j];
   }
 
  private:
@@ -46,8 +46,8 @@ class PreconditionerFactory {
   const Ended ended_;
   bool over_ = false;
   int m_, n_;
+  std::size_t stride_;  // of a row of the tableau, whose entries behind column n are 0
   std::vector<double> center_, sparse_, tableau_, row_scale_, best_size_, allowed_;
-  std::vector<int> best_column_;
   std::vector<char> row_done_;
   certify::Preconditioner result_;
 };

@@ -9,12 +9,13 @@
 
 #include "corank/certify/type_bounds.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/region_hulls.h"
 
 namespace corank::solve {
 namespace {
 
 constexpr int kDepth = 4;        // halvings of a box in which not all was settled
-constexpr int kRegionDepth = 6;  // of a region, which is wide, and speaks for many boxes; less where for few
+constexpr int kRegionDepth = 6;  // of a region's boxes at once, which is wide; less where they are few
 
 constexpr int kSmall = 12;  // rows of L
 
@@ -45,7 +46,8 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
     const UpwardRounding rounding;
     point.types = bounds.at(point, stopped);
   }
-  // A rank that is shown all over a region is shown in the boxes that were cut from it: most need no look of their own.
+  // A rank that is shown all over the boxes that were cut from a region is shown in each: most need no look of their own.
+  std::vector<Box> hulls = hulls_by_region(cover);
   const std::size_t shared = cover.regions.empty() ? 0 : cover.boxes.size() / cover.regions.size();
   const int depth = std::min(kRegionDepth, static_cast<int>(std::bit_width(shared)));
   // Where L is large a rank takes longer than the search takes for a box: then only the types that make up the set.
@@ -57,19 +59,18 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
     if (is_its_point(box, cover)) box.types = cover.exact_points[static_cast<std::size_t>(box.point)].types;
     if (box.types != TypeLabels{}) return;
     certify::RankBounds known{};
-    if (const auto r = static_cast<std::size_t>(box.region);
-        box.region >= 0 && contains(cover.regions[r], box.box, system.configuration_size))
-      known = of_regions[r];
+    if (box.region >= 0) known = of_regions[static_cast<std::size_t>(box.region)];
     box.types = bounds.labels(known);
     if (!box.types.settle(wanted)) box.types = bounds.labels(known = bounds.ranks(box.box, 0, known, wanted));
     if (!box.types.settle(blocks.of_set)) box.types = bounds.labels(bounds.ranks(box.box, kDepth, known, wanted));
   };
   tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, shared > 1 ? of_regions.size() : 0, [&](std::size_t r) {
+    tbb::parallel_for(std::size_t{0}, hulls.size(), [&](std::size_t r) {
       const UpwardRounding rounding;
-      if (!stopped()) of_regions[r] = bounds.ranks(cover.regions[r], depth, {}, wanted);
+      if (!hulls[r].empty() && !stopped()) of_regions[r] = bounds.ranks(hulls[r], depth, {}, wanted);
     });
+    hulls = {};
     for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
       tbb::parallel_for(std::size_t{0}, list->size(), [&](std::size_t i) { label((*list)[i]); });
   });
