@@ -12,6 +12,7 @@ namespace {
 
 // Measured on Dextar's sets, see bench/HISTORY.md.
 constexpr double kRankShare = 1;        // of a box's size: singular values below make its solution count as degenerate
+constexpr double kReach = 8;  // of a box's size: how far from it a degenerate solution next to it is looked for
 constexpr double kTiny = 1e-6;          // of the typical sizes
 constexpr double kFinestShare = 1e-13;  // of its typical size: doubles resolve little more
 constexpr double kNoisySize = 2e-3;     // of the typical sizes: in larger boxes it is the choice of Y that makes noise
@@ -130,7 +131,7 @@ std::vector<double> BoxProcessor::midpoint(std::span<const Interval> x) const {
 
 std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const Interval> x, double share) const {
   const auto& system = problem_.compiled;
-  auto near = local_solution(problem_, midpoint(x), kRankShare * share);
+  auto near = local_solution(problem_, midpoint(x), kRankShare * share, problem_.relative_width(x) + kReach * share);
   if (!near || near->rank >= std::min(system.equations(), system.variables())) return std::nullopt;
   for (int j = 0; j < system.variables(); ++j) {
     const double at = near->x[static_cast<std::size_t>(j)], room = 2 * share * system.scales()[static_cast<std::size_t>(j)];

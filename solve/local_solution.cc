@@ -35,10 +35,12 @@ void linearize(const Problem& problem, const std::vector<double>& x, Matrix& a, 
 
 }  // namespace
 
-std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance) {
+std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance,
+                                            double reach) {
   const certify::CompiledSystem& system = problem.compiled;
   const UpwardRounding rounding;
   LocalSolution result{std::move(start), 0};
+  Vector way = Vector::Zero(system.variables());  // in scales
   Matrix a;
   Vector b;
   for (int step = 0; step < kSteps; ++step) {
@@ -58,6 +60,8 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
     if (length < std::max(kStill, 0.1 * tolerance) &&
         left < (full ? std::max(1e-10, 4 * tolerance * tolerance) : 0.1 * tolerance))
       return result;
+    way += shift;
+    if (way.lpNorm<Eigen::Infinity>() > reach) return std::nullopt;
     for (int j = 0; j < system.variables(); ++j)
       result.x[static_cast<std::size_t>(j)] += shift(j) * system.scales()[static_cast<std::size_t>(j)];
   }

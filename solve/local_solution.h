@@ -2,6 +2,7 @@
 // it decides what is tried next and what is said about boxes that stay undecided, never what is proven.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,9 @@ struct LocalSolution {
 };
 
 /// Gauss–Newton steps of minimal norm (in the scales) from a start, in doubles. Singular values below `tolerance` count as
-/// 0. Nothing where they do not converge.
-std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance);
+/// 0. Nothing where they do not converge, or go farther than `reach` of some variable's scale from the start.
+std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance,
+                                            double reach = HUGE_VAL);
 
 /// Does an inequality fail at x and, to first order, wherever no variable moves by more than 2·share of its scale? Then what
 /// equations have there, such as the diagonal that the distance of two configurations keeps out, says nothing of the set.
