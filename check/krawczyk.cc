@@ -135,12 +135,15 @@ bool Krawczyk::invert_refined() {
                                         [k](const Sides& a, const Sides& b) { return a[k].mig() < b[k].mig(); });
     if (!((*pivot)[k].mig() > 0)) return false;
     std::iter_swap(t.begin() + static_cast<std::ptrdiff_t>(k), pivot);
-    const Enclosure own = t[k][k];
-    for (Enclosure& entry : t[k]) entry = quotient(entry, own);
+    // Nothing reads the columns up to the k-th again, and zeros, of which both halves are full, add nothing.
+    std::vector<std::size_t> columns;
+    for (std::size_t j = k + 1; j < 2 * r; ++j)
+      if (!t[k][j].is_zero()) columns.push_back(j);
+    for (const std::size_t j : columns) t[k][j] = quotient(t[k][j], t[k][k]);
     for (std::size_t i = 0; i < r; ++i) {
       if (i == k || t[i][k].is_zero()) continue;
       const Enclosure factor = -t[i][k];
-      for (std::size_t j = 0; j < 2 * r; ++j) t[i][j].add_product(factor, t[k][j]);
+      for (const std::size_t j : columns) t[i][j].add_product(factor, t[k][j]);
     }
   }
   y_.assign(r * r, 0.0);
