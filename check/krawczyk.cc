@@ -77,7 +77,7 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, Center aro
     const Sides at(center_.begin(), center_.end());
     for (std::size_t b = 0; b < r; ++b)
       values[b] = around == Center::refined ? equations_[b].value(at).mid() : equations_[b].approximate(center_);
-    polish(x, values);
+    if (!polish(x, values)) break;  // so would be every further step
     if (!inverted()) return false;
   }
   center_sides_.assign(center_.begin(), center_.end());
@@ -89,14 +89,19 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, Center aro
   return true;
 }
 
-void Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
+bool Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
   const std::size_t r = equations_.size();
+  bool moved = false;
   for (std::size_t a = 0; a < r; ++a) {
     const auto d = static_cast<std::size_t>(dependent_[a]);
     double shift = 0;
     for (std::size_t b = 0; b < r; ++b) shift += y_[a * r + b] * values[b];
-    if (std::isfinite(shift)) center_[d] = std::clamp(center_[d] - shift, x[d].lo(), x[d].hi());
+    if (!std::isfinite(shift)) continue;
+    const double next = std::clamp(center_[d] - shift, x[d].lo(), x[d].hi());
+    moved = moved || next != center_[d];
+    center_[d] = next;
   }
+  return moved;
 }
 
 bool Krawczyk::invert() {
