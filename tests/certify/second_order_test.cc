@@ -74,8 +74,8 @@ TEST(SecondOrder, HoldsThoseOfSinesAndCosines) {
   }
 }
 
-// e = (a x² + b y² + c + p x y)/10 on the level lines y − m/10·x² = const: its second derivative by x is a polynomial. c makes
-// e negative, 0 or positive where it is critical, which is all one.
+// e = (a x² + b y² + c + p x y)/10 on the level lines y − m/10·x² = const: its second derivative by x is a polynomial.
+// c makes e negative, 0 or positive where it is critical, which is all one.
 TEST(CriticalLimits, AreConvexOnLevelLinesWhereTheirSecondDerivativeSaysSo) {
   std::mt19937 random(42);
   const auto number = [&] { return std::uniform_int_distribution(-9, 9)(random); };
