@@ -62,11 +62,14 @@ Enclosure::Enclosure(const Enclosure& x) {
   mpfi_set(x_, x.x_);
 }
 Enclosure::Enclosure(Enclosure&& x) noexcept {
-  mpfi_init2(x_, kBits);
-  mpfi_swap(x_, x.x_);
+  // MPFR's numbers may be moved bit by bit.
+  *x_ = *x.x_;
+  x.x_->left._mpfr_d = nullptr;
 }
 Enclosure& Enclosure::operator=(const Enclosure& x) {
-  if (this != &x) mpfi_set(x_, x.x_);
+  if (this == &x) return *this;
+  if (!has_value()) mpfi_init2(x_, kBits);
+  mpfi_set(x_, x.x_);
   return *this;
 }
 Enclosure& Enclosure::operator=(Enclosure&& x) noexcept {

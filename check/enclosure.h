@@ -28,18 +28,30 @@ class Enclosure {
   static Enclosure pi();
 
   Enclosure(const Enclosure& x);
+  /// x has no value afterwards, only what destroys it or assigns to it may follow.
   Enclosure(Enclosure&& x) noexcept;
   Enclosure& operator=(const Enclosure& x);
   Enclosure& operator=(Enclosure&& x) noexcept;
-  ~Enclosure() { mpfi_clear(x_); }
+  ~Enclosure() {
+    if (has_value()) mpfi_clear(x_);
+  }
 
   Enclosure& operator+=(const Enclosure& x);
   Enclosure& operator-=(const Enclosure& x);
   Enclosure& operator*=(const Enclosure& x);
-  friend Enclosure operator+(Enclosure x, const Enclosure& y) { return x += y; }
-  friend Enclosure operator-(Enclosure x, const Enclosure& y) { return x -= y; }
-  friend Enclosure operator*(Enclosure x, const Enclosure& y) { return x *= y; }
-  friend Enclosure operator-(const Enclosure& x) { return Enclosure(0.0) -= x; }
+  friend Enclosure operator+(Enclosure x, const Enclosure& y) {
+    x += y;
+    return x;
+  }
+  friend Enclosure operator-(Enclosure x, const Enclosure& y) {
+    x -= y;
+    return x;
+  }
+  friend Enclosure operator*(Enclosure x, const Enclosure& y) {
+    x *= y;
+    return x;
+  }
+  friend Enclosure operator-(const Enclosure& x) { return Enclosure(0.0) - x; }
   /// this += a·x, this += a·x with a point a.
   void add_product(const Enclosure& a, const Enclosure& x);
   void add_product(double a, const Enclosure& x);
@@ -82,6 +94,8 @@ class Enclosure {
   friend Enclosure arc_cosine(const Enclosure& x);                    ///< x within [−1, 1]
 
  private:
+  bool has_value() const { return x_->left._mpfr_d != nullptr; }  // not moved from
+
   mpfi_t x_;
 };
 

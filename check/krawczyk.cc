@@ -77,7 +77,7 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, Center aro
     const Sides at(center_.begin(), center_.end());
     for (std::size_t b = 0; b < r; ++b)
       values[b] = around == Center::refined ? equations_[b].value(at).mid() : equations_[b].approximate(center_);
-    polish(x, values);
+    if (!polish(x, values)) break;  // so would be every further step
     if (!inverted()) return false;
   }
   center_sides_.assign(center_.begin(), center_.end());
@@ -89,14 +89,19 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, Center aro
   return true;
 }
 
-void Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
+bool Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
   const std::size_t r = equations_.size();
+  bool moved = false;
   for (std::size_t a = 0; a < r; ++a) {
     const auto d = static_cast<std::size_t>(dependent_[a]);
     double shift = 0;
     for (std::size_t b = 0; b < r; ++b) shift += y_[a * r + b] * values[b];
-    if (std::isfinite(shift)) center_[d] = std::clamp(center_[d] - shift, x[d].lo(), x[d].hi());
+    if (!std::isfinite(shift)) continue;
+    const double next = std::clamp(center_[d] - shift, x[d].lo(), x[d].hi());
+    moved = moved || next != center_[d];
+    center_[d] = next;
   }
+  return moved;
 }
 
 bool Krawczyk::invert() {
@@ -135,12 +140,15 @@ bool Krawczyk::invert_refined() {
                                         [k](const Sides& a, const Sides& b) { return a[k].mig() < b[k].mig(); });
     if (!((*pivot)[k].mig() > 0)) return false;
     std::iter_swap(t.begin() + static_cast<std::ptrdiff_t>(k), pivot);
-    const Enclosure own = t[k][k];
-    for (Enclosure& entry : t[k]) entry = quotient(entry, own);
+    // Nothing reads the columns up to the k-th again, and zeros, of which both halves are full, add nothing.
+    std::vector<std::size_t> columns;
+    for (std::size_t j = k + 1; j < 2 * r; ++j)
+      if (!t[k][j].is_zero()) columns.push_back(j);
+    for (const std::size_t j : columns) t[k][j] = quotient(t[k][j], t[k][k]);
     for (std::size_t i = 0; i < r; ++i) {
       if (i == k || t[i][k].is_zero()) continue;
       const Enclosure factor = -t[i][k];
-      for (std::size_t j = 0; j < 2 * r; ++j) t[i][j].add_product(factor, t[k][j]);
+      for (const std::size_t j : columns) t[i][j].add_product(factor, t[k][j]);
     }
   }
   y_.assign(r * r, 0.0);

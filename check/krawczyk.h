@@ -50,7 +50,8 @@ class Krawczyk {
   bool invert();
   // The same from the Jacobian in enclosures, by elimination with their midpoints.
   bool invert_refined();
-  void polish(const Sides& x, const std::vector<double>& values);
+  // One step of Newton's method with Y; did it move the centre?
+  bool polish(const Sides& x, const std::vector<double>& values);
   // Y·M, M the rows' entries in their columns.
   void multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const;
 

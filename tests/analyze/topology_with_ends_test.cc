@@ -148,6 +148,20 @@ struct Triangulation {
   int vertices = 0;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::array<double, 3>> points;
+  struct Edge {
+    int p, q;
+    std::size_t one, other;  // its triangles
+  };
+  std::vector<Edge> edges;
+
+  void find_edges() {
+    std::map<std::pair<int, int>, std::size_t> first;
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [p, q] = std::minmax(triangles[k][i], triangles[k][(i + 1) % 3]);
+        if (const auto [it, fresh] = first.emplace(std::pair(p, q), k); !fresh) edges.push_back({p, q, it->second, k});
+      }
+  }
 };
 
 struct Count {
@@ -162,7 +176,6 @@ Count count(const Triangulation& t, const std::function<double(const std::array<
   for (const auto& p : t.points) inside.push_back(value(p) > 0);
   const auto in = [&](int v) { return static_cast<bool>(inside[static_cast<std::size_t>(v)]); };
   Count result;
-  std::map<std::pair<int, int>, std::size_t> edges;  // with a triangle
   boost::disjoint_sets_with_storage<> parts(t.points.size()), strips(t.triangles.size());
   for (std::size_t v = 0; v < t.points.size(); ++v) parts.make_set(v), result.euler += inside[v];
   for (std::size_t k = 0; k < t.triangles.size(); ++k) strips.make_set(k);
@@ -172,13 +185,12 @@ Count count(const Triangulation& t, const std::function<double(const std::array<
     const int within = in(a) + in(b) + in(c);
     result.euler += within == 3;
     if (within % 3 != 0) mixed.push_back(k);
-    for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-      const auto [edge, fresh] = edges.emplace(std::minmax(p, q), k);
-      if (in(p) != in(q)) strips.union_set(edge->second, k);
-      if (!fresh || !in(p) || !in(q)) continue;
-      --result.euler;
-      parts.union_set(static_cast<std::size_t>(p), static_cast<std::size_t>(q));
-    }
+  }
+  for (const Triangulation::Edge& edge : t.edges) {
+    if (in(edge.p) != in(edge.q)) strips.union_set(edge.one, edge.other);
+    if (!in(edge.p) || !in(edge.q)) continue;
+    --result.euler;
+    parts.union_set(static_cast<std::size_t>(edge.p), static_cast<std::size_t>(edge.q));
   }
   std::set<std::size_t> classes;
   for (std::size_t v = 0; v < t.points.size(); ++v)
@@ -201,6 +213,7 @@ Triangulation torus(int n) {
       t.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
       t.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
+  t.find_edges();
   return t;
 }
 
@@ -226,6 +239,7 @@ Triangulation sphere(int n) {
       t.triangles.push_back({i * n + j, i * n + n + k, i * n + k});
     }
   }
+  t.find_edges();
   return t;
 }
 
@@ -236,6 +250,7 @@ TEST(TopologyWithEnds, OfRandomCutsOfSpheresAndToriIsTheOneOfATriangulation) {
   const int all = asked ? std::atoi(asked) : 24;
   std::mt19937 random(20261122);
   const auto hundredths = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(random); };
+  const std::array coarse_surfaces{torus(200), sphere(200)}, fine_surfaces{torus(420), sphere(420)};
   int known = 0, counted = 0, compared = 0;
   for (int k = 0; k < all; ++k) {
     const bool round = k % 2 == 0;
@@ -267,8 +282,7 @@ TEST(TopologyWithEnds, OfRandomCutsOfSpheresAndToriIsTheOneOfATriangulation) {
       return least;
     };
     SCOPED_TRACE(text);
-    const Count coarse = count(round ? sphere(200) : torus(200), value),
-                fine = count(round ? sphere(420) : torus(420), value);
+    const Count coarse = count(coarse_surfaces[round], value), fine = count(fine_surfaces[round], value);
     const Topology t = of_text(in_space(kWide, kWide, kWide, text));
     known += t.euler_characteristic.has_value();
     counted += t.boundary.has_value() || t.ends.empty();

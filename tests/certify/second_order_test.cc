@@ -74,8 +74,8 @@ TEST(SecondOrder, HoldsThoseOfSinesAndCosines) {
   }
 }
 
-// e = (a x² + b y² + c)/10 on the level lines y − m/10·x² = const: its second derivative by x is a polynomial. c makes e
-// negative, 0 or positive where it is critical, which is all one.
+// e = (a x² + b y² + c + p x y)/10 on the level lines y − m/10·x² = const: its second derivative by x is a polynomial.
+// c makes e negative, 0 or positive where it is critical, which is all one.
 TEST(CriticalLimits, AreConvexOnLevelLinesWhereTheirSecondDerivativeSaysSo) {
   std::mt19937 random(42);
   const auto number = [&] { return std::uniform_int_distribution(-9, 9)(random); };
@@ -83,22 +83,25 @@ TEST(CriticalLimits, AreConvexOnLevelLinesWhereTheirSecondDerivativeSaysSo) {
   const UpwardRounding rounding;
   int convex = 0, wrong = 0, lost = 0;
   for (int trial = 0; trial < 2000; ++trial) {
-    const int a = number(), b = number(), c = number() / 5, m = number();
+    const int a = number(), b = number(), c = number() / 5, m = number(), p = number();
     const double x = real(1), y = real(1), slope = m / 10.0, radius = trial % 2 == 0 ? 1e-7 : 0.05;
     Polynomial e, h{{Monomial(1, {Factor{1}})}, ""};
     if (a != 0) e.monomials.emplace_back(tenth(a), std::vector<Factor>{{0, 2}});
     if (b != 0) e.monomials.emplace_back(tenth(b), std::vector<Factor>{{1, 2}});
     if (c != 0) e.monomials.emplace_back(tenth(c), std::vector<Factor>{});
+    if (p != 0) e.monomials.emplace_back(tenth(p), std::vector<Factor>{{0}, {1}});
     if (m != 0) h.monomials.emplace_back(tenth(-m), std::vector<Factor>{{0, 2}});
     const auto along = sheet_derivatives(graph(3), {0, 1}, about(3, x, y, radius), {e, h});
     ASSERT_TRUE(along);
     const bool said = SignCellTest::convex_on_levels((*along)[0], (*along)[1]);
-    const auto truth = [&](double u, double v) { return (2 * a + b * (4 * slope * v + 8 * slope * slope * u * u)) / 10; };
+    const auto truth = [&](double u, double v) {
+      return (2 * a + b * (4 * slope * v + 8 * slope * slope * u * u) + 6 * p * slope * u) / 10;
+    };
     convex += said;
     for (int sample = 0; said && sample < 10; ++sample) wrong += truth(x + real(radius), y + real(radius)) < 0;
     lost += radius < 1e-6 && !said && truth(x, y) > 1e-3;
     const std::vector<double> d{real(1), real(1)};
-    const double on_line = (a * d[0] * d[0] + b * d[1] * d[1]) / 5;
+    const double on_line = (a * d[0] * d[0] + b * d[1] * d[1] + p * d[0] * d[1]) / 5;
     const bool line = SignCellTest::convex_on_lines((*along)[0], d);
     wrong += line && on_line < 0;
     lost += !line && on_line > 1e-3;
@@ -106,6 +109,18 @@ TEST(CriticalLimits, AreConvexOnLevelLinesWhereTheirSecondDerivativeSaysSo) {
   EXPECT_GT(convex, 500);
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(lost, 0);
+}
+
+// y³ is convex along y above y = 0 only; a linear function nowhere.
+TEST(CriticalLimits, AreConvexOnLinesWhereTheyAreAllOverTheCell) {
+  const UpwardRounding rounding;
+  const Polynomial cubic{{Monomial(1, {Factor{1, 3}})}, ""}, linear{{Monomial(1, {Factor{1}})}, ""};
+  for (const double y : {-1.0, -0.05, 0.0, 0.05, 1.0}) {
+    const auto along = sheet_derivatives(graph(3), {0, 1}, about(3, 0.5, y, 0.1), {cubic, linear});
+    ASSERT_TRUE(along);
+    EXPECT_EQ(SignCellTest::convex_on_lines((*along)[0], {0, 1}), y == 1) << y;
+    EXPECT_FALSE(SignCellTest::convex_on_lines((*along)[1], {0, 1}));
+  }
 }
 
 }  // namespace
