@@ -62,8 +62,8 @@ class Search {
     std::optional<Node> stuck;
   };
   struct Worker {
-    Worker(const certify::CompiledSystem& system, const Ended& ended)
-        : preconditioners(system, ended), contractor(system, preconditioners, workspace) {}
+    Worker(const certify::CompiledSystem& system, const solve::Tuning& tuning, const Ended& ended)
+        : preconditioners(system, ended), contractor(system, tuning, preconditioners, workspace) {}
     solve::PreconditionerFactory preconditioners;
     certify::NewtonWorkspace workspace;
     solve::Contractor contractor;
@@ -114,8 +114,9 @@ Search::Search(const solve::Prepared& prepared, const std::vector<Polynomial>& d
       branching_(extended_.system, kKernelWeight),
       preconditioners_(compiled_, [&control] { return control.ended(); }),
       arena_(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency()) {
+  const solve::Tuning tuning = solve::tuning_for(extended_.system, prepared.reduction.tolerant);
   for (int k = 0; k < arena_.max_concurrency(); ++k)
-    workers_.push_back(std::make_unique<Worker>(compiled_, [this] { return control_.ended(); }));
+    workers_.push_back(std::make_unique<Worker>(compiled_, tuning, [this] { return control_.ended(); }));
   solve::TypicalSizes sizes = solve::typical_sizes(compiled_, extended_.system.domain());
   compiled_.set_scales(std::move(sizes.variables));
   equation_sizes_ = std::move(sizes.equations);

@@ -12,15 +12,13 @@ namespace {
 
 // Measured on Dextar's sets, see bench/HISTORY.md.
 constexpr double kRankShare = 1;        // of a box's size: singular values below make its solution count as degenerate
-constexpr double kReach = 8;  // of a box's size: how far from it a degenerate solution next to it is looked for
+constexpr double kReach = 8;            // of a box's size: how far from it a degenerate solution next to it is looked for
 constexpr double kTiny = 1e-6;          // of the typical sizes
 constexpr double kFinestShare = 1e-13;  // of its typical size: doubles resolve little more
 constexpr double kNoisySize = 2e-3;     // of the typical sizes: in larger boxes it is the choice of Y that makes noise
 constexpr double kOpenShare =
     1.0 / 8;  // of the size at which degenerate ones wait: how much smaller other unproven boxes get
 constexpr double kPartialShare = 0.05;  // of its typical size: as wide as a box is that nobody says a σ of
-constexpr double kWide = 0.2;  // of the typical sizes: what a Newton step says of narrower boxes misleads a bisection
-constexpr double kFreeCutShare = 0.1;  // cut a free side unless it is already so much narrower than the others
 
 }  // namespace
 
@@ -29,7 +27,7 @@ BoxProcessor::BoxProcessor(const Problem& problem, Shard& shard)
       shard_(shard),
       recorder_(shard.script ? &*shard.script : nullptr),
       preconditioners_(problem.compiled, problem.ended),
-      contractor_(problem.compiled, preconditioners_, workspace_, recorder_),
+      contractor_(problem.compiled, problem.tuning, preconditioners_, workspace_, recorder_),
       slicer_(problem, preconditioners_, workspace_, recorder_) {}
 
 certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
@@ -146,7 +144,7 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   const auto& branching = problem_.branching;
   const double width = problem_.relative_width(x);
   const bool noisy = contractor_.noisy() && width < kNoisySize;
-  const certify::NewtonStep* const step = width > kWide ? &*contractor_.step() : nullptr;
+  const certify::NewtonStep* const step = width > problem_.tuning.wide ? &*contractor_.step() : nullptr;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
     // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
@@ -161,12 +159,14 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   if (split < 0 && !near && !problem_.tolerant) {
     near = LocalSolution{midpoint(x), problem_.compiled.equations()};
   }
-  if (!contractor_.worth_proving()) return split;
+  if (!contractor_.near_sheet()) return split;
+  if (!contractor_.worth_proving()) dependent_ = contractor_.step()->dependent();
   // Where a proof is near, the solutions in x are a sheet over the free variables: cutting along those alone gives parts
   // whose sheets do not overlap.
   const int free = widest_free(x);
   const auto relative_width = [&](int j) { return x[j].width() / problem_.compiled.scales()[static_cast<std::size_t>(j)]; };
-  if (free >= 0 && split >= 0 && split_point(x[free]) && relative_width(free) > kFreeCutShare * relative_width(split))
+  if (free >= 0 && split >= 0 && split_point(x[free]) &&
+      relative_width(free) > problem_.tuning.free_share * relative_width(split))
     return free;
   return split;
 }

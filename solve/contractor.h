@@ -10,15 +10,16 @@
 #include "corank/core/cover.h"
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/propagation.h"
+#include "corank/solve/tuning.h"
 
 namespace corank::solve {
 
 /// One per thread. The system, the preconditioners and the workspace have to outlive it.
 class Contractor {
  public:
-  Contractor(const certify::CompiledSystem& system, PreconditionerFactory& preconditioners,
+  Contractor(const certify::CompiledSystem& system, const Tuning& tuning, PreconditionerFactory& preconditioners,
              certify::NewtonWorkspace& workspace, Recorder* recorder = nullptr)
-      : system_(system), preconditioners_(preconditioners), workspace_(workspace), recorder_(recorder) {}
+      : system_(system), tuning_(tuning), preconditioners_(preconditioners), workspace_(workspace), recorder_(recorder) {}
 
   /// Shrinks x in place; false: x holds no solution. Every solution in x is in what is left.
   bool run(std::span<Interval> x, Statistics& statistics);
@@ -28,18 +29,20 @@ class Contractor {
   bool regular() const { return regular_; }                                 ///< it divided by no interval with 0
   bool noisy() const { return noisy_; }                  ///< rounding made it as uncertain as the box is wide
   bool worth_proving() const { return worth_proving_; }  ///< it was near a proof
+  bool near_sheet() const { return near_sheet_; }        ///< parts of it along the free variables may be near one
 
  private:
   bool is_noisy(std::span<const Interval> x) const;
 
   const certify::CompiledSystem& system_;
+  const Tuning tuning_;
   PreconditionerFactory& preconditioners_;
   certify::NewtonWorkspace& workspace_;
   Recorder* const recorder_;
   std::optional<certify::NewtonStep> step_;
   Propagator propagator_;
   std::vector<double> widths_;
-  bool regular_ = false, noisy_ = false, worth_proving_ = false;
+  bool regular_ = false, noisy_ = false, worth_proving_ = false, near_sheet_ = false;
 };
 
 }  // namespace corank::solve

@@ -127,9 +127,8 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
   }
 
   best_size_.resize(m_);
-  const Elimination elimination{tableau_.data(),   stride_,          m_,
-                                allowed_.data(),   row_scale_.data(), row_done_.data(),
-                                best_size_.data()};
+  const Elimination elimination{tableau_.data(),  stride_,          m_, allowed_.data(), row_scale_.data(),
+                                row_done_.data(), best_size_.data()};
   find_best(elimination);
 
   result_.equations.clear();
@@ -150,7 +149,8 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
     int column = -1;
     double largest_entry = 0;
     for (int j = 0; j < n_; ++j)
-      if (const double entry = std::fabs(pivot_row[j]) * allowed_[j]; entry > largest_entry) largest_entry = entry, column = j;
+      if (const double entry = std::fabs(pivot_row[j]) * allowed_[j]; entry > largest_entry)
+        largest_entry = entry, column = j;
     row_done_[row] = 1;
     allowed_[column] = 0;
     exchange(elimination, row, column);
@@ -161,8 +161,7 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
   result_.y.resize(static_cast<std::size_t>(r) * r);
   for (int a = 0; a < r; ++a)
     for (int b = 0; b < r; ++b)
-      result_.y[static_cast<std::size_t>(a) * r + b] =
-          tableau_[result_.equations[a] * stride_ + result_.dependent[b]];
+      result_.y[static_cast<std::size_t>(a) * r + b] = tableau_[result_.equations[a] * stride_ + result_.dependent[b]];
   round_to_floats(result_);
   return result_;
 }

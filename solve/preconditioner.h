@@ -34,9 +34,7 @@ class PreconditionerFactory {
   /// `sizes`.
   std::vector<int> chart_of_last(const std::vector<double>& sizes, double gain) const;
   /// After either: ∂(dependent a)/∂(free j) of the linearized system, r×n row-major, 0 for dependent columns.
-  double sensitivity(int a, int j) const {
-    return a >= result_.rank() ? 0 : -tableau_[result_.equations[a] * stride_ + j];
-  }
+  double sensitivity(int a, int j) const { return a >= result_.rank() ? 0 : -tableau_[result_.equations[a] * stride_ + j]; }
 
  private:
   const certify::Preconditioner& at_center(const std::vector<int>* candidates, const std::vector<int>* rows,

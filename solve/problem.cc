@@ -26,6 +26,7 @@ Problem::Problem(const System& system, const certify::Reduction& reduction, std:
       tolerant(reduction.tolerant || redundant.applies()),
       rank_tolerance(reduction.tolerant ? kRoundedRankTolerance : kRedundantRankTolerance),
       branching(reduction.system, 1, system.kernel_vectors),
+      tuning(tuning_for(reduction.system, tolerant)),
       ended(std::move(e)),
       classes_(sigma_classes(system, reduction)) {
   TypicalSizes sizes = typical_sizes(compiled, reduction.system.domain());

@@ -14,6 +14,7 @@
 #include "corank/core/cover.h"
 #include "corank/solve/branching.h"
 #include "corank/solve/sigma.h"
+#include "corank/solve/tuning.h"
 
 namespace corank::solve {
 
@@ -51,6 +52,7 @@ struct Problem {
   bool tolerant;          ///< coefficients carry a tolerance, or equations may hold within one only
   double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
   BranchingRule branching;
+  Tuning tuning;
   /// Of the kept variables, then of the eliminated ones: the σ that applies to it; infinite where none does (kernel vectors,
   /// auxiliaries).
   std::vector<double> sigma;
