@@ -16,6 +16,7 @@
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
 #include "corank/result/path_file.h"
+#include "corank/result/pieces_file.h"
 
 namespace corank::python {
 namespace {
@@ -48,15 +49,37 @@ py::tuple topology(const Model& model, const analyze::TopologyOptions& options, 
   });
 }
 
-py::tuple aspects(const Model& model, const analyze::AspectsOptions& options, double time_limit,
+// With what others can check, where options.certificate asks for it and something is known.
+py::tuple aspects(const Model& model, analyze::AspectsOptions options, bool areas, double time_limit,
                   const py::object& progress) {
   if (model.mechanism().is_plain_system())
     throw std::invalid_argument(model.mechanism().name() + " has no inputs and outputs: a plain system has no aspects");
-  return said(progress, [question = configurations(model), options, time_limit](Watcher& watcher) {
+  const study::Question question = configurations(model);
+  if (areas && question.model.outputs().size() != 2)
+    throw std::invalid_argument(model.mechanism().name() + ": areas need two outputs");
+  if (areas) options.images = question.model.outputs();
+  struct Said {
+    Texts texts;
+    std::shared_ptr<result::PiecesFile> file;
+  };
+  auto [said, raised] = run_for(progress, [question, options, time_limit](Watcher& watcher) {
     solve::Control control({.time = time_limit, .stop = &watcher.stop});
     watcher.follow(control);
     const analyze::Aspects a = analyze::aspects(question, options, control);
-    return Texts{to_json(question, a, !control.ended()), to_text(question, a)};
+    Said result{{to_json(question, a, !control.ended()), to_text(question, a)}, {}};
+    if (a.cover && !control.ended()) result.file = std::make_shared<result::PiecesFile>(to_file(question, a));
+    return result;
+  });
+  return py::make_tuple(said.texts.json, said.texts.table, said.file, raised);
+}
+
+py::tuple verify_pieces(const result::PiecesFile& file, int threads, const py::object& progress) {
+  return said(progress, [file, threads](Watcher& watcher) {
+    check::Options options;
+    options.threads = threads;
+    options.stop = &watcher.stop;
+    const check::PiecesReport report = result::verify(file, options);
+    return Texts{to_json(report, file), to_table(report, file)};
   });
 }
 
@@ -223,10 +246,15 @@ void bind_analyses(py::module_& module) {
   module.def("topology", [](const Model& m, int threads, int refinements, double time_limit, const py::object& progress) {
     return topology(m, {.threads = threads, .refinements = refinements}, time_limit, progress);
   });
-  module.def("aspects",
-             [](const Model& m, int threads, int halvings, int rounds, double time_limit, const py::object& progress) {
-               return aspects(m, {threads, halvings, rounds}, time_limit, progress);
-             });
+  py::class_<result::PiecesFile, std::shared_ptr<result::PiecesFile>>(module, "PiecesFile")
+      .def("write", [](const result::PiecesFile& file, const std::string& path) { result::write_pieces(path, file); });
+  module.def("aspects", [](const Model& m, int threads, int halvings, int rounds, bool cusps, bool areas, bool certificate,
+                           double time_limit, const py::object& progress) {
+    return aspects(m,
+                   {.threads = threads, .halvings = halvings, .rounds = rounds, .cusps = cusps, .certificate = certificate},
+                   areas, time_limit, progress);
+  });
+  module.def("verify_pieces", &verify_pieces);
   module.def("clearance", &clearance);
   module.def("best_center", &best_center);
   module.def("clearance_map", &clearance_map);

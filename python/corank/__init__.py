@@ -11,7 +11,7 @@ True
 
 from . import _corank
 from ._corank import Expression, Relation
-from .analyses import Analysis, Aspects, BestCenter, Bounds, Clearance, ClearanceMap, Topology
+from .analyses import Analysis, Aspects, BestCenter, Bounds, Clearance, ClearanceMap, Cusp, Topology
 from .errors import Interrupted, ModelError, OptionError, ResultFileError
 from .expression import as_expression, as_relation, cos, degrees, linspace, pi, sin, sqrt, tan
 from .mapping import ParameterMap
@@ -41,6 +41,7 @@ __all__ = [
     "Clearance",
     "ClearanceMap",
     "Coordinate",
+    "Cusp",
     "Expression",
     "Interrupted",
     "Interval",

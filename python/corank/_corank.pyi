@@ -195,9 +195,22 @@ class Ball:
 def topology(
     model: Model, threads: int, refinements: int, time_limit: float, progress: Any
 ) -> Tuple[str, str, Optional[BaseException]]: ...
+
+class PiecesFile:
+    def write(self, path: str) -> None: ...
+
 def aspects(
-    model: Model, threads: int, halvings: int, rounds: int, time_limit: float, progress: Any
-) -> Tuple[str, str, Optional[BaseException]]: ...
+    model: Model,
+    threads: int,
+    halvings: int,
+    rounds: int,
+    cusps: bool,
+    areas: bool,
+    certificate: bool,
+    time_limit: float,
+    progress: Any,
+) -> Tuple[str, str, Optional[PiecesFile], Optional[BaseException]]: ...
+def verify_pieces(file: PiecesFile, threads: int, progress: Any) -> Tuple[str, str, Optional[BaseException]]: ...
 def clearance(
     model: Model, set: Optional[str], ball: Ball, precision: float, claims: bool, options: Options, progress: Any
 ) -> Tuple[str, str, Optional[Result], Optional[Result], Optional[BaseException]]: ...

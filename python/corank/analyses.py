@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import os
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _corank
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     import pandas
 
     from .mechanism import Mechanism
-    from .result import Result
+    from .result import Result, Verification
 
 
 class Bounds(NamedTuple):
@@ -82,6 +83,26 @@ class Topology(Analysis):
         self.reason: str = self.data["reason"]
 
 
+class Cusp(NamedTuple):
+    """A cusp of a singularity locus' image: next to it three configurations have the same inputs (of the forward locus) or
+    the same outputs (of the inverse one), and a path about it joins two of them, the outer ones, without a singularity.
+
+    Attributes:
+        locus: "forward" or "inverse". values: the configuration over the cusp, intervals by coordinate.
+        around: the index of the aspect in which the outer two lie, in Aspects.representatives. between: of the third; None:
+            not known.
+    """
+
+    locus: str
+    values: Dict[str, Interval]
+    around: Optional[int]
+    between: Optional[int]
+
+
+def _values(item: Dict[str, Any]) -> Dict[str, Interval]:
+    return {name: Interval(v["lo"], v["hi"]) for name, v in item.items()}
+
+
 class Aspects(Analysis):
     """The pieces into which singularities divide a C-space.
 
@@ -89,18 +110,50 @@ class Aspects(Analysis):
         aspects, assembly_modes, working_modes: how many pieces without forward and inverse, without forward, without inverse
             singularities. representatives: of each aspect a configuration, intervals by coordinate, and the signs of the
             factors of the determinants. reason: what is not known, and why.
+        areas: with areas=True, of each representative the area that its aspect covers in the plane of the outputs, in bounds;
+            else None.
+        cusps: with cusps=True, those of both loci; else None. cusps_not_known: what is not known of them, and why; where it
+            is empty, these are proven to be all in the search domain.
     """
 
-    def __init__(self, text: str, table: str) -> None:
+    def __init__(self, text: str, table: str, file: Optional["_corank.PiecesFile"] = None) -> None:
         super().__init__(text, table)
+        self._file = file
         self.aspects = _bounds(self.data["aspects"])
         self.assembly_modes = _bounds(self.data["bounds"]["assembly_modes"])
         self.working_modes = _bounds(self.data["bounds"]["working_modes"])
+        pieces = self.data["representatives"]
         self.representatives: List[Tuple[Dict[str, Interval], List[int]]] = [
-            ({n: Interval(v["lo"], v["hi"]) for n, v in r["values"].items()}, r["signs"])
-            for r in self.data["representatives"]
+            (_values(r["values"]), r["signs"]) for r in pieces
         ]
+        self.areas: Optional[List[Interval]] = None
+        if pieces and "area" in pieces[0]:
+            self.areas = [Interval(r["area"]["lo"], r["area"]["hi"]) for r in pieces]
+        self.cusps: Optional[List[Cusp]] = None
+        if "cusps" in self.data:
+            self.cusps = [Cusp(c["locus"], _values(c["values"]), c["around"], c["between"]) for c in self.data["cusps"]]
+        self.cusps_not_known: List[str] = self.data.get("cusps_not_known", [])
         self.reason: str = self.data["reason"]
+
+    def _need(self) -> "_corank.PiecesFile":
+        if self._file is None:
+            raise ValueError(f"there is no certificate: {self.reason or 'aspects() needs certificate=True'}")
+        return self._file
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the numbers with what proves them (.h5), which verify() and `corank verify` check. ValueError where
+        certificate=True was not given."""
+        self._need().write(os.fspath(path))
+
+    def verify(self, threads: int = 0, *, progress: ProgressOption = None) -> "Verification":
+        """Checks the numbers anew by code that shares nothing with what made them. verified: every lower bound is confirmed;
+        complete: every upper bound, too. ValueError where certificate=True was not given."""
+        from .result import Verification
+
+        with Shown(progress) as show:
+            text, table, raised = _corank.verify_pieces(self._need(), threads, show)
+        report = json.loads(text)
+        return deliver(Verification(report["verified"], report["complete"], report, table), raised)
 
 
 class Clearance(Analysis):
@@ -118,7 +171,7 @@ class Clearance(Analysis):
         super().__init__(text, table)
         self.lower, self.upper = _interval(self.data["radius"])
         near = self.data["nearest"]
-        self.nearest = None if near is None else {n: Interval(v["lo"], v["hi"]) for n, v in near.items()}
+        self.nearest = None if near is None else _values(near)
         self.empty: bool = self.data["empty"]
         self.free, self.nearest_result = free, nearest
 

@@ -286,6 +286,9 @@ class Mechanism:
         threads: int = 0,
         halvings: int = 16,
         rounds: int = 16,
+        cusps: bool = False,
+        areas: bool = False,
+        certificate: bool = False,
         time_limit: float = 0,
         progress: ProgressOption = None,
     ) -> "analyses.Aspects":
@@ -293,10 +296,15 @@ class Mechanism:
 
         Args:
             halvings, rounds: how finely cells are divided, at most. time_limit: seconds, 0: none.
+            cusps: look for the cusps of both loci, and say in which aspect each lets the posture or the assembly mode change.
+            areas: of two outputs that are lengths: the area that each aspect covers, and which share outputs.
+            certificate: keep what it takes to check the numbers: save() and verify() need it.
         """
         with Shown(progress) as show:
-            json, text, raised = _corank.aspects(self._core, threads, halvings, rounds, time_limit, show)
-        return deliver(analyses.Aspects(json, text), raised)
+            json, text, file, raised = _corank.aspects(
+                self._core, threads, halvings, rounds, cusps, areas, certificate, time_limit, show
+            )
+        return deliver(analyses.Aspects(json, text, file), raised)
 
     clearance = analyses.clearance
     best_center = analyses.best_center

@@ -1,6 +1,7 @@
 """Reports, sweeps, topology, aspects, clearance, with the known answers of tests/analyze."""
 
 import json
+import math
 
 import pytest
 
@@ -18,6 +19,35 @@ def test_its_singularities_divide_it_into_eight_aspects(three_slider):
     assert a.aspects == (8, 8) and a.working_modes == (4, 4) and len(a.representatives) == 8
     values, signs = a.representatives[0]
     assert values["y_A"].lo <= values["y_A"].hi and set(signs) <= {-1, 1}
+
+
+def test_its_aspects_are_checked_by_other_code(three_slider, tmp_path):
+    a = three_slider.aspects(certificate=True)
+    said = a.verify()
+    assert said and said.complete and said.report["aspects"]["at_most"] == 8 and "verified" in str(said)
+    a.save(tmp_path / "aspects.h5")
+    assert (tmp_path / "aspects.h5").stat().st_size > 1000
+    with pytest.raises(ValueError, match="certificate=True"):
+        three_slider.aspects().verify()
+
+
+def test_an_arm_changes_its_posture_about_its_cusps(models):
+    arm = corank.load(models / "serial" / "orthogonal_3r_section.cuik")
+    assert arm.aspects().cusps is None
+    a = arm.aspects(cusps=True)
+    assert a.cusps_not_known == [] and len(a.cusps) == 4
+    assert sorted(c.around for c in a.cusps) == [0, 0, 1, 1]
+    for c in a.cusps:
+        assert c.locus == "inverse" and c.between == 1 - c.around
+        t2, t3 = (c.values[name].mid for name in ("theta2", "theta3"))
+        determinant = math.sin(t3) + math.cos(t2) * (2 * math.sin(t3) - math.cos(t3))
+        assert abs(determinant) < 1e-6
+
+
+def test_the_areas_of_dextars_aspects_are_in_bounds(dextar):
+    a = dextar.aspects(areas=True)
+    assert len(a.areas) == a.aspects.at_least == 10
+    assert all(0 < area.lo <= area.hi < area.lo + 1.5 for area in a.areas)
 
 
 def test_the_clearance_of_dextar_is_bounded_from_both_sides(dextar):
