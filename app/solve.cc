@@ -150,6 +150,13 @@ ExitStatus say_estimate(const SolveCommand& command, const std::vector<System>& 
   return kDone;
 }
 
+// Until the next run, or the end of the process, with which its memory goes at once: to free ten million boxes one by one
+// takes seconds.
+result::Result& kept(result::Result result) {
+  static auto* const last = new std::optional<result::Result>;
+  return last->emplace(std::move(result));
+}
+
 // `former`: of a run that goes on.
 ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::Checkpoint* former) {
   options_of(command).validate();
@@ -173,7 +180,7 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   ProgressLine line;
   line.follow(control);
   stage.reset();
-  result::Result result = study::answer(parts, systems, options, control, &journal);
+  result::Result& result = kept(study::answer(parts, systems, options, control, &journal));
   result.search = journal.search();
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result);

@@ -89,7 +89,7 @@ void write_rows(hid_t file, const std::string& path, const std::string& name, hi
 void write_packed(hid_t file, const std::string& path, const std::string& name, hid_t type, std::size_t size,
                   const void* data) {
   constexpr hsize_t kChunk = 1 << 16;
-  constexpr unsigned kLevel = 6;
+  constexpr unsigned kLevel = 1;
   const OwnHandle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path, "cannot write " + name);
   const hsize_t chunk = std::clamp<hsize_t>(size, 1, kChunk);
   if (H5Pset_chunk(properties, 1, &chunk) < 0 || H5Pset_shuffle(properties) < 0 || H5Pset_deflate(properties, kLevel) < 0)

@@ -36,7 +36,7 @@ std::vector<std::vector<T>> dealt(std::vector<T> all, std::size_t parts) {
 // Does σ depend on nothing that is found? Then sheets need not travel to be cut.
 bool sigma_is_known(const Prepared& prepared) { return prepared.options.asked_length() && prepared.options.asked_angle(); }
 
-void cut_at_once(const Prepared& prepared, const Problem& problem, int last_number, Answer& answer) {
+void cut_at_once(const Prepared& prepared, const Problem& problem, int last_number, std::size_t most, Answer& answer) {
   Control control;
   Tally tally(prepared, control, 0);
   Pool pool(prepared, tally, last_number, &problem);
@@ -47,9 +47,9 @@ void cut_at_once(const Prepared& prepared, const Problem& problem, int last_numb
     shards.push_back(&shard);
     left.push_back(std::exchange(shard.left, {}));
   }
-  pool.cut(shards);
+  pool.cut(shards, most);
   for (std::size_t i = 0; i < shards.size(); ++i) {
-    shards[i]->sheets.clear();
+    std::erase_if(shards[i]->sheets, [](const Proven& sheet) { return sheet.cut; });
     shards[i]->left = std::move(left[i]);
   }
   for (Shard& shard : pool.take_shards()) answer.shards.push_back(std::move(shard));
@@ -102,7 +102,7 @@ std::string UnitRunner::run(std::string_view bytes, const Budget& budget) {
     answer.shards = pool.take_shards();
   }
   if (!unit.cut && sigma_is_known(prepared))
-    cut_at_once(prepared, question_->problem, number + kMostUnitThreads + 1, answer);
+    cut_at_once(prepared, question_->problem, number + kMostUnitThreads + 1, budget.found, answer);
   return to_bytes(answer);
 }
 
@@ -210,6 +210,11 @@ struct Coordinator::Search {
         if (!sheet.cut) open_sheets.push_back(&sheet);
   }
 
+  // That are open, as the others were cut.
+  double boxes_of_sheets() const {
+    return sheets_cut == 0 ? 0 : static_cast<double>(open_sheets.size()) * boxes_cut / static_cast<double>(sheets_cut);
+  }
+
   // Where a pass is done, the next one begins; after the last one sheets are to be cut.
   void advance() {
     while (!state.cutting && open.empty() && under_way.empty()) {
@@ -252,8 +257,10 @@ struct Coordinator::Search {
   const MemoryEstimate memory;
   std::int64_t kept = 0;  // bytes that the run has been told of
   bool over = false;
-  std::uint64_t processed = 0;  // by the units of this coordinator
-  std::uint64_t promised = 0;   // boxes, to the units that are under way
+  std::uint64_t processed = 0;   // by the units of this coordinator
+  std::uint64_t sheets_cut = 0;  // by them, about
+  double boxes_cut = 0;          // from these
+  std::uint64_t promised = 0;    // boxes, to the units that are under way
   Tally tally;
   Pool judge;
   std::vector<std::unique_ptr<Part>> parts;
@@ -314,7 +321,13 @@ std::vector<std::string> Coordinator::take_units(std::size_t wanted, std::size_t
       give(std::move(unit), {std::move(hands[i]), {}, most});
     }
   } else {
-    for (std::vector<Proven*>& sheets : dealt(std::exchange(s.open_sheets, {}), wanted)) {
+    const std::size_t parts =
+        std::max(wanted, static_cast<std::size_t>(s.boxes_of_sheets() / static_cast<double>(Budget{}.found)));
+    for (std::vector<Proven*>& sheets : dealt(std::exchange(s.open_sheets, {}), parts)) {
+      if (units.size() == wanted) {
+        std::move(sheets.begin(), sheets.end(), std::back_inserter(s.open_sheets));
+        continue;
+      }
       Unit unit{.cut = true, .sigma = s.state.sigma};
       for (const Proven* sheet : sheets) unit.sheets.push_back(*sheet);
       give(std::move(unit), {{}, std::move(sheets), 0});
@@ -365,6 +378,8 @@ bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner)
     std::move(shard.left.begin(), shard.left.end(), std::back_inserter(s.open));
     shard.left.clear();
     const bool any = found.size() > 0;
+    s.sheets_cut += any ? found.regions() : 0;
+    s.boxes_cut += any ? static_cast<double>(found.size()) : 0;
     s.parts.push_back(std::make_unique<Search::Part>(
         Search::Part{std::move(shard), any ? std::move(found) : PackedFound(), any ? owner : nullptr}));
   }

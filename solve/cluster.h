@@ -6,8 +6,9 @@
 //   Cover cover = c.assemble(control);
 //
 // Units may be run in any order, more than once, and by any number of threads: the first answer counts, and the cover is
-// solve()'s, to the last bit. Where σ was asked for, sheets are cut by whoever has found them. What a budget leaves of a
-// unit comes back and is given out again, in smaller parts.
+// solve()'s, to the last bit. Where σ was asked for, sheets are cut by whoever has found them, as long as
+// their boxes are not too many for one answer. What a budget leaves of a unit comes back and is given out again, in smaller
+// parts.
 //
 // Limits are the coordinator's business: it gives out no more boxes than may be processed, and takes no answer for which
 // there is no memory. Once one has ended the search, what was not answered counts as not begun: `pending` in the cover, and
@@ -26,11 +27,13 @@
 
 namespace corank::solve {
 
-/// What running one unit may take; 0: no limit. Sheets are cut to the end, whatever the budget.
+/// What running one unit may take; 0: no limit. A sheet, or a unit of sheets to cut, is cut to the end, whatever the budget.
 struct Budget {
   std::uint64_t boxes = 0;  ///< processed
   double seconds = 0;
   int threads = 1;  ///< 1 … kMostUnitThreads
+  /// Boxes of sheets after which no other one is cut: of a long answer's memory nothing is free before it has come.
+  std::size_t found = 100'000;
   /// By which the seconds are counted; default: the machine's steady clock. Called from any thread.
   std::function<double()> clock = {};
 };

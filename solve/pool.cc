@@ -194,7 +194,7 @@ void Pool::give_up(const Postponed& box, Reason reason) {
   threads_->count(worker);
 }
 
-bool Pool::cut(const std::vector<Shard*>& shards) {
+bool Pool::cut(const std::vector<Shard*>& shards, std::size_t most) {
   Threads& t = *threads_;
   if (!std::exchange(t.cutting, true)) t.whole = t.tally.begin_cutting();
   std::vector<Proven*> sheets;
@@ -212,6 +212,7 @@ bool Pool::cut(const std::vector<Shard*>& shards) {
           paused = true;
           return;
         }
+        if (worker.shard.found.size() > most) return;
         const Shard::Mark before = worker.shard.mark();
         sheets[i]->cut = worker.processor.cut(*sheets[i], t.whole);
         if (!sheets[i]->cut && !worker.finished) worker.finished = before;

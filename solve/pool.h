@@ -39,8 +39,9 @@ class Pool {
   /// A postponed box that is not divided any further.
   void give_up(const Postponed& box, Reason reason);
   /// Cuts the sheets, those that other pools have found as well, to σ, into boxes of its own shards; what is left becomes
-  /// `pending` boxes. Returns false where the tally pauses before all are cut: to be called again.
-  bool cut(const std::vector<Shard*>& shards);
+  /// `pending` boxes. Returns false where the tally pauses before all are cut: to be called again. Where a thread has found
+  /// more than `most` boxes it begins no other sheet, which stays as it is.
+  bool cut(const std::vector<Shard*>& shards, std::size_t most = std::numeric_limits<std::size_t>::max());
 
   /// Those that it was given, and its own.
   std::vector<Shard*> shards();

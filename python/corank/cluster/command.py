@@ -225,6 +225,7 @@ def _solve(args: argparse.Namespace, parser: argparse.ArgumentParser) -> Result:
             checkpoints=checkpoints,
             progress=False if args.quiet else None,
         )
+    _corank.keep_to_the_end(result._core)
     if args.output:
         result.save(args.output)
     if result.complete and result.stopped is None and checkpoints.path and os.path.exists(checkpoints.path):

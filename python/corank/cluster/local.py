@@ -23,7 +23,8 @@ _SETTINGS = {
     "distributed.comm.compression": None,  # takes longer than sending to another process of the machine
     # Workers keep memory between units, which dask by default makes them give back and fetch anew.
     "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 30,
-    "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 1 << 30,
+    "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_MAX_": 0,
+    "distributed.nanny.pre-spawn-environ.MALLOC_ARENA_MAX": 1,
     # What looks at processes that do nothing takes a tenth of a core: dask's profiler 100 times a second, health checks 50 times.
     "distributed.worker.profile.enabled": False,
     "distributed.admin.tick.interval": "500ms",
