@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "corank/core/hull.h"
 #include "corank/core/spread.h"
 
 namespace corank {
@@ -33,7 +34,7 @@ std::size_t BoxTree::build(std::size_t begin, std::size_t end, Room& room) {
   std::vector<Spread> middles(leaf ? 0 : sides_);
   for (std::size_t k = begin; k < end; ++k) {  // box by box: each is somewhere else in memory
     const Interval* const box = boxes_[order_[k]]->data();
-    for (std::size_t j = 0; j < sides_; ++j) hull[j] = Interval::hull(hull[j], box[j]);
+    include({hull, sides_}, {box, sides_});
     for (std::size_t j = 0; j < middles.size(); ++j) middles[j].add(box[j].mid());
   }
   if (leaf) return node;

@@ -33,6 +33,17 @@ py::tuple said(const py::object& progress, Work work) {
   return py::make_tuple(texts.json, texts.table, raised);
 }
 
+template <class File>
+py::tuple verify(const File& file, int threads, const py::object& progress) {
+  return said(progress, [file, threads](Watcher& watcher) {
+    check::Options options;
+    options.threads = threads;
+    options.stop = &watcher.stop;
+    const auto report = result::verify(file, options);
+    return Texts{to_json(report, file), to_table(report, file)};
+  });
+}
+
 // The sets are ignored: a question about all configurations.
 study::Question configurations(const Model& model) {
   if (model.mechanism().is_plain_system()) return question_of(model, std::nullopt);
@@ -71,16 +82,6 @@ py::tuple aspects(const Model& model, analyze::AspectsOptions options, bool area
     return result;
   });
   return py::make_tuple(said.texts.json, said.texts.table, said.file, raised);
-}
-
-py::tuple verify_pieces(const result::PiecesFile& file, int threads, const py::object& progress) {
-  return said(progress, [file, threads](Watcher& watcher) {
-    check::Options options;
-    options.threads = threads;
-    options.stop = &watcher.stop;
-    const check::PiecesReport report = result::verify(file, options);
-    return Texts{to_json(report, file), to_table(report, file)};
-  });
 }
 
 constexpr std::string_view kAvoids[] = {"forward", "inverse", "both"};  // in the order of analyze::Avoid
@@ -208,15 +209,6 @@ py::tuple path(const Model& model, const End& from, const End& to, const std::st
   return py::make_tuple(said.texts.json, said.texts.table, said.file, said.picture, raised);
 }
 
-py::tuple verify_path(const result::PathFile& file, const py::object& progress) {
-  return said(progress, [file](Watcher& watcher) {
-    check::Options options;
-    options.stop = &watcher.stop;
-    const check::TubeReport report = result::verify(file, options);
-    return Texts{to_json(report, file), to_table(report, file)};
-  });
-}
-
 // Bounds of the area of the workspace in the plane of two lengths, from its boundary; with `anyway` by dividing the
 // plane where the boundary does not give them. None where there are none.
 std::optional<std::pair<double, double>> area(const Model& model, const std::vector<std::string>& outputs, int threads,
@@ -254,7 +246,7 @@ void bind_analyses(py::module_& module) {
                    {.threads = threads, .halvings = halvings, .rounds = rounds, .cusps = cusps, .certificate = certificate},
                    areas, time_limit, progress);
   });
-  module.def("verify_pieces", &verify_pieces);
+  module.def("verify_pieces", &verify<result::PiecesFile>);
   module.def("clearance", &clearance);
   module.def("best_center", &best_center);
   module.def("clearance_map", &clearance_map);
@@ -273,7 +265,8 @@ void bind_analyses(py::module_& module) {
                 double radius, int threads, std::uint64_t max_boxes, double time_limit, const py::object& progress) {
                return path(m, {from, from_mode}, {to, to_mode}, avoid, radius, threads, max_boxes, time_limit, progress);
              });
-  module.def("verify_path", &verify_path);
+  module.def("verify_path",
+             [](const result::PathFile& file, const py::object& progress) { return verify(file, 1, progress); });
 }
 
 }  // namespace corank::python

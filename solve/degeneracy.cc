@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "corank/certify/polynomial_algebra.h"
+#include "corank/core/hull.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/points.h"
 #include "corank/solve/preconditioner.h"
@@ -80,8 +81,7 @@ bool goes_on(const Problem& problem, const LocalSolution& start, double step, st
 // Of the typical sizes: how far the cluster reaches.
 double extent(const Problem& problem, const std::vector<Postponed>& boxes, const std::vector<std::size_t>& cluster) {
   Box hull = boxes[cluster[0]].box.x;
-  for (const std::size_t i : cluster)
-    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], boxes[i].box.x[j]);
+  for (const std::size_t i : cluster) include(hull, boxes[i].box.x);
   return problem.relative_width(hull);
 }
 

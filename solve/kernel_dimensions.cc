@@ -44,10 +44,9 @@ void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& co
   const std::vector<certify::PointLocation> places(cover.exact_points.begin(), cover.exact_points.end());
   std::vector<Box> hulls = hulls_by_region(cover);
   std::vector<int> of_regions(hulls.size(), 0);  // 0: not known
-  const auto bound_in = [&](CoverBox& box) {
+  const auto bound_in = [&](CoverBox& box, int known) {
     const UpwardRounding rounding;
     if (box.verdict == Verdict::pending || stopped()) return;
-    const int known = box.region < 0 ? 0 : of_regions[static_cast<std::size_t>(box.region)];
     box.kernel_at_most = known > 0 && known <= system.kernel_vectors ? known : bound.at_most(box.box);
   };
   tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
@@ -57,9 +56,13 @@ void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& co
       if (!hulls[r].empty() && !stopped()) of_regions[r] = bound.at_most(hulls[r]);
     });
     hulls = {};
-    tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) { bound_in(cover.boxes[i]); });
+    tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) {
+      CoverBox& box = cover.boxes[i];
+      bound_in(box, box.region < 0 ? 0 : of_regions[static_cast<std::size_t>(box.region)]);
+    });
   });
-  if (!cover.points.empty()) say_of_points(cover, bound_in);
+  // Hulls of boxes are held by no region.
+  if (!cover.points.empty()) say_of_points(cover, [&](CoverBox& point) { bound_in(point, 0); });
   // Few: one after the other, since a point's number is narrowed while it is compared.
   const auto explain = [&](CoverBox& box) {
     const UpwardRounding rounding;

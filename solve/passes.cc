@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "corank/core/hull.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/box_order.h"
 
@@ -31,7 +32,7 @@ Box hull_of(const Prepared& prepared, const Problem& problem, const std::vector<
       Box sides = proven.sheet.image;
       for (std::size_t j = 0; j < sides.size(); ++j) sides[j].intersect(proven.x[j]);
       problem.append_values(sides);
-      for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], sides[j]);
+      include(hull, sides);
       if (hull.empty()) hull = std::move(sides);
     }
   return hull.empty() ? prepared.system.domain() : prepared.reduction.lift(hull);

@@ -5,6 +5,7 @@
 
 #include "corank/certify/distinct.h"
 #include "corank/core/box_tree.h"
+#include "corank/core/hull.h"
 
 namespace corank::solve {
 namespace {
@@ -114,7 +115,7 @@ std::vector<CoverBox> collect_points(const std::vector<Found*>& found, const std
     hull = *open_sides[cluster[0]];
     for (std::size_t k = 1; k < cluster.size(); ++k) {
       joined[open[cluster[k]]] = true;
-      for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], (*open_sides[cluster[k]])[j]);
+      include(hull, *open_sides[cluster[k]]);
     }
   }
   std::vector<CoverBox> points;

@@ -1,5 +1,7 @@
 #include "corank/solve/region_hulls.h"
 
+#include "corank/core/hull.h"
+
 namespace corank::solve {
 
 std::vector<Box> hulls_by_region(const Cover& cover) {
@@ -10,11 +12,8 @@ std::vector<Box> hulls_by_region(const Cover& cover) {
   for (const CoverBox& box : cover.boxes) {
     if (box.region < 0 || pieces[static_cast<std::size_t>(box.region)] < 2) continue;
     Box& hull = hulls[static_cast<std::size_t>(box.region)];
-    if (hull.empty()) {
-      hull = box.box;
-    } else {
-      for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], box.box[j]);
-    }
+    if (hull.empty()) hull = box.box;
+    include(hull, box.box);
   }
   return hulls;
 }

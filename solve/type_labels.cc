@@ -53,13 +53,11 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
   // Where L is large a rank takes longer than the search takes for a box: then only the types that make up the set.
   const TypeSet wanted = blocks.matrices[static_cast<std::size_t>(Block::all)].rows > kSmall ? blocks.of_set : blocks.asked;
   std::vector<certify::RankBounds> of_regions(cover.regions.size());
-  const auto label = [&](CoverBox& box) {
+  const auto label = [&](CoverBox& box, certify::RankBounds known) {
     const UpwardRounding rounding;
     if (box.verdict == Verdict::pending || stopped()) return;
     if (is_its_point(box, cover)) box.types = cover.exact_points[static_cast<std::size_t>(box.point)].types;
     if (box.types != TypeLabels{}) return;
-    certify::RankBounds known{};
-    if (box.region >= 0) known = of_regions[static_cast<std::size_t>(box.region)];
     box.types = bounds.labels(known);
     if (!box.types.settle(wanted)) box.types = bounds.labels(known = bounds.ranks(box.box, 0, known, wanted));
     if (!box.types.settle(blocks.of_set)) box.types = bounds.labels(bounds.ranks(box.box, kDepth, known, wanted));
@@ -71,8 +69,12 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
       if (!hulls[r].empty() && !stopped()) of_regions[r] = bounds.ranks(hulls[r], depth, {}, wanted);
     });
     hulls = {};
-    for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
-      tbb::parallel_for(std::size_t{0}, list->size(), [&](std::size_t i) { label((*list)[i]); });
+    tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) {
+      CoverBox& box = cover.boxes[i];
+      label(box, box.region < 0 ? certify::RankBounds{} : of_regions[static_cast<std::size_t>(box.region)]);
+    });
+    // A point may be the hull of several boxes, which no region holds.
+    tbb::parallel_for(std::size_t{0}, cover.points.size(), [&](std::size_t i) { label(cover.points[i], {}); });
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   cover.statistics.seconds_total += seconds;
