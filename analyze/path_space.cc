@@ -1,11 +1,10 @@
 #include "corank/analyze/path_space.h"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "corank/certify/determinant_sign.h"
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 #include "corank/core/signs.h"
 #include "corank/symbolic/algebrizer.h"
@@ -139,7 +138,7 @@ bool PathSpace::project(Point& x, double reach) const {
   double before = 1e300;
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::VectorXd f = residual(x);
-    const Eigen::VectorXd change = jacobian(x).completeOrthogonalDecomposition().solve(-f);
+    const Eigen::VectorXd change = least_squares(jacobian(x), -f).x;
     if (!change.allFinite()) return false;
     x += change;
     const double size = change.lpNorm<Eigen::Infinity>();
@@ -176,9 +175,9 @@ PathSpace::State PathSpace::state(const Point& x) const {
       for (int j = 0; j < m.columns; ++j)
         a(i, j) = entries[static_cast<std::size_t>(filled_rows_[k][static_cast<std::size_t>(i)] * m.columns + j)];
     if (a.size() == 0) continue;
-    const Eigen::VectorXd sigma = a.jacobiSvd().singularValues();
+    const Eigen::VectorXd sigma = singular_values(a);
     state.margin = std::min(state.margin, sigma(0) > 0 ? sigma(sigma.size() - 1) / sigma(0) : 0);
-    if (a.rows() == a.cols()) state.signs.push_back(a.determinant() > 0 ? 1 : -1);
+    if (a.rows() == a.cols()) state.signs.push_back(determinant(a) > 0 ? 1 : -1);
   }
   const int factors = static_cast<int>(factors_.size());
   for (const double f : values(x, compiled_->values() - factors, factors)) state.signs.push_back(f > 0 ? 1 : -1);

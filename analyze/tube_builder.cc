@@ -1,9 +1,10 @@
 #include "corank/analyze/tube_builder.h"
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
@@ -28,8 +29,8 @@ std::optional<TubeBuilder::Node> TubeBuilder::node(const PathSpace::Point& x, co
   if (!basis.allFinite() || basis.cols() != space_.dimension()) return std::nullopt;
   if (before) {
     const Eigen::MatrixXd product = before->across * basis;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    result.across = svd.matrixU() * svd.matrixV().transpose() * basis.transpose();
+    const SingularValueDecomposition svd = decompose(product);
+    result.across = svd.u * svd.v.transpose() * basis.transpose();
   } else {
     result.across = basis.transpose();
   }

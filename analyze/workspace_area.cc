@@ -1,6 +1,6 @@
 #include "corank/analyze/workspace_area.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +13,7 @@
 #include "corank/certify/projection.h"
 #include "corank/core/check.h"
 #include "corank/core/cover.h"
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
@@ -154,7 +155,7 @@ class Measure {
       p.dependent.push_back(static_cast<int>(lu.permutationQ().indices()(i)));
       block.col(i) = j.col(p.dependent.back()) / widths_[static_cast<std::size_t>(p.dependent.back())];
     }
-    const Eigen::MatrixXd y = block.inverse();
+    const Eigen::MatrixXd y = inverse(block);
     if (!y.allFinite()) return std::nullopt;
     for (Eigen::Index i = 0; i < m; ++i)
       for (Eigen::Index k = 0; k < m; ++k) p.y.push_back(y(i, k));
@@ -169,7 +170,7 @@ class Measure {
       Eigen::MatrixXd j = jacobian(at);
       if (!f.allFinite() || !j.allFinite()) return std::nullopt;
       for (std::size_t v = 0; v < n_; ++v) j.col(static_cast<Eigen::Index>(v)) *= v == x_ || v == y_ ? 0 : widths_[v];
-      const Eigen::VectorXd step = j.completeOrthogonalDecomposition().solve(f);
+      const Eigen::VectorXd step = least_squares(j, f).x;
       double size = 0;
       for (std::size_t v = 0; v < n_; ++v) {
         at[v] -= widths_[v] * step[static_cast<Eigen::Index>(v)] * (v == x_ || v == y_ ? 0 : 1);

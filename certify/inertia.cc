@@ -1,12 +1,11 @@
 #include "corank/certify/inertia.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "corank/core/check.h"
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify {
@@ -49,7 +48,7 @@ std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::v
     if (std::find(dependent.begin(), dependent.end(), k) == dependent.end()) free.push_back(k);
   Eigen::MatrixXd a_d(m, m);
   for (int k = 0; k < m; ++k) a_d.col(k) = middle_a.col(dependent[static_cast<std::size_t>(k)]);
-  const Eigen::MatrixXd y = a_d.inverse();  // any real matrix will do
+  const Eigen::MatrixXd y = inverse(a_d);  // any real matrix will do
   if (!y.allFinite()) return std::nullopt;
   const auto y_times = [&](int row, int column) {
     Interval sum;
@@ -89,9 +88,9 @@ std::optional<Inertia> inertia(const IntervalMatrix& h) {
   if (h.rows == 0) return Inertia{};
   const Eigen::MatrixXd middle_h = middle(h);
   if (!middle_h.allFinite()) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (middle_h + middle_h.transpose()));
-  if (eigen.info() != Eigen::Success || !eigen.eigenvectors().allFinite()) return std::nullopt;
-  const IntervalMatrix t = congruent(h, eigen.eigenvectors(), h.rows);
+  const SymmetricEigen eigen = symmetric_eigen(0.5 * (middle_h + middle_h.transpose()));
+  if (!eigen.vectors.allFinite()) return std::nullopt;
+  const IntervalMatrix t = congruent(h, eigen.vectors, h.rows);
   Inertia result;
   for (int i = 0; i < t.rows; ++i) {
     double others = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "corank/core/check.h"
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify {
@@ -51,7 +52,7 @@ bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<i
   Eigen::MatrixXd middle(s, s);
   for (int i = 0; i < s; ++i)
     for (int j = 0; j < s; ++j) middle(i, j) = entry(i, j).mid();
-  const Eigen::MatrixXd y = middle.inverse();  // any real matrix will do
+  const Eigen::MatrixXd y = inverse(middle);  // any real matrix will do
   if (!y.allFinite()) return false;
   std::vector<std::vector<int>> filled(
       static_cast<std::size_t>(s));  // of each column the rows that are not 0: large M are sparse

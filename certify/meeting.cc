@@ -1,11 +1,11 @@
 #include "corank/certify/meeting.h"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "corank/core/check.h"
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify {
@@ -38,8 +38,7 @@ bool MeetingTest::project(const Box& within, std::vector<double>& c) {
   for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < m; ++i) f(i) = system_.evaluate_at(i, c.data()).mid();
     // The least change, in widths of the sides.
-    const Eigen::VectorXd change =
-        weights.asDiagonal() * (jacobian(system_, c) * weights.asDiagonal()).completeOrthogonalDecomposition().solve(-f);
+    const Eigen::VectorXd change = weights.asDiagonal() * least_squares(jacobian(system_, c) * weights.asDiagonal(), -f).x;
     if (!change.allFinite()) return false;
     double largest = 0;
     for (int j = 0; j < n; ++j) {
@@ -67,7 +66,7 @@ Sheet MeetingTest::prove(std::vector<Interval> x, const std::vector<double>& c, 
     p.dependent.push_back(qr.colsPermutation().indices()(a));
     j_d.col(a) = j.col(p.dependent.back());
   }
-  const Eigen::MatrixXd y = j_d.inverse();
+  const Eigen::MatrixXd y = inverse(j_d);
   if (!y.allFinite()) return {};
   for (int a = 0; a < m; ++a)
     for (int b = 0; b < m; ++b) p.y.push_back(y(a, b));

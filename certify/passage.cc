@@ -1,13 +1,13 @@
 #include "corank/certify/passage.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "corank/certify/projection.h"
 #include "corank/core/check.h"
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify {
@@ -119,7 +119,7 @@ bool PassageTest::reduce(const Box& box, const Basis& basis, std::vector<Interva
         matrix[i * r + j] = entry(i, basis.dependent[j]);
         mid(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = matrix[i * r + j].mid();
       }
-    const Eigen::MatrixXd y = mid.inverse();  // any real matrix will do
+    const Eigen::MatrixXd y = inverse(mid);  // any real matrix will do
     if (!y.allFinite()) return false;
     const auto y_at = [&](std::size_t i, std::size_t j) {
       return y(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
@@ -174,7 +174,7 @@ bool PassageTest::is_definite(const std::vector<Interval>& form, std::size_t k, 
   m = 0.5 * (m + m.transpose()).eval();
   const Eigen::LLT<Eigen::MatrixXd> factors(m);
   if (factors.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd t = Eigen::MatrixXd(factors.matrixU()).inverse();
+  const Eigen::MatrixXd t = inverse(Eigen::MatrixXd(factors.matrixU()));
   if (!t.allFinite()) return false;
   const std::vector<Interval> g = congruent(form, k, t);
   for (std::size_t i = 0; i < k; ++i) {
@@ -199,8 +199,9 @@ bool PassageTest::takes_both_signs(const std::vector<Interval>& form, std::size_
     Eigen::MatrixXd m = middle(form, k);
     m = 0.5 * (m + m.transpose()).eval();
     if (!m.allFinite()) return false;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m);
-    for (Eigen::Index i = 0; i < m.rows(); ++i) see(congruent(form, k, eigen.eigenvectors().col(i)).front());
+    const SymmetricEigen eigen = symmetric_eigen(m);
+    if (!eigen.vectors.allFinite()) return false;
+    for (Eigen::Index i = 0; i < m.rows(); ++i) see(congruent(form, k, eigen.vectors.col(i)).front());
   }
   return plus && minus;
 }
@@ -263,8 +264,9 @@ PassageTest::Claim PassageTest::guess(const Box& box) const {
   if (const std::size_t k = basis.others.size(); k > 0) {
     const Eigen::MatrixXd m = middle(form, k);
     if (!m.allFinite()) return claim;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (m + m.transpose()));
-    for (Eigen::Index i = 0; i < m.rows(); ++i) count(eigen.eigenvalues()(i));
+    const Eigen::VectorXd values = symmetric_eigen(0.5 * (m + m.transpose())).values;
+    if (!values.allFinite()) return claim;
+    for (const double x : values) count(x);
   }
   double size = 0;
   for (std::size_t i = 0; i < form_->normal.size(); ++i) {

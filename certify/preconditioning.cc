@@ -1,8 +1,9 @@
 #include "corank/certify/preconditioning.h"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 #include "corank/core/check.h"
+#include "corank/core/dense.h"
 
 namespace corank::certify {
 
@@ -19,7 +20,7 @@ Preconditioner midpoint_preconditioner(const CompiledSystem& system, const std::
     for (int k = system.row_begin(i); k < system.row_begin(i + 1); ++k)
       if (const int a = place[static_cast<std::size_t>(system.column(k))]; a >= 0)
         j(i, a) += entries[static_cast<std::size_t>(k)];
-  Eigen::MatrixXd y = j.inverse();
+  Eigen::MatrixXd y = inverse(j);
   if (!y.allFinite()) y.setZero();
   Preconditioner p;
   p.dependent = dependent;

@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 
 #include "corank/core/check.h"
+#include "corank/core/dense.h"
 #include "corank/core/exact_number_node.h"
 #include "corank/core/nearest_rounding.h"
 
@@ -227,7 +228,7 @@ std::optional<std::vector<double>> approached(const System& system, std::vector<
     }
     if (!(residual < std::numeric_limits<double>::infinity()) || !jacobian.allFinite()) break;
     if (residual < least) least = residual, nearest = x;
-    const Eigen::VectorXd shift = jacobian.completeOrthogonalDecomposition().solve(value);
+    const Eigen::VectorXd shift = least_squares(jacobian, value).x;
     for (std::size_t k = 0; k < x.size(); ++k) x[k] -= shift(static_cast<int>(k));
   }
   if (!(least < kZero)) return std::nullopt;
@@ -252,7 +253,7 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
   Real shortest = -1;
   for (int k = 0; k < kSteps; ++k) {  // Newton: until the steps shrink no more
     if (is_over(ended)) return std::nullopt;
-    y = jacobian(approximate, c).fullPivHouseholderQr().inverse();
+    y = jacobian(approximate, c).completeOrthogonalDecomposition().pseudoInverse();
     Real length = 0;
     std::vector<Real> next = c;
     for (std::size_t i = 0; i < n; ++i) {

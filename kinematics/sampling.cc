@@ -1,9 +1,9 @@
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "corank/core/dense.h"
 #include "corank/core/system.h"
 #include "corank/kinematics/assembly.h"
 #include "corank/symbolic/algebrizer.h"
@@ -94,17 +94,16 @@ std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism) {
       }
       residual = m > 0 ? f.lpNorm<Eigen::Infinity>() : 0;
       if (residual < kZero || m == 0 || !(residual < kFar)) break;
-      Eigen::CompleteOrthogonalDecomposition<MatrixXd> steps;
-      steps.setThreshold(kRank);
-      x -= steps.compute(jacobian).solve(f);
+      x -= least_squares(jacobian, f, kRank).x;
     }
     const bool inside =
         std::all_of(inequalities.begin(), inequalities.end(), [&](const Numeric& g) { return g.value(x) > -1e-9; });
     if (!(residual < kZero) || !inside) continue;
     ++found;
-    Eigen::BDCSVD<MatrixXd> svd(jacobian);
-    svd.setThreshold(kRank);
-    if (m > 0) rank = svd.rank();
+    if (m > 0) {
+      const VectorXd values = singular_values(jacobian);
+      rank = (values.array() > kRank * values.maxCoeff()).count();
+    }
     // Special configurations are rarer than others, and have a lower rank.
     const int here = static_cast<int>(n - rank);
     mobility = mobility ? std::min(*mobility, here) : here;

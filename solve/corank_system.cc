@@ -1,6 +1,7 @@
 #include "corank/solve/corank_system.h"
+#include "corank/core/dense.h"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -29,7 +30,7 @@ Eigen::MatrixXd values(const certify::KernelMatrix& matrix, const std::vector<do
 }  // namespace
 
 std::vector<double> singular_values(const certify::KernelMatrix& matrix, const std::vector<double>& x) {
-  const Eigen::VectorXd s = values(matrix, x).jacobiSvd().singularValues();
+  const Eigen::VectorXd s = corank::singular_values(values(matrix, x));
   std::vector<double> result(s.data(), s.data() + s.size());
   result.resize(matrix.unknowns.size(), 0.0);  // a wide matrix has a kernel anyway
   return result;
@@ -38,7 +39,7 @@ std::vector<double> singular_values(const certify::KernelMatrix& matrix, const s
 CorankSystem corank_system(const System& system, const certify::KernelMatrix& matrix, const std::vector<double>& x, int c) {
   const int k = static_cast<int>(matrix.unknowns.size());
   // Null vectors, then the combinations of them that are the unit vectors in c well-chosen entries.
-  const Eigen::MatrixXd null = values(matrix, x).jacobiSvd(Eigen::ComputeFullV).matrixV().rightCols(c);
+  const Eigen::MatrixXd null = decompose(values(matrix, x)).v.rightCols(c);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> choice(null.transpose());
   std::vector<int> pivots;
   Eigen::MatrixXd at_pivots(c, c);
@@ -46,7 +47,7 @@ CorankSystem corank_system(const System& system, const certify::KernelMatrix& ma
     pivots.push_back(choice.colsPermutation().indices()(i));
     at_pivots.row(i) = null.row(pivots.back());
   }
-  const Eigen::MatrixXd vectors = null * at_pivots.inverse();
+  const Eigen::MatrixXd vectors = null * inverse(at_pivots);
 
   CorankSystem result;
   result.system.name = system.name + ", corank " + std::to_string(c);

@@ -1,10 +1,10 @@
 #include "corank/solve/local_solution.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::solve {
@@ -46,11 +46,8 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
   for (int step = 0; step < kSteps; ++step) {
     linearize(problem, result.x, a, b);
     if (!a.allFinite() || !b.allFinite()) return std::nullopt;
-    Eigen::CompleteOrthogonalDecomposition<Matrix> qr;
-    qr.setThreshold(tolerance);
-    qr.compute(a);
-    result.rank = static_cast<int>(qr.rank());
-    const Vector shift = qr.solve(-b);
+    const auto [shift, rank] = least_squares(a, -b, tolerance);
+    result.rank = rank;
     const double length = shift.size() > 0 ? shift.lpNorm<Eigen::Infinity>() : 0;
     if (!std::isfinite(length)) return std::nullopt;
     // What a direction without rank leaves of the residual is of second order or, at solutions of higher multiplicity, not
@@ -90,13 +87,13 @@ std::vector<double> kernel_basis(const Problem& problem, const LocalSolution& at
   Matrix a;
   Vector b;
   linearize(problem, at.x, a, b);
-  const Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullV);
+  const SingularValueDecomposition svd = decompose(a);
   const auto n = a.cols();
   int rank = 0;
-  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k) rank += svd.singularValues()(k) > tolerance;
+  for (Eigen::Index k = 0; k < svd.values.size(); ++k) rank += svd.values(k) > tolerance;
   std::vector<double> basis;
   for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index k = rank; k < n; ++k) basis.push_back(svd.matrixV()(j, k));
+    for (Eigen::Index k = rank; k < n; ++k) basis.push_back(svd.v(j, k));
   return basis;
 }
 

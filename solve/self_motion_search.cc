@@ -1,11 +1,12 @@
 #include "corank/solve/self_motion_search.h"
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "corank/certify/refinement.h"
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::solve {
@@ -106,10 +107,9 @@ int local_dimension(const Problem& problem, const LocalSolution& at) {
       moves(trial, static_cast<Eigen::Index>(j)) = (next->x[j] - at.x[j]) / (kShortStep * scales[j]);
     if (const double moved = moves.row(trial).norm(); moved > 1) moves.row(trial) /= moved;
   }
-  const Eigen::JacobiSVD<Matrix> svd(moves);
+  const Eigen::VectorXd values = singular_values(moves);
   int dimension = 0;
-  for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i)
-    dimension += svd.singularValues()(i) > kDirectionShare * std::max(1.0, svd.singularValues()(0));
+  for (Eigen::Index i = 0; i < values.size(); ++i) dimension += values(i) > kDirectionShare * std::max(1.0, values(0));
   return dimension;
 }
 
@@ -152,11 +152,10 @@ Echelon relations_of(const Problem& problem, const std::vector<LocalSolution>& s
           samples[i].x[static_cast<std::size_t>(j)] / problem.compiled.scales()[static_cast<std::size_t>(j)];
     a(static_cast<Eigen::Index>(i), n) = 1;
   }
-  const Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullV);
+  const SingularValueDecomposition svd = decompose(a);
   Eigen::Index rank = 0;
-  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
-    rank += svd.singularValues()(k) > kNullTolerance * svd.singularValues()(0);
-  Echelon e{svd.matrixV().rightCols(n + 1 - rank).transpose(), {}};
+  for (Eigen::Index k = 0; k < svd.values.size(); ++k) rank += svd.values(k) > kNullTolerance * svd.values(0);
+  Echelon e{svd.v.rightCols(n + 1 - rank).transpose(), {}};
   for (Eigen::Index row = 0; row < e.rows.rows(); ++row) {
     Eigen::Index r = 0, c = 0;
     const double best = e.rows.block(row, 0, e.rows.rows() - row, n).cwiseAbs().maxCoeff(&r, &c);

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "corank/certify/polynomial_algebra.h"
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify {
@@ -69,8 +69,7 @@ Box solution(const Strata::Stratum& stratum, const Point& x) {
     at[static_cast<std::size_t>(n + j)] = 1;
     for (int i = 0; i < q; ++i) m(i, j) = value(stratum.system.equations[first + static_cast<std::size_t>(i)], at);
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(m, Eigen::ComputeFullV);
-  Eigen::VectorXd xi = svd.matrixV().col(k - 1);
+  Eigen::VectorXd xi = decompose(m).v.col(k - 1);
   EXPECT_LT((m * xi).norm(), 1e-12) << "no critical point";
   if (xi(k - 1) < 0) xi = -xi;
   Box box;

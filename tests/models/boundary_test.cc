@@ -10,6 +10,7 @@
 #include <random>
 
 #include "corank/analyze/area_by_boundary.h"
+#include "corank/core/dense.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/boundary.h"
 #include "corank/symbolic/model_file.h"
@@ -149,9 +150,8 @@ struct Arm {
     }
     VectorXd form(0);
     if (m > 1) {
-      const Eigen::JacobiSVD<MatrixXd> svd(jacobian, Eigen::ComputeFullV);
-      const MatrixXd v = svd.matrixV().rightCols(m - 1);
-      form = -Eigen::SelfAdjointEigenSolver<MatrixXd>(v.transpose() * hessian * v).eigenvalues();
+      const MatrixXd v = decompose(jacobian).v.rightCols(m - 1);
+      form = -symmetric_eigen(v.transpose() * hessian * v).values;
     }
     for (std::size_t i = 0; i < size(); ++i) {
       if (at[i] == 0) continue;

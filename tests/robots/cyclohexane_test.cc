@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "corank/core/dense.h"
 #include "corank/solve/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
@@ -51,9 +52,7 @@ bool close(Ring& ring) {
         j.block<1, 3>(row, 3 * other) = 2 * way.transpose();
       }
     if (f.norm() < 1e-13) return true;
-    Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, 12, 18>> steps;
-    steps.setThreshold(1e-9);
-    ring -= steps.compute(j).solve(f);
+    ring -= least_squares(j, f, 1e-9).x;
   }
   return false;
 }

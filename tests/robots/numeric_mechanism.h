@@ -1,8 +1,7 @@
 // A mechanism in doubles: configurations found by Newton's method, Jacobians of its equations and of its velocity equation.
 #pragma once
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/core/dense.h"
 #include "corank/core/system.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/evaluate.h"
@@ -57,15 +57,14 @@ class NumericPolynomial {
 /// Orthonormal columns that span the kernel; singular values below `zero` times the largest count as 0.
 inline MatrixXd kernel(const MatrixXd& a, double zero = 1e-8) {
   if (a.rows() == 0) return MatrixXd::Identity(a.cols(), a.cols());
-  const Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeFullV);
+  const SingularValueDecomposition svd = decompose(a);
   Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > zero * svd.singularValues()[0]) ++rank;
-  return svd.matrixV().rightCols(a.cols() - rank);
+  while (rank < svd.values.size() && svd.values[rank] > zero * svd.values[0]) ++rank;
+  return svd.v.rightCols(a.cols() - rank);
 }
 inline Eigen::Index rank(const MatrixXd& a, double zero) {
   if (a.size() == 0) return 0;
-  const VectorXd values = Eigen::JacobiSVD<MatrixXd>(a).singularValues();
-  return (values.array() > zero).count();
+  return (singular_values(a).array() > zero).count();
 }
 
 class NumericMechanism {
@@ -112,9 +111,7 @@ class NumericMechanism {
       if (!(f.lpNorm<Eigen::Infinity>() < 1e8)) return std::nullopt;
       MatrixXd j = jacobian(x);
       for (const Eigen::Index k : fixed) j.col(k).setZero();
-      Eigen::CompleteOrthogonalDecomposition<MatrixXd> steps;
-      steps.setThreshold(1e-9);
-      VectorXd by = steps.compute(j).solve(f);
+      VectorXd by = least_squares(j, f, 1e-9).x;
       if (by.norm() > 1) by /= by.norm();
       x -= by;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "corank/core/dense.h"
 #include "corank/solve/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
@@ -32,7 +33,7 @@ int mobility(const Vector3d& p) {
     if (leg != 1) loops.block<6, 5>(0, 5 * leg) = (leg == 0 ? 1 : -1) * screws;
     if (leg != 2) loops.block<6, 5>(6, 5 * leg) = (leg == 0 ? 1 : -1) * screws;
   }
-  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(loops).singularValues();
+  const Eigen::VectorXd values = singular_values(loops);
   return 15 - static_cast<int>((values.array() > 1e-9).count());
 }
 
