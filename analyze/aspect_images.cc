@@ -12,9 +12,9 @@
 namespace corank::analyze {
 namespace {
 
-class Grid {
+class SquareGrid {
  public:
-  Grid(Interval x, Interval y, int rows) : x_(x), y_(y), rows_(rows) {}
+  SquareGrid(Interval x, Interval y, int rows) : x_(x), y_(y), rows_(rows) {}
 
   struct Square {
     int i, j;
@@ -64,7 +64,7 @@ class Grid {
 
 class Imager {
  public:
-  Imager(SignCells& cells, int x, int y, const Grid& grid)
+  Imager(SignCells& cells, int x, int y, const SquareGrid& grid)
       : cells_(cells), x_(static_cast<std::size_t>(x)), y_(static_cast<std::size_t>(y)), grid_(grid) {}
 
   // Marks the squares that a part may touch, and those that it is proven to cover.
@@ -83,14 +83,14 @@ class Imager {
       }
       return;
     }
-    grid_.for_each_touching(here.sides[x_], here.sides[y_], [&](const Grid::Square& s) {
+    grid_.for_each_touching(here.sides[x_], here.sides[y_], [&](const SquareGrid::Square& s) {
       touched[grid_.index(s)] = true;
       if (all > 0 && !covered[grid_.index(s)] && covers(here, signs, s)) covered[grid_.index(s)] = true;
     });
   }
 
  private:
-  bool covers(const SignCell& cell, const std::vector<int>& signs, const Grid::Square& s) {
+  bool covers(const SignCell& cell, const std::vector<int>& signs, const SquareGrid::Square& s) {
     const Interval gx = grid_.side_x(s.i), gy = grid_.side_y(s.j);
     Box at = cell.sides;
     at[x_] = Interval(gx.mid()), at[y_] = Interval(gy.mid());
@@ -101,7 +101,7 @@ class Imager {
 
   SignCells& cells_;
   std::size_t x_, y_;
-  const Grid& grid_;
+  const SquareGrid& grid_;
 };
 
 }  // namespace
@@ -118,7 +118,7 @@ PieceImages images(SignCells& cells, const Pieces& pieces, int x, int y, int row
     range_x = Interval::hull(range_x, cell.sides[static_cast<std::size_t>(x)]);
     range_y = Interval::hull(range_y, cell.sides[static_cast<std::size_t>(y)]);
   }
-  const Grid grid(range_x, range_y, rows);
+  const SquareGrid grid(range_x, range_y, rows);
   Imager imager(cells, x, y, grid);
   const std::vector<bool> none(static_cast<std::size_t>(rows * rows), false);
   std::vector<std::vector<bool>> touched(n, none), covered(n, none);

@@ -21,7 +21,6 @@ namespace corank::analyze {
 namespace {
 
 constexpr int kUnknown = -1;
-constexpr int kHeights = 6;  // that are tried for two which say something
 
 struct Solved {
   System system;
@@ -39,13 +38,6 @@ Cover solved(const System& system, std::optional<double> sigma, const TopologyOp
   Cover cover = solve::solve(prepared, control, most);
   if (cover.dimension == 0) solve::prove_exactly(prepared, cover, control);
   return cover;
-}
-
-// Wider than every sheet: they are not cut.
-double whole_sheets(const System& system) {
-  double widest = 1;
-  for (const Interval& side : system.domain()) widest = std::max(widest, side.width());
-  return 2 * widest;
 }
 
 // Signs of the second-order form of h at the critical points.
@@ -209,6 +201,12 @@ void find_shape(const study::Question& question, const Solved& space, const Topo
 }
 
 }  // namespace
+
+double whole_sheets(const System& system) {
+  double widest = 1;
+  for (const Interval& side : system.domain()) widest = std::max(widest, side.width());
+  return 2 * widest;
+}
 
 int HeightCount::points() const { return std::accumulate(by_index.begin(), by_index.end(), 0); }
 

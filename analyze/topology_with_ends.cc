@@ -16,15 +16,6 @@
 namespace corank::analyze {
 namespace {
 
-constexpr int kHeights = 6;  // that are tried for two which say something
-
-// Wider than every sheet: they are not cut.
-double whole_sheets(const System& system) {
-  double widest = 1;
-  for (const Interval& side : system.domain()) widest = std::max(widest, side.width());
-  return 2 * widest;
-}
-
 struct Corner {
   int first, second;  // ends
   Box point;          // in the set's variables

@@ -6,6 +6,11 @@
 
 namespace corank::analyze {
 
+inline constexpr int kHeights = 6;  ///< that are tried for two which say something
+
+/// A σ that is wider than every sheet: they are not cut.
+double whole_sheets(const System& system);
+
 /// Without those ends at which a search finds no solution: all solutions are strictly within them.
 std::vector<Limit> without_unreached(const System& system, std::vector<Limit> ends, const TopologyOptions& options,
                                      std::uint64_t& processed, solve::Control& control);

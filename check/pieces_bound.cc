@@ -19,7 +19,7 @@
 namespace corank::check {
 namespace {
 
-constexpr std::size_t kMostCells = 400'000, kMostOpen = 3, kMostPairs = 20'000'000;
+constexpr std::size_t kMostPieceCells = 400'000, kMostOpen = 3, kMostPairs = 20'000'000;
 
 // Bit k: function k is positive.
 using Mask = std::uint32_t;
@@ -30,7 +30,7 @@ struct PieceOf {
   SignParts::Directions passages{};  // of a passage
 };
 
-struct Cell {
+struct CellOfPiece {
   std::size_t sheet = 0;
   FreeSides over;
   SignCell cell;
@@ -106,7 +106,7 @@ class Bound {
   }
 
   std::string check_cells() {
-    if (proof_.cells.size() > kMostCells) return "there are too many cells";
+    if (proof_.cells.size() > kMostPieceCells) return "there are too many cells";
     cells_of_.resize(sheets_.size());
     for (const PieceCell& cell : proof_.cells) {
       if (cell.sheet < 0 || static_cast<std::size_t>(cell.sheet) >= sheets_.size()) return "a cell is of no sheet";
@@ -139,7 +139,7 @@ class Bound {
   }
 
   // False: a part of it is not known.
-  bool find_parts(Cell& c) const {
+  bool find_parts(CellOfPiece& c) const {
     std::vector<std::size_t> open;
     for (const std::size_t k : c.cell.mixed)
       if (k < functions_) open.push_back(k);
@@ -162,9 +162,9 @@ class Bound {
   }
 
   // Divides the cell further where need be; false: parts stay unknown.
-  bool examine(std::size_t sheet, const FreeSides& over, int halvings, std::vector<Cell>& result) const {
+  bool examine(std::size_t sheet, const FreeSides& over, int halvings, std::vector<CellOfPiece>& result) const {
     whole_.stop().poll();
-    Cell c;
+    CellOfPiece c;
     c.sheet = sheet;
     c.over = over;
     c.cell = parts_.cell(sheets_.free(sheet), sheets_.start(sheet, over));
@@ -197,14 +197,14 @@ class Bound {
   }
 
   std::string examine_all() {
-    std::vector<std::vector<Cell>> found(proof_.cells.size());
+    std::vector<std::vector<CellOfPiece>> found(proof_.cells.size());
     std::atomic<std::size_t> unknown = 0;
     parallel(found.size(), [&](std::size_t i) {
       const PieceCell& cell = proof_.cells[i];
       if (!examine(static_cast<std::size_t>(cell.sheet), cell.sides, kHalvings, found[i])) ++unknown;
     });
-    for (std::vector<Cell>& list : found)
-      for (Cell& cell : list) cells_.push_back(std::move(cell));
+    for (std::vector<CellOfPiece>& list : found)
+      for (CellOfPiece& cell : list) cells_.push_back(std::move(cell));
     result_.cells = cells_.size();
     return unknown == 0 ? "" : std::to_string(unknown) + " cells have parts that are not known";
   }
@@ -241,7 +241,7 @@ class Bound {
   std::string number_parts() {
     std::size_t parts = 0;
     std::vector<const Box*> hulls;
-    for (const Cell& c : cells_) {
+    for (const CellOfPiece& c : cells_) {
       first_.push_back(parts);
       parts += c.parts.size();
       hulls.push_back(&c.hull);
@@ -337,7 +337,7 @@ class Bound {
     });
     std::vector<Box> near(solutions.size());
     std::vector<const Box*> boxes;
-    for (const Cell& c : cells_) boxes.push_back(&c.hull);
+    for (const CellOfPiece& c : cells_) boxes.push_back(&c.hull);
     std::vector<std::size_t> link_of;
     for (std::size_t i = 0; i < solutions.size(); ++i) {
       if (solutions[i].empty()) continue;
@@ -375,7 +375,7 @@ class Bound {
   // Cells of one sheet that meet: the sheet's solutions over some points that they have in common.
   void join_along_borders() {
     for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
-      const Cell &a = cells_[c], &b = cells_[d];
+      const CellOfPiece &a = cells_[c], &b = cells_[d];
       if (a.sheet != b.sheet || !a.parts[p].connected || !b.parts[q].connected) return;
       if (classes_.of(first_[c] + p) == classes_.of(first_[d] + q)) return;
       const auto both = common(c, d);
@@ -412,7 +412,7 @@ class Bound {
   SignParts parts_{whole_, rows_};
   int threads_;
   std::vector<std::vector<const FreeSides*>> cells_of_;  // of each sheet
-  std::vector<Cell> cells_;
+  std::vector<CellOfPiece> cells_;
   std::vector<std::size_t> first_;  // of each cell the number of its first part
   std::vector<std::pair<std::size_t, std::size_t>> touching_;
   Classes classes_{0};

@@ -8,7 +8,7 @@
 namespace corank::check {
 namespace {
 
-constexpr int kMostParts = 1024;
+constexpr int kMostPartsOfMotion = 1024;
 
 bool is_linear_and_rational(const Polynomial& f) {
   return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
@@ -121,7 +121,7 @@ std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
   std::vector<Sides> open{all};
   for (int parts = 0; !open.empty(); ++parts) {
     problem_.stop().poll();
-    if (parts == kMostParts) return "uniqueness along its self-motion is not shown";
+    if (parts == kMostPartsOfMotion) return "uniqueness along its self-motion is not shown";
     const Sides x = std::move(open.back());
     open.pop_back();
     if (newton.set(dependent, x, Krawczyk::Center::polished) && newton.is_injective(x)) continue;

@@ -162,7 +162,7 @@ class ShapeCheck {
   }
 
   bool holds_strictly(const Problem& problem, const Condition& condition, const Box& box) const {
-    constexpr int kMostParts = 2000;
+    constexpr int kMostPartsOfRange = 2000;
     Search search(problem);
     Sides first;
     for (const int j : problem.kept()) first.emplace_back(box[static_cast<std::size_t>(j)]);
@@ -176,7 +176,7 @@ class ShapeCheck {
       for (std::size_t j = 1; j < x.size(); ++j)
         if (x[j].width() > x[widest].width()) widest = j;
       const double from = x[widest].lo(), middle = x[widest].mid(), to = x[widest].hi();
-      if (parts > kMostParts || !(from < middle && middle < to)) return false;
+      if (parts > kMostPartsOfRange || !(from < middle && middle < to)) return false;
       open.push_back(x);
       open.back()[widest] = Enclosure(middle, to);
       x[widest] = Enclosure(from, middle);

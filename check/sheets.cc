@@ -9,7 +9,7 @@ namespace {
 
 using Center = Krawczyk::Center;
 
-constexpr int kMostParts = 4096;
+constexpr int kMostPartsOfSheet = 4096;
 constexpr int kProofSteps = 12;
 constexpr int kTightenings = 2, kPointTightenings = 30;
 
@@ -59,7 +59,7 @@ class SheetCheck {
   // exactly one for every value. False: stop.
   bool examine(Sides x, bool proven) {
     problem_.stop().poll();
-    if (++parts_ > kMostParts) return fail(pending_reason_.empty() ? "too many parts" : pending_reason_);
+    if (++parts_ > kMostPartsOfSheet) return fail(pending_reason_.empty() ? "too many parts" : pending_reason_);
     if (!proven) {
       const bool shown = prove(x);
       if (!reason_.empty()) return false;

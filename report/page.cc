@@ -12,6 +12,7 @@
 #include "corank/report/page_derivation.h"
 #include "corank/report/page_points.h"
 #include "corank/report/page_words.h"
+#include "corank/report/template_data.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
@@ -20,10 +21,6 @@ namespace corank::report {
 namespace {
 
 namespace mustache = kainjow::mustache;
-
-mustache::data truth(bool value) {
-  return mustache::data{value ? mustache::data::type::bool_true : mustache::data::type::bool_false};
-}
 
 mustache::data set_entry(const SetView& view) {
   mustache::data entry;

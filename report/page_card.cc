@@ -7,17 +7,12 @@
 
 #include "corank/report/page_assets.h"
 #include "corank/report/page_words.h"
+#include "corank/report/template_data.h"
 
 namespace corank::report {
 namespace {
 
 namespace mustache = kainjow::mustache;
-
-mustache::data sentences(const std::vector<std::string>& list) {
-  mustache::data items{mustache::data::type::list};
-  for (const std::string& sentence : list) items << mustache::data{"sentence", sentence};
-  return items;
-}
 
 }  // namespace
 

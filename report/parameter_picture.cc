@@ -17,7 +17,7 @@ namespace {
 constexpr int kGrid = 4096;
 constexpr double kLeft = 50, kTop = 26, kFrame = 300, kText = 9, kTitle = 10, kLine = 0.6, kLegendGap = 16, kRow = 15;
 constexpr double kSwatch = 9, kDot = 0.5;  // of a cell's side
-constexpr Color kUnknown{0.83, 0.83, 0.83}, kCurve{0.13, 0.13, 0.15}, kMayMeet{0.55, 0.55, 0.57};
+constexpr Color kUnknownColor{0.83, 0.83, 0.83}, kCurve{0.13, 0.13, 0.15}, kMayMeet{0.55, 0.55, 0.57};
 
 // Light enough for a dark curve beside them, told apart by the colour-blind and, in order, in grey: from pale yellow to
 // dark blue for growing numbers.
@@ -90,7 +90,7 @@ class Drawing {
         has_unknown_ = true;
       }
     }
-    add_shape("not known for whole cells", kUnknown, unknown);
+    add_shape("not known for whole cells", kUnknownColor, unknown);
     for (const auto& [number, cells] : regions) {
       add_shape(std::to_string(number), colors_.at(number), cells);
       proven_.push_back(number);
@@ -148,7 +148,7 @@ class Drawing {
     double y = kTop, right = x;
     const auto add = [&](const Color& color, const std::string& words, double size) {
       const double room = (1 - size) / 2 * kSwatch;
-      if (size < 1) out_.swatches.push_back({x, y, kSwatch, kSwatch, kUnknown, 1});
+      if (size < 1) out_.swatches.push_back({x, y, kSwatch, kSwatch, kUnknownColor, 1});
       out_.swatches.push_back({x + room, y + room, size * kSwatch, size * kSwatch, color, 1});
       out_.texts.push_back({x + kSwatch + 6, y + kSwatch - 1, kText, Layout::Anchor::start, false, {{words}}});
       right = std::max(right, x + kSwatch + 6 + drawn_width({{words}}, kText));
@@ -158,7 +158,7 @@ class Drawing {
     for (auto k = proven_.rbegin(); k != proven_.rend(); ++k) add(colors_.at(*k), std::to_string(*k), 1);
     for (auto k = dots_.rbegin(); k != dots_.rend(); ++k)
       add(colors_.at(k->first), fmt::format("{}, at the cell’s centre", k->first), kDot);
-    if (has_unknown_) add(kUnknown, "not known for the whole cell", 1);
+    if (has_unknown_) add(kUnknownColor, "not known for the whole cell", 1);
     if (has_curve_) add(kCurve, "solutions meet", 1);
     if (has_others_) add(kMayMeet, "solutions may meet", 1);
     return right;

@@ -9,6 +9,7 @@
 #include "corank/report/page_data.h"
 #include "corank/report/page_words.h"
 #include "corank/report/path_words.h"
+#include "corank/report/template_data.h"
 #include "corank/result/verification.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/singularity_system.h"
@@ -17,16 +18,6 @@ namespace corank::report {
 namespace {
 
 namespace mustache = kainjow::mustache;
-
-mustache::data truth(bool value) {
-  return mustache::data{value ? mustache::data::type::bool_true : mustache::data::type::bool_false};
-}
-
-mustache::data sentences(const std::vector<std::string>& list) {
-  mustache::data items{mustache::data::type::list};
-  for (const std::string& sentence : list) items << mustache::data{"sentence", sentence};
-  return items;
-}
 
 /// The variables that the page's coordinates and constraints speak of.
 std::vector<std::string> variables_of_page(const symbolic::Mechanism& mechanism) {

@@ -16,7 +16,7 @@ namespace {
 constexpr int kDeepest = 6, kMostItems = 1000;  // of a group
 constexpr int kMostItemsInAll = 200'000;        // a result may consist of many parts
 constexpr std::size_t kLongestName = 200;
-constexpr std::uint64_t kBlock = std::uint64_t{8} << 20;  // bytes read at a time
+constexpr std::uint64_t kBytesAtATime = std::uint64_t{8} << 20;  // bytes read at a time
 constexpr std::uint64_t kLongestChunk = std::uint64_t{1} << 24;
 constexpr std::uint64_t kMostDeflated = 1040;  // deflate shrinks no more than so many times
 constexpr std::uint64_t kLongestAttribute = std::uint64_t{1} << 16;
@@ -29,13 +29,13 @@ std::uint64_t times(std::uint64_t a, std::uint64_t b, const std::string& name) {
   return a * b;
 }
 
-struct Shape {
+struct Extents {
   int rank = 0;
   std::array<std::uint64_t, 2> sizes{1, 1};
 };
 
-Shape shape_of(hid_t space, const std::string& name) {
-  Shape shape;
+Extents shape_of(hid_t space, const std::string& name) {
+  Extents shape;
   const H5S_class_t kind = H5Sget_simple_extent_type(space);
   if (kind == H5S_SCALAR) return shape;
   shape.rank = H5Sget_simple_extent_ndims(space);
@@ -234,7 +234,7 @@ class ContentsCopy {
     const Handle space(H5Dget_space(set), H5Sclose, path + " has no shape");
     const Handle type(H5Dget_type(set), H5Tclose, path + " has no type");
     describe_type(type, item);
-    const Shape shape = shape_of(space, path);
+    const Extents shape = shape_of(space, path);
     item.rank = shape.rank;
     item.sizes = shape.sizes;
     const std::uint64_t size = times(times(shape.sizes[0], shape.sizes[1], path), item.width, path);
@@ -246,7 +246,7 @@ class ContentsCopy {
 
   // Along the first dimension, so much at a time that the memory needed does not depend on the array's size.
   void copy_blocks(hid_t set, hid_t space, hid_t type, const Item& item) {
-    const std::uint64_t row = item.sizes[1] * item.width, rows = std::max<std::uint64_t>(1, kBlock / row);
+    const std::uint64_t row = item.sizes[1] * item.width, rows = std::max<std::uint64_t>(1, kBytesAtATime / row);
     std::vector<std::byte> data;
     for (std::uint64_t from = 0; from < item.sizes[0]; from += rows) {
       const std::array<hsize_t, 2> start{from, 0}, count{std::min<std::uint64_t>(rows, item.sizes[0] - from), item.sizes[1]};

@@ -16,8 +16,7 @@
 namespace corank::result {
 namespace {
 
-constexpr const char* kFormat = kPathFormat;
-constexpr std::int64_t kFormatVersion = 1;
+constexpr std::int64_t kPathVersion = 1;
 constexpr std::int64_t kMostNodes = 10'000'000, kMostVariables = 100'000;
 
 void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<const Box*>& boxes, std::size_t n) {
@@ -52,7 +51,7 @@ void write_path(const std::filesystem::path& path, const PathFile& data) {
   const std::size_t n = data.variables.size(), nodes = data.tube.nodes.size();
   CORANK_CHECK(nodes > 0);
   const std::size_t across = data.tube.nodes.front().values.size();
-  write_source(file, kFormat, kFormatVersion, data);
+  write_source(file, kPathFormat, kPathVersion, data);
   file.attribute("/", "avoid", data.avoid);
   file.attribute("/", "radius", data.tube.radius());
   file.attribute("/", "variables", static_cast<std::int64_t>(n));
@@ -76,7 +75,7 @@ void write_path(const std::filesystem::path& path, const PathFile& data) {
   target.finish();
 }
 
-bool is_path_file(const std::filesystem::path& path) { return format_of(path.string()) == kFormat; }
+bool is_path_file(const std::filesystem::path& path) { return format_of(path.string()) == kPathFormat; }
 
 PathFile read_path(const std::filesystem::path& path) {
   const Hdf5Reader file(path.string());
@@ -87,7 +86,7 @@ PathFile read_path(const std::filesystem::path& path) {
     return static_cast<std::size_t>(value);
   };
   PathFile data;
-  read_source(file, kFormat, kFormatVersion, data);
+  read_source(file, kPathFormat, kPathVersion, data);
   data.avoid = file.text_attribute("/", "avoid");
   if (data.avoid != "forward" && data.avoid != "inverse" && data.avoid != "both") refuse("it avoids nothing that is known");
   const std::size_t n = count("variables", 1, kMostVariables), across = count("dimension", 1, static_cast<std::int64_t>(n)),

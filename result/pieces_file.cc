@@ -20,8 +20,7 @@
 namespace corank::result {
 namespace {
 
-constexpr const char* kFormat = kPiecesFormat;
-constexpr std::int64_t kFormatVersion = 1;
+constexpr std::int64_t kPiecesVersion = 1;
 constexpr std::int64_t kMostPieces = 1'000'000, kNone = -1;
 constexpr std::array<const char*, 3> kLists{"aspects", "assembly_modes", "working_modes"};
 constexpr std::array<const char*, 3> kWords{"aspects", "assembly modes", "working modes"};
@@ -120,7 +119,7 @@ void write_pieces(const std::filesystem::path& path, const PiecesFile& data) {
   const std::size_t n = system.variables.size();
   const OutputFile target(path);
   Hdf5Writer file(target.part().string());
-  write_source(file, kFormat, kFormatVersion, data);
+  write_source(file, kPiecesFormat, kPiecesVersion, data);
   file.texts("/variables", names(system));
   write_cover(file, "/space", data.space, n);
   for (std::size_t k = 0; k < kLists.size(); ++k)
@@ -132,13 +131,13 @@ void write_pieces(const std::filesystem::path& path, const PiecesFile& data) {
   target.finish();
 }
 
-bool is_pieces_file(const std::filesystem::path& path) { return format_of(path.string()) == kFormat; }
+bool is_pieces_file(const std::filesystem::path& path) { return format_of(path.string()) == kPiecesFormat; }
 
 PiecesFile read_pieces(const std::filesystem::path& path) {
   Hdf5Reader file(path.string());
   const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": " + what); };
   PiecesFile data;
-  read_source(file, kFormat, kFormatVersion, data);
+  read_source(file, kPiecesFormat, kPiecesVersion, data);
   const std::vector<std::string> expected = names(symbolic::algebrize(equations_of(model_of(data))));
   if (file.texts("/variables") != expected) refuse("its variables are not those of the model");
   data.space = read_cover(file, "/space", expected.size());

@@ -19,8 +19,7 @@
 namespace corank::result {
 namespace {
 
-constexpr const char* kFormat = kShapeFormat;
-constexpr std::int64_t kFormatVersion = 1;
+constexpr std::int64_t kShapeVersion = 1;
 constexpr std::int64_t kMostHeights = 16, kMostHeightNumber = 1000, kMostVariables = 100'000;
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();  // of a number that is not claimed
 
@@ -54,7 +53,7 @@ void write_shape(const std::filesystem::path& path, const ShapeFile& data) {
   const std::size_t n = space.variables.size();
   const OutputFile target(path);
   Hdf5Writer file(target.part().string());
-  write_source(file, kFormat, kFormatVersion, data);
+  write_source(file, kShapeFormat, kShapeVersion, data);
   file.attribute("/", "variables", static_cast<std::int64_t>(n));
   file.attribute("/", "heights", static_cast<std::int64_t>(shape.heights.size()));
   file.attribute("/", "at_least", std::int64_t{shape.at_least});
@@ -101,7 +100,7 @@ void write_shape(const std::filesystem::path& path, const ShapeFile& data) {
   target.finish();
 }
 
-bool is_shape_file(const std::filesystem::path& path) { return format_of(path.string()) == kFormat; }
+bool is_shape_file(const std::filesystem::path& path) { return format_of(path.string()) == kShapeFormat; }
 
 namespace {
 
@@ -111,7 +110,7 @@ class ShapeReader {
 
   ShapeFile read() {
     ShapeFile data;
-    read_source(file_, kFormat, kFormatVersion, data);
+    read_source(file_, kShapeFormat, kShapeVersion, data);
     const symbolic::Mechanism model = model_of(data);
     const std::vector<std::string> expected = names(space_of(model));
     if (file_.texts("/variables") != expected) refuse("its variables are not those of the model");

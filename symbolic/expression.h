@@ -38,6 +38,10 @@ class Expression {
   const std::string& name() const;
   const std::vector<Expression>& operands() const;
   const SourceLocation& where() const;
+  /// Where it is written; of what a program made, `otherwise`.
+  const SourceLocation& where_or(const SourceLocation& otherwise) const { return where().line > 0 ? where() : otherwise; }
+  /// Is it written with signs that a factor must keep in parentheses?
+  bool is_sum_or_negation() const { return kind() == Kind::sum || kind() == Kind::negation; }
 
   /// Does the name occur?
   bool mentions(const std::string& symbol_name) const;

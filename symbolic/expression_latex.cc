@@ -59,8 +59,6 @@ std::string in_parentheses(const std::string& inside) {
 
 std::string in_parentheses_if(bool needed, const Expression& e) { return needed ? in_parentheses(print(e)) : print(e); }
 
-bool is_sum_or_negation(const Expression& e) { return e.kind() == Kind::sum || e.kind() == Kind::negation; }
-
 /// Written with a name and its argument: not sqrt and abs, which enclose theirs.
 bool is_named_function(const Expression& e) { return e.kind() == Kind::function && e.name() != "sqrt" && e.name() != "abs"; }
 
@@ -120,7 +118,7 @@ std::string print_product(const Expression& e) {
   const Expression* left = nullptr;
   for (const Expression& factor : e.operands()) {
     const std::string text =
-        in_parentheses_if(is_sum_or_negation(factor) || (left && factor.kind() == Kind::product), factor);
+        in_parentheses_if(factor.is_sum_or_negation() || (left && factor.kind() == Kind::product), factor);
     if (left) result += product_sign(*left, factor, text);
     result += text;
     left = &factor;
@@ -137,7 +135,7 @@ std::string print(const Expression& e) {
     case Kind::product: return print_product(e);
     case Kind::quotient: return "\\frac{" + print(e.operands()[0]) + "}{" + print(e.operands()[1]) + "}";
     case Kind::power: return print_power(e);
-    case Kind::negation: return "-" + in_parentheses_if(is_sum_or_negation(e.operands()[0]), e.operands()[0]);
+    case Kind::negation: return "-" + in_parentheses_if(e.operands()[0].is_sum_or_negation(), e.operands()[0]);
   }
   return "";
 }

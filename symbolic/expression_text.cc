@@ -17,7 +17,6 @@ void print_in_parentheses_if(bool needed, const Expression& e, std::string& out)
   if (needed) out += ')';
 }
 
-bool is_sum_or_negation(const Expression& e) { return e.kind() == Kind::sum || e.kind() == Kind::negation; }
 bool is_product_or_quotient(const Expression& e) { return e.kind() == Kind::product || e.kind() == Kind::quotient; }
 bool is_atom(const Expression& e) {
   return e.kind() == Kind::number || e.kind() == Kind::symbol || e.kind() == Kind::function;
@@ -39,7 +38,7 @@ void print_product(const Expression& e, std::string& out) {
   for (const Expression& factor : e.operands()) {
     if (!first) out += '*';
     const bool grouped = first ? factor.kind() == Kind::product : is_product_or_quotient(factor);
-    print_in_parentheses_if(grouped || is_sum_or_negation(factor), factor, out);
+    print_in_parentheses_if(grouped || factor.is_sum_or_negation(), factor, out);
     first = false;
   }
 }
@@ -56,9 +55,9 @@ void print(const Expression& e, std::string& out) {
     case Kind::sum: print_sum(e, out); break;
     case Kind::product: print_product(e, out); break;
     case Kind::quotient:
-      print_in_parentheses_if(is_sum_or_negation(operands[0]), operands[0], out);
+      print_in_parentheses_if(operands[0].is_sum_or_negation(), operands[0], out);
       out += '/';
-      print_in_parentheses_if(is_sum_or_negation(operands[1]) || is_product_or_quotient(operands[1]), operands[1], out);
+      print_in_parentheses_if(operands[1].is_sum_or_negation() || is_product_or_quotient(operands[1]), operands[1], out);
       break;
     case Kind::power:
       print_in_parentheses_if(!is_atom(operands[0]), operands[0], out);
@@ -67,7 +66,7 @@ void print(const Expression& e, std::string& out) {
       break;
     case Kind::negation:
       out += '-';
-      print_in_parentheses_if(is_sum_or_negation(operands[0]), operands[0], out);
+      print_in_parentheses_if(operands[0].is_sum_or_negation(), operands[0], out);
       break;
   }
 }

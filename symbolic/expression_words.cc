@@ -13,7 +13,7 @@ constexpr std::size_t kMaxDigits = 10'000;
 constexpr int kMaxDecimalExponent = 400;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_letter_of_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 std::string_view take_digits(std::string_view& text) {
   const std::size_t n = static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
@@ -26,7 +26,7 @@ std::string_view take_digits(std::string_view& text) {
 
 bool is_identifier(std::string_view name) {
   return !name.empty() && !is_digit(name[0]) &&
-         std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
+         std::all_of(name.begin(), name.end(), [](char c) { return is_letter_of_name(c) || is_digit(c); });
 }
 
 bool is_function_name(std::string_view name) {

@@ -27,7 +27,6 @@ std::string base_and_subscript(const DisplayName& shown) {
   return element("mi", html_text(shown.base)) + element(letter ? "mi" : "mn", html_text(shown.subscript));
 }
 
-bool is_sum_or_negation(const Expression& e) { return e.kind() == Kind::sum || e.kind() == Kind::negation; }
 bool is_named_function(const Expression& e) { return e.kind() == Kind::function && e.name() != "sqrt" && e.name() != "abs"; }
 
 std::string print_number(const std::string& decimal) {
@@ -95,7 +94,7 @@ std::string print_product(const Expression& e) {
     const bool dot = left && (is_named_function(*left) ? !is_named_function(factor) : begins_with_a_number(factor));
     if (left) text += sign(dot ? "·" : kInvisibleTimes);
     if (left && !dot && begins_with_a_function(factor)) text += kThinSpace;  // "rb cos", not "rbcos"
-    text += in_parentheses_if(is_sum_or_negation(factor) || (left && factor.kind() == Kind::product), factor);
+    text += in_parentheses_if(factor.is_sum_or_negation() || (left && factor.kind() == Kind::product), factor);
     left = &factor;
   }
   return row(text);
@@ -117,7 +116,7 @@ std::string mathml(const Expression& e) {
     case Kind::product: return print_product(e);
     case Kind::quotient: return element("mfrac", row(mathml(e.operands()[0])) + row(mathml(e.operands()[1])));
     case Kind::power: return print_power(e);
-    case Kind::negation: return row(sign("−") + in_parentheses_if(is_sum_or_negation(e.operands()[0]), e.operands()[0]));
+    case Kind::negation: return row(sign("−") + in_parentheses_if(e.operands()[0].is_sum_or_negation(), e.operands()[0]));
   }
   return "";
 }

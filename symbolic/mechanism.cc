@@ -14,10 +14,6 @@ std::string declared_at(const SourceLocation& where) {
   return where.line > 0 ? " in line " + std::to_string(where.line) : std::string();
 }
 
-SourceLocation place(const Expression& e, const SourceLocation& otherwise) {
-  return e.where().line > 0 ? e.where() : otherwise;
-}
-
 }  // namespace
 
 bool is_fixed(const Coordinate& coordinate) { return coordinate.has_range && same_tree(coordinate.lower, coordinate.upper); }
@@ -152,7 +148,7 @@ void Mechanism::choose(const std::string& role, const std::vector<Expression>& s
   std::unordered_set<std::string> seen(chosen.begin(), chosen.end());
   std::vector<std::string> result = chosen;
   for (const Expression& symbol : symbols) {
-    const SourceLocation at = place(symbol, where);
+    const SourceLocation at = symbol.where_or(where);
     const std::string expectation = "a variable of the model";
     if (symbol.kind() != Expression::Kind::symbol) {
       throw ModelError(at, "the " + role + " " + in_quotes(symbol.text()) + " is no name", expectation);
@@ -181,12 +177,12 @@ void Mechanism::choose(const std::string& role, const std::vector<Expression>& s
 
 void Mechanism::inputs(const std::vector<Expression>& symbols, const SourceLocation& where) {
   choose("input", symbols, where, inputs_, "output", outputs_);
-  if (inputs_where_.line == 0 && !symbols.empty()) inputs_where_ = place(symbols[0], where);
+  if (inputs_where_.line == 0 && !symbols.empty()) inputs_where_ = symbols[0].where_or(where);
 }
 
 void Mechanism::outputs(const std::vector<Expression>& symbols, const SourceLocation& where) {
   choose("output", symbols, where, outputs_, "input", inputs_);
-  if (outputs_where_.line == 0 && !symbols.empty()) outputs_where_ = place(symbols[0], where);
+  if (outputs_where_.line == 0 && !symbols.empty()) outputs_where_ = symbols[0].where_or(where);
 }
 
 void Mechanism::replace_outputs(const std::vector<Expression>& symbols, const SourceLocation& where) {

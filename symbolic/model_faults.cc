@@ -23,8 +23,8 @@ std::string hexadecimal(char c) {
   return std::string("0x") + digits[byte / 16] + digits[byte % 16];
 }
 
-struct sign : tao::pegtl::sor<tao::pegtl::string<':', '='>, tao::pegtl::string<'<', '='>, tao::pegtl::string<'>', '='>,
-                              tao::pegtl::utf8::any> {};
+struct relation_sign : tao::pegtl::sor<tao::pegtl::string<':', '='>, tao::pegtl::string<'<', '='>,
+                                       tao::pegtl::string<'>', '='>, tao::pegtl::utf8::any> {};
 
 }  // namespace
 
@@ -35,7 +35,7 @@ std::string describe_start(std::string_view text) {
   if (n == 0) n = match_length<grammar::decimal>(text);
   if (n > 0) return in_quotes(text.substr(0, n));
   if (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F) return "the control character " + hexadecimal(text[0]);
-  return in_quotes(text.substr(0, std::max<std::size_t>(match_length<sign>(text), 1)));
+  return in_quotes(text.substr(0, std::max<std::size_t>(match_length<relation_sign>(text), 1)));
 }
 
 void Fault::say(const std::string& problem, const std::string& expectation) const {

@@ -11,10 +11,6 @@
 namespace corank::symbolic {
 namespace {
 
-SourceLocation place(const Expression& e, const SourceLocation& otherwise) {
-  return e.where().line > 0 ? e.where() : otherwise;
-}
-
 /// Rough: it only decides whether an exponent is absurd.
 long double rough_function(const std::string& name, long double x) {
   if (name == "sqrt") return std::sqrt(x);
@@ -103,7 +99,7 @@ void ModelValidator::require_linear_in_rates(const Expression& e, const Context&
   }
   const std::optional<int> degree = rate_degree(e, 1);
   if (degree == 1) return;
-  throw ModelError(place(e, context.where),
+  throw ModelError(e.where_or(context.where),
                    "the term " + in_quotes(e.text()) + " in " + context.owner +
                        (degree == 0 ? " holds no rate" : " is not linear and homogeneous in the rates"),
                    "a rate times an expression in coordinates and constants");
@@ -143,7 +139,8 @@ void ModelValidator::check_part(const DrawingPart& part) const {
   const std::string owner = std::string("the radius of the ") + to_string(part.kind);
   const Size size = check(part.radius, {owner, true, part.where});
   if (size.value >= 0 && std::isfinite(size.value)) return;
-  throw ModelError(place(part.radius, part.where), owner + " is " + in_quotes(part.radius.text()), "a length of 0 or more");
+  throw ModelError(part.radius.where_or(part.where), owner + " is " + in_quotes(part.radius.text()),
+                   "a length of 0 or more");
 }
 
 // Angles that differ by a whole turn are the same, and so must be what is drawn.
@@ -153,7 +150,7 @@ void ModelValidator::require_angles_inside_functions(const Expression& e, const 
   if (e.kind() == Expression::Kind::symbol) {
     const auto coordinate = coordinates_.find(e.name());
     if (coordinate == coordinates_.end() || coordinate->second->kind != CoordinateKind::angle) return;
-    throw ModelError(place(e, context.where),
+    throw ModelError(e.where_or(context.where),
                      "the angle " + in_quotes(e.name()) + " in " + context.owner + " stands outside sin, cos and tan",
                      "cos(" + shortened(e.name()) + ") or the like");
   }
@@ -183,7 +180,7 @@ ModelValidator::Size ModelValidator::check(const Expression& e, const Context& c
   }
   if (e.kind() == Kind::function) size.degree = 1;  // stays symbolic
   if (size.degree > kMaxDegree) {
-    throw ModelError(place(e, context.where), "the powers in " + context.owner + " are too large",
+    throw ModelError(e.where_or(context.where), "the powers in " + context.owner + " are too large",
                      "a degree of at most 100000");
   }
   return size;
@@ -193,7 +190,7 @@ ModelValidator::Size ModelValidator::check_symbol(const Expression& e, const Con
   const std::string& name = e.name();
   if (name == "pi") return {1, true, std::numbers::pi_v<long double>};
   if (const auto known = constants_.find(name); known != constants_.end()) return known->second;
-  const SourceLocation where = place(e, context.where);
+  const SourceLocation where = e.where_or(context.where);
   const std::string what = in_quotes(name) + " in " + context.owner;
   const auto constant = declared_.find(name);
   if (constant != declared_.end()) {
@@ -227,14 +224,14 @@ ModelValidator::Size ModelValidator::check_power(const Expression& e, const Cont
   const Size base = check(e.operands()[0], context), exponent = check(e.operands()[1], context);
   const long double magnitude = std::abs(exponent.value);
   if (exponent.constant && !(magnitude <= kMaxExponent)) {  // also where it is no number at all
-    throw ModelError(place(e.operands()[1], context.where),
+    throw ModelError(e.operands()[1].where_or(context.where),
                      "the exponent " + in_quotes(e.operands()[1].text()) + " in " + context.owner + " is too large",
                      "at most 1000 in absolute value");
   }
   // An unknown in the exponent is for the algebrizer to refuse.
   const double degree = base.degree * (exponent.constant ? std::max(1.0, static_cast<double>(magnitude)) : 1.0);
   if (degree > kMaxDegree) {
-    throw ModelError(place(e, context.where), "the powers in " + context.owner + " are too large",
+    throw ModelError(e.where_or(context.where), "the powers in " + context.owner + " are too large",
                      "a degree of at most 100000");
   }
   return {degree, base.constant && exponent.constant, std::pow(base.value, exponent.value)};

@@ -11,18 +11,12 @@
 
 #include "corank/study/model.h"
 #include "corank/symbolic/model_file.h"
+#include "corank/tests/analyze/topologies.h"
 
 namespace corank::analyze {
 namespace {
 
 using ::testing::ElementsAre;
-
-Topology of(symbolic::Mechanism model) {
-  solve::Control control;
-  return topology({.model = std::move(model)}, {}, control);
-}
-
-Topology of_text(const std::string& text) { return of(symbolic::parse_model(text, "m.cuik")); }
 
 Topology of_model(const std::string& name) {
   return of(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik").mechanism);

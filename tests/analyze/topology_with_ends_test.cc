@@ -15,18 +15,12 @@
 #include "corank/analyze/topology.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model_file.h"
+#include "corank/tests/analyze/topologies.h"
 
 namespace corank::analyze {
 namespace {
 
 using ::testing::ElementsAre;
-
-Topology of(symbolic::Mechanism model) {
-  solve::Control control;
-  return topology({.model = std::move(model)}, {}, control);
-}
-
-Topology of_text(const std::string& text) { return of(symbolic::parse_model(text, "m.cuik")); }
 
 std::string in_space(const std::string& x, const std::string& y, const std::string& z, const std::string& equations) {
   return "[SYSTEM VARS]\nx : " + x + "\ny : " + y + "\nz : " + z + "\n[SYSTEM EQS]\n" + equations;

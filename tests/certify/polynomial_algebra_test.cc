@@ -9,13 +9,13 @@
 namespace corank::certify {
 namespace {
 
-constexpr double kTau = 1e-3;
+constexpr double kWidening = 1e-3;
 
 class Tolerant : public testing::Test {
  protected:
   static Polynomial wide(const std::vector<test::SystemBuilder::Term>& terms) {
     Polynomial f = test::SystemBuilder::polynomial(terms);
-    widen(f, kTau);
+    widen(f, kWidening);
     return f;
   }
   static Polynomial exact(const std::vector<test::SystemBuilder::Term>& terms) {
@@ -39,14 +39,14 @@ class Tolerant : public testing::Test {
 TEST_F(Tolerant, EnclosuresAreSolvedForWithTheirSign) {
   const auto value = solved_for(wide({{"2", {{0, 1}}}, {"0.5", {{1, 1}}}, {"3", {}}}), 0);
   ASSERT_TRUE(value);
-  expect(at(*value, {{1, 1}}), -0.25, 0.25 * kTau);
+  expect(at(*value, {{1, 1}}), -0.25, 0.25 * kWidening);
   EXPECT_EQ(at(*value, {}).enclosure, Interval(-1.5));
 }
 
 TEST_F(Tolerant, NothingIsDividedByWhatMayBeZero) {
   Polynomial f = exact({{"1", {{1, 1}}}});
   f.monomials.emplace_back(0, std::vector<Factor>{{0, 1}});
-  f.monomials.back().enclosure = Interval(-kTau, kTau);
+  f.monomials.back().enclosure = Interval(-kWidening, kWidening);
   EXPECT_FALSE(solved_for(f, 0));
 }
 
@@ -60,16 +60,16 @@ TEST_F(Tolerant, NoSquareProductOrSineIsSolvedFor) {
 
 TEST_F(Tolerant, SumsCarryTheFactorInTheirEnclosures) {
   const Polynomial f = sum(exact({{"1", {{0, 1}}}}), ExactNumber(-2), wide({{"0.5", {{1, 1}}}}));
-  expect(at(f, {{1, 1}}), -1, kTau);
+  expect(at(f, {{1, 1}}), -1, kWidening);
 }
 
 TEST_F(Tolerant, SumsOfLikeTermsAddTheirEnclosures) {
   const Polynomial one_of_two = sum(exact({{"0.5", {{0, 1}}}}), ExactNumber(1), wide({{"0.25", {{0, 1}}}}));
-  expect(at(one_of_two, {{0, 1}}), 0.75, 0.25 * kTau);
+  expect(at(one_of_two, {{0, 1}}), 0.75, 0.25 * kWidening);
   const Polynomial other = sum(wide({{"0.25", {{0, 1}}}}), ExactNumber(1), exact({{"0.5", {{0, 1}}}}));
-  expect(at(other, {{0, 1}}), 0.75, 0.25 * kTau);
+  expect(at(other, {{0, 1}}), 0.75, 0.25 * kWidening);
   const Polynomial none = sum(wide({{"0.5", {{0, 1}}}}), ExactNumber(-1), exact({{"0.5", {{0, 1}}}}));
-  expect(at(none, {{0, 1}}), 0, 0.5 * kTau);
+  expect(at(none, {{0, 1}}), 0, 0.5 * kWidening);
   EXPECT_EQ(none.monomials.size(), 1u) << "0 for some choices of coefficients only";
   EXPECT_TRUE(sum(exact({{"0.5", {{0, 1}}}}), ExactNumber(-1), exact({{"0.5", {{0, 1}}}})).monomials.empty());
   const Polynomial signs = sum(exact({{"0.5", {{0, 1}}}}), ExactNumber(1), exact({{"0.5", {{0, 1}}}}));
@@ -79,9 +79,9 @@ TEST_F(Tolerant, SumsOfLikeTermsAddTheirEnclosures) {
 TEST_F(Tolerant, ProductsCarryTheToleranceOfEitherFactor) {
   const Polynomial f = exact({{"0.5", {{0, 2}}}}), g = wide({{"0.5", {{0, 2}}}});
   const Polynomial value = wide({{"0.5", {{1, 1}}}}), plain = exact({{"0.5", {{1, 1}}}, {"1", {}}});
-  expect(at(substitute(f, 0, value), {{1, 2}}), 0.125, 2 * 0.125 * kTau);
-  expect(at(substitute(g, 0, plain), {{1, 2}}), 0.125, 0.125 * kTau);
-  expect(at(substitute(g, 0, plain), {{1, 1}}), 0.5, 0.5 * kTau);
+  expect(at(substitute(f, 0, value), {{1, 2}}), 0.125, 2 * 0.125 * kWidening);
+  expect(at(substitute(g, 0, plain), {{1, 2}}), 0.125, 0.125 * kWidening);
+  expect(at(substitute(g, 0, plain), {{1, 1}}), 0.5, 0.5 * kWidening);
 }
 
 TEST_F(Tolerant, PowersOfOneVariableAdd) {

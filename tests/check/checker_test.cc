@@ -16,7 +16,6 @@ namespace {
 using symbolic::SingularitySet;
 using testing::HasSubstr;
 
-constexpr const char* kCircle = "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n";
 constexpr const char* kCirclesAndLine =
     "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\nz : [-9, 9]\n[SYSTEM EQS]\nx^2 + y^2 = 2;\n3*x - 2*y = 1/3;\nz = x*y + x;\n";
 
@@ -271,8 +270,6 @@ TEST(Checker, RejectsSidesThatAreNoNumbers) {
 }
 
 // --- exact points ---
-
-ExactNumber number(const char* text) { return ExactNumber::rational(text); }
 
 // The three-slider with L1 = L2 = 1 has its forward singularities at (0, 0, ±1) and (±1, ±1, 0): y_A, y_B, x_C.
 class ThreeSlider : public testing::Test {

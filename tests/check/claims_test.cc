@@ -12,7 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kCircle = "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n";
 constexpr const char* kTwo = "[SYSTEM VARS]\nx : [-9, 9]\n[SYSTEM EQS]\nx^2 = 4;\n";
 
 std::string faults(const System& system, const Cover& cover) {

@@ -69,8 +69,6 @@ TEST(CloseSolutions, AreNotVerifiedWhereTheyAreNot) {
   EXPECT_EQ(tally(check(system, moved), Verdict::isolated), (Tally{1, 1, 0}));
 }
 
-ExactNumber number(const char* text) { return ExactNumber::rational(text); }
-
 // The fault of the number that the polynomial defines in the interval.
 std::string fault(const RationalPolynomial& p, const char* lower, const char* upper) {
   static const System system = plain("[SYSTEM VARS]\nx : [-2, 2]\n[SYSTEM EQS]\nx^2 = 0;\n");

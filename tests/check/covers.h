@@ -12,6 +12,9 @@
 
 namespace corank::check {
 
+inline constexpr const char* kCircle = "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n";
+inline ExactNumber number(const char* text) { return ExactNumber::rational(text); }
+
 /// A plain system in the model language.
 inline System plain(const std::string& text) {
   return symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(text, "test")));

@@ -15,6 +15,8 @@ struct Point {
   friend Point operator*(double k, Point a) { return {k * a.x, k * a.y}; }
 };
 inline double length(Point a) { return std::hypot(a.x, a.y); }
+inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+inline double angle_of(Point a) { return std::atan2(a.y, a.x); }
 inline Point direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// The points at distance r from a and s from b (none, or two; sign chooses).

@@ -26,7 +26,6 @@ namespace {
 using symbolic::SingularitySet;
 using test::Point;
 
-constexpr double kPi = std::numbers::pi;
 // As in the model files.
 constexpr double kBase = 2, kPlatform = 0.5, kLink1 = 1, kLink2 = 1;
 // Samples carry rounding errors of some ulps, more where a leg is nearly stretched (√ε).
@@ -38,8 +37,6 @@ const std::array<Point, 3> kBaseJoints{Point{0, 0}, Point{kBase, 0}, Point{kBase
 // vector, the velocities of x, y, phi, psi1 … psi3 with the motors locked.
 constexpr int kVariables = 22, kConfigurationSize = 16, kPhi = 2, kTheta1 = 4, kPsi1 = 10;
 using Values = std::array<double, kVariables>;
-
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 
 std::array<Point, 3> platform_joints(Point c1, Point e_phi) {
   const Point e_3{0.5 * e_phi.x - std::sqrt(0.75) * e_phi.y, std::sqrt(0.75) * e_phi.x + 0.5 * e_phi.y};
@@ -236,7 +233,7 @@ TEST_P(FixedOrientation, HasItsForwardSingularitiesWhereThreeLinesMeet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Planar3Rrr, FixedOrientation,
-                         testing::Combine(testing::Values(Orientation{"pi/10", kPi / 10}, Orientation{"0", 0}),
+                         testing::Combine(testing::Values(Orientation{"pi/10", M_PI / 10}, Orientation{"0", 0}),
                                           testing::Values(0.1, 0.01)));
 
 // By three screws: six rates in place of nine, no passive one.
@@ -249,8 +246,8 @@ TEST(Planar3Rrr, HasTheSameSingularitiesByTheScrewsOfItsLegs) {
   constexpr int kLines = 200, kSteps = 200;
   for (int k = 0; k < kLines; ++k) {
     const double at = -2 + 4 * (k + 0.37) / kLines;
-    add_samples({-2, at}, {2, at}, kPi / 10, kSteps, samples);
-    add_samples({at, -2}, {at, 2}, kPi / 10, kSteps, samples);
+    add_samples({-2, at}, {2, at}, M_PI / 10, kSteps, samples);
+    add_samples({at, -2}, {at, 2}, M_PI / 10, kSteps, samples);
   }
   EXPECT_GT(samples.size(), 2000u);
   const test::CoverLookup lookup(cover);
@@ -304,14 +301,14 @@ TEST(Planar3Rrr, WithAFixedOrientationHasItsInverseSingularitiesWhereALegIsStret
 
   const test::CoverLookup lookup(cover);
   constexpr int kSteps = 500;
-  const auto offsets = platform_joints({0, 0}, test::direction(kPi / 10));
+  const auto offsets = platform_joints({0, 0}, test::direction(M_PI / 10));
   std::size_t samples = 0, lost = 0;
   for (std::size_t leg = 0; leg < 3; ++leg)
     for (int k = 0; k < kSteps; ++k)
       for (const double reach : {kLink1 + kLink2, kLink1 - kLink2})
         for (int mode = 0; mode < 8; ++mode) {
-          const Point e = test::direction(0.01 + 2 * kPi * k / kSteps), c1 = kBaseJoints[leg] + reach * e - offsets[leg];
-          const auto q = Configuration::at(c1, kPi / 10, mode, leg, kBaseJoints[leg] + kLink1 * e);
+          const Point e = test::direction(0.01 + 2 * M_PI * k / kSteps), c1 = kBaseJoints[leg] + reach * e - offsets[leg];
+          const auto q = Configuration::at(c1, M_PI / 10, mode, leg, kBaseJoints[leg] + kLink1 * e);
           if (!q) continue;
           ++samples;
           lost += !lookup.holds(q->coordinates(), kSampleTolerance);
@@ -340,7 +337,7 @@ TEST(Planar3Rrr, LosesNoForwardSingularityWhenALimitEndsTheSearch) {
   EXPECT_GT(cover.count(Verdict::regular), 20u);
   std::vector<Values> samples;
   std::mt19937_64 random(20260);
-  std::uniform_real_distribution<double> angle(-kPi, kPi), place(-2, 2);
+  std::uniform_real_distribution<double> angle(-M_PI, M_PI), place(-2, 2);
   for (int k = 0; k < 300; ++k) {
     const double phi = angle(random);
     const Point from{place(random), place(random)}, to{place(random), place(random)};

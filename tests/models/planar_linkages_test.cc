@@ -21,10 +21,7 @@ using test::Constants;
 using test::Loops;
 using test::Point;
 
-constexpr double kPi = std::numbers::pi;
 using Places = std::vector<Configuration>;
-
-double angle_of(Point p) { return std::atan2(p.y, p.x); }
 
 void expect_points(const study::Model& model, SingularitySet set, const Places& expected) {
   SCOPED_TRACE(to_string(set));
@@ -96,7 +93,7 @@ struct FourBar {
     Places places;
     for (int k = 0; k < n; ++k)
       for (const int sign : {-1, 1}) {
-        const Point tip = a * test::direction(0.001 + 2 * kPi * k / n);
+        const Point tip = a * test::direction(0.001 + 2 * M_PI * k / n);
         if (const auto end = test::intersect_circles(tip, b, far(), c, sign)) places.push_back(at(tip, *end));
       }
     return places;
@@ -137,7 +134,8 @@ TEST(FourBar, ThatIsAParallelogramBranchesInItsChangePoints) {
     EXPECT_TRUE(cover.complete());
     EXPECT_EQ(cover.count(Verdict::exact), cover.boxes.size());
     EXPECT_EQ(cover.points.size(), 2u);
-    const Places folded{{{"theta", 0}, {"phi_coupler", 0}, {"psi", 0}}, {{"theta", kPi}, {"phi_coupler", 0}, {"psi", kPi}}};
+    const Places folded{{{"theta", 0}, {"phi_coupler", 0}, {"psi", 0}},
+                        {{"theta", M_PI}, {"phi_coupler", 0}, {"psi", M_PI}}};
     EXPECT_EQ(test::lost(system, cover, folded, 1e-12), 0u);
   }
   const System cspace = test::set_of(m.mechanism, SingularitySet::cspace);
@@ -154,7 +152,7 @@ TEST(FourBar, ThatIsARhombusTurnsWhileItsCrankStands) {
   EXPECT_TRUE(cover.complete());
   Places circle;  // B = D: the coupler lies on the rocker
   for (int k = 0; k < 1000; ++k) {
-    const double psi = 0.002 + 2 * kPi * k / 1000;
+    const double psi = 0.002 + 2 * M_PI * k / 1000;
     circle.push_back({{"theta", 0}, {"phi_coupler", psi}, {"psi", psi}});
   }
   EXPECT_EQ(test::lost(system, cover, circle), 0u);
@@ -178,7 +176,7 @@ TEST(FourBar, WithALimitedPassiveJointLosesThatPartOfItsCspace) {
   EXPECT_TRUE(cover.complete());
   Places inside, outside;
   for (const Configuration& q : FourBar{2, 4.5, 3, 5}.all(1000)) {
-    const double turn = std::remainder(q.at("phi_coupler") - q.at("theta"), 2 * kPi);
+    const double turn = std::remainder(q.at("phi_coupler") - q.at("theta"), 2 * M_PI);
     if (turn > -1 && turn < 2) inside.push_back(q);
     if (turn < -1 - 3 * kSigma || turn > 2 + 3 * kSigma) outside.push_back(q);
   }
@@ -190,7 +188,7 @@ TEST(FourBar, WithALimitedPassiveJointLosesThatPartOfItsCspace) {
   // Of the four dead points of the rocker those within the limits are left.
   Places dead;
   for (const Configuration& q : FourBar{2, 4.5, 3, 5}.inverse())
-    if (std::fabs(std::remainder(q.at("phi_coupler") - q.at("theta"), 2 * kPi)) < 1) dead.push_back(q);
+    if (std::fabs(std::remainder(q.at("phi_coupler") - q.at("theta"), 2 * M_PI)) < 1) dead.push_back(q);
   EXPECT_EQ(dead.size(), 2u);
   const System inverse = test::set_of(assembly.mechanism, SingularitySet::inverse);
   test::expect_points(inverse, solve::solve(inverse), dead);
@@ -207,12 +205,12 @@ TEST(SliderCrank, HasItsDeadPointsWhereCrankAndRodAreInLine) {
     Places forward, inverse;
     for (const int side : {-1, 1})
       for (const int folded : {-1, 1}) {
-        const double theta = side > 0 ? 0 : kPi, x = side * (r + folded * l);
-        inverse.push_back({{"theta", theta}, {"phi_rod", folded > 0 ? theta : theta + kPi}, {"x", x}});
+        const double theta = side > 0 ? 0 : M_PI, x = side * (r + folded * l);
+        inverse.push_back({{"theta", theta}, {"phi_rod", folded > 0 ? theta : theta + M_PI}, {"x", x}});
         if (l >= r) continue;
         const double crank =
-            folded > 0 ? std::asin(side * l / r) : kPi - std::asin(side * l / r);  // the rod across the rail
-        forward.push_back({{"theta", crank}, {"phi_rod", -side * kPi / 2}, {"x", r * std::cos(crank)}});
+            folded > 0 ? std::asin(side * l / r) : M_PI - std::asin(side * l / r);  // the rod across the rail
+        forward.push_back({{"theta", crank}, {"phi_rod", -side * M_PI / 2}, {"x", r * std::cos(crank)}});
       }
     expect_points(m, SingularitySet::forward, forward);
     expect_points(m, SingularitySet::inverse, inverse);
@@ -227,14 +225,15 @@ TEST(SliderCrank, WithARodAsLongAsItsCrankTurnsWhileItsBlockStands) {
   EXPECT_TRUE(cover.complete());
   Places circle, crossings;
   for (int k = 0; k < 1000; ++k) {
-    const double theta = 0.002 + 2 * kPi * k / 1000;
-    circle.push_back({{"theta", theta}, {"phi_rod", theta + kPi}, {"x", 0}});
+    const double theta = 0.002 + 2 * M_PI * k / 1000;
+    circle.push_back({{"theta", theta}, {"phi_rod", theta + M_PI}, {"x", 0}});
   }
-  for (const double theta : {0.0, kPi}) circle.push_back({{"theta", theta}, {"phi_rod", theta}, {"x", 2 * std::cos(theta)}});
+  for (const double theta : {0.0, M_PI})
+    circle.push_back({{"theta", theta}, {"phi_rod", theta}, {"x", 2 * std::cos(theta)}});
   EXPECT_EQ(test::lost(inverse, cover, circle), 0u);
   ASSERT_FALSE(cover.self_motions.empty());
   EXPECT_EQ(cover.self_motions[0].dimension, 1);
-  for (const double theta : {-kPi / 2, kPi / 2}) crossings.push_back({{"theta", theta}, {"phi_rod", -theta}, {"x", 0}});
+  for (const double theta : {-M_PI / 2, M_PI / 2}) crossings.push_back({{"theta", theta}, {"phi_rod", -theta}, {"x", 0}});
   for (const SingularitySet set : {SingularitySet::forward, SingularitySet::cspace_singular}) {
     SCOPED_TRACE(to_string(set));
     const System system = test::set_of(m.mechanism, set);
@@ -251,7 +250,7 @@ TEST(Watt, HasTheSingularitiesOfItsTwoFourBars) {
   const double a = 3, b = 4, c = 2.5, e = 3, f = 4, g = 3;
   const Point first{0, 0}, middle{4, 0}, last{9, -1};
   const auto place = [&](Point tip, double phi, Point end) -> Configuration {
-    const Point joint = middle + c * test::direction(phi), corner = middle + e * test::direction(phi + kPi / 2);
+    const Point joint = middle + c * test::direction(phi), corner = middle + e * test::direction(phi + M_PI / 2);
     return {{"theta", angle_of(tip)},
             {"phi_coupler", angle_of(joint - tip)},
             {"phi", phi},
@@ -260,7 +259,7 @@ TEST(Watt, HasTheSingularitiesOfItsTwoFourBars) {
   };
   // The ternary link's angle given, and one of the four-bars' joints, where it is known; else both.
   const auto close = [&](double phi, const Point* tip, const Point* end, Places& places) {
-    const Point joint = middle + c * test::direction(phi), corner = middle + e * test::direction(phi + kPi / 2);
+    const Point joint = middle + c * test::direction(phi), corner = middle + e * test::direction(phi + M_PI / 2);
     for (const int sign : {-1, 1}) {
       const auto other =
           tip ? test::intersect_circles(corner, f, last, g, sign) : test::intersect_circles(first, a, joint, b, sign);
@@ -277,7 +276,7 @@ TEST(Watt, HasTheSingularitiesOfItsTwoFourBars) {
     for (const double reach : {f + g, f - g})
       if (const auto corner = test::intersect_circles(middle, e, last, reach, sign)) {
         const Point end = *corner + (f / reach) * (last - *corner);
-        close(angle_of(*corner - middle) - kPi / 2, nullptr, &end, forward);
+        close(angle_of(*corner - middle) - M_PI / 2, nullptr, &end, forward);
       }
     for (const double reach : {a + b, a - b})
       if (const auto joint = test::intersect_circles(first, std::fabs(reach), middle, c, sign)) {
@@ -287,7 +286,7 @@ TEST(Watt, HasTheSingularitiesOfItsTwoFourBars) {
     for (const double reach : {e + f, e - f})
       if (const auto end = test::intersect_circles(middle, std::fabs(reach), last, g, sign)) {
         const Point corner = middle + (e / reach) * (*end - middle);
-        close(angle_of(corner - middle) - kPi / 2, nullptr, &*end, inverse);
+        close(angle_of(corner - middle) - M_PI / 2, nullptr, &*end, inverse);
       }
   }
   EXPECT_GE(forward.size(), 2u);
@@ -370,7 +369,7 @@ TEST(Peaucellier, GuidesItsPointAlongALine) {
   EXPECT_EQ(cover.dimension, 1);
   Places samples;
   for (int i = 0; i < 2000; ++i) {
-    const double theta = 2 * kPi * i / 2000;
+    const double theta = 2 * M_PI * i / 2000;
     const Point b = Point{k, 0} + k * test::direction(theta);
     const auto c = test::intersect_circles({0, 0}, m, b, s, 1), d = test::intersect_circles({0, 0}, m, b, s, -1);
     if (!c || !d) continue;

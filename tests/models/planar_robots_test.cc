@@ -23,11 +23,8 @@ using test::Configuration;
 using test::Constants;
 using test::Point;
 
-constexpr double kPi = std::numbers::pi;
 using Places = std::vector<Configuration>;
 
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-double angle_of(Point p) { return std::atan2(p.y, p.x); }
 Point turned(Point p, double phi) {
   return {p.x * std::cos(phi) - p.y * std::sin(phi), p.x * std::sin(phi) + p.y * std::cos(phi)};
 }
@@ -265,11 +262,11 @@ struct ThreeRpr {
   Places forward(double leg, double shortest, double longest, std::size_t most) const {
     Places places;
     std::mt19937_64 random(7);
-    std::uniform_real_distribution<double> angle(-kPi, kPi);
+    std::uniform_real_distribution<double> angle(-M_PI, M_PI);
     while (places.size() < most) {
       const Point first = base[0] + leg * test::direction(angle(random));
       Places all;
-      add_sign_changes([&](double t) { return at(first, -kPi + 2 * kPi * t); }, 60, names(), all);
+      add_sign_changes([&](double t) { return at(first, -M_PI + 2 * M_PI * t); }, 60, names(), all);
       for (const Configuration& q : all)
         if (std::min(q.at("rho2"), q.at("rho3")) >= shortest && std::max(q.at("rho2"), q.at("rho3")) <= longest)
           places.push_back(q);
@@ -307,7 +304,7 @@ TEST(ThreeRpr, HasTheSixAssemblyModesOfInnocentiAndParentiCastelli) {
     const auto gap = [&](double phi, Point first) { return robot.at(first, phi).values[7] - 12; };
     constexpr int kSteps = 2000;
     for (int k = 0; k < kSteps; ++k) {
-      double from = -kPi + 2 * kPi * k / kSteps, to = from + 2 * kPi / kSteps;
+      double from = -M_PI + 2 * M_PI * k / kSteps, to = from + 2 * M_PI / kSteps;
       const auto a = at(from), b = at(to);
       if (!a || !b || gap(from, *a) * gap(to, *b) > 0) continue;
       const bool rises = gap(to, *b) > 0;
@@ -338,17 +335,17 @@ void add_random_segments(const std::function<std::optional<Pose>(Point, int)>& a
 }
 
 const std::array<Point, 3> kCorners{Point{0, 0}, Point{2, 0}, Point{1, std::sqrt(3.0)}},
-    kPlatform{Point{0, 0}, Point{0.5, 0}, Point{0.25, std::sqrt(3.0) / 4}};
+    kPlatformCorners{Point{0, 0}, Point{0.5, 0}, Point{0.25, std::sqrt(3.0) / 4}};
 
 TEST(ThreeRrr, AtOneOrientationLosesNoSingularity) {
-  const double phi = kPi / 10;
+  const double phi = M_PI / 10;
   Places places;
   const Names names{"pose_x", "pose_y", "pose_phi", "theta1", "theta2", "theta3", "phi_rod1", "phi_rod2", "phi_rod3"};
   const auto at = [&](Point first, int mode) -> std::optional<Pose> {
     Pose pose;
     pose.values = {first.x, first.y, phi, 0, 0, 0, 0, 0, 0};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Point c = first + turned(kPlatform[i], phi);
+      const Point c = first + turned(kPlatformCorners[i], phi);
       const auto b = test::intersect_circles(kCorners[i], 1, c, 1, mode >> i & 1 ? 1 : -1);
       if (!b) return std::nullopt;
       pose.lines.through[i] = c, pose.lines.along[i] = c - *b;
@@ -364,7 +361,7 @@ TEST(ThreeRrr, AtOneOrientationLosesNoSingularity) {
 }
 
 TEST(ThreePrr, AtOneOrientationLosesNoSingularity) {
-  const double phi = kPi / 10, l = 0.8;
+  const double phi = M_PI / 10, l = 0.8;
   const std::array<Point, 3> rails{Point{1, 0}, Point{-0.5, std::sqrt(3.0) / 2}, Point{-0.5, -std::sqrt(3.0) / 2}};
   Places places, across;
   const Names names{"pose_x", "pose_y", "pose_phi", "s1", "s2", "s3", "psi1", "psi2", "psi3"};
@@ -373,7 +370,7 @@ TEST(ThreePrr, AtOneOrientationLosesNoSingularity) {
     Pose pose;
     pose.values = {first.x, first.y, phi, 0, 0, 0, 0, 0, 0};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Point c = first + turned(kPlatform[i], phi), from = c - kCorners[i];
+      const Point c = first + turned(kPlatformCorners[i], phi), from = c - kCorners[i];
       const double foot = from.x * rails[i].x + from.y * rails[i].y, height = cross(rails[i], from);
       const double square = l * l - height * height;
       if (square < -1e-12) return std::nullopt;

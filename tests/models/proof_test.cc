@@ -11,16 +11,16 @@ namespace corank {
 namespace {
 using symbolic::SingularitySet;
 
-struct Case {
+struct ProofCase {
   std::string model, constant, value;
   SingularitySet set;
   double sigma;
-  friend std::ostream& operator<<(std::ostream& out, const Case& c) {
+  friend std::ostream& operator<<(std::ostream& out, const ProofCase& c) {
     return out << c.model << " " << to_string(c.set) << " " << c.constant << " " << c.value << " " << c.sigma;
   }
 };
 
-System system_of(const Case& c) {
+System system_of(const ProofCase& c) {
   auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/" + c.model + ".cuik");
   if (!c.constant.empty()) model.set_constant(c.constant, symbolic::Expression(c.value.c_str()));
   return symbolic::algebrize(symbolic::singularity_system(model, c.set));
@@ -36,7 +36,7 @@ Cover proven(const System& system, double sigma, int threads) {
   return cover;
 }
 
-class RecordedProof : public testing::TestWithParam<Case> {};
+class RecordedProof : public testing::TestWithParam<ProofCase> {};
 
 TEST_P(RecordedProof, IsAcceptedByTheChecker) {
   const System system = system_of(GetParam());
@@ -52,11 +52,11 @@ TEST_P(RecordedProof, IsAcceptedByTheChecker) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, RecordedProof,
-                         testing::Values(Case{"three_slider", "L2", "1", SingularitySet::forward, 1e-6},
-                                         Case{"three_slider", "L2", "1", SingularitySet::inverse, 1e-6},
-                                         Case{"three_slider", "L2", "4/5", SingularitySet::forward, 1e-6},
-                                         Case{"three_slider", "L2", "4/5", SingularitySet::cspace, 0.1},
-                                         Case{"dextar", "", "", SingularitySet::forward, 0.1}));
+                         testing::Values(ProofCase{"three_slider", "L2", "1", SingularitySet::forward, 1e-6},
+                                         ProofCase{"three_slider", "L2", "1", SingularitySet::inverse, 1e-6},
+                                         ProofCase{"three_slider", "L2", "4/5", SingularitySet::forward, 1e-6},
+                                         ProofCase{"three_slider", "L2", "4/5", SingularitySet::cspace, 0.1},
+                                         ProofCase{"dextar", "", "", SingularitySet::forward, 0.1}));
 
 // The search around the two configurations with a kernel of dimension 2 is part of the proof.
 TEST(RecordedProof, OfDextarsInverseLocusIsAccepted) {

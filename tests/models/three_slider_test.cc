@@ -15,7 +15,7 @@ using symbolic::KernelSide;
 using symbolic::SingularitySet;
 using Points = std::vector<std::array<double, 3>>;  // (y_A, y_B, x_C)
 
-System three_slider(SingularitySet set, const char* l2, std::optional<KernelSide> side = std::nullopt) {
+System three_slider_system(SingularitySet set, const char* l2, std::optional<KernelSide> side = std::nullopt) {
   auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik");
   model.set_constant("L2", symbolic::Expression(l2));
   return symbolic::algebrize(symbolic::singularity_system(model, set, side));
@@ -51,16 +51,16 @@ TEST_P(ThreeSlider, WithDifferentRodsHasEightForwardSingularities) {
   Points expected = corners(1, 0.8);
   for (double y : {-0.6, 0.6})
     for (double x : {-0.8, 0.8}) expected.push_back({y, 0, x});
-  expect_points(solve::solve(three_slider(SingularitySet::forward, "4/5", GetParam())), expected, {});
+  expect_points(solve::solve(three_slider_system(SingularitySet::forward, "4/5", GetParam())), expected, {});
 }
 
 TEST_P(ThreeSlider, WithDifferentRodsHasFourInverseSingularities) {
-  expect_points(solve::solve(three_slider(SingularitySet::inverse, "4/5", GetParam())), corners(1, 0.8), {});
+  expect_points(solve::solve(three_slider_system(SingularitySet::inverse, "4/5", GetParam())), corners(1, 0.8), {});
 }
 
 TEST_P(ThreeSlider, WithEqualRodsHasFourSimpleAndTwoDegenerateSingularities) {
   for (SingularitySet set : {SingularitySet::forward, SingularitySet::inverse})
-    expect_points(solve::solve(three_slider(set, "1", GetParam())), corners(1, 1), {{0, 0, 1}, {0, 0, -1}});
+    expect_points(solve::solve(three_slider_system(set, "1", GetParam())), corners(1, 1), {{0, 0, 1}, {0, 0, -1}});
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, ThreeSlider, testing::Values(KernelSide::right, KernelSide::left));
@@ -93,7 +93,7 @@ TEST(ThreeSlider, WithTheRatesOfItsRodsHasTheSameCrossings) {
 }
 
 TEST(ThreeSlider, CspaceOfDifferentRodsIsRegularThroughout) {
-  const Cover cover = solve::solve(three_slider(SingularitySet::cspace, "4/5"));
+  const Cover cover = solve::solve(three_slider_system(SingularitySet::cspace, "4/5"));
   EXPECT_EQ(cover.dimension, 1);
   EXPECT_TRUE(cover.complete());
   EXPECT_GT(cover.count(Verdict::regular), 50u);
@@ -101,7 +101,7 @@ TEST(ThreeSlider, CspaceOfDifferentRodsIsRegularThroughout) {
 }
 
 TEST(ThreeSlider, CspaceOfEqualRodsIsUndecidedOnlyAroundItsCrossings) {
-  const Cover cover = solve::solve(three_slider(SingularitySet::cspace, "1"));
+  const Cover cover = solve::solve(three_slider_system(SingularitySet::cspace, "1"));
   EXPECT_TRUE(cover.complete());
   std::size_t undecided = 0;
   for (const auto& b : cover.boxes) {
@@ -122,8 +122,8 @@ TEST(ThreeSlider, CspaceOfEqualRodsIsUndecidedOnlyAroundItsCrossings) {
 }
 
 TEST(ThreeSlider, CspaceSingularitiesExistOnlyForEqualRods) {
-  EXPECT_TRUE(solve::solve(three_slider(SingularitySet::cspace_singular, "4/5")).boxes.empty());
-  const Cover cover = solve::solve(three_slider(SingularitySet::cspace_singular, "1"));
+  EXPECT_TRUE(solve::solve(three_slider_system(SingularitySet::cspace_singular, "4/5")).boxes.empty());
+  const Cover cover = solve::solve(three_slider_system(SingularitySet::cspace_singular, "1"));
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.points.size(), 2u);
   const test::CoverLookup lookup(cover);
@@ -133,7 +133,7 @@ TEST(ThreeSlider, CspaceSingularitiesExistOnlyForEqualRods) {
 TEST(ThreeSlider, TheAlgebrizedFileGivesTheSamePoints) {
   for (SingularitySet set : {SingularitySet::forward, SingularitySet::inverse})
     for (const char* l2 : {"4/5", "1"}) {
-      const auto system = three_slider(set, l2);
+      const auto system = three_slider_system(set, l2);
       const auto again =
           symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(symbolic::to_cuik(system), "derived.cuik")));
       const Cover direct = solve::solve(system), derived = solve::solve(again);

@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string message_of(const std::string& text) {
+std::string fault_of_sol(const std::string& text) {
   try {
     parse_sol(text, "a.sol");
   } catch (const CuikFileError& error) {
@@ -124,22 +124,22 @@ TEST(CuikSol, ReadsACoverWithoutBoxes) {
 }
 
 TEST(CuikSol, NamesFileAndLineOfAFault) {
-  EXPECT_EQ(message_of("\n\n{ 2  x[0,1] }"), "a.sol:3: a box announces 2 sides and has 1; expected as many as announced");
-  EXPECT_THAT(message_of("{ 1 x[0,1] }\n{ 1 y[0,1] }"),
+  EXPECT_EQ(fault_of_sol("\n\n{ 2  x[0,1] }"), "a.sol:3: a box announces 2 sides and has 1; expected as many as announced");
+  EXPECT_THAT(fault_of_sol("{ 1 x[0,1] }\n{ 1 y[0,1] }"),
               HasSubstr("a.sol:2: a box has other variables than the one in line 1"));
-  EXPECT_THAT(message_of("{ 1 x[1,0] }"), HasSubstr("a.sol:1: a side of a box is empty"));
-  EXPECT_THAT(message_of("{ 1 x[0,inf] }"), HasSubstr("a bound is not finite"));
-  EXPECT_THAT(message_of("{ 1 x[0,1e999] }"), HasSubstr("a number is out of range"));
-  EXPECT_THAT(message_of("{ 1 x[0;1] }"), HasSubstr("found ';' in a box; expected ',' between the bounds"));
-  EXPECT_THAT(message_of("{ 1 x[0,1]"), HasSubstr("the file ends inside a box"));
-  EXPECT_THAT(message_of("{ 2 x[0,1] [0,1] }"), HasSubstr("only some sides have a name"));
-  EXPECT_THAT(message_of("{ 2 x[0,1] x[0,1] }"), HasSubstr("a name stands twice"));
-  EXPECT_THAT(message_of("{ 1 x[0,1] } % regular, free y"), HasSubstr("the free variable 'y' is none of the box"));
-  EXPECT_THAT(message_of("a text\n"), HasSubstr("holds no boxes"));
-  EXPECT_THAT(message_of(""), HasSubstr("a.sol:1: holds no boxes"));
+  EXPECT_THAT(fault_of_sol("{ 1 x[1,0] }"), HasSubstr("a.sol:1: a side of a box is empty"));
+  EXPECT_THAT(fault_of_sol("{ 1 x[0,inf] }"), HasSubstr("a bound is not finite"));
+  EXPECT_THAT(fault_of_sol("{ 1 x[0,1e999] }"), HasSubstr("a number is out of range"));
+  EXPECT_THAT(fault_of_sol("{ 1 x[0;1] }"), HasSubstr("found ';' in a box; expected ',' between the bounds"));
+  EXPECT_THAT(fault_of_sol("{ 1 x[0,1]"), HasSubstr("the file ends inside a box"));
+  EXPECT_THAT(fault_of_sol("{ 2 x[0,1] [0,1] }"), HasSubstr("only some sides have a name"));
+  EXPECT_THAT(fault_of_sol("{ 2 x[0,1] x[0,1] }"), HasSubstr("a name stands twice"));
+  EXPECT_THAT(fault_of_sol("{ 1 x[0,1] } % regular, free y"), HasSubstr("the free variable 'y' is none of the box"));
+  EXPECT_THAT(fault_of_sol("a text\n"), HasSubstr("holds no boxes"));
+  EXPECT_THAT(fault_of_sol(""), HasSubstr("a.sol:1: holds no boxes"));
   std::string text = to_sol(sample_result());
   text.resize(text.find("STATISTICS"));
-  EXPECT_THAT(message_of(text), HasSubstr("the file is cut short"));
+  EXPECT_THAT(fault_of_sol(text), HasSubstr("the file is cut short"));
 }
 
 TEST(CuikSol, SaysWhichFileIsMissing) {
