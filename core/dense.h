@@ -1,5 +1,5 @@
-// Factorizations of matrices of doubles, compiled in one place: half of the time that sources took which use them. Nothing is
-// proven by them.
+// Factorizations of matrices of doubles, compiled in one place: half of the time that sources took which use them. Nothing
+// is proven by them.
 #pragma once
 
 #include <Eigen/Core>

@@ -50,7 +50,7 @@ class Copy:
         else:
             self.root.parent.mkdir(parents=True, exist_ok=True)
             run("git", "clone", "--quiet", ROOT, self.root, check=True)
-        run("cmake", "--preset", "release", cwd=self.root, check=True)
+        run("cmake", "--preset", "release", "-DCMAKE_UNITY_BUILD=OFF", cwd=self.root, check=True)
         for target in targets:
             if not self.build(target):
                 sys.exit(f"mutants.py: {target} does not build without any fault")
