@@ -25,8 +25,8 @@ class ResultFileError : public std::runtime_error {
 
 class Hdf5Writer {
  public:
-  /// Creates or truncates the file.
-  explicit Hdf5Writer(const std::string& path);
+  /// Creates or truncates the file. So many threads compress what is to be packed, 0: one for each core.
+  explicit Hdf5Writer(const std::string& path, int threads = 1);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -65,6 +65,7 @@ class Hdf5Writer {
   std::string at(const std::string& name) const { return name == "/" && !prefix_.empty() ? prefix_ : prefix_ + name; }
 
   std::string path_, prefix_;
+  int threads_;
   std::int64_t file_ = -1;
 };
 

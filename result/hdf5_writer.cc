@@ -4,6 +4,7 @@
 
 #include "corank/result/hdf5_file.h"
 #include "corank/result/hdf5_handle.h"
+#include "corank/result/packed_chunks.h"
 
 namespace corank::result {
 namespace {
@@ -57,10 +58,9 @@ hid_t create_dataset(hid_t file, const std::string& path, const std::string& nam
   return H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT);
 }
 
-void write_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space, const void* data,
-                   hid_t properties = H5P_DEFAULT) {
+void write_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space, const void* data) {
   const QuietErrors quiet;
-  const OwnHandle set(create_dataset(file, path, name, type, space, properties), H5Dclose, path, "cannot write " + name);
+  const OwnHandle set(create_dataset(file, path, name, type, space), H5Dclose, path, "cannot write " + name);
   if (H5Sget_simple_extent_npoints(space) == 0) return;
   if (H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail(path, "cannot write " + name + " (disk full?)");
 }
@@ -86,15 +86,23 @@ void write_rows(hid_t file, const std::string& path, const std::string& name, hi
   }
 }
 
-void write_packed(hid_t file, const std::string& path, const std::string& name, hid_t type, std::size_t size,
-                  const void* data) {
+void write_packed(hid_t file, const std::string& path, const std::string& name, hid_t type, std::span<const std::byte> data,
+                  int threads) {
   constexpr hsize_t kChunk = 1 << 16;
   constexpr unsigned kLevel = 1;
+  const std::size_t width = H5Tget_size(type), size = data.size() / width;
   const OwnHandle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path, "cannot write " + name);
   const hsize_t chunk = std::clamp<hsize_t>(size, 1, kChunk);
   if (H5Pset_chunk(properties, 1, &chunk) < 0 || H5Pset_shuffle(properties) < 0 || H5Pset_deflate(properties, kLevel) < 0)
     fail(path, "cannot compress " + name);
-  write_dataset(file, path, name, type, Shape(size, 0, path), data, properties);
+  const QuietErrors quiet;
+  const Shape space(size, 0, path);
+  const OwnHandle set(create_dataset(file, path, name, type, space, properties), H5Dclose, path, "cannot write " + name);
+  for_each_packed_chunk({data, width, chunk, kLevel}, threads, [&](std::size_t k, std::span<const std::byte> bytes) {
+    const hsize_t offset = k * chunk;
+    if (H5Dwrite_chunk(set, H5P_DEFAULT, 0, &offset, bytes.size(), bytes.data()) < 0)
+      fail(path, "cannot write " + name + " (disk full?)");
+  });
 }
 
 void write_attribute(hid_t file, const std::string& path, const std::string& object, const std::string& name, hid_t type,
@@ -109,7 +117,7 @@ void write_attribute(hid_t file, const std::string& path, const std::string& obj
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
+Hdf5Writer::Hdf5Writer(const std::string& path, int threads) : path_(path), threads_(threads) {
   const QuietErrors quiet;
   file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (file_ < 0) fail(path, "cannot create this file");
@@ -161,16 +169,16 @@ void Hdf5Writer::integers(const std::string& name, std::span<const std::int64_t>
 }
 
 void Hdf5Writer::packed(const std::string& name, std::span<const std::uint8_t> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_UINT8, data.size(), data.data());
+  write_packed(file_, path_, at(name), H5T_NATIVE_UINT8, std::as_bytes(data), threads_);
 }
 void Hdf5Writer::packed(const std::string& name, std::span<const std::int32_t> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_INT32, data.size(), data.data());
+  write_packed(file_, path_, at(name), H5T_NATIVE_INT32, std::as_bytes(data), threads_);
 }
 void Hdf5Writer::packed(const std::string& name, std::span<const float> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_FLOAT, data.size(), data.data());
+  write_packed(file_, path_, at(name), H5T_NATIVE_FLOAT, std::as_bytes(data), threads_);
 }
 void Hdf5Writer::packed(const std::string& name, std::span<const double> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_DOUBLE, data.size(), data.data());
+  write_packed(file_, path_, at(name), H5T_NATIVE_DOUBLE, std::as_bytes(data), threads_);
 }
 
 void Hdf5Writer::enumeration(const std::string& name, std::span<const std::uint8_t> data,

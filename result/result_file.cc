@@ -477,7 +477,7 @@ void write_own(Hdf5Writer& file, const Result& result) {
 
 void write_result(const std::filesystem::path& path, const Result& result) {
   const OutputFile target(path);
-  Hdf5Writer file(target.part().string());
+  Hdf5Writer file(target.part().string(), result.options.threads);
   file.attribute("/", "format", std::string(kFormat));
   file.attribute("/", "format_version", std::int64_t{kFormatVersion});
   file.attribute("/", "version", result.version);

@@ -10,15 +10,16 @@
 namespace corank::study {
 namespace {
 
-// A unit does not know which solutions others have found.
-const Options& of_cluster(const Options& options) {
-  const solve::Options& o = options.search;
+// A unit does not know which solutions others have found. What is done here is done by all threads; units have their own.
+Options of_cluster(Options options) {
+  solve::Options& o = options.search;
   const auto refuse = [](const char* option) {
     throw solve::OptionError(option, "a search on a cluster has no such limit; it has those of time, boxes and memory");
   };
   o.validate();
   if (o.max_found > 0) refuse("max_found");
   if (o.max_solutions > 0) refuse("max_solutions");
+  o.threads = 0;
   return options;
 }
 

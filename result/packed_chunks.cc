@@ -1,0 +1,47 @@
+#include "corank/result/packed_chunks.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <new>
+#include <vector>
+
+namespace corank::result {
+namespace {
+
+constexpr std::size_t kChunksPerThread = 4;
+
+std::vector<std::byte> packed_chunk(const ChunkedArray& array, std::size_t k) {
+  const std::size_t w = array.width, n = array.chunk, from = k * n, there = std::min(n, array.bytes.size() / w - from);
+  std::vector<std::byte> shuffled(n * w);
+  const std::byte* const elements = array.bytes.data() + from * w;
+  for (std::size_t b = 0; b < w; ++b)
+    for (std::size_t i = 0; i < there; ++i) shuffled[b * n + i] = elements[i * w + b];
+  uLong size = compressBound(shuffled.size());
+  std::vector<std::byte> packed(size);
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(shuffled.data()),
+                shuffled.size(), array.level) != Z_OK)
+    throw std::bad_alloc();  // the only other reason were too little room
+  packed.resize(size);
+  return packed;
+}
+
+}  // namespace
+
+void for_each_packed_chunk(const ChunkedArray& array, int threads,
+                           const std::function<void(std::size_t k, std::span<const std::byte> bytes)>& use) {
+  const std::size_t elements = array.bytes.size() / array.width, chunks = (elements + array.chunk - 1) / array.chunk;
+  tbb::task_arena arena(threads > 0 ? threads : tbb::this_task_arena::max_concurrency());
+  std::vector<std::vector<std::byte>> packed(kChunksPerThread * static_cast<std::size_t>(arena.max_concurrency()));
+  for (std::size_t from = 0; from < chunks; from += packed.size()) {
+    const std::size_t count = std::min(packed.size(), chunks - from);
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) { packed[k] = packed_chunk(array, from + k); });
+    });
+    for (std::size_t k = 0; k < count; ++k) use(from + k, packed[k]);
+  }
+}
+
+}  // namespace corank::result
