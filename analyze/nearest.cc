@@ -1,7 +1,6 @@
 #include "corank/analyze/nearest.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +13,7 @@
 #include "corank/analyze/witness.h"
 #include "corank/certify/implied.h"
 #include "corank/core/rounding.h"
+#include "corank/core/threads.h"
 #include "corank/solve/branching.h"
 #include "corank/solve/contractor.h"
 #include "corank/solve/minimum.h"
@@ -86,7 +86,7 @@ class Search {
   const solve::BranchingRule branching_;
   solve::PreconditionerFactory preconditioners_;
   certify::NewtonWorkspace workspace_;
-  tbb::task_arena arena_;
+  ThreadArena arena_;
   std::vector<std::unique_ptr<Worker>> workers_;  // one for each thread
   Box inner_;                                     // where solutions are sought
   std::vector<double> limits_, equation_sizes_;
@@ -113,9 +113,9 @@ Search::Search(const solve::Prepared& prepared, const std::vector<Polynomial>& d
       compiled_(extended_.system, extended_.values),
       branching_(extended_.system, kKernelWeight),
       preconditioners_(compiled_, [&control] { return control.ended(); }),
-      arena_(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency()) {
+      arena_(prepared.options.threads) {
   const solve::Tuning tuning = solve::tuning_for(extended_.system, prepared.reduction.tolerant);
-  for (int k = 0; k < arena_.max_concurrency(); ++k)
+  for (int k = 0; k < arena_.threads(); ++k)
     workers_.push_back(std::make_unique<Worker>(compiled_, tuning, [this] { return control_.ended(); }));
   solve::TypicalSizes sizes = solve::typical_sizes(compiled_, extended_.system.domain());
   compiled_.set_scales(std::move(sizes.variables));

@@ -1,7 +1,6 @@
 #include "corank/analyze/parameter_map.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
@@ -16,6 +15,7 @@
 #include "corank/certify/parametric_reduction.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
+#include "corank/core/threads.h"
 #include "corank/solve/cell_search.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
@@ -346,7 +346,7 @@ ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOption
   const ParameterMapper mapper(question, options);
   std::vector<MapTile> tiles;
   std::mutex mutex;
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency());
+  ThreadArena arena(options.threads);
   arena.execute([&] {
     tbb::parallel_for(
         0, ParameterMapper::tiles(), 1,

@@ -1,8 +1,6 @@
 #include "corank/check/checker.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +22,7 @@
 #include "corank/check/self_motion.h"
 #include "corank/check/sheets.h"
 #include "corank/check/types.h"
+#include "corank/core/threads.h"
 
 namespace corank::check {
 namespace {
@@ -48,14 +47,7 @@ bool same(const CoverBox& a, const CoverBox& b) {
 class Checker {
  public:
   Checker(const System& system, const Cover& cover, const Options& options, const VelocityBlocks* blocks)
-      : system_(system),
-        cover_(cover),
-        options_(options),
-        blocks_(blocks),
-        stop_(options.stop),
-        threads_(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()),
-        allow_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
-        arena_(threads_) {}
+      : system_(system), cover_(cover), options_(options), blocks_(blocks), stop_(options.stop), arena_(options.threads) {}
 
   Report run() {
     const NearestRounding nearest;
@@ -445,9 +437,7 @@ class Checker {
   const VelocityBlocks* blocks_;
   StopFlag stop_;
   const char* stage_ = "the reduction";
-  int threads_;
-  tbb::global_control allow_;
-  tbb::task_arena arena_;
+  ThreadArena arena_;
   std::unique_ptr<const KernelCheck> kernel_;
   std::unique_ptr<const PassageCheck> passage_;
   std::unique_ptr<const TypeCheck> types_;

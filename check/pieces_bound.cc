@@ -1,8 +1,6 @@
 #include "corank/check/pieces_bound.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +13,7 @@
 #include "corank/check/piece_sheets.h"
 #include "corank/check/sign_parts.h"
 #include "corank/check/solution.h"
+#include "corank/core/threads.h"
 
 namespace corank::check {
 namespace {
@@ -48,7 +47,7 @@ class Bound {
         functions_(functions.size()),
         rows_(functions),
         sheets_(whole, reduced, cover, proof.bridges),
-        threads_(threads > 0 ? threads : tbb::this_task_arena::max_concurrency()) {
+        threads_(threads) {
     for (const Condition& c : whole.conditions())
       if (is_end(whole, c)) rows_.push_back(c.row);
   }
@@ -77,8 +76,7 @@ class Bound {
  private:
   template <class Work>
   void parallel(std::size_t n, const Work& work) const {
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
-    tbb::task_arena arena(threads_);
+    ThreadArena arena(threads_);
     std::atomic<bool> stopped = false;
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {

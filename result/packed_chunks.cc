@@ -1,12 +1,13 @@
 #include "corank/result/packed_chunks.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <new>
 #include <vector>
+
+#include "corank/core/threads.h"
 
 namespace corank::result {
 namespace {
@@ -33,8 +34,8 @@ std::vector<std::byte> packed_chunk(const ChunkedArray& array, std::size_t k) {
 void for_each_packed_chunk(const ChunkedArray& array, int threads,
                            const std::function<void(std::size_t k, std::span<const std::byte> bytes)>& use) {
   const std::size_t elements = array.bytes.size() / array.width, chunks = (elements + array.chunk - 1) / array.chunk;
-  tbb::task_arena arena(threads > 0 ? threads : tbb::this_task_arena::max_concurrency());
-  std::vector<std::vector<std::byte>> packed(kChunksPerThread * static_cast<std::size_t>(arena.max_concurrency()));
+  ThreadArena arena(threads);
+  std::vector<std::vector<std::byte>> packed(kChunksPerThread * static_cast<std::size_t>(arena.threads()));
   for (std::size_t from = 0; from < chunks; from += packed.size()) {
     const std::size_t count = std::min(packed.size(), chunks - from);
     arena.execute([&] {

@@ -1,7 +1,5 @@
 #include "corank/solve/estimate.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "corank/core/rounding.h"
+#include "corank/core/threads.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/memory.h"
 #include "corank/solve/passes.h"
@@ -220,7 +219,7 @@ class Estimator {
     const double sampling = cut < sheets_.size() && size > 0 ? std::sqrt(squares) / size : 0;
     const double spread = std::hypot(sheets_error_, std::hypot(sampling, coarser > 1 ? kLeastSpread : 0));
     e.boxes = range_of(boxes, spread);
-    const int threads = prepared_.options.threads > 0 ? prepared_.options.threads : tbb::this_task_arena::max_concurrency();
+    const int threads = threads_for(prepared_.options.threads);
     const double cutting = spent * ratio * scale;
     const bool curve = prepared_.reduction.system.dimension() == 1;
     const double total = search_seconds_ + cutting;

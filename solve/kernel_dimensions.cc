@@ -1,13 +1,13 @@
 #include "corank/solve/kernel_dimensions.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 
 #include "corank/certify/blow_up.h"
 #include "corank/certify/kernel_bound.h"
 #include "corank/core/rounding.h"
+#include "corank/core/threads.h"
 #include "corank/solve/box_hash.h"
 #include "corank/solve/region_hulls.h"
 
@@ -49,7 +49,7 @@ void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& co
     if (box.verdict == Verdict::pending || stopped()) return;
     box.kernel_at_most = known > 0 && known <= system.kernel_vectors ? known : bound.at_most(box.box);
   };
-  tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
+  ThreadArena arena(prepared.options.threads);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, hulls.size(), [&](std::size_t r) {
       const UpwardRounding rounding;

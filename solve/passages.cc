@@ -1,10 +1,10 @@
 #include "corank/solve/passages.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include "corank/certify/passage.h"
 #include "corank/core/rounding.h"
+#include "corank/core/threads.h"
 
 namespace corank::solve {
 
@@ -14,7 +14,7 @@ void prove_passages(const Prepared& prepared, Cover& cover, Control& control) {
   const InStage stage(control, Stage::kernel);
   const certify::PassageTest test(prepared.system);
   if (!test.applies()) return;
-  tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
+  ThreadArena arena(prepared.options.threads);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) {
       CoverBox& box = cover.boxes[i];

@@ -1,9 +1,7 @@
 #include "corank/solve/pool.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
+#include "corank/core/threads.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/work_list.h"
 
@@ -36,9 +35,7 @@ struct Pool::Threads {
           tally.keep_thread();
           return Worker(problem, ++numbers, prepared.options.proof);
         }),
-        allowed(p.options.threads > 0 ? p.options.threads : tbb::this_task_arena::max_concurrency()),
-        allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(allowed)),
-        arena(allowed) {
+        arena(p.options.threads) {
     problem.ended = [this] {
       tally.report(false);
       count(workers.local());
@@ -102,7 +99,7 @@ struct Pool::Threads {
       }
       if (outcome == BoxProcessor::Outcome::done) tally.done_with(share);
       count(worker);
-      if (until == 0 && busy.load(std::memory_order_relaxed) < allowed && allowed > 1 && list.size() > 1)
+      if (until == 0 && busy.load(std::memory_order_relaxed) < arena.threads() && arena.threads() > 1 && list.size() > 1)
         spawn(list.split_off(), postpone);
     }
     tally.keep_waiting(0, listed);
@@ -120,9 +117,7 @@ struct Pool::Threads {
   Problem problem;
   std::atomic<int> numbers, busy{0};
   tbb::enumerable_thread_specific<Worker> workers;
-  int allowed;
-  tbb::global_control allow;
-  tbb::task_arena arena;
+  ThreadArena arena;
   tbb::task_group group;
 };
 
@@ -142,7 +137,7 @@ Pool::~Pool() = default;
 
 const Problem& Pool::problem() const { return threads_->problem; }
 bool Pool::ended() const { return threads_->tally.ended(); }
-int Pool::threads() const { return threads_->allowed; }
+int Pool::threads() const { return threads_->arena.threads(); }
 void Pool::set_sigma(const Sigma& sigma) { threads_->problem.set_sigma(sigma); }
 void Pool::execute(const std::function<void()>& f) { threads_->arena.execute(f); }
 
@@ -152,7 +147,7 @@ void Pool::search(const Work& work) {
   for (auto box = work.boxes.rbegin(); box != work.boxes.rend(); ++box) list.push(box->x, box->share, box->node);
   t.tally.wait_for(list.size());
   execute([&] {
-    if (t.allowed == 1 || work.until > 0) {
+    if (t.arena.threads() == 1 || work.until > 0) {
       t.work(std::move(list), work.postpone, work.until);
     } else {
       t.spawn(std::move(list), work.postpone);
@@ -222,7 +217,7 @@ bool Pool::cut(const std::vector<Shard*>& shards, std::size_t most) {
       t.count(worker);
     };
     const std::size_t all = sheets.size() + left.size();
-    if (t.allowed == 1) {
+    if (t.arena.threads() == 1) {
       for (std::size_t i = 0; i < all; ++i) cut_one(i);
     } else {
       tbb::parallel_for(std::size_t{0}, all, cut_one);

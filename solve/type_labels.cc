@@ -1,7 +1,6 @@
 #include "corank/solve/type_labels.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,6 +8,7 @@
 
 #include "corank/certify/type_bounds.h"
 #include "corank/core/rounding.h"
+#include "corank/core/threads.h"
 #include "corank/solve/region_hulls.h"
 
 namespace corank::solve {
@@ -62,7 +62,7 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
     if (!box.types.settle(wanted)) box.types = bounds.labels(known = bounds.ranks(box.box, 0, known, wanted));
     if (!box.types.settle(blocks.of_set)) box.types = bounds.labels(bounds.ranks(box.box, kDepth, known, wanted));
   };
-  tbb::task_arena arena(prepared.options.threads > 0 ? prepared.options.threads : tbb::this_task_arena::max_concurrency());
+  ThreadArena arena(prepared.options.threads);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, hulls.size(), [&](std::size_t r) {
       const UpwardRounding rounding;
