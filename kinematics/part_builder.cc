@@ -135,6 +135,12 @@ void PartBuilder::finish_output_range(const SourceLocation& where) {
   output.ranges[output_axis] = Range{lower, upper};
 }
 
+void PartBuilder::begin_only(const SourceLocation& where) {
+  if (!output.asked[0] || !output.asked[1] || !output.asked[2])
+    throw ModelError(where, "the output " + in_quotes(output.name) + " says only twice", "all of its components once");
+  output.asked = {};
+}
+
 void PartBuilder::finish_output() {
   output.name = resolve(output.name);
   outputs_.push_back(output);
@@ -166,6 +172,7 @@ void PartBuilder::resolve_outputs() {
     if (result.kind == Output::Kind::direction && !read.point.empty())
       throw ModelError(read.where, "the direction of " + in_quotes(read.name) + " is given as a point",
                        "direction of link (x, y, z)");
+    result.asked = read.asked;
     result.ranges = read.ranges;
     result.kept = read.kept;
     if (read.vector) result.point = *read.vector;

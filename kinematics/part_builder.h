@@ -56,6 +56,7 @@ struct OutputDraft {
   std::string kind, name, link, frame, point, joint;
   SourceLocation where, link_where, frame_where, point_where, joint_where;
   std::optional<Vector> vector;
+  std::array<bool, 3> asked{true, true, true};
   std::array<std::optional<Range>, 3> ranges;
   std::optional<Pose> kept;
 };
@@ -137,6 +138,7 @@ class PartBuilder : public symbolic::ModelBuilder {
   std::size_t output_axis = 0;
   void add_input(std::string_view name_read, const SourceLocation& where);
   void finish_output_range(const SourceLocation& where);
+  void begin_only(const SourceLocation& where);
   void finish_output();
   void include(const std::string& prefix_read);
   void read_equations();

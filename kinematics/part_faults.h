@@ -85,6 +85,7 @@ CORANK_FAULT(grammar::output_frame, fault.found_instead_of("the name of a link b
 CORANK_FAULT(grammar::output_point, fault.found_instead_of("the name of a point behind '.'"))
 CORANK_FAULT(grammar::output_joint, fault.found_instead_of("the name of a joint"))
 CORANK_FAULT(grammar::output_axis_range, fault.found_instead_of("the range of a component: x [lower, upper]"))
+CORANK_FAULT(grammar::only_axis, fault.found_instead_of("one or two of x, y and z behind only"))
 CORANK_FAULT(grammar::of_word, fault.found_instead_of("of and the name of a link"))
 CORANK_FAULT(grammar::output_what, fault.no_output_kind())
 CORANK_FAULT(grammar::section_start, fault.say("found " + symbolic::describe_start(fault.rest) + " before the first section",

@@ -259,6 +259,8 @@ CORANK_ACTION(output_joint, {
 CORANK_ACTION0(output_tuple, { b.output.vector = b.pop_vector(); })
 CORANK_ACTION(output_axis, { b.output_axis = static_cast<std::size_t>(small_letters(in.string_view())[0] - 'x'); })
 CORANK_ACTION(output_bracket, { b.finish_output_range(place(in, b)); })
+CORANK_ACTION(only_word, { b.begin_only(place(in, b)); })
+CORANK_ACTION(only_axis, { b.output.asked[static_cast<std::size_t>(small_letters(in.string_view())[0] - 'x')] = true; })
 CORANK_ACTION0(keeps_word, { b.draft.pose = {}; })
 CORANK_ACTION0(kept_end, { b.output.kept = b.draft.pose; })
 CORANK_ACTION0(output_end, { b.finish_output(); })

@@ -328,9 +328,12 @@ struct output_axis : one<'x', 'y', 'z', 'X', 'Y', 'Z'> {};
 struct output_bracket : bracket {};
 struct output_axis_range : seq<at<one<'x', 'y', 'z', 'X', 'Y', 'Z'>, gap, one<'['>>, output_axis, gap, output_bracket> {};
 struct output_range : seq<sor<range_word, limits_word>, gap, must<output_axis_range>, star<gap, output_axis_range>> {};
+struct only_word : seq<word<TAO_PEGTL_ISTRING("only")>, not_at<gap, one<':'>>> {};
+struct only_axis : seq<one<'x', 'y', 'z', 'X', 'Y', 'Z'>, not_at<model::name_tail>, not_at<gap, one<':'>>> {};
+struct output_only : seq<only_word, gap, must<only_axis>, star<gap, only_axis>> {};
 struct kept_end : success {};
 struct output_keeps : seq<keeps_word, gap, transforms, kept_end> {};
-struct output_options : star<gap, sor<output_range, output_keeps>> {};
+struct output_options : star<gap, sor<output_range, output_only, output_keeps>> {};
 struct output_kind : sor<position_word, pose_word, orientation_word, direction_word> {};
 struct output_what
     : sor<seq<output_kind, gap, output_of, output_in, output_options>, seq<joint_word, gap, must<output_joint>>> {};

@@ -329,7 +329,7 @@ class PlanarRobot {
     bool moves = false;
     for (std::size_t i = 0; i < 3; ++i) {
       const ex value = algebra_.clean(components[i]);
-      if (algebra_.is_constant(value)) continue;
+      if (!output.asked[i] || algebra_.is_constant(value)) continue;
       const ex coordinate = draft_.length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
       draft_.equation(coordinate - value, "output", output.where);
       draft_.output(coordinate);

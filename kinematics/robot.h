@@ -99,7 +99,8 @@ struct Output {
   Kind kind = Kind::position;
   std::string name;  ///< of the coordinates: name_x …, or name itself for a joint
   std::size_t link = 0, relative_to = 0, joint = 0;
-  Vector point{0, 0, 0};  ///< or the direction
+  Vector point{0, 0, 0};                        ///< or the direction
+  std::array<bool, 3> asked{true, true, true};  ///< of a position: which components are outputs
   /// A slice of the robot's motion is looked at: configurations of these components of a position, and of this orientation
   /// (a rotation). The robot moves as it would without; only where it is found is restricted.
   std::array<std::optional<Range>, 3> ranges{};

@@ -125,7 +125,20 @@ class RobotValidator {
     check_slice(output, what, where);
   }
 
+  void check_components(const Output& output, const std::string& what, const symbolic::SourceLocation& where) {
+    const auto& asked = output.asked;
+    if (asked[0] && asked[1] && asked[2]) return;
+    if (output.kind != Output::Kind::position)
+      throw ModelError(where, what + " is asked for some components only, but is no position", "only behind a position");
+    if (!asked[0] && !asked[1] && !asked[2]) throw ModelError(where, what + " has no component", "x, y or z");
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!asked[i] && output.ranges[i])
+        throw ModelError(where, std::string("there is a range of ") + "xyz"[i] + ", for which " + what + " does not ask",
+                         "ranges of the components behind only");
+  }
+
   void check_slice(const Output& output, const std::string& what, const symbolic::SourceLocation& where) {
+    check_components(output, what, where);
     for (std::size_t i = 0; i < 3; ++i) {
       if (!output.ranges[i]) continue;
       if (output.kind != Output::Kind::position && output.kind != Output::Kind::pose)

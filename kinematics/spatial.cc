@@ -307,7 +307,7 @@ class SpatialRobot {
   void add_components(const Output& output, const Vec& value) {
     for (std::size_t i = 0; i < 3; ++i) {
       const ex clean = algebra_.clean(value[i]);
-      if (algebra_.is_constant(clean)) continue;
+      if (!output.asked[i] || algebra_.is_constant(clean)) continue;
       const ex coordinate = draft_.length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
       draft_.equation(coordinate - clean, "output", output.where);
       draft_.output(coordinate);

@@ -116,7 +116,8 @@ const Output* Twists::turned_by_output(const TreeEdge& edge) const {
 Vec Twists::output_rates(const std::string& prefix, const Output& output, CoordinateKind kind) {
   Vec list;
   for (std::size_t i = 0; i < 3; ++i)
-    list[i] = draft_.rate(prefix + "_" + output.name + "_" + "xyz"[i], kind, Role::output, output.where);
+    if (output.asked[i])
+      list[i] = draft_.rate(prefix + "_" + output.name + "_" + "xyz"[i], kind, Role::output, output.where);
   return list;
 }
 
@@ -234,9 +235,11 @@ void Twists::close(const BodyJoint& j) {
 
 void Twists::add(const Output& output) {
   const std::size_t body = bodies_.of_link[output.link];
-  const auto rates = [&](const std::string& prefix, CoordinateKind kind) { return output_rates(prefix, output, kind); };
-  const auto defined = [&](const Vec& own, const Vec& value) {
-    for (std::size_t i = 0; i < 3; ++i) draft_.velocity(own[i] - value[i], "output " + output.name, output.where);
+  // As rates of the output's.
+  const auto define = [&](const std::string& prefix, CoordinateKind kind, const Vec& value) {
+    const Vec own = output_rates(prefix, output, kind);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (output.asked[i]) draft_.velocity(own[i] - value[i], "output " + output.name, output.where);
   };
   for (const TreeEdge& edge : tree_.edges)
     if (turned_by_output(edge) == &output) return;  // its rates are the link's
@@ -257,8 +260,8 @@ void Twists::add(const Output& output) {
     default: break;
   }
   if (output.kind != Output::Kind::orientation)
-    defined(rates("v", CoordinateKind::length), velocity(body, positions_.output_points.at(output.name)));
-  if (output.kind != Output::Kind::position) defined(rates("w", CoordinateKind::angle), turning(body));
+    define("v", CoordinateKind::length, velocity(body, positions_.output_points.at(output.name)));
+  if (output.kind != Output::Kind::position) define("w", CoordinateKind::angle, turning(body));
 }
 
 }  // namespace corank::kinematics
