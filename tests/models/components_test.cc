@@ -40,7 +40,7 @@ TEST(Components, OfAPointOfARodStandStillAtItsDeadCentres) {
   test::expect_points(forward, solve::solve(forward), {});
 }
 
-// Hand at (1 + 2 cos t)(cos p, sin p) and −2 sin t above: det ∂(x, y)/∂(p, t) = 2 sin t (1 + 2 cos t), by the robot's twists.
+// Hand at (1 + 2 cos t)(cos p, sin p) and −2 sin t above: det ∂(x, y)/∂(p, t) = 2 sin t (1 + 2 cos t). By twists.
 TEST(Components, OfAHandInSpaceHaveAVelocityEquationOfTheirOwn) {
   const study::Model model = study::parse_model({R"([LINKS]
     ground
