@@ -302,7 +302,7 @@ std::string to_table(const Result& result) {
                                   cover.tolerance)
                             : "what a verdict says holds for every choice of them\n";
   }
-  if (cover.dimension == 0) {
+  if (cover.dimension == 0 && !cover.points.empty()) {
     std::array<std::size_t, kVerdicts> points_with{};
     for (const CoverBox& point : cover.points) ++points_with[static_cast<std::size_t>(point.verdict)];
     std::string kinds;
@@ -311,7 +311,7 @@ std::string to_table(const Result& result) {
       if (n > 0) kinds += fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", n, to_string(verdict));
     }
     text += fmt::format("\n{}{}\n", plural(cover.points.size(), "point"), kinds);
-    if (!cover.points.empty()) text += points_table(result);
+    text += points_table(result);
     if (!cover.decimals.empty()) text += decimals_text(result);
   }
   if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += "\n" + meaning + "\n";
