@@ -11,6 +11,7 @@
 #include "corank/app/progress.h"
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
+#include "corank/result/map_file.h"
 #include "corank/result/path_file.h"
 #include "corank/result/pieces_file.h"
 #include "corank/result/printable.h"
@@ -106,6 +107,13 @@ ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch) {
   return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
 }
 
+ExitStatus verify_map(const VerifyCommand& command, Watch& watch) {
+  const check::MapReport report = checked(command, watch, &result::read_map);
+  if (report.complete()) return kDone;
+  if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
+  return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
+}
+
 ExitStatus verify(const VerifyCommand& command) {
   const Interrupt interrupt;
   Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
@@ -114,6 +122,7 @@ ExitStatus verify(const VerifyCommand& command) {
   if (format == result::kPathFormat) return verify_path(command, watch);
   if (format == result::kShapeFormat) return verify_shape(command, watch);
   if (format == result::kPiecesFormat) return verify_pieces(command, watch);
+  if (format == result::kMapFormat) return verify_map(command, watch);
   const result::Result result = result::read_result(command.input);
   watch.enter("deriving the equations from the model");
   const System system = result::system_of(result);

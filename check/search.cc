@@ -161,15 +161,22 @@ int Search::widest(const Sides& x) const {
 }
 
 bool Search::is_empty(Sides first, std::size_t most_parts) {
-  std::vector<Sides> open{std::move(first)};
   std::size_t parts = 0;
+  const bool shown = has_none_but(
+      std::move(first), [](const Sides&) { return false; }, most_parts, parts);
+  searched_ += parts > 0;
+  return shown;
+}
+
+bool Search::has_none_but(Sides first, const Known& known, std::size_t most_parts, std::size_t& parts) {
+  std::vector<Sides> open{std::move(first)};
+  const std::size_t last = parts + most_parts;
   while (!open.empty()) {
     Sides x = std::move(open.back());
     open.pop_back();
-    if (!contract(x)) continue;
+    if (!contract(x) || known(x)) continue;
     const int j = widest(x);
-    if (j < 0 || ++parts > most_parts) return false;
-    if (parts == 1) ++searched_;
+    if (j < 0 || ++parts > last) return false;
     const auto v = static_cast<std::size_t>(j);
     const Enclosure side = x[v];
     const double middle = side.lo() + 0.47 * (side.hi() - side.lo());

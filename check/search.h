@@ -1,6 +1,7 @@
 // The checker's own contraction and bounded bisection: to show that a box holds no solution, or none outside another box.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "corank/check/problem.h"
@@ -30,6 +31,10 @@ class Search {
 
   /// Is there no solution in x? Bisects it where need be; false: not shown within the bounds.
   bool is_empty(Sides x, std::size_t most_parts = kMostParts);
+  /// Does every part of x hold no solution, or none but those that are known, as `known` says of some box that holds the
+  /// part's solutions? `parts`: counts those that were bisected, of all calls. False: not shown.
+  using Known = std::function<bool(const Sides&)>;
+  bool has_none_but(Sides x, const Known& known, std::size_t most_parts, std::size_t& parts);
   /// Do all solutions in x lie between the bounds? Shrinks x to a part that holds them and lies there. False: not shown;
   /// then x means nothing. `empty`: x was found to have none.
   bool confine(Sides& x, const std::vector<Interval>& bounds, bool& empty);
