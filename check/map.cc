@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kMostSteps = 12;  // of Newton's, until two solutions over one value are told apart
 constexpr std::size_t kMostOverlaps = 100;
+constexpr std::size_t kMostBoxes = 3000;  // of the search of a cell
 
 class MapCheck {
  public:
@@ -117,10 +118,47 @@ class MapCheck {
       for (std::size_t other = 0; other < k; ++other)
         if (!differ(cell, cell.sheets[other], cell.sheets[k]))
           return "sheets " + std::to_string(other + 1) + " and " + std::to_string(k + 1) + " may be the same";
+    std::size_t boxes = 0;
+    const bool complete = has_no_more(cell, boxes);
     const std::scoped_lock lock(mutex_);
     report_.sheets += cell.sheets.size();
-    report_.cells[c].at_least = true;
+    report_.boxes += boxes;
+    report_.cells[c] = {true, complete};
     return {};
+  }
+
+  // Of sheets that are confirmed.
+  bool has_no_more(const MapCellClaim& cell, std::size_t& boxes) const {
+    if (problem_.contradiction()) return true;
+    Sides x = problem_.domain();
+    for (std::size_t k = 0; k < parameters_.size(); ++k)
+      x[static_cast<std::size_t>(problem_.place(parameters_[k]))] = Enclosure(cell.sides[k]);
+    std::vector<Sides> images, regions;
+    for (const MapSheet& sheet : cell.sheets) {
+      images.push_back(kept(sheet.box));
+      regions.push_back(kept(sheet.region));
+    }
+    const auto known = [&](const Sides& part) {
+      for (std::size_t k = 0; k < images.size(); ++k)
+        if (!apart(part, regions[k]) && is_of_sheet(part, images[k], regions[k])) return true;
+      return false;
+    };
+    return Search(problem_).has_none_but(std::move(x), known, kMostBoxes, boxes);
+  }
+
+  // Is every zero in x, for each value of the parameters in it, the sheet's? In the region there is no other, nor in a hull
+  // of the sheet's image and x that holds one at most.
+  bool is_of_sheet(const Sides& x, const Sides& image, const Sides& region) const {
+    Sides hull = x;
+    bool inside = true;
+    for (const int u : unknowns_) {
+      const auto k = static_cast<std::size_t>(u);
+      inside = inside && x[k].inside(region[k]);
+      hull[k] = Enclosure::hull(x[k], image[k]);
+    }
+    if (inside) return true;
+    Krawczyk newton(problem_.equations(), problem_.size());
+    return newton.set(unknowns_, hull, Krawczyk::Center::middle) && newton.is_injective(hull);
   }
 
   Sides kept(const Box& box) const {
