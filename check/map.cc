@@ -229,7 +229,7 @@ MapReport check_map(const System& system, const std::vector<int>& parameters, in
   } catch (const Stopped&) {
     report.interrupted = true;
   } catch (const std::invalid_argument& error) {
-    report.failures.push_back(error.what());
+    report.failures.push_back(report.stage + ": " + error.what());
   }
   return report;
 }
