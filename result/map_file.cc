@@ -184,13 +184,13 @@ std::string to_table(const check::MapReport& report, const MapFile& file) {
   const std::size_t all = report.cells.size();
   std::string text = fmt::format("{}: numbers of solutions over {} and {}\n", printable_line(file.model),
                                  printable_line(file.family.over.at(0).name), printable_line(file.family.over.at(1).name));
-  text += fmt::format("  cells    claimed: {}; confirmed: at least as many in {}, no more in {}; {} sheets\n", all,
+  text += fmt::format("  cells  claimed: {}; confirmed: at least as many in {}, no more in {}; {} sheets\n", all,
                       report.at_least(), report.completed(), report.sheets);
   const auto exact = confirmed_shares(report, file, &check::MapCellReport::complete);
   for (const auto& [count, share] : confirmed_shares(report, file, &check::MapCellReport::at_least)) {
     const auto found = exact.find(count);
-    text += fmt::format("  {:<8} confirmed on {:.1f} % of the plane, {} on {:.1f} %\n", fmt::format("{}:", count),
-                        100 * share, "and no more", 100 * (found == exact.end() ? 0 : found->second));
+    text += fmt::format("  {:<5}  on {:.1f} % of the plane; that there are no more: on {:.1f} %\n", count, 100 * share,
+                        100 * (found == exact.end() ? 0 : found->second));
   }
   text += failure_lines(report.failures);
   if (report.complete()) return text + "verified\n";

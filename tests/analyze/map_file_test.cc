@@ -211,11 +211,38 @@ TEST(MapFile, ThatHidesSolutionsIsNotComplete) {
   expect_open(file, static_cast<std::size_t>(with));
 }
 
-// One root there is for every value, and two others meet within.
+// Four solutions, each with a side of two others; the search divides y first.
+TEST(MapFile, ThatHidesASolutionBesideOthersIsNotComplete) {
+  const MapFile good =
+      make_file({.question = question_of("[CONSTANTS]\na := 0\nb := 0\n[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, "
+                                         "2]\n[SYSTEM EQS]\nx^2 + x*y/100 = a;\n3*y^2 = 3*b;"),
+                 .over = {{"a", "1", "2"}, {"b", "1", "2"}}},
+                8);
+  expect_complete(good);
+  for (std::size_t hidden = 0; hidden < 4; ++hidden) {
+    MapFile file = good;
+    MapCellClaim& cell = file.claims.cells[hidden];
+    ASSERT_EQ(cell.sheets.size(), 4U);
+    cell.sheets.erase(cell.sheets.begin() + static_cast<std::ptrdiff_t>(hidden));
+    --cell.count;
+    expect_open(file, 1);
+  }
+}
+
+// One root there is for every value, and two others meet within. Two others are there in one half of a cell.
 TEST(MapFile, OfACellAcrossTheBoundaryIsNotComplete) {
   MapFile file = cubic();
   file.claims.cells = {{{Interval(-1, 0), Interval(-0.5, 0.5)}, 0, {}}};
   expect_open(file, 1);
+  for (const char* right : {"a + b - 1", "1 - a - b"}) {
+    file = make_file({.question = question_of(std::string("[CONSTANTS]\na := 0\nb := 0\n[SYSTEM VARS]\nx : [-2, 2]\n[SYSTEM "
+                                                          "EQS]\nx^2 = ") +
+                                              right + ";"),
+                      .over = {{"a", "0", "1"}, {"b", "0", "1"}}},
+                     8);
+    file.claims.cells = {{{Interval(0, 1), Interval(0, 1)}, 0, {}}};
+    expect_open(file, 1);
+  }
 }
 
 struct Change {
@@ -232,6 +259,7 @@ TEST(MapFile, ThatSomebodyChangedIsRefused) {
   };
   const std::vector<Change> changes{
       {"a solution more", [&](MapFile& f) { ++three(f).count; }, "not as many sheets"},
+      {"a solution fewer", [&](MapFile& f) { --three(f).count; }, "not as many sheets"},
       {"a solution twice",
        [&](MapFile& f) {
          MapCellClaim& cell = three(f);
