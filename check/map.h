@@ -1,16 +1,16 @@
-// How many solutions has a system for every value of two of its variables, the parameters, in cells of their plane? Everything
-// is found anew from the system; trusted is nothing but where to look.
+// How many solutions has a system for every value of two of its variables, the parameters, in cells of their plane?
+// Everything is found anew from the system; trusted is nothing but where to look.
 //
 //   at least   each sheet of a cell P is proven (check/sheets.h): for every p ∈ P exactly one zero x(p) in the region, at
 //              which the Jacobian in x is regular, and it is in the exact domain. Two sheets differ for every p ∈ P where
-//              they differ at one p₀ ∈ P: x is continuous (its graph is closed, its values lie in a compact region), so the
-//              set where x(p) = x'(p) is closed; it is open, since next to a regular zero there is one zero for each p (implicit
-//              function theorem); P is connected.
-//   complete   an exhaustive search of P × domain: each part of it has no solution, or lies in a sheet's region, or in a box
-//              about it and the sheet's image in which the Jacobian is regular, so that there is at most one zero for each
-//              p, the sheet's (check/krawczyk.h).
+//              they differ at one p₀ ∈ P: x is continuous (its graph is closed, its values lie in a compact region), so
+//              {p : x(p) = x'(p)} is closed; it is open, since next to a regular zero there is one zero for each p
+//              (implicit function theorem); P is connected.
+//   complete   an exhaustive search of P × domain: each part of it has no solution, or lies in a sheet's region, or in a
+//              box about it and the sheet's image in which the Jacobian is regular, so that there is at most one zero for
+//              each p, the sheet's (check/krawczyk.h).
 // The reduction keeps the parameters, so it is a bijection for each of their values (certify/reduction.h).
-// What is shown holds for the values in the cell that are in the region, the parameters' ranges.
+// What is shown holds for the values in the cell that are in the parameters' ranges.
 #pragma once
 
 #include <cstdint>
