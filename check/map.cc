@@ -20,7 +20,8 @@ namespace {
 
 constexpr int kMostSteps = 12;  // of Newton's, until two solutions over one value are told apart
 constexpr std::size_t kMostOverlaps = 100;
-constexpr std::size_t kMostBoxes = 3000;  // of the search of a cell
+// Parts of a search: of a cell by itself; of what a group of cells, each counted so often, leaves to one of them.
+constexpr std::size_t kFewParts = 20, kPartsOfGroup = 20, kMostPartsOfGroup = 40'000, kMostParts = 3000;
 
 class MapCheck {
  public:
@@ -51,24 +52,33 @@ class MapCheck {
     const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     std::vector<std::string> faults(claims_.cells.size());
-    std::atomic<bool> stopped = false;
-    arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, claims_.cells.size(), [&](std::size_t c) {
-        if (stopped) return;
-        const NearestRounding nearest;
-        try {
-          faults[c] = check_cell(c);
-        } catch (const Stopped&) {
-          stopped = true;
-        }
-      });
-    });
+    arena.execute([&] { parallel(claims_.cells.size(), [&](std::size_t c) { faults[c] = check_cell(c); }); });
     for (std::size_t c = 0; c < faults.size(); ++c)
       if (!faults[c].empty()) fail(c, faults[c]);
-    if (stopped) throw Stopped{};
+    if (stopped_) throw Stopped{};
+    report_.stage = "the search for more solutions";
+    std::vector<std::size_t> open;
+    for (std::size_t c = 0; c < report_.cells.size(); ++c)
+      if (report_.cells[c].at_least && !report_.cells[c].complete) open.push_back(c);
+    arena.execute([&] { search(open, {problem_.domain()}); });
+    if (stopped_) throw Stopped{};
   }
 
  private:
+  // Work that was stopped sets stopped_.
+  template <class Work>
+  void parallel(std::size_t n, const Work& work) {
+    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+      if (stopped_) return;
+      const NearestRounding nearest;
+      try {
+        work(i);
+      } catch (const Stopped&) {
+        stopped_ = true;
+      }
+    });
+  }
+
   void fail(const std::string& what) { report_.failures.push_back(what); }
   void fail(std::size_t cell, const std::string& what) { fail("cell " + std::to_string(cell + 1) + ": " + what); }
 
@@ -118,21 +128,30 @@ class MapCheck {
       for (std::size_t other = 0; other < k; ++other)
         if (!differ(cell, cell.sheets[other], cell.sheets[k]))
           return "sheets " + std::to_string(other + 1) + " and " + std::to_string(k + 1) + " may be the same";
-    std::size_t boxes = 0;
-    const bool complete = has_no_more(cell, boxes);
+    const bool complete = has_no_more(cell, {problem_.domain()}, kFewParts);
     const std::scoped_lock lock(mutex_);
     report_.sheets += cell.sheets.size();
-    report_.boxes += boxes;
     report_.cells[c] = {true, complete};
     return {};
   }
 
-  // Of sheets that are confirmed.
-  bool has_no_more(const MapCellClaim& cell, std::size_t& boxes) const {
+  // What the boxes have over these values of the parameters.
+  std::vector<Sides> over(const Box& sides, const std::vector<Sides>& boxes) const {
+    std::vector<Sides> parts;
+    for (const Sides& x : boxes) {
+      Sides part = x;
+      bool some = true;
+      for (std::size_t k = 0; k < parameters_.size(); ++k)
+        some = some && part[static_cast<std::size_t>(problem_.place(parameters_[k]))].intersect(Enclosure(sides[k]));
+      if (some) parts.push_back(std::move(part));
+    }
+    return parts;
+  }
+
+  // Are the zeros over the cell that are in the domain, all of which lie in the boxes, those of its sheets, which are
+  // confirmed?
+  bool has_no_more(const MapCellClaim& cell, const std::vector<Sides>& open, std::size_t most) {
     if (problem_.contradiction()) return true;
-    Sides x = problem_.domain();
-    for (std::size_t k = 0; k < parameters_.size(); ++k)
-      x[static_cast<std::size_t>(problem_.place(parameters_[k]))] = Enclosure(cell.sides[k]);
     std::vector<Sides> images, regions;
     for (const MapSheet& sheet : cell.sheets) {
       images.push_back(kept(sheet.box));
@@ -143,7 +162,52 @@ class MapCheck {
         if (!apart(part, regions[k]) && is_of_sheet(part, images[k], regions[k])) return true;
       return false;
     };
-    return Search(problem_).has_none_but(std::move(x), known, kMostBoxes, boxes);
+    std::size_t parts = 0;
+    const bool shown = Search(problem_).has_none_but(over(cell.sides, open), known, most, parts);
+    const std::scoped_lock lock(mutex_);
+    report_.boxes += parts;
+    return shown;
+  }
+
+  // What takes long in one cell takes no longer in all that are near: boxes that hold all zeros over these cells are found
+  // for all of them, then for each quarter of them.
+  void search(const std::vector<std::size_t>& cells, const std::vector<Sides>& open) {
+    if (cells.empty() || stopped_) return;
+    const NearestRounding nearest;
+    if (cells.size() == 1) {
+      report_.cells[cells[0]].complete = has_no_more(claims_.cells[cells[0]], open, kMostParts);
+      return;
+    }
+    Box hull = claims_.cells[cells[0]].sides;
+    for (const std::size_t c : cells)
+      for (std::size_t k = 0; k < hull.size(); ++k) hull[k] = Interval::hull(hull[k], claims_.cells[c].sides[k]);
+    const auto narrow = [&](const Sides& x) { return is_injective(x); };
+    std::size_t parts = 0;
+    const std::vector<Sides> found =
+        Search(problem_).sift(over(hull, open), narrow, std::min(kPartsOfGroup * cells.size(), kMostPartsOfGroup), parts);
+    {
+      const std::scoped_lock lock(mutex_);
+      report_.boxes += parts;
+    }
+    std::vector<std::vector<std::size_t>> groups;
+    for (const auto& half : in_halves(cells, hull[0].width() > hull[1].width() ? 0 : 1))
+      for (auto& quarter : in_halves(half, hull[0].width() > hull[1].width() ? 1 : 0)) groups.push_back(std::move(quarter));
+    parallel(groups.size(), [&](std::size_t g) { search(groups[g], found); });
+  }
+
+  std::vector<std::vector<std::size_t>> in_halves(std::vector<std::size_t> cells, std::size_t along) const {
+    if (cells.size() < 2) return {cells};
+    const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
+    std::nth_element(cells.begin(), middle, cells.end(), [&](std::size_t a, std::size_t b) {
+      return claims_.cells[a].sides[along].mid() < claims_.cells[b].sides[along].mid();
+    });
+    return {{cells.begin(), middle}, {middle, cells.end()}};
+  }
+
+  // At most one zero in x for each value of the parameters.
+  bool is_injective(const Sides& x) const {
+    Krawczyk newton(problem_.equations(), problem_.size());
+    return newton.set(unknowns_, x, Krawczyk::Center::middle) && newton.is_injective(x);
   }
 
   // Is every zero in x, for each value of the parameters in it, the sheet's? In the region there is no other, nor in a hull
@@ -156,9 +220,7 @@ class MapCheck {
       inside = inside && x[k].inside(region[k]);
       hull[k] = Enclosure::hull(x[k], image[k]);
     }
-    if (inside) return true;
-    Krawczyk newton(problem_.equations(), problem_.size());
-    return newton.set(unknowns_, hull, Krawczyk::Center::middle) && newton.is_injective(hull);
+    return inside || is_injective(hull);
   }
 
   Sides kept(const Box& box) const {
@@ -205,6 +267,7 @@ class MapCheck {
   const Problem problem_;
   std::vector<int> unknowns_;  // the others that were kept, by their places among those
   std::mutex mutex_;
+  std::atomic<bool> stopped_ = false;
   MapReport& report_;
 };
 
