@@ -18,9 +18,8 @@
 #include "corank/core/threads.h"
 #include "corank/solve/cell_search.h"
 #include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/exact_value.h"
-#include "corank/symbolic/kernel_scale.h"
+#include "corank/symbolic/family_system.h"
 
 namespace corank::analyze {
 namespace {
@@ -36,17 +35,6 @@ constexpr std::size_t kMostRoots = 4;  // of a cell's boxes that are searched fo
 constexpr double kFoldWidth = 1;       // of a box of the curve, in edges of the narrowest cells
 
 const char* const kAnswers[] = {"solutions", "components", "aspects", "assembly-modes", "working-modes"};
-
-symbolic::TrigonometricSystem equations_of(const study::Question& q) {
-  if (!q.set) return symbolic::plain_system(q.model);
-  const symbolic::SetDefinition& set = symbolic::definition(q.set);
-  if (set.of_parts || set.type)
-    throw ModelError({q.model.name(), 0, 0}, std::string("the set ") + set.name + " is not counted",
-                     "a set that is one system's, such as cspace, forward or forward-cusps");
-  // Passive rates stay: by how much their scales bound them depends on the constants.
-  return symbolic::singularity_system(q.model, *q.set, q.kernel, symbolic::kernel_scales(q.model, *q.set, q.kernel),
-                                      q.corank);
-}
 
 // A control for one of several threads, which ends when the one of all does.
 solve::Control::Limits as_of(const solve::Control& all) {
@@ -94,17 +82,17 @@ struct ParameterMapper::Parts {
               solve::Control& control) const;
   void find_folds(std::vector<Box> roots, MapTile& tile, solve::Control& control) const;
   std::optional<int> answer_at(const Box& sides, solve::Control& control) const;
+  std::vector<MapSheet> sheets_of(const solve::ParameterCell& cell, const std::vector<std::size_t>& solutions) const;
 };
 
 void ParameterMapper::Parts::make_family() {
   const symbolic::Mechanism& model = question.question.model;
   const symbolic::SourceLocation place{model.name(), 0, 0};
-  const symbolic::ParametricSystem parametric =
-      symbolic::with_parameters(model, equations_of(question.question), question.over, question.fixed);
-  System system = symbolic::algebrize(parametric.system);
+  const study::Question& q = question.question;
+  const auto [system, parameters, copies] =
+      symbolic::family_system(model, {q.set, q.kernel, q.corank, question.over, question.fixed});
   Family& f = family.emplace();
-  const std::vector<int> parameters = symbolic::mark_parameters(parametric, system);
-  f.copies = parametric.copies;
+  f.copies = copies;
   f.reduction = certify::reduce_with_parameters(system, parameters);
   for (const int p : parameters) {
     const auto kept = std::find(f.reduction.kept.begin(), f.reduction.kept.end(), p);
@@ -195,14 +183,16 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
   const double share = 1.0 / (kTiles << level);
   bool finished =
       search.refine(cell, last ? std::min(kLastOpenShare, kOpenShare * share) : kOpenShare * share, kMostOfCell, control);
-  std::optional<int> count = search.count(cell);
-  if (last && finished && !count) {
+  auto solutions = search.solutions(cell);
+  if (last && finished && !solutions) {
     finished = search.refine(cell, kFinestOpenShare, kMostOfLast, control);
-    count = search.count(cell);
+    solutions = search.solutions(cell);
   }
-  if (count) {
-    CORANK_CHECK(*count % family->copies == 0);
-    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::proven, *count / family->copies, {}});
+  if (solutions) {
+    const auto count = static_cast<int>(solutions->size());
+    CORANK_CHECK(count % family->copies == 0);
+    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::proven, count / family->copies, {}});
+    if (options.certificate) tile.cells.back().sheets = sheets_of(cell, *solutions);
     return;
   }
   if (!finished) {
@@ -229,6 +219,20 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
     cell.open.resize(1);
   }
   std::move(cell.open.begin(), cell.open.end(), std::back_inserter(roots));
+}
+
+// The eliminated variables' values follow from the others'.
+std::vector<MapSheet> ParameterMapper::Parts::sheets_of(const solve::ParameterCell& cell,
+                                                        const std::vector<std::size_t>& solutions) const {
+  const certify::Reduction& r = family->reduction;
+  const auto lifted = [&](const std::vector<Interval>& sides) {
+    Box box(r.kept.size() + r.definitions.size(), Interval::whole());
+    for (std::size_t j = 0; j < r.kept.size(); ++j) box[static_cast<std::size_t>(r.kept[j])] = sides[j];
+    return box;
+  };
+  std::vector<MapSheet> sheets;
+  for (const std::size_t k : solutions) sheets.push_back({lifted(cell.sheets[k].image), lifted(cell.sheets[k].region)});
+  return sheets;
 }
 
 void ParameterMapper::Parts::find_folds(std::vector<Box> roots, MapTile& tile, solve::Control& control) const {
@@ -320,6 +324,12 @@ ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
   map.complete = std::none_of(map.cells.begin(), map.cells.end(),
                               [](const MapCellAnswer& c) { return c.kind == MapCellAnswer::Kind::pending; });
   map.boundary_known = map.boundary_known && map.complete;
+  if (p.options.certificate && p.family) {
+    map.claims.emplace().reduction = p.family->reduction.steps;
+    for (MapCellAnswer& c : map.cells)
+      if (c.kind == MapCellAnswer::Kind::proven)
+        map.claims->cells.push_back({c.sides, c.count.value(), std::exchange(c.sheets, {})});
+  }
   return map;
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "corank/core/map_claims.h"
+#include "corank/result/map_file.h"
 #include "corank/solve/control.h"
 #include "corank/study/question.h"
 #include "corank/symbolic/parameters.h"
@@ -30,9 +32,10 @@ struct MapQuestion {
 };
 
 struct ParameterMapOptions {
-  int resolution = 64;   ///< the narrowest cells are so many along each side: a power of two, 8 … 1024
-  bool boundary = true;  ///< look for the curve on which solutions meet, in cells that are left undecided
-  int threads = 1;       ///< tiles at once; 0: one for each core
+  int resolution = 64;       ///< the narrowest cells are so many along each side: a power of two, 8 … 1024
+  bool boundary = true;      ///< look for the curve on which solutions meet, in cells that are left undecided
+  bool certificate = false;  ///< of MapAnswer::solutions: keep what proves the cells' numbers
+  int threads = 1;           ///< tiles at once; 0: one for each core
   std::function<void(std::size_t done, std::size_t all)> progress{};  ///< of tiles; from any thread, one at a time
 };
 inline constexpr int kTiles = 8;  ///< along each side
@@ -46,8 +49,9 @@ struct MapCellAnswer {
   };
   Box sides;
   Kind kind = Kind::pending;
-  std::optional<int> count;      ///< proven
-  std::optional<int> at_centre;  ///< proven for the cell's centre alone
+  std::optional<int> count;        ///< proven
+  std::optional<int> at_centre;    ///< proven for the cell's centre alone
+  std::vector<MapSheet> sheets{};  ///< of a proven cell, where a certificate is asked for
 };
 const char* to_string(MapCellAnswer::Kind kind);
 
@@ -79,6 +83,7 @@ struct ParameterMap {
   bool complete = false;
   std::uint64_t processed = 0;
   double seconds = 0;
+  std::optional<MapClaims> claims;  ///< of the proven cells, where a certificate was asked for
 
   /// The share of the region's area that is proven to have each count; of centre answers, the share of the cells.
   std::map<int, double> shares() const;
@@ -108,6 +113,9 @@ class ParameterMapper {
 /// Where the control ends it early, what is known by then. The result does not depend on the number of threads.
 ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOptions& options, solve::Control& control);
 
+/// Of a map with claims.
+result::MapFile to_file(const MapQuestion& question, const ParameterMap& map);
+
 /// A few lines for a terminal.
 std::string to_table(const ParameterMap& map);
 /// x_lo, x_hi, y_lo, y_hi, kind, count, at_centre in each row, after a heading.
@@ -115,7 +123,7 @@ std::string to_csv(const ParameterMap& map);
 /// {"model", "set", "count", "over": {name: [lo, hi]}, "fixed", "resolution", "cells": [[x_lo, x_hi, y_lo, y_hi, kind,
 /// count, at_centre]], "boundary": [[x_lo, x_hi, y_lo, y_hi, proven]], "shares" …}; doc/maps.md.
 std::string to_json(const ParameterMap& map);
-/// For transport: a tile as text, and back. Throws std::invalid_argument.
+/// For transport: a tile without its sheets as text, and back. Throws std::invalid_argument.
 std::string to_json(const MapTile& tile);
 MapTile tile_from_json(const std::string& text);
 

@@ -83,7 +83,8 @@ std::string to_table(const ParameterMap& map) {
                         sampled ? " of the cells, at their centres" : " of the plane, proven for every value there");
   const double proven = map.proven_share();
   if (!sampled)
-    text += fmt::format("  {:<22}{} of the plane, where the number may change\n", "undecided", percent(1 - proven));
+    text += fmt::format("  {:<22}{} of the plane, where the number may change\n", "undecided",
+                        percent(std::max(0.0, 1 - proven)));
   text += fmt::format("  {:<22}{} ({} proven, {} undecided{}{}), {} boxes processed\n", "cells", map.cells.size(),
                       cells_of(map, MapCellAnswer::Kind::proven), cells_of(map, MapCellAnswer::Kind::undecided),
                       sampled ? fmt::format(", {} centres", cells_of(map, MapCellAnswer::Kind::centre)) : "",

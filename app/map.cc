@@ -78,9 +78,14 @@ report::ParameterPicture picture(const analyze::ParameterMap& map) {
 ExitStatus write_map(MapCommand command) {
   give_back_model(command.question, command.json);
   for (const std::string& name : command.outputs) {
-    const bool known = name.ends_with(".json") || name.ends_with(".csv") || report::is_picture(name);
+    const bool certificate = name.ends_with(".h5");
+    const bool known = certificate || name.ends_with(".json") || name.ends_with(".csv") || report::is_picture(name);
     if (!known)
-      throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg, .pdf, .png, .csv or .json", name));
+      throw UsageError(fmt::format("-o {}: expected a file name that ends in .h5, .svg, .pdf, .png, .csv or .json", name));
+    if (certificate && command.count != "solutions")
+      throw UsageError(
+          fmt::format("-o {}: --count {} is proven at centres alone, and has no certificate", name, command.count));
+    command.options.certificate = command.options.certificate || certificate;
     result::check_writable(name);
   }
   const int n = command.options.resolution;
@@ -98,7 +103,9 @@ ExitStatus write_map(MapCommand command) {
   const analyze::ParameterMap map = analyze::parameter_map(question, command.options, control);
   line.clear();
   for (const std::string& name : command.outputs) {
-    if (name.ends_with(".json")) {
+    if (name.ends_with(".h5")) {
+      result::write_map(name, to_file(question, map));
+    } else if (name.ends_with(".json")) {
       result::write_text(name, to_json(map) + "\n");
     } else if (name.ends_with(".csv")) {
       result::write_text(name, to_csv(map));
@@ -137,7 +144,10 @@ void add_map(CLI::App& program, Action& action) {
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("-o", command->outputs, "A picture (.svg, .pdf, .png) or the cells (.csv, .json); may be repeated")
+  sub->add_option(
+         "-o", command->outputs,
+         "A picture (.svg, .pdf, .png), the cells (.csv, .json), or the proven ones with what proves them (.h5), for\n"
+         "corank verify; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
@@ -149,7 +159,8 @@ void add_map(CLI::App& program, Action& action) {
       "Exit status: 0 done, 1 bad input, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
       "Examples, the assembly modes of a five-bar over its motors' angles, and over two lengths:\n"
       "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.svg\n"
-      "  corank map models/dextar.cuik --over l2=1/2:3/2 --over l3=1/2:3/2 --fix theta2=pi/3 --fix theta5=2 -o lengths.svg");
+      "  corank map models/dextar.cuik --over l2=1/2:3/2 --over l3=1/2:3/2 --fix theta2=pi/3 --fix theta5=2 -o lengths.svg\n"
+      "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.h5 && corank verify modes.h5");
   sub->callback([command, json, &action] {
     if (json->count() > 0 && !command->json) command->json = "";
     action = [command] { return write_map(*command); };

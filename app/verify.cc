@@ -11,6 +11,7 @@
 #include "corank/app/progress.h"
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
+#include "corank/result/map_file.h"
 #include "corank/result/path_file.h"
 #include "corank/result/pieces_file.h"
 #include "corank/result/printable.h"
@@ -106,6 +107,13 @@ ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch) {
   return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
 }
 
+ExitStatus verify_map(const VerifyCommand& command, Watch& watch) {
+  const check::MapReport report = checked(command, watch, &result::read_map);
+  if (report.complete()) return kDone;
+  if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
+  return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
+}
+
 ExitStatus verify(const VerifyCommand& command) {
   const Interrupt interrupt;
   Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
@@ -114,6 +122,7 @@ ExitStatus verify(const VerifyCommand& command) {
   if (format == result::kPathFormat) return verify_path(command, watch);
   if (format == result::kShapeFormat) return verify_shape(command, watch);
   if (format == result::kPiecesFormat) return verify_pieces(command, watch);
+  if (format == result::kMapFormat) return verify_map(command, watch);
   const result::Result result = result::read_result(command.input);
   watch.enter("deriving the equations from the model");
   const System system = result::system_of(result);
@@ -154,11 +163,9 @@ void add_verify(CLI::App& program, Action& action) {
       "isolated or boundary, in exact arithmetic where it is exact or has an exact point. An undecided box without one\n"
       "and a pending box claim nothing; a partial box is not checkable. Where the file holds a proof that the cover is\n"
       "complete (corank solve --proof), it is replayed.\n\n"
-      "What corank path, topology and aspects write is checked, too: a tube; components, Euler characteristic and genus; "
-      "of\n"
-      "aspects and modes a member of each, its signs, and how many there are, at least and at most (where the file does "
-      "not\n"
-      "show that there are no more: exit status 4).\n\n"
+      "What corank path, topology, aspects and map write is checked, too: a tube; components, Euler characteristic and\n"
+      "genus; of aspects and modes a member of each, its signs, and how many there are, at least and at most (where the\n"
+      "file does not show that there are no more: exit status 4); of a map the number of each proven cell.\n\n"
       "Exit status: 0 all verified, completeness included; 1 something failed or is not checkable, or the file cannot be\n"
       "read; 2 usage; 3 ended early (limit, interrupt or --sample), nothing was found wrong so far; 4 all verified, but not "
       "its\n"

@@ -93,15 +93,15 @@ bool keep_distinct(const CompiledSystem& system, std::vector<Sheet>& sheets, New
   return known;
 }
 
-std::optional<int> count_inside(const CompiledSystem& system, const DomainTest& domain, const std::vector<Sheet>& sheets,
-                                NewtonWorkspace& w) {
+std::optional<std::vector<std::size_t>> sheets_inside(const CompiledSystem& system, const DomainTest& domain,
+                                                      const std::vector<Sheet>& sheets, NewtonWorkspace& w) {
   CORANK_CHECK(UpwardRounding::active());
-  int inside = 0;
-  for (const Sheet& sheet : sheets) {
-    std::vector<Interval> x = sheet.image;
-    const NewtonStep step = tighten(system, sheet, x, w);
+  std::vector<std::size_t> inside;
+  for (std::size_t k = 0; k < sheets.size(); ++k) {
+    std::vector<Interval> x = sheets[k].image;
+    const NewtonStep step = tighten(system, sheets[k], x, w);
     switch (domain.locate_zeros(step, x)) {
-      case Location::inside: ++inside; break;
+      case Location::inside: inside.push_back(k); break;
       case Location::outside: break;
       case Location::across: return std::nullopt;
     }

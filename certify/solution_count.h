@@ -40,9 +40,9 @@ bool lies_on(const Sheet& sheet, std::span<const Interval> box);
 /// Removes sheets that are the same as an earlier one. False: of some two that is not known.
 bool keep_distinct(const CompiledSystem& system, std::vector<Sheet>& sheets, NewtonWorkspace& w);
 
-/// Of sheets that differ pairwise, how many are in the domain for every value of the parameters, where each of the others is
-/// outside for every value. Nothing: one may cross an end of the domain. The parameters' own ends are none.
-std::optional<int> count_inside(const CompiledSystem& system, const DomainTest& domain, const std::vector<Sheet>& sheets,
-                                NewtonWorkspace& w);
+/// Which sheets are in the domain for every value of the parameters, where each of the others is outside for every value.
+/// Nothing: one may cross an end of the domain. The parameters' own ends are none.
+std::optional<std::vector<std::size_t>> sheets_inside(const CompiledSystem& system, const DomainTest& domain,
+                                                      const std::vector<Sheet>& sheets, NewtonWorkspace& w);
 
 }  // namespace corank::certify

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <iterator>
 #include <limits>
 
 #include "corank/check/krawczyk.h"
@@ -160,27 +162,56 @@ int Search::widest(const Sides& x) const {
   return best;
 }
 
-bool Search::is_empty(Sides first, std::size_t most_parts) {
-  std::vector<Sides> open{std::move(first)};
+std::optional<std::array<Sides, 2>> Search::halves(const Sides& x) const {
+  const int j = widest(x);
+  if (j < 0) return std::nullopt;
+  const auto v = static_cast<std::size_t>(j);
+  const double middle = x[v].lo() + 0.47 * (x[v].hi() - x[v].lo());
+  std::array<Sides, 2> parts{x, x};
+  if (!parts[0][v].intersect(Enclosure(-kInfinity, middle)) || !parts[1][v].intersect(Enclosure(middle, kInfinity)))
+    return std::nullopt;
+  return parts;
+}
+
+bool Search::is_empty(Sides x, std::size_t most_parts) {
   std::size_t parts = 0;
+  const bool shown = has_none_but(
+      {std::move(x)}, [](const Sides&) { return false; }, most_parts, parts);
+  searched_ += parts > 0;
+  return shown;
+}
+
+bool Search::has_none_but(std::vector<Sides> open, const Known& known, std::size_t most_parts, std::size_t& parts) {
+  const std::size_t last = parts + most_parts;
   while (!open.empty()) {
     Sides x = std::move(open.back());
     open.pop_back();
-    if (!contract(x)) continue;
-    const int j = widest(x);
-    if (j < 0 || ++parts > most_parts) return false;
-    if (parts == 1) ++searched_;
-    const auto v = static_cast<std::size_t>(j);
-    const Enclosure side = x[v];
-    const double middle = side.lo() + 0.47 * (side.hi() - side.lo());
-    Enclosure lower = side, upper = side;
-    if (!lower.intersect(Enclosure(-kInfinity, middle)) || !upper.intersect(Enclosure(middle, kInfinity))) return false;
-    open.push_back(x);
-    open.back()[v] = upper;
-    open.push_back(std::move(x));
-    open.back()[v] = lower;
+    if (!contract(x) || known(x)) continue;
+    auto both = halves(x);
+    if (!both || ++parts > last) return false;
+    open.push_back(std::move((*both)[1]));
+    open.push_back(std::move((*both)[0]));
   }
   return true;
+}
+
+std::vector<Sides> Search::sift(std::vector<Sides> open, const Known& narrow, std::size_t most_parts, std::size_t& parts) {
+  const std::size_t last = parts + most_parts;
+  std::deque<Sides> waiting(std::make_move_iterator(open.begin()), std::make_move_iterator(open.end()));
+  open.clear();
+  while (!waiting.empty()) {
+    Sides x = std::move(waiting.front());
+    waiting.pop_front();
+    if (!contract(x)) continue;
+    auto both = parts < last && !narrow(x) ? halves(x) : std::nullopt;
+    if (!both) {
+      open.push_back(std::move(x));
+      continue;
+    }
+    ++parts;
+    for (Sides& part : *both) waiting.push_back(std::move(part));
+  }
+  return open;
 }
 
 bool Search::confine(Sides& x, const std::vector<Interval>& bounds, bool& empty) {

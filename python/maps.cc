@@ -33,19 +33,26 @@ class ParameterMap {
     for (const auto& [name, value] : fixed) question_.fixed.push_back({name, value});
   }
 
-  py::tuple run(int threads, double time_limit, const py::object& progress) const {
-    auto [texts, raised] =
-        run_for(progress, [question = question_, options = options_, threads, time_limit](Watcher& watcher) {
+  py::tuple run(int threads, bool certificate, double time_limit, const py::object& progress) const {
+    struct Said {
+      Texts texts;
+      std::shared_ptr<result::MapFile> file;
+    };
+    auto [said, raised] =
+        run_for(progress, [question = question_, options = options_, threads, certificate, time_limit](Watcher& watcher) {
           solve::Control control({.time = time_limit, .stop = &watcher.stop});
           analyze::ParameterMapOptions own = options;
           own.threads = threads;
+          own.certificate = certificate;
           own.progress = [&watcher](std::size_t done, std::size_t all) {
             watcher.show({"map", static_cast<double>(done) / static_cast<double>(all), ""});
           };
           const analyze::ParameterMap map = analyze::parameter_map(question, own, control);
-          return Texts{to_json(map), to_table(map)};
+          Said result{{to_json(map), to_table(map)}, {}};
+          if (map.claims) result.file = std::make_shared<result::MapFile>(to_file(question, map));
+          return result;
         });
-    return py::make_tuple(texts.json, texts.table, raised);
+    return py::make_tuple(said.texts.json, said.texts.table, said.file, raised);
   }
 
   std::string tile(int number) {
@@ -78,6 +85,18 @@ class ParameterMap {
 }  // namespace
 
 void bind_maps(py::module_& module) {
+  py::class_<result::MapFile, std::shared_ptr<result::MapFile>>(module, "MapFile")
+      .def("write", [](const result::MapFile& file, const std::string& path) { result::write_map(path, file); });
+  module.def("verify_map", [](const result::MapFile& file, int threads, const py::object& progress) {
+    auto [texts, raised] = run_for(progress, [file, threads](Watcher& watcher) {
+      check::Options options;
+      options.threads = threads;
+      options.stop = &watcher.stop;
+      const check::MapReport report = result::verify(file, options);
+      return Texts{to_json(report, file), to_table(report, file)};
+    });
+    return py::make_tuple(texts.json, texts.table, raised);
+  });
   py::class_<ParameterMap>(module, "ParameterMap")
       .def(py::init<const Model&, const std::optional<std::string>&,
                     const std::vector<std::tuple<std::string, Expression, Expression>>&,

@@ -138,10 +138,15 @@ bool CellSearch::refine(ParameterCell& cell, double share, std::uint64_t most, C
   return !ended;
 }
 
-std::optional<int> CellSearch::count(ParameterCell& cell) {
+std::optional<std::vector<std::size_t>> CellSearch::solutions(ParameterCell& cell) {
   CORANK_CHECK(UpwardRounding::active());
   if (!cell.open.empty() || !certify::keep_distinct(problem_.compiled, cell.sheets, workspace_)) return std::nullopt;
-  return certify::count_inside(problem_.compiled, problem_.domain, cell.sheets, workspace_);
+  return certify::sheets_inside(problem_.compiled, problem_.domain, cell.sheets, workspace_);
+}
+
+std::optional<int> CellSearch::count(ParameterCell& cell) {
+  const auto inside = solutions(cell);
+  return inside ? std::optional(static_cast<int>(inside->size())) : std::nullopt;
 }
 
 }  // namespace corank::solve

@@ -41,6 +41,8 @@ class CellSearch {
   /// The number of solutions in the domain for every value in the cell; nothing where boxes are open, where two sheets are
   /// not told apart, or one may leave the domain.
   std::optional<int> count(ParameterCell& cell);
+  /// The sheets on which these lie: indices into cell.sheets.
+  std::optional<std::vector<std::size_t>> solutions(ParameterCell& cell);
 
   std::uint64_t processed() const { return processed_; }  ///< boxes, in all cells
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Tuple
+import json
+import os
+from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Tuple, Union
 
 from . import _corank
 from .analyses import Analysis, RangeLike, _ranges
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .mechanism import Mechanism
+    from .result import Verification
 
 
 class ParameterMap(Analysis):
@@ -31,8 +34,9 @@ class ParameterMap(Analysis):
         boundary_known: do the boxes of boundary() hold all values in undecided cells at which two solutions meet?
     """
 
-    def __init__(self, text: str, table: str) -> None:
+    def __init__(self, text: str, table: str, file: Optional["_corank.MapFile"] = None) -> None:
         super().__init__(text, table)
+        self._file = file
         x, y = self.data["over"]
         self.names: Tuple[str, str] = (x, y)
         self.region: Tuple[Tuple[float, float], ...] = tuple((lo, hi) for lo, hi in self.data["over"].values())
@@ -42,6 +46,26 @@ class ParameterMap(Analysis):
         self.proven_share: float = self.data["proven_share"]
         self.complete: bool = self.data["complete"]
         self.boundary_known: bool = self.data["boundary_known"]
+
+    def _need(self) -> "_corank.MapFile":
+        if self._file is None:
+            raise ValueError("there is no certificate: map() needs certificate=True")
+        return self._file
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the proven cells with what proves them (.h5), which verify() and `corank verify` check. ValueError where
+        certificate=True was not given."""
+        self._need().write(os.fspath(path))
+
+    def verify(self, threads: int = 0, *, progress: ProgressOption = None) -> "Verification":
+        """Checks the proven cells anew by code that shares nothing with what made them. verified: in each there are at least
+        as many solutions for every value; complete: and no more. ValueError where certificate=True was not given."""
+        from .result import Verification
+
+        with Shown(progress) as show:
+            text, table, raised = _corank.verify_map(self._need(), threads, show)
+        report = json.loads(text)
+        return deliver(Verification(report["verified"], report["complete"], report, table), raised)
 
     def to_pandas(self) -> "pandas.DataFrame":
         """A row for each cell: its lower and upper ends, the kind ("proven": `count` holds for every value in it; "undecided",
@@ -134,6 +158,7 @@ def map(
     count: str = "solutions",
     resolution: int = 64,
     boundary: bool = True,
+    certificate: bool = False,
     threads: int = 0,
     time_limit: float = 0,
     progress: ProgressOption = None,
@@ -149,6 +174,7 @@ def map(
             proven at the centres of cells alone.
         resolution: the narrowest cells are so many along each side: a power of two from 8 to 1024.
         boundary: look for the curve on which two solutions meet.
+        certificate: keep what proves the cells' numbers, for save() and verify(); of "solutions", and without `client`.
         threads: 0: one for each core. time_limit: seconds, 0: none. The map does not depend on the threads.
         client: of dask.distributed, whose workers do the map's parts (corank.cluster), each with one thread.
 
@@ -156,6 +182,8 @@ def map(
         ModelError: where there is no such number.
         Interrupted: by Ctrl-C, with what is known by then; the rest is pending.
     """
+    if certificate and (count != "solutions" or client is not None):
+        raise ValueError('certificate: of count="solutions" alone, and without client')
     core = _corank.ParameterMap(
         self._core,
         set,
@@ -167,8 +195,8 @@ def map(
     )
     if client is None:
         with Shown(progress) as show:
-            json, text, raised = core.run(threads, time_limit, show)
-        return deliver(ParameterMap(json, text), raised)
+            data, text, file, raised = core.run(threads, certificate, time_limit, show)
+        return deliver(ParameterMap(data, text, file), raised)
 
     from . import cluster  # needs a package that is not always there
 

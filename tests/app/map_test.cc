@@ -10,6 +10,7 @@
 namespace corank::app {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -34,6 +35,23 @@ TEST(MapCommand, CountsDrawsAndWritesCells) {
   EXPECT_THAT(content(folder.file("m.svg")), HasSubstr("<title>solutions meet</title>"));
   EXPECT_THAT(content(folder.file("m.pdf")), StartsWith("%PDF"));
   EXPECT_THAT(content(folder.file("m.json")), HasSubstr("\"boundary_known\":true"));
+}
+
+TEST(MapCommand, WritesWhatVerifyConfirms) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("m.h5");
+  const auto run = run_corank({"map", model("dextar"), "--over", "l2=1/2:3/2", "--over", "l3=1/2:3/2", "--fix",
+                               "theta2=pi/3", "--fix", "theta5=2", "--resolution", "16", "-o", file});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto verify = run_corank({"verify", file, "--require-proof"});
+  EXPECT_EQ(verify.status, 0) << verify.out;
+  EXPECT_THAT(verify.out, StartsWith("dextar: numbers of solutions over l2 and l3\n"));
+  EXPECT_THAT(verify.out, EndsWith("\nverified\n"));
+  EXPECT_THAT(run_corank({"verify", file, "--json"}).out, HasSubstr("\"complete\": true"));
+  const auto centres = run_corank({"map", model("three_slider"), "--over", "L1=1:2", "--over", "L2=1/2:9/10", "--count",
+                                   "aspects", "--resolution", "8", "-o", file});
+  EXPECT_EQ(centres.status, 2);
+  EXPECT_THAT(centres.err, HasSubstr("has no certificate"));
 }
 
 TEST(MapCommand, PrintsJsonAlone) {

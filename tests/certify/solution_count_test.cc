@@ -33,7 +33,8 @@ class SheetsOverAParameter : public ::testing::Test {
   }
   std::optional<int> inside(const System& system, std::vector<Sheet> sheets) {
     const CompiledSystem compiled(system);
-    return count_inside(compiled, DomainTest(system), sheets, workspace_);
+    const auto inside = sheets_inside(compiled, DomainTest(system), sheets, workspace_);
+    return inside ? std::optional(static_cast<int>(inside->size())) : std::nullopt;
   }
 
   const UpwardRounding rounding_;

@@ -85,3 +85,15 @@ def test_workers_make_the_same_map_and_family(cubic, cusp, three_slider):
         assert a.value == b.value and all(np.array_equal(a.results[s].boxes, b.results[s].boxes) for s in a.results)
     early = ended.value.result
     assert not early.complete and "pending" in set(early.to_pandas().kind)
+
+
+def test_its_certificate_is_saved_and_verified(cubic, cusp, tmp_path):
+    kept = cubic.map(OVER, resolution=16, certificate=True)
+    report = kept.verify()
+    assert report.verified and report.complete and report.report["cells"]["complete"] > 50
+    kept.save(tmp_path / "cusp.h5")
+    assert (tmp_path / "cusp.h5").stat().st_size > 10_000
+    with pytest.raises(ValueError, match="certificate=True"):
+        cusp.verify()
+    with pytest.raises(ValueError, match="certificate"):
+        cubic.map(OVER, count="components", certificate=True)

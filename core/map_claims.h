@@ -1,0 +1,28 @@
+// What is claimed of a number of solutions over cells of a plane of parameters.
+#pragma once
+
+#include <vector>
+
+#include "corank/core/cover.h"
+
+namespace corank {
+
+/// A solution for each value of the parameters in a cell: the one in the region, and it lies in the box. In all variables;
+/// the parameters' sides are the cell's.
+struct MapSheet {
+  Box box, region;
+};
+
+/// For every value in the cell the system has one solution on each of the sheets, which all differ, and no others.
+struct MapCellClaim {
+  Box sides;      ///< of the two parameters
+  int count = 0;  ///< of what is asked for: ParametricSystem::copies solutions of the system are one of these
+  std::vector<MapSheet> sheets;
+};
+
+struct MapClaims {
+  std::vector<ReductionStep> reduction;  ///< of the system, the parameters kept
+  std::vector<MapCellClaim> cells;
+};
+
+}  // namespace corank

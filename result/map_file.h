@@ -1,0 +1,38 @@
+// A map's file: numbers of solutions over cells of a plane of parameters (core/map_claims.h) with the model that they belong
+// to, as HDF5; and its verification by check/, which shares nothing with what made it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "corank/check/map.h"
+#include "corank/core/map_claims.h"
+#include "corank/result/model_source.h"
+#include "corank/symbolic/family_system.h"
+
+namespace corank::result {
+
+struct MapFile : ModelSource {
+  symbolic::FamilyQuestion family;
+  MapClaims claims;
+};
+
+/// What format_of() says of it.
+inline constexpr const char* kMapFormat = "corank map";
+
+/// Layout: doc/certificates.md. Throw ResultFileError; symbolic::ModelError where the model has no such family.
+void write_map(const std::filesystem::path& path, const MapFile& file);
+MapFile read_map(const std::filesystem::path& path);
+/// Is it a map's file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
+bool is_map_file(const std::filesystem::path& path);
+
+/// Rebuilds the family's equations from the model's text, and checks the claims. Throws symbolic::ModelError where the text
+/// is no model of such a family.
+check::MapReport verify(const MapFile& file, const check::Options& options = {});
+
+std::string to_table(const check::MapReport& report, const MapFile& file);
+/// {"verified", "complete", "interrupted", "over", "cells": {"claimed", "at_least", "complete"}, "sheets", "shares" …}:
+/// doc/certificates.md.
+std::string to_json(const check::MapReport& report, const MapFile& file);
+
+}  // namespace corank::result
