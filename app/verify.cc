@@ -169,7 +169,8 @@ void add_verify(CLI::App& program, Action& action) {
       "Exit status: 0 all verified, completeness included; 1 something failed or is not checkable, or the file cannot be\n"
       "read; 2 usage; 3 ended early (limit, interrupt or --sample), nothing was found wrong so far; 4 all verified, but not "
       "its\n"
-      "completeness: the file has no proof of it, or the search had ended early (1 with --require-proof).\n\n"
+      "completeness: the file has no proof of it, or one that could not be shown next to a self-motion, or the search had\n"
+      "ended early (1 with --require-proof).\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --proof -o forward.h5\n  corank verify forward.h5\n"
       "  corank topology models/dextar.cuik -o shape.h5\n  corank verify shape.h5");
   sub->callback([command, &action] { action = [command] { return verify(*command); }; });

@@ -419,6 +419,8 @@ class Checker {
     };
     Replayed result = arena_.execute([&] { return replay(*problem_, cover_, step); });
     report_.proof = result.tally;
+    report_.proof.open = !result.tally.verified && !result.malformed && !result.interrupted && !cover_.self_motions.empty();
+    if (report_.proof.open) return;
     report_.interrupted = report_.interrupted || result.interrupted;
     report_.failures.insert(report_.failures.end(), result.failures.begin(), result.failures.end());
   }
@@ -452,7 +454,8 @@ class Checker {
 }  // namespace
 
 bool Report::confirmed() const {
-  if (!consistent() || (proof.present && !proof.verified) || points.unchecked > points_without_claim) return false;
+  if (!consistent() || (proof.present && !proof.verified && !proof.open) || points.unchecked > points_without_claim)
+    return false;
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
     const bool claims = verdict != Verdict::undecided && verdict != Verdict::pending;

@@ -40,6 +40,9 @@ struct Failure {
 
 struct ProofTally {
   bool present = false, verified = false;
+  /// The script is well-formed, and not all of it could be shown; but the cover has self-motions, next to which equations
+  /// say little. Nothing is said against any box then, nor for completeness.
+  bool open = false;
   std::uint64_t steps = 0;     ///< of the script
   std::uint64_t leaves = 0;    ///< boxes shown to hold no zero, or none outside a box of the cover
   std::uint64_t searched = 0;  ///< parts that took a bisection of the checker's own

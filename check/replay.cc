@@ -209,6 +209,7 @@ class Replay {
       tasks.wait();
     } catch (const Malformed& fault) {
       fail(fault.step, fault.reason);
+      result.malformed = true;
     } catch (const Stopped&) {
       stopped_ = true;
     }
@@ -281,11 +282,8 @@ class Replay {
           return;
         case Step::box: {
           ++leaves_;
-          std::vector<Interval> target;
-          const Box& box = cover_.boxes[static_cast<std::size_t>(script.integer(at, 0))].box;
-          for (const int j : problem_.kept()) target.push_back(box[static_cast<std::size_t>(j)]);
           if (state.empty) return;
-          if (!search.confine(state.x, target, state.empty) ||
+          if (!search.confine(state.x, bounds_of(script.integer(at, 0)), state.empty) ||
               (!state.empty && !holds_values(state.x, script.integer(at, 0))))
             fail(at.step, "its solutions are not shown to lie in box " + std::to_string(script.integer(at, 0) + 1));
           return;
@@ -310,6 +308,21 @@ class Replay {
       return !value.intersect(Enclosure::hull(Enclosure(variable.lower), Enclosure(variable.upper))) ||
              value.inside(box.box[static_cast<std::size_t>(v.variable)]);
     });
+  }
+
+  // Between which bounds the solutions are to be shown that are said to lie in box i: the box, or, on a self-motion, next to
+  // which the equations say little, what the box's own claim is about: for every value of its free variables there is one
+  // solution in its region, and it is in the box.
+  std::vector<Interval> bounds_of(int i) const {
+    const CoverBox& box = cover_.boxes[static_cast<std::size_t>(i)];
+    const bool on_motion = box.motion >= 0 && box.region >= 0 && box.verdict == Verdict::regular;
+    const Box& dependent = on_motion ? cover_.regions.at(static_cast<std::size_t>(box.region)) : box.box;
+    std::vector<Interval> bounds;
+    for (const int j : problem_.kept()) {
+      const bool is_free = std::find(box.free.begin(), box.free.end(), j) != box.free.end();
+      bounds.push_back((is_free ? box.box : dependent)[static_cast<std::size_t>(j)]);
+    }
+    return bounds;
   }
 
   int rows() const { return static_cast<int>(problem_.equations().size()); }

@@ -12,7 +12,7 @@ namespace corank::check {
 struct Replayed {
   ProofTally tally;
   std::vector<Failure> failures;
-  bool interrupted = false;
+  bool malformed = false, interrupted = false;
 };
 
 /// `step` is called now and then with the number of the next step; it returns true where the replay is to end.

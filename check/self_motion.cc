@@ -8,7 +8,7 @@
 namespace corank::check {
 namespace {
 
-constexpr int kMostPartsOfMotion = 1024;
+constexpr int kMostTries = 4096;
 
 bool is_linear_and_rational(const Polynomial& f) {
   return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
@@ -115,16 +115,36 @@ std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
     all.emplace_back(is_free[v] ? box.box[v] : region[v]);
     middle.push_back(box.box[v].mid());
   }
-  const std::vector<Row> chosen = independent(problem_.equations(), dependent, middle);
-  if (chosen.size() != dependent.size()) return "too few of the equations are independent in its dependent variables";
-  Krawczyk newton(chosen, problem_.size());
+  // From which E is chosen: any will do, and not all do.
+  const std::vector<Row>& equations = problem_.equations();
+  std::vector<std::vector<Row>> choices{equations};
+  for (std::size_t without = 0; without < equations.size(); ++without) {
+    choices.push_back(equations);
+    choices.back().erase(choices.back().begin() + static_cast<std::ptrdiff_t>(without));
+  }
+  std::size_t best = 0;
   std::vector<Sides> open{all};
-  for (int parts = 0; !open.empty(); ++parts) {
+  for (int tries = 0; !open.empty();) {
     problem_.stop().poll();
-    if (parts == kMostPartsOfMotion) return "uniqueness along its self-motion is not shown";
     const Sides x = std::move(open.back());
     open.pop_back();
-    if (newton.set(dependent, x, Krawczyk::Center::polished) && newton.is_injective(x)) continue;
+    for (const int f : free) middle[static_cast<std::size_t>(f)] = x[static_cast<std::size_t>(f)].mid();
+    const auto injective = [&](const std::vector<Row>& from) {
+      ++tries;
+      const std::vector<Row> chosen = independent(from, dependent, middle);
+      if (chosen.size() != dependent.size()) return false;
+      Krawczyk newton(chosen, problem_.size());
+      for (const auto around : {Krawczyk::Center::polished, Krawczyk::Center::middle})
+        if (newton.set(dependent, x, around) && newton.is_injective(x)) return true;
+      return false;
+    };
+    if (injective(choices[best])) continue;
+    const auto other = std::find_if(choices.begin(), choices.end(), injective);
+    if (other != choices.end()) {
+      best = static_cast<std::size_t>(other - choices.begin());
+      continue;
+    }
+    if (tries > kMostTries) return "uniqueness along its self-motion is not shown";
     std::size_t widest = x.size();
     for (const int f : free)
       if (widest == x.size() || x[static_cast<std::size_t>(f)].width() > x[widest].width())

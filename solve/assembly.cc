@@ -91,7 +91,7 @@ Cover assemble(const Prepared& prepared, const Problem& problem, const std::vect
   }
   for (const Found* f : found) cover.wider_than_sigma += f->region != nullptr && problem.excess(f->box.box) > 1;
   // A replay would have to find the self-motions again.
-  const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial && motions.none();
+  const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial;
   if (prepared.options.proof && replayable) cover.proof = script_of(shards, first_pass, found);
   cover.self_motions = motions.records(reduction);
   if (std::any_of(found.begin(), found.end(), [](const Found* f) { return f->box.reason == Reason::degenerate_set; }))

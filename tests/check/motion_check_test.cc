@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <memory>
+
 #include "corank/tests/check/covers.h"
 
 namespace corank::check {
@@ -84,6 +87,63 @@ TEST_F(LineAndPoint, HasNoSelfMotionOfOtherRelations) {
   const Polynomial parabola = relation({{1, {{0, 1}}}, {-1, {{1, 2}}}});
   EXPECT_THAT(fault(system_, {1, {parabola}}), HasSubstr("not linear"));
   EXPECT_THAT(fault(system_, {1, {relation({{1, {{7, 1}}}})}}), HasSubstr("variables that were kept"));
+}
+
+// The line, and with it the point where y may be 3, over x ∈ [1.9, 2.1]; all of it is said to lie in one box.
+class OneLeaf : public testing::Test {
+ protected:
+  Report replayed(const std::string& upper_y, const std::function<void(CoverBox&)>& change = {}, int box = 0) const {
+    const System system = plain("[SYSTEM VARS]\nx : [1.9, 2.1]\ny : [1.5, " + upper_y +
+                                "]\n[SYSTEM EQS]\nx^2 - x*y - 2*x + 2*y = 0;\nx*y - y^2 - 3*x + 3*y = 0;\n");
+    Cover cover;
+    cover.sigma = {1, 1};
+    cover.self_motions = {{1, {kEqual}}};
+    cover.regions = {{{1.9, 2.1}, {1.7, 2.3}}};
+    cover.boxes = {CoverBox{{{1.9, 2.1}, {1.85, 2.15}}, Verdict::regular, {0}, 0}};
+    cover.boxes[0].motion = 0;
+    if (change) change(cover.boxes[0]);
+    Proof proof;
+    proof.roots = {{{1.9, 2.1}, {1, 4}}};
+    proof.steps = {static_cast<std::uint8_t>(Proof::Step::box)};
+    proof.integers = {box};
+    cover.proof = std::make_shared<const Proof>(std::move(proof));
+    return check(system, cover);
+  }
+};
+
+TEST_F(OneLeaf, HoldsWhatItsBoxClaimsOfItsRegion) {
+  const Report report = replayed("2.5");
+  EXPECT_TRUE(report.complete()) << text(report);
+}
+
+TEST_F(OneLeaf, HoldsNoSolutionBesideItsRegion) {
+  const Report report = replayed("3.2");
+  EXPECT_FALSE(report.proof.verified);
+  EXPECT_TRUE(report.proof.open);
+  EXPECT_TRUE(report.verified()) << "what the box claims";
+  EXPECT_FALSE(report.complete());
+}
+
+TEST_F(OneLeaf, IsOfNoUseWhereItsScriptIsMalformed) {
+  const Report report = replayed("2.5", {}, 7);
+  EXPECT_FALSE(report.proof.open);
+  EXPECT_FALSE(report.verified());
+}
+
+TEST_F(OneLeaf, HoldsNoOtherValuesOfTheFreeVariables) {
+  EXPECT_FALSE(replayed("2.5", [](CoverBox& box) { box.box[0] = {1.9, 2.05}; }).proof.verified);
+}
+
+TEST_F(OneLeaf, HoldsNoMoreThanItsSidesWhereTheBoxClaimsNothing) {
+  const auto undecided = [](double upper) {
+    return [upper](CoverBox& box) {
+      box.verdict = Verdict::undecided;
+      box.free = {};
+      box.box[1] = {1.85, upper};
+    };
+  };
+  EXPECT_FALSE(replayed("2.5", undecided(2)).proof.verified);
+  EXPECT_TRUE(replayed("2.5", undecided(2.15)).proof.verified);
 }
 
 // (x − y)(2 x + y − 7) = 0, and x/9 times that: the other line meets the region in the upper half only.

@@ -29,7 +29,9 @@ System plain(const std::string& text) {
 }
 
 Cover solved(const System& system) {
-  Cover cover = solve::solve(system);
+  solve::Options options;
+  options.proof = system.coefficient_tolerance == 0;
+  Cover cover = solve::solve(system, options);
   solve::prove_exactly(system, {}, cover);
   return cover;
 }
@@ -52,6 +54,7 @@ const auto on_a_motion = [](const CoverBox& b) { return b.motion >= 0; };
 void expect_consistent(const System& system, const Cover& cover) {
   const auto report = check::check(system, cover);
   EXPECT_TRUE(report.consistent()) << (report.failures.empty() ? "" : report.failures[0].reason);
+  EXPECT_EQ(report.proof.verified, system.coefficient_tolerance == 0 && cover.complete());
 }
 
 // Crank and rod of one length: where the slider stands over the crank's axis the rod lies on the crank, and both turn.
