@@ -167,10 +167,9 @@ void add_verify(CLI::App& program, Action& action) {
       "genus; of aspects and modes a member of each, its signs, and how many there are, at least and at most (where the\n"
       "file does not show that there are no more: exit status 4); of a map the number of each proven cell.\n\n"
       "Exit status: 0 all verified, completeness included; 1 something failed or is not checkable, or the file cannot be\n"
-      "read; 2 usage; 3 ended early (limit, interrupt or --sample), nothing was found wrong so far; 4 all verified, but not "
-      "its\n"
-      "completeness: the file has no proof of it, or one that could not be shown next to a self-motion, or the search had\n"
-      "ended early (1 with --require-proof).\n\n"
+      "read; 2 usage; 3 ended early (limit, interrupt or --sample), nothing was found wrong so far; 4 all verified, but\n"
+      "not its completeness: the file has no proof of it, or one that could not be shown next to a self-motion, or the\n"
+      "search had ended early (1 with --require-proof).\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --proof -o forward.h5\n  corank verify forward.h5\n"
       "  corank topology models/dextar.cuik -o shape.h5\n  corank verify shape.h5");
   sub->callback([command, &action] { action = [command] { return verify(*command); }; });
