@@ -51,7 +51,8 @@ std::string to_table(const Verification& verification, const Result& result);
 
 /// {"verified", "complete", "interrupted", "stage" (where it ended early), "not_in_sample" (boxes, of a sample),
 /// "verdicts": {"regular": {"verified", "failed", "not_checkable"} …}, "points", "exact_points",
-/// "completeness": {"proof", "verified", "open", "steps", "leaves", "searched"}, "contradictions", "failures": [{"what", "number", "reason"}]}; numbers count from 1.
+/// "completeness": {"proof", "verified", "open", "steps", "leaves", "searched"}, "contradictions",
+/// "failures": [{"what", "number", "reason"}]}; numbers count from 1.
 std::string to_json(const Verification& verification);
 /// The same of a check that had no report when it was ended, in the stage: {"verified", "complete", "interrupted", "stage"}.
 std::string ended_early_json(const std::string& stage);
