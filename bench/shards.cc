@@ -41,9 +41,7 @@ double seldom_now() {
   return last;
 }
 
-// What engine.py does.
-constexpr double kUnitSeconds = 1, kLeastSeconds = 0.05, kSecondsPerUnit = 3e-3;
-constexpr std::size_t kAhead = 2, kParts = 8, kUnitsPerBox = 8, kFirstBoxes = 16;
+constexpr double kUnitSeconds = 1;  // engine.py's default
 
 struct Cluster {
   std::size_t workers = 1;
@@ -109,22 +107,9 @@ class Simulation {
     double seconds = 0;  // its budget
   };
 
-  // As _next_units in engine.py.
-  struct Next {
-    std::size_t most, fewest;
-    double seconds;
-  };
-  Next next() const {
-    if (coordinator_.cutting()) return {cluster_.workers * kParts, 1, kUnitSeconds};
-    const double seconds = std::min(
-        kUnitSeconds, std::max({kLeastSeconds, kSecondsPerUnit * static_cast<double>(cluster_.workers), client_ / 20}));
-    if (under_way_ == 0) return {cluster_.workers, kFirstBoxes, seconds};
-    return {cluster_.workers * kAhead, under_way_ / kUnitsPerBox, seconds};
-  }
-
   // The client's turn: it has been busy until client_.
   void give_out() {
-    const auto [most, fewest, seconds] = next();
+    const auto [most, fewest, seconds] = coordinator_.next_units(cluster_.workers, kUnitSeconds, client_);
     if (most <= under_way_) return;
     const double begun = now();
     std::vector<std::string> units = coordinator_.take_units(most - under_way_, fewest);

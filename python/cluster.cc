@@ -62,6 +62,10 @@ class Run {
   Result result() { return Result(run_->result()); }
 
   py::bytes prepared() { return run_->search().prepared_bytes(); }
+  py::tuple next_units(std::size_t threads, double longest, double time) {
+    const solve::Pace::Units next = run_->search().next_units(threads, longest, time);
+    return py::make_tuple(next.most, next.fewest_boxes, next.seconds);
+  }
   py::list take_units(std::size_t wanted, std::size_t fewest_boxes) {
     return bytes_list(unlocked([&] { return run_->search().take_units(wanted, fewest_boxes); }));
   }
@@ -147,6 +151,7 @@ void bind_cluster(py::module_& module) {
       .def("result", &Run::result)
       .def_property_readonly("prepared", &Run::prepared)
       .def("take_units", &Run::take_units, py::arg("wanted"), py::arg("fewest_boxes") = 1)
+      .def("next_units", &Run::next_units, py::arg("threads"), py::arg("longest"), py::arg("time"))
       .def("add", &Run::add)
       .def_property_readonly("done", &Run::done)
       .def_property_readonly("cutting", &Run::cutting)

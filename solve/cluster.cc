@@ -159,6 +159,13 @@ struct Coordinator::Search {
     run.keep(bytes);
   }
 
+  double share_that_waits() const {
+    double share = 0;
+    for (const Waiting& box : open) share += box.share;
+    for (const auto& [id, given] : under_way)
+      for (const Waiting& box : given.boxes) share += box.share;
+    return share;
+  }
   bool waits() const { return !open.empty() || !open_sheets.empty() || !under_way.empty(); }
   bool ended() {
     if (over || (state.cutting && !waits())) return over;
@@ -220,6 +227,7 @@ struct Coordinator::Search {
     while (!state.cutting && open.empty() && under_way.empty()) {
       std::vector<Postponed> postponed = take_postponed(all_shards());
       if (!postponed.empty()) {
+        ++passes;
         state.pass = next_pass(prepared, state.pass, std::move(postponed), judge, state.motions);
         open = std::exchange(state.pass.boxes, {});
         if (!open.empty()) return;
@@ -268,6 +276,8 @@ struct Coordinator::Search {
   std::vector<Proven*> open_sheets;
   std::map<std::uint64_t, Given> under_way;
   std::uint64_t next_id = 1;
+  Pace pace;
+  int passes = 0;
 };
 
 Coordinator::Coordinator(std::string prepared, std::optional<std::string> from, Control* control)
@@ -282,12 +292,11 @@ bool Coordinator::done() const {
   return search_->state.cutting && search_->open_sheets.empty() && search_->under_way.empty();
 }
 
-double Coordinator::share_done() const {
-  double waits = 0;
-  for (const Waiting& box : search_->open) waits += box.share;
-  for (const auto& [id, given] : search_->under_way)
-    for (const Waiting& box : given.boxes) waits += box.share;
-  return std::clamp(1 - waits, 0.0, 1.0);
+double Coordinator::share_done() const { return std::clamp(1 - search_->share_that_waits(), 0.0, 1.0); }
+
+Pace::Units Coordinator::next_units(std::size_t threads, double longest, double time) {
+  if (cutting()) return Pace::of_sheets(threads, longest);
+  return search_->pace.next(threads, longest, {search_->passes, search_->share_that_waits(), under_way(), time});
 }
 
 std::vector<std::string> Coordinator::take_units(std::size_t wanted, std::size_t fewest_boxes) {

@@ -23,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "corank/solve/pace.h"
 #include "corank/solve/resumable.h"
 
 namespace corank::solve {
@@ -66,6 +67,9 @@ class Coordinator {
   Coordinator& operator=(const Coordinator&) = delete;
 
   const std::string& prepared_bytes() const;
+  /// What to ask take_units() for, where the workers have so many threads and a unit is to take so many seconds at most.
+  /// time: of any clock, in seconds.
+  Pace::Units next_units(std::size_t threads, double longest, double time);
   /// What can be done now and has not been given out, in up to so many units, each of so many boxes or more; but as long as
   /// something is under way, fewer wait for others. None, though done() is false: the units that are under way have to be
   /// added first. At the beginning there is one unit, which ends as soon as there are boxes enough for all.

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 from typing import Any
+
+
+def _missing(package: str) -> ModuleNotFoundError:
+    return ModuleNotFoundError(f"this needs the Python package {package}: apt-get install python3-{package}", name=package)
 
 
 def require(module: str) -> Any:
@@ -14,6 +19,10 @@ def require(module: str) -> Any:
         package = module.partition(".")[0]
         if error.name != package:
             raise
-        raise ModuleNotFoundError(
-            f"this needs the Python package {package}: apt-get install python3-{package}", name=package
-        ) from None
+        raise _missing(package) from None
+
+
+def expect(package: str) -> None:
+    """The same error; a package that is there is not imported yet."""
+    if importlib.util.find_spec(package) is None:
+        raise _missing(package)

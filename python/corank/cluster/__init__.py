@@ -9,14 +9,18 @@
 It needs the package distributed. doc/cluster.md says how workers on other machines are started, and what happens when one dies.
 """
 
-from ..optional import require
+import importlib
+from typing import TYPE_CHECKING, Any, List
 
-require("distributed")
+from ..optional import expect
 
-from .engine import Checkpoints, solve, solve_run  # noqa: E402
-from .local import local_client, remote_client, security  # noqa: E402
-from .tasks import map_tiles, solve_members  # noqa: E402
-from .units import ClusterError, Plan, check_versions  # noqa: E402
+if TYPE_CHECKING:
+    from .engine import Checkpoints, solve, solve_run
+    from .local import local_client, remote_client, security
+    from .tasks import map_tiles, solve_members
+    from .units import ClusterError, Plan, check_versions
+
+expect("distributed")
 
 __all__ = [
     "Checkpoints",
@@ -31,3 +35,22 @@ __all__ = [
     "solve_members",
     "solve_run",
 ]
+
+# Imported where they are asked for: importing dask takes its time, in which the command line has something else to do.
+_MODULES = {
+    "engine": ("Checkpoints", "solve", "solve_run"),
+    "local": ("local_client", "remote_client", "security"),
+    "tasks": ("map_tiles", "solve_members"),
+    "units": ("ClusterError", "Plan", "check_versions"),
+}
+_HOME = {name: module for module, names in _MODULES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f".{_HOME[name]}", __name__), name)
+
+
+def __dir__() -> List[str]:
+    return sorted({*globals(), *__all__})

@@ -20,12 +20,7 @@ if TYPE_CHECKING:
 
 _Show = Callable[[str, float, str], None]
 
-_AHEAD = 2  # units for each thread of the workers: the next one is there when one is done
-_PARTS = 8  # for each thread, of what a search begins a phase with: parts take their time differently
 _MOST_SHARE = 0.02  # of all seconds, for checkpoints
-# Dask takes 2 ms of one thread for each unit: the more workers there are, the longer units have to be, and boxes that would make
-# a short one wait for others.
-_LEAST_SECONDS, _SECONDS_PER_UNIT, _UNITS_PER_BOX, _FIRST_BOXES = 0.05, 3e-3, 8, 16
 _GRACE = 0.5  # seconds, once a limit has ended the run
 
 
@@ -118,29 +113,18 @@ class _Workers:
         return self.threads
 
 
-def _next_units(plan: Plan, threads: int, under_way: int, cutting: bool, elapsed: float) -> Tuple[int, int, float]:
-    """How many units are to be under way, of how many boxes at least, for how many seconds. bench/shards.cc has the same rule."""
-    if cutting:
-        return _PARTS * threads, 1, plan.unit_seconds
-    seconds = min(plan.unit_seconds, max(_LEAST_SECONDS, _SECONDS_PER_UNIT * threads, elapsed / 20))
-    if under_way == 0:
-        return threads, _FIRST_BOXES, seconds
-    return _AHEAD * threads, under_way // _UNITS_PER_BOX, seconds
-
-
 def _search(
     run: _corank.SpreadRun, client: Client, plan: Plan, checkpoints: Optional[Checkpoints], show: Optional[_Show]
 ) -> None:
     units = Units(client, run.prepared, plan)
     workers = _Workers(client)
-    begun = time.monotonic()
     answered = 0
     had_begun = not run.ended
     try:
         while not run.done and not run.ended:
             threads = workers.look()
             if threads > 0 or len(units) > 0:
-                most, fewest, seconds = _next_units(plan, max(1, threads), len(units), run.cutting, time.monotonic() - begun)
+                most, fewest, seconds = run.next_units(max(1, threads), plan.unit_seconds, time.monotonic())
                 if most > len(units):
                     given = run.take_units(most - len(units), fewest)
                     units.submit(given, max(1e-3, min(seconds, run.seconds_left)))

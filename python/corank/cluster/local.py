@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-import multiprocessing
 from typing import Iterator, Optional
 
 import dask.config
-from distributed import Client, LocalCluster
+from distributed import Client, LocalCluster, versions
 from distributed.security import Security
 from distributed.utils import get_mp_context
 
+from . import forks
 from .units import ClusterError
 
 
@@ -21,12 +21,10 @@ _SETTINGS = {
     # A nanny starts its worker anew, however long that takes on a busy machine; dask by default ends both after 15 s without.
     "distributed.deploy.lost-worker-timeout": "1 day",
     "distributed.comm.compression": None,  # takes longer than sending to another process of the machine
-    # Workers keep memory between units, which dask by default makes them give back and fetch anew.
-    "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 30,
-    "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_MAX_": 0,
-    "distributed.nanny.pre-spawn-environ.MALLOC_ARENA_MAX": 1,
+    **{f"distributed.nanny.pre-spawn-environ.{name}": value for name, value in forks.MEMORY.items()},
     # What looks at processes that do nothing takes a tenth of a core: dask's profiler 100 times a second, health checks 50 times.
     "distributed.worker.profile.enabled": False,
+    "distributed.diagnostics.computations.ignore-modules": ["."],  # the source code of who gives work out is read for each unit
     "distributed.admin.tick.interval": "500ms",
     "distributed.admin.system-monitor.interval": "2s",
     "distributed.worker.memory.monitor-interval": "1s",
@@ -35,10 +33,17 @@ _SETTINGS = {
 }
 
 
-def _preload() -> None:
-    """What that process imports; to be called with the settings in force."""
-    get_mp_context()  # sets dask's own list, which this one replaces
-    multiprocessing.get_context("forkserver").set_forkserver_preload(["distributed", "corank.cluster.worker"])
+@contextlib.contextmanager
+def _settings() -> Iterator[None]:
+    with dask.config.set(_SETTINGS):
+        former = versions.optional_packages
+        versions.optional_packages = forks.compared(former)
+        get_mp_context()  # sets dask's own list of what is imported, which the next one replaces
+        forks.preload()
+        try:
+            yield
+        finally:
+            versions.optional_packages = former
 
 
 def security(ca: Optional[str] = None, cert: Optional[str] = None, key: Optional[str] = None) -> Optional[Security]:
@@ -73,8 +78,7 @@ def local_client(
         except ImportError:
             raise ClusterError("dask's dashboard needs the package bokeh, which is not there") from None
     pages = {"dashboard": dashboard is not None, "dashboard_address": f"{host}:{dashboard}" if dashboard else _ANY_PORT}
-    with dask.config.set(_SETTINGS):
-        _preload()
+    with _settings():
         with LocalCluster(
             n_workers=workers,
             threads_per_worker=1,
