@@ -6,8 +6,8 @@
 
 namespace corank::solve {
 
-/// Units are short where the search has just begun, since boxes have to become enough for all, and where it comes to its end,
-/// since nobody can be given what another does; between, they are as long as they may be: each takes its time to send.
+/// Units are short where the search has just begun, since boxes have to become enough for all, and where it comes to its
+/// end, since nobody can be given what another does; between, they are as long as they may be: each takes its time to send.
 class Pace {
  public:
   /// So many units are to be under way, of so many boxes at least, each for so many seconds.
@@ -17,7 +17,8 @@ class Pace {
     double seconds = 0;
   };
 
-  /// Of the pass that is under way. waits: the share of the search domain that is not done yet. time: of any clock, in seconds.
+  /// Of the pass that is under way. waits: the share of the search domain that is not done yet. time: of any clock, in
+  /// seconds.
   struct Progress {
     int pass = 0;
     double waits = 1;
