@@ -107,7 +107,10 @@ class PieceCounter {
     if (std::find(signs.begin(), signs.end(), 0) != signs.end()) return;
     std::optional<std::size_t> first;
     std::vector<std::size_t> near;
-    tree_->for_each_overlapping(point, kGap, [&](std::size_t c) {
+    Box around = point;
+    for (std::size_t j = 0; j < around.size(); ++j)
+      around[j] += Interval(-kGap, kGap) * Interval(cells_.system().variables[j].size);
+    tree_->for_each_overlapping(around, 0, [&](std::size_t c) {
       const auto part = part_of_[c].find(signs);
       if (part == part_of_[c].end()) return;
       Part& p = parts_[part->second];
@@ -401,8 +404,15 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   result.system = study::system(question, equations);
   const symbolic::ExpressionMatrix l_y = block(question, symbolic::SingularitySet::forward);
   const symbolic::ExpressionMatrix l_z = block(question, symbolic::SingularitySet::inverse);
-  const std::vector<symbolic::Expression> forward = symbolic::determinant_factors(question.model, l_y);
-  const std::vector<symbolic::Expression> inverse = symbolic::determinant_factors(question.model, l_z);
+  std::vector<symbolic::Expression> forward, inverse;
+  try {
+    const Ended ended = [&control] { return control.ended(); };
+    forward = symbolic::determinant_factors(question.model, l_y, ended);
+    inverse = symbolic::determinant_factors(question.model, l_z, ended);
+  } catch (const symbolic::DeterminantTooLarge& error) {
+    result.reason = error.what();
+    return result;
+  }
   for (const auto& e : forward) result.forward_factors.push_back(e.text());
   for (const auto& e : inverse) result.inverse_factors.push_back(e.text());
 
@@ -422,7 +432,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     }
   result.system = with_single_values(std::move(result.system));
   if (!cover.complete() || static_cast<int>(result.system.equations.size()) + cover.dimension != result.system.size()) {
-    result.reason = "C-space could not be covered";
+    result.reason = control.ended() ? "the analysis was ended by a limit" : "C-space could not be covered";
     return result;
   }
   if (options.certificate) result.cover = std::make_shared<const Cover>(cover);

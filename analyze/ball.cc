@@ -7,8 +7,10 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "corank/symbolic/evaluate.h"
+#include "corank/symbolic/limits.h"
 #include "corank/symbolic/model_text.h"
 
 namespace corank::analyze {
@@ -24,8 +26,9 @@ Expression square(const Expression& x) { return pow(x, 2); }
 
 class BallMaker {
  public:
-  BallMaker(const study::Question& question, const BallOptions& options)
-      : question_(question), options_(options), model_(question.model), center_model_(question.model) {
+  BallMaker(const study::Question& question, const BallOptions& options) : question_(question), options_(options) {
+    for (const symbolic::Limit& limit : effective_limits(question_.model)) limited_.insert(limit.coordinate);
+    question_.model = center_model_ = model_ = limits_as_ranges(question_.model);
     for (const symbolic::Constant& c : model_.constants()) constants_[c.name] = symbolic::evaluate(c.value, constants_);
   }
 
@@ -41,6 +44,8 @@ class BallMaker {
   bool is_full_circle(const Coordinate& c) const {
     return c.kind == CoordinateKind::angle && value(c.upper) - value(c.lower) > 2 * std::numbers::pi - 1e-12;
   }
+  // Of an angle's values that differ by whole turns the first one in its declared range, if any is.
+  double turned(const Coordinate& c, double at) const;
   // Refuses a value outside the declared range.
   void check_value(const NamedValue& v) const;
   // Keeps the coordinate in [lower, upper] and in its declared range.
@@ -49,8 +54,12 @@ class BallMaker {
   void limit_orientation();
   Rotation orientation() const;
 
-  const study::Question& question_;
+  // The ball may reach as far as that, where it meets the end.
+  void meet(double distance, const char* side, const std::string& what);
+
+  study::Question question_;
   const BallOptions& options_;
+  std::set<std::string> limited_;
   Mechanism model_, center_model_;
   std::map<std::string, double> constants_;
   Ball ball_;
@@ -78,14 +87,18 @@ const Expression& BallMaker::value_at(const std::string& name) const {
   throw error("'" + name + "' has no value", "a value for each of the ball's coordinates, as in --at " + name + "=0.5");
 }
 
+double BallMaker::turned(const Coordinate& c, double at) const {
+  if (c.kind == CoordinateKind::length) return at;
+  const double turn = 2 * std::numbers::pi;
+  return at - turn * std::floor((at - value(c.lower)) / turn + 1e-12);
+}
+
 void BallMaker::check_value(const NamedValue& v) const {
   const Coordinate& c = coordinate(v.name);
   const double at = value(v.value);
   if (!c.has_range || is_full_circle(c)) return;
   const double lower = value(c.lower), upper = value(c.upper), slack = 1e-12 * std::max(1.0, std::fabs(at));
-  const double turn = c.kind == CoordinateKind::angle ? 2 * std::numbers::pi : 0;
-  const double turned = turn > 0 ? at - turn * std::floor((at - lower) / turn + 1e-12) : at;
-  if (turned < lower - slack || turned > upper + slack)
+  if (turned(c, at) < lower - slack || turned(c, at) > upper + slack)
     throw error(fmt::format("{} = {:g} is outside its range [{:g}, {:g}]", v.name, at, lower, upper), "a value in it");
 }
 
@@ -110,6 +123,12 @@ void BallMaker::narrow(Mechanism& model, const Coordinate& c, const Expression& 
   }
 }
 
+void BallMaker::meet(double distance, const char* side, const std::string& what) {
+  if (!(distance < ball_.room)) return;
+  ball_.room = std::max(distance, 0.0);
+  ball_.end = fmt::format("the {} {}", side, what);
+}
+
 void BallMaker::add_center(const std::string& name) {
   const Coordinate& c = coordinate(name);
   const Expression& at = value_at(name);
@@ -118,11 +137,18 @@ void BallMaker::add_center(const std::string& name) {
   const auto given =
       std::find_if(options_.ranges.begin(), options_.ranges.end(), [&](const NamedRange& r) { return r.name == name; });
   if (given != options_.ranges.end()) {
-    ball_.room = std::min({ball_.room, a - value(given->lower), value(given->upper) - a});
-    if (ball_.room < 0)
+    const double below = a - value(given->lower), above = value(given->upper) - a;
+    if (below < 0 || above < 0)
       throw error(fmt::format("{} = {:g} is outside the range that is given for it", name, a), "a value in it");
+    meet(below, "lower", "end of the range given for " + name);
+    meet(above, "upper", "end of the range given for " + name);
   }
-  if (c.has_range && !is_full_circle(c)) ball_.room = std::min({ball_.room, a - value(c.lower), value(c.upper) - a});
+  if (c.has_range && !is_full_circle(c)) {
+    const std::string what = (limited_.contains(name) ? "limit of " : "end of the range of ") + name;
+    const double inside = turned(c, a);
+    meet(inside - value(c.lower), "lower", what);
+    meet(value(c.upper) - inside, "upper", what);
+  }
   if (c.kind == CoordinateKind::length) {
     center_model_.set_range(name, at, at);
     if (given != options_.ranges.end()) narrow(model_, c, given->lower, given->upper);
@@ -200,7 +226,8 @@ void BallMaker::limit_orientation() {
 
 Ball BallMaker::make() {
   ball_.room = std::numeric_limits<double>::infinity();
-  if (options_.in.empty()) throw error("the ball has no coordinates", "--in with one or more of the model's coordinates");
+  if (options_.in.empty())
+    throw error("the ball has no coordinates", "one or more of the model's coordinates, as in --in x,y");
   for (const NamedValue& v : options_.at) check_value(v);
   for (const std::string& name : options_.in) {
     if (std::count(options_.in.begin(), options_.in.end(), name) > 1)

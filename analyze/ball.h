@@ -49,8 +49,10 @@ struct Ball {
   /// The same model with the inequality that the distance is `radius` at most.
   symbolic::Mechanism within(const symbolic::Expression& radius) const;
   symbolic::Mechanism assembled;  ///< the model where all that has a value has that value
-  /// How far the ball may reach without leaving the declared range of one of its coordinates; infinite where none has one.
+  /// How far the ball may reach without leaving the range, or the limits, of one of its coordinates; infinite where none has
+  /// one. Beyond, nothing is searched.
   double room = 0;
+  std::string end;  ///< that it meets there: "the upper limit of theta2", "the lower end of the range of x"
 };
 
 /// Throws ModelError where a name is none, a value is missing or outside the model's range, or the robot has no orientation.

@@ -157,7 +157,8 @@ CenterField::Configurations CenterField::configurations(std::span<const Interval
   options.max_solutions = 1;
   options.threads = search_.threads;
   options.max_boxes = kBoxes;
-  options.time_limit = search_.time_limit > 0 ? std::min(search_.time_limit, kSeconds) : kSeconds;
+  options.time_limit = std::clamp(control_.seconds_left(), 1e-3, kSeconds);
+  options.memory_limit = search_.memory_limit;
   solve::Control own(limits_of(options, control_.limits().stop));
   const Cover cover = solve::solve(solve::prepare(std::move(system), options, own), own);
   result.excluded = cover.complete() && cover.boxes.empty();
@@ -177,6 +178,12 @@ double reach(std::span<const Interval> box, const std::vector<double>& center) {
   Interval squares;
   for (std::size_t k = 0; k < center.size(); ++k) squares += square(box[k] - Interval(center[k]));
   return squares.hi() > 0 ? square_root(Interval(squares.hi()))->hi() : 0;
+}
+
+Box bounded_region(const study::Question& question, const std::vector<NamedRange>& region) {
+  Box box;
+  for (const NamedRange& range : region) box.push_back(interval(question, range));
+  return box;
 }
 
 std::vector<NamedRange> declared_ranges(const study::Question& question, const std::vector<std::string>& names) {

@@ -53,6 +53,9 @@ class CenterField {
 /// The distance from `center` of the point of the box that is farthest from it, or more.
 double reach(std::span<const Interval> box, const std::vector<double>& center);
 
+/// The region's intervals, clipped to the model's ranges. Throws ModelError where one is empty or not bounded.
+Box bounded_region(const study::Question& question, const std::vector<NamedRange>& region);
+
 /// The ranges that the model declares for these coordinates. Throws ModelError where one has none or is an angle.
 std::vector<NamedRange> declared_ranges(const study::Question& question, const std::vector<std::string>& names);
 

@@ -2,6 +2,7 @@
 // are proven from both sides.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ struct Clearance {
   /// No singularity among the configurations in question is nearer: where there is none at all, the ball's room, which may
   /// be infinite.
   double lower() const { return nearest.empty ? ball.room : nearest.lower; }
+  /// Of the largest ball of which it is proven that it lies in what was searched and holds no singularity.
+  double free_radius() const { return std::min(lower(), ball.room); }
 };
 
 /// Throws ModelError where the question makes no sense or no configuration is at the centre.
@@ -50,7 +53,8 @@ Clearance clearance(const study::Question& question, const BallOptions& ball, co
 /// A few lines for a terminal.
 std::string to_table(const Clearance& clearance);
 /// {"model", "set", "at": {name: value}, "in": [names], "radius": {"lo", "hi" (null: none was proven)}, "nearest" (null, or
-/// {name: {"lo", "hi"}}), "empty", "room" (null: infinite), "seemingly" (null, or {"distance", "values"}), "center",
+/// {name: {"lo", "hi"}}), "empty", "room" (null: infinite), "end" (that the ball meets at
+/// that radius), "ball" (free_radius()), "seemingly" (null, or {"distance", "values"}), "center",
 /// "complete", "stopped", "precision", "processed", "seconds"}.
 std::string to_json(const Clearance& clearance);
 

@@ -61,6 +61,12 @@ ClearanceMap clearance_map(const study::Question& question, const BallOptions& b
   const auto start = std::chrono::steady_clock::now();
   if (region.size() != 2)
     throw symbolic::ModelError({question.model.name(), 0, 0}, "a map has two coordinates", "as in --map x,y");
+  const Box sides = bounded_region(question, region);
+  for (std::size_t k = 0; k < sides.size(); ++k)
+    if (!(sides[k].lo() < sides[k].hi()))
+      throw symbolic::ModelError({question.model.name(), 0, 0},
+                                 "the map's region has one value of '" + region[k].name + "' only",
+                                 "a lower end below the upper one, as in --map x=[0,1],y=[0,1]; --at for one centre");
   CenterField field(question, ball, region, search, control);
   ClearanceMap map;
   map.ball = field.ball(), map.names = field.names(), map.region = field.region();

@@ -37,21 +37,30 @@ std::string to_table(const Clearance& c) {
   const std::string what = plain ? "solution" : "singularity";
   if (n.empty) {
     text += fmt::format("no {} at all in the ranges: proven", what);
-    text += std::isfinite(c.ball.room) ? fmt::format("; the ball of radius {} lies in them\n", rounded(c.ball.room, false))
-                                       : "\n";
+    text += std::isfinite(c.ball.room)
+                ? fmt::format("; at the radius {} the ball meets {}\n", rounded(c.ball.room, false), c.ball.end)
+                : "\n";
   } else {
-    text += fmt::format("radius in [{}, {}]", rounded(n.lower, false), n.upper ? rounded(*n.upper, true) : "unknown");
-    if (n.upper && n.lower > 0) text += fmt::format("   ({:.2g} %)", 100 * (*n.upper - n.lower) / *n.upper);
-    text += fmt::format("\n  no {} is nearer than the lower bound: proven\n", what);
+    const std::string hi = n.upper ? rounded(*n.upper, true) : "unknown";
+    const bool ends_first = c.ball.room < n.lower;  // so no larger ball was searched as a whole
+    if (ends_first) {
+      text += fmt::format("radius {}: there the ball meets {}; no {} in it: proven\n", rounded(c.ball.room, false),
+                          c.ball.end, what);
+      text += fmt::format("  within the ranges no {} is nearer than {}: proven\n", what, rounded(n.lower, false));
+    } else {
+      text += fmt::format("radius in [{}, {}]", rounded(n.lower, false), hi);
+      if (n.upper && n.lower > 0) text += fmt::format("   ({:.2g} %)", 100 * (*n.upper - n.lower) / *n.upper);
+      text += fmt::format("\n  no {} is nearer than the lower bound: proven\n", what);
+      if (std::isfinite(c.ball.room))
+        text += fmt::format("  at the radius {} the ball meets {}\n", rounded(c.ball.room, false), c.ball.end);
+    }
     if (n.upper) {
-      text += fmt::format("  nearest {} found, proven to exist:\n", what);
+      text += fmt::format("  nearest {} found, proven to exist{}:\n", what,
+                          ends_first ? fmt::format(", at a distance of {} at most", hi) : "");
       for (const CoordinateValue& v : c.values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
     } else {
       text += fmt::format("  no {} is proven\n", what);
     }
-    if (c.ball.room < n.lower)
-      text += fmt::format("  the ball leaves the declared ranges at the radius {}: what lies beyond was not searched\n",
-                          rounded(c.ball.room, false));
   }
   if (!c.seemingly.empty()) {
     text += fmt::format("  seemingly there is one at the distance {:.6g}, not proven:\n", n.unproven_distance);
@@ -78,6 +87,8 @@ std::string to_json(const Clearance& c) {
   }
   json["empty"] = n.empty;
   json["room"] = finite(c.ball.room);
+  json["end"] = c.ball.end.empty() ? Json(nullptr) : Json(c.ball.end);
+  json["ball"] = finite(c.free_radius());
   json["seemingly"] = nullptr;
   if (!c.seemingly.empty()) {
     json["seemingly"] = {{"distance", n.unproven_distance}, {"values", Json::object()}};

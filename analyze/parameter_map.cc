@@ -354,6 +354,7 @@ double ParameterMap::proven_share() const {
 ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOptions& options, solve::Control& control) {
   const auto start = std::chrono::steady_clock::now();
   const ParameterMapper mapper(question, options);
+  const solve::InStage stage(control, solve::Stage::search);
   std::vector<MapTile> tiles;
   std::mutex mutex;
   ThreadArena arena(options.threads);

@@ -23,12 +23,6 @@ constexpr int kLevels = 4;             // of covers
 constexpr int kTubeTries = 5;          // on one cover
 constexpr double kNearBoundary = 0.3;  // a shortcut keeps so much of the way's least margin
 
-PathSpace::Point middle(const Box& box) {
-  PathSpace::Point x(static_cast<Eigen::Index>(box.size()));
-  for (std::size_t j = 0; j < box.size(); ++j) x(static_cast<Eigen::Index>(j)) = box[j].mid();
-  return x;
-}
-
 // Coarse enough that a cover has a few thousand boxes.
 double first_sigma(int dimension) { return dimension <= 1 ? 0.1 : dimension == 2 ? 0.2 : 0.5; }
 
@@ -142,7 +136,7 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
   Path path;
   path.from = from;
   path.to = to;
-  Ends ends{from, to, middle(from), middle(to), {}, {}};
+  Ends ends{from, to, space_.middle(from), space_.middle(to), {}, {}};
   ends.state = space_.state(ends.a);
   std::vector<int> there;
   {
@@ -183,8 +177,11 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
     const auto values = node_values(space_.system(), *path.tube, names);
     for (std::size_t k = 1; k < values.size(); ++k) {
       double squares = 0;
-      for (std::size_t j = 0; j < names.size(); ++j)
-        squares += (values[k][j] - values[k - 1][j]) * (values[k][j] - values[k - 1][j]);
+      for (std::size_t j = 0; j < names.size(); ++j) {
+        const int length = space_.system().find(names[j]);  // an angle is no variable
+        const double size = length < 0 ? 1 : space_.sizes()[static_cast<std::size_t>(length)];
+        squares += std::pow((values[k][j] - values[k - 1][j]) / size, 2);
+      }
       path.length += std::sqrt(squares);
     }
   }

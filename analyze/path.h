@@ -21,7 +21,7 @@ const char* to_string(Avoid avoid);
 
 struct PathOptions {
   Avoid avoid = Avoid::forward;
-  double radius = 0;  ///< that the tube is to have where possible
+  double radius = 0;  ///< that the tube is to have where possible (Tube::radii)
   int threads = 1;
   std::uint64_t max_boxes = 400'000;  ///< of one cover
   double sampling_seconds = 20;       ///< of one attempt, where the dimension is high
@@ -33,7 +33,7 @@ struct Path {
   std::string reason;        ///< what separates the ends, or why nothing is known
   std::string method;        ///< how the path was found: "direct", "graph", "sampling"
   std::optional<Tube> tube;  ///< of a path
-  double length = 0;         ///< of the nodes' polyline, in the model's coordinates; no claim
+  double length = 0;         ///< of the nodes' polyline: angles in radians, lengths in units of PathSpace::sizes; no claim
   double resolution = 0;     ///< the finest cover's edges; 0: none was made
   Box from, to;              ///< the ends, enclosed in the system's variables
   double seconds = 0;
@@ -89,6 +89,8 @@ class PathFinder {
 /// Values of the model's coordinates at each node, in doubles, angles without jumps; their names.
 std::vector<std::vector<double>> node_values(const System& system, const Tube& tube, std::vector<std::string>& names);
 
+/// The tube's size of lengths; nothing where the system has none.
+std::optional<double> length_size(const System& system, const Tube& tube);
 /// A few lines for a terminal.
 std::string to_text(const PathFinder& finder, const Path& path);
 /// doc/paths.md.

@@ -27,10 +27,17 @@ bool may_have(const std::vector<int>& box, const std::vector<int>& signs) {
   return true;
 }
 
-Box box_of(const PathSpace::Point& x) {
-  Box box;
-  for (Eigen::Index j = 0; j < x.size(); ++j) box.emplace_back(x(j));
+// With room for rounding.
+Box widened(Box box, const std::vector<double>& sizes) {
+  const UpwardRounding rounding;
+  for (std::size_t j = 0; j < box.size(); ++j) box[j] += Interval(-kGap, kGap) * Interval(sizes[j]);
   return box;
+}
+
+Box about(const PathSpace& space, const PathSpace::Point& x) {
+  Box box;
+  for (const double value : space.values(x)) box.emplace_back(value);
+  return widened(std::move(box), space.sizes());
 }
 
 }  // namespace
@@ -60,13 +67,13 @@ std::size_t PathGraph::boxes() const { return graph_->cover.boxes.size(); }
 
 PathGraph::PathGraph(const PathSpace& space, double sigma, int threads, std::uint64_t most_boxes, solve::Control& control)
     : space_(space), sigma_(sigma), graph_(std::make_unique<Graph>()) {
-  double size = 0;
-  for (const Variable& v : space.system().variables)
-    if (v.kind == VariableKind::length) size = std::max(size, v.domain.width() / 2);
+  double length = 1;
+  for (std::size_t j = 0; j < space.sizes().size(); ++j)
+    if (space.system().variables[j].kind == VariableKind::length) length = space.sizes()[j];
   solve::Options options;
   options.threads = threads;
   options.sigma_angle = sigma;
-  options.sigma_length = sigma * (size > 0 ? size : 1);
+  options.sigma_length = sigma * length;
   options.max_found = most_boxes;
   graph_->cover = solve::solve(solve::prepare(space.system(), options, control), control);
   Cover& cover = graph_->cover;
@@ -82,7 +89,7 @@ PathGraph::PathGraph(const PathSpace& space, double sigma, int threads, std::uin
   graph_->tree = std::make_unique<BoxTree>(std::move(sides), cover.boxes.front().box.size());
   graph_->neighbours.resize(cover.boxes.size());
   for (std::size_t b = 0; b < cover.boxes.size(); ++b)
-    graph_->tree->for_each_overlapping(cover.boxes[b].box, kGap, [&](std::size_t other) {
+    graph_->tree->for_each_overlapping(widened(cover.boxes[b].box, space.sizes()), 0, [&](std::size_t other) {
       if (other > b) graph_->neighbours[b].push_back(other);
     });
 }
@@ -132,7 +139,7 @@ void PathGraph::prepare_points(const std::vector<int>& signs) {
       for (int j = 0; j < space_.size(); ++j) {
         const Interval& side = box[static_cast<std::size_t>(j)];
         const double share = k == 0 ? 0.5 : std::uniform_real_distribution<double>(0, 1)(random);
-        x(j) = side.lo() + share * (side.hi() - side.lo());
+        x(j) = (side.lo() + share * (side.hi() - side.lo())) / space_.sizes()[static_cast<std::size_t>(j)];
       }
       if (!space_.project(x, sigma_ + 1e-6 + 0.5 * x.lpNorm<Eigen::Infinity>())) continue;
       const PathSpace::State state = space_.state(x);
@@ -171,7 +178,7 @@ std::optional<TubeBuilder::Points> PathGraph::way(const PathSpace::Point& from, 
   };
   const auto near = [&](const PathSpace::Point& end) {
     std::vector<std::size_t> found;
-    graph_->tree->for_each_overlapping(box_of(end), kGap, [&](std::size_t b) {
+    graph_->tree->for_each_overlapping(about(space_, end), 0, [&](std::size_t b) {
       if (points.margin[b] > 0 && builder.follow(end, points.at[b], step, accept)) found.push_back(b);
     });
     return found;

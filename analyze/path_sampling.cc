@@ -60,9 +60,9 @@ std::optional<TubeBuilder::Points> sampled_way(const PathSpace& space, const Pat
   ob::RealVectorBounds bounds(n);
   for (unsigned j = 0; j < n; ++j) {
     const Interval& side = space.system().variables[j].domain;
-    const double room = 1e-6 * (1 + side.width());
-    bounds.setLow(j, side.lo() - room);
-    bounds.setHigh(j, side.hi() + room);
+    const double size = space.sizes()[j], room = 1e-6 * (1 + side.width() / size);
+    bounds.setLow(j, side.lo() / size - room);
+    bounds.setHigh(j, side.hi() / size + room);
   }
   ambient->setBounds(bounds);
   const auto constraint = std::make_shared<Equations>(space);

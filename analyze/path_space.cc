@@ -7,6 +7,7 @@
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 #include "corank/core/signs.h"
+#include "corank/solve/propagation.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/determinant_factors.h"
 #include "corank/symbolic/velocity_blocks.h"
@@ -24,6 +25,20 @@ bool is_small(const PolynomialMatrix& m) {
 
 Avoid block_of(symbolic::SingularitySet set) {
   return set == symbolic::SingularitySet::forward ? Avoid::forward : Avoid::inverse;
+}
+
+// Weights by which each row's and each column's largest entry is 1 in magnitude or less, nearly: magnitudes, row by row.
+void balance(const Eigen::MatrixXd& magnitudes, std::vector<double>& rows, std::vector<double>& columns) {
+  constexpr int kTurns = 4;
+  rows.assign(static_cast<std::size_t>(magnitudes.rows()), 1);
+  columns.assign(static_cast<std::size_t>(magnitudes.cols()), 1);
+  const Eigen::Map<Eigen::ArrayXd> r(rows.data(), magnitudes.rows()), c(columns.data(), magnitudes.cols());
+  const auto inverse_root = [](double x) { return x > 0 && std::isfinite(x) ? 1 / std::sqrt(x) : 1; };
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const Eigen::MatrixXd a = (magnitudes.array().colwise() * r).rowwise() * c.transpose();
+    for (Eigen::Index i = 0; i < a.rows(); ++i) rows[static_cast<std::size_t>(i)] *= inverse_root(a.row(i).maxCoeff());
+    for (Eigen::Index j = 0; j < a.cols(); ++j) columns[static_cast<std::size_t>(j)] *= inverse_root(a.col(j).maxCoeff());
+  }
 }
 
 bool is_square(const std::vector<int>& rows, const PolynomialMatrix& m) {
@@ -48,6 +63,37 @@ PathSpace::PathSpace(study::Question question, Avoid avoid, int most_with_factor
   }
   values.insert(values.end(), factors_.begin(), factors_.end());
   compiled_ = std::make_unique<certify::CompiledSystem>(system_, values);
+  settle_sizes();
+}
+
+void PathSpace::settle_sizes() {
+  equation_sizes_ = solve::typical_sizes(*compiled_, system_.domain()).equations;
+  for (const Variable& v : system_.variables) sizes_.push_back(v.size);
+  const UpwardRounding rounding;
+  const std::vector<Interval> domain = system_.domain();
+  for (std::size_t k = 0; k < matrices_.size(); ++k) {
+    const PolynomialMatrix& m = matrices_[k];
+    Eigen::MatrixXd magnitudes(static_cast<Eigen::Index>(filled_rows_[k].size()), m.columns);
+    for (Eigen::Index i = 0; i < magnitudes.rows(); ++i)
+      for (int j = 0; j < m.columns; ++j) {
+        const int entry = first_entry_[k] + filled_rows_[k][static_cast<std::size_t>(i)] * m.columns + j;
+        magnitudes(i, j) = compiled_->evaluate(compiled_->value_row(entry), domain).mag();
+      }
+    Weights& weights = weights_.emplace_back();
+    if (magnitudes.size() > 0) balance(magnitudes, weights.rows, weights.columns);
+  }
+}
+
+std::vector<double> PathSpace::values(const Point& x) const {
+  std::vector<double> result(sizes_);
+  for (std::size_t j = 0; j < result.size(); ++j) result[j] *= x(static_cast<Eigen::Index>(j));
+  return result;
+}
+
+PathSpace::Point PathSpace::middle(const Box& box) const {
+  Point x(static_cast<Eigen::Index>(box.size()));
+  for (std::size_t j = 0; j < box.size(); ++j) x(static_cast<Eigen::Index>(j)) = box[j].mid() / sizes_[j];
+  return x;
 }
 
 void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
@@ -115,19 +161,23 @@ std::vector<int> PathSpace::signs(const Box& box) const {
 }
 
 Eigen::VectorXd PathSpace::residual(const Point& x) const {
+  const std::vector<double> at = values(x);
   const UpwardRounding rounding;
   Eigen::VectorXd f(compiled_->equations());
-  for (int i = 0; i < compiled_->equations(); ++i) f(i) = compiled_->evaluate_at(i, x.data()).mid();
+  for (int i = 0; i < compiled_->equations(); ++i)
+    f(i) = compiled_->evaluate_at(i, at.data()).mid() / equation_sizes_[static_cast<std::size_t>(i)];
   return f;
 }
 
 Eigen::MatrixXd PathSpace::jacobian(const Point& x) const {
   std::vector<double> entries(static_cast<std::size_t>(compiled_->entries()));
-  compiled_->approximate_jacobian(x.data(), entries.data());
+  compiled_->approximate_jacobian(values(x).data(), entries.data());
   Eigen::MatrixXd j = Eigen::MatrixXd::Zero(compiled_->equations(), size());
   for (int i = 0; i < compiled_->equations(); ++i)
     for (int k = compiled_->row_begin(i); k < compiled_->row_begin(i + 1); ++k)
-      j(i, compiled_->column(k)) += entries[static_cast<std::size_t>(k)];
+      j(i, compiled_->column(k)) += entries[static_cast<std::size_t>(k)] *
+                                    sizes_[static_cast<std::size_t>(compiled_->column(k))] /
+                                    equation_sizes_[static_cast<std::size_t>(i)];
   return j;
 }
 
@@ -156,7 +206,7 @@ Eigen::MatrixXd PathSpace::tangent(const Point& x) const {
   return q.rightCols(dimension());
 }
 
-std::vector<double> PathSpace::values(const Point& x, int from, int count) const {
+std::vector<double> PathSpace::value_rows(const std::vector<double>& x, int from, int count) const {
   const UpwardRounding rounding;
   std::vector<double> result;
   for (int k = from; k < from + count; ++k)
@@ -167,31 +217,32 @@ std::vector<double> PathSpace::values(const Point& x, int from, int count) const
 PathSpace::State PathSpace::state(const Point& x) const {
   State state;
   state.margin = 1;
+  const std::vector<double> at = values(x);
   for (std::size_t k = 0; k < matrices_.size(); ++k) {
     const PolynomialMatrix& m = matrices_[k];
-    const std::vector<double> entries = values(x, first_entry_[k], m.rows * m.columns);
+    const std::vector<double> entries = value_rows(at, first_entry_[k], m.rows * m.columns);
     Eigen::MatrixXd a(static_cast<Eigen::Index>(filled_rows_[k].size()), m.columns);
     for (Eigen::Index i = 0; i < a.rows(); ++i)
       for (int j = 0; j < m.columns; ++j)
-        a(i, j) = entries[static_cast<std::size_t>(filled_rows_[k][static_cast<std::size_t>(i)] * m.columns + j)];
+        a(i, j) = entries[static_cast<std::size_t>(filled_rows_[k][static_cast<std::size_t>(i)] * m.columns + j)] *
+                  weights_[k].rows[static_cast<std::size_t>(i)] * weights_[k].columns[static_cast<std::size_t>(j)];
     if (a.size() == 0) continue;
     const Eigen::VectorXd sigma = singular_values(a);
     state.margin = std::min(state.margin, sigma(0) > 0 ? sigma(sigma.size() - 1) / sigma(0) : 0);
     if (a.rows() == a.cols()) state.signs.push_back(determinant(a) > 0 ? 1 : -1);
   }
   const int factors = static_cast<int>(factors_.size());
-  for (const double f : values(x, compiled_->values() - factors, factors)) state.signs.push_back(f > 0 ? 1 : -1);
+  for (const double f : value_rows(at, compiled_->values() - factors, factors)) state.signs.push_back(f > 0 ? 1 : -1);
   state.inside = true;
   for (int j = 0; j < size() && state.inside; ++j) {
     const Variable& v = system_.variables[static_cast<std::size_t>(j)];
-    const double slack = 1e-9;
-    if ((!v.lower_implied && x(j) < v.domain.lo() - (v.kind == VariableKind::length ? 0 : slack)) ||
-        (!v.upper_implied && x(j) > v.domain.hi() + (v.kind == VariableKind::length ? 0 : slack)))
+    const double slack = v.kind == VariableKind::length ? 0 : 1e-9, value = at[static_cast<std::size_t>(j)];
+    if ((!v.lower_implied && value < v.domain.lo() - slack) || (!v.upper_implied && value > v.domain.hi() + slack))
       state.inside = false;
   }
   const UpwardRounding rounding;
   for (int row = compiled_->equations(); row < compiled_->rows() && state.inside; ++row)
-    state.inside = compiled_->evaluate_at(row, x.data()).lo() > 0;
+    state.inside = compiled_->evaluate_at(row, at.data()).lo() > 0;
   return state;
 }
 

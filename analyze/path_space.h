@@ -29,7 +29,12 @@ class PathSpace {
   const std::vector<PolynomialMatrix>& matrices() const { return matrices_; }
   const std::vector<int>& ranks() const { return ranks_; }
 
+  /// Coordinate j is x_j / sizes()[j], so that distances do not depend on the unit of length.
   using Point = Eigen::VectorXd;
+  /// Variable::size.
+  const std::vector<double>& sizes() const { return sizes_; }
+  std::vector<double> values(const Point& x) const;
+  Point middle(const Box& box) const;
 
   /// Signs ±1, proven for every point of the box, of functions none of which is 0 at a regular configuration: factors of
   /// determinants, and determinants of square matrices; 0 where one is not known. Requires UpwardRounding::active().
@@ -43,7 +48,7 @@ class PathSpace {
   };
   std::vector<SignFunction> sign_names() const;
 
-  /// In doubles, no claims. F(x), ∂F/∂x.
+  /// In doubles, no claims. F, each equation divided by its typical size, and its derivatives by the coordinates of points.
   Eigen::VectorXd residual(const Point& x) const;
   Eigen::MatrixXd jacobian(const Point& x) const;
   /// Moves x to a solution nearby by Newton steps of least change. False: none was found within `reach`.
@@ -52,19 +57,21 @@ class PathSpace {
   Eigen::MatrixXd tangent(const Point& x) const;
   struct State {
     std::vector<int> signs;  ///< of determinants and of their factors
-    double margin = 0;       ///< least singular value of the matrices, relative to their largest
+    double margin = 0;       ///< least singular value of the weighted matrices, relative to their largest
     bool inside = false;     ///< the domain and the inequalities
   };
   State state(const Point& x) const;
 
  private:
   void add_matrix(symbolic::SingularitySet set, bool with_factors);
-  std::vector<double> values(const Point& x, int from, int count) const;
+  std::vector<double> value_rows(const std::vector<double>& x, int from, int count) const;
+  void settle_sizes();
 
   study::Question question_;
   Avoid avoid_;
   symbolic::TrigonometricSystem equations_;
   System system_;
+  std::vector<double> sizes_, equation_sizes_;
   std::vector<PolynomialMatrix> matrices_;
   std::vector<int> ranks_;
   std::vector<Avoid> blocks_;                  // of the matrices
@@ -73,6 +80,10 @@ class PathSpace {
   std::vector<SignFunction> factor_names_;
   std::unique_ptr<certify::CompiledSystem> compiled_;  // values: the matrices' entries, then the factors
   std::vector<int> first_entry_;                       // of each matrix among the values
+  struct Weights {
+    std::vector<double> rows, columns;
+  };
+  std::vector<Weights> weights_;  // of each matrix, by which its entries are of like size whatever the unit of length
 };
 
 }  // namespace corank::analyze

@@ -17,7 +17,20 @@ Json values_of(const System& system, const Box& box) {
   return json;
 }
 
+std::string radius_text(const System& system, const Tube& tube) {
+  const std::optional<double> length = length_size(system, tube);
+  std::string text = fmt::format("{:.3g}", tube.radius());
+  if (length) text += fmt::format(" of sines and cosines, {:.3g} of lengths", tube.radius() * *length);
+  return text;
+}
+
 }  // namespace
+
+std::optional<double> length_size(const System& system, const Tube& tube) {
+  for (std::size_t j = 0; j < system.variables.size(); ++j)
+    if (system.variables[j].kind == VariableKind::length) return tube.sizes[j];
+  return std::nullopt;
+}
 
 const char* to_string(Avoid avoid) {
   switch (avoid) {
@@ -40,7 +53,7 @@ std::string to_text(const PathFinder& finder, const Path& path) {
                                                           : "unknown");
   if (!path.reason.empty()) line("", path.reason);
   if (path.tube) {
-    line("radius", fmt::format("{:.3g}", path.tube->radius()));
+    line("radius", radius_text(finder.system(), *path.tube));
     line("length", fmt::format("{:.4g}", path.length));
     line("pieces",
          fmt::format("{}, found {}", path.tube->pieces.size(), path.method == "direct" ? "directly" : "by " + path.method));
@@ -58,6 +71,7 @@ std::string to_json(const PathFinder& finder, const Path& path) {
             {"to", values_of(finder.system(), path.to)},
             {"waypoints", Json::array()},
             {"radius", nullptr},
+            {"length_radius", nullptr},
             {"radii", Json::array()},
             {"length", nullptr},
             {"method", path.method.empty() ? Json() : Json(path.method)},
@@ -72,6 +86,7 @@ std::string to_json(const PathFinder& finder, const Path& path) {
       json["waypoints"].push_back(std::move(point));
     }
     json["radius"] = path.tube->radius();
+    if (const auto length = length_size(finder.system(), *path.tube)) json["length_radius"] = *length * path.tube->radius();
     json["radii"] = path.tube->radii;
     json["length"] = path.length;
   }

@@ -215,8 +215,9 @@ std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
   std::size_t best = 0;
   double most = -1;
   for (std::size_t f = 0; f < frees.size(); ++f) {
-    const double width = cell.sides[static_cast<std::size_t>(frees[f])].width();
-    double variation = known ? 0 : width;
+    const auto j = static_cast<std::size_t>(frees[f]);
+    const double width = cell.sides[j].width();
+    double variation = known ? 0 : width / system_.variables[j].size;
     if (known)
       for (const auto& slope : s) variation = std::max(variation, slope[f].mag() * width);
     if (variation > most) most = variation, best = f;

@@ -115,6 +115,10 @@ HeightCount count_critical_points(const study::Question& question, int height, c
     result.problem = "the search for critical points was ended by a limit";
     return result;
   }
+  if (!holds_points_only(cover)) {
+    result.problem = "critical points that are not isolated";
+    return result;
+  }
   const UpwardRounding rounding;
   // −ξ is no solution where a·ξ > 0: where it is 0, a point may be counted twice.
   const certify::CompiledSystem compiled(system);

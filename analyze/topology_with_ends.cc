@@ -55,11 +55,11 @@ StrataCount count_on_strata(const certify::Strata& strata, const TopologyOptions
       height.problem = "the search for critical points was ended by a limit";
       return result;
     }
-    if (cover.dimension != 0) {
+    solve::prove_exactly(prepared, cover, control);
+    if (!holds_points_only(cover)) {
       height.problem = "critical points that are not isolated";
       return result;
     }
-    solve::prove_exactly(prepared, cover, control);
     const UpwardRounding rounding;
     const certify::StratumTest test(strata, stratum);
     for (const CoverBox& point : cover.points) {
@@ -190,6 +190,12 @@ std::optional<int> only_possible(int euler, int minima) {
 }
 
 }  // namespace
+
+bool holds_points_only(const Cover& cover) {
+  return cover.dimension == 0 && std::all_of(cover.boxes.begin(), cover.boxes.end(), [](const CoverBox& box) {
+           return box.motion < 0 && box.free.empty() && box.reason != Reason::degenerate_set;
+         });
+}
 
 std::vector<Limit> without_unreached(const System& system, std::vector<Limit> ends, const TopologyOptions& options,
                                      std::uint64_t& processed, solve::Control& control) {

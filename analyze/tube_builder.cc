@@ -14,8 +14,6 @@ constexpr int kMostHalvings = 26;
 constexpr double kLeastRadius = 1e-9;
 constexpr double kShortest = 1e-7;  // step
 
-std::vector<double> to_vector(const PathSpace::Point& x) { return {x.data(), x.data() + x.size()}; }
-
 }  // namespace
 
 TubeBuilder::TubeBuilder(const PathSpace& space) : space_(space), prover_(space.system(), space.matrices(), space.ranks()) {}
@@ -36,10 +34,11 @@ std::optional<TubeBuilder::Node> TubeBuilder::node(const PathSpace::Point& x, co
   }
   const Eigen::VectorXd c = result.across * x;
   for (Eigen::Index i = 0; i < result.across.rows(); ++i)
-    for (Eigen::Index j = 0; j < result.across.cols(); ++j) result.node.rows.push_back(result.across(i, j));
+    for (Eigen::Index j = 0; j < result.across.cols(); ++j)
+      result.node.rows.push_back(result.across(i, j) / space_.sizes()[static_cast<std::size_t>(j)]);
   result.node.values = {c.data(), c.data() + c.size()};
   const UpwardRounding rounding;
-  const auto box = prover_.node(result.node.rows, result.node.values, to_vector(x));
+  const auto box = prover_.node(result.node.rows, result.node.values, space_.values(x));
   if (!box) return std::nullopt;
   result.node.box = *box;
   return result;
@@ -54,7 +53,7 @@ std::optional<TubeBuilder::Node> TubeBuilder::connect(Tube& tube, const Node& a,
     if (std::optional<Node> end = node(b, &a)) {
       const UpwardRounding rounding;
       const auto piece = prover_.piece(a.node, end->node);
-      if (piece && prover_.is_free(*piece, radius)) {
+      if (piece && prover_.is_free(*piece, radius, space_.sizes())) {
         hope_ = std::max(hope_, 2 * length);
         tube.nodes.push_back(end->node);
         tube.pieces.push_back(*piece);
@@ -73,17 +72,18 @@ std::optional<TubeBuilder::Node> TubeBuilder::connect(Tube& tube, const Node& a,
 
 // By doubling and halving; about a tenth of it is given away.
 double TubeBuilder::widest_radius(const Box& piece, double known, double guess) const {
+  const auto is_free = [&](double r) { return prover_.is_free(piece, r, space_.sizes()); };
   double low = known, high = std::max(guess, 2 * known);
-  if (prover_.is_free(piece, high)) {
-    while (low = high, high *= 2, high < 1e6 && prover_.is_free(piece, high)) {
+  if (is_free(high)) {
+    while (low = high, high *= 2, high < 1e6 && is_free(high)) {
     }
   } else {
-    while (high > 4 * low && !prover_.is_free(piece, high)) high /= 2;
-    if (prover_.is_free(piece, high)) low = high, high *= 2;
+    while (high > 4 * low && !is_free(high)) high /= 2;
+    if (is_free(high)) low = high, high *= 2;
   }
   for (int k = 0; k < 3; ++k) {
     const double middle = std::sqrt(low * high);
-    (prover_.is_free(piece, middle) ? low : high) = middle;
+    (is_free(middle) ? low : high) = middle;
   }
   return low;
 }
@@ -91,6 +91,7 @@ double TubeBuilder::widest_radius(const Box& piece, double known, double guess) 
 TubeBuilder::Outcome TubeBuilder::build(const Box& from, const Points& points, const Box& to, double radius,
                                         const solve::Control& control) {
   Tube tube;
+  tube.sizes = space_.sizes();
   hope_ = 0;
   radius = std::max(radius, kLeastRadius);
   std::optional<Node> last = node(points.front(), nullptr);
@@ -108,7 +109,10 @@ TubeBuilder::Outcome TubeBuilder::build(const Box& from, const Points& points, c
     guess = tube.radii[k] = widest_radius(tube.pieces[k], radius, guess);
   const auto about = [&](std::size_t k) {
     Box box = tube.pieces[k];
-    for (Interval& side : box) side = Interval(side.lo() - tube.radii[k] / 2, side.hi() + tube.radii[k] / 2);
+    for (std::size_t j = 0; j < box.size(); ++j) {
+      const double room = tube.radii[k] * tube.sizes[j] / 2;
+      box[j] = Interval(box[j].lo() - room, box[j].hi() + room);
+    }
     return box;
   };
   if (!prover_.joins(from, tube.nodes.front().box, about(0))) return {std::nullopt, 0};

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "corank/app/interrupt.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
@@ -32,7 +32,8 @@ ExitStatus aspects(AspectsCommand command) {
   command.options.certificate = command.output.ends_with(".h5");
   if (!command.output.empty() && !drawn && !command.options.certificate)
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg or .h5", command.output));
-  solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
+  LimitedRun run({.time = command.time_limit});
+  solve::Control& control = run.control();
   const study::Question question = load(command.question);
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no aspects", command.question.file));
@@ -40,7 +41,6 @@ ExitStatus aspects(AspectsCommand command) {
   if (command.areas && question.model.outputs().size() != 2)
     throw UsageError(fmt::format("{}: areas need two outputs", command.question.file));
   if (command.areas) command.options.images = question.model.outputs();
-  const Interrupt interrupt;
   ProgressLine line;
   line.follow(control);
   const analyze::Aspects result = analyze::aspects(question, command.options, control);

@@ -9,7 +9,7 @@
 
 #include "corank/app/box_files.h"
 #include "corank/app/clearance_command.h"
-#include "corank/app/interrupt.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/named_values.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
@@ -119,7 +119,8 @@ ExitStatus run_clearance(ClearanceCommand command) {
   give_back_model(command.question, command.json_path);
   const solve::Options search = options_of(command);
   search.validate();
-  solve::Control control(limits_of(search, &Interrupt::stop()));
+  LimitedRun run(limits_of(search, nullptr));
+  solve::Control& control = run.control();
   const analyze::BallOptions ball = ball_of(command);
   const study::Question question = question_of(command);
   check_output(command.json_path.value_or(""));
@@ -127,7 +128,6 @@ ExitStatus run_clearance(ClearanceCommand command) {
     check_output(free_file(command));
     check_output(nearest_file(command));
   }
-  const Interrupt interrupt;
   ProgressLine line;
   analyze::ClearanceOptions options{.precision = command.precision};
   options.progress = [&line](double lower, std::optional<double> upper, std::uint64_t processed) {

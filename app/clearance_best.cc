@@ -4,7 +4,7 @@
 #include "corank/analyze/best_center.h"
 #include "corank/app/box_files.h"
 #include "corank/app/clearance_command.h"
-#include "corank/app/interrupt.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/result/printable.h"
@@ -16,12 +16,12 @@ ExitStatus run_best(ClearanceCommand command) {
   give_back_model(command.question, command.json_path);
   const solve::Options search = options_of(command);
   search.validate();
-  solve::Control control(limits_of(search, &Interrupt::stop()));
+  LimitedRun run(limits_of(search, nullptr));
+  solve::Control& control = run.control();
   const analyze::BallOptions ball = ball_of(command);
   const study::Question question = question_of(command);
   const std::vector<analyze::NamedRange> region = region_of(command.best, "--best", question);
   check_output(command.json_path.value_or(""));
-  const Interrupt interrupt;
   ProgressLine line;
   analyze::BestOptions options{.precision = command.precision};
   options.progress = [&line](double lower, std::optional<double> upper, std::uint64_t cells) {

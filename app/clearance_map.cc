@@ -5,7 +5,7 @@
 
 #include "corank/app/box_files.h"
 #include "corank/app/clearance_command.h"
-#include "corank/app/interrupt.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
 #include "corank/report/heat_map.h"
 #include "corank/result/printable.h"
@@ -39,12 +39,12 @@ ExitStatus run_map(const ClearanceCommand& command) {
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg, .csv or .json", command.output));
   const solve::Options search = options_of(command);
   search.validate();
-  solve::Control control(limits_of(search, &Interrupt::stop()));
+  LimitedRun run(limits_of(search, nullptr));
+  solve::Control& control = run.control();
   const analyze::BallOptions ball = ball_of(command);
   const study::Question question = question_of(command);
   const std::vector<analyze::NamedRange> region = region_of(command.map, "--map", question);
   check_output(command.output);
-  const Interrupt interrupt;
   ProgressLine line;
   analyze::MapOptions options{.grid = command.grid, .precision = command.precision};
   options.progress = [&line](std::size_t done, std::size_t all) { line.show(fmt::format("{} of {} cells", done, all)); };

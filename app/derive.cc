@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "corank/app/question.h"
@@ -11,9 +10,11 @@
 #include "corank/result/result_file.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/line_breaks.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/symbolic/model_text.h"
 #include "corank/symbolic/printer.h"
+#include "corank/symbolic/text_file.h"
 
 namespace corank::app {
 namespace {
@@ -35,10 +36,7 @@ void check_path(const std::string& path, const std::string& model) {
   bool kept = std::filesystem::equivalent(file, model, ignored);
   for (const char* input : {".world", ".urdf", ".loops", ".param"}) kept = kept || extension == input;
   if (extension == ".cuik" && !kept) {
-    std::string begin(kMark.size(), '\0');
-    std::ifstream in(file, std::ios::binary);
-    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    kept = begin != kMark;
+    kept = symbolic::reading_fault(file).empty() && symbolic::read_bytes(file, kMark.size()) != kMark;
   }
   if (kept) throw UsageError(path + ": not written over, it was not made by corank derive; remove it first");
 }
@@ -50,7 +48,7 @@ std::string derivation(QuestionOptions options, const std::string& format) {
     head = fmt::format("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
   if (question.assembly && question.model.constraints().empty())
     return head + "It has no loops and no outputs: every value of its joints is a configuration.\n";
-  if (format == "model") return head + symbolic::to_model(question.model);
+  if (format == "model") return head + symbolic::broken_model(symbolic::to_model(question.model));
   if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
   question.set = chosen_set(options, question.model);
   if (symbolic::definition(question.set).of_parts) {
@@ -64,7 +62,7 @@ std::string derivation(QuestionOptions options, const std::string& format) {
   }
   const symbolic::TrigonometricSystem system = study::equations(question);
   if (!system.claimed.empty()) static_cast<void>(study::system(question, system));  // refuses what does not follow
-  if (format == "cuik") return head + symbolic::to_cuik(symbolic::algebrize(system));
+  if (format == "cuik") return head + symbolic::broken_model(symbolic::to_cuik(symbolic::algebrize(system)));
   const symbolic::Derivation derivation = symbolic::derive(question.model);
   return head + (format == "latex" ? symbolic::to_latex(derivation, system) : symbolic::to_text(derivation, system));
 }

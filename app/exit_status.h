@@ -11,6 +11,7 @@ enum ExitStatus : int {
   kUsage = 2,             ///< the command line
   kIncomplete = 3,        ///< a limit or an interrupt ended the work; the result is valid
   kNotShownComplete = 4,  ///< corank verify: every claim holds, but nothing proves that no solution is missing
+  kNotAssembled = 5,      ///< corank solve: done; the set is empty because the robot cannot be assembled within its ranges
   kBug = 70,              ///< a broken invariant of corank itself (EX_SOFTWARE)
 };
 

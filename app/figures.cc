@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <system_error>
 
 #include "corank/app/progress.h"
@@ -48,6 +49,7 @@ Figures write_figures(const std::filesystem::path& folder, const symbolic::Mecha
     line.show(std::string("figures: ") + name);
     const report::Picture picture = report::make_picture(sources, options);
     for (const char* extension : {".svg", ".pdf"}) {
+      if (extension == std::string_view(".pdf") && !report::can_write_pdf()) continue;
       figures.files.push_back(std::string(name) + extension);
       report::write_portrait(folder / figures.files.back(), picture, {});
     }

@@ -25,8 +25,8 @@ struct Figures {
   bool stopped = false;
 };
 
-/// Writes output-portrait and input-portrait, each as .svg and .pdf, into a folder that exists; nothing where there is no
-/// box or no plane. Where `stop` is set meanwhile, the figures that are left are left out.
+/// Writes output-portrait and input-portrait, each as .svg and, where report::can_write_pdf(), .pdf, into a folder that
+/// exists; nothing where there is no box or no plane. Where `stop` is set meanwhile, the figures that are left are left out.
 Figures write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
                       const std::vector<report::SetView>& views, const std::atomic<bool>& stop);
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "corank/analyze/parameter_map.h"
-#include "corank/app/interrupt.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
@@ -92,10 +92,10 @@ ExitStatus write_map(MapCommand command) {
   if (n < analyze::kTiles || n > 1024 || (n & (n - 1)) != 0)
     throw UsageError(fmt::format("--resolution {}: expected a power of two from {} to 1024", n, analyze::kTiles));
   command.options.boundary = !command.no_boundary;
-  solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
+  LimitedRun run({.time = command.time_limit});
+  solve::Control& control = run.control();
   const analyze::MapQuestion question = question_of(command);
   if (question.over.size() != 2) throw UsageError("a map has two parameters: --over NAME=FROM:TO twice");
-  const Interrupt interrupt;
   ProgressLine line;
   command.options.progress = [&line](std::size_t done, std::size_t all) {
     line.show(fmt::format("{} of {} parts of the plane", done, all));

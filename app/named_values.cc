@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <regex>
-
 #include "corank/app/exit_status.h"
 #include "corank/symbolic/model_file.h"
 
@@ -35,8 +33,7 @@ std::pair<std::string, std::string> split_at_equals(const std::string& text, con
 }
 
 symbolic::Expression expression(const std::string& text, const std::string& option) {
-  static const std::regex kDegrees(R"(([0-9]*\.?[0-9]+)deg\b)");
-  return symbolic::parse_expression(std::regex_replace(text, kDegrees, "($1*pi/180)"), option + " " + text);
+  return symbolic::parse_expression(text, option + " " + text);
 }
 
 std::vector<analyze::NamedValue> named_values(const std::vector<std::string>& texts, const std::string& option) {

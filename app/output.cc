@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "corank/result/assembled.h"
+#include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 
 namespace corank::app {
@@ -17,6 +19,13 @@ bool say_json(const JsonPath& json, const std::function<std::string()>& text) {
     return false;
   }
   result::write_text(*json, text() + "\n");
+  return true;
+}
+
+bool warn_of_assembly(const result::Result& result) {
+  if (result::assembled(result) != std::optional(false) && !result.nearly_solved) return false;
+  for (const std::string& sentence : result::assembly_sentences(result))
+    fmt::print(stderr, "corank: warning: {}\n", result::printable_line(sentence));
   return true;
 }
 

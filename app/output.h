@@ -7,6 +7,7 @@
 
 #include "corank/app/exit_status.h"
 #include "corank/app/question.h"
+#include "corank/result/result.h"
 #include "corank/solve/control.h"
 
 namespace corank::app {
@@ -18,6 +19,8 @@ using JsonPath = std::optional<std::string>;
 void give_back_model(QuestionOptions& question, JsonPath& json);
 /// Writes or prints the JSON, where it is asked for. True: the table is to be printed, too.
 bool say_json(const JsonPath& json, const std::function<std::string()>& text);
+/// Warns, where a set is empty, of a robot that cannot be assembled, of decimals that contradict each other. True: it did.
+bool warn_of_assembly(const result::Result& result);
 /// Says what ended an analysis early whose numbers are proven at any time. Requires that something did.
 ExitStatus stopped_early(const solve::Control& control);
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "corank/app/box_files.h"
-#include "corank/app/interrupt.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/named_values.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
@@ -85,7 +85,8 @@ void write_page(const PathCommand& command, const analyze::PathFinder& finder, c
 }
 
 ExitStatus path(PathCommand command) {
-  solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
+  LimitedRun run({.time = command.time_limit});
+  solve::Control& control = run.control();
   const study::Question question = load(command.question);
   if (question.model.is_plain_system())
     throw UsageError(
@@ -97,7 +98,6 @@ ExitStatus path(PathCommand command) {
   check_output(command.csv);
   check_output(command.output);
   check_output(command.report);
-  const Interrupt interrupt;
   ProgressLine line;
   line.follow(control);
   analyze::PathFinder finder(question, command.options);
@@ -140,7 +140,9 @@ void add_path(CLI::App& program, Action& action) {
   sub->add_option("--avoid", command->avoid, "The singularities that the path avoids")
       ->check(CLI::IsMember({"forward", "inverse", "both"}))
       ->capture_default_str();
-  sub->add_option("--radius", command->options.radius, "The clearance that the path is to have, where possible")
+  sub->add_option("--radius", command->options.radius,
+                  "The clearance that the path is to have, where possible: of sines and cosines of angles; lengths have it\n"
+                  "times their typical size")
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--threads", command->options.threads, "Threads of a search; 0: one for each core")
       ->check(CLI::Range(0, solve::kMostThreads))
@@ -160,7 +162,7 @@ void add_path(CLI::App& program, Action& action) {
   sub->add_flag("--json", command->json, "Print the result as JSON");
   sub->footer(
       "The path keeps to the ranges, limits and inequalities of the model. Every configuration within the radius of it, in\n"
-      "lengths and in sines and cosines of angles, is proven to be none of the singularities avoided. Where no path can\n"
+      "sines and cosines of angles and in lengths, is proven to be none of the singularities avoided. Where no path can\n"
       "exist, because the ends lie in different pieces, that is proven.\n\n"
       "Exit status: 0 a path or the proof that there is none, 1 bad input, 2 usage, 3 neither.\n\n"
       "Examples:\n  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=1 --to-mode 1\\\n"

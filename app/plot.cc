@@ -68,6 +68,7 @@ void check_format(const PlotCommand& command) {
         fmt::format("-o {}: {} pictures are flat; expected two axes, or a name that ends in .vtp or .gcl for three",
                     command.output, extension));
   }
+  report::check_can_draw(command.output);
 }
 
 ExitStatus plot(const PlotCommand& command) {

@@ -9,6 +9,7 @@
 #include "corank/app/box_files.h"
 #include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
+#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/set_search.h"
@@ -151,6 +152,8 @@ ExitStatus write_report(ReportCommand command) {
     complete = complete && result.cover.complete() && result.stopped.empty();
     fmt::print("{}: {}\n", words.title, words.finding);
   }
+  for (const auto& view : views)
+    if (warn_of_assembly(view.result)) break;  // it is the same of the others
   fmt::print("{}\n", result::printable_line((folder / "index.html").string()));
   if (complete) return kDone;
   for (const auto& [result, set, system, components, words] : views)

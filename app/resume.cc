@@ -6,12 +6,12 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <string_view>
 
 #include "corank/app/exit_status.h"
 #include "corank/result/result_file.h"
 #include "corank/solve/engine_version.h"
+#include "corank/symbolic/text_file.h"
 
 namespace corank::app {
 namespace {
@@ -31,9 +31,11 @@ bool is_among(const auto& names, const std::string& name) {
 }
 
 std::optional<std::string> text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(in), {});
+  try {
+    return symbolic::read_bytes(path);
+  } catch (const symbolic::ReadingError&) {
+    return std::nullopt;
+  }
 }
 
 bool given(const CLI::App& sub, const std::string& name) { return sub.get_option(name)->count() > 0; }

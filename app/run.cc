@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <memory>
 #include <new>
 
+#include "corank/app/help_format.h"
 #include "corank/app/subcommands.h"
 #include "corank/core/check.h"
 #include "corank/result/printable.h"
@@ -14,6 +18,23 @@
 #include "corank/symbolic/model_error.h"
 
 namespace corank::app {
+namespace {
+
+/// What CLI11 lets pass: a file without a name, and "nan", which no range excludes.
+void check_values(const CLI::App& program) {
+  for (const CLI::App* sub : program.get_subcommands()) {
+    for (const CLI::Option* option : sub->get_options()) {
+      const bool is_number = option->get_type_name().starts_with("FLOAT");
+      for (const std::string& value : option->results()) {
+        if (value.empty() && option->check_sname("o")) throw UsageError("-o: no name given; expected the name of a file");
+        if (is_number && std::isnan(std::strtod(value.c_str(), nullptr)))
+          throw UsageError(fmt::format("{}: {} given; expected a number", option->get_name(), value));
+      }
+    }
+  }
+}
+
+}  // namespace
 
 int run(const std::string& name, const std::vector<std::string>& args) {
   const auto say = [&name](ExitStatus status, const std::string& message) {
@@ -21,6 +42,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
     return status;
   };
   CLI::App program("corank returns all singularities of a robot mechanism, each with a proof.", "corank");
+  program.formatter(std::make_shared<HelpFormat>());
   program.set_version_flag("--version", "corank " + result::version());
   program.require_subcommand(1);
   program.footer(
@@ -44,6 +66,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
 
   try {
     program.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11 wants them backwards
+    check_values(program);
     const ExitStatus status = action();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return say(kBadInput, "cannot write to standard output");
     return status;

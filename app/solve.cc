@@ -9,13 +9,14 @@
 
 #include "corank/analyze/area_by_boundary.h"
 #include "corank/app/box_files.h"
-#include "corank/app/interrupt.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/resume.h"
 #include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
+#include "corank/result/assembled.h"
 #include "corank/result/cuik_param.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
@@ -104,7 +105,9 @@ ExitStatus say(const SolveCommand& command, const result::Result& result, const 
     if (area)
       fmt::print("area of the workspace: from {:.7g} to {:.7g}\n", area->lo() * (1 - kRoom), area->hi() * (1 + kRoom));
   }
-  if (result.cover.complete() && result.stopped.empty()) return kDone;
+  warn_of_assembly(result);
+  if (result.cover.complete() && result.stopped.empty())
+    return result::assembled(result) == std::optional(false) ? kNotAssembled : kDone;
   fmt::print(stderr, "corank: {}; {}\n", study::stopped_words(result),
              result.cover.complete() ? "the cover is complete, but less is proven of it than could be"
                                      : "the result is incomplete");
@@ -160,7 +163,8 @@ result::Result& kept(result::Result result) {
 // `former`: of a run that goes on.
 ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::Checkpoint* former) {
   options_of(command).validate();
-  solve::Control control(limits_of(options_of(command), &Interrupt::stop()));  // reading the model takes its time, too
+  LimitedRun run(limits_of(options_of(command), nullptr));  // reading the model takes its time, too
+  solve::Control& control = run.control();
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
   study::Question question = load(command.question);
   question.set = chosen_set(command.question, question.model);
@@ -176,7 +180,6 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   control.ended();  // notes the stage
 
   study::Options options{options_of(command), command.digits};
-  const Interrupt interrupt;
   ProgressLine line;
   line.follow(control);
   stage.reset();
@@ -206,7 +209,11 @@ void add_solve(CLI::App& program, Action& action) {
   const auto command = std::make_shared<SolveCommand>();
   add_solve_options(*sub, *command);
   sub->footer(
-      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
+      "An empty set of a robot says whether the robot can be assembled within its ranges at all, with one configuration "
+      "that\n"
+      "is proven to exist. Where rounded decimals contradict each other, --tolerance is proposed.\n\n"
+      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt), 5 complete, but the\n"
+      "robot cannot be assembled within its ranges (proven), so that every set of it is empty.\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --sigma 0.01 -o forward.h5\n"
       "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50\n"
       "  corank solve models/dextar.cuik --set inverse --corank 2    # both arms stretched at once\n"

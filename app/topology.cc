@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "corank/app/interrupt.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
@@ -30,9 +30,9 @@ ExitStatus topology(TopologyCommand command) {
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .h5", command.output));
   if (!command.output.empty()) result::check_writable(command.output);
   command.options.certificate = !command.output.empty();
-  solve::Control control({.time = command.time_limit, .stop = &Interrupt::stop()});
+  LimitedRun run({.time = command.time_limit});
+  solve::Control& control = run.control();
   const study::Question question = load(command.question);
-  const Interrupt interrupt;
   ProgressLine line;
   line.follow(control);
   const analyze::Topology result = analyze::topology(question, command.options, control);

@@ -17,8 +17,10 @@ Clock::time_point later(Clock::time_point from, Watch::Duration duration) {
 }  // namespace
 
 Watch::Watch(double seconds, const std::atomic<bool>& interrupt, std::function<void(const std::string&)> give_up,
-             Duration grace)
-    : give_up_(std::move(give_up)), thread_([this, seconds, &interrupt, grace] { watch(seconds, interrupt, grace); }) {}
+             Duration grace, std::function<Work()> deaf)
+    : give_up_(std::move(give_up)),
+      deaf_(std::move(deaf)),
+      thread_([this, seconds, &interrupt, grace] { watch(seconds, interrupt, grace); }) {}
 
 Watch::~Watch() {
   done();
@@ -43,7 +45,13 @@ void Watch::watch(double seconds, const std::atomic<bool>& interrupt, Duration g
     changed_.wait_until(lock, std::min(end, later(Clock::now(), kGlance)), [this] { return done_; });
   stop_ = true;
   stop_.notify_all();
-  changed_.wait_until(lock, later(Clock::now(), grace), [this] { return done_; });
+  // With the lock, so that done() waits for a statement that is being made.
+  const auto work = [this] { return deaf_ ? deaf_() : 1; };
+  Work known = work();
+  for (Clock::time_point since = Clock::now(); !done_ && (known == 0 || Clock::now() < later(since, grace));) {
+    changed_.wait_until(lock, later(Clock::now(), kGlance), [this] { return done_; });
+    if (const Work now = work(); now != known || now == 0) known = now, since = Clock::now();
+  }
   if (!done_) give_up_(stage_);
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -18,10 +19,14 @@ class Watch {
   /// How long the work may go on after the flag was set: a limit holds within a second.
   static constexpr Duration kGrace{0.8};
 
-  /// Sets stop() after `seconds` (0: never), or once `interrupt` is set. Where this object still lives a `grace` later,
-  /// `give_up` is called with the stage, from another thread; it is to say what is known and to end the program.
+  /// A number of the piece of work that is done just now and does not look at the flag; 0: there is no such piece.
+  using Work = std::uint64_t;
+
+  /// Sets stop() after `seconds` (0: never), or once `interrupt` is set. Where later one piece of `deaf` work goes on for a
+  /// `grace`, or this object lives that long and there is no such function, `give_up` is called with the stage, from another
+  /// thread; it is to say what is known and to end the program.
   Watch(double seconds, const std::atomic<bool>& interrupt, std::function<void(const std::string& stage)> give_up,
-        Duration grace = kGrace);
+        Duration grace = kGrace, std::function<Work()> deaf = {});
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -36,6 +41,7 @@ class Watch {
   void watch(double seconds, const std::atomic<bool>& interrupt, Duration grace);
 
   std::function<void(const std::string&)> give_up_;
+  std::function<Work()> deaf_;
   std::atomic<bool> stop_{false};
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -32,8 +32,8 @@ Interval half_way(const Interval& x, double c) { return scale(0.5, x + Interval(
 
 }  // namespace
 
-CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial> values)
-    : variables_(system.size()), scales_(system.variables.size(), 1.0) {
+CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial> values) : variables_(system.size()) {
+  for (const Variable& v : system.variables) scales_.push_back(v.size);
   system.validate();
   equations_ = static_cast<int>(system.equations.size());
   rows_ = equations_ + static_cast<int>(system.inequalities.size());

@@ -32,8 +32,8 @@ class CompiledSystem {
   /// Throws std::invalid_argument where System::validate does.
   explicit CompiledSystem(const System& system, std::span<const Polynomial> values = {});
 
-  /// Typical sizes of the variables, positive, at first 1: so that choices (which vector r to try in a proof, when a proof
-  /// is near, what to solve for) do not depend on the units of the model. No statement rests on them.
+  /// Typical sizes of the variables, positive, at first Variable::size: so that choices (which vector r to try in a proof,
+  /// when a proof is near, what to solve for) do not depend on the units of the model. No statement rests on them.
   const std::vector<double>& scales() const { return scales_; }
   void set_scales(std::vector<double> scales);
 

@@ -38,7 +38,8 @@ IntervalMatrix congruent(const IntervalMatrix& m, const Matrix& p, int columns) 
 
 }  // namespace
 
-std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::vector<int>& dependent) {
+std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::vector<int>& dependent,
+                                           const std::vector<double>& sizes) {
   CORANK_CHECK(static_cast<int>(dependent.size()) == a.rows && UpwardRounding::active());
   const int m = a.rows, n = a.columns;
   const Eigen::MatrixXd middle_a = middle(a);
@@ -55,13 +56,19 @@ std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::v
     for (int k = 0; k < m; ++k) sum += Interval(y(row, k)) * a(k, column);
     return sum;
   };
-  std::vector<double> rows(static_cast<std::size_t>(m), 0.0);  // of |I − Y·A_D|
+  std::vector<double> magnitudes, weights;  // the former of I − Y·A_D, upward
+  for (int i = 0; i < m; ++i) {
+    for (int j = 0; j < m; ++j) {
+      magnitudes.push_back((Interval(i == j ? 1.0 : 0.0) - y_times(i, dependent[static_cast<std::size_t>(j)])).mag());
+    }
+    weights.push_back(sizes.empty() ? 1.0 : sizes[static_cast<std::size_t>(dependent[static_cast<std::size_t>(i)])]);
+  }
   double alpha = 0;
   for (int i = 0; i < m; ++i) {
+    double sum = 0;
     for (int j = 0; j < m; ++j)
-      rows[static_cast<std::size_t>(i)] +=
-          (Interval(i == j ? 1.0 : 0.0) - y_times(i, dependent[static_cast<std::size_t>(j)])).mag();
-    alpha = std::max(alpha, rows[static_cast<std::size_t>(i)]);
+      sum += magnitudes[static_cast<std::size_t>(i * m + j)] * weights[static_cast<std::size_t>(j)];
+    alpha = std::max(alpha, sum / weights[static_cast<std::size_t>(i)]);
   }
   const double gap = -(alpha - 1);  // downward: α − 1 is rounded up
   if (!(alpha < 1) || !(gap > 0)) return std::nullopt;
@@ -71,11 +78,13 @@ std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::v
     double largest = 0;
     for (int i = 0; i < m; ++i) {
       r.push_back(y_times(i, free[static_cast<std::size_t>(f)]));
-      largest = std::max(largest, r.back().mag());
+      largest = std::max(largest, r.back().mag() / weights[static_cast<std::size_t>(i)]);
     }
-    const double bound = largest / gap;  // upward
+    const double bound = largest / gap;  // upward: of ‖X‖
     for (int i = 0; i < m; ++i) {
-      const double slack = rows[static_cast<std::size_t>(i)] * bound;
+      double slack = 0;  // upward: of the i-th entry of (I − Y·A_D)X
+      for (int j = 0; j < m; ++j)
+        slack += magnitudes[static_cast<std::size_t>(i * m + j)] * bound * weights[static_cast<std::size_t>(j)];
       basis(dependent[static_cast<std::size_t>(i)], f) = -(r[static_cast<std::size_t>(i)] + Interval(-slack, slack));
     }
     basis(free[static_cast<std::size_t>(f)], f) = Interval(1.0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/certify/contraction.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
@@ -17,6 +18,18 @@ std::vector<Polynomial> entries(const KernelMatrix& matrix) {
   std::vector<Polynomial> list;
   for (const auto& row : matrix.rows) list.insert(list.end(), row.begin(), row.end());
   return list;
+}
+
+// Rows and columns times positive numbers, by which the largest entries of all are near 1: for the choice of pivots.
+Eigen::MatrixXd balanced(Eigen::MatrixXd a) {
+  constexpr int kTurns = 3;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    for (Eigen::Index i = 0; i < a.rows(); ++i)
+      if (const double largest = a.row(i).cwiseAbs().maxCoeff(); largest > 0) a.row(i) /= std::sqrt(largest);
+    for (Eigen::Index j = 0; j < a.cols(); ++j)
+      if (const double largest = a.col(j).cwiseAbs().maxCoeff(); largest > 0) a.col(j) /= std::sqrt(largest);
+  }
+  return a;
 }
 
 }  // namespace
@@ -59,25 +72,24 @@ bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<i
   for (int j = 0; j < s; ++j)
     for (int b = 0; b < s; ++b)
       if (entry(b, j).mag() > 0) filled[static_cast<std::size_t>(j)].push_back(b);
-  for (int i = 0; i < s; ++i) {
-    double sum = 0;
+  std::vector<double> excess;  // |I − Y·N|, upward
+  for (int i = 0; i < s; ++i)
     for (int j = 0; j < s; ++j) {
       Interval e(i == j ? 1.0 : 0.0);
       for (const int b : filled[static_cast<std::size_t>(j)]) e -= Interval(y(i, b)) * entry(b, j);
-      sum += e.mag();  // upward
+      excess.push_back(e.mag());
     }
-    if (!(sum < 1)) return false;
-  }
-  return true;
+  return contraction(excess, std::vector<double>(static_cast<std::size_t>(s), 1.0)).has_value();
 }
 
 int KernelBound::at_most(const Box& box, int halvings) const {
   CORANK_CHECK(applies() && UpwardRounding::active());
   const int whole = at_most_in_one(box);
   if (whole <= least_ || halvings == 0 || arguments_.empty()) return whole;
+  const auto relative_width = [&](std::size_t j) { return box[j].width() / compiled_.scales()[j]; };
   auto widest = static_cast<std::size_t>(arguments_.front());
   for (const int v : arguments_)
-    if (const auto j = static_cast<std::size_t>(v); box[j].width() > box[widest].width()) widest = j;
+    if (const auto j = static_cast<std::size_t>(v); relative_width(j) > relative_width(widest)) widest = j;
   const Interval side = box[widest];
   const double middle = side.mid();
   if (!(side.lo() < middle && middle < side.hi())) return whole;
@@ -102,7 +114,7 @@ int KernelBound::at_most_in_one(const Box& box) const {
       middle(i, j) = m.back().mid();
     }
   // Complete pivoting: the first s pivots belong to a well-conditioned submatrix, for every s.
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(middle);
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(balanced(middle));
   std::vector<int> row_order, column_order;
   for (int i = 0; i < std::min(rows, k); ++i) {
     // (P·M·Q)_{ii}: row i of P·M is M's row P⁻¹(i), column i of M·Q is M's column Q(i).

@@ -1,8 +1,8 @@
 // How large can the kernel of M(q) be in a box? M is the kernel matrix of a system (certify/exact_verification.h), or any
 // other matrix of polynomials in its variables; k its number of columns.
 //
-// Theorem: let N(q) be an s×s submatrix of M(q) and Y real. If every row sum of |I − Y·N(B)| is below 1, N(q) is
-// regular for every q in the box B (a matrix A with ‖I − Y·A‖ < 1 is regular), so M(q) has rank ≥ s and its kernel a
+// Theorem: let N(q) be an s×s submatrix of M(q), Y real and r > 0. If |I − Y·N(B)| r < r, N(q) is regular for every q in the
+// box B (a matrix A with ‖I − Y·A‖ < 1 in the norm max |x_i|/r_i is regular), so M(q) has rank ≥ s and its kernel a
 // dimension ≤ k − s. At a solution of M(q) ξ = 0, ‖ξ‖ = 1 it is at least 1: where the bound is 1, the dimension is
 // proven.
 #pragma once

@@ -27,6 +27,18 @@ Eigen::MatrixXd jacobian(const CompiledSystem& system, const std::vector<double>
   return j;
 }
 
+// The columns times the weights, then each row and its side divided by the row's largest entry: in no unit.
+Eigen::MatrixXd weighted(Eigen::MatrixXd j, const Eigen::VectorXd& weights, Eigen::VectorXd* side = nullptr) {
+  j *= weights.asDiagonal();
+  for (Eigen::Index i = 0; i < j.rows(); ++i) {
+    const double largest = j.row(i).cwiseAbs().maxCoeff();
+    if (!(largest > 0)) continue;
+    j.row(i) /= largest;
+    if (side) (*side)(i) /= largest;
+  }
+  return j;
+}
+
 }  // namespace
 
 bool MeetingTest::project(const Box& within, std::vector<double>& c) {
@@ -38,7 +50,8 @@ bool MeetingTest::project(const Box& within, std::vector<double>& c) {
   for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < m; ++i) f(i) = system_.evaluate_at(i, c.data()).mid();
     // The least change, in widths of the sides.
-    const Eigen::VectorXd change = weights.asDiagonal() * least_squares(jacobian(system_, c) * weights.asDiagonal(), -f).x;
+    const Eigen::MatrixXd slopes = weighted(jacobian(system_, c), weights, &f);
+    const Eigen::VectorXd change = weights.asDiagonal() * least_squares(slopes, -f).x;
     if (!change.allFinite()) return false;
     double largest = 0;
     for (int j = 0; j < n; ++j) {
@@ -57,7 +70,7 @@ Sheet MeetingTest::prove(std::vector<Interval> x, const std::vector<double>& c, 
   const int m = system_.equations();
   const Eigen::MatrixXd j = jacobian(system_, c);
   const Eigen::Map<const Eigen::VectorXd> w(weights.data(), static_cast<Eigen::Index>(weights.size()));
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(j * w.asDiagonal());
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(weighted(j, w));
   if (qr.rank() < m) return {};
   Preconditioner p;
   Eigen::MatrixXd j_d(m, m);

@@ -237,9 +237,10 @@ bool PassageTest::holds(const Claim& claim, Box box, int halvings) const {
   if (holds(claim, box)) return true;
   if (halvings == 0 || arguments_.empty()) return false;
   if (!contract(box) || holds(claim, box)) return true;
+  const auto relative_width = [&](std::size_t j) { return box[j].width() / compiled_.scales()[j]; };
   std::size_t widest = static_cast<std::size_t>(arguments_.front());
   for (const int j : arguments_)
-    if (box[static_cast<std::size_t>(j)].width() > box[widest].width()) widest = static_cast<std::size_t>(j);
+    if (relative_width(static_cast<std::size_t>(j)) > relative_width(widest)) widest = static_cast<std::size_t>(j);
   const Interval side = box[widest];
   const double middle = side.mid();
   if (!(side.lo() < middle && middle < side.hi())) return false;

@@ -76,7 +76,10 @@ std::optional<std::vector<SheetDerivatives>> sheet_derivatives(const System& sys
     const std::vector<Interval> row = gradient(system.equations[static_cast<std::size_t>(k)], box);
     for (int j = 0; j < n; ++j) jacobian(k, j) = row[static_cast<std::size_t>(j)];
   }
-  const auto basis = kernel_basis(jacobian, dependent);
+  std::vector<double> sizes, dependent_sizes;
+  for (const Variable& v : system.variables) sizes.push_back(v.size);
+  for (const int j : dependent) dependent_sizes.push_back(sizes[static_cast<std::size_t>(j)]);
+  const auto basis = kernel_basis(jacobian, dependent, sizes);
   if (!basis) return std::nullopt;
   // [F_D, V_iᵀ D²F V_j for i ≤ j].
   IntervalMatrix extended(m, m + d * (d + 1) / 2);
@@ -89,7 +92,7 @@ std::optional<std::vector<SheetDerivatives>> sheet_derivatives(const System& sys
     for (int i = 0; i < d; ++i)
       for (int j = i; j < d; ++j) extended(k, column++) = form(h, *basis, i, j);
   }
-  const auto bent = kernel_basis(extended, first_columns);
+  const auto bent = kernel_basis(extended, first_columns, dependent_sizes);
   if (!bent) return std::nullopt;
   std::vector<SheetDerivatives> result;
   for (const Polynomial& f : functions) {

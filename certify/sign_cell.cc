@@ -70,7 +70,7 @@ bool SignCellTest::slopes(const SheetCell& cell, Slopes& result) const {
   };
   IntervalMatrix jacobian(m, n);
   for (int i = 0; i < m; ++i) dense(i, [&](int j, const Interval& e) { jacobian(i, j) += e; });
-  const auto basis = kernel_basis(jacobian, dependent_of(cell.free));
+  const auto basis = kernel_basis(jacobian, dependent_of(cell.free), compiled_.scales());
   if (!basis) return false;
   result.clear();
   for (const int g : cell.mixed) {

@@ -131,10 +131,10 @@ std::optional<Box> TubeProver::piece(const TubeNode& a, const TubeNode& b) {
   return std::nullopt;
 }
 
-bool TubeProver::is_free(const Box& piece, double r) const {
-  CORANK_CHECK(UpwardRounding::active());
+bool TubeProver::is_free(const Box& piece, double r, const std::vector<double>& sizes) const {
+  CORANK_CHECK(UpwardRounding::active() && sizes.size() == piece.size());
   Box box = piece;
-  for (Interval& side : box) side += Interval(-r, r);
+  for (std::size_t j = 0; j < box.size(); ++j) box[j] += Interval(-r, r) * Interval(sizes[j]);
   if (domain_.locate(compiled_, box) != Location::inside) return false;
   for (std::size_t k = 0; k < bounds_.size(); ++k)
     if (bounds_[k].at_most(box, kHalvings) > most_[k]) return false;

@@ -20,7 +20,7 @@ namespace corank::certify {
 /// box P, by newton_prove with the free variable t: the Jacobian in x is regular there, so x(t) is continuous (implicit
 /// function theorem). Where the box N of a node lies in the boxes P, P' of both its pieces and holds a solution of F = 0,
 /// T·x = c, that is P's at t = 1 and P''s at t = 0, since each has one only: the pieces are one path.
-/// Every x with F(x) = 0 in P inflated by r has matrices of full rank and is in the domain, where is_free(P, r).
+/// Every x with F(x) = 0 in P inflated by r has matrices of full rank and is in the domain, where is_free(P, r, sizes).
 class TubeProver {
  public:
   /// ranks: of each matrix, the one that it is to have.
@@ -31,8 +31,9 @@ class TubeProver {
                           const std::vector<double>& near);
   /// The box of the piece between two nodes; it holds theirs.
   std::optional<Box> piece(const TubeNode& a, const TubeNode& b);
-  /// Over the whole box with r added to each side: every matrix has its rank, the domain and the inequalities hold.
-  bool is_free(const Box& piece, double r) const;
+  /// Over the whole box with r times the variable's size added to each side: every matrix has its rank, the domain and the
+  /// inequalities hold. `sizes`: Tube::sizes.
+  bool is_free(const Box& piece, double r, const std::vector<double>& sizes) const;
   /// A connected piece of the solution set that holds a solution in each of the boxes, and lies in `within`: the graph over
   /// a box of n − m variables, for every value of which it has exactly one solution.
   bool joins(const Box& a, const Box& b, const Box& within);

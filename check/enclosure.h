@@ -1,5 +1,5 @@
 // The checker's intervals: MPFI at kBits bits, which rounds every operation outward (Revol, Rouillier 2005). Nothing here is
-// shared with certify/interval.h but doubles, and no rounding mode of the processor matters.
+// shared with core/interval.h but doubles, and no rounding mode of the processor matters.
 //
 // The empty set is no Enclosure: what may yield it returns false or nothing.
 #pragma once

@@ -1,4 +1,4 @@
-// Solutions that are known exactly, verified in rational arithmetic (certify/exact_point.h).
+// Solutions that are known exactly, verified in rational arithmetic (core/exact_point.h).
 //
 // With p the polynomial that defines t: g(t) = 0 wherever p divides g, and g(t) ≠ 0 wherever an enclosure of g over an
 // interval around t has no 0. Sturm's theorem: a polynomial has as many distinct real roots in (a, b] as its Sturm chain

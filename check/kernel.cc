@@ -42,7 +42,7 @@ KernelCheck::KernelCheck(const System& system, const StopFlag& stop) : stop_(sto
     rows_.emplace_back();
     for (const Polynomial& entry : entries) rows_.back().emplace_back(Terms(entry, system.coefficient_tolerance), identity);
   }
-  sort_arguments();
+  settle(system);
 }
 
 KernelCheck::KernelCheck(const System& system, const PolynomialMatrix& matrix, const StopFlag& stop)
@@ -55,10 +55,11 @@ KernelCheck::KernelCheck(const System& system, const PolynomialMatrix& matrix, c
     for (const Monomial& m : matrix.entries[k].monomials)
       for (const Factor& x : m.factors) arguments_.push_back(x.variable);
   }
-  sort_arguments();
+  settle(system);
 }
 
-void KernelCheck::sort_arguments() {
+void KernelCheck::settle(const System& system) {
+  lengths_ = domain_lengths(system);
   std::sort(arguments_.begin(), arguments_.end());
   arguments_.erase(std::unique(arguments_.begin(), arguments_.end()), arguments_.end());
 }
@@ -125,8 +126,8 @@ bool KernelCheck::is_at_most(int most, const Box& box) const {
     double width = 0;
     for (const int j : arguments_)
       if (const Enclosure& side = x[static_cast<std::size_t>(j)];
-          side.width() > width && side.lo() < side.mid() && side.mid() < side.hi())
-        width = side.width(), widest = static_cast<std::size_t>(j);
+          side.width() > width * lengths_[static_cast<std::size_t>(j)] && side.lo() < side.mid() && side.mid() < side.hi())
+        width = side.width() / lengths_[static_cast<std::size_t>(j)], widest = static_cast<std::size_t>(j);
     if (widest == x.size() || parts > kMostParts) return false;
     const double from = x[widest].lo(), middle = x[widest].mid(), to = x[widest].hi();
     open.push_back(x);

@@ -27,12 +27,13 @@ class KernelCheck {
 
  private:
   bool has_rank(std::size_t s, const Sides& x) const;
-  void sort_arguments();
+  void settle(const System& system);
 
   StopFlag stop_;
   int columns_ = 0;
   std::vector<std::vector<Row>> rows_;
-  std::vector<int> arguments_;  // the variables that M depends on
+  std::vector<int> arguments_;   // the variables that M depends on
+  std::vector<double> lengths_;  // of the variables' domains
 };
 
 }  // namespace corank::check

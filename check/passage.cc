@@ -82,6 +82,7 @@ PassageCheck::PassageCheck(const System& system, const StopFlag& stop) : stop_(s
   add(form.hessian, hessian_);
   add(form.slack, slack_);
   add(form.normal, normal_);
+  lengths_ = domain_lengths(system);
   std::sort(arguments_.begin(), arguments_.end());
   arguments_.erase(std::unique(arguments_.begin(), arguments_.end()), arguments_.end());
   for (const auto* list : {&system.equations, &system.inequalities})
@@ -239,8 +240,8 @@ std::string PassageCheck::fault(const CoverBox& box) const {
     double width = 0;
     for (const int j : arguments_)
       if (const Enclosure& side = x[static_cast<std::size_t>(j)];
-          side.width() > width && side.lo() < side.mid() && side.mid() < side.hi())
-        width = side.width(), widest = static_cast<std::size_t>(j);
+          side.width() > width * lengths_[static_cast<std::size_t>(j)] && side.lo() < side.mid() && side.mid() < side.hi())
+        width = side.width() / lengths_[static_cast<std::size_t>(j)], widest = static_cast<std::size_t>(j);
     if (widest == x.size() || parts > kMostParts)
       return std::string("that the output finds a ") +
              (box.passage == Passage::barrier ? "barrier there, on that side," : "way through there") + " is not shown";

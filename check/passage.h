@@ -36,6 +36,7 @@ class PassageCheck {
   std::vector<Row> jacobian_, hessian_, slack_, normal_, rows_;
   std::size_t system_equations_ = 0;
   std::vector<int> multipliers_, arguments_;
+  std::vector<double> lengths_;  // of the variables' domains
 };
 
 }  // namespace corank::check

@@ -171,6 +171,7 @@ class PieceCheck {
   }
 
   bool divide(int halvings, std::vector<Cell>& cells) const {
+    const std::vector<double> lengths = domain_lengths(problem_.system());
     for (std::size_t b = 0; b < cover_.boxes.size(); ++b) {
       Cell whole;
       whole.box = b;
@@ -186,7 +187,7 @@ class PieceCheck {
         std::size_t along = cell.sides.size();
         for (const int f : cover_.boxes[b].free)
           if (const auto j = static_cast<std::size_t>(f);
-              along == cell.sides.size() || cell.sides[j].width() > cell.sides[along].width())
+              along == cell.sides.size() || cell.sides[j].width() * lengths[along] > cell.sides[along].width() * lengths[j])
             along = j;
         const double from = cell.sides[along].lo(), middle = cell.sides[along].mid(), to = cell.sides[along].hi();
         if (cell.mixed == 0 || depth == halvings || !(from < middle && middle < to)) {

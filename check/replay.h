@@ -1,4 +1,4 @@
-// Replays the script of a search (certify/proof.h) in the checker's own arithmetic: is every zero in the domain in a box of
+// Replays the script of a search (core/proof.h) in the checker's own arithmetic: is every zero in the domain in a box of
 // the cover?
 #pragma once
 

@@ -215,4 +215,10 @@ bool Row::project_by_slopes(Sides& x) const {
   return true;
 }
 
+std::vector<double> domain_lengths(const System& system) {
+  std::vector<double> lengths;
+  for (const Variable& v : system.variables) lengths.push_back(v.domain.width() > 0 ? v.domain.width() : 1);
+  return lengths;
+}
+
 }  // namespace corank::check

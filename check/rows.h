@@ -56,4 +56,7 @@ class Row {
   std::vector<int> columns_;
 };
 
+/// Of each variable the width of its domain, 1 where it has none: by their share of it sides of unlike units compare.
+std::vector<double> domain_lengths(const System& system);
+
 }  // namespace corank::check

@@ -165,7 +165,12 @@ class ShapeCheck {
     constexpr int kMostPartsOfRange = 2000;
     Search search(problem);
     Sides first;
-    for (const int j : problem.kept()) first.emplace_back(box[static_cast<std::size_t>(j)]);
+    std::vector<double> lengths;
+    const std::vector<double> all = domain_lengths(problem.system());
+    for (const int j : problem.kept()) {
+      first.emplace_back(box[static_cast<std::size_t>(j)]);
+      lengths.push_back(all[static_cast<std::size_t>(j)]);
+    }
     std::vector<Sides> open{std::move(first)};
     for (int parts = 0; !open.empty(); ++parts) {
       stop_.poll();
@@ -174,7 +179,7 @@ class ShapeCheck {
       if (condition.row.value(x).is_positive() || !search.contract(x) || condition.row.value(x).is_positive()) continue;
       std::size_t widest = 0;
       for (std::size_t j = 1; j < x.size(); ++j)
-        if (x[j].width() > x[widest].width()) widest = j;
+        if (x[j].width() * lengths[widest] > x[widest].width() * lengths[j]) widest = j;
       const double from = x[widest].lo(), middle = x[widest].mid(), to = x[widest].hi();
       if (parts > kMostPartsOfRange || !(from < middle && middle < to)) return false;
       open.push_back(x);

@@ -75,6 +75,9 @@ std::string TubeCheck::misshapen() const {
     if (!is_box(piece, n_)) return "a piece's box has not the system's sizes";
   for (const double r : tube_.radii)
     if (!(std::isfinite(r) && r >= 0)) return "a radius is no length";
+  if (tube_.sizes.size() != n_) return "there is not one size for each variable";
+  for (const double size : tube_.sizes)
+    if (!(std::isfinite(size) && size > 0)) return "a variable's size is no length";
   return "";
 }
 
@@ -138,8 +141,10 @@ std::string TubeCheck::about(const Box& piece, double radius) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box;
   Sides x;
-  for (const Interval& side : piece) {
-    box.emplace_back(std::nextafter(side.lo() - radius, -kInfinity), std::nextafter(side.hi() + radius, kInfinity));
+  for (std::size_t j = 0; j < n_; ++j) {
+    const Interval& side = piece[j];
+    const double room = std::nextafter(radius * tube_.sizes[j], kInfinity);
+    box.emplace_back(std::nextafter(side.lo() - room, -kInfinity), std::nextafter(side.hi() + room, kInfinity));
     x.emplace_back(box.back());
   }
   for (const Condition& c : problem_.conditions())

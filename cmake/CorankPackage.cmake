@@ -29,8 +29,14 @@ of what each box holds. This package has the command line and the models.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libcorank-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(dependencies
-    "corank (= ${version})" coinor-libipopt-dev libblas-dev libcairo2-dev libcln-dev libflint-dev libfmt-dev libginac-dev
-    libgmp-dev libhdf5-dev liblapack-dev libmpfi-dev libmpfr-dev libompl-dev libpugixml-dev libtbb-dev pkg-config zlib1g-dev)
+    "corank (= ${version})" coinor-libipopt-dev libblas-dev libcln-dev libflint-dev libfmt-dev libginac-dev
+    libgmp-dev libhdf5-dev liblapack-dev libmpfi-dev libmpfr-dev libpugixml-dev libtbb-dev pkg-config zlib1g-dev)
+if(CORANK_HAS_CAIRO)
+  list(APPEND dependencies libcairo2-dev)
+endif()
+if(CORANK_HAS_OMPL)
+  list(APPEND dependencies libompl-dev)
+endif()
 list(JOIN dependencies ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_DEV_DESCRIPTION "singularities of robot mechanisms (C++ library)
 corank takes the model of a robot mechanism and returns all its

@@ -50,6 +50,20 @@ function(corank_compile_together target)
   endforeach()
 endfunction()
 
+# corank_choose(<list> <variable> <source> <other source>): leaves in the list the first source where the variable is true, the second where it is
+# false. Each is compiled by itself, so that tests can link the other one in its place.
+function(corank_choose list found source stand_in)
+  if(${found})
+    set(other ${stand_in})
+  else()
+    set(other ${source})
+  endif()
+  set(chosen ${${list}})
+  list(REMOVE_ITEM chosen ${CMAKE_CURRENT_SOURCE_DIR}/${other})
+  set_source_files_properties(${source} ${stand_in} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set(${list} ${chosen} PARENT_SCOPE)
+endfunction()
+
 # corank_library(<folder> SOURCES … PUBLIC_HEADERS … PRIVATE_LINK … HEADER_ONLY …): the target corank_<folder>, alias corank::<folder>, linked to what
 # cmake/folders.txt says. PUBLIC_HEADERS are installed. HEADER_ONLY libraries are private, and nothing is left of them for whoever links the
 # installed library.

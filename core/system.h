@@ -30,6 +30,8 @@ struct Variable {
   Interval domain;                                    ///< encloses [lower, upper]
   bool lower_implied = false, upper_implied = false;  ///< the equations imply this side of the domain: it is no boundary
   bool auxiliary = false;  ///< of no interest by itself, as in [DUMMY VARS]: a box may be wide in it, whatever σ
+  /// A typical size of its changes, positive, so that no choice depends on the model's unit of length. Only for heuristics.
+  double size = 1;
 
   Variable() = default;
   Variable(std::string name, VariableKind kind, ExactNumber lower, ExactNumber upper);

@@ -19,8 +19,9 @@ struct TubeNode {
 struct Tube {
   std::vector<TubeNode> nodes;
   std::vector<Box> pieces;  ///< of each two nodes that follow each other
-  std::vector<double>
-      radii;  ///< of each piece: what is claimed of the path is claimed so far about its box, in each variable
+  /// Of each piece: what is claimed of the path is claimed about its box, as far as this times sizes[j] in variable j.
+  std::vector<double> radii;
+  std::vector<double> sizes;  ///< of each variable, positive: 1 of sines and cosines, the same of all lengths
 
   /// The least of the radii; 0 where there are none.
   double radius() const {

@@ -122,6 +122,12 @@ double Algebra::value(const ex& e) const {
   return result;
 }
 
+std::optional<numeric> Algebra::rational(const ex& constant) const {
+  const ExactNumber value = exact(constant);
+  if (!value.is_rational()) return std::nullopt;
+  return numeric(value.text().c_str());
+}
+
 ExactNumber Algebra::exact(const ex& e) const {
   if (is_a<numeric>(e)) {
     std::ostringstream text;

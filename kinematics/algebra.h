@@ -10,6 +10,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ class Algebra {
   bool is_zero(const Vec& constants) const;
   bool are_parallel(const Vec& a, const Vec& b) const { return is_zero(cross(a, b)); }
   double value(const ex& constant) const;
+  /// The number, where the constant is recognized as a rational one.
+  std::optional<GiNaC::numeric> rational(const ex& constant) const;
   /// v/|v| of a constant vector that is not 0.
   Vec unit(const Vec& v) const;
   /// A unit vector perpendicular to a constant one, along a coordinate axis where that is possible.

@@ -12,7 +12,8 @@ namespace {
 int freedom(JointKind kind) {
   switch (kind) {
     case JointKind::revolute:
-    case JointKind::prismatic: return 1;
+    case JointKind::prismatic:
+    case JointKind::parallelogram: return 1;
     case JointKind::cylindrical:
     case JointKind::universal: return 2;
     case JointKind::spherical:
@@ -28,8 +29,7 @@ int count_mobility(const Bodies& bodies, Space space) {
   const int full = space == Space::spatial ? 6 : 3;
   int mobility = full * (static_cast<int>(bodies.size()) - 1);
   for (const BodyJoint& j : bodies.joints) {
-    const bool is_rod = j.kind == JointKind::distance || j.kind == JointKind::distance_variable;
-    mobility -= is_rod ? 6 - freedom(j.kind) : std::max(0, full - freedom(j.kind));
+    mobility -= is_rod(j.kind) ? 6 - freedom(j.kind) : std::max(0, full - freedom(j.kind));
   }
   return mobility;
 }
@@ -67,7 +67,7 @@ Assembly assemble(const Robot& robot) {
   }
   Assembly assembly = draft.assembly();
   assembly.space = space;
-  assembly.mobility_by_joints = count_mobility(bodies, space);
+  assembly.mobility_by_joints = count_mobility(bodies, space) - static_cast<int>(robot.couplings.size());
   assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())
     assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;

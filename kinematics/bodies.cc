@@ -1,6 +1,8 @@
 #include "corank/kinematics/bodies.h"
 
+#include <cmath>
 #include <deque>
+#include <map>
 #include <optional>
 
 namespace corank::kinematics {
@@ -27,6 +29,7 @@ class Builder {
     place_links();
     for (std::size_t j = 0; j < robot_.joints.size(); ++j)
       if (robot_.joints[j].kind != JointKind::fixed) add_joint(j);
+    set_idle_rods_apart();
     return std::move(out_);
   }
 
@@ -89,7 +92,7 @@ class Builder {
         const std::size_t link = waiting.front();
         waiting.pop_front();
         for (const Joint& joint : robot_.joints) {
-          if (joint.kind != JointKind::fixed && joint.kind != JointKind::prismatic) continue;
+          if (joint.kind != JointKind::fixed && !keeps_orientation(joint.kind)) continue;
           for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
             if (joint.ends[side].link != link) continue;
             const std::size_t other = joint.ends[1 - side].link;
@@ -170,6 +173,57 @@ class Builder {
                            robot_.links[joint.ends[1].link].name + "', which fixed joints make one body",
                        "a joint between two bodies");
     out_.joints.push_back(std::move(result));
+  }
+
+  /// The joints' point that is `point` in `end.body` is, in each body that carries it as well.
+  using Carried = std::map<std::size_t, Vec>;
+  Carried carried(const BodyEnd& end) const {
+    const auto plain = [&](const Vec& v) { return Vec{algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])}; };
+    Carried places{{end.body, end.point}};
+    std::deque<std::size_t> waiting{end.body};
+    while (!waiting.empty()) {
+      const std::size_t body = waiting.front();
+      waiting.pop_front();
+      for (const BodyJoint& j : out_.joints)
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+          const BodyEnd &near = j.ends[side], &far = j.ends[1 - side];
+          const bool about_axis = j.kind == JointKind::revolute;
+          if (near.body != body || places.contains(far.body) ||
+              !(about_axis || j.kind == JointKind::universal || j.kind == JointKind::spherical))
+            continue;
+          const Vec away = plain(places.at(body) - near.point);
+          const ex along = about_axis ? algebra_.clean(dot(away, near.axis)) : ex(0);
+          if (!algebra_.is_zero(plain(away - along * near.axis))) continue;
+          places.emplace(far.body, plain(far.point + along * far.axis));
+          waiting.push_back(far.body);
+        }
+    }
+    return places;
+  }
+
+  /// Two points that one body carries stay as far apart as they are there.
+  void set_idle_rods_apart() {
+    const auto is_idle = [&](const BodyJoint& j) {
+      if (j.kind != JointKind::distance) return false;
+      const Carried first = carried(j.ends[0]), second = carried(j.ends[1]);
+      for (const auto& [body, p] : first) {
+        const auto q = second.find(body);
+        if (q == second.end()) continue;
+        const Joint& joint = robot_.joints[j.index];
+        const ex length = algebra_.constant(joint.length, joint.where);
+        const ex square = algebra_.clean(dot(q->second - p, q->second - p));
+        if (algebra_.is_zero(algebra_.clean(square - length * length))) return true;
+        throw ModelError(joint.where,
+                         "the rod '" + joint.name + "' has the length " + std::to_string(algebra_.value(length)) +
+                             ", but the joints keep its ends at the distance " +
+                             std::to_string(std::sqrt(algebra_.value(square))),
+                         "geometry that fits together");
+      }
+      return false;
+    };
+    std::vector<BodyJoint> rest;
+    for (BodyJoint& j : out_.joints) (is_idle(j) ? out_.idle_rods : rest).push_back(j);
+    out_.joints = std::move(rest);
   }
 
   const Robot& robot_;

@@ -1,5 +1,5 @@
 // The rigid bodies of a robot: links that fixed joints make one, with the joints between them in the bodies' frames. Bodies
-// that only slide on each other keep their relative orientation: together they are a *group*, with one rotation.
+// that only slide or circle on each other keep their relative orientation: together they are a *group*, with one rotation.
 #pragma once
 
 #include <array>
@@ -34,12 +34,16 @@ struct Bodies {
   std::vector<Placement> placement;  ///< of each link's frame in its body's
   std::vector<std::size_t> group;    ///< of each body; 0 is the ground's
   std::size_t groups = 0;
-  std::vector<BodyJoint> joints;  ///< all but the fixed ones
+  std::vector<BodyJoint> joints;  ///< all but the fixed ones and idle rods
+  /// Rods that ask for nothing: the joints alone keep their ends apart by their length, as where one of them is on the axis
+  /// about which the other turns. They are drawn.
+  std::vector<BodyJoint> idle_rods;
 
   std::size_t size() const { return group.size(); }
 };
 
-/// Throws ModelError where fixed joints contradict one another, or sliding joints ask one link for two orientations.
+/// Throws ModelError where fixed joints contradict one another, sliding joints ask one link for two orientations, or joints
+/// keep a rod's ends at another distance than its length.
 Bodies bodies_of(const Robot& robot, Algebra& algebra);
 
 }  // namespace corank::kinematics

@@ -16,7 +16,7 @@ using Joints = std::vector<std::size_t>;  // in Bodies::joints
 // The joints of each set of loops that share joints: a spanning tree's ways around its chords, joined where they overlap.
 std::vector<Joints> blocks(const Robot& robot, const Bodies& bodies, const Algebra& algebra) {
   const std::size_t n = bodies.joints.size();
-  const SpanningTree tree = spanning_tree(robot, bodies, algebra, std::vector<bool>(n, false));
+  const SpanningTree tree = spanning_tree(robot, bodies, algebra, std::vector<int>(n, 0));
   std::vector<Joints> way(bodies.size());  // from the ground to each body
   for (const TreeEdge& edge : tree.edges) {
     const auto& ends = bodies.joints[edge.joint].ends;

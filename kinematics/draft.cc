@@ -43,6 +43,84 @@ void Draft::limit_last() {
       c.range && algebra_.sign(algebra_.constant(c.range->upper, c.where) - algebra_.constant(c.range->lower, c.where)) != 0;
 }
 
+Draft::JointCoordinate Draft::joint_angle(std::size_t joint, const std::string& name) {
+  if (is_coupled(joint)) return common(joint, true);
+  const Joint& of = robot_.joints[joint];
+  const ex own = angle(name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
+  limit_last();
+  return {own};
+}
+
+Draft::JointCoordinate Draft::joint_way(std::size_t joint, const std::string& name) {
+  if (is_coupled(joint)) return common(joint, false);
+  const Joint& of = robot_.joints[joint];
+  const std::size_t of_way = of.kind == JointKind::cylindrical ? 1 : 0;
+  const ex own = length(name, of.ranges.size() > of_way ? of.ranges[of_way] : std::nullopt, of.where);
+  limit_last();
+  return {own};
+}
+
+Draft::JointCoordinate Draft::common(std::size_t joint, bool turns) {
+  const Couplings::Place& place = *couplings_.of(joint);
+  const Couplings::Train& train = couplings_.trains()[place.train];
+  std::optional<ex>& shared = common_[place.train];
+  if (!shared) {
+    const Joint& driver = robot_.joints[train.driver];
+    const std::string name = train.parts == 1 ? driver.name : driver.name + "_over_" + std::to_string(train.parts);
+    shared = turns ? angle(name, common_range(train), driver.where) : length(name, common_range(train), driver.where);
+    limit_last();
+  }
+  return {place.multiple * *shared, place.offset};
+}
+
+/// Where all joints that move together are within their ranges: what these leave of the coordinate, counted from 0 on
+/// through whole turns. Nothing where that is a turn or more.
+std::optional<Range> Draft::common_range(const Couplings::Train& train) const {
+  std::optional<ex> lower, upper;
+  for (const std::size_t j : train.joints) {
+    const Joint& joint = robot_.joints[j];
+    if (joint.ranges.empty() || !joint.ranges[0]) continue;
+    const Couplings::Place& place = *couplings_.of(j);
+    ex low = (algebra_.constant(joint.ranges[0]->lower, joint.where) - place.offset) / place.multiple;
+    ex high = (algebra_.constant(joint.ranges[0]->upper, joint.where) - place.offset) / place.multiple;
+    if (algebra_.sign(place.multiple) < 0) std::swap(low, high);
+    if (!lower || algebra_.sign(low - *lower) > 0) lower = algebra_.clean(low);
+    if (!upper || algebra_.sign(*upper - high) > 0) upper = algebra_.clean(high);
+  }
+  if (!lower) return std::nullopt;
+  const Joint& driver = robot_.joints[train.driver];
+  if (algebra_.sign(*upper - *lower) < 0)
+    throw ModelError(driver.where, "the ranges of the joints that follow '" + driver.name + "' leave it no position",
+                     "ranges that agree");
+  if (driver.kind != JointKind::prismatic && algebra_.sign(*upper - *lower - 2 * GiNaC::Pi) >= 0) return std::nullopt;
+  const std::vector<Expression> ends = algebra_.translated({*lower, *upper});
+  return Range{ends[0], ends[1]};
+}
+
+ex Draft::symbol_of(std::size_t joint, const ex& own) const {
+  return is_coupled(joint) ? *common_[couplings_.of(joint)->train] : own;
+}
+
+ex Draft::rate_of_symbol(std::size_t joint, const ex& own) const {
+  if (!is_coupled(joint)) return own;
+  const std::size_t train = couplings_.of(joint)->train;
+  return *rate_[train] / couplings_.trains()[train].parts;
+}
+
+std::vector<std::size_t> Draft::moving_with(std::size_t joint) const {
+  return is_coupled(joint) ? couplings_.trains()[couplings_.of(joint)->train].joints : std::vector<std::size_t>{joint};
+}
+
+ex Draft::joint_rate(std::size_t joint, const std::string& prefix, CoordinateKind kind, symbolic::Role role) {
+  if (!is_coupled(joint)) return rate(prefix + robot_.joints[joint].name, kind, role, robot_.joints[joint].where);
+  const Couplings::Place& place = *couplings_.of(joint);
+  const Couplings::Train& train = couplings_.trains()[place.train];
+  std::optional<ex>& shared = rate_[place.train];
+  const Joint& driver = robot_.joints[train.driver];
+  if (!shared) shared = rate(prefix + driver.name, kind, role, driver.where);
+  return (place.multiple / train.parts) * *shared;
+}
+
 Vec Draft::vector(const std::string& name, const SourceLocation& where) {
   const Range wider{"-11/10", "11/10"};
   Vec v;
@@ -73,6 +151,21 @@ bool Draft::equation(const ex& e, const std::string& note, const SourceLocation&
     if (!known.inequality && (known.value.is_equal(clean) || known.value.is_equal(-clean))) return false;
   equations_.push_back({clean, false, note, where});
   return true;
+}
+
+std::array<bool, 3> Draft::moving(const Output& output, const Vec& value) const {
+  std::array<bool, 3> moves{};
+  const bool all_asked = output.asked[0] && output.asked[1] && output.asked[2];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ex clean = algebra_.clean(value[i]);
+    moves[i] = output.asked[i] && !algebra_.is_constant(clean);
+    if (!output.asked[i] || moves[i] || (all_asked && !output.ranges[i])) continue;
+    throw ModelError(output.where,
+                     std::string("the component ") + "xyz"[i] + " of the output '" + output.name +
+                         "' cannot move: it is always " + std::to_string(algebra_.value(clean)),
+                     "components that the robot can move");
+  }
+  return moves;
 }
 
 void Draft::at_least_zero(const ex& e, const std::string& note, const SourceLocation& where) {

@@ -2,12 +2,15 @@
 // language's expressions at the end.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "corank/kinematics/algebra.h"
 #include "corank/kinematics/assembly.h"
+#include "corank/kinematics/couplings.h"
+#include "corank/kinematics/plane.h"
 #include "corank/symbolic/mechanism.h"
 #include "corank/symbolic/set_definition.h"
 
@@ -15,7 +18,8 @@ namespace corank::kinematics {
 
 class Draft {
  public:
-  Draft(const Robot& robot, Algebra& algebra) : robot_(robot), algebra_(algebra) {}
+  Draft(const Robot& robot, Algebra& algebra)
+      : robot_(robot), algebra_(algebra), couplings_(robot, algebra), common_(couplings_.trains().size()), rate_(common_) {}
 
   /// Free names: `wanted`, or with underscores where that is taken or no name.
   std::string free_name(const std::string& wanted);
@@ -25,6 +29,28 @@ class Draft {
   ex length(const std::string& name, const std::optional<Range>& range, const SourceLocation& where, bool auxiliary = false);
   /// The range of the coordinate declared last is a joint's: the mechanism's limit, where it is one.
   void limit_last();
+  /// A joint's angle or way, in terms of its coordinate.
+  struct JointCoordinate {
+    ex moving;      ///< the coordinate, or a multiple of that of joints that move together
+    ex offset = 0;  ///< constant
+    ex value() const { return moving + offset; }
+    /// e^{i sign θ}
+    Turn turn(int sign) const { return {{GiNaC::cos(offset), sign * GiNaC::sin(offset)}, sign * moving}; }
+  };
+  /// Declares it with the joint's range, its limit. Of joints that follow each other the first call declares what they
+  /// share.
+  JointCoordinate joint_angle(std::size_t joint, const std::string& name);
+  JointCoordinate joint_way(std::size_t joint, const std::string& name);
+  bool is_coupled(std::size_t joint) const { return couplings_.of(joint).has_value(); }
+  /// The symbol that stands for the joint's motion among inputs and outputs; `own` where it follows none.
+  ex symbol_of(std::size_t joint, const ex& own) const;
+  /// Of that symbol, where the joint's rate is declared.
+  ex rate_of_symbol(std::size_t joint, const ex& own) const;
+  /// All that move with the joint, itself included.
+  std::vector<std::size_t> moving_with(std::size_t joint) const;
+  /// The rate of a joint's motion.
+  ex joint_rate(std::size_t joint, const std::string& prefix, symbolic::CoordinateKind kind, symbolic::Role role);
+
   /// No longer than 1, by equations that the caller adds. Its range is a little wider: the set is to reach no end of it.
   Vec vector(const std::string& name, const SourceLocation& where);
   /// With |w| = 1.
@@ -33,6 +59,9 @@ class Draft {
   /// e = 0, left out where it is 0 by its constants alone. Throws ModelError where it is a constant that is not 0: `what`
   /// then cannot be assembled. Returns whether there is anything to say.
   bool equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what = "the loop");
+  /// Which of an output's components are coordinates: those asked for that are not constant. Throws ModelError where the
+  /// output names a component, by `only` or by a range, that is.
+  std::array<bool, 3> moving(const Output& output, const Vec& value) const;
   void at_least_zero(const ex& e, const std::string& note, const SourceLocation& where);
 
   ex rate(const std::string& name, symbolic::CoordinateKind kind, symbolic::Role role, const SourceLocation& where);
@@ -86,8 +115,13 @@ class Draft {
     SourceLocation where;
   };
 
+  JointCoordinate common(std::size_t joint, bool turns);
+  std::optional<Range> common_range(const Couplings::Train& train) const;
+
   const Robot& robot_;
   Algebra& algebra_;
+  const Couplings couplings_;
+  std::vector<std::optional<ex>> common_, rate_;  // of each train
   std::vector<std::string> names_;
   std::vector<DraftCoordinate> coordinates_;
   std::vector<DraftEquation> equations_, velocity_;

@@ -8,6 +8,8 @@ namespace {
 /// Neither driven nor asked for.
 bool is_passive_revolute(const Robot& robot, const BodyJoint& j) {
   return j.kind == JointKind::revolute && !robot.joints[j.index].actuated &&
+         std::none_of(robot.couplings.begin(), robot.couplings.end(),
+                      [&](const Coupling& c) { return c.driver == j.index || c.follower == j.index; }) &&
          std::none_of(robot.outputs.begin(), robot.outputs.end(),
                       [&](const Output& o) { return o.kind == Output::Kind::joint && o.joint == j.index; });
 }

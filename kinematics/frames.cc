@@ -16,9 +16,10 @@ bool shares_axis(JointKind kind) {
 
 }  // namespace
 
-Frames::Frames(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft)
+Frames::Frames(const Robot& robot, const Bodies& bodies, PlaneLoops& loops, Algebra& algebra, Draft& draft)
     : robot_(robot),
       bodies_(bodies),
+      loops_(loops),
       algebra_(algebra),
       draft_(draft),
       frames_(bodies.groups),
@@ -26,13 +27,13 @@ Frames::Frames(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft
       aligned_(bodies.joints.size(), false),
       angles_(robot.joints.size()) {
   const Vec x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  frames_[0] = Frame{{x, y}, {x, y}, z};
+  frames_[0] = Frame{{x, y}, {x, y}, z, false};
 }
 
 bool Frames::is_asked_for(std::size_t index) const {
-  return robot_.joints[index].actuated || std::any_of(robot_.outputs.begin(), robot_.outputs.end(), [&](const Output& o) {
-           return o.kind == Output::Kind::joint && o.joint == index;
-         });
+  return robot_.joints[index].actuated || draft_.is_coupled(index) ||
+         std::any_of(robot_.outputs.begin(), robot_.outputs.end(),
+                     [&](const Output& o) { return o.kind == Output::Kind::joint && o.joint == index; });
 }
 
 std::string Frames::name_of_group(std::size_t group) const {
@@ -88,6 +89,10 @@ Vec Frames::coefficients(std::size_t group, const Vec& v) const {
 
 Vec Frames::direction(std::size_t group, std::size_t i) {
   Frame& frame = *frames_[group];
+  if (i > 0 && frame.is_product && !finished_) {
+    frame.world[1] = simplified(frame.world[1], "u_" + name_of_group(group), {});
+    frame.is_product = false;
+  }
   if (i < 2) return frame.world[i];
   if (!frame.third) {
     const Vec product = cross(frame.world[0], frame.world[1]);
@@ -154,7 +159,7 @@ std::vector<Frames::Candidate> Frames::candidates(std::size_t group) const {
 
 void Frames::complete(std::size_t group, const Vec& own, const Vec& world, const SourceLocation& where) {
   const auto finish = [&](const Vec& second_own, const Vec& second_world) {
-    frames_[group] = Frame{{own, second_own}, {world, second_world}, {}};
+    frames_[group] = Frame{{own, second_own}, {world, second_world}, {}, false};
   };
   const auto with_angle_to_first = [&](const Vec& second_own, const Vec& second_world) {
     draft_.equation(dot(world, second_world) - dot(own, second_own), "angle in " + name_of_group(group), where);
@@ -192,22 +197,88 @@ void Frames::start_free(std::size_t group, const SourceLocation& where) {
   complete(group, {1, 0, 0}, draft_.unit_vector("w_" + name_of_group(group), where), where);
 }
 
+Frames::CosineSine Frames::own_angle(std::size_t index) {
+  const Draft::JointCoordinate theta = draft_.joint_angle(index, robot_.joints[index].name);
+  angles_[index] = theta.value();
+  const ex c = cos(theta.moving), s = sin(theta.moving);
+  if (theta.offset.is_zero()) return {c, s};
+  const ex c0 = algebra_.named(algebra_.clean(cos(theta.offset))), s0 = algebra_.named(algebra_.clean(sin(theta.offset)));
+  return {c0 * c - s0 * s, s0 * c + c0 * s};
+}
+
 void Frames::turn_by_angle(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
   const std::size_t group = bodies_.group[parent.body];
   const Joint& of = joint(j);
-  const ex theta = draft_.angle(of.name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
-  draft_.limit_last();
-  angles_[j.index] = theta;
+  const CosineSine theta = own_angle(j.index);
   const Vec along = axis(edge.joint, edge.from);
   const int sign = edge.from == 0 ? 1 : -1;
   const Vec turned =
-      cos(theta) * image(group, parent.zero) + (sign * sin(theta)) * image(group, cross(parent.axis, parent.zero));
+      theta.cosine * image(group, parent.zero) + (sign * theta.sine) * image(group, cross(parent.axis, parent.zero));
   const std::size_t turned_group = bodies_.group[child.body];
   frames_[turned_group] =
-      Frame{{child.axis, child.zero}, {along, simplified(turned, "u_" + name_of_group(turned_group), of.where)}, {}};
+      Frame{{child.axis, child.zero}, {along, simplified(turned, "u_" + name_of_group(turned_group), of.where)}, {}, false};
   aligned_[edge.joint] = true;
+}
+
+bool Frames::turn_in_plane(const TreeEdge& edge) {
+  PlanePart* const part = loops_.of(edge.joint);
+  const BodyJoint& j = bodies_.joints[edge.joint];
+  if (part == nullptr || is_rod(j.kind)) return false;
+  const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
+  const std::size_t group = bodies_.group[parent.body], turned = bodies_.group[child.body];
+  if (!part->root) {
+    part->root = parent.body;
+    part->bodies.insert(parent.body);
+    part->turns[group] = Turn{};
+    part->turning[group] = {};
+  }
+  if (!part->bodies.contains(parent.body)) return false;
+  if (group == turned) {
+    part->bodies.insert(child.body);
+    return true;
+  }
+  if (has_frame(turned)) return false;
+  const Joint& of = joint(j);
+  const int sign = part->sense(bodies_, j, algebra_) * (edge.from == 0 ? 1 : -1);
+  const Turn& base = part->turns.at(group);
+  if (is_asked_for(j.index) || (base.angle.is_zero() && !of.ranges.empty() && of.ranges[0])) {
+    const Draft::JointCoordinate theta = draft_.joint_angle(j.index, of.name);
+    angles_[j.index] = theta.value();
+    const Turn turn = base * Turn{part->in_plane(group, parent.zero, algebra_)} * theta.turn(sign) *
+                      Turn{conjugate(part->in_plane(turned, child.zero, algebra_))};
+    part->turns[turned] = {{algebra_.clean(turn.k.re), algebra_.clean(turn.k.im)}, turn.angle};
+  } else {
+    part->angles[turned] = draft_.angle("phi_" + name_of_group(turned), {}, of.where);
+    part->turns[turned] = {{1, 0}, part->angles.at(turned)};
+  }
+  part->turning[turned] = part->turning.at(group);
+  part->turning[turned].push_back({edge.joint, sign});
+  part->bodies.insert(child.body);
+  const std::size_t carrier = bodies_.group[*part->root];
+  const Mat &there = part->basis.at(carrier), &own = part->basis.at(turned);
+  const Turn& turn = part->turns.at(turned);
+  const Vec u = turn.cosine() * image(carrier, there[0]) + turn.sine() * image(carrier, there[1]);
+  if (!part->normal) part->normal = simplified(image(carrier, there[2]), "axis_" + of.name, of.where);
+  frames_[turned] = Frame{{own[2], own[0]}, {*part->normal, u}, {}, true};
+  if (!axes_[edge.joint]) axes_[edge.joint] = ex(part->sense(bodies_, j, algebra_)) * *part->normal;
+  aligned_[edge.joint] = true;
+  return true;
+}
+
+/// Directions agree wherever a loop in its plane is turned to; its own angle is that of its two bodies.
+void Frames::close_in_plane(const BodyJoint& j, const PlanePart& part) {
+  const Joint& of = joint(j);
+  if (j.kind != JointKind::revolute || !is_asked_for(j.index)) return;
+  const auto zero = [&](const BodyEnd& e) {
+    const std::size_t g = bodies_.group[e.body];
+    return part.turns.at(g) * Turn{part.in_plane(g, e.zero, algebra_)};
+  };
+  const Draft::JointCoordinate theta = draft_.joint_angle(j.index, of.name);
+  angles_[j.index] = theta.value();
+  const Turn difference = zero(j.ends[1]) * inverse(zero(j.ends[0])) * theta.turn(-part.sense(bodies_, j, algebra_));
+  if (draft_.equation(difference.sine(), "angle", of.where)) draft_.at_least_zero(difference.cosine(), "angle", of.where);
 }
 
 void Frames::turn_by_universal(const TreeEdge& edge) {
@@ -240,13 +311,14 @@ void Frames::keep(std::size_t group, const Mat& rotation, const std::string& nam
                  Vec{-s[1], c[1] * s[2], c[1] * c[2]}};
   const Mat columns =
       transpose(Mat{algebra_.named(rotation[0]), algebra_.named(rotation[1]), algebra_.named(rotation[2])} * turn);
-  frames_[group] = Frame{{Vec{1, 0, 0}, Vec{0, 1, 0}}, {columns[0], columns[1]}, columns[2]};
+  frames_[group] = Frame{{Vec{1, 0, 0}, Vec{0, 1, 0}}, {columns[0], columns[1]}, columns[2], false};
 }
 
 void Frames::orient(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
   const std::size_t group = bodies_.group[parent.body], turned = bodies_.group[child.body];
+  if (turn_in_plane(edge)) return;
   if (has_frame(turned)) {
     // Reached before, by another body of its group, or kept turned as an output says: the joint says how the two are
     // turned, as one that closes a loop does.
@@ -277,6 +349,10 @@ void Frames::close(const BodyJoint& j) {
   const std::size_t g0 = bodies_.group[j.ends[0].body], g1 = bodies_.group[j.ends[1].body];
   const Joint& of = joint(j);
   const std::string what = "the joint '" + of.name + "'";
+  if (const PlanePart* part = loops_.closing(bodies_, index)) {
+    close_in_plane(j, *part);
+    return;
+  }
   if (j.kind == JointKind::universal) {
     draft_.equation(dot(image(g0, j.ends[0].axis), image(g1, j.ends[1].axis)), "universal joint", of.where, what);
     return;
@@ -308,13 +384,11 @@ void Frames::close(const BodyJoint& j) {
   }
   if (j.kind != JointKind::revolute || !is_asked_for(j.index)) return;
   // tan θ by the zeros: x sin θ − y cos θ = 0 and x cos θ + y sin θ ≥ 0, where (x, y) = (cos, sin) at solutions.
-  const ex theta = draft_.angle(of.name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
-  draft_.limit_last();
-  angles_[j.index] = theta;
+  const CosineSine theta = own_angle(j.index);
   const Vec zero = image(g1, j.ends[1].zero);
   const ex x = dot(zero, image(g0, j.ends[0].zero)), y = dot(zero, image(g0, cross(j.ends[0].axis, j.ends[0].zero)));
-  draft_.equation(x * sin(theta) - y * cos(theta), "angle", of.where);
-  draft_.at_least_zero(x * cos(theta) + y * sin(theta), "angle", of.where);
+  draft_.equation(x * theta.sine - y * theta.cosine, "angle", of.where);
+  draft_.at_least_zero(x * theta.cosine + y * theta.sine, "angle", of.where);
 }
 
 void Frames::limit(const BodyJoint& j) {

@@ -6,6 +6,7 @@
 
 #include "corank/kinematics/bodies.h"
 #include "corank/kinematics/draft.h"
+#include "corank/kinematics/plane_loops.h"
 #include "corank/kinematics/spanning_tree.h"
 
 namespace corank::kinematics {
@@ -13,7 +14,7 @@ namespace corank::kinematics {
 class Frames {
  public:
   /// The ground's frame is the world's; every other group gets its own by orient().
-  Frames(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft);
+  Frames(const Robot& robot, const Bodies& bodies, PlaneLoops& loops, Algebra& algebra, Draft& draft);
 
   /// In the world: a constant vector that is fixed in a group which has its frame.
   Vec image(std::size_t group, const Vec& v);
@@ -40,7 +41,13 @@ class Frames {
   /// The ranges of angles that are no coordinates.
   void limit(const BodyJoint& joint);
 
-  /// The angle of a revolute joint, where it is a coordinate.
+  /// Of a joint's angle, which becomes a coordinate, or follows one.
+  struct CosineSine {
+    ex cosine, sine;
+  };
+  CosineSine own_angle(std::size_t joint);
+
+  /// The angle of a joint, where it is a coordinate or follows one.
   const std::optional<ex>& angle(std::size_t joint) const { return angles_[joint]; }
   /// Must the joint's angle be a coordinate?
   bool is_asked_for(std::size_t joint) const;
@@ -49,6 +56,7 @@ class Frames {
   struct Frame {
     std::array<Vec, 2> own, world;
     std::optional<Vec> third;  ///< world[0] × world[1], once it was needed
+    bool is_product = false;   ///< world[1] is one, of which coordinates are made once it is needed
   };
 
   const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
@@ -59,6 +67,9 @@ class Frames {
   /// The world's image of a joint's axis, which both of its links share, as soon as one has its frame.
   Vec axis(std::size_t joint, std::size_t end);
   void turn_by_angle(const TreeEdge& edge);
+  /// By an angle from the body that carries the loops in a plane. False where the edge is in none of these.
+  bool turn_in_plane(const TreeEdge& edge);
+  void close_in_plane(const BodyJoint& joint, const PlanePart& part);
   void turn_by_universal(const TreeEdge& edge);
   /// A new unit vector along one of the group's own directions.
   void start_free(std::size_t group, const SourceLocation& where);
@@ -73,6 +84,7 @@ class Frames {
 
   const Robot& robot_;
   const Bodies& bodies_;
+  PlaneLoops& loops_;
   Algebra& algebra_;
   Draft& draft_;
   bool finished_ = false;

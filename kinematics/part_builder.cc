@@ -61,11 +61,16 @@ std::string PartBuilder::resolve(std::string_view name_read) const {
 }
 
 void PartBuilder::push_constant(std::string_view name_read, const SourceLocation& where) {
-  if (small_letters(name_read) == "pi") {
-    expressions.symbol("pi", where);
+  if (small_letters(name_read) == "pi" || name_read == "deg") {
+    expressions.symbol(small_letters(name_read), where);
     return;
   }
   const std::string resolved = resolve(name_read);
+  if (!scope.has(resolved) && dh.reads_cells) {
+    dh.variables.push_back({std::string(name_read), where, dh.cells.size()});
+    expressions.symbol(resolved, where);
+    return;
+  }
   if (!scope.has(resolved)) {
     throw ModelError(where, "the constant " + in_quotes(name_read) + " is not defined before",
                      "a constant of [CONSTANTS]" + suggestion(resolved, scope.names()));
@@ -84,7 +89,7 @@ void PartBuilder::define_constant() {
         "another name for the constant");
   }
   scope.define(constant);
-  robot.constants.push_back(constant);
+  if (constant.name != "deg") robot.constants.push_back(constant);
 }
 
 std::vector<std::string> PartBuilder::link_names() const {
@@ -283,8 +288,10 @@ void PartBuilder::finish() {
     joint.actuated = true;
   }
   resolve_outputs();
+  ask_for_what_dh_leaves_open();
   set_zero_directions();
   if (is_world_ && outputs_.empty()) leave_out_unconnected_links();
+  resolve_couplings();
   for (const auto& [what, count] : passed_over_)
     robot.notices.push_back(what + (count == 1 ? ": once" : ": " + std::to_string(count) + " times"));
   robot.validate();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "corank/kinematics/constant_scope.h"
+#include "corank/kinematics/denavit_hartenberg.h"
 #include "corank/kinematics/robot.h"
 #include "corank/symbolic/model_builder.h"
 
@@ -47,9 +48,33 @@ struct JointDraft {
   std::optional<Expression> length;
   Pose pose;
   bool actuated = false;
+  /// Of a joint that follows another, or a gear: by their names.
+  std::string driver, follower;
+  SourceLocation driver_where, follower_where;
+  Expression ratio = 1, offset = 0;
 
   /// "the revolute joint 'elbow'", or "the revolute joint".
   std::string described() const;
+};
+
+/// The section [DH] being read.
+struct DhDraft {
+  /// What stands in a row where no constant is known: the name of its joint.
+  struct Variable {
+    std::string name;
+    SourceLocation where;
+    std::size_t column = 0;
+  };
+  DhConvention convention = DhConvention::standard;
+  SourceLocation where;
+  std::size_t base = 0;              ///< the link before the row
+  std::vector<std::string> columns;  ///< "a", "alpha", "d", "theta" in the order of the text
+  std::vector<Expression> cells;
+  std::vector<Variable> variables;
+  std::string link;  ///< of the row, where it is given
+  SourceLocation row_where, link_where;
+  bool reads_cells = false;
+  bool has_rows = false, last_has_name = false;
 };
 
 struct OutputDraft {
@@ -130,8 +155,19 @@ class PartBuilder : public symbolic::ModelBuilder {
   void push_named_reference(const std::string& point, const SourceLocation& where);
   void finish_joint();
   void finish_connector();
+  void finish_gear();
   /// The joint read last, for messages; empty where there is none.
   std::string last_joint;
+
+  // Rows of Denavit and Hartenberg.
+  DhDraft dh;
+  void begin_dh(std::string_view convention, const SourceLocation& where);
+  void start_dh_from(std::string_view name_read, const SourceLocation& where);
+  void add_dh_column(std::string_view word, const SourceLocation& where);
+  void begin_dh_row(const SourceLocation& where);
+  void finish_dh_cells();
+  void finish_dh_row();
+  void finish_dh();
 
   // The other sections.
   OutputDraft output;
@@ -171,12 +207,17 @@ class PartBuilder : public symbolic::ModelBuilder {
   [[noreturn]] void refuse_point(std::size_t link, const std::string& point, const SourceLocation& where) const;
   std::size_t require_link(const std::string& link, const SourceLocation& where, const std::string& expectation) const;
   std::size_t require_joint(const std::string& joint, const SourceLocation& where, const std::string& expectation) const;
+  Joint named_joint();
   void set_axes(Joint& joint);
   void set_ranges(Joint& joint);
   void require_brackets(std::size_t least, std::size_t most, const std::string& expectation) const;
   void set_zero_directions();
   void leave_out_unconnected_links();
   void couple(const Joint& joint);
+  void resolve_couplings();
+  const Expression& dh_cell(const std::string& column) const;
+  void read_dh_variable(DhRow& row, bool& slides, int& sense) const;
+  void ask_for_what_dh_leaves_open();
   void resolve_outputs();
 
   std::optional<std::filesystem::path> folder_;
@@ -187,7 +228,9 @@ class PartBuilder : public symbolic::ModelBuilder {
   std::optional<std::size_t> link_;  ///< of the points that are read
   std::vector<LinkData> link_data_;
   std::vector<NamedInput> named_inputs_;
+  std::vector<std::string> dh_joints_, dh_tools_;  ///< of all rows; the last link of each section
   std::vector<OutputDraft> outputs_;
+  std::vector<JointDraft> couplings_;
   std::vector<std::pair<std::string, int>> passed_over_;
 };
 

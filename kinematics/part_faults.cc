@@ -12,17 +12,18 @@ using symbolic::in_quotes;
 const char* const kColours = "red, green, blue, purple, cyan, yellow, white, black, grey or color (r, g, b)";
 const std::vector<std::string> kColourWords{"red",    "green", "blue",  "purple", "cyan",
                                             "yellow", "white", "black", "grey",   "color"};
-const std::vector<std::string> kKinds{"revolute", "prismatic", "cylindrical", "universal",  "spherical",
-                                      "planar",   "fix",       "sph_sph",     "sph_prs_sph"};
-const char* const kKindList = "revolute, prismatic, cylindrical, universal, spherical, planar, fix, sph_sph or sph_prs_sph";
-const std::vector<std::string> kOptions{"range",  "limits",   "reference", "zero",       "length", "radius",
-                                        "avoid",  "actuated", "velocity",  "torque",     "force",  "effort",
-                                        "hidden", "damping",  "friction",  "granularity"};
+const std::vector<std::string> kKinds{"revolute",      "prismatic", "cylindrical", "universal",   "spherical", "planar",
+                                      "parallelogram", "fix",       "sph_sph",     "sph_prs_sph", "gear"};
+const char* const kKindList =
+    "revolute, prismatic, cylindrical, universal, spherical, planar, parallelogram, fix, sph_sph, sph_prs_sph or gear";
+const std::vector<std::string> kOptions{"range",  "limits",   "reference", "zero",        "length", "radius",
+                                        "avoid",  "actuated", "velocity",  "torque",      "force",  "effort",
+                                        "hidden", "damping",  "friction",  "granularity", "mimic"};
 const std::vector<std::string> kLinkWords{"body",     "box",        "prism",  "sphere", "cylinder", "line",
                                           "segments", "decoration", "hidden", "point",  "mass",     "inertia"};
 const std::vector<std::string> kOutputs{"position", "orientation", "pose", "direction", "joint"};
-const std::vector<std::string> kSections{"CONSTANTS", "LINKS",     "JOINTS",    "INPUTS",    "OUTPUTS",
-                                         "INCLUDE",   "EQUATIONS", "OBSTACLES", "COLLISIONS"};
+const std::vector<std::string> kSections{"CONSTANTS", "LINKS",   "JOINTS",    "DH",        "INPUTS",
+                                         "OUTPUTS",   "INCLUDE", "EQUATIONS", "OBSTACLES", "COLLISIONS"};
 
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -90,16 +91,26 @@ void PartFault::no_output_kind() const {
   say(in_quotes(name) + " is nothing that can be an output", expectation + suggestion(name, kOutputs));
 }
 
+void PartFault::no_dh_column() const { found_instead_of("the names of the four columns in their order: a alpha d theta"); }
+
+void PartFault::no_dh_cell() const {
+  const std::vector<std::string>& columns = parts.dh.columns;
+  const std::size_t read = parts.dh.cells.size();
+  say("found " + describe_start(rest) + " where the column " + in_quotes(columns[read]) + " of the row should stand",
+      "four expressions without blanks, or commas between them: 0, -90deg, 0, q1 - 90deg");
+}
+
 void PartFault::no_link_name() const { found_instead_of("a link, name : shapes and points, or a section"); }
 
 void PartFault::unknown_part_section() const {
   std::string title = parts.section_title;
   const auto first = title.find_first_not_of(" \t"), last = title.find_last_not_of(" \t");
   title = first == std::string::npos ? "" : title.substr(first, last - first + 1);
-  throw symbolic::ModelError(parts.section_where, "section [" + symbolic::shortened(title) + "] is unknown beside [LINKS]",
-                             "[CONSTANTS], [LINKS], [JOINTS], [INPUTS], [OUTPUTS], [INCLUDE], [EQUATIONS], [OBSTACLES] or "
-                             "[COLLISIONS]" +
-                                 suggestion(title, kSections));
+  throw symbolic::ModelError(
+      parts.section_where, "section [" + symbolic::shortened(title) + "] is unknown beside [LINKS]",
+      "[CONSTANTS], [LINKS], [JOINTS], [DH], [INPUTS], [OUTPUTS], [INCLUDE], [EQUATIONS], [OBSTACLES] or "
+      "[COLLISIONS]" +
+          suggestion(title, kSections));
 }
 
 void refuse_word_behind_link(const std::string& word, const std::string& link, const SourceLocation& where) {

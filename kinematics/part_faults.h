@@ -21,6 +21,8 @@ struct PartFault : symbolic::Fault {
   [[noreturn]] void no_second_point() const;
   [[noreturn]] void no_colour() const;
   [[noreturn]] void no_output_kind() const;
+  [[noreturn]] void no_dh_column() const;
+  [[noreturn]] void no_dh_cell() const;
   [[noreturn]] void no_link_name() const;
   [[noreturn]] void unknown_part_section() const;
 };
@@ -68,7 +70,20 @@ CORANK_FAULT(grammar::range_bracket,
              fault.say("the range of " + fault.parts.draft.described() + " has no numbers", "[lower, upper]"))
 CORANK_FAULT(grammar::reference, fault.found_instead_of("a reference point (x, y, z), or + (direction)"))
 CORANK_FAULT(grammar::zero_direction, fault.found_instead_of("zero (u) (v), a direction (x, y, z) in each link"))
+CORANK_FAULT(grammar::driver_name, fault.found_instead_of("the name of the joint that it follows behind mimic"))
+CORANK_FAULT(grammar::gear_driver, fault.found_instead_of("the name of the joint that leads"))
+CORANK_FAULT(grammar::gear_follower, fault.found_instead_of("the name of the joint that follows"))
+CORANK_FAULT(grammar::gear_ratio,
+             fault.found_instead_of("ratio and a number, which the follower's angle is of the leader's"))
 CORANK_FAULT(grammar::joint, fault.no_joint())
+CORANK_FAULT(grammar::dh_convention, fault.found_instead_of("standard or modified (Craig), the convention of the rows"))
+CORANK_FAULT(grammar::dh_base, fault.found_instead_of("the name of the link from which the rows begin, behind from"))
+CORANK_FAULT(grammar::dh_column, fault.no_dh_column())
+CORANK_FAULT(grammar::dh_comma, fault.found_instead_of("an operator, or ',' and the next column: the row has commas"))
+CORANK_FAULT(grammar::dh_link_name, fault.found_instead_of("the name of the row's link behind link"))
+CORANK_FAULT(grammar::dh_row_end, fault.found_instead_of("limits [lower, upper], actuated, link and its name, or the end of "
+                                                         "the row; blanks separate columns where no commas do"))
+CORANK_FAULT(symbolic::grammar::operand<grammar::no_gap>, fault.no_dh_cell())
 CORANK_FAULT(grammar::obstacle_name, fault.found_instead_of("the name of an obstacle"))
 CORANK_FAULT(grammar::colon, fault.found_instead_of("':' behind the name"))
 CORANK_FAULT(grammar::obstacle_shape, fault.found_instead_of("body, box, prism, sphere, cylinder, line or segments"))

@@ -191,10 +191,12 @@ void begin_joint(const ActionInput& in, PartBuilder& b) {
 CORANK_ACTION(axis_kind, { begin_joint(in, b); })
 CORANK_ACTION(point_kind, { begin_joint(in, b); })
 CORANK_ACTION(fixed_kind, { begin_joint(in, b); })
+CORANK_ACTION(gear_kind, { begin_joint(in, b); })
 CORANK_ACTION(connector_kind, { begin_joint(in, b); })
 CORANK_ACTION(refused_kind, {
-  throw ModelError(place(in, b), "joints of the kind " + in_quotes(small_letters(in.string_view())) + " are not supported",
-                   "revolute, prismatic, cylindrical, universal, spherical, planar, fix, sph_sph or sph_prs_sph");
+  throw ModelError(
+      place(in, b), "joints of the kind " + in_quotes(small_letters(in.string_view())) + " are not supported",
+      "revolute, prismatic, cylindrical, universal, spherical, planar, parallelogram, fix, sph_sph or sph_prs_sph");
 })
 CORANK_ACTION(joint_name, {
   b.draft.name = in.string();
@@ -215,8 +217,36 @@ CORANK_ACTION0(radius_end, { b.pop_value(); })
 CORANK_ACTION0(weight_end, { b.pop_value(); })
 CORANK_ACTION0(avoid_word, { b.pass_over("limits to be avoided (avoid limits)"); })
 CORANK_ACTION0(actuated_word, { b.draft.actuated = true; })
+template <typename ActionInput>
+void set_driver(const ActionInput& in, PartBuilder& b) {
+  b.draft.driver = b.resolve(in.string_view());
+  b.draft.driver_where = place(in, b);
+}
+CORANK_ACTION(driver_name, { set_driver(in, b); })
+CORANK_ACTION(gear_driver, { set_driver(in, b); })
+CORANK_ACTION(gear_follower, {
+  b.draft.follower = b.resolve(in.string_view());
+  b.draft.follower_where = place(in, b);
+})
+CORANK_ACTION0(ratio_end, { b.draft.ratio = b.pop_value(); })
+CORANK_ACTION0(offset_end, { b.draft.offset = b.pop_value(); })
+CORANK_ACTION0(gear_end, { b.finish_gear(); })
 CORANK_ACTION0(joint_end, { b.finish_joint(); })
 CORANK_ACTION0(connector_end, { b.finish_connector(); })
+
+// Rows of Denavit and Hartenberg.
+CORANK_ACTION(dh_convention, { b.begin_dh(in.string_view(), place(in, b)); })
+CORANK_ACTION(dh_base, { b.start_dh_from(in.string_view(), place(in, b)); })
+CORANK_ACTION(dh_column, { b.add_dh_column(in.string_view(), place(in, b)); })
+CORANK_ACTION(dh_row_begin, { b.begin_dh_row(place(in, b)); })
+CORANK_ACTION0(dh_cell_end, { b.dh.cells.push_back(b.pop_value()); })
+CORANK_ACTION0(dh_cells_end, { b.finish_dh_cells(); })
+CORANK_ACTION(dh_link_name, {
+  b.dh.link = in.string();
+  b.dh.link_where = place(in, b);
+})
+CORANK_ACTION0(dh_row_finished, { b.finish_dh_row(); })
+CORANK_ACTION0(dh_end, { b.finish_dh(); })
 
 // The other sections.
 CORANK_ACTION0(obstacles_header, { b.in_obstacles = true; })
@@ -335,7 +365,7 @@ void parse_text(std::string_view text, PartBuilder& builder) {
 }
 
 /// What has_parts() looks for, and what may hold anything else. A quotation mark without its partner is no fault here.
-struct parts_header : peg::sor<grammar::links_header, grammar::include_header> {};
+struct parts_header : peg::sor<grammar::links_header, grammar::dh_header, grammar::include_header> {};
 struct text_in_quotes : peg::seq<peg::one<'"'>, peg::star<peg::not_one<'"', '\n'>>, peg::one<'"'>> {};
 struct other_text : peg::sor<symbolic::grammar::line_comment, grammar::hash_comment,
                              peg::seq<peg::string<'/', '*'>, peg::until<peg::sor<peg::string<'*', '/'>, peg::eof>>>,

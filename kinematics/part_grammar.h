@@ -16,6 +16,8 @@ namespace model = symbolic::grammar;
 
 struct hash_comment : seq<one<'#'>, until<at<eolf>>> {};
 struct gap : star<sor<space, model::line_comment, hash_comment, model::block_comment>> {};
+struct line_gap : star<sor<model::blank_character, model::line_comment, hash_comment, model::block_comment>> {};
+struct no_gap : success {};
 
 template <typename Letters>
 struct word : seq<Letters, not_at<model::name_tail>> {};
@@ -41,11 +43,16 @@ struct parenthesis;
 }  // namespace corank::kinematics::grammar
 
 namespace corank::symbolic::grammar {
+template <typename Gap>
+struct part_operand
+    : seq<star<one<'+'>, Gap>, sor<number_operand, kinematics::grammar::refused_function, kinematics::grammar::call,
+                                   kinematics::grammar::constant_token, kinematics::grammar::parenthesis>> {};
 template <>
-struct operand<kinematics::grammar::gap>
-    : seq<star<one<'+'>, kinematics::grammar::gap>,
-          sor<number_operand, kinematics::grammar::refused_function, kinematics::grammar::call,
-              kinematics::grammar::constant_token, kinematics::grammar::parenthesis>> {};
+struct operand<kinematics::grammar::gap> : part_operand<kinematics::grammar::gap> {};
+template <>
+struct operand<kinematics::grammar::line_gap> : part_operand<kinematics::grammar::line_gap> {};
+template <>
+struct operand<kinematics::grammar::no_gap> : part_operand<kinematics::grammar::no_gap> {};
 }  // namespace corank::symbolic::grammar
 
 namespace corank::kinematics::grammar {
@@ -172,6 +179,7 @@ struct constants_header : header<TAO_PEGTL_ISTRING("constants")> {};
 struct links_header : header<TAO_PEGTL_ISTRING("links")> {};
 struct joints_header : sor<header<TAO_PEGTL_ISTRING("joints")>, header<TAO_PEGTL_ISTRING("loops")>> {};
 struct obstacles_header : header<TAO_PEGTL_ISTRING("obstacles")> {};
+struct dh_header : header<TAO_PEGTL_ISTRING("dh")> {};
 struct collisions_header : header<TAO_PEGTL_ISTRING("collisions")> {};
 struct include_header : header<TAO_PEGTL_ISTRING("include")> {};
 struct equations_header : header<TAO_PEGTL_ISTRING("equations")> {};
@@ -214,12 +222,14 @@ struct links_section : seq<links_header, star<gap, not_at<section_or_end>, link>
 
 // [JOINTS]
 struct axis_kind : words<TAO_PEGTL_ISTRING("revolute"), TAO_PEGTL_ISTRING("crevolute"), TAO_PEGTL_ISTRING("prismatic"),
-                         TAO_PEGTL_ISTRING("universal"), TAO_PEGTL_ISTRING("cylindrical"), TAO_PEGTL_ISTRING("planar")> {};
+                         TAO_PEGTL_ISTRING("universal"), TAO_PEGTL_ISTRING("cylindrical"), TAO_PEGTL_ISTRING("planar"),
+                         TAO_PEGTL_ISTRING("parallelogram")> {};
+struct gear_kind : words<TAO_PEGTL_ISTRING("gear")> {};
 struct point_kind : words<TAO_PEGTL_ISTRING("spherical"), TAO_PEGTL_ISTRING("sph_prs_sph"), TAO_PEGTL_ISTRING("sph_sph")> {};
 struct fixed_kind : words<TAO_PEGTL_ISTRING("fix")> {};
 struct connector_kind : words<TAO_PEGTL_ISTRING("c_spring"), TAO_PEGTL_ISTRING("c_cable"), TAO_PEGTL_ISTRING("c_leg")> {};
 struct refused_kind : words<TAO_PEGTL_ISTRING("in_patch"), TAO_PEGTL_ISTRING("spring"), TAO_PEGTL_ISTRING("xyspring")> {};
-struct any_kind : sor<axis_kind, point_kind, fixed_kind, connector_kind, refused_kind> {};
+struct any_kind : sor<axis_kind, point_kind, fixed_kind, gear_kind, connector_kind, refused_kind> {};
 struct joint_name : simple_name {};
 struct joint_link : long_name {};
 struct joint_colon : colon {};
@@ -233,9 +243,12 @@ CORANK_WORD(length_word, "length");
 CORANK_WORD(radius_word, "radius");
 CORANK_WORD(avoid_word, "avoid");
 CORANK_WORD(actuated_word, "actuated");
+CORANK_WORD(mimic_word, "mimic");
+CORANK_WORD(ratio_word, "ratio");
+CORANK_WORD(offset_word, "offset");
 struct option_word : sor<limits_word, range_word, reference_word, zero_word, length_word, radius_word, avoid_word,
-                         actuated_word, dynamics_word, inertia_word, inertial_word, granularity_word, hidden_word,
-                         decoration_word, colour_word, rgb_word> {};
+                         actuated_word, mimic_word, dynamics_word, inertia_word, inertial_word, granularity_word,
+                         hidden_word, decoration_word, colour_word, rgb_word> {};
 struct bracket_begin : success {};
 struct bracket_open : one<'['> {};
 struct bracket_close : one<']'> {};
@@ -250,7 +263,8 @@ struct range_option : seq<sor<range_word, limits_word>, gap, must<range_bracket>
                           star<gap, sor<seq<not_at<capital_header>, range_bracket>, reference_word, reference>>> {};
 struct reference_option : seq<reference_word, gap, must<reference>, gap, must<reference>> {};
 struct zero_direction : direction {};
-struct zero_option : seq<zero_word, gap, must<zero_direction>, gap, must<zero_direction>> {};
+struct second_zero : seq<at<one<'('>>, zero_direction> {};
+struct zero_option : seq<zero_word, gap, must<zero_direction>, opt<gap, second_zero>> {};
 struct length_end : success {};
 struct length_option : seq<length_word, gap, expression, length_end> {};
 struct radius_end : success {};
@@ -259,8 +273,14 @@ struct weight_end : success {};
 struct weight : seq<not_at<sor<any_kind, option_word>>, at<sor<digit, one<'.'>, one<'('>, one<'-'>, model::name_head>>,
                     expression, weight_end> {};
 struct avoid_option : seq<avoid_word, gap, must<limits_word>, opt<gap, weight>> {};
-struct joint_option : sor<range_option, reference_option, zero_option, length_option, radius_option, avoid_option,
-                          actuated_word, dynamics, shape_colour, granularity, hidden_word, decoration_word> {};
+struct driver_name : long_name {};
+struct ratio_end : success {};
+struct offset_end : success {};
+struct coupling_ratio : seq<ratio_word, gap, expression, ratio_end> {};
+struct coupling_offset : seq<offset_word, gap, expression, offset_end> {};
+struct mimic_option : seq<mimic_word, gap, must<driver_name>, opt<gap, coupling_ratio>, opt<gap, coupling_offset>> {};
+struct joint_option : sor<mimic_option, range_option, reference_option, zero_option, length_option, radius_option,
+                          avoid_option, actuated_word, dynamics, shape_colour, granularity, hidden_word, decoration_word> {};
 struct joint_options : star<gap, joint_option> {};
 template <typename Kind>
 struct joint_head : seq<Kind, gap, opt<joint_name, gap>, must<joint_colon>, gap> {};
@@ -273,8 +293,43 @@ struct fixed_joint
     : seq<joint_head<fixed_kind>, must<joint_link>, gap, must<joint_link>, gap, transforms, joint_options, joint_end> {};
 struct connector_end : success {};
 struct connector : seq<joint_head<connector_kind>, point_joint_end, gap, point_joint_end, joint_options, connector_end> {};
-struct joint : sor<axis_joint, point_joint, fixed_joint, connector, refused_kind> {};
+struct gear_driver : long_name {};
+struct gear_follower : long_name {};
+struct gear_ratio : coupling_ratio {};
+struct gear_end : success {};
+struct gear : seq<joint_head<gear_kind>, must<gear_driver>, gap, must<gear_follower>, gap, must<gear_ratio>,
+                  opt<gap, coupling_offset>, gear_end> {};
+struct joint : sor<axis_joint, point_joint, fixed_joint, gear, connector, refused_kind> {};
 struct joints_section : seq<joints_header, star<gap, not_at<section_or_end>, must<joint>>> {};
+
+// [DH]  standard or modified, from which link; the columns' names; rows of four expressions, each in its line. Blanks
+// separate the columns, or commas where one stands behind a row's first.
+struct dh_convention : words<TAO_PEGTL_ISTRING("standard"), TAO_PEGTL_ISTRING("modified")> {};
+CORANK_WORD(from_word, "from");
+CORANK_WORD(link_word, "link");
+struct dh_base : long_name {};
+struct dh_column : words<TAO_PEGTL_ISTRING("alpha"), TAO_PEGTL_ISTRING("theta"), one<'a', 'A'>, one<'d', 'D'>> {};
+struct dh_comma : one<','> {};
+struct dh_columns : seq<must<dh_column>, rep<3, line_gap, opt<dh_comma, line_gap>, must<dh_column>>> {};
+struct dh_row_begin : success {};
+struct dh_cell_end : success {};
+struct dh_cells_end : success {};
+struct dh_has_commas : at<plus<not_at<sor<model::comment_start, one<'#'>>>, not_one<',', '[', '\n'>>, dh_comma> {};
+template <typename Gap>
+struct dh_cell : seq<model::expression<Gap>, dh_cell_end> {};
+struct dh_cells_by_commas : seq<dh_cell<line_gap>, rep<3, line_gap, must<dh_comma>, line_gap, dh_cell<line_gap>>> {};
+struct dh_cells_by_blanks : seq<dh_cell<no_gap>, rep<3, line_gap, dh_cell<no_gap>>> {};
+struct dh_range : seq<sor<range_word, limits_word>, gap, must<range_bracket>> {};
+struct dh_link_name : long_name {};
+struct dh_link : seq<link_word, gap, must<dh_link_name>> {};
+struct dh_option : sor<dh_range, actuated_word, dh_link> {};
+struct dh_row_end : at<eolf> {};
+struct dh_row_finished : success {};
+struct dh_row : seq<dh_row_begin, sor<seq<dh_has_commas, dh_cells_by_commas>, dh_cells_by_blanks>, dh_cells_end,
+                    star<line_gap, dh_option>, line_gap, must<dh_row_end>, dh_row_finished> {};
+struct dh_end : success {};
+struct dh_section : seq<dh_header, gap, must<dh_convention>, opt<gap, from_word, gap, must<dh_base>>, gap, dh_columns,
+                        star<gap, not_at<section_or_end>, dh_row>, dh_end> {};
 
 // [OBSTACLES] and [COLLISIONS]: passed over.
 struct obstacle_name : simple_name {};
@@ -341,9 +396,9 @@ struct output : seq<must<output_name>, gap, must<colon>, gap, must<output_what>,
 struct outputs_section : seq<outputs_header, star<gap, not_at<section_or_end>, output>> {};
 
 struct section_start : at<one<'['>> {};
-struct section
-    : seq<must<section_start>, sor<constants_section, links_section, joints_section, obstacles_section, collisions_section,
-                                   include_section, equations_section, inputs_section, outputs_section, unknown_section>> {};
+struct section : seq<must<section_start>,
+                     sor<constants_section, links_section, joints_section, dh_section, obstacles_section, collisions_section,
+                         include_section, equations_section, inputs_section, outputs_section, unknown_section>> {};
 struct file_end : eof {};
 struct parts : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
 

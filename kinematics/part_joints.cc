@@ -14,20 +14,21 @@ namespace {
 JointKind kind_of(const std::string& word) {
   for (const JointKind kind :
        {JointKind::revolute, JointKind::prismatic, JointKind::cylindrical, JointKind::universal, JointKind::spherical,
-        JointKind::planar, JointKind::fixed, JointKind::distance, JointKind::distance_variable}) {
+        JointKind::planar, JointKind::parallelogram, JointKind::fixed, JointKind::distance, JointKind::distance_variable}) {
     if (word == to_string(kind)) return kind;
   }
   return word == "crevolute" ? JointKind::revolute : JointKind::fixed;
 }
 
 bool is_kind(const std::string& word) {
-  return word == "fix" || word == "c_spring" || word == "c_cable" || word == "c_leg" || kind_of(word) != JointKind::fixed;
+  return word == "fix" || word == "gear" || word == "c_spring" || word == "c_cable" || word == "c_leg" ||
+         kind_of(word) != JointKind::fixed;
 }
 
 }  // namespace
 
 std::string JointDraft::described() const {
-  const std::string what = "the " + kind + " joint";
+  const std::string what = "the " + kind + (kind == "gear" || kind == "parallelogram" ? "" : " joint");
   return name.empty() ? what : what + " " + in_quotes(name);
 }
 
@@ -92,7 +93,7 @@ void PartBuilder::set_axes(Joint& joint) {
     const ReadPoint& second = points[each * i + 1];
     joint.ends[i].axis = second.way ? *second.way : second.at - first.at;
   }
-  if (joint.kind != JointKind::prismatic) return;
+  if (!keeps_orientation(joint.kind)) return;
   Vector& axis = joint.ends[1].axis;
   const std::string what = "the axis of " + draft.described();
   const auto is_zero = [&](const Expression& e) {
@@ -105,7 +106,7 @@ void PartBuilder::set_axes(Joint& joint) {
   if (parallel) return;
   if (!is_world_) {
     throw ModelError(draft.where, draft.described() + " has axes of different directions in its two links",
-                     "one direction: a prismatic joint keeps the links' frames parallel");
+                     "one direction: a " + draft.kind + " joint keeps the links' frames parallel");
   }
   axis = joint.ends[0].axis;
   pass_over("second axes of prismatic joints, which differ from the first: the links' frames stay parallel");
@@ -116,6 +117,7 @@ void PartBuilder::set_ranges(Joint& joint) {
   switch (joint.kind) {
     case JointKind::revolute: require_brackets(0, 1, "at most one, range [lower, upper]"); break;
     case JointKind::prismatic:
+    case JointKind::parallelogram:
     case JointKind::distance_variable: require_brackets(0, 1, "at most one, range [lower, upper]"); break;
     case JointKind::cylindrical: require_brackets(0, 2, "range [of the angle] [of the way]"); break;
     case JointKind::universal:
@@ -141,7 +143,9 @@ void PartBuilder::set_ranges(Joint& joint) {
     joint.ranges.emplace_back(range);
   }
   const bool turns = joint.kind == JointKind::revolute || joint.kind == JointKind::cylindrical ||
-                     joint.kind == JointKind::universal || is_size;
+                     joint.kind == JointKind::universal || joint.kind == JointKind::parallelogram || is_size;
+  // The frames of a parallelogram's links stay parallel: one direction is that of both.
+  if (joint.kind == JointKind::parallelogram && draft.zeros.size() == 1) draft.zeros.push_back(draft.zeros[0]);
   const std::size_t n = draft.references.size() + draft.zeros.size();
   if (n > 0 && !turns) {
     throw ModelError(draft.zeros.empty() ? draft.references[0].where : draft.zero_where,
@@ -172,7 +176,7 @@ void PartBuilder::set_ranges(Joint& joint) {
   }
 }
 
-void PartBuilder::finish_joint() {
+Joint PartBuilder::named_joint() {
   Joint joint;
   joint.kind = kind_of(draft.kind);
   joint.where = draft.where;
@@ -192,6 +196,11 @@ void PartBuilder::finish_joint() {
     known.name = other;
   }
   joint.actuated = draft.actuated;
+  return joint;
+}
+
+void PartBuilder::finish_joint() {
+  Joint joint = named_joint();
   if (joint.kind == JointKind::fixed) {
     for (std::size_t i = 0; i < 2; ++i) joint.ends[i].link = draft.links[i];
     joint.pose = draft.pose;
@@ -199,14 +208,18 @@ void PartBuilder::finish_joint() {
     set_axes(joint);
   }
   set_ranges(joint);
-  if (joint.kind == JointKind::distance) {
+  if (joint.kind == JointKind::distance || joint.kind == JointKind::parallelogram) {
     if (!draft.length) throw ModelError(draft.where, draft.described() + " has no length", "length l");
     joint.length = *draft.length;
   } else if (draft.length) {
     throw ModelError(draft.where, draft.described() + " has a length",
-                     "none: only sph_sph has one, and sph_prs_sph a range of lengths");
+                     "none: only sph_sph and parallelogram have one, and sph_prs_sph a range of lengths");
   }
   if (draft.kind == "crevolute") couple(joint);
+  if (!draft.driver.empty()) {
+    draft.follower = joint.name;
+    couplings_.push_back(draft);
+  }
   robot.joints.push_back(std::move(joint));
   last_joint = draft.described();
   points.clear();
@@ -221,6 +234,19 @@ void PartBuilder::couple(const Joint& joint) {
   }
   robot.missing.push_back(joint.where.text() + ": the coupling of " + draft.described() +
                           " with the joint before it: coupled joints (crevolute) are not supported");
+}
+
+void PartBuilder::finish_gear() {
+  couplings_.push_back(draft);
+  last_joint = draft.described();
+}
+
+void PartBuilder::resolve_couplings() {
+  for (const JointDraft& read : couplings_) {
+    const std::size_t driver = require_joint(read.driver, read.driver_where, "the name of the joint that leads");
+    const std::size_t follower = require_joint(read.follower, read.follower_where, "the name of the joint that follows");
+    robot.couplings.push_back({driver, follower, read.ratio, read.offset, read.where});
+  }
 }
 
 // The suite draws a connector and gives it a force; it holds nothing.
@@ -238,7 +264,8 @@ void PartBuilder::finish_connector() {
 // Angles that somebody may ask for count between the links' x-axes where both axes are written (0, 0, c).
 void PartBuilder::set_zero_directions() {
   for (Joint& joint : robot.joints) {
-    if (joint.kind != JointKind::revolute && joint.kind != JointKind::cylindrical && joint.kind != JointKind::universal)
+    if (joint.kind != JointKind::revolute && joint.kind != JointKind::cylindrical && joint.kind != JointKind::universal &&
+        joint.kind != JointKind::parallelogram)
       continue;
     const bool has_range = !joint.ranges.empty() && joint.ranges[0];
     if (joint.ends[0].zero || !(has_range || joint.actuated || joint.is_named)) continue;

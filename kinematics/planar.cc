@@ -1,8 +1,6 @@
 #include "corank/kinematics/planar.h"
 
-#include <deque>
-#include <map>
-
+#include "corank/kinematics/plane.h"
 #include "corank/kinematics/portrayal.h"
 #include "corank/kinematics/spanning_tree.h"
 
@@ -11,64 +9,7 @@ namespace {
 
 using GiNaC::cos;
 using GiNaC::sin;
-using kinematics::operator*;  // beside those below
 using symbolic::ModelError;
-
-// x + iy in constants.
-struct Complex {
-  ex re = 1, im = 0;
-};
-Complex operator*(const Complex& a, const Complex& b) { return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; }
-Complex conjugate(const Complex& a) { return {a.re, -a.im}; }
-
-/// k e^{iα}, α a sum of angles.
-struct Turn {
-  Complex k;
-  ex angle = 0;
-  ex cosine() const { return k.re * cos(angle) - k.im * sin(angle); }
-  ex sine() const { return k.re * sin(angle) + k.im * cos(angle); }
-};
-Turn operator*(const Turn& a, const Turn& b) { return {a.k * b.k, a.angle + b.angle}; }
-Turn inverse(const Turn& a) { return {conjugate(a.k), -a.angle}; }  // |k| = 1
-
-/// A point of the plane: a sum of k e^{iα}, with its height over the plane. k may hold lengths.
-struct PlanePoint {
-  std::map<ex, Complex, GiNaC::ex_is_less> terms;
-  ex height = 0;
-
-  void add(const Turn& turn, const Complex& k) {
-    const Complex sum = turn.k * k;
-    const auto [at, is_new] = terms.emplace(turn.angle, sum);
-    if (!is_new) at->second = {at->second.re + sum.re, at->second.im + sum.im};
-  }
-  ex x() const {
-    ex sum = 0;
-    for (const auto& [angle, k] : terms) sum += Turn{k, angle}.cosine();
-    return sum;
-  }
-  ex y() const {
-    ex sum = 0;
-    for (const auto& [angle, k] : terms) sum += Turn{k, angle}.sine();
-    return sum;
-  }
-  /// x² + y² + height², squares of a cosine and its sine put together.
-  ex squared() const {
-    ex sum = height * height;
-    for (auto a = terms.begin(); a != terms.end(); ++a) {
-      sum += a->second.re * a->second.re + a->second.im * a->second.im;
-      for (auto b = std::next(a); b != terms.end(); ++b) {
-        const Complex product = a->second * conjugate(b->second);
-        sum += 2 * (product.re * cos(a->first - b->first) - product.im * sin(a->first - b->first));
-      }
-    }
-    return sum;
-  }
-};
-PlanePoint plus(PlanePoint a, const PlanePoint& b, int sign = 1) {
-  for (const auto& [angle, k] : b.terms) a.add({{1, 0}, angle}, {sign * k.re, sign * k.im});
-  a.height += sign * b.height;
-  return a;
-}
 
 class PlanarRobot {
  public:
@@ -86,12 +27,12 @@ class PlanarRobot {
   void run() {
     turns_[0] = Turn{};
     origins_[0] = PlanePoint{};
-    const SpanningTree tree = spanning_tree(robot_, bodies_, algebra_, carried_first());
+    const SpanningTree tree = spanning_tree(robot_, bodies_, algebra_, order());
     for (const TreeEdge& edge : tree.edges) reach(edge);
     for (const std::size_t j : tree.chords) close(bodies_.joints[j]);
     for (const BodyJoint& joint : bodies_.joints) limit(joint);
     for (const Joint& joint : robot_.joints)
-      if (joint.actuated) draft_.input(*coordinate_[static_cast<std::size_t>(&joint - robot_.joints.data())]);
+      if (joint.actuated) draft_.input(symbol_of(static_cast<std::size_t>(&joint - robot_.joints.data())));
     for (const Output& output : robot_.outputs) add(output);
     draw(robot_, bodies_, algebra_, draft_, Space::planar, [this](std::size_t body, const Vec& point) -> Motion {
       const PlanePoint p = plus(*origins_[body], image(body, point));
@@ -115,18 +56,21 @@ class PlanarRobot {
  private:
   const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
 
+  /// Of a joint that has a coordinate, its own or one that it shares.
+  ex symbol_of(std::size_t index) const { return draft_.symbol_of(index, *coordinate_[index]); }
+
   bool is_asked_for(std::size_t index) const {
-    if (robot_.joints[index].actuated) return true;
+    if (robot_.joints[index].actuated || draft_.is_coupled(index)) return true;
     for (const Output& output : robot_.outputs)
       if (output.kind == Output::Kind::joint && output.joint == index) return true;
     return false;
   }
 
-  std::vector<bool> carried_first() const {
-    std::vector<bool> first;
+  std::vector<int> order() const {
+    std::vector<int> list;
     for (const BodyJoint& j : bodies_.joints)
-      first.push_back(j.kind == JointKind::prismatic || (j.kind == JointKind::revolute && is_asked_for(j.index)));
-    return first;
+      list.push_back(keeps_orientation(j.kind) || (j.kind == JointKind::revolute && is_asked_for(j.index)) ? 1 : 0);
+    return list;
   }
 
   std::optional<Range> range(const BodyJoint& j) const {
@@ -177,18 +121,40 @@ class PlanarRobot {
     const SourceLocation& where = joint(j).where;
     if (!turns_[group(child.body)]) turns_[group(child.body)] = child_turn(j, edge.from);
     PlanePoint origin = place(parent);
-    if (j.kind == JointKind::prismatic) {
-      coordinate_[j.index] = draft_.length(joint(j).name, range(j), where);
-      draft_.limit_last();
-      const int sign = edge.from == 0 ? 1 : -1;
-      const Complex way = in_plane(group(parent.body), parent.axis);
-      origin.add(*turns_[group(parent.body)],
-                 {sign * *coordinate_[j.index] * way.re, sign * *coordinate_[j.index] * way.im});
+    if (keeps_orientation(j.kind)) {
+      origin = plus(origin, way(j), edge.from == 0 ? 1 : -1);
     } else if (j.kind == JointKind::planar) {
       origin.add(*turns_[group(parent.body)], {draft_.length(joint(j).name + "_x", {}, where),  //
                                                draft_.length(joint(j).name + "_y", {}, where)});
     }
     origins_[child.body] = plus(origin, image(child.body, child.point), -1);
+    // Where prismatic joints already carry the child's direction, no coordinate is this joint's angle yet.
+    if (j.kind == JointKind::revolute && is_asked_for(j.index) && !coordinate_[j.index]) close_angle(j);
+  }
+
+  /// Of end 1's point from end 0's, with the joint's coordinate.
+  PlanePoint way(const BodyJoint& j) {
+    const Joint& of = joint(j);
+    const BodyEnd& e = j.ends[0];
+    const Turn& base = *turns_[group(e.body)];
+    PlanePoint p;
+    if (j.kind == JointKind::prismatic) {
+      coordinate_[j.index] = draft_.joint_way(j.index, of.name).value();
+      const Complex along = in_plane(group(e.body), e.axis);
+      p.add(base, {*coordinate_[j.index] * along.re, *coordinate_[j.index] * along.im});
+    } else {
+      const ex radius = algebra_.constant(of.length, of.where);
+      const Complex zero = in_plane(group(e.body), e.zero);
+      p.add(base * own_turn(j, of.name, sense(j)), {radius * zero.re, radius * zero.im});
+    }
+    return p;
+  }
+
+  /// e^{i sign θ}, θ the joint's angle, which becomes a coordinate.
+  Turn own_turn(const BodyJoint& j, const std::string& name, int sign) {
+    const Draft::JointCoordinate theta = draft_.joint_angle(j.index, name);
+    coordinate_[j.index] = theta.value();
+    return theta.turn(sign);
   }
 
   Turn child_turn(const BodyJoint& j, std::size_t from) {
@@ -201,12 +167,9 @@ class PlanarRobot {
     const bool is_link_angle = from == 0 || named || range(j);
     if (j.kind != JointKind::revolute || !(is_asked_for(j.index) || (from_ground && is_link_angle)))
       return {{1, 0}, draft_.angle(angle_name(child.body), {}, where)};
-    const ex theta = draft_.angle(named ? joint(j).name : angle_name(child.body), range(j), where);
-    draft_.limit_last();
-    coordinate_[j.index] = theta;
+    const Turn theta = own_turn(j, named ? joint(j).name : angle_name(child.body), sense(j) * (from == 0 ? 1 : -1));
     const Complex z0 = in_plane(group(parent.body), parent.zero), z1 = in_plane(group(child.body), child.zero);
-    const int sign = sense(j) * (from == 0 ? 1 : -1);
-    const Turn turn = base * Turn{z0, sign * theta} * Turn{conjugate(z1)};
+    const Turn turn = base * Turn{z0} * theta * Turn{conjugate(z1)};
     return {{algebra_.clean(turn.k.re), algebra_.clean(turn.k.im)}, turn.angle};
   }
 
@@ -218,14 +181,17 @@ class PlanarRobot {
   }
 
   /// The angle of a turn, where no coordinate is it: sin(turn − θ) = 0 and cos(turn − θ) ≥ 0.
-  ex angle_of(const Turn& turn, const std::string& name, const std::optional<Range>& limits, const SourceLocation& where) {
-    const ex theta = draft_.angle(name, limits, where);
-    draft_.limit_last();
-    const Turn difference = turn * Turn{{1, 0}, -theta};
-    draft_.equation(difference.sine(), "angle", where);
+  void equal(const Turn& turn, const Turn& minus_theta, const SourceLocation& where) {
+    const Turn difference = turn * minus_theta;
+    if (!draft_.equation(difference.sine(), "angle", where)) return;
     draft_.at_least_zero(difference.cosine(), "angle", where);
+  }
+  ex angle_of(const Turn& turn, const std::string& name, const SourceLocation& where) {
+    const ex theta = draft_.angle(name, {}, where);
+    equal(turn, {{1, 0}, -theta}, where);
     return theta;
   }
+  void close_angle(const BodyJoint& j) { equal(joint_turn(j), own_turn(j, joint(j).name, -1), joint(j).where); }
 
   Turn joint_turn(const BodyJoint& j) const {
     const Turn about_normal = turned(j);
@@ -238,18 +204,10 @@ class PlanarRobot {
     switch (j.kind) {
       case JointKind::revolute:
         all_zero(gap, of);
-        if (is_asked_for(j.index)) coordinate_[j.index] = angle_of(joint_turn(j), of.name, range(j), of.where);
+        if (is_asked_for(j.index)) close_angle(j);
         break;
-      case JointKind::prismatic: {
-        const ex way = draft_.length(of.name, range(j), of.where);
-        draft_.limit_last();
-        coordinate_[j.index] = way;
-        PlanePoint slid = gap;
-        const Complex axis = in_plane(group(j.ends[0].body), j.ends[0].axis);
-        slid.add(*turns_[group(j.ends[0].body)], {-way * axis.re, -way * axis.im});
-        all_zero(slid, of);
-        break;
-      }
+      case JointKind::prismatic:
+      case JointKind::parallelogram: all_zero(plus(gap, way(j), -1), of); break;
       case JointKind::planar: draft_.equation(gap.height, "height", of.where, "the joint '" + of.name + "'"); break;
       case JointKind::distance: {
         const ex length = algebra_.constant(of.length, of.where);
@@ -291,7 +249,7 @@ class PlanarRobot {
         if (!coordinate_[output.joint])
           throw ModelError(output.where, "the joint '" + robot_.joints[output.joint].name + "' has no coordinate",
                            "a revolute or prismatic joint, or a rod of variable length");
-        draft_.output(*coordinate_[output.joint]);
+        draft_.output(symbol_of(output.joint));
         return;
       case Output::Kind::direction:
         throw ModelError(output.where, "a direction as output of a robot that moves in a plane", "orientation of the link");
@@ -303,7 +261,7 @@ class PlanarRobot {
     const bool is_coordinate =
         algebra_.is_zero(relative.k.im) && algebra_.sign(relative.k.re) > 0 && GiNaC::is_a<GiNaC::symbol>(relative.angle);
     const std::string name = output.kind == Output::Kind::pose ? output.name + "_phi" : output.name;
-    draft_.output(is_coordinate ? relative.angle : angle_of(relative, name, {}, output.where));
+    draft_.output(is_coordinate ? relative.angle : angle_of(relative, name, output.where));
   }
 
   void add_position(const Output& output, std::size_t body, std::size_t base) {
@@ -326,16 +284,14 @@ class PlanarRobot {
       components = transpose(bodies_.placement[output.relative_to].rotation) *
                    (seen.x() * b[0] + seen.y() * b[1] + seen.height * b[2]);
     }
-    bool moves = false;
+    const std::array<bool, 3> moves = draft_.moving(output, components);
     for (std::size_t i = 0; i < 3; ++i) {
-      const ex value = algebra_.clean(components[i]);
-      if (!output.asked[i] || algebra_.is_constant(value)) continue;
+      if (!moves[i]) continue;
       const ex coordinate = draft_.length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
-      draft_.equation(coordinate - value, "output", output.where);
+      draft_.equation(coordinate - components[i], "output", output.where);
       draft_.output(coordinate);
-      moves = true;
     }
-    if (!moves)
+    if (moves == std::array<bool, 3>{})
       throw ModelError(output.where, "the output '" + output.name + "' does not move", "a point of a link that moves");
     static_cast<void>(body);
   }
@@ -354,7 +310,9 @@ class PlanarRobot {
 
 std::optional<std::vector<Vec>> plane_of(const Robot& robot, const Bodies& bodies, const Algebra& algebra) {
   std::vector<std::optional<Vec>> normals(bodies.groups);
-  const auto turns_in_plane = [](JointKind kind) { return kind == JointKind::revolute || kind == JointKind::planar; };
+  const auto turns_in_plane = [](JointKind kind) {
+    return kind == JointKind::revolute || kind == JointKind::planar || kind == JointKind::parallelogram;
+  };
   const Vec* sliding = nullptr;
   for (const BodyJoint& j : bodies.joints) {
     const std::size_t g = bodies.group[j.ends[0].body];
@@ -401,6 +359,7 @@ std::optional<std::vector<Vec>> plane_of(const Robot& robot, const Bodies& bodie
     const Vec &n0 = result[bodies.group[j.ends[0].body]], &n1 = result[bodies.group[j.ends[1].body]];
     switch (j.kind) {
       case JointKind::revolute:
+      case JointKind::parallelogram:
       case JointKind::planar:
         if (!algebra.are_parallel(n0, j.ends[0].axis) || !algebra.are_parallel(n1, j.ends[1].axis) ||
             algebra.sign(dot(n0, j.ends[0].axis)) != algebra.sign(dot(n1, j.ends[1].axis)))

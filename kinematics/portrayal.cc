@@ -27,6 +27,7 @@ class Portrayal {
       if (points_coincide(j.kind)) add_corners(j);
     for (const BodyJoint& j : bodies_.joints)
       if (!points_coincide(j.kind)) add_corners(j);
+    for (const BodyJoint& j : bodies_.idle_rods) add_corners(j);
     for (const Output& output : robot_.outputs)
       if (output.kind == Output::Kind::position || output.kind == Output::Kind::pose) {
         const Placement& at = bodies_.placement[output.link];
@@ -39,6 +40,7 @@ class Portrayal {
     for (std::size_t body = 1; body < bodies_.size(); ++body)
       if (!solid || !has_shapes(body)) add_body(body);
     for (const BodyJoint& j : bodies_.joints) add_joint(j);
+    for (const BodyJoint& j : bodies_.idle_rods) add_joint(j);
     if (!effectors_.empty()) draft_.part(Part::effector, effectors_);
   }
 
@@ -202,7 +204,7 @@ class Portrayal {
           largest = std::max(largest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
         }
     for (const Joint& joint : robot_.joints)
-      if (joint.kind == JointKind::distance)
+      if (joint.kind == JointKind::distance || joint.kind == JointKind::parallelogram)
         largest = std::max(largest, algebra_.value(algebra_.constant(joint.length, joint.where)));
     return largest > 0 ? largest : 1;
   }
@@ -237,6 +239,7 @@ class Portrayal {
     const std::string at = corner(e.body, local(e)), far = corner(j.ends[1].body, local(j.ends[1]));
     const bool grounded = e.body == 0 || j.ends[1].body == 0;
     switch (j.kind) {
+      case JointKind::parallelogram:
       case JointKind::distance:
       case JointKind::distance_variable:
         draft_.part(Part::link, {at, far});

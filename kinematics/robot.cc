@@ -21,6 +21,7 @@ const char* to_string(JointKind kind) {
     case JointKind::universal: return "universal";
     case JointKind::spherical: return "spherical";
     case JointKind::planar: return "planar";
+    case JointKind::parallelogram: return "parallelogram";
     case JointKind::fixed: return "fix";
     case JointKind::distance: return "sph_sph";
     case JointKind::distance_variable: return "sph_prs_sph";

@@ -49,10 +49,18 @@ enum class JointKind {
   universal,         ///< points coincide, the ends' axes stay perpendicular
   spherical,         ///< points coincide
   planar,            ///< normals coincide and the points stay in one plane: turns about the normal, slides in the plane
+  parallelogram,     ///< orientation kept; the second point goes round the first on a circle about the axis
   fixed,             ///< the second link's frame has a constant pose in the first's
   distance,          ///< spherical–spherical: a rod of constant length between the points
   distance_variable  ///< spherical–prismatic–spherical: a rod of variable length
 };
+
+/// A rod between two points.
+inline bool is_rod(JointKind kind) { return kind == JointKind::distance || kind == JointKind::distance_variable; }
+/// Do the frames of a moving joint's two links stay as they are turned to each other?
+inline bool keeps_orientation(JointKind kind) { return kind == JointKind::prismatic || kind == JointKind::parallelogram; }
+/// Is the joint's one coordinate an angle, or a way along its axis, that other joints may follow?
+inline bool may_be_coupled(JointKind kind) { return kind == JointKind::revolute || keeps_orientation(kind); }
 
 const char* to_string(JointKind kind);  ///< "revolute" …, "sph_sph", "sph_prs_sph"
 
@@ -77,13 +85,21 @@ struct Joint {
   /// revolute: of the angle by which end 1's zero is turned from end 0's, about the axis; universal: of the angle about
   /// end 0's axis that turns end 0's zero to end 1's axis, then of the angle about end 1's axis that turns end 0's axis to
   /// end 1's zero; prismatic: of the way of end 1's point from end 0's along the axis; cylindrical: of the
-  /// angle, then of the way; spherical: of the angle between the ends' axes (a cone), as [0, half angle];
-  /// distance_variable: of the length.
+  /// angle, then of the way; parallelogram: of the angle of the way from end 0's point to end 1's, from end 0's zero;
+  /// spherical: of the angle between the ends' axes (a cone), as [0, half angle]; distance_variable: of the length.
   std::vector<std::optional<Range>> ranges;
   Pose pose;          ///< fixed: end 1's link in end 0's
-  Expression length;  ///< distance
+  Expression length;  ///< distance, and the circle's radius of a parallelogram
   bool actuated = false;
   bool is_named = false;  ///< by the author; else the reader made the name
+  SourceLocation where;
+};
+
+/// One joint follows another, as by a gear: its angle (of a revolute joint or a parallelogram) or its way (of a prismatic
+/// joint) is `ratio` times the driver's, plus `offset`.
+struct Coupling {
+  std::size_t driver = 0, follower = 0;  ///< in Robot::joints
+  Expression ratio = 1, offset = 0;
   SourceLocation where;
 };
 
@@ -114,6 +130,7 @@ struct Robot {
   std::vector<symbolic::Constant> constants;
   std::vector<Link> links;
   std::vector<Joint> joints;
+  std::vector<Coupling> couplings;
   std::vector<Output> outputs;
   /// Further conditions among the coordinates of mechanism_of(), by their names there.
   std::vector<symbolic::Constraint> equations;
@@ -140,8 +157,9 @@ struct Robot {
   /// Throws ModelError, with the place, for: no links; names that are taken; a joint of a link with itself or with a link
   /// that is not there; an axis or a zero direction that is 0, a zero along the axis; a range that is empty, or too many of
   /// them; a pose that is no rotation; a rod's length that is not positive; an actuated joint without a motion of one
-  /// coordinate; an output of what is not there, or of an actuated joint; a link that no joint connects with the ground;
-  /// and for an expression that is no number in the robot's constants.
+  /// coordinate; joints that follow one another in a circle, or such of different kinds, or two of a train that are
+  /// actuated; an output of what is not there, or of an actuated joint; a link that no joint connects with the ground; and
+  /// for an expression that is no number in the robot's constants.
   void validate() const;
 };
 

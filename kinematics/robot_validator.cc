@@ -18,6 +18,7 @@ std::size_t most_ranges(JointKind kind) {
   switch (kind) {
     case JointKind::revolute:
     case JointKind::prismatic:
+    case JointKind::parallelogram:
     case JointKind::spherical:
     case JointKind::distance_variable: return 1;
     case JointKind::cylindrical:
@@ -32,6 +33,7 @@ bool has_axis(const Joint& joint) {
     case JointKind::prismatic:
     case JointKind::cylindrical:
     case JointKind::universal:
+    case JointKind::parallelogram:
     case JointKind::planar: return true;
     case JointKind::spherical: return !joint.ranges.empty() && joint.ranges[0];  // of the cone
     default: return false;
@@ -86,14 +88,60 @@ class RobotValidator {
     for (const JointEnd& end : joint.ends) check_end(joint, end, what, where);
     check_ranges(joint, what, where);
     if (joint.kind == JointKind::fixed) check_pose(joint.pose, what, where);
-    if (joint.kind == JointKind::distance)
+    if (joint.kind == JointKind::distance || joint.kind == JointKind::parallelogram)
       require_positive(joint.length, "the length of " + what, "a length above 0", where);
     const bool cannot_be_driven = joint.kind == JointKind::fixed || joint.kind == JointKind::distance ||
                                   joint.kind == JointKind::spherical || joint.kind == JointKind::planar;
     if (joint.actuated && cannot_be_driven) {
-      throw ModelError(where, what + " cannot be actuated: it has no angle or way of its own",
-                       "an actuated joint of the kind revolute, prismatic, cylindrical, universal or sph_prs_sph");
+      throw ModelError(
+          where, what + " cannot be actuated: it has no angle or way of its own",
+          "an actuated joint of the kind revolute, prismatic, parallelogram, cylindrical, universal or sph_prs_sph");
     }
+  }
+
+  /// Each follows one joint, and nobody himself.
+  void check_couplings() {
+    std::vector<std::size_t> driver(robot_.joints.size());
+    std::iota(driver.begin(), driver.end(), std::size_t{0});
+    const auto first = [&](std::size_t j) {
+      while (driver[j] != j) j = driver[j];
+      return j;
+    };
+    for (const Coupling& c : robot_.couplings) {
+      const symbolic::SourceLocation where = at(c.where);
+      if (c.driver >= driver.size() || c.follower >= driver.size())
+        throw ModelError(where, "a joint follows one that is not there", "two of the robot's joints");
+      const Joint &follower = robot_.joints[c.follower], &leader = robot_.joints[c.driver];
+      const std::string what = described(follower) + " follows " + described(leader);
+      const bool slides = follower.kind == JointKind::prismatic;
+      if (!may_be_coupled(follower.kind) || !may_be_coupled(leader.kind) || slides != (leader.kind == JointKind::prismatic))
+        throw ModelError(where, what, "two joints that turn, revolute or parallelogram, or two prismatic ones");
+      if (driver[c.follower] != c.follower)
+        throw ModelError(where, described(follower) + " follows two joints", "one joint that it follows");
+      if (first(c.driver) == c.follower) throw ModelError(where, what + ", which follows it", "a joint that leads");
+      driver[c.follower] = c.driver;
+      const std::string ratio = "the ratio by which " + what;
+      if (scope_.sign(c.ratio, ratio, where).value_or(0) == 0)
+        throw ModelError(where, ratio + ", " + in_quotes(c.ratio.text()) + ", is 0", "another number, or a fixed joint");
+      scope_.check(c.offset, "the offset by which " + what, where);
+    }
+    std::vector<int> actuated(driver.size(), -1);
+    for (std::size_t j = 0; j < driver.size(); ++j) {
+      if (!robot_.joints[j].actuated) continue;
+      int& known = actuated[first(j)];
+      if (known >= 0)
+        throw ModelError(at(robot_.joints[j].where),
+                         described(robot_.joints[j]) + " and " + described(robot_.joints[static_cast<std::size_t>(known)]) +
+                             " are actuated, but turn together",
+                         "one of joints that follow each other");
+      known = static_cast<int>(j);
+    }
+    for (const Output& output : robot_.outputs)
+      if (output.kind == Output::Kind::joint && output.joint < driver.size() && actuated[first(output.joint)] >= 0)
+        throw ModelError(at(output.where),
+                         "the output " + in_quotes(output.name) + " is of " + described(robot_.joints[output.joint]) +
+                             ", which turns with an actuated one: its coordinate is an input",
+                         "a joint that no actuator drives");
   }
 
   void check_output(const Output& output) {
@@ -105,7 +153,7 @@ class RobotValidator {
       const Joint& joint = robot_.joints[output.joint];
       if (most_ranges(joint.kind) == 0 || joint.kind == JointKind::spherical) {
         throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or way of its own",
-                         "a revolute, prismatic, cylindrical, universal or sph_prs_sph joint");
+                         "a revolute, prismatic, parallelogram, cylindrical, universal or sph_prs_sph joint");
       }
       if (joint.actuated) {
         throw ModelError(where, what + " is of " + described(joint) + ", which is actuated: its coordinate is an input",
@@ -284,6 +332,7 @@ void Robot::validate() const {
   validator.check_links();
   for (const Joint& joint : joints) validator.check_joint(joint);
   for (const Output& output : outputs) validator.check_output(output);
+  validator.check_couplings();
   validator.check_connections();
   validator.check_shapes();
 }

@@ -1,5 +1,6 @@
 #include "corank/kinematics/spanning_tree.h"
 
+#include <algorithm>
 #include <deque>
 #include <limits>
 #include <numeric>
@@ -7,8 +8,6 @@
 
 namespace corank::kinematics {
 namespace {
-
-bool is_rod(JointKind kind) { return kind == JointKind::distance || kind == JointKind::distance_variable; }
 
 class Forest {
  public:
@@ -29,13 +28,14 @@ class Forest {
 
 }  // namespace
 
-SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra,
-                           const std::vector<bool>& first) {
+SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra, const std::vector<int>& order) {
   const std::size_t n = bodies.joints.size();
   std::vector<bool> in_forest(n, false), reached(bodies.size(), false);
   Forest forest(bodies.size());
-  for (std::size_t j = 0; j < n; ++j)
-    if (first[j]) in_forest[j] = forest.join(bodies.joints[j].ends[0].body, bodies.joints[j].ends[1].body);
+  const int last = n == 0 ? 0 : *std::max_element(order.begin(), order.end());
+  for (int turn = 1; turn <= last; ++turn)
+    for (std::size_t j = 0; j < n; ++j)
+      if (order[j] == turn) in_forest[j] = forest.join(bodies.joints[j].ends[0].body, bodies.joints[j].ends[1].body);
 
   SpanningTree tree;
   std::vector<bool> used(n, false);
@@ -73,7 +73,7 @@ SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algeb
         waiting.resize(before);
       }
       for (const std::size_t body : together)
-        extend(body, [&](std::size_t j) { return !first[j] && !is_rod(bodies.joints[j].kind); });
+        extend(body, [&](std::size_t j) { return order[j] == 0 && !is_rod(bodies.joints[j].kind); });
     }
     std::optional<TreeEdge> shortest;
     double length = 0;

@@ -18,9 +18,10 @@ struct SpanningTree {
   std::vector<std::size_t> chords;  ///< joints that close loops
 };
 
-/// Joints that `first` tells (sliding ones, those whose angle is a coordinate) are taken before the others; rods carry a
-/// body only where nothing else does, the shortest of constant length first. Among the rest the ways to the ground are as
-/// short as possible. Throws ModelError, naming a link, where a body is not connected with the ground.
-SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra, const std::vector<bool>& first);
+/// Joints of the order 1, then 2 … are taken before those of 0: loops in a plane, sliding ones, those whose angle is a
+/// coordinate; rods carry a body only where nothing else does, the shortest of constant length first. Among the rest the
+/// ways to the ground are as short as possible. Throws ModelError, naming a link, where a body is not connected with the
+/// ground.
+SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra, const std::vector<int>& order);
 
 }  // namespace corank::kinematics

@@ -30,34 +30,41 @@ class SpatialRobot {
         bodies_(about_centres(robot, bodies, algebra)),
         algebra_(algebra),
         draft_(draft),
-        frames_(robot, bodies_, algebra, draft) {
+        loops_(bodies_, algebra),
+        frames_(robot, bodies_, loops_, algebra, draft) {
     positions_.origins.resize(bodies.size());
     positions_.origins[0] = Vec{0, 0, 0};
     positions_.coordinate.resize(robot.joints.size());
   }
 
   void run() {
-    std::vector<bool> first;
-    for (const BodyJoint& j : bodies_.joints)
-      first.push_back(j.kind == JointKind::prismatic || (j.kind == JointKind::revolute && frames_.is_asked_for(j.index)));
-    tree_ = spanning_tree(robot_, bodies_, algebra_, first);
+    std::vector<int> order;
+    for (std::size_t j = 0; j < bodies_.joints.size(); ++j) {
+      const BodyJoint& joint = bodies_.joints[j];
+      const bool early =
+          keeps_orientation(joint.kind) || (joint.kind == JointKind::revolute && frames_.is_asked_for(joint.index));
+      order.push_back(is_rod(joint.kind) ? 0 : loops_.has(j) ? (early ? 1 : 2) : early ? 3 : 0);
+    }
+    tree_ = spanning_tree(robot_, bodies_, algebra_, order);
     keep_orientations();
     orient();
     for (const std::size_t j : tree_.chords) frames_.close(bodies_.joints[j]);
     for (const TreeEdge& edge : tree_.edges) reach(edge);
-    for (const std::size_t j : tree_.chords) close(bodies_.joints[j]);
+    for (const TreeEdge& edge : tree_.edges) place_in_plane(edge);
+    for (const std::size_t j : tree_.chords)
+      if (!close_in_plane(j)) close(bodies_.joints[j]);
     for (const BodyJoint& j : bodies_.joints) frames_.limit(j);
     bool moves = false;
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
       if (!positions_.coordinate[j] && frames_.angle(j)) positions_.coordinate[j] = frames_.angle(j);
       if (!robot_.joints[j].actuated) continue;
       moves = true;
-      if (positions_.coordinate[j]) draft_.input(*positions_.coordinate[j]);
+      if (positions_.coordinate[j]) draft_.input(draft_.symbol_of(j, *positions_.coordinate[j]));
     }
     for (const Output& output : robot_.outputs) add(output);
     std::optional<Twists> twists;
     if (moves || !robot_.outputs.empty()) {
-      twists.emplace(robot_, bodies_, tree_, frames_, positions_, algebra_, draft_, is_spherical());
+      twists.emplace(robot_, bodies_, tree_, frames_, loops_, positions_, algebra_, draft_, is_spherical());
       twists->run();
     }
     frames_.finish();
@@ -121,11 +128,15 @@ class SpatialRobot {
     switch (j.kind) {
       case JointKind::prismatic:
       case JointKind::cylindrical: {
-        const ex d = draft_.length(j.kind == JointKind::prismatic ? of.name : of.name + "_way",
-                                   range(j, j.kind == JointKind::prismatic ? 0 : 1), of.where);
-        draft_.limit_last();
+        const ex d = draft_.joint_way(j.index, j.kind == JointKind::prismatic ? of.name : of.name + "_way").value();
         positions_.coordinate[j.index] = d;
         return d * frames_.image(group(e.body), e.axis);
+      }
+      case JointKind::parallelogram: {
+        const auto [c, s] = frames_.own_angle(j.index);
+        const ex radius = algebra_.constant(of.length, of.where);
+        return (radius * c) * frames_.image(group(e.body), e.zero) +
+               (radius * s) * frames_.image(group(e.body), cross(e.axis, e.zero));
       }
       case JointKind::planar:
         return draft_.length(of.name + "_x", {}, of.where) * frames_.image(group(e.body), e.zero) +
@@ -138,7 +149,7 @@ class SpatialRobot {
     const BodyJoint& j = bodies_.joints[edge.joint];
     const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
     Vec at = place(parent);
-    if (j.kind == JointKind::distance || j.kind == JointKind::distance_variable) {
+    if (is_rod(j.kind)) {
       at = at + hang(j, edge, child.body);
     } else {
       at = edge.from == 0 ? at + way(j) : at - way(j);
@@ -233,10 +244,63 @@ class SpatialRobot {
     return false;
   }
 
+  // In the plane of loops with parallel axes, from the body that carries them.
+  PlanePoint plane_place(const PlanePart& part, const BodyEnd& end) const {
+    return plus(part.origins.at(end.body), part.image(group(end.body), end.point, algebra_));
+  }
+  PlanePoint plane_way(const PlanePart& part, const BodyJoint& j) const {
+    PlanePoint way;
+    const std::size_t g = group(j.ends[0].body);
+    if (j.kind == JointKind::prismatic) {
+      const ex& d = *positions_.coordinate[j.index];
+      const Complex along = part.in_plane(g, j.ends[0].axis, algebra_);
+      way.add(part.turns.at(g), {d * along.re, d * along.im});
+    } else if (j.kind == JointKind::parallelogram) {
+      const ex radius = algebra_.constant(joint(j).length, joint(j).where);
+      const Complex zero = part.in_plane(g, j.ends[0].zero, algebra_);
+      way.add(part.turns.at(g) * Turn{{1, 0}, part.sense(bodies_, j, algebra_) * *frames_.angle(j.index)},
+              {radius * zero.re, radius * zero.im});
+    }
+    return way;
+  }
+
+  void place_in_plane(const TreeEdge& edge) {
+    PlanePart* const part = loops_.of(edge.joint);
+    if (part == nullptr || !part->root || is_rod(bodies_.joints[edge.joint].kind)) return;
+    part->origins.try_emplace(*part->root);
+    const BodyJoint& j = bodies_.joints[edge.joint];
+    const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
+    if (!part->bodies.contains(parent.body) || !part->bodies.contains(child.body)) return;
+    const PlanePoint at = plus(plane_place(*part, parent), plane_way(*part, j), edge.from == 0 ? 1 : -1);
+    part->origins[child.body] = plus(at, part->image(group(child.body), child.point, algebra_), -1);
+  }
+
+  bool close_in_plane(std::size_t index) {
+    PlanePart* const part = loops_.closing(bodies_, index);
+    if (part == nullptr) return false;
+    const BodyJoint& j = bodies_.joints[index];
+    const Joint& of = joint(j);
+    const PlanePoint gap = plus(plane_place(*part, j.ends[1]), plane_place(*part, j.ends[0]), -1);
+    if (is_rod(j.kind)) {
+      const ex length = length_of(j), square = gap.squared();
+      draft_.equation(square - length * length, "rod", of.where, "the rod '" + of.name + "'");
+      part->closings[index] = {square / 2};
+      return true;
+    }
+    if (keeps_orientation(j.kind)) way(j);  // which declares its coordinate
+    const PlanePoint open = plus(gap, plane_way(*part, j), -1);
+    const std::string what = "the loop that the joint '" + of.name + "' closes";
+    draft_.equation(open.height, "height", of.where, what + " leaves its plane and");
+    part->closings[index] = {open.x(), open.y()};
+    for (const ex& component : {open.x(), open.y()})
+      if (draft_.equation(component, "loop", of.where, what)) translates_ = true;
+    return true;
+  }
+
   void close(const BodyJoint& j) {
     const Joint& of = joint(j);
     const std::string what = "the loop that the joint '" + of.name + "' closes";
-    if (j.kind == JointKind::distance || j.kind == JointKind::distance_variable) {
+    if (is_rod(j.kind)) {
       close_rod(j);
       return;
     }
@@ -278,7 +342,7 @@ class SpatialRobot {
       if (!positions_.coordinate[output.joint])
         throw ModelError(output.where, "the joint '" + robot_.joints[output.joint].name + "' has no coordinate",
                          "a revolute or prismatic joint, or a rod of variable length");
-      draft_.output(*positions_.coordinate[output.joint]);
+      draft_.output(draft_.symbol_of(output.joint, *positions_.coordinate[output.joint]));
       return;
     }
     if (bodies_.of_link[output.relative_to] != 0)
@@ -305,11 +369,11 @@ class SpatialRobot {
   }
 
   void add_components(const Output& output, const Vec& value) {
+    const std::array<bool, 3> moves = draft_.moving(output, value);
     for (std::size_t i = 0; i < 3; ++i) {
-      const ex clean = algebra_.clean(value[i]);
-      if (!output.asked[i] || algebra_.is_constant(clean)) continue;
+      if (!moves[i]) continue;
       const ex coordinate = draft_.length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
-      draft_.equation(coordinate - clean, "output", output.where);
+      draft_.equation(coordinate - value[i], "output", output.where);
       draft_.output(coordinate);
     }
   }
@@ -319,6 +383,7 @@ class SpatialRobot {
   const Bodies bodies_;  // joints about the centres of spherical loops
   Algebra& algebra_;
   Draft& draft_;
+  PlaneLoops loops_;
   Frames frames_;
   SpanningTree tree_;
   Positions positions_;

@@ -9,8 +9,6 @@ using symbolic::CoordinateKind;
 using symbolic::ModelError;
 using symbolic::Role;
 
-bool is_rod(JointKind kind) { return kind == JointKind::distance || kind == JointKind::distance_variable; }
-
 Vec unit(std::size_t i) { return {i == 0 ? 1 : 0, i == 1 ? 1 : 0, i == 2 ? 1 : 0}; }
 
 // Σ sign·rate·axis over the screws.
@@ -58,15 +56,21 @@ std::array<Vec, 2> Twists::axes(const Dyad& dyad) {
 }
 
 Role Twists::role(std::size_t index) const {
-  if (robot_.joints[index].actuated) return Role::input;
+  const std::vector<std::size_t> joints = draft_.moving_with(index);
+  if (std::any_of(joints.begin(), joints.end(), [&](std::size_t j) { return robot_.joints[j].actuated; }))
+    return Role::input;
   for (const Output& output : robot_.outputs)
-    if (output.kind == Output::Kind::joint && output.joint == index) return Role::output;
+    if (output.kind == Output::Kind::joint && std::find(joints.begin(), joints.end(), output.joint) != joints.end())
+      return Role::output;
   return Role::passive;
 }
+bool Twists::has_rate(std::size_t index) const { return role(index) != Role::passive || draft_.is_coupled(index); }
 ex Twists::angular(const BodyJoint& j, const std::string& suffix) {
+  if (suffix.empty()) return draft_.joint_rate(j.index, "w_", CoordinateKind::angle, role(j.index));
   return draft_.rate("w_" + joint(j).name + suffix, CoordinateKind::angle, role(j.index), joint(j).where);
 }
 ex Twists::linear(const BodyJoint& j, const std::string& suffix) {
+  if (j.kind == JointKind::prismatic) return draft_.joint_rate(j.index, "v_", CoordinateKind::length, role(j.index));
   return draft_.rate("v_" + joint(j).name + suffix, CoordinateKind::length, role(j.index), joint(j).where);
 }
 
@@ -78,6 +82,12 @@ std::vector<Screw> Twists::screws(const BodyJoint& j) {
   switch (j.kind) {
     case JointKind::revolute: turn(angular(j), axis(j, 0)); break;
     case JointKind::prismatic: slide(linear(j), axis(j, 0)); break;
+    case JointKind::parallelogram: {
+      // The way from point to point turns about the axis: n × (p₁ − p₀) θ̇.
+      const Vec way = cleaned(place(j.ends[1]) - place(j.ends[0]));
+      slide(angular(j), cleaned(cross(axis(j, 0), way)));
+      break;
+    }
     case JointKind::cylindrical:
       turn(angular(j), axis(j, 0));
       slide(linear(j), axis(j, 0));
@@ -100,24 +110,25 @@ std::vector<Screw> Twists::screws(const BodyJoint& j) {
       break;
     default: break;
   }
+  if (list.size() == 1) rate_of_[static_cast<std::size_t>(&j - bodies_.joints.data())] = list[0].rate;
   return list;
 }
 
 // A driven joint says itself how its body turns.
 const Output* Twists::turned_by_output(const TreeEdge& edge) const {
   const BodyJoint& j = bodies_.joints[edge.joint];
-  if (!spherical_ || role(j.index) != Role::passive) return nullptr;
+  if (!spherical_ || has_rate(j.index) || loops_.has(edge.joint)) return nullptr;
   for (const Output& output : robot_.outputs)
     if (output.kind == Output::Kind::orientation && bodies_.of_link[output.link] == j.ends[1 - edge.from].body)
       return &output;
   return nullptr;
 }
 
-Vec Twists::output_rates(const std::string& prefix, const Output& output, CoordinateKind kind) {
+Vec Twists::output_rates(const std::string& prefix, const Output& output, CoordinateKind kind,
+                         const std::array<bool, 3>& of) {
   Vec list;
   for (std::size_t i = 0; i < 3; ++i)
-    if (output.asked[i])
-      list[i] = draft_.rate(prefix + "_" + output.name + "_" + "xyz"[i], kind, Role::output, output.where);
+    if (of[i]) list[i] = draft_.rate(prefix + "_" + output.name + "_" + "xyz"[i], kind, Role::output, output.where);
   return list;
 }
 
@@ -125,7 +136,7 @@ void Twists::reach(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   const std::size_t child = j.ends[1 - edge.from].body;
   if (const Output* output = turned_by_output(edge)) {
-    const Vec rates = output_rates("w", *output, CoordinateKind::angle);
+    const Vec rates = output_rates("w", *output, CoordinateKind::angle, output->asked);
     for (std::size_t i = 0; i < 3; ++i) motion_[child].push_back({rates[i], unit(i), place(j.ends[edge.from]), true});
     return;
   }
@@ -193,8 +204,42 @@ void Twists::close(const Dyad& dyad) {
   rows(velocity(dyad.to, c) - velocity(dyad.from, c), of);
 }
 
+/// The loop's two equations along a motion: of each coordinate in them the rate is a sum of joints' rates.
+void Twists::close_in_plane(const BodyJoint& j, const PlanePart& part, const std::vector<ex>& closing) {
+  const Joint& of = joint(j);
+  const auto turning_of = [&](std::size_t g) {
+    ex sum = 0;
+    for (const PlanePart::Rate& r : part.turning.at(g)) sum += r.sign * rate_of_.at(r.joint);
+    return sum;
+  };
+  if (!is_rod(j.kind) && (keeps_orientation(j.kind) || has_rate(j.index))) {
+    const ex own = screws(j)[0].rate;
+    if (j.kind == JointKind::revolute)
+      row(turning_of(group(j.ends[1].body)) - turning_of(group(j.ends[0].body)) - part.sense(bodies_, j, algebra_) * own,
+          of);
+  }
+  std::map<ex, ex, GiNaC::ex_is_less> rates;  // by the coordinate
+  for (const auto& [g, angle] : part.angles) rates.emplace(angle, turning_of(g));
+  for (const auto& [joint_index, rate] : rate_of_) {
+    const std::size_t index = bodies_.joints[joint_index].index;
+    if (loops_.of(joint_index) == &part && positions_.coordinate[index])
+      rates.emplace(draft_.symbol_of(index, *positions_.coordinate[index]), draft_.rate_of_symbol(index, rate));
+  }
+  for (const ex& open : closing) {
+    ex sum = 0;
+    for (const auto& [coordinate, rate] : rates) sum += open.diff(GiNaC::ex_to<GiNaC::symbol>(coordinate)) * rate;
+    if (j.kind == JointKind::distance_variable) sum -= *positions_.coordinate[j.index] * linear(j);
+    row(sum, of);
+  }
+}
+
 void Twists::close(const BodyJoint& j) {
   const Joint& of = joint(j);
+  const std::size_t number = static_cast<std::size_t>(&j - bodies_.joints.data());
+  if (const PlanePart* part = loops_.of(number); part != nullptr && part->closings.contains(number)) {
+    close_in_plane(j, *part, part->closings.at(number));
+    return;
+  }
   const std::size_t b0 = j.ends[0].body, b1 = j.ends[1].body;
   if (is_rod(j.kind)) {
     const Vec p0 = place(j.ends[0]), p1 = place(j.ends[1]);
@@ -221,7 +266,7 @@ void Twists::close(const BodyJoint& j) {
     row(dot(n, moved), of);
     return;
   }
-  if (j.kind == JointKind::revolute && role(j.index) == Role::passive) {
+  if (j.kind == JointKind::revolute && !has_rate(j.index)) {
     for (const Vec& across : frames_.across(group(b1), j.ends[1].axis)) row(dot(turned, across), of);
     rows(moved, of);
     return;
@@ -236,10 +281,10 @@ void Twists::close(const BodyJoint& j) {
 void Twists::add(const Output& output) {
   const std::size_t body = bodies_.of_link[output.link];
   // As rates of the output's.
-  const auto define = [&](const std::string& prefix, CoordinateKind kind, const Vec& value) {
-    const Vec own = output_rates(prefix, output, kind);
+  const auto define = [&](const std::string& prefix, CoordinateKind kind, const Vec& value, const std::array<bool, 3>& of) {
+    const Vec own = output_rates(prefix, output, kind, of);
     for (std::size_t i = 0; i < 3; ++i)
-      if (output.asked[i]) draft_.velocity(own[i] - value[i], "output " + output.name, output.where);
+      if (of[i]) draft_.velocity(own[i] - value[i], "output " + output.name, output.where);
   };
   for (const TreeEdge& edge : tree_.edges)
     if (turned_by_output(edge) == &output) return;  // its rates are the link's
@@ -259,9 +304,11 @@ void Twists::add(const Output& output) {
     }
     default: break;
   }
-  if (output.kind != Output::Kind::orientation)
-    define("v", CoordinateKind::length, velocity(body, positions_.output_points.at(output.name)));
-  if (output.kind != Output::Kind::position) define("w", CoordinateKind::angle, turning(body));
+  if (output.kind != Output::Kind::orientation) {
+    const Vec& at = positions_.output_points.at(output.name);
+    define("v", CoordinateKind::length, velocity(body, at), draft_.moving(output, at));
+  }
+  if (output.kind != Output::Kind::position) define("w", CoordinateKind::angle, turning(body), output.asked);
 }
 
 }  // namespace corank::kinematics

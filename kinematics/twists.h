@@ -39,12 +39,13 @@ struct Screw {
 
 class Twists {
  public:
-  Twists(const Robot& robot, const Bodies& bodies, const SpanningTree& tree, Frames& frames, const Positions& positions,
-         Algebra& algebra, Draft& draft, bool spherical)
+  Twists(const Robot& robot, const Bodies& bodies, const SpanningTree& tree, Frames& frames, PlaneLoops& loops,
+         const Positions& positions, Algebra& algebra, Draft& draft, bool spherical)
       : robot_(robot),
         bodies_(bodies),
         tree_(tree),
         frames_(frames),
+        loops_(loops),
         positions_(positions),
         algebra_(algebra),
         draft_(draft),
@@ -65,6 +66,8 @@ class Twists {
   Vec own_axis(std::size_t joint, std::size_t body) const;
   std::array<Vec, 2> axes(const Dyad& dyad);  ///< in the world
   symbolic::Role role(std::size_t joint) const;
+  /// Is the joint's rate one that others know?
+  bool has_rate(std::size_t joint) const;
   ex angular(const BodyJoint& j, const std::string& suffix = "");
   ex linear(const BodyJoint& j, const std::string& suffix = "");
   std::size_t link_of(std::size_t body) const;
@@ -72,7 +75,9 @@ class Twists {
   std::vector<Screw> screws(const BodyJoint& j);
   /// By whose rates the body turns that a tree's edge reaches: an output's, or nothing.
   const Output* turned_by_output(const TreeEdge& edge) const;
-  Vec output_rates(const std::string& prefix, const Output& output, symbolic::CoordinateKind kind);
+  /// `of`: which of the components.
+  Vec output_rates(const std::string& prefix, const Output& output, symbolic::CoordinateKind kind,
+                   const std::array<bool, 3>& of);
   void reach(const TreeEdge& edge);
   void turn_within(const Dyad& dyad);
   void add_velocity(Vec& sum, const std::vector<Screw>& screws, const Vec& c, int sign) const;
@@ -80,6 +85,7 @@ class Twists {
   void row(const ex& e, const Joint& of);
   void rows(const Vec& v, const Joint& of);
   void close(const BodyJoint& j);
+  void close_in_plane(const BodyJoint& j, const PlanePart& part, const std::vector<ex>& closing);
   void close(const Dyad& dyad);
   void add(const Output& output);
 
@@ -87,12 +93,14 @@ class Twists {
   const Bodies& bodies_;
   const SpanningTree& tree_;
   Frames& frames_;
+  PlaneLoops& loops_;
   const Positions& positions_;
   Algebra& algebra_;
   Draft& draft_;
   bool spherical_;
   std::vector<Dyad> dyads_;
   std::vector<std::vector<Screw>> motion_;  // of each body, relative to the ground
+  std::map<std::size_t, ex> rate_of_;       // of joints in bodies_ that have one rate
 };
 
 }  // namespace corank::kinematics

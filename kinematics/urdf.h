@@ -25,7 +25,7 @@ struct UrdfLoops {
 /// xyz, with the axis R·axis, end 1 on its child, whose frame is the joint's: the angle between the ends' zeros is URDF's.
 ///
 /// Joints: revolute, continuous, prismatic, fixed, planar; floating is no joint where loops hold the link, else refused;
-/// mimic is refused. Limits are ranges. A joint is actuated where a <transmission>, or a <ros2_control> with a command
+/// mimic is a coupling. Limits are ranges. A joint is actuated where a <transmission>, or a <ros2_control> with a command
 /// interface, names it, unless the loops' [INPUTS] name others. Spheres, cylinders and boxes of <visual> are shapes; what is
 /// passed over is in the notices. Names that are no identifiers are changed, with a notice.
 ///

@@ -107,6 +107,7 @@ class TreeReader {
     check_cycles();
     read_links(root);
     for (std::size_t i = 0; i < edges_.size(); ++i) read_joint(i);
+    read_mimics();
     read_actuators();
     robot_.notices = reading_.notices();
     return std::move(robot_);
@@ -252,7 +253,6 @@ class TreeReader {
     const SourceLocation type_where = reading_.where(edge.element.attribute("type"));
     reading_.allow_children(edge.element, {"origin", "parent", "child", "axis", "limit", "mimic", "dynamics", "calibration",
                                            "safety_controller"});
-    refuse_mimic(edge.element, index);
     pass_over(edge.element, "dynamics", "dynamics (damping, friction) of joints passed over");
     pass_over(edge.element, "calibration", "calibration of joints passed over");
     pass_over(edge.element, "safety_controller", "safety controllers of joints passed over");
@@ -292,13 +292,45 @@ class TreeReader {
                      "revolute, continuous, prismatic, fixed, planar or floating" + suggestion(std::string(type), types));
   }
 
-  void refuse_mimic(const pugi::xml_node& element, std::size_t index) const {
-    const pugi::xml_node mimic = reading_.only_child(element, "mimic");
-    if (!mimic) return;
-    throw ModelError(
-        reading_.where(mimic),
-        joint_text(index) + " mimics " + in_quotes(mimic.attribute("joint").value()) + ", which no linkage does",
-        "no <mimic>: the linkage behind it, its loop closed in a .loops file, or a fixed joint");
+  // Once all joints are there: one may follow another that stands behind it.
+  void read_mimics() {
+    for (std::size_t index = 0; index < edges_.size(); ++index) {
+      const pugi::xml_node mimic = reading_.only_child(edges_[index].element, "mimic");
+      if (!mimic) continue;
+      reading_.allow_attributes(mimic, {"joint", "multiplier", "offset"});
+      const std::size_t leader = joints_.find(mimic, "joint", "the <mimic> of " + joint_text(index));
+      if (edges_[index].joint < 0 || edges_[leader].joint < 0)
+        throw ModelError(reading_.where(mimic),
+                         joint_text(index) + " mimics " + in_quotes(joints_[leader]) + ", one of which is floating",
+                         "two joints that turn, or two that slide");
+      Coupling coupling;
+      coupling.where = reading_.where(mimic);
+      coupling.driver = static_cast<std::size_t>(edges_[leader].joint);
+      coupling.follower = static_cast<std::size_t>(edges_[index].joint);
+      const bool turns = robot_.joints[coupling.follower].kind == JointKind::revolute;
+      if (const auto multiplier = reading_.number(mimic, "multiplier", "the multiplier of " + joint_text(index)))
+        coupling.ratio = turns ? fraction(*multiplier) : multiplier->value;
+      const std::string of_offset = "the offset of " + joint_text(index);
+      if (const auto offset =
+              turns ? reading_.angle(mimic, "offset", of_offset) : reading_.number(mimic, "offset", of_offset))
+        coupling.offset = offset->value;
+      robot_.couplings.push_back(coupling);
+    }
+  }
+
+  // A decimal of a third, say, to six digits or more is a third.
+  Expression fraction(const UrdfNumber& multiplier) {
+    constexpr int kLargest = 24;
+    constexpr double kRounded = 1e-6;
+    for (int q = 1; q <= kLargest; ++q) {
+      const double p = std::round(multiplier.approximate * q), off = std::fabs(multiplier.approximate - p / q);
+      if (p == 0 || off > kRounded) continue;
+      const Expression whole(static_cast<int>(std::fabs(p))), positive = q == 1 ? whole : whole / Expression(q);
+      const Expression exact = p < 0 ? -positive : positive;
+      if (off > 1e-15) reading_.notice("multiplier " + multiplier.value.text() + " read as " + exact.text());
+      return exact;
+    }
+    return multiplier.value;
   }
 
   void pass_floating(std::size_t index, const SourceLocation& where) {

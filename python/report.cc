@@ -186,6 +186,7 @@ void bind_report(py::module_& module) {
   module.def("family_page", &family_page);
   module.def("geometry", &geometry);
   module.def("write_portrait", &write_portrait);
+  module.def("can_write_pdf", &report::can_write_pdf);
   module.def("write_small_multiples", &write_small_multiples);
 }
 

@@ -7,6 +7,7 @@
 #include "corank/python/bindings.h"
 #include "corank/python/watched.h"
 #include "corank/report/set_view.h"
+#include "corank/result/assembled.h"
 #include "corank/result/cuik_sol.h"
 #include "corank/result/exact_angle.h"
 #include "corank/result/motion_words.h"
@@ -153,6 +154,17 @@ void bind_result(py::module_& module) {
   type.def_property_readonly("version", [](const Result& r) { return r->version; });
   type.def_property_readonly("system_text", [](const Result& r) { return r->system_text; });
   type.def_property_readonly("stopped", [](const Result& r) { return r->stopped; });
+  type.def_property_readonly("assembled", [](const Result& r) { return result::assembled(*r); });
+  type.def_property_readonly("sample", [](const Result& r) {
+    std::optional<std::vector<std::tuple<std::string, double, double>>> list;
+    if (const auto sample = result::sample(*r)) {
+      list.emplace();
+      for (const result::Value& v : result::values(*sample->of, *sample->box, sample->of->configuration_size))
+        list->emplace_back(v.name, v.value.lo(), v.value.hi());
+    }
+    return list;
+  });
+  type.def_property_readonly("nearly_solved", [](const Result& r) { return r->nearly_solved; });
   type.def_property_readonly("outputs", [](const Result& r) { return r->outputs; });
   type.def_property_readonly("dimension", [](const Result& r) { return r->cover.dimension; });
   type.def_property_readonly("complete", [](const Result& r) { return r->cover.complete(); });

@@ -77,12 +77,14 @@ std::string fixed_html(const symbolic::Mechanism& mechanism) {
   return html;
 }
 
-/// Names, "rates" where they are the mechanism's own, and "tied by 1 equation" where equations speak of them alone.
+/// Names of coordinates; of rates, with that word, where the mechanism's own have no coordinates for it; and "tied by 1
+/// equation" where equations speak of them alone.
 std::string chosen_html(const std::vector<std::string>& coordinates, const symbolic::VelocityEquation& velocity,
                         symbolic::Role role) {
-  const std::vector<std::string> names = velocity.given ? velocity.names_of(role) : coordinates;
+  const bool rates = velocity.given && coordinates.size() != velocity.names_of(role).size();
+  const std::vector<std::string> names = rates ? velocity.names_of(role) : coordinates;
   const std::size_t ties = velocity.ties(std::span(&role, 1)).size();
-  if (velocity.given && !names.empty() && ties == 0) return names_html(names) + " <small>rates</small>";
+  if (rates && !names.empty() && ties == 0) return names_html(names) + " <small>rates</small>";
   if (ties == 0) return names_html(names);
   return fmt::format("{} <small>tied by {} equation{}</small>", names_html(names), ties, ties == 1 ? "" : "s");
 }

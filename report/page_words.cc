@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "corank/report/drawn_boxes.h"
+#include "corank/result/assembled.h"
 #include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/number_text.h"
@@ -293,6 +294,11 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
     words.finding = "None";
     const char* const none = given_velocity_equation && set.given_none ? set.given_none : set.none;
     words.proven.emplace_back(result.options.corank == 1 ? none : symbolic::definition(std::nullopt).none);
+    for (std::string sentence : result::assembly_sentences(result)) {
+      sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+      (result::assembled(result) && sentence.starts_with("The robot") ? words.proven : words.unproven)
+          .push_back(sentence + ".");
+    }
     return words;
   }
   if (std::string meaning = result::locus_sentence(result); !meaning.empty()) {

@@ -57,11 +57,13 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
                                      kept_rank(view.avoid), view.avoid == Avoid::both ? "" : "s"));
   if (const std::string bounds = bounds_of(mechanism, view.system); !bounds.empty())
     words.proven.push_back(fmt::format("It keeps to {}.", bounds));
-  if (const double radius = tube.radius(); radius > 0)
-    words.proven.push_back(
-        fmt::format("All of that holds about it, too: for every configuration of which no variable, a length or the sine or "
-                    "cosine of an angle, differs by more than {} from a point of the path.",
-                    number(radius, 3)));
+  if (const double radius = tube.radius(); radius > 0) {
+    const std::optional<double> length = analyze::length_size(view.system, tube);
+    words.proven.push_back(fmt::format(
+        "All of that holds about it, too: for every configuration of which no sine or cosine of an angle differs by "
+        "more than {} from a point of the path{}.",
+        number(radius, 3), length ? ", and no length by more than " + number(radius * *length, 3) : ""));
+  }
   if (view.radius_asked > tube.radius())
     words.unproven.push_back(fmt::format("The radius {} that was asked for.", number(view.radius_asked, 3)));
   words.unproven.push_back(

@@ -31,9 +31,15 @@ struct PortraitOptions {
 /// True for the names that write_portrait knows: .svg, .pdf, .png.
 bool is_portrait_format(const std::filesystem::path& path);
 
+/// False where corank was built without Cairo, which draws .pdf and .png.
+bool can_write_pdf();
+
+/// Throws ResultFileError, which says what is missing, for a .pdf or .png where can_write_pdf() is false.
+void check_can_draw(const std::filesystem::path& path);
+
 /// Writes the picture in the format that the name ends in. Lengths on both axes have one scale, and so have angles. Throws
 /// std::invalid_argument where the format is unknown, the width is out of range, there are not two axes, or there is no box
-/// and no range; ResultFileError where the file cannot be written.
+/// and no range; ResultFileError where the file cannot be written, as check_can_draw() does.
 void write_portrait(const std::filesystem::path& path, const Picture& picture, const PortraitOptions& options);
 
 /// Small multiples: each picture as member-1.svg …, with its title and the same axes as the others, and all side by side as

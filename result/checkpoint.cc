@@ -14,6 +14,7 @@
 
 #include "corank/result/output_file.h"
 #include "corank/result/printable.h"
+#include "corank/symbolic/text_file.h"
 
 namespace corank::result {
 namespace {
@@ -180,8 +181,7 @@ std::string checkpoint_bytes(const std::string& version, const Checkpoint& check
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& version) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) refuse(path, "cannot read this: there is no such file");
+  if (const std::string fault = symbolic::reading_fault(path); !fault.empty()) refuse(path, "cannot read this: " + fault);
   std::string bytes;
   {
     std::ifstream in(path, std::ios::binary);

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "corank/result/cuik_sol.h"
+#include "corank/symbolic/text_file.h"
 
 namespace corank::result {
 namespace {
@@ -186,16 +185,11 @@ CuikFileError::CuikFileError(const std::string& file, int line, const std::strin
     : ResultFileError(file + ":" + std::to_string(line) + ": " + problem + "; expected " + expectation), line_(line) {}
 
 std::string read_cuik_text(const std::filesystem::path& path, const std::string& extension) {
-  const auto fail = [&](const std::string& problem) {
-    throw ResultFileError(path.string() + ": " + problem + "; expected a " + extension + " file");
-  };
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) fail("there is no such file");
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (!in || std::filesystem::is_directory(path, ignored) || (in.peek() != EOF && !(text << in.rdbuf())))
-    fail("cannot be read");
-  return std::move(text).str();
+  try {
+    return symbolic::read_bytes(path);
+  } catch (const symbolic::ReadingError& error) {
+    throw ResultFileError(path.string() + ": " + error.what() + "; expected a " + extension + " file");
+  }
 }
 
 int SolFile::find(const std::string& name_or_number) const {

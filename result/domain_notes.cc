@@ -49,7 +49,8 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
   result.domain = {};
   if (!is_of(system, result)) return;
   for (const symbolic::Coordinate& c : mechanism.coordinates())
-    if (const int j = system.find(c.name); !c.has_range && j >= 0) result.domain.found.push_back(j);
+    if (!c.has_range)
+      if (const int j = system.find(c.name); j >= 0) result.domain.found.push_back(j);
 
   std::map<std::string, bool> ends;  // reached
   std::map<std::string, std::size_t> reasons;

@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "corank/result/guarded_process.h"
+#include "corank/core/guarded_process.h"
 
 namespace corank::result {
 

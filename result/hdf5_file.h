@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/result/guarded_process.h"
+#include "corank/core/guarded_process.h"
 #include "corank/result/hdf5_contents.h"
 #include "corank/result/plain_items.h"
 

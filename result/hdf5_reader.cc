@@ -6,6 +6,7 @@
 #include "corank/result/hdf5_contents.h"
 #include "corank/result/hdf5_file.h"
 #include "corank/result/printable.h"
+#include "corank/symbolic/text_file.h"
 
 namespace corank::result {
 namespace {
@@ -15,9 +16,9 @@ constexpr std::uint64_t kMemory = std::uint64_t{256} << 20;
 constexpr std::uint64_t kSeconds = 4, kBytesPerSecond = std::uint64_t{10} << 20;
 
 SharedBytes read_guarded(const std::string& path, Contents wanted) {
+  if (const std::string fault = symbolic::reading_fault(path); !fault.empty())
+    throw ResultFileError(printable_line(path) + ": cannot read this: " + fault);
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw ResultFileError(printable_line(path) + ": cannot read this: " + (error ? error.message() : "it is no file"));
   const std::uint64_t size = std::filesystem::file_size(path, error);
   if (error) throw ResultFileError(printable_line(path) + ": cannot read this: " + error.message());
   try {

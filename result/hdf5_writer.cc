@@ -118,6 +118,9 @@ void write_attribute(hid_t file, const std::string& path, const std::string& obj
 }  // namespace
 
 Hdf5Writer::Hdf5Writer(const std::string& path, int threads) : path_(path), threads_(threads) {
+  // At the end of the process HDF5 would write once more what a full disk has refused, and crash.
+  static const bool no_second_attempt = H5dont_atexit() >= 0;
+  static_cast<void>(no_second_attempt);
   const QuietErrors quiet;
   file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (file_ < 0) fail(path, "cannot create this file");

@@ -16,7 +16,7 @@
 namespace corank::result {
 namespace {
 
-constexpr std::int64_t kPathVersion = 1;
+constexpr std::int64_t kPathVersion = 2;
 constexpr std::int64_t kMostNodes = 10'000'000, kMostVariables = 100'000;
 
 void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<const Box*>& boxes, std::size_t n) {
@@ -71,6 +71,7 @@ void write_path(const std::filesystem::path& path, const PathFile& data) {
   write_boxes(file, "/nodes", boxes, n);
   write_boxes(file, "/pieces", pieces, n);
   file.doubles("/pieces/radius", data.tube.radii, data.tube.radii.size(), 0);
+  file.doubles("/sizes", data.tube.sizes, n, 0);
   file.close();
   target.finish();
 }
@@ -105,6 +106,7 @@ PathFile read_path(const std::filesystem::path& path) {
   }
   data.tube.pieces = read_boxes(file, "/pieces", nodes - 1, n);
   data.tube.radii = file.doubles("/pieces/radius", nodes - 1, 0);
+  data.tube.sizes = file.doubles("/sizes", n, 0);
   if (file.double_attribute("/", "radius") != data.tube.radius()) refuse("its radius is not the least of its pieces'");
   return data;
 }

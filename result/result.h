@@ -49,7 +49,7 @@ struct RunOptions {
   friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };
 
-/// What the ranges of the model's coordinates did to the search (report/domain_notes.h).
+/// What the ranges of the model's coordinates did to the search (result/domain_notes.h).
 struct DomainNotes {
   struct End {
     std::string coordinate;
@@ -79,6 +79,9 @@ struct RobotState {
   std::vector<LinkPose> links;
 };
 
+/// Relative: of decimals that somebody rounded.
+inline constexpr double kRounding = 1e-6;
+
 struct Result {
   std::string version = result::version();  ///< of the corank that made it
   std::string model;                        ///< the mechanism's name, "dextar"
@@ -95,6 +98,11 @@ struct Result {
   /// configuration's variables alone, and leaves what is proven of them to the parts (merge_parts).
   std::string part;
   std::vector<Result> parts;
+  /// Of an empty set of a robot: what was found out about its C-space (result/assembled.h), one result or none. Its boxes,
+  /// if any, are those about one configuration, or, where no such one was found, what the search had left.
+  std::vector<Result> assembly;
+  /// A hint, of an empty set: within kRounding of the coefficients that are no integers there are solutions.
+  bool nearly_solved = false;
   std::vector<std::string> outputs;  ///< of a workspace boundary: in whose space CoverBox::side is
   /// What ended the run early, and where: "the time limit, in the stage exact points"; empty where it ran to its end. A
   /// cover may be complete all the same: then less is proven of it than could be.

@@ -11,11 +11,13 @@
 #include "corank/result/cover_group.h"
 #include "corank/result/output_file.h"
 #include "corank/result/printable.h"
+#include "corank/symbolic/set_definition.h"
 
 namespace corank::result {
 namespace {
 
 constexpr const char* kFormat = "corank result";
+constexpr const char* kAssembly = "/assembly";
 constexpr int kFirstWithCertificates = 2;
 constexpr int kMostCorank = 1000;
 constexpr std::int64_t kMostParts = 1000;
@@ -171,7 +173,15 @@ class ResultReader {
   Result read() {
     reading_.free = reading_.free || file_.has_attribute("/", "parts");
     Result result = read_one(nullptr);
-    if (!file_.has_attribute("/", "parts") || reading_.sides) return result;
+    if (reading_.sides) return result;
+    if (file_.has_attribute("/", "nearly_solved")) result.nearly_solved = file_.integer_attribute("/", "nearly_solved") != 0;
+    if (file_.has_attribute("/", "assembly")) {
+      file_.enter(kAssembly);
+      result.assembly.push_back(read_one(&result));
+      result.assembly.back().set = symbolic::to_string(symbolic::SingularitySet::cspace);
+      file_.enter("");
+    }
+    if (!file_.has_attribute("/", "parts")) return result;
     const std::int64_t parts = file_.integer_attribute("/", "parts");
     if (parts < 1 || parts > kMostParts) refuse("the attribute parts is out of range");
     for (std::int64_t i = 0; i < parts; ++i) {
@@ -485,11 +495,17 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   file.attribute("/", "set", result.set);
   file.text("/model/text", result.model_text);
   write_own(file, result);
+  if (result.nearly_solved) file.attribute("/", "nearly_solved", std::int64_t{1});
+  if (!result.assembly.empty()) file.attribute("/", "assembly", std::int64_t{1});
   if (!result.parts.empty()) file.attribute("/", "parts", std::int64_t{static_cast<std::int64_t>(result.parts.size())});
   for (std::size_t i = 0; i < result.parts.size(); ++i) {
     file.enter("/parts/" + std::to_string(i));
     file.attribute("/", "part", result.parts[i].part);
     write_own(file, result.parts[i]);
+  }
+  if (!result.assembly.empty()) {
+    file.enter(kAssembly);
+    write_own(file, result.assembly.front());
   }
   if (!result.search.empty()) {
     file.enter("");

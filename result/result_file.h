@@ -7,7 +7,7 @@
 //   /boxes/types_proven, types_excluded (N bytes), likewise of /points: bits of the types of singularity, in the order
 //   of the attribute types of /boxes; attributes types_asked, types_of_set, types_left_out. Absent where none were asked for
 //   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes /certificates/…     what
-//   `corank verify` needs, see report/certificate_file.h
+//   `corank verify` needs, see result/certificate_file.h
 //   /parts/0, /parts/1 …   where the set consists of parts: each as the root, but for model and set, with the attribute
 //   part;
 //   the root's boxes are theirs, and /boxes/part says whose /outputs, /boxes/passage, /boxes/side   of a workspace boundary
@@ -29,7 +29,7 @@ namespace corank::result {
 /// sigma for all variables, kernel vectors of unscaled norm and no reasons.
 inline constexpr int kFormatVersion = 4;
 
-/// Throws ResultFileError where no file can be written at `path` (report/output_file.h): to be asked before a long
+/// Throws ResultFileError where no file can be written at `path` (result/output_file.h): to be asked before a long
 /// computation.
 void check_writable(const std::filesystem::path& path);
 
@@ -49,7 +49,7 @@ struct Reading {
   std::function<std::vector<int>(const Result&)> sides{};
 };
 Result read_result(const std::filesystem::path& path, const Reading& reading);
-/// The same from items in memory (report/plain_items.h); `name` is for messages.
+/// The same from items in memory (result/plain_items.h); `name` is for messages.
 Result read_result(const std::string& name, std::span<const std::byte> items);
 
 /// Writes a text in the same way. Throws ResultFileError.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "corank/certify/algebraic_number.h"
+#include "corank/result/assembled.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/exact_angle.h"
 #include "corank/result/locus_words.h"
@@ -267,6 +268,7 @@ std::string to_table(const Result& result) {
   if (cover.boxes.empty()) {
     text += fmt::format("\nnone: there is no solution in the search domain   ({} processed)\n", cover.statistics.processed);
     if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += meaning + "\n";
+    for (const std::string& sentence : assembly_sentences(result)) text += sentence + "\n";
     return text + seconds_text(cover);
   }
   text += fmt::format("\n  {:<10}  {:>10}\n", "verdict", "boxes");

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corank/certify/algebraic_number.h"
+#include "corank/result/assembled.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/exact_angle.h"
 #include "corank/result/locus_words.h"
@@ -71,6 +72,15 @@ Json parts_json(const Result& result) {
   return list;
 }
 
+Json sample_json(const Result& result) {
+  const std::optional<Sample> found = sample(result);
+  if (!found) return {};
+  Json json = Json::object();
+  for (const Value& v : values(*found->of, *found->box, found->of->configuration_size))
+    json[v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+  return json;
+}
+
 void add_state(Json& entry, const RobotState& state) {
   entry["joints"] = Json::object();
   for (const auto& joint : state.joints) entry["joints"][joint.joint] = joint.value;
@@ -106,6 +116,10 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
                      {"time_limit", result.options.time_limit},
                      {"constants", constants}};
   json["complete"] = cover.complete();
+  const std::optional<bool> can_be_assembled = assembled(result);
+  json["assembled"] = can_be_assembled ? Json(*can_be_assembled) : Json();
+  json["sample"] = sample_json(result);
+  json["nearly_solved"] = result.nearly_solved;
   json["stopped"] = result.stopped.empty() ? Json() : Json(result.stopped);
   json["boxes"]["processed"] = cover.statistics.processed;
   const auto counts = cover.counts();

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "corank/result/assembled.h"
 #include "corank/result/hdf5_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/summary.h"
@@ -259,7 +260,41 @@ Verification verify(const Result& result, const check::Options& options) {
   return verify(result, system_of(result), options);
 }
 
-Verification verify(const Result& result, const System& system, const check::Options& options) {
+namespace {
+
+// Of an empty set: the sample, or the search of C-space.
+void verify_assembly(const Result& result, const check::Options& options, Verification& verification) {
+  if (result.assembly.empty() || !verification.contradictions.empty()) return;
+  const Result& cspace = result.assembly.front();
+  if (!result.cover.boxes.empty() || !symbolic::definition(cspace.set).is_cspace()) {
+    verification.contradictions.emplace_back("what is said of C-space does not stand beside an empty set");
+    return;
+  }
+  const System system = system_of(model_of(result), cspace);
+  for (const std::string& c : contradictions(cspace, system, symbolic::to_cuik(system)))
+    verification.contradictions.push_back("(C-space) " + c);
+  if (!verification.contradictions.empty()) return;
+  check::Options whole = options;
+  whole.sample = 0;
+  const Report found = check::check(system, cspace.cover, whole);
+  const std::optional<bool> claimed = assembled(cspace);
+  if (found.verified() && claimed == std::optional(true)) verification.assembled = true;
+  if (found.complete() && claimed == std::optional(false)) {
+    verification.assembled = false;
+    // The set's configurations are among those of C-space, in the same ranges.
+    if (!verification.report.proof.present && verification.report.left_out == 0) verification.report.proof = found.proof;
+  }
+  for (Failure f : found.failures) {
+    f.reason = "(C-space) " + f.reason;
+    verification.report.failures.push_back(std::move(f));
+  }
+  if (found.interrupted && !verification.report.interrupted) {
+    verification.report.interrupted = true;
+    verification.report.stage = found.stage;
+  }
+}
+
+Verification verify_set(const Result& result, const System& system, const check::Options& options) {
   Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
   if (!result.parts.empty() || symbolic::definition(result.set).of_parts)
     return verify_parts(result, std::move(verification), options);
@@ -267,6 +302,22 @@ Verification verify(const Result& result, const System& system, const check::Opt
   if (!verification.contradictions.empty()) return verification;
   const auto blocks = blocks_of(result);
   verification.report = check::check(system, result.cover, options, blocks ? &*blocks : nullptr);
+  return verification;
+}
+
+// "the robot can be assembled: confirmed".
+std::string assembly_text(const Verification& verification, const Result& result) {
+  const std::optional<bool> claimed = assembled(result);
+  if (result.assembly.empty() || !claimed) return "";
+  return fmt::format("the robot {} within its ranges: {}\n", *claimed ? "can be assembled" : "cannot be assembled",
+                     verification.assembled == claimed ? "confirmed" : "NOT CONFIRMED");
+}
+
+}  // namespace
+
+Verification verify(const Result& result, const System& system, const check::Options& options) {
+  Verification verification = verify_set(result, system, options);
+  verify_assembly(result, options, verification);
   return verification;
 }
 
@@ -314,6 +365,7 @@ std::string to_table(const Verification& verification, const Result& result) {
     text += row(to_string(static_cast<Verdict>(v)), report.boxes[static_cast<std::size_t>(v)]);
   text += row("points", report.points) + row("exact points", report.exact_points);
   text += "\n" + completeness(report, result.cover.complete());
+  text += assembly_text(verification, result);
   if (!result.cover.decimals.empty()) text += "decimals: in their boxes, but not proven anew\n";
   for (std::size_t i = 0; i < std::min(report.failures.size(), kShownFailures); ++i) {
     const Failure& f = report.failures[i];
@@ -337,6 +389,7 @@ std::string to_json(const Verification& verification) {
     json["verdicts"][to_string(static_cast<Verdict>(v))] = to_json(report.boxes[static_cast<std::size_t>(v)]);
   json["points"] = to_json(report.points);
   json["exact_points"] = to_json(report.exact_points);
+  json["assembled"] = verification.assembled ? Json(*verification.assembled) : Json();
   const check::ProofTally& proof = report.proof;
   json["completeness"] = {{"proof", proof.present}, {"verified", proof.verified}, {"open", proof.open},
                           {"steps", proof.steps},   {"leaves", proof.leaves},     {"searched", proof.searched}};

@@ -15,6 +15,9 @@ struct Verification {
   /// Where the file contradicts the model that it holds: variables, domains, equations, options.
   std::vector<std::string> contradictions;
   check::Report report;  ///< of a result of parts: those of all parts
+  /// What assembled() says of an empty set and is confirmed: the sample, or that C-space is empty, which shows that the set
+  /// is, too. Nothing where nothing is said, or it is not confirmed.
+  std::optional<bool> assembled{};
 
   /// No contradiction, and every claim is confirmed.
   bool verified() const { return contradictions.empty() && report.verified(); }

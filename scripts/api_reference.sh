@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
 for program in doxygen sphinx-build; do
   command -v "$program" >/dev/null || { echo "$program is missing: apt-get install doxygen python3-sphinx" >&2; exit 1; }
 done
-build_release corank_python
+build_release "" corank_python
 api=$root/build/api
 rm -rf "$api"
 mkdir -p "$api"

@@ -1,8 +1,9 @@
 #!/bin/bash
 # README's two commands on a machine that has nothing yet: makes a Debian 12 root with debootstrap, clones the last commit into it, and runs
-# scripts/demo.sh and scripts/test.sh there; then makes the Debian packages and tries them on another such machine, which has nothing else.
+# scripts/demo.sh there, which installs the group [program] of packages.txt alone, tries what the program does without OMPL and Cairo, and
+# runs scripts/test.sh; then makes the Debian packages and tries them on another such machine, which has nothing else.
 # Part of the release routine (CONTRIBUTING.md); as root, some thirty minutes and 9 GB.
-#   scripts/bare_machine.sh [FOLDER]     default: a temporary one, removed at the end; a FOLDER that holds a root already is used as it is
+#   scripts/bare_machine.sh [--demo] [FOLDER]     --demo: ends before scripts/test.sh; default: a temporary one, removed at the end; a FOLDER that holds a root already is used as it is
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 mirror=${CORANK_DEBIAN_MIRROR:-http://deb.debian.org/debian}
@@ -15,6 +16,11 @@ for tool in debootstrap unshare git; do
   command -v "$tool" >/dev/null || { echo "$tool is missing: apt-get install debootstrap util-linux git" >&2; exit 1; }
 done
 
+demo_alone=false
+if [[ ${1:-} == --demo ]]; then
+  demo_alone=true
+  shift
+fi
 if [[ $# -gt 0 ]]; then
   bare=$(realpath -m "$1")
 else
@@ -43,10 +49,12 @@ on() { # root command: in its /home/corank
 
 make_root "$bare"
 clone_into "$bare"
-for command in scripts/demo.sh scripts/test.sh; do
-  echo "== $command on the bare machine"
-  on "$bare" "exec $command"
-done
+echo "== scripts/demo.sh on the bare machine"
+on "$bare" "time scripts/demo.sh"
+on "$bare" "exec scripts/program_smoke.sh"
+! $demo_alone || exit 0
+echo "== scripts/test.sh on the bare machine"
+on "$bare" "time scripts/test.sh"
 echo "== Both commands of the README pass on a bare machine"
 
 on "$bare" "apt-get install -qq -y lintian >/dev/null 2>&1; exec scripts/debian_packages.sh"

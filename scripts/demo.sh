@@ -1,13 +1,19 @@
 #!/bin/bash
-# The demonstration: builds corank and computes the singularities of the Dextar robot from its model file, with proofs.
+# The demonstration: builds corank and computes the singularities of the Dextar robot from its model file, with proofs; then
+# makes the report about them, and says where it is.
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
-build_release corank
+build_release program corank
 
-solve() {
+run() {
   echo
-  echo "== corank solve models/dextar.cuik $*"
-  (cd "$root" && "$build/app/corank" solve models/dextar.cuik "$@")
+  echo "== corank $*"
+  (cd "$root" && "$build/app/corank" "$@")
 }
-solve --set cspace --sigma 0.1 --threads 0
-solve --set forward --sigma 0.01 --threads 0
-solve --set inverse --sigma 0.01 --threads 0
+run solve models/dextar.cuik --set cspace --sigma 0.1 --threads 0
+run solve models/dextar.cuik --set forward --sigma 0.01 --threads 0
+run solve models/dextar.cuik --set inverse --sigma 0.01 --threads 0
+run report models/dextar.cuik --threads 0 -o build/dextar
+echo
+echo "== To look at, in a browser:"
+echo "   the report   file://$root/build/dextar/index.html"
+echo "   its picture  file://$root/build/dextar/figures/output-portrait.svg"

@@ -1,8 +1,17 @@
 #!/bin/bash
-# Installs the Debian packages of scripts/packages.txt that are missing; does nothing where there are none.
+# Installs the missing Debian packages of these groups of scripts/packages.txt; does nothing where all are installed.
+#   scripts/install_packages.sh [GROUP…]      default: all groups
 set -euo pipefail
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-mapfile -t packages < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$scripts/packages.txt")
+mapfile -t groups < <(sed -n 's/^\[\([a-z]*\)\]$/\1/p' "$scripts/packages.txt")
+for group in "$@"; do
+  [[ " ${groups[*]} " == *" $group "* ]] || { echo "$group: no group of packages; there are: ${groups[*]}" >&2; exit 2; }
+done
+[[ $# -eq 0 ]] || groups=("$@")
+mapfile -t packages < <(awk -v groups=" ${groups[*]} " '
+  {sub(/#.*/, ""); gsub(/[[:space:]]/, "")}
+  /^\[/ {wanted = index(groups, " " substr($0, 2, length($0) - 2) " "); next}
+  wanted && NF' "$scripts/packages.txt")
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "corank's scripts install Debian packages, and this is no Debian system. Install what corresponds to" >&2
@@ -37,3 +46,4 @@ trap 'rm -f "$log"' EXIT
 quietly() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }; }
 quietly apt-get update -q
 quietly apt-get install -q -y --no-install-recommends "${missing[@]}"
+echo "== Installed in $SECONDS s"

@@ -2,7 +2,7 @@
 # Makes doc/images/ anew: photographs of Dextar's report, of its family's page, of a path's page, and of the report of the tutorial on parts, in a headless
 # Chromium.
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
-build_release corank
+build_release "" corank
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$build/app/corank" report "$root/models/dextar.cuik" -o "$work"

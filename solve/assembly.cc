@@ -93,6 +93,10 @@ Cover assemble(const Prepared& prepared, const Problem& problem, const std::vect
   // A replay would have to find the self-motions again.
   const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial;
   if (prepared.options.proof && replayable) cover.proof = script_of(shards, first_pass, found);
+  // The reduced equations contradict each other: nothing was searched, and a checker sees it without help.
+  if (prepared.options.proof && !reduction.consistent && !reduction.tolerant)
+    cover.proof = std::make_shared<const Proof>(
+        Proof{{reduction.system.domain()}, {}, {static_cast<std::uint8_t>(Proof::Step::elsewhere)}, {}, {}});
   cover.self_motions = motions.records(reduction);
   if (std::any_of(found.begin(), found.end(), [](const Found* f) { return f->box.reason == Reason::degenerate_set; }))
     cover.observed_dimension = motions.observed_dimension();

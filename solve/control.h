@@ -117,7 +117,7 @@ class Control {
   friend class InStage;
   const Limits limits_;
   const double deadline_;
-  std::atomic<Stage> stage_{Stage::search};
+  std::atomic<Stage> stage_{Stage::model};
   int depth_ = 0;
   mutable std::atomic<bool> ended_{false};
   mutable std::atomic<double> ended_at_{0};

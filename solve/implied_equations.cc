@@ -229,11 +229,43 @@ class Finder {
     return true;
   }
 
+  struct Neighbours {
+    std::map<Product, int> equations;     // how many have a product of degree two
+    std::map<int, std::set<int>> beside;  // of each variable: those that stand in such products with it
+  };
+  Neighbours find_neighbours() const {
+    Neighbours found;
+    for (const auto& [equation, row] : equations_)
+      for (const auto& [p, c] : row) {
+        if (degree(p) != 2) continue;
+        ++found.equations[p];
+        const int a = p.front().first, b = p.back().first;
+        found.beside[a].insert(b);
+        found.beside[b].insert(a);
+      }
+    return found;
+  }
+
+  // All variables but such as leave a multiple that drop_lone() drops: where no other equation has its product ab, another
+  // multiple has abv only if some equation has av or bv.
+  const std::set<int>& multipliers(const Row& row, const Neighbours& neighbours) {
+    for (const auto& [p, c] : row) {
+      if (degree(p) != 2 || neighbours.equations.at(p) > 1) continue;
+      few_.clear();
+      for (const auto& [v, power] : p) few_.insert(neighbours.beside.at(v).begin(), neighbours.beside.at(v).end());
+      return few_;
+    }
+    return variables_;
+  }
+
   // False: nothing new.
   bool step() {
     std::vector<Multiple> multiples;
-    for (const auto& [equation, row] : equations_)
-      for (const int v : variables_) multiples.push_back(multiple_of(equation, row, {{v, 1}}));
+    const Neighbours neighbours = find_neighbours();
+    for (const auto& [equation, row] : equations_) {
+      if (is_over(ended_)) return false;
+      for (const int v : multipliers(row, neighbours)) multiples.push_back(multiple_of(equation, row, {{v, 1}}));
+    }
     drop_lone(multiples, 3);
     if (multiples.empty()) return false;
     for (const auto& [equation, row] : equations_) multiples.push_back(multiple_of(equation, row, {}));
@@ -347,7 +379,7 @@ class Finder {
   const int given_;
   std::vector<Equation> equations_;
   std::set<Row> known_;  // each made 1 in its first term
-  std::set<int> variables_;
+  std::set<int> variables_, few_;
   std::vector<ImpliedEquation> found_;
 };
 

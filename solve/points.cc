@@ -33,7 +33,8 @@ constexpr std::size_t kBetweenChecks = 64;
 }  // namespace
 
 void merge_isolated(std::vector<Found*>& found, const Ended& ended) {
-  std::vector<bool> remove(found.size(), false), unclear(found.size(), false);
+  std::vector<bool> remove(found.size(), false);
+  std::vector<Reason> unclear(found.size(), Reason::none);
   const auto absorb = [&](std::size_t i, std::size_t j) {  // box j's solutions, if it has any, are in box i
     remove[j] = true;
     found[i]->leaves.insert(found[i]->leaves.end(), found[j]->leaves.begin(), found[j]->leaves.end());
@@ -46,7 +47,7 @@ void merge_isolated(std::vector<Found*>& found, const Ended& ended) {
       switch (certify::compare_isolated(*found[i]->sheet, *found[j]->sheet)) {
         case certify::Identity::same: absorb(i, j); break;
         case certify::Identity::different: break;
-        case certify::Identity::unknown: unclear[i] = unclear[j] = true; break;
+        case certify::Identity::unknown: unclear[i] = unclear[j] = Reason::precision; break;
       }
     }
   };
@@ -57,7 +58,7 @@ void merge_isolated(std::vector<Found*>& found, const Ended& ended) {
   for (std::size_t k = 0; k < proven.size(); ++k) {
     over = over || (k % kBetweenChecks == 0 && is_over(ended));
     if (over) {  // nothing is known of the pairs of those that are left
-      unclear[proven[k]] = true;
+      unclear[proven[k]] = Reason::limit;
       continue;
     }
     close.clear();
@@ -68,8 +69,9 @@ void merge_isolated(std::vector<Found*>& found, const Ended& ended) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (remove[i]) continue;
-    if (unclear[i]) {
+    if (unclear[i] != Reason::none) {
       found[i]->box.verdict = Verdict::undecided;
+      found[i]->box.reason = unclear[i];
       found[i]->sheet = nullptr;
       found[i]->region = nullptr;
     }

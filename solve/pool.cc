@@ -209,7 +209,11 @@ bool Pool::cut(const std::vector<Shard*>& shards, std::size_t most) {
         }
         if (worker.shard.found.size() > most) return;
         const Shard::Mark before = worker.shard.mark();
-        sheets[i]->cut = worker.processor.cut(*sheets[i], t.whole);
+        if (t.whole && t.tally.overdue()) {
+          worker.processor.leave({sheets[i]->x, 0, sheets[i]->node});
+        } else {
+          sheets[i]->cut = worker.processor.cut(*sheets[i], t.whole);
+        }
         if (!sheets[i]->cut && !worker.finished) worker.finished = before;
       } else {
         worker.processor.leave(left[i - sheets.size()]);

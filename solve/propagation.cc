@@ -47,6 +47,7 @@ bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> 
 TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<Interval> domain) {
   const UpwardRounding rounding;
   const auto usable = [](double size) { return size > 0 && std::isfinite(size) ? size : 1; };
+  const std::vector<Interval> declared = domain;
   Propagator propagator;
   for (int run = 0; run < kDomainRuns; ++run) {
     const std::vector<Interval> before = domain;
@@ -60,10 +61,13 @@ TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<In
     if (!gained) break;
   }
   TypicalSizes sizes;
-  for (const Interval& side : domain) {
-    const double half = 0.5 * side.width();
-    const double least = 1e-12 * side.mag();  // narrower: one value, enclosed
-    sizes.variables.push_back(usable(half > least ? half : side.mag()));
+  constexpr double kOneValue = 1e-12;  // of a size: a narrower side is one value, enclosed
+  for (std::size_t j = 0; j < domain.size(); ++j) {
+    const Interval& side = domain[j];
+    const double half = 0.5 * side.width(), whole = declared[j].mag();
+    // A value at 0 has no size of its own: what is left of it is rounding.
+    const double value = side.mag() > kOneValue * whole || !std::isfinite(whole) ? side.mag() : whole;
+    sizes.variables.push_back(usable(half > kOneValue * value ? half : value));
   }
   std::vector<Interval> jacobian(static_cast<std::size_t>(system.entries()));
   system.jacobian(domain, jacobian);

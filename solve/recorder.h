@@ -1,4 +1,4 @@
-// Keeps the script of a search (certify/proof.h): each thread records what it does to its boxes, in the end the parts are
+// Keeps the script of a search (core/proof.h): each thread records what it does to its boxes, in the end the parts are
 // put together in preorder. It decides nothing and costs nothing where there is none.
 #pragma once
 

@@ -117,7 +117,7 @@ bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Bo
     const Location location = problem_.domain.locate_zeros(step, piece);
     if (location != Location::across) return location == Location::inside;
   }
-  if (depth == 0 || free.empty() || free.size() > kMostHalvedSides) return false;
+  if (depth == 0 || free.empty() || free.size() > kMostHalvedSides || problem_.ended()) return false;
   // Halves every free side: part number `index` takes the upper half of side f where bit f is set.
   for (unsigned index = 0; index < 1u << free.size(); ++index) {
     Box part = piece;

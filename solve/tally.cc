@@ -9,7 +9,10 @@
 namespace corank::solve {
 namespace {
 constexpr std::uint64_t kBoxesBetweenReports = 64;
-}
+// What a second makes a result of: of sheets, which become boxes first, and of boxes (bench/HISTORY.md, "What a limit
+// leaves to do").
+constexpr double kSheetBytesPerSecond = 100e6, kBoxBytesPerSecond = 400e6;
+}  // namespace
 
 Tally::Tally(const Prepared& prepared, Control& control, std::uint64_t most, Journal* journal)
     : options_(prepared.options),
@@ -34,8 +37,18 @@ void Tally::end(Limit by) {
   if (!ended_.exchange(true)) control_.note(by);
 }
 
+bool Tally::out_of_time() const {
+  return control_.limits().time > 0 && control_.seconds_left() < static_cast<double>(control_.kept()) /
+                                                                     (cutting_ ? kBoxBytesPerSecond : kSheetBytesPerSecond);
+}
+
 bool Tally::ended() {
   if (ended_.load(std::memory_order_relaxed)) return true;
+  if (out_of_time()) {
+    control_.note(Limit::time);
+    ended_ = true;
+    return true;
+  }
   if (cutting_) {
     const std::uint64_t most = control_.limits().memory;
     const bool full = most > 0 && control_.kept() + soon_found_ > static_cast<std::int64_t>(most);

@@ -43,6 +43,8 @@ class Tally {
   void keep_waiting(std::size_t boxes, std::int64_t& before);
 
   bool ended();
+  /// The run ended a while ago: what is found and not yet a box becomes one without any more work.
+  bool overdue() const { return control_.overdue(); }
   /// All threads are to stop between two boxes or sheets, until resume().
   bool pausing();
   void resume() { pausing_ = false; }
@@ -60,6 +62,8 @@ class Tally {
   void weigh(const Shard& shard, Counted& counted);
   void end(Limit by);
   void keep(std::int64_t bytes);
+  // Is there no more time than it takes to make a result of what is kept?
+  bool out_of_time() const;
 
   const Options& options_;
   Control& control_;

@@ -9,6 +9,7 @@
 #include "corank/solve/decimals.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/type_labels.h"
+#include "corank/study/assembly_search.h"
 #include "corank/study/robot_state.h"
 #include "corank/study/run_journal.h"
 #include "corank/study/search_steps.h"
@@ -22,6 +23,15 @@ namespace {
 std::string kernel_of(const Question& q) {
   if (!symbolic::definition(q.set).has_kernel()) return "";
   return to_string(symbolic::kernel_question(q.model, derive(q.model).velocity, *q.set, q.kernel).side);
+}
+
+result::Result answer_one(const Question& question, const System& system, const Options& options, solve::Control& control,
+                          RunJournal* journal) {
+  const Asked asked = prepare(question, system, options, control);
+  const solve::Prepared& prepared = asked.prepared;
+  Cover cover = journal ? solve::solve_on(prepared, control, journal, journal->next_search(prepared))
+                        : solve::solve(prepared, control);
+  return finish(question, system, options, asked, std::move(cover), control);
 }
 
 }  // namespace
@@ -98,17 +108,18 @@ result::Result answer(const std::vector<Question>& parts, const std::vector<Syst
   if (journal) journal->expect(parts.size());
   CORANK_CHECK(!parts.empty() && parts.size() == systems.size());
   std::vector<result::Result> results;
-  for (std::size_t i = 0; i < parts.size(); ++i) results.push_back(answer(parts[i], systems[i], options, control, journal));
-  return join(parts, std::move(results));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    results.push_back(answer_one(parts[i], systems[i], options, control, journal));
+  result::Result result = join(parts, std::move(results));
+  search_assembly(parts.front(), control, result);
+  return result;
 }
 
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control,
                       RunJournal* journal) {
-  const Asked asked = prepare(question, system, options, control);
-  const solve::Prepared& prepared = asked.prepared;
-  Cover cover = journal ? solve::solve_on(prepared, control, journal, journal->next_search(prepared))
-                        : solve::solve(prepared, control);
-  return finish(question, system, options, asked, std::move(cover), control);
+  result::Result result = answer_one(question, system, options, control, journal);
+  search_assembly(question, control, result);
+  return result;
 }
 
 std::optional<VelocityBlocks> type_blocks(const Question& q) {

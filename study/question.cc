@@ -1,12 +1,39 @@
 #include "corank/study/question.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "corank/core/check.h"
 #include "corank/solve/implied_equations.h"
+#include "corank/solve/propagation.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
 
 namespace corank::study {
+
+namespace {
+
+// The power of 1000 that is a unit for lengths of such a typical size: models in metres and in millimetres have the same
+// sizes but for that factor, and lengths from 0.1 to 100 count as they are.
+double unit_of(double length) {
+  constexpr double kLeast = 0.1;
+  return length > 0 ? std::pow(1000.0, std::floor(std::log10(length / kLeast) / 3)) : 1;
+}
+
+void settle_sizes(System& system) {
+  const std::vector<double> typical = solve::typical_sizes(certify::CompiledSystem(system), system.domain()).variables;
+  double length = 0;
+  for (std::size_t j = 0; j < typical.size(); ++j)
+    if (system.variables[j].kind == VariableKind::length) length = std::max(length, typical[j]);
+  for (std::size_t j = 0; j < typical.size(); ++j) {
+    Variable& v = system.variables[j];
+    if (v.kind == VariableKind::length) v.size = unit_of(length);
+    if (v.kind == VariableKind::auxiliary) v.size = unit_of(typical[j]);
+  }
+}
+
+}  // namespace
 
 std::vector<Question> parts_of(const Question& question) {
   if (!definition(question.set).of_parts) return {question};
@@ -44,6 +71,7 @@ System system(const Question& question, const symbolic::TrigonometricSystem& equ
                                  "since it only serves to shorten the search");
   }
   if (question.part) system.passage = symbolic::passage_form(question.model, *question.part, equations);
+  settle_sizes(system);
   system.coefficient_tolerance = question.tolerance.value_or(question.set ? 0 : solve::printed_tolerance(system));
   return system;
 }

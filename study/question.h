@@ -31,7 +31,8 @@ std::vector<Question> parts_of(const Question& question);
 /// question.part. Throws symbolic::ModelError.
 symbolic::TrigonometricSystem equations(const Question& question);
 
-/// The same as polynomials, the system that is solved. Throws symbolic::ModelError.
+/// The same as polynomials, the system that is solved, each variable with its
+/// typical size: 1 of sines, cosines and kernel vectors, the same of all lengths. Throws symbolic::ModelError.
 System system(const Question& question);
 System system(const Question& question, const symbolic::TrigonometricSystem& equations);
 

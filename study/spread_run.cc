@@ -6,6 +6,7 @@
 #include "corank/core/check.h"
 #include "corank/solve/engine_version.h"
 #include "corank/solve/shard_bytes.h"
+#include "corank/study/assembly_search.h"
 
 namespace corank::study {
 namespace {
@@ -69,6 +70,7 @@ void SpreadRun::keep_state(const result::Checkpoint& checkpoint) {
 result::Result SpreadRun::result() {
   CORANK_CHECK(finished() == searches());
   result::Result whole = join(parts_, std::exchange(results_, {}));
+  search_assembly(parts_.front(), control_, whole);
   whole.search = std::move(kept_);
   return whole;
 }

@@ -57,6 +57,11 @@ CORANK_EXPRESSION_ACTION(number_token, {
   b.expressions.number(decimal, expression_place(in, b));
   end_operand(in, b);
 })
+CORANK_EXPRESSION_ACTION(degrees_token, {
+  const std::string_view number = in.string_view().substr(0, in.size() - std::string_view("deg").size());
+  b.expressions.degrees(normal_decimal(number, place(in, b)), expression_place(in, b));
+  end_operand(in, b);
+})
 CORANK_EXPRESSION_ACTION(name_token, {
   b.name = in.string();
   b.name_where = place(in, b);

@@ -39,7 +39,7 @@ std::string function_names() {
   return result;
 }
 
-bool is_reserved(std::string_view name) { return name == "pi" || is_function_name(name); }
+bool is_reserved(std::string_view name) { return name == "pi" || name == "deg" || is_function_name(name); }
 
 std::string normal_decimal(std::string_view text, const SourceLocation& where) {
   std::string_view rest = text;

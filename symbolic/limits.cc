@@ -74,6 +74,12 @@ std::vector<Limit> effective_limits(const Mechanism& mechanism) {
   return result;
 }
 
+Mechanism limits_as_ranges(Mechanism mechanism) {
+  for (const Limit& limit : effective_limits(mechanism)) mechanism.set_range(limit.coordinate, limit.lower, limit.upper);
+  mechanism.clear_limits();
+  return mechanism;
+}
+
 void keep_limits(const Mechanism& mechanism, std::vector<Coordinate>& coordinates) {
   for (const Limit& limit : effective_limits(mechanism)) {
     Coordinate& c = coordinates[static_cast<std::size_t>(mechanism.find_coordinate(limit.coordinate))];

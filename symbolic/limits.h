@@ -12,6 +12,10 @@ namespace corank::symbolic {
 /// which would cut off a part of what the limit allows.
 std::vector<Limit> effective_limits(const Mechanism& mechanism);
 
+/// The mechanism with its limits as ranges, and without limits: the same configurations, of which no end is asked for, and
+/// whose ranges may be narrowed further.
+Mechanism limits_as_ranges(Mechanism mechanism);
+
 /// Narrows the ranges of the coordinates, those of a mechanism, to its limits.
 void keep_limits(const Mechanism& mechanism, std::vector<Coordinate>& coordinates);
 

@@ -140,6 +140,7 @@ class Mechanism {
   const std::vector<Constraint>& implied() const { return implied_; }
   const std::vector<std::string>& inputs() const { return inputs_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
+  void clear_limits() { limits_.clear(); }
   /// As declared; which of them are limits of a configuration, limits.h says.
   const std::vector<Limit>& limits() const { return limits_; }
   /// Both empty where L is the derivative of the constraints.

@@ -1,5 +1,7 @@
 #include "corank/symbolic/model_builder.h"
 
+#include "corank/symbolic/degrees.h"
+
 namespace corank::symbolic {
 namespace {
 
@@ -31,8 +33,12 @@ void ExpressionBuilder::number(std::string_view decimal, const SourceLocation& w
   operand(Expression::number(std::string(decimal), where));
 }
 
+void ExpressionBuilder::degrees(const std::string& decimal, const SourceLocation& where) {
+  operand(symbolic::degrees(decimal, where));
+}
+
 void ExpressionBuilder::symbol(const std::string& name, const SourceLocation& where) {
-  operand(Expression::symbol(name, where));
+  operand(name == "deg" ? symbolic::degrees("1", where) : Expression::symbol(name, where));
 }
 
 void ExpressionBuilder::open(Frame frame, const SourceLocation& where) {

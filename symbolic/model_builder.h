@@ -20,7 +20,8 @@ class ExpressionBuilder {
 
   void begin();
   void number(std::string_view decimal, const SourceLocation& where);
-  void symbol(const std::string& name, const SourceLocation& where);
+  void degrees(const std::string& decimal, const SourceLocation& where);
+  void symbol(const std::string& name, const SourceLocation& where);  ///< pi/180 where it is deg
   void open_group(const SourceLocation& where);
   void open_call(const std::string& function, const SourceLocation& name_where, const SourceLocation& where);
   void close_group();

@@ -1,13 +1,11 @@
 #include "corank/symbolic/model_file.h"
 
-#include <fstream>
-#include <iterator>
-
 #include "corank/symbolic/expression_actions.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/model_builder.h"
 #include "corank/symbolic/model_faults.h"
 #include "corank/symbolic/model_grammar.h"
+#include "corank/symbolic/text_file.h"
 
 namespace corank::symbolic {
 namespace {
@@ -147,19 +145,11 @@ Mechanism parse_fragment(std::string_view text, const std::string& file) {
 }
 
 std::string read_text(const std::filesystem::path& path) {
-  const SourceLocation where{path.string(), 0, 0};
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    throw ModelError(where, "there is no such file", "a model file");
-  if (std::filesystem::is_directory(status)) throw ModelError(where, "is a directory", "a model file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw ModelError(where, "the file cannot be opened", "a readable model file");
-  std::string text(kMaxFileBytes + 1, '\0');  // one byte more than may be: a parser refuses it
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw ModelError(where, "the file cannot be read", "a readable model file");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return text;
+  try {
+    return read_bytes(path, kMaxFileBytes + 1);  // one byte more than may be: a parser refuses it
+  } catch (const ReadingError& error) {
+    throw ModelError({path.string(), 0, 0}, error.what(), "a model file");
+  }
 }
 
 Mechanism read_model(const std::filesystem::path& path) { return parse_model(read_text(path), path.string()); }

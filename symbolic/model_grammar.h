@@ -36,7 +36,8 @@ template <typename Gap>
 struct terms;
 struct number_end : not_at<sor<name_tail, one<'.'>>> {};
 struct number_token : decimal {};
-struct number_operand : if_must<number_token, number_end> {};
+struct degrees_token : seq<decimal, string<'d', 'e', 'g'>, not_at<name_tail>> {};
+struct number_operand : sor<degrees_token, if_must<number_token, number_end>> {};
 struct group_close : one<')'> {};
 struct group_open : one<'('> {};
 struct group : if_must<group_open, gap, terms<gap>, gap, group_close> {};

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "corank/symbolic/line_breaks.h"
+
 namespace corank::symbolic {
 namespace {
 
@@ -22,17 +24,38 @@ std::string right_aligned(const std::string& text, std::size_t width) {
 
 std::string number_label(std::size_t i) { return "(" + std::to_string(i + 1) + ")"; }
 
+// Of a matrix too wide for a line: row by row the entries that are not 0, each behind its column.
+void print_entries(std::ostream& out, const ExpressionMatrix& matrix, std::size_t label) {
+  std::size_t column = 0;
+  for (const std::string& name : matrix.columns) column = std::max(column, name.size());
+  const std::size_t indent = 2 + label + 2 + column + 2;
+  for (std::size_t i = 0; i < matrix.rows.size(); ++i) {
+    std::string number = number_label(i);
+    for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
+      const std::string entry = matrix.rows[i][j].text();
+      if (entry == "0") continue;
+      out << "  " << padded(number, label) << "  " << padded(matrix.columns[j], column) << "  "
+          << broken(entry, indent, indent + 2) << "\n";
+      number.clear();
+    }
+    if (!number.empty()) out << "  " << padded(number, label) << "  0\n";
+  }
+}
+
 // A matrix with the coordinates, or the rates, above its columns and the equations' numbers before its rows.
 void print_matrix(std::ostream& out, const std::string& name, const ExpressionMatrix& matrix) {
   out << name << "   " << matrix.rows.size() << " x " << matrix.columns.size() << "\n";
   if (matrix.columns.empty()) return;
   const std::size_t label = number_label(matrix.rows.empty() ? 0 : matrix.rows.size() - 1).size();
   std::vector<std::size_t> widths;
+  std::size_t line = 2 + label;
   for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
     std::size_t width = matrix.columns[j].size();
     for (const auto& row : matrix.rows) width = std::max(width, row[j].text().size());
     widths.push_back(width);
+    line += 2 + width;
   }
+  if (line > kLineWidth) return print_entries(out, matrix, label);
   out << "  " << std::string(label, ' ');
   for (std::size_t j = 0; j < widths.size(); ++j) out << "  " << right_aligned(matrix.columns[j], widths[j]);
   out << "\n";
@@ -61,10 +84,11 @@ void print_numbered(std::ostream& out, const std::vector<std::pair<std::string, 
   const std::size_t label = number_label(first + std::max<std::size_t>(lines.size(), 1) - 1).size();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     out << "  " << padded(number_label(first + i), label) << "  ";
+    const std::string text = broken(lines[i].first, label + 4, label + 6);
     if (lines[i].second.empty()) {
-      out << lines[i].first << "\n";
+      out << text << "\n";
     } else {
-      out << padded(lines[i].first, width) << "   % " << lines[i].second << "\n";
+      out << padded(text, width) << "   % " << lines[i].second << "\n";
     }
   }
 }
@@ -216,7 +240,7 @@ std::string to_latex(const Derivation& derivation, const TrigonometricSystem& sy
   for (const auto& equation : system.equations) lines.push_back(latex(equation.relation, "&"));
   for (const auto& inequality : system.inequalities) lines.push_back(latex(inequality.relation, "&"));
   print_latex_lines(out, lines);
-  return out.str();
+  return broken_latex(out.str());
 }
 
 std::string to_cuik(const System& system) {

@@ -44,7 +44,7 @@ def portrait_axes(mechanism: "Mechanism", first: Sequence[str]) -> List[str]:
 
 
 def write_figures(folder: str, mechanism: "Mechanism", results: Sequence[Result]) -> List[str]:
-    """output-portrait and input-portrait, each as .svg and .pdf, into figures/; their names."""
+    """output-portrait and input-portrait, each as .svg and, where corank was built with Cairo, .pdf, into figures/; their names."""
     names: List[str] = []
     shown = [r._core for r in results if len(r)]
     os.makedirs(os.path.join(folder, "figures"), exist_ok=True)
@@ -52,7 +52,7 @@ def write_figures(folder: str, mechanism: "Mechanism", results: Sequence[Result]
         axes = portrait_axes(mechanism, first)
         if len(axes) < 2 or not shown:
             continue
-        for extension in (".svg", ".pdf"):
+        for extension in (".svg", ".pdf") if _corank.can_write_pdf() else (".svg",):
             names.append(f"figures/{name}{extension}")
             _corank.write_portrait(os.path.join(folder, names[-1]), shown, axes, "set", "", 85)
     return names

@@ -30,9 +30,10 @@ class Path:
     Attributes:
         status: "path", "separated" (proven: the ends lie in different pieces) or "unknown". True in a condition: a path.
         waypoints: of a path, values by coordinate, the first and the last at the ends.
-        radius: every configuration within so much of the way, in lengths and in sines and cosines of angles, is proven to be
-            none of the singularities avoided; None without a path. radii: of the piece after each waypoint.
-        length: of the waypoints' polyline, lengths and radians alike. reason: what separates the ends, or why nothing is known.
+        radius: every configuration of which no sine or cosine of an angle differs by more from a point of the way, and no
+            length by more than length_radius, is proven to be none of the singularities avoided; None without a path, and
+            length_radius where there are no lengths. radii: of the piece after each waypoint, of sines and cosines.
+        length: of the waypoints' polyline, angles in radians, lengths in units of their typical size. reason: what separates the ends, or why nothing is known.
         data: the JSON object, as the command line's --json prints it; str() is its table.
     """
 
@@ -53,6 +54,7 @@ class Path:
         self.status: str = self.data["status"]
         self.waypoints: List[Dict[str, float]] = self.data["waypoints"]
         self.radius: Optional[float] = self.data["radius"]
+        self.length_radius: Optional[float] = self.data["length_radius"]
         self.radii: List[float] = self.data.get("radii") or []
         self.length: Optional[float] = self.data["length"]
         self.reason: Optional[str] = self.data["reason"]

@@ -232,6 +232,25 @@ class Result:
         return self._core.stopped or None
 
     @property
+    def assembled(self) -> Optional[bool]:
+        """Can the robot be assembled within its ranges at all? True: a configuration is proven to exist (`sample`). False: it
+        is proven that there is none, so that every set is empty. None: neither is known, or it is a plain system."""
+        return self._core.assembled
+
+    @property
+    def sample(self) -> Optional[Dict[str, Interval]]:
+        """A configuration that is proven to exist, as intervals by coordinate, angles in radians; None where none is known.
+        It was looked for where the set itself is empty; else it is in the first of the set's proven boxes."""
+        found = self._core.sample
+        return None if found is None else {name: Interval(lo, hi) for name, lo, hi in found}
+
+    @property
+    def nearly_solved(self) -> bool:
+        """A hint, of an empty set: are there solutions once the coefficients that are no integers are taken within 1e-6 of
+        their size? Then `tolerance=1e-6` finds what decimals mean that somebody rounded."""
+        return self._core.nearly_solved
+
+    @property
     def sigma(self) -> Sigma:
         """The largest edge of a box of proven solutions."""
         return Sigma(*self._core.sigma)

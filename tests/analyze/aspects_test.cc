@@ -37,6 +37,20 @@ TEST(Aspects, OfTheThreeSlidersAreArcs) {
   EXPECT_EQ(a.working_modes.at_least, 4);
 }
 
+TEST(Aspects, DoNotDependOnTheUnitOfLength) {
+  for (const std::string unit : {"1/1000", "1", "100", "1000000"}) {
+    auto model = study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik").mechanism;
+    model.set_constant("l", symbolic::Expression("9/10*" + unit));
+    model.set_constant("d", symbolic::Expression("59/50*" + unit));
+    const Aspects a = of(std::move(model));
+    ASSERT_TRUE(a.aspects.exact() && a.assembly_modes.exact() && a.working_modes.exact()) << unit;
+    EXPECT_EQ(a.aspects.at_least, 10) << unit;
+    EXPECT_EQ(a.assembly_modes.at_least, 2) << unit;
+    EXPECT_EQ(a.working_modes.at_least, 4) << unit;
+    EXPECT_NEAR(static_cast<double>(a.aspects.cells), 3380, 100) << unit;
+  }
+}
+
 // C-space is two closed curves where the linkage is of Grashof's kind, else one. A crank has no dead points: the other
 // link's four (two on each curve) divide the curves.
 TEST(Aspects, OfFourBarsAreThoseOfTheirGrashofType) {

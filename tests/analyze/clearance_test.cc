@@ -250,6 +250,31 @@ TEST(Clearance, OfOneModeIsNoSmaller) {
   EXPECT_GE(std::cos(value(of_mode, "theta2") - 3), std::cos(1) - 1e-9);
 }
 
+// The same balls with limits of the angles and without: inside them nothing changes. Radius and limit are both said.
+TEST(Clearance, AcceptsCoordinatesWithLimitsAndSaysWhereItMeetsThem) {
+  const BallOptions ball{.at = {{"theta2", "2"}, {"theta5", "1"}}, .in = {"theta2", "theta5"}};
+  const Clearance limited = of(model("dextar_limits.cuik"), ball);
+  expect_close(limited);
+  EXPECT_NEAR(limited.ball.room, 1, 1e-12) << "theta5 is in [0, pi]";
+  EXPECT_EQ(limited.ball.end, "the lower limit of theta5");
+  EXPECT_NEAR(*limited.nearest.upper, *of(model("dextar.cuik"), ball).nearest.upper, 0.01);
+  EXPECT_EQ(limited.free_radius(), limited.nearest.lower);
+  EXPECT_NE(to_table(limited).find("at the radius 1 the ball meets the lower limit of theta5"), std::string::npos);
+}
+
+// The centre is at the end of a range: what lies beyond was not searched, and no ball about it is claimed.
+TEST(Clearance, ClaimsNoBallLargerThanWhatWasSearched) {
+  const Clearance c = of(model("dextar.cuik"),
+                         {.at = {{"J3x", "0.5"}, {"J3y", "1"}}, .in = {"J3x", "J3y"}, .ranges = {{"J3y", "1", "1.5"}}});
+  EXPECT_EQ(c.free_radius(), 0);
+  EXPECT_GT(c.nearest.lower, 0);
+  const std::string text = to_table(c), second = text.substr(text.find('\n') + 1);
+  EXPECT_TRUE(
+      second.starts_with("radius 0: there the ball meets the lower end of the range given for J3y; no singularity in it"))
+      << text;
+  EXPECT_NE(to_json(c).find("\"ball\": 0"), std::string::npos);
+}
+
 TEST(Clearance, RefusesACentreWithoutAConfiguration) {
   EXPECT_THROW(of(model("dextar.cuik"), {.at = {{"J3x", "-1.5"}, {"J3y", "0"}}, .in = {"J3x", "J3y"}}),
                symbolic::ModelError);

@@ -49,6 +49,7 @@ TEST(PathFile, IsReadAsItWasWritten) {
   EXPECT_EQ(read.avoid, sample().avoid);
   EXPECT_EQ(read.tube.pieces, sample().tube.pieces);
   EXPECT_EQ(read.tube.radii, sample().tube.radii);
+  EXPECT_EQ(read.tube.sizes, sample().tube.sizes);
   ASSERT_EQ(read.tube.nodes.size(), sample().tube.nodes.size());
   EXPECT_EQ(read.tube.nodes.back().rows, sample().tube.nodes.back().rows);
   EXPECT_EQ(read.tube.nodes.back().values, sample().tube.nodes.back().values);
@@ -80,6 +81,12 @@ TEST(PathFile, ThatSomebodyChangedIsRefused) {
        },
        "piece 1"},
       {"a larger radius is claimed", [](auto& f) { f.tube.radii[0] = 1; }, "a singularity is not excluded"},
+      {"a radius counts for more of a length",
+       [](auto& f) {
+         for (double& size : f.tube.sizes) size *= 100;
+       },
+       "about it"},
+      {"a size is none", [](auto& f) { f.tube.sizes[0] = 0; }, "a variable's size"},
       {"a radius is infinite", [](auto& f) { f.tube.radii[0] = HUGE_VAL; }, "no length"},
       {"a radius is negative", [](auto& f) { f.tube.radii[0] = -1; }, "no length"},
       {"a piece is removed",

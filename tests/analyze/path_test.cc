@@ -46,8 +46,8 @@ bool samples_agree(const PathSpace& space, const Tube& tube, int samples) {
   const auto n = static_cast<Eigen::Index>(space.size());
   const auto d = static_cast<Eigen::Index>(tube.nodes.front().values.size());
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Eigen::VectorXd x(n);
-  for (Eigen::Index j = 0; j < n; ++j) x(j) = tube.nodes.front().box[static_cast<std::size_t>(j)].mid();
+  Eigen::VectorXd x = space.middle(tube.nodes.front().box);
+  const Eigen::Map<const Eigen::VectorXd> sizes(space.sizes().data(), n);
   const std::vector<int> signs = space.state(x).signs;
   const int each = samples / static_cast<int>(tube.pieces.size()) + 1;
   for (std::size_t k = 0; k < tube.pieces.size(); ++k) {
@@ -56,7 +56,7 @@ bool samples_agree(const PathSpace& space, const Tube& tube, int samples) {
     const Eigen::Map<const Eigen::VectorXd> c_a(a.values.data(), d), c_b(b.values.data(), d);
     for (int s = 1; s <= each; ++s) {
       const double t = static_cast<double>(s) / each;
-      const Eigen::MatrixXd rows = (1 - t) * rows_a + t * rows_b;
+      const Eigen::MatrixXd rows = ((1 - t) * rows_a + t * rows_b) * sizes.asDiagonal();
       const Eigen::VectorXd c = (1 - t) * c_a + t * c_b;
       double change = 1;
       for (int step = 0; step < 20 && change > 1e-13; ++step) {
@@ -71,13 +71,13 @@ bool samples_agree(const PathSpace& space, const Tube& tube, int samples) {
       if (!(change < 1e-9)) return false;
       for (Eigen::Index j = 0; j < n; ++j) {
         const Interval& side = tube.pieces[k][static_cast<std::size_t>(j)];
-        if (x(j) < side.lo() - 1e-12 || x(j) > side.hi() + 1e-12) return false;
+        const double value = sizes(j) * x(j), room = 1e-12 * sizes(j);
+        if (value < side.lo() - room || value > side.hi() + room) return false;
       }
       const PathSpace::State state = space.state(x);
       if (state.signs != signs || !state.inside || !(state.margin > 0)) return false;
     }
-    for (Eigen::Index j = 0; j < n; ++j)
-      if (std::fabs(x(j) - b.box[static_cast<std::size_t>(j)].mid()) > 1e-9) return false;
+    if ((x - space.middle(b.box)).lpNorm<Eigen::Infinity>() > 1e-9) return false;
   }
   return true;
 }
@@ -254,8 +254,38 @@ TEST(Path, HasTheRadiusThatIsAskedForWherePossible) {
     const Path path = finder.find(from, to, control);
     return path.tube ? path.tube->radius() : 0;
   };
-  EXPECT_GE(radius(0.15), 0.15);
+  EXPECT_GE(radius(0.08), 0.08);
   EXPECT_GT(radius(10), 0);  // nowhere, and there is a path all the same
+}
+
+// A path is found and proven in each unit; the size by which radii count for lengths scales.
+TEST(Path, DoesNotDependOnTheUnitOfLength) {
+  double pieces = 0, radius = 0, length = 0;
+  for (const std::string unit : {"1", "1/1000", "1000"}) {
+    study::Question question = model_of("dextar");
+    question.model.set_constant("l", symbolic::Expression("9/10*" + unit));
+    question.model.set_constant("d", symbolic::Expression("59/50*" + unit));
+    solve::Control control;
+    PathFinder finder(question, {});
+    const Box from = finder.end(values({{"J3x", "1/2*" + unit}, {"J3y", unit}}), 1, "--from", control),
+              to = finder.end(values({{"J3x", "7/10*" + unit}, {"J3y", unit}}), 3, "--to", control);
+    const Path path = finder.find(from, to, control);
+    if (unit == "1") {
+      ASSERT_EQ(path.status, Path::Status::path);
+      pieces = static_cast<double>(path.tube->pieces.size());
+      radius = path.tube->radius();
+      length = length_size(finder.system(), *path.tube).value();
+      continue;
+    }
+    ASSERT_EQ(path.status, Path::Status::path) << unit;
+    if (unit == "1/1000") {  // in large units the way found may be another one
+      EXPECT_NEAR(static_cast<double>(path.tube->pieces.size()), pieces, 0.2 * pieces);
+      EXPECT_NEAR(path.tube->radius(), radius, 0.3 * radius);
+    }
+    const double factor = unit == "1/1000" ? 1e-3 : std::stod(unit);
+    EXPECT_NEAR(length_size(finder.system(), *path.tube).value(), length * factor, 1e-9 * length * factor) << unit;
+    EXPECT_TRUE(check::check_tube(finder.system(), finder.matrices(), *path.tube).verified()) << unit;
+  }
 }
 
 TEST(Path, IsShownAsJson) {

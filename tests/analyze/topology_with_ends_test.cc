@@ -97,6 +97,39 @@ TEST(TopologyWithEnds, OfThreeDimensions) {
   EXPECT_EQ(ring.euler_characteristic, 0) << ring.reason;
 }
 
+std::string with_limits(std::string text, const std::string& end) {
+  for (std::size_t at = 0; (at = text.find("END", at)) != std::string::npos;) text.replace(at, 3, end);
+  return text;
+}
+
+// A limit that ends where an angle's sine is 0, at π or −π, is like one that ends just before: of a curve, of surfaces, one
+// of them with corners there, and of three dimensions.
+TEST(TopologyWithEnds, OfALimitAtAStraightAngle) {
+  const std::string bars =
+      "[SYSTEM VARS]\nt1 ~ [-pi, pi]\nt2 ~ [-pi, pi]\nt3 ~ [-pi, pi]\nt4 ~ [-pi, pi]\n[SYSTEM EQS]\n"
+      "1*cos(t1)+1.5*cos(t2)=2+1.4*cos(t4)+1.3*cos(t3);\n1*sin(t1)+1.5*sin(t2)=1.4*sin(t4)+1.3*sin(t3);\n[LIMITS]\n";
+  const std::string curve =
+      "[SYSTEM VARS]\nt1 ~ [-pi, pi]\nt2 ~ [-pi, pi]\n[SYSTEM EQS]\ncos(t1)+1.5*cos(t2)=0;\n[LIMITS]\n";
+  const std::string product = "[SYSTEM VARS]\nt ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\nz : [-2, 2]\n[SYSTEM EQS]\n";
+  struct Known {
+    std::string text;
+    int euler, components;
+    std::optional<int> boundary;
+  };
+  for (const Known& k :
+       {Known{curve + "t1 : [1, END]\n", 2, 2, {}}, Known{curve + "t1 : [-END, -1]\n", 2, 2, {}},
+        Known{bars + "t1 : [2, 3]\nt4 : [1, END]\n", 1, 1, 1}, Known{bars + "t1 : [-3, -2]\nt4 : [-END, -1]\n", 1, 1, 1},
+        Known{product + "x^2+y^2+z^2=1;\n[LIMITS]\nt : [1, END]\n", 2, 1, {}}})
+    for (const char* end : {"pi", "(pi-1/1000)"}) {
+      SCOPED_TRACE(with_limits(k.text, end));
+      const Topology t = of_text(with_limits(k.text, end));
+      EXPECT_TRUE(t.with_ends) << t.reason;
+      EXPECT_EQ(t.euler_characteristic, k.euler);
+      EXPECT_EQ(t.components.at_least, k.components);
+      EXPECT_EQ(t.boundary, k.boundary);
+    }
+}
+
 // No manifold with corners: an end that touches the sphere, one that passes through a corner, one that is there twice, one
 // that is tangent to an edge.
 TEST(TopologyWithEnds, SaysNothingOfWhatIsNoManifoldWithCorners) {

@@ -71,6 +71,15 @@ TEST(Clearance, KeepsBoundsThatHoldWhereALimitEndsIt) {
   EXPECT_LE(c["radius"]["lo"].get<double>(), 0.1595);
 }
 
+TEST(Clearance, MapsNoRegionOfOneValue) {
+  const TemporaryFolder folder;
+  for (const char* region : {"J3x=[0,0],J3y=[0,0]", "J3x=[0,1],J3y=[1,1]", "J3x=[0,1],J3y=[5,6]", "J3x=[0,1],J3y=[1,0]"}) {
+    const Outcome outcome = run_corank({"clearance", model("dextar"), "--map", region, "-o", folder.file("map.svg")});
+    EXPECT_EQ(outcome.status, 1) << region << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("region")) << region;
+  }
+}
+
 TEST(Clearance, SaysWhatItExpects) {
   const struct {
     std::vector<std::string> args;

@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "corank/tests/app/program.h"
 
@@ -45,6 +48,37 @@ TEST(Derive, PutsOverriddenConstantsIn) {
   const Outcome l2 = run_corank({"derive", model("three_slider"), "--format", "cuik"});
   EXPECT_EQ(l1.status, 0) << l1.err;
   EXPECT_NE(l1.out, l2.out);
+}
+
+// Terms are shorter than a line; what is longer is a comment behind one.
+TEST(Derive, BreaksLongLinesAndReadsThemBack) {
+  const TemporaryFolder folder;
+  const auto longest = [](const std::string& text) {
+    std::istringstream lines(text);
+    std::size_t width = 0;
+    for (std::string line; std::getline(lines, line);) width = std::max(width, line.substr(0, line.find('%')).size());
+    return width;
+  };
+  for (const char* name : {"platforms/delta", "platforms/3upu"}) {
+    std::map<std::string, std::string> texts;
+    for (const std::string format : {"text", "latex", "cuik", "model"}) {
+      texts[format] = run_corank({"derive", model(name), "--format", format}).out;
+      EXPECT_LE(longest(texts[format]), 104u) << name << ", " << format;
+    }
+    for (const std::string format : {"cuik", "model"}) {
+      const std::string again =
+          run_corank({"derive", folder.write("again.cuik", texts[format]), "--format", "cuik", "--set", "cspace"}).out;
+      const std::string plain = run_corank({"derive", folder.write("again.cuik", texts[format]), "--format", "cuik"}).out;
+      const auto formulas = [](const std::string& text) {
+        std::istringstream lines(text);
+        std::string all;
+        for (std::string line; std::getline(lines, line);) all += line.substr(0, line.find('%'));
+        std::erase_if(all, [](char c) { return c == ' '; });
+        return all;
+      };
+      EXPECT_EQ(formulas(format == "cuik" ? plain : again), formulas(texts["cuik"])) << name << ", " << format;
+    }
+  }
 }
 
 TEST(Derive, WritesAPolynomialFileThatSolvesToTheSameResult) {

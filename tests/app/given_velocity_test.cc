@@ -112,5 +112,13 @@ TEST_F(GivenVelocity, IsReportedWithItsRatesAndNoOthersArrows) {
   EXPECT_THAT(page, HasSubstr("\"columns\":[]")) << "the drawing says no velocities in these rates";
 }
 
+// Where the model names coordinates as inputs and outputs, as robots from parts do, the page names these.
+TEST(GivenVelocityWithInputs, IsReportedByItsCoordinates) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("sliders.cuik", read_text(model("three_slider")) + test::kRodRates);
+  ASSERT_EQ(run_corank({"report", file, "-o", folder.file("out")}).status, 0);
+  EXPECT_THAT(read_text(folder.file("out") + "/index.html"), Not(HasSubstr("<small>rates</small>")));
+}
+
 }  // namespace
 }  // namespace corank::app

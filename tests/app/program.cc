@@ -14,11 +14,11 @@
 namespace corank::app {
 namespace {
 
-[[noreturn]] void execute(const std::vector<std::string>& args) {
-  std::vector<char*> argv{const_cast<char*>(CORANK_PROGRAM)};
+[[noreturn]] void execute(const char* program, const std::vector<std::string>& args) {
+  std::vector<char*> argv{const_cast<char*>(program)};
   for (const std::string& a : args) argv.push_back(const_cast<char*>(a.c_str()));
   argv.push_back(nullptr);
-  execv(CORANK_PROGRAM, argv.data());
+  execv(program, argv.data());
   _exit(127);
 }
 
@@ -36,27 +36,34 @@ int wait_for_end(pid_t child) {
   return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-int run(const std::vector<std::string>& args, const std::filesystem::path& out, const std::filesystem::path& err) {
+int run(const char* program, const std::vector<std::string>& args, const std::filesystem::path& out,
+        const std::filesystem::path& err) {
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {
     redirect(STDOUT_FILENO, out);
     redirect(STDERR_FILENO, err);
-    execute(args);
+    execute(program, args);
   }
   return wait_for_end(child);
 }
 
-}  // namespace
-
-Outcome run_corank(const std::vector<std::string>& args) {
+Outcome run(const char* program, const std::vector<std::string>& args) {
   const TemporaryFolder folder;
   const std::string out = folder.file("out"), err = folder.file("err");
-  const int status = run(args, out, err);
+  const int status = run(program, args, out, err);
   return {status, read_text(out), read_text(err)};
 }
 
-int run_corank_into(const std::string& file, const std::vector<std::string>& args) { return run(args, file, "/dev/null"); }
+}  // namespace
+
+Outcome run_corank(const std::vector<std::string>& args) { return run(CORANK_PROGRAM, args); }
+
+Outcome run_corank_without_options(const std::vector<std::string>& args) { return run(CORANK_WITHOUT_OPTIONS, args); }
+
+int run_corank_into(const std::string& file, const std::vector<std::string>& args) {
+  return run(CORANK_PROGRAM, args, file, "/dev/null");
+}
 
 CorankOnTerminal::CorankOnTerminal(const std::vector<std::string>& args) {
   std::string pattern = (std::filesystem::temp_directory_path() / "corank-out-XXXXXX").string();
@@ -69,7 +76,7 @@ CorankOnTerminal::CorankOnTerminal(const std::vector<std::string>& args) {
   if (child_ < 0) throw std::runtime_error("forkpty failed");
   if (child_ == 0) {
     redirect(STDOUT_FILENO, out_);
-    execute(args);
+    execute(CORANK_PROGRAM, args);
   }
 }
 

@@ -17,7 +17,10 @@ struct Outcome {
 /// Runs `corank ARGS` to its end; standard error is no terminal.
 Outcome run_corank(const std::vector<std::string>& args);
 
-/// The same with standard output sent to a file of the system, such as /dev/full.
+/// The same by a program that was linked without OMPL and Cairo.
+Outcome run_corank_without_options(const std::vector<std::string>& args);
+
+/// run_corank with standard output sent to a file of the system, such as /dev/full.
 int run_corank_into(const std::string& file, const std::vector<std::string>& args);
 
 /// `corank ARGS` with standard error on a terminal of its own.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -228,6 +229,35 @@ TEST(Solve, TakesTheDecimalsOfAnOverDeterminedSystemWithinTheToleranceAskedFor) 
   EXPECT_EQ(result.options.tolerance, 1e-4);
   EXPECT_EQ(result.cover.tolerance, 1e-4 * kPartialTolerance);
   EXPECT_EQ(result.cover.count(Verdict::partial), 1u);
+}
+
+TEST(Solve, ProposesAToleranceWhereRoundedDecimalsContradictEachOther) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_corank({"solve", folder.write("rounded.cuik", kRounded), "--tolerance", "0"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("--tolerance 1e-06"));
+  EXPECT_THAT(outcome.err, HasSubstr("warning: within 1e-06 of its coefficients"));
+}
+
+TEST(Solve, TellsARobotThatCannotBeAssembledFromOneWithoutSingularities) {
+  const std::string four_bar = model("planar/four_bar_crank_rocker");
+  const Outcome apart = run_corank({"solve", four_bar, "--set", "forward", "-D", "d=15"});
+  EXPECT_EQ(apart.status, 5);
+  EXPECT_THAT(apart.out, HasSubstr("the robot cannot be assembled within its ranges: proven"));
+  EXPECT_THAT(apart.err, HasSubstr("warning: the robot cannot be assembled"));
+  const Outcome free = run_corank({"solve", four_bar, "--set", "forward", "--json"});
+  EXPECT_EQ(free.status, 0);
+  EXPECT_EQ(free.err, "");
+  const json summary = json::parse(free.out);
+  EXPECT_EQ(summary["assembled"], true);
+  // Theta and psi in the sample close the loop: the coupler has its length.
+  const auto middle = [&](const char* name) {
+    const json& x = summary["sample"][name];
+    return (x["lo"].get<double>() + x["hi"].get<double>()) / 2;
+  };
+  const double theta = middle("theta"), psi = middle("psi");
+  EXPECT_NEAR(std::hypot(5 + 3 * std::cos(psi) - 2 * std::cos(theta), 3 * std::sin(psi) - 2 * std::sin(theta)), 4.5, 1e-6);
+  EXPECT_EQ(json::parse(run_corank({"solve", four_bar, "--set", "cspace", "-D", "d=15", "--json"}).out)["assembled"], false);
 }
 
 TEST(Solve, TakesTheLengthsOfAMechanismWithinTheToleranceAskedFor) {

@@ -1,8 +1,11 @@
 // The command line: help, version, usage errors (exit 2) and bad input (exit 1), each said in one line on standard error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "corank/result/result.h"
 #include "corank/tests/app/program.h"
@@ -148,6 +151,87 @@ TEST(BadInput, IsRefusedWithStatus1AndOneLine) {
 
 TEST(BadInput, IsAFullDiskAtStandardOutput) {
   EXPECT_EQ(run_corank_into("/dev/full", {"derive", model("three_slider")}), 1);
+}
+
+TEST(Usage, AnOutputWithoutANameIsRefused) {
+  const std::vector<std::vector<std::string>> commands{{"solve", model("three_slider"), "--set", "forward"},
+                                                       {"topology", model("dextar")},
+                                                       {"report", model("three_slider")}};
+  for (std::vector<std::string> words : commands) {
+    words.insert(words.end(), {"-o", ""});
+    const Outcome run = run_corank(words);
+    EXPECT_EQ(run.status, 2) << words[0];
+    EXPECT_NE(run.err.find("-o: no name given; expected the name of a file"), std::string::npos) << run.err;
+  }
+}
+
+TEST(Usage, NotANumberIsNoWidth) {
+  for (const std::string option : {"--width", "--dpi", "--size"}) {
+    const Outcome run = run_corank({"plot", "none.h5", "--axes", "x,y", "-o", "x.svg", option, "nan"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find(option + ": nan given; expected a number"), std::string::npos) << run.err;
+  }
+}
+
+// A pipe waits for its writer, and a device has no end: neither is opened.
+TEST(BadInput, IsReadFromNoPipeAndNoDevice) {
+  const TemporaryFolder folder;
+  const std::string slider = model("three_slider");
+  for (const char* end : {".cuik", ".h5", ".sol", ".param", ".urdf", ".world", ".loops"})
+    ASSERT_EQ(mkfifo(folder.file(std::string("pipe") + end).c_str(), 0600), 0);
+  const auto pipe = [&](const char* end) { return folder.file(std::string("pipe") + end); };
+  std::vector<std::vector<std::string>> all{
+      {"solve", slider, "--set", "forward", "--param", pipe(".param")},
+      {"solve", "--resume", pipe(".h5")},
+      {"solve", "--refine", pipe(".h5"), "--sigma", "0.1", "-o", folder.file("finer.h5")},
+      {"derive", CORANK_SOURCE_DIR "/tests/data/urdf/five_bar.urdf", "--loops", pipe(".loops")},
+      {"report", "--results", pipe(".h5")},
+      {"plot", pipe(".h5"), "--axes", "x,y", "-o", folder.file("x.svg")},
+      {"plot", pipe(".sol"), "--axes", "x,y", "-o", folder.file("x.svg")},
+      {"plot", "/dev/zero", "--axes", "x,y", "-o", folder.file("x.svg")},
+      {"angles", pipe(".sol"), "1", "2", folder.file("x.sol")},
+      {"angles", "/dev/zero", "1", "2", folder.file("x.sol")},
+      {"verify", pipe(".h5")},
+      {"verify", "/dev/zero"},
+      {"derive", pipe(".urdf")},
+      {"derive", pipe(".world")},
+      {"derive", "/dev/zero"},
+      {"derive", pipe(".cuik")},
+      {"sweep", pipe(".cuik"), "-D", "L2=0.5:1:2"},
+      {"path", pipe(".cuik"), "--from", "x=0", "--to", "x=1"},
+      {"clearance", pipe(".cuik"), "--at", "x=0", "--in", "x"},
+      {"map", pipe(".cuik"), "--over", "x=0:1", "--over", "y=0:1"}};
+  for (const char* command : {"solve", "topology", "aspects", "report"}) all.push_back({command, pipe(".cuik")});
+  for (const std::vector<std::string>& args : all) {
+    SCOPED_TRACE(testing::PrintToString(args));
+    const Outcome outcome = run_corank(args);
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("is no regular file"));
+    expect_one_line(outcome);
+  }
+}
+
+// A limit of file size refuses what a full disk would.
+TEST(Usage, AFullDiskIsSaidAndLeavesNoBrokenResult) {
+  const TemporaryFolder folder;
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  for (const rlim_t size : {4096, 16384}) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"solve", model("dextar"), "--set", "forward"},
+                                                  {"topology", model("dextar")},
+                                                  {"report", model("three_slider")}}) {
+      std::vector<std::string> all = words;
+      all.insert(all.end(), {"-o", folder.file(words[0] == "report" ? "page" : "x.h5")});
+      const rlimit limit{size, before.rlim_max};
+      ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+      const Outcome run = run_corank(all);
+      ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+      EXPECT_EQ(run.status, 1) << words[0] << ": " << run.err;
+      EXPECT_NE(run.err.find("cannot"), std::string::npos) << run.err;
+      for (const auto& left : std::filesystem::recursive_directory_iterator(folder.file("")))
+        EXPECT_TRUE(left.path().extension() != ".part" && left.path().extension() != ".h5") << left.path();
+    }
+  }
 }
 
 }  // namespace

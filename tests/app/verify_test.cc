@@ -1,4 +1,4 @@
-// corank verify: what it prints and returns. What the checker accepts and rejects is for tests/certify/checker to say.
+// corank verify: what it prints and returns. What the checker accepts and rejects is for tests/check to say.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -38,6 +38,29 @@ TEST(Watch, GivesUpWorkThatDoesNotEndAndNamesItsStage) {
   EXPECT_EQ(given_up.get_future().get(), "reading the file");
 }
 
+// Pieces of work that end, one after the other, are left alone, and so is a program that does none of that kind.
+TEST(Watch, GivesUpOnePieceOfDeafWorkThatGoesOn) {
+  std::atomic<bool> interrupt = true, given_up = false;
+  std::atomic<int> asked = 0;
+  std::atomic<Watch::Work> stuck = 0;
+  std::promise<void> enough, over;
+  Watch watch(
+      0, interrupt,
+      [&](const std::string&) {
+        if (!given_up.exchange(true)) over.set_value();
+      },
+      Watch::Duration(1e-3),
+      [&]() -> Watch::Work {
+        const int n = ++asked;
+        if (n == 8) enough.set_value();
+        return stuck != 0 ? stuck.load() : n % 2 == 0 ? 0 : static_cast<Watch::Work>(n);
+      });
+  enough.get_future().wait();
+  EXPECT_FALSE(given_up);
+  stuck = 1000;
+  over.get_future().wait();
+}
+
 TEST(Watch, LeavesWorkAloneThatEndsInTime) {
   Watch watch(
       0, kNever, [](const std::string&) { ADD_FAILURE() << "it has ended"; }, Watch::Duration(0));

@@ -55,7 +55,8 @@ const std::vector<LibraryRule>& library_rules() {
                   "(mpfr|mpfi|gmp|eigen)|^(arb|acb|arf|mag|arblib)"),
        {"core", "certify", kChecker},
        true},
-      {std::regex("^flint/|^coin/"), {"solve"}, true},  // guesses, no proofs
+      {std::regex("^flint/"), {"symbolic", "solve"}, true},  // exact algebra; in solve/ guesses, no proofs
+      {std::regex("^coin/"), {"solve"}, true},
       {std::regex("^hdf5|^H5"), {"result"}, true},
       {std::regex("^cairo"), {"report"}, true},
       {std::regex("^zlib"), {"report", "result"}, true},

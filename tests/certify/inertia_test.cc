@@ -116,7 +116,9 @@ TEST(KernelBasis, HoldsThatOfEachMatrix) {
     const Eigen::MatrixXd middle = planter.matrix(m, n), other = middle + radius * planter.matrix(m, n);
     std::vector<int> dependent;
     for (int j = 0; j < m; ++j) dependent.push_back(n - 1 - j);
-    const auto basis = kernel_basis(about(middle, radius), dependent);
+    std::vector<double> sizes;  // any
+    for (int j = 0; j < n && k % 3 != 0; ++j) sizes.push_back(std::pow(10.0, planter.number(-3, 6)));
+    const auto basis = kernel_basis(about(middle, radius), dependent, sizes);
     if (!basis) continue;
     ++found;
     Eigen::MatrixXd a_d(m, m);
@@ -129,7 +131,32 @@ TEST(KernelBasis, HoldsThatOfEachMatrix) {
         EXPECT_TRUE(side.lo() - room <= v(i, f) && v(i, f) <= side.hi() + room) << v(i, f);
       }
   }
-  EXPECT_GT(found, 200);
+  EXPECT_GT(found, 150);
+}
+
+// With sizes in the same unit the entries are as wide, in that unit, as without.
+TEST(KernelBasis, DoesNotDependOnUnits) {
+  Planter planter(6);
+  const UpwardRounding rounding;
+  for (int k = 0; k < 100; ++k) {
+    const int m = planter.number(1, 3), n = m + planter.number(1, 3);
+    const Eigen::MatrixXd middle = planter.matrix(m, n);
+    std::vector<int> dependent;
+    std::vector<double> sizes;
+    for (int j = 0; j < m; ++j) dependent.push_back(j);
+    for (int j = 0; j < n; ++j) sizes.push_back(std::ldexp(1.0, planter.number(-20, 20)));
+    IntervalMatrix here = about(middle, 0.01), there = here;
+    for (int i = 0; i < m; ++i)
+      for (int j = 0; j < n; ++j) there(i, j) = here(i, j) * Interval(1 / sizes[static_cast<std::size_t>(j)]);
+    const auto plain = kernel_basis(here, dependent), scaled = kernel_basis(there, dependent, sizes);
+    ASSERT_EQ(plain.has_value(), scaled.has_value());
+    if (!plain) continue;
+    for (int f = 0; f < n - m; ++f)
+      for (int i = 0; i < m; ++i) {
+        const double unit = sizes[static_cast<std::size_t>(i)] / sizes[static_cast<std::size_t>(m + f)];
+        EXPECT_NEAR((*scaled)(i, f).width(), (*plain)(i, f).width() * unit, 1e-9 * unit * (1 + (*plain)(i, f).mag()));
+      }
+  }
 }
 
 }  // namespace

@@ -64,11 +64,13 @@ TEST_F(TubeOnACircle, HasNoPieceBetweenOppositePoints) {
 
 TEST_F(TubeOnACircle, IsFreeAsFarAsTheMatrixHasItsRankAndTheDomainReaches) {
   const Box box{Interval(0.75, 0.8), Interval(0.6, 0.65)};
-  EXPECT_TRUE(prover_->is_free(box, 0.24));
-  EXPECT_FALSE(prover_->is_free(box, 0.26)) << "y reaches 0.9";
+  EXPECT_TRUE(prover_->is_free(box, 0.24, {1, 1}));
+  EXPECT_FALSE(prover_->is_free(box, 0.26, {1, 1})) << "y reaches 0.9";
   const Box lower{Interval(0.25, 0.3), Interval(-0.97, -0.95)};
-  EXPECT_TRUE(prover_->is_free(lower, 0.24));
-  EXPECT_FALSE(prover_->is_free(lower, 0.25)) << "x reaches 0";
+  EXPECT_TRUE(prover_->is_free(lower, 0.24, {1, 1}));
+  EXPECT_FALSE(prover_->is_free(lower, 0.25, {1, 1})) << "x reaches 0";
+  EXPECT_TRUE(prover_->is_free(lower, 0.024, {10, 1}));
+  EXPECT_FALSE(prover_->is_free(lower, 0.025, {10, 1}));
 }
 
 TEST_F(TubeOnACircle, IsJoinedToPointsOfTheSamePieceAlone) {

@@ -23,6 +23,7 @@ class TubeCheckOnACircle : public ::testing::Test {
     tube_.nodes = {node(0), node(0.2), node(0.4)};
     tube_.pieces = {piece(0, 0.2), piece(0.2, 0.4)};
     tube_.radii = {0.1, 0.1};
+    tube_.sizes = {1, 1};
   }
   static Interval about(double x, double r) { return {x - r, x + r}; }
   static TubeNode node(double angle) {
@@ -105,6 +106,16 @@ TEST_F(TubeCheckOnACircle, RefusesAnInequalityThatDoesNotHold) {
   EXPECT_THAT(problem(), HasSubstr("an inequality"));
 }
 
+// In y the radius reaches as far as its size says.
+TEST_F(TubeCheckOnACircle, TakesTheRadiusTimesTheSizeOfEachVariable) {
+  const double room = 0.9 - std::sin(0.4) - 0.02;  // to the end of the domain, for the piece's y
+  tube_.radii = {0, room / 8};
+  tube_.sizes = {1e-3, 8 - 1e-6};
+  EXPECT_EQ(problem(), "");
+  tube_.sizes[1] = 8 + 1e-6;
+  EXPECT_THAT(problem(), HasSubstr("a range"));
+}
+
 // A row of zeros, such as ties leave, asks for no rank.
 TEST_F(TubeCheckOnACircle, AsksForNoMoreRankThanThereAreRows) {
   matrix_ = {2, 2, {}};
@@ -127,6 +138,10 @@ TEST_F(TubeCheckOnACircle, RefusesWhatHasNotTheSizes) {
   refused("no length");
   tube_.radii[0] = HUGE_VAL;
   refused("no length");
+  tube_.sizes.pop_back();
+  refused("one size for each variable");
+  tube_.sizes[1] = 0;
+  refused("a variable's size");
   tube_.nodes[0].values.push_back(0);
   refused("a node");
   tube_.nodes[0].rows.pop_back();

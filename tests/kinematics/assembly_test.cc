@@ -236,6 +236,69 @@ TEST(Assembly, LocksAJointByARangeOfOneValue) {
   EXPECT_EQ(a.mobility_by_rank, 1) << "the locked joint counts as free";
 }
 
+// The prismatic joint carries the direction of its link: the tree reaches the actuated Jd with both directions known.
+// Its angle gets an equation of its own.
+TEST(Assembly, AnActuatedJointBetweenKnownDirectionsHasItsAngle) {
+  const Assembly a = of(R"([LINKS]
+b0
+b1
+b2
+b3
+b4
+[JOINTS]
+revolute Ja : b0 (0, 0, 0) + (0, 0, 1)  b1 (0, 0, 0) + (0, 0, 1) actuated
+revolute Jb : b1 (1, 0, 0) + (0, 0, 1)  b2 (0, 0, 0) + (0, 0, 1)
+prismatic Jc : b2 (0, 0, 0) + (0, 1, 0)  b3 (0, 0, 0) + (0, 1, 0) range [-4, 4]
+revolute Jd : b3 (0, 2, 0) + (0, 0, 1)  b4 (0, 0, 0) + (0, 0, 1) actuated
+revolute Je : b4 (1, 0, 0) + (0, 0, 1)  b0 (-3, 1/2, 0) + (0, 0, 1)
+)");
+  EXPECT_EQ(a.mobility, 2);
+  EXPECT_EQ(a.mobility_by_rank, 2);
+}
+
+// A rod from a point of the axis about which its other end turns says nothing, in space as in the plane; so does one whose
+// end lies on two axes.
+constexpr const char* kIdleRod =
+    "[LINKS]\nbase : point A (1, 2, 0)\ncrank\narm\n[JOINTS]\n"
+    "revolute drive : base A + (-2, 1, 3)  crank (0, 0, 0) + (0, 0, 1)  actuated\n"
+    "revolute swing : base (0, 0, 0) + (3, -1, 1)  arm (0, 0, 0) + (0, 0, 1)\n"
+    "sph_sph  r1 : crank (1, 0, 0)  arm (1, 1, 1)  length 4\n";
+
+TEST(Assembly, LeavesOutARodWhoseEndIsOnTheAxisOfTheOther) {
+  const Assembly without = of(kIdleRod);
+  EXPECT_EQ(without.mobility, 1);
+  for (const char* rod : {"base A  crank (1, 1, 1)  length sqrt(3)", "crank (0, 3, 4)  base (1, 2, 0)  length 5"}) {
+    SCOPED_TRACE(rod);
+    const Assembly a = of(std::string(kIdleRod) + "sph_sph r2 : " + rod + "\n");
+    EXPECT_EQ(equations(a), equations(without));
+    EXPECT_EQ(a.mobility_by_joints, 1);
+    EXPECT_EQ(a.mechanism.velocity_equations().size(), without.mechanism.velocity_equations().size());
+    EXPECT_GT(a.mechanism.drawing().parts.size(), without.mechanism.drawing().parts.size()) << "it is drawn";
+  }
+  EXPECT_THAT(fault(std::string(kIdleRod) + "sph_sph r2 : base A  crank (1, 1, 1)  length 2\n"),
+              HasSubstr("the rod 'r2' has the length 2.000000, but the joints keep its ends at the distance 1.732051"));
+}
+
+TEST(Assembly, HoldsARodThatIsBesideTheAxis) {
+  const std::string text = std::string(kIdleRod) + "sph_sph r2 : base (1, 2, 1)  crank (1, 1, 1)  length 2\n";
+  EXPECT_EQ(of(text).mobility, 0);
+}
+
+TEST(Assembly, RefusesAnOutputsComponentThatCannotMove) {
+  std::string text = kFourBar;
+  text.erase(text.find("t : joint t2"));
+  EXPECT_THAT(fault(text + "p : position of coupler (1, 0, 1/2) only x z\n"),
+              HasSubstr("r.cuik:17:1: the component z of the output 'p' cannot move: it is always 0.5"));
+  EXPECT_THAT(fault(text + "p : position of coupler (1, 0, 1/2) range z [1, 2]\n"), HasSubstr("the component z"));
+  EXPECT_EQ(of(text + "p : position of coupler (1, 0, 1/2) only x\n").mechanism.outputs().size(), 1u);
+  EXPECT_EQ(of(text + "p : position of coupler (1, 0, 1/2)\n").mechanism.outputs().size(), 2u) << "what moves of all";
+  const std::string arm =
+      "[LINKS]\nbase\na\nb\n[JOINTS]\nrevolute j1 : base (0, 0, 0) + (0, 0, 1)  a (0, 0, 0) + (0, 0, 1) actuated\n"
+      "revolute j2 : a (1, 0, 0) + (1, 0, 0)  b (0, 0, 0) + (1, 0, 0)\n[OUTPUTS]\n";
+  EXPECT_THAT(fault(arm + "p : position of a (1, 0, 2) only x z\n"), HasSubstr("the component z of the output 'p'"));
+  EXPECT_EQ(of(arm + "p : position of a (1, 0, 2)\n").space, Space::spatial);
+}
+
 // Twelve numbers of a pose and a joint's value, at a configuration that is known.
 TEST(Assembly, SaysWhereLinksAre) {
   const Assembly a = of(kFourBar);

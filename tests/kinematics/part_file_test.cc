@@ -56,6 +56,15 @@ w    : direction of fore (1, 0, 0)
 t    : joint wrist
 )";
 
+TEST(PartFile, AnglesMayBeInDegrees) {
+  const Robot robot = parse(
+      "[CONSTANTS]\ndeg := PI/180\ntilt := 30*deg\n[LINKS]\na\nb\n[JOINTS]\n"
+      "revolute t : a (0,0,0)+(0,0,1) b (0,0,0)+(0,0,1) limits [-tilt, 22.5deg]\n");
+  ASSERT_EQ(robot.constants.size(), 1u);
+  EXPECT_EQ(robot.constants[0].value.text(), "30*(pi/180)");
+  EXPECT_EQ(robot.joints[0].ranges[0]->upper.text(), "pi/8");
+}
+
 TEST(PartFile, ReadsNamedPointsAndJointsInputsAndOutputs) {
   const Robot robot = parse(kArm);
   EXPECT_EQ(robot.unit, "mm");

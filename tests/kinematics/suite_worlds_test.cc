@@ -99,6 +99,7 @@ int mobility(const Robot& robot) {
   for (const Joint& joint : robot.joints) {
     switch (joint.kind) {
       case JointKind::revolute:
+      case JointKind::parallelogram:
       case JointKind::prismatic: result -= 5; break;
       case JointKind::cylindrical:
       case JointKind::universal: result -= 4; break;

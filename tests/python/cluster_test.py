@@ -19,6 +19,7 @@ pytest.importorskip("distributed", reason="no package distributed: clusters are 
 psutil = pytest.importorskip("psutil")
 
 from corank import cluster  # noqa: E402
+from corank.cluster.units import Units  # noqa: E402
 
 SIGMA = 0.04
 QUICK = cluster.Plan(unit_seconds=0.02)
@@ -42,19 +43,23 @@ def expect_same(one, other):
         assert np.array_equal(array, other._core.boxes()[name]), name
 
 
-class AtUnit:
-    """A progress function that does something once, as soon as some units are done while others are under way."""
+@pytest.fixture
+def while_units_wait(monkeypatch):
+    """A function that has something done once, as soon as that many units have been given out and are not yet answered."""
+    happened = []
 
-    def __init__(self, action, units=1):
-        self.action = action
-        self.units = units
-        self.done = False
+    def arrange(action, number=2):
+        def submit(units, given, seconds):
+            plain(units, given, seconds)
+            if not happened and len(units) >= number:
+                happened.append(True)
+                action()
 
-    def __call__(self, stage, share, text):
-        numbers = [int(word) for word in text.split() if word.isdigit()]  # done, under way
-        if not self.done and len(numbers) == 2 and numbers[0] >= self.units and numbers[1] > 0:
-            self.done = True
-            self.action()
+        plain = Units.submit
+        monkeypatch.setattr(Units, "submit", submit)
+        return happened
+
+    return arrange
 
 
 def test_two_workers_make_the_boxes_of_one_process(client, dextar, models):
@@ -91,22 +96,22 @@ def test_what_has_no_solution_is_done_at_once(client):
     assert one.complete and other.complete and len(one) == len(other) == 0
 
 
-def test_a_killed_worker_costs_nothing_but_time(client, dextar, cspace):
+def test_a_killed_worker_costs_nothing_but_time(client, dextar, cspace, while_units_wait):
     victim = next(iter(client.run(os.getpid).values()))
-    kill = AtUnit(lambda: os.kill(victim, signal.SIGKILL))
-    run = cluster.solve(dextar, client, "cspace", sigma=SIGMA, plan=QUICK, progress=kill)
-    assert kill.done
+    killed = while_units_wait(lambda: os.kill(victim, signal.SIGKILL))
+    run = cluster.solve(dextar, client, "cspace", sigma=SIGMA, plan=QUICK)
+    assert killed
     expect_same(cspace, run)
 
 
-def test_what_a_worker_that_hangs_holds_is_done_by_another(client, dextar, cspace):
+def test_what_a_worker_that_hangs_holds_is_done_by_another(client, dextar, cspace, while_units_wait):
     client.wait_for_workers(2)
     victim = next(iter(client.run(os.getpid).values()))
-    hang = AtUnit(lambda: os.kill(victim, signal.SIGSTOP))
+    hung = while_units_wait(lambda: os.kill(victim, signal.SIGSTOP))
     try:
         plan = cluster.Plan(unit_seconds=0.02, hang_seconds=0.5)
-        run = cluster.solve(dextar, client, "cspace", sigma=SIGMA, plan=plan, progress=hang)
-        assert hang.done
+        run = cluster.solve(dextar, client, "cspace", sigma=SIGMA, plan=plan)
+        assert hung
         assert psutil.Process(victim).status() == psutil.STATUS_STOPPED
     finally:
         os.kill(victim, signal.SIGCONT)
@@ -126,7 +131,7 @@ def test_a_unit_that_is_answered_twice_counts_once(dextar, cspace):
     expect_same(cspace, corank.Result(run.result()))
 
 
-def test_another_version_is_refused_by_name_before_work_begins(client, dextar):
+def test_another_version_is_refused_by_name_before_work_begins(client, dextar, while_units_wait):
     client.wait_for_workers(2)
     other = next(iter(client.run(os.getpid)))
 
@@ -137,14 +142,14 @@ def test_another_version_is_refused_by_name_before_work_begins(client, dextar):
         return former
 
     own = client.run(pretend, "0.0.9 (search other)", workers=[other])[other]
-    never = AtUnit(None, units=0)
+    given_out = while_units_wait(lambda: None, number=1)
     try:
         with pytest.raises(cluster.ClusterError) as refused:
-            dextar.solve("cspace", sigma=0.2, client=client, progress=never)
+            dextar.solve("cspace", sigma=0.2, client=client)
     finally:
         client.run(pretend, own, workers=[other])
     assert f"{other}: corank 0.0.9 (search other)" in str(refused.value) and own in str(refused.value)
-    assert not never.done
+    assert not given_out
 
 
 def test_everything_listens_on_loopback_only(client):

@@ -209,3 +209,16 @@ def test_a_notebook_shows_the_verdicts(forward, points):
     assert "-4/5" in points._repr_html_()
     frame = forward.show(height=321)._repr_html_()
     assert frame.startswith("<iframe srcdoc=") and 'height="321"' in frame and "&lt;script" in frame
+
+
+def test_an_empty_set_says_whether_the_robot_can_be_assembled():
+    text = (
+        "[SYSTEM VARS]\ntheta ~ [-pi, pi]\nphi ~ [-pi, pi]\npsi ~ [-pi, pi]\n[SYSTEM EQS]\n"
+        "2*cos(theta) + 4.5*cos(phi) - 3*cos(psi) - {0} = 0;\n2*sin(theta) + 4.5*sin(phi) - 3*sin(psi) = 0;\n"
+        "[INPUTS] theta\n[OUTPUTS] psi\n"
+    )
+    free = corank.parse(text.format(5)).solve("forward")
+    assert len(free) == 0 and free.assembled is True and not free.nearly_solved
+    assert set(free.sample) == {"theta", "phi", "psi"}
+    apart = corank.parse(text.format(15)).solve("forward")
+    assert apart.assembled is False and apart.sample is None

@@ -211,7 +211,7 @@ TEST_F(Stranger, CannotNameMoreCoordinatesThanVariables) {
 
 TEST_F(Stranger, IsNotWaitedForBehindAPipe) {
   ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
-  EXPECT_THAT(refusal(), HasSubstr("it is no file"));
+  EXPECT_THAT(refusal(), HasSubstr("is no regular file"));
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 // Work in a child process: its results come back, its end by whatever means does not end this one.
-#include "corank/result/guarded_process.h"
+#include "corank/core/guarded_process.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -51,6 +52,19 @@ TEST(GuardedProcess, HandsBackTheTextOfAnException) {
               throw std::runtime_error("no such item");
             }),
             "no such item");
+}
+
+TEST(GuardedProcess, EndsWhenItIsToldTo) {
+  int asked = 0;
+  const auto work = [](ByteSink&) {
+    for (;;) pause();
+  };
+  EXPECT_THROW(run_guarded(kLimits, work, [&asked] { return ++asked > 3; }), GuardedWorkError);
+  EXPECT_GT(asked, 3);
+  EXPECT_TRUE(run_guarded(
+                  kLimits, [](ByteSink&) {}, [] { return false; })
+                  .bytes()
+                  .empty());
 }
 
 TEST(GuardedProcess, SurvivesACrash) {

@@ -47,7 +47,7 @@ TEST(Control, EndsWhereAnotherThreadSaysSo) {
   EXPECT_TRUE(control.ended());
   stop = false;
   EXPECT_TRUE(control.ended());
-  EXPECT_EQ(control.ending(), (Ending{Limit::interrupt, Stage::search}));
+  EXPECT_EQ(control.ending(), (Ending{Limit::interrupt, Stage::model}));
 }
 
 TEST(Control, CountsTheBoxesOfAllSearchesAndEndsNothingElse) {

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "corank/result/summary.h"
 #include "corank/result/verification.h"
+#include "corank/study/model.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/tests/result/sample_result.h"
 #include "corank/tests/system_builder.h"
@@ -37,6 +39,51 @@ TEST(Answer, OfAPlainSystemHasItsEquationsAlone) {
       answer({symbolic::parse_model("[SYSTEM VARS]\nx : [-2, 2]\n[SYSTEM EQS]\nx^2 = 2;\n", "root.cuik")});
   EXPECT_EQ(result.set, "system");
   EXPECT_EQ(result.cover.points.size(), 2u);
+}
+
+// t4 = π by a chord of its circle: its sine is 0 but for rounding, and has no size of its own.
+TEST(Answer, ProvesPointsWhereASineIsZeroByRoundedNumbers) {
+  const result::Result result = answer({symbolic::parse_model(
+      "[SYSTEM VARS]\nt1 ~ [-pi, pi]\nt2 ~ [-pi, pi]\nt3 ~ [-pi, pi]\nt4 ~ [-pi, pi]\n[SYSTEM EQS]\n"
+      "cos(t1) + 1.5*cos(t2) = 2 + 1.4*cos(t4) + 1.3*cos(t3);\nsin(t1) + 1.5*sin(t2) = 1.4*sin(t4) + 1.3*sin(t3);\n"
+      "cos(t4 - (1+pi)/2) = cos((pi-1)/2);\ncos(t1 - 5/2) = cos(1/2);\n",
+      "corner.cuik")});
+  EXPECT_EQ(result.cover.points.size(), 4u);
+  EXPECT_EQ(result.cover.count(Verdict::isolated), result.cover.boxes.size());
+}
+
+// Degenerate points and sets, a tolerance, self-motions, limits.
+TEST(Answer, HasAReasonForEachUndecidedBox) {
+  const auto plain = [](const std::string& equations) {
+    return symbolic::parse_model("[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\n" + equations, "plain.cuik");
+  };
+  const auto read = [](const std::string& name) {
+    return read_model(CORANK_SOURCE_DIR "/models/" + name + ".cuik", {}).mechanism;
+  };
+  std::vector<Question> questions{
+      {.model = plain("x^2 = 0;\ny^2 = 0;\n")},
+      {.model = plain("x^2 - 2*x*y + y^2 = 0;\n")},
+      {.model = plain("x^2 + y^2 - 0.999999 = 0;\nx = 0.866025;\n"), .tolerance = 1e-3},
+      {.model = plain("x^2 + y^2 - 1.01 = 0;\nx - 1.005*y = 0;\n2.01*x - 2.02*y = 0;\n"), .tolerance = 1e-2},
+      {.model = plain("x^3 - 0.3*x*y = 0;\n0.7*x*y^2 - 0.21*y*y = 0;\nx*x - 0.3*y = 0;\n"), .tolerance = 1e-4}};
+  for (const char* name : {"planar/dextar", "planar/parallelogram", "planar/three_arms", "planar/five_bar_sliders"})
+    for (const SingularitySet set : {SingularitySet::cspace, SingularitySet::inverse})
+      questions.push_back({.model = read(name), .set = set});
+  std::size_t undecided = 0;
+  for (const Question& question : questions) {
+    for (const std::uint64_t most : {1'000, 20'000}) {
+      Options options;
+      options.search.max_boxes = most;
+      const result::Result result = answer(question, options);
+      for (const CoverBox& box : result.cover.boxes) {
+        if (box.verdict != Verdict::undecided) continue;
+        EXPECT_NE(box.reason, Reason::none) << question.model.name();
+        ++undecided;
+      }
+      EXPECT_EQ(result::to_table(result).find("reason unknown"), std::string::npos);
+    }
+  }
+  EXPECT_GT(undecided, 100u);
 }
 
 TEST(Answer, SaysWhichLimitEndedIt) {

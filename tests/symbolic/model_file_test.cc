@@ -113,6 +113,32 @@ TEST(ModelFile, ReadsEveryConstruct) {
   EXPECT_THAT(drawing.parts[1].points, ElementsAre("P", "O", "Q"));
 }
 
+TEST(ModelFile, DegreesAreExact) {
+  const auto text = [](const char* e) { return parse_expression(e).text(); };
+  EXPECT_EQ(text("15deg"), "pi/12");
+  EXPECT_EQ(text("180deg"), "pi");
+  EXPECT_EQ(text("0.0deg"), "0");
+  EXPECT_EQ(text("-22.50deg"), "-pi/8");
+  EXPECT_EQ(text("135deg + x"), "3*pi/4 + x");
+  EXPECT_EQ(text("x*deg"), "x*(pi/180)");
+  EXPECT_EQ(text("1e-3deg"), "1e-3*pi/180");
+  EXPECT_EQ(text("33.333333333333deg"), "33.333333333333*pi/180");
+  EXPECT_EQ(text("cos(60deg)"), "cos(pi/3)");
+  EXPECT_EQ(text("deg_1"), "deg_1");
+  EXPECT_THROW(text("15degrees"), ModelError);
+  EXPECT_THROW(text("15 deg"), ModelError);
+}
+
+TEST(ModelFile, AConstantDegIsWhatDegIsAnyway) {
+  const Mechanism m = parse_model(
+      "[CONSTANTS]\ndeg := pi/180\na := 30*deg\n[SYSTEM VARS]\nx ~ [-a, 45deg]\n[SYSTEM EQS]\nsin(x) = 0;\n", "m.cuik");
+  ASSERT_EQ(m.constants().size(), 1u);
+  EXPECT_EQ(m.constants()[0].value.text(), "30*(pi/180)");
+  EXPECT_EQ(m.coordinates()[0].upper.text(), "pi/4");
+  EXPECT_THROW(parse_model("[CONSTANTS]\ndeg := 3.14/180\n", "m.cuik"), ModelError);
+  EXPECT_THROW(parse_model("[SYSTEM VARS]\ndeg ~ [-pi, pi]\n", "m.cuik"), ModelError);
+}
+
 TEST(ModelFile, ExpressionsKnowTheirPlaces) {
   const Mechanism m = parse_model(kEveryConstruct, "every.cuik");
   const Expression& product = m.constraints()[0].relation.rhs.operands()[1];
@@ -247,6 +273,7 @@ TEST(ModelFile, SaysThatAFileIsMissingOrADirectory) {
   };
   EXPECT_EQ(message("no/such.cuik"), "no/such.cuik: there is no such file; expected a model file");
   EXPECT_THAT(message(CORANK_SOURCE_DIR "/models"), HasSubstr("models: is a directory; expected a model file"));
+  EXPECT_THAT(message("/dev/zero"), HasSubstr("/dev/zero: is no regular file; expected a model file"));
 }
 
 TEST(ModelFile, RefusesTextsLargerThanAnyModel) {

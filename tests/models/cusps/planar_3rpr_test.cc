@@ -45,7 +45,7 @@ struct Robot {
   }
 };
 
-std::vector<Place> cusps_of(const Robot& robot) {
+std::vector<Place> cusps_of(const Robot& robot, double lower2 = 1) {
   constexpr int kGrid = 60;
   constexpr double h = 1e-5;
   std::vector<Pair> found;
@@ -73,16 +73,35 @@ std::vector<Place> cusps_of(const Robot& robot) {
   }
   std::vector<Place> places;
   for (const Pair& q : found)
-    if (robot.length(2, q) > 1 && robot.length(2, q) < 35 && robot.length(3, q) > 1 && robot.length(3, q) < 35)
+    if (robot.length(2, q) > lower2 && robot.length(2, q) < 35 && robot.length(3, q) > 1 && robot.length(3, q) < 35)
       places.push_back({{"pose_phi", q[1]}, {"rho2", robot.length(2, q)}, {"rho3", robot.length(3, q)}});
   return places;
 }
 
+// With leg 1 at 14.98 one of six has rho2 = 0.8453: below the model's range.
 TEST(Planar3Rpr, HasTheCuspsThatNewtonsMethodFindsInEachSlice) {
-  for (const auto& [leg1, cusps] : {std::pair("17", 6u), {"14.98", 5u}}) {
-    const std::vector<Place> expected = cusps_of(Robot{.leg1 = std::stod(leg1)});
+  struct Slice {
+    const char *leg1, *lower2;
+    std::size_t cusps;
+  };
+  for (const auto& [leg1, lower2, cusps] : {Slice{"17", "1", 6}, {"14.98", "1", 5}, {"14.98", "0.5", 6}}) {
+    const std::vector<Place> expected = cusps_of(Robot{.leg1 = std::stod(leg1)}, std::stod(lower2));
     EXPECT_EQ(expected.size(), cusps) << leg1;
-    expect_points(ask("planar/3rpr_innocenti", SingularitySet::forward_cusps, {{"leg1", leg1}}), expected, 1e-4);
+    expect_points(ask("planar/3rpr_innocenti", SingularitySet::forward_cusps, {{"leg1", leg1}, {"lower2", lower2}}),
+                  expected, 1e-4);
+  }
+}
+
+// The angles of leg 1 and of the platform are a torus, whose Euler characteristic is 0, and the squares of the other legs
+// map it to the plane: the number of cusps is even (Thom 1956).
+TEST(Planar3Rpr, HasAnEvenNumberOfCuspsWhereNoRangeCutsTheTorus) {
+  for (const char* leg1 : {"14.98", "17"}) {
+    const result::Result cusps =
+        ask("planar/3rpr_innocenti", SingularitySet::forward_cusps,
+            {{"leg1", leg1}, {"lower2", "0.05"}, {"lower3", "0.05"}, {"upper2", "60"}, {"upper3", "60"}});
+    EXPECT_TRUE(cusps.cover.complete());
+    EXPECT_EQ(result::proven_cusps(cusps).size(), cusps.cover.boxes.size());
+    EXPECT_EQ(result::proven_cusps(cusps).size() % 2, 0u) << leg1;
   }
 }
 

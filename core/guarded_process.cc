@@ -1,4 +1,4 @@
-#include "corank/result/guarded_process.h"
+#include "corank/core/guarded_process.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -8,13 +8,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <thread>
 #include <utility>
 
-namespace corank::result {
+namespace corank {
 namespace {
 
 // Sanitizers map terabytes that they never touch, so that they cannot live with a limit of the address space.
@@ -91,19 +94,26 @@ void prepare_child(const ProcessLimits& limits, std::uint64_t memory, pid_t pare
   }
 }
 
-int wait_for(pid_t child) {
+// Looks at `ended` now and then; the child does not outlive it.
+int wait_for(pid_t child, const Ended& ended) {
+  constexpr std::chrono::milliseconds kFirst{1}, kLongest{20};
   int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) fail("cannot wait for a process");
-  return status;
+  for (std::chrono::milliseconds pause = kFirst;; pause = std::min(2 * pause, kLongest)) {
+    const pid_t found = waitpid(child, &status, ended ? WNOHANG : 0);
+    if (found == child) return status;
+    if (found < 0 && errno != EINTR) fail("cannot wait for a process");
+    if (found != 0) continue;
+    if (ended()) kill(child, SIGKILL);
+    std::this_thread::sleep_for(pause);
+  }
 }
 
 std::string end_of(int status, const ProcessLimits& limits) {
-  if (!WIFSIGNALED(status)) return "the process that reads it failed";
+  if (!WIFSIGNALED(status)) return "the process failed";
   const int signal = WTERMSIG(status);
   if (signal == SIGTERM) return "interrupted";
   if (signal == SIGXCPU) return "not done after " + std::to_string(limits.cpu_seconds) + " s of processor time";
-  return std::string("the process that reads it ended by a signal (") + strsignal(signal) + ")";
+  return std::string("the process ended by a signal (") + strsignal(signal) + ")";
 }
 
 }  // namespace
@@ -148,7 +158,7 @@ void ByteSink::write(std::span<const std::byte> bytes) {
   }
 }
 
-SharedBytes run_guarded(const ProcessLimits& limits, const std::function<void(ByteSink&)>& work) {
+SharedBytes run_guarded(const ProcessLimits& limits, const std::function<void(ByteSink&)>& work, const Ended& ended) {
   const Descriptor output(memfd_create("corank", MFD_CLOEXEC));
   if (output.get() < 0) fail("cannot make room for a process's results");
   const std::uint64_t memory = address_space() + limits.memory;
@@ -158,7 +168,7 @@ SharedBytes run_guarded(const ProcessLimits& limits, const std::function<void(By
     prepare_child(limits, memory, parent);
     be_child(output.get(), work);
   }
-  const int status = wait_for(child);
+  const int status = wait_for(child, ended);
   if (WIFEXITED(status) && WEXITSTATUS(status) == kDone) return SharedBytes(output.get());
   if (WIFEXITED(status) && WEXITSTATUS(status) == kFailed) {
     const SharedBytes message(output.get());
@@ -168,4 +178,4 @@ SharedBytes run_guarded(const ProcessLimits& limits, const std::function<void(By
   throw GuardedWorkError(end_of(status, limits));
 }
 
-}  // namespace corank::result
+}  // namespace corank

@@ -9,7 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace corank::result {
+#include "corank/core/ended.h"
+
+namespace corank {
 
 struct ProcessLimits {
   std::uint64_t memory = 0;       ///< bytes beyond those that the process has
@@ -53,8 +55,8 @@ class ByteSink {
 };
 
 /// Runs `work` in a child process and returns what it wrote. An exception of `work` comes back as a GuardedWorkError with
-/// its text; so does the child's end by a signal, a limit or otherwise, whose `work` this process has then not felt. The
-/// child is a copy of this thread alone: `work` must not wait for others.
-SharedBytes run_guarded(const ProcessLimits& limits, const std::function<void(ByteSink&)>& work);
+/// its text; so does the child's end by a signal, a limit or otherwise, whose `work` this process has then not felt, and its
+/// end because `ended` said so. The child is a copy of this thread alone: `work` must not wait for others.
+SharedBytes run_guarded(const ProcessLimits& limits, const std::function<void(ByteSink&)>& work, const Ended& ended = {});
 
-}  // namespace corank::result
+}  // namespace corank

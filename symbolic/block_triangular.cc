@@ -1,0 +1,41 @@
+#include "corank/symbolic/block_triangular.h"
+
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/max_cardinality_matching.hpp>
+#include <boost/graph/strong_components.hpp>
+
+namespace corank::symbolic {
+
+std::optional<std::vector<SquareBlock>> block_triangular_form(const std::vector<std::vector<std::size_t>>& filled) {
+  const std::size_t n = filled.size();
+  // Row i is vertex i, column j vertex n + j.
+  using Bipartite = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
+  Bipartite pattern(2 * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const std::size_t j : filled[i]) boost::add_edge(i, n + j, pattern);
+  std::vector<boost::graph_traits<Bipartite>::vertex_descriptor> partner(2 * n);
+  boost::edmonds_maximum_cardinality_matching(pattern, partner.data());
+  for (std::size_t i = 0; i < n; ++i)
+    if (partner[i] == boost::graph_traits<Bipartite>::null_vertex()) return std::nullopt;
+
+  // An arrow from row i to the row whose partner is a column that i fills: rows of one block reach each other.
+  using Directed = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
+  Directed arrows(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const std::size_t j : filled[i]) boost::add_edge(i, partner[n + j], arrows);
+  std::vector<std::size_t> component(n);
+  const std::size_t count = boost::strong_components(
+      arrows, boost::make_iterator_property_map(component.begin(), boost::get(boost::vertex_index, arrows)));
+  std::vector<SquareBlock> blocks(count);
+  for (std::size_t i = 0; i < n; ++i) {
+    blocks[component[i]].rows.push_back(i);
+    blocks[component[i]].columns.push_back(partner[i] - n);
+  }
+  for (SquareBlock& block : blocks) std::sort(block.columns.begin(), block.columns.end());
+  std::sort(blocks.begin(), blocks.end(),
+            [](const SquareBlock& a, const SquareBlock& b) { return a.rows.front() < b.rows.front(); });
+  return blocks;
+}
+
+}  // namespace corank::symbolic

@@ -1,0 +1,66 @@
+// Polynomials with rational coefficients in many unknowns, by FLINT: sparse products and factors, exactly.
+#pragma once
+
+#include <flint/fmpq_mpoly.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "corank/core/ended.h"
+
+namespace corank::symbolic {
+
+/// So many unknowns, numbered from 0, in lexicographic order.
+class PolynomialRing {
+ public:
+  explicit PolynomialRing(std::size_t unknowns);
+  std::size_t unknowns() const { return static_cast<std::size_t>(context_->zctx->minfo->nvars); }
+  fmpq_mpoly_ctx_struct* context() const { return context_.get(); }
+
+ private:
+  std::shared_ptr<fmpq_mpoly_ctx_struct> context_;
+};
+
+class RationalPolynomial {
+ public:
+  struct Term {
+    std::string coefficient;            ///< "-3/4"
+    std::vector<std::uint64_t> powers;  ///< of each unknown
+  };
+
+  explicit RationalPolynomial(const PolynomialRing& ring);  ///< 0
+  /// A rational number as "-3/4".
+  static RationalPolynomial number(const PolynomialRing& ring, const std::string& value);
+  static RationalPolynomial unknown(const PolynomialRing& ring, std::size_t index);
+  RationalPolynomial(const RationalPolynomial& other);
+  RationalPolynomial(RationalPolynomial&& other) noexcept;
+  RationalPolynomial& operator=(RationalPolynomial other) noexcept;
+  ~RationalPolynomial();
+
+  bool is_zero() const { return size() == 0; }
+  bool is_number() const;
+  std::size_t size() const;  ///< terms
+  std::vector<Term> terms() const;
+  RationalPolynomial power(std::uint64_t exponent) const;
+  RationalPolynomial over(const RationalPolynomial& number) const;  ///< divided by a number other than 0
+  /// The irreducible factors over the rationals that are no numbers, each once. Where they are not found within 10 s of
+  /// processor time, or before `ended` says so, the polynomial itself.
+  std::vector<RationalPolynomial> factors(const Ended& ended = {}) const;
+
+  friend RationalPolynomial operator+(const RationalPolynomial& a, const RationalPolynomial& b);
+  friend RationalPolynomial operator-(const RationalPolynomial& a, const RationalPolynomial& b);
+  friend RationalPolynomial operator*(const RationalPolynomial& a, const RationalPolynomial& b);
+  friend bool operator==(const RationalPolynomial& a, const RationalPolynomial& b);
+
+ private:
+  std::string text() const;
+  static RationalPolynomial parsed(const PolynomialRing& ring, const std::string& text);
+  std::vector<RationalPolynomial> factors_here() const;
+  PolynomialRing ring_;
+  fmpq_mpoly_t value_;
+};
+
+}  // namespace corank::symbolic
