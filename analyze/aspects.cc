@@ -321,7 +321,9 @@ class PieceCounter {
       if (!fresh && mixed(p) < mixed(place->second)) place->second = p;
     }
     if (control_.ended() || crowded_) {
+      // What was not joined yet may be one piece: one of them is shown.
       if (control_.ended()) result.reason = "the analysis was ended by a limit";
+      if (control_.ended() && known.size() > 1) known.erase(std::next(known.begin()), known.end());
       result.at_least = known.empty() ? 0 : 1;
     } else {
       result.at_least = static_cast<int>(known.size());

@@ -100,12 +100,15 @@ std::string to_text(const study::Question& question, const Aspects& a) {
                       a.inverse_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.inverse_factors, " = 0 or ")));
   if (a.cusps) text += fmt::format("  cusps           {}\n", cusps_line(*a.cusps));
   text += "A configuration of each aspect:\n";
-  for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {
+  constexpr std::size_t kMostShown = 20;
+  const std::size_t known = a.aspects.representatives.size();
+  for (std::size_t k = 0; k < std::min(known, kMostShown); ++k) {
     text += fmt::format("  {:>3}", k + 1);
     for (const Value& v : values(a.system, a.aspects.representatives[k]))
       text += fmt::format("  {} {:.4f}", v.name, v.value.mid());
     text += "\n";
   }
+  if (known > kMostShown) text += fmt::format("  and {} more: --json\n", known - kMostShown);
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corank/kinematics/parallelograms.h"
 #include "corank/kinematics/planar.h"
 #include "corank/kinematics/spatial.h"
 #include "corank/symbolic/ginac_lock.h"
@@ -67,6 +68,9 @@ Assembly assemble(const Robot& robot) {
   }
   Assembly assembly = draft.assembly();
   assembly.space = space;
+  if (!robot.keeps_parallelograms)
+    for (Parallelogram& one : parallelograms_of(robot, bodies, algebra))
+      assembly.parallelograms.push_back(std::move(one.sides));
   assembly.mobility_by_joints = count_mobility(bodies, space) - static_cast<int>(robot.couplings.size());
   assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())

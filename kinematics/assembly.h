@@ -37,6 +37,8 @@ struct Assembly {
   int mobility_by_joints = 0;
   /// At a configuration that was found by sampling; nothing where none was found. It proves nothing.
   std::optional<int> mobility_by_rank;
+  /// Parallelograms that are written out and not kept: the names of their sides.
+  std::vector<std::vector<std::string>> parallelograms;
   std::vector<LinkPose> poses;           ///< of every link
   std::vector<JointValue> joint_values;  ///< of every joint that has one value
 };

@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "corank/kinematics/parallelograms.h"
+
 namespace corank::kinematics {
 namespace {
 
@@ -22,7 +24,8 @@ Mat axis_frame(const Algebra& algebra, const Vec& axis, const Vec& zero) {
 
 class Builder {
  public:
-  Builder(const Robot& robot, Algebra& algebra) : robot_(robot), algebra_(algebra) {}
+  Builder(const Robot& robot, Algebra& algebra, std::vector<KeptRotation> kept = {})
+      : robot_(robot), algebra_(algebra), kept_(std::move(kept)) {}
 
   Bodies run() {
     orient_links();
@@ -91,26 +94,34 @@ class Builder {
       while (!waiting.empty()) {
         const std::size_t link = waiting.front();
         waiting.pop_front();
+        const auto turn = [&](std::size_t other, const Mat& kept, const SourceLocation& where, const std::string& what) {
+          const Mat rotation = cleaned(*rotation_[link] * kept);
+          if (!rotation_[other]) {
+            rotation_[other] = rotation;
+            link_group_[other] = link_group_[link];
+            waiting.push_back(other);
+            return;
+          }
+          for (std::size_t r = 0; r < 3; ++r)
+            if (!algebra_.is_zero(cleaned(rotation[r] - (*rotation_[other])[r])))
+              throw ModelError(where,
+                               what + " another orientation of '" + robot_.links[other].name +
+                                   "' than the fixed and prismatic joints before it",
+                               "joints that agree");
+        };
         for (const Joint& joint : robot_.joints) {
           if (joint.kind != JointKind::fixed && !keeps_orientation(joint.kind)) continue;
           for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
             if (joint.ends[side].link != link) continue;
-            const std::size_t other = joint.ends[1 - side].link;
             const Mat kept = kept_rotation(joint);
-            const Mat rotation = cleaned(*rotation_[link] * (side == 0 ? kept : transpose(kept)));
-            if (!rotation_[other]) {
-              rotation_[other] = rotation;
-              link_group_[other] = link_group_[link];
-              waiting.push_back(other);
-            } else {
-              for (std::size_t r = 0; r < 3; ++r)
-                if (!algebra_.is_zero(cleaned(rotation[r] - (*rotation_[other])[r])))
-                  throw ModelError(joint.where,
-                                   "the " + name_of(joint) + " asks for another orientation of '" +
-                                       robot_.links[other].name + "' than the fixed and prismatic joints before it",
-                                   "joints that agree");
-            }
+            turn(joint.ends[1 - side].link, side == 0 ? kept : transpose(kept), joint.where,
+                 "the " + name_of(joint) + " asks for");
           }
+        }
+        for (const KeptRotation& kept : kept_) {
+          const std::string what = "parallelograms that are kept ask for";
+          if (kept.first == link) turn(kept.second, kept.rotation, *robot_.keeps_parallelograms, what);
+          if (kept.second == link) turn(kept.first, transpose(kept.rotation), *robot_.keeps_parallelograms, what);
         }
       }
     }
@@ -228,6 +239,7 @@ class Builder {
 
   const Robot& robot_;
   Algebra& algebra_;
+  const std::vector<KeptRotation> kept_;
   Bodies out_;
   std::vector<std::optional<Mat>> rotation_;
   std::vector<std::size_t> link_group_;
@@ -235,6 +247,16 @@ class Builder {
 
 }  // namespace
 
-Bodies bodies_of(const Robot& robot, Algebra& algebra) { return Builder(robot, algebra).run(); }
+Bodies bodies_of(const Robot& robot, Algebra& algebra) {
+  Bodies bodies = Builder(robot, algebra).run();
+  if (!robot.keeps_parallelograms) return bodies;
+  std::vector<KeptRotation> kept;
+  for (const Parallelogram& one : parallelograms_of(robot, bodies, algebra))
+    kept.insert(kept.end(), one.opposite.begin(), one.opposite.end());
+  if (kept.empty())
+    throw ModelError(*robot.keeps_parallelograms, "there is no parallelogram to be kept",
+                     "four links that turn on each other about parallel axes, opposite sides of one length");
+  return Builder(robot, algebra, std::move(kept)).run();
+}
 
 }  // namespace corank::kinematics

@@ -42,8 +42,9 @@ struct Bodies {
   std::size_t size() const { return group.size(); }
 };
 
-/// Throws ModelError where fixed joints contradict one another, sliding joints ask one link for two orientations, or joints
-/// keep a rod's ends at another distance than its length.
+/// Throws ModelError where fixed joints contradict one another, sliding joints or parallelograms that are kept ask one link
+/// for two orientations, or joints keep a rod's ends at another distance than its length; where parallelograms are to be kept
+/// and there are none.
 Bodies bodies_of(const Robot& robot, Algebra& algebra);
 
 }  // namespace corank::kinematics

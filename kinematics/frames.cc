@@ -239,6 +239,12 @@ bool Frames::turn_in_plane(const TreeEdge& edge) {
     part->bodies.insert(child.body);
     return true;
   }
+  if (part->turns.contains(turned)) {
+    part->bodies.insert(child.body);
+    part->following.insert(edge.joint);
+    close_in_plane(j, *part);
+    return true;
+  }
   if (has_frame(turned)) return false;
   const Joint& of = joint(j);
   const int sign = part->sense(bodies_, j, algebra_) * (edge.from == 0 ? 1 : -1);

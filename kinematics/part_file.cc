@@ -231,6 +231,7 @@ CORANK_ACTION(gear_follower, {
 CORANK_ACTION0(ratio_end, { b.draft.ratio = b.pop_value(); })
 CORANK_ACTION0(offset_end, { b.draft.offset = b.pop_value(); })
 CORANK_ACTION0(gear_end, { b.finish_gear(); })
+CORANK_ACTION(keep_parallelograms, { b.robot.keeps_parallelograms = place(in, b); })
 CORANK_ACTION0(joint_end, { b.finish_joint(); })
 CORANK_ACTION0(connector_end, { b.finish_connector(); })
 

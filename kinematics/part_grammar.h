@@ -300,7 +300,10 @@ struct gear_end : success {};
 struct gear : seq<joint_head<gear_kind>, must<gear_driver>, gap, must<gear_follower>, gap, must<gear_ratio>,
                   opt<gap, coupling_offset>, gear_end> {};
 struct joint : sor<axis_joint, point_joint, fixed_joint, gear, connector, refused_kind> {};
-struct joints_section : seq<joints_header, star<gap, not_at<section_or_end>, must<joint>>> {};
+CORANK_WORD(keep_word, "keep");
+CORANK_WORD(parallelograms_word, "parallelograms");
+struct keep_parallelograms : seq<keep_word, gap, parallelograms_word> {};
+struct joints_section : seq<joints_header, star<gap, not_at<section_or_end>, sor<keep_parallelograms, must<joint>>>> {};
 
 // [DH]  standard or modified, from which link; the columns' names; rows of four expressions, each in its line. Blanks
 // separate the columns, or commas where one stands behind a row's first.

@@ -27,6 +27,7 @@ struct PlanePart {
   std::map<std::size_t, ex> angles;                  ///< of each group whose angle from the root is a coordinate of its own
   std::map<std::size_t, PlanePoint> origins;         ///< of each body's frame, from the root's
   std::map<std::size_t, std::vector<Rate>> turning;  ///< of each group from the root: the sum of these joints' rates
+  std::set<std::size_t> following;                   ///< joints of the tree between groups that others turn already
   /// Of each joint that closes a loop what its equations set to 0: the gap's two components, or half of a rod's square.
   std::map<std::size_t, std::vector<ex>> closings;
 

@@ -131,6 +131,9 @@ struct Robot {
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Coupling> couplings;
+  /// Opposite sides of parallelograms that are written out stay parallel (parallelograms.h), said here. Such a loop does
+  /// not close crosswise then, and has no branches that cross where it is flat.
+  std::optional<SourceLocation> keeps_parallelograms;
   std::vector<Output> outputs;
   /// Further conditions among the coordinates of mechanism_of(), by their names there.
   std::vector<symbolic::Constraint> equations;

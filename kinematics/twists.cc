@@ -156,6 +156,12 @@ void Twists::reach(const TreeEdge& edge) {
            false});
     return;
   }
+  if (const PlanePart* part = loops_.of(edge.joint); part != nullptr && part->following.contains(edge.joint)) {
+    const ex rate = relative_turning(*part, j);
+    if (has_rate(j.index)) row(rate - angular(j), joint(j));
+    motion_[child].push_back({rate, ex(edge.from == 0 ? 1 : -1) * axis(j, 0), place(j.ends[0]), true});
+    return;
+  }
   for (Screw s : screws(j)) {
     if (edge.from == 1) s.axis = ex(-1) * s.axis;
     motion_[child].push_back(s);
@@ -204,22 +210,25 @@ void Twists::close(const Dyad& dyad) {
   rows(velocity(dyad.to, c) - velocity(dyad.from, c), of);
 }
 
+ex Twists::turning_in_plane(const PlanePart& part, std::size_t of) const {
+  ex sum = 0;
+  for (const PlanePart::Rate& r : part.turning.at(of)) sum += r.sign * rate_of_.at(r.joint);
+  return sum;
+}
+ex Twists::relative_turning(const PlanePart& part, const BodyJoint& j) const {
+  return part.sense(bodies_, j, algebra_) *
+         (turning_in_plane(part, group(j.ends[1].body)) - turning_in_plane(part, group(j.ends[0].body)));
+}
+
 /// The loop's two equations along a motion: of each coordinate in them the rate is a sum of joints' rates.
 void Twists::close_in_plane(const BodyJoint& j, const PlanePart& part, const std::vector<ex>& closing) {
   const Joint& of = joint(j);
-  const auto turning_of = [&](std::size_t g) {
-    ex sum = 0;
-    for (const PlanePart::Rate& r : part.turning.at(g)) sum += r.sign * rate_of_.at(r.joint);
-    return sum;
-  };
   if (!is_rod(j.kind) && (keeps_orientation(j.kind) || has_rate(j.index))) {
     const ex own = screws(j)[0].rate;
-    if (j.kind == JointKind::revolute)
-      row(turning_of(group(j.ends[1].body)) - turning_of(group(j.ends[0].body)) - part.sense(bodies_, j, algebra_) * own,
-          of);
+    if (j.kind == JointKind::revolute) row(relative_turning(part, j) - own, of);
   }
   std::map<ex, ex, GiNaC::ex_is_less> rates;  // by the coordinate
-  for (const auto& [g, angle] : part.angles) rates.emplace(angle, turning_of(g));
+  for (const auto& [g, angle] : part.angles) rates.emplace(angle, turning_in_plane(part, g));
   for (const auto& [joint_index, rate] : rate_of_) {
     const std::size_t index = bodies_.joints[joint_index].index;
     if (loops_.of(joint_index) == &part && positions_.coordinate[index])

@@ -80,6 +80,10 @@ class Twists {
                    const std::array<bool, 3>& of);
   void reach(const TreeEdge& edge);
   void turn_within(const Dyad& dyad);
+  /// Of a group of a plane's loops, about the normal, from the body that carries them.
+  ex turning_in_plane(const PlanePart& part, std::size_t group) const;
+  /// Of end 1's body from end 0's, about the joint's axis, by other joints of the plane's loops.
+  ex relative_turning(const PlanePart& part, const BodyJoint& j) const;
   void add_velocity(Vec& sum, const std::vector<Screw>& screws, const Vec& c, int sign) const;
   Vec turning(std::size_t body) const;
   void row(const ex& e, const Joint& of);

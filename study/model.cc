@@ -36,6 +36,14 @@ std::optional<std::string> paradox(const kinematics::Assembly& assembly) {
       assembly.mobility, assembly.mobility == 1 ? "" : "s", *assembly.mobility_by_rank, more, more == 1 ? "s" : "");
 }
 
+// Written-out parallelograms have positions that no box certifies.
+std::string flat_positions(const std::vector<std::string>& sides) {
+  return fmt::format(
+      "{} are a parallelogram: where it is flat it can also fold crosswise, and boxes about such positions stay undecided; "
+      "the line `keep parallelograms` under [JOINTS] leaves the crosswise branch out",
+      fmt::join(sides, ", "));
+}
+
 Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOverride>& constants) {
   put_in(constants, robot);
   if (!robot.missing.empty()) throw ModelError({robot.file, 0, 0}, robot.missing.front(), "all files that the robot names");
@@ -45,6 +53,7 @@ Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOver
   if (!model.mechanism.coordinates().empty())
     model.mechanism.set_source_text("% The equations of " + file + ": " + describe(*model.assembly) + ".\n" +
                                     symbolic::to_model(model.mechanism));
+  for (const auto& sides : model.assembly->parallelograms) model.notices.push_back(flat_positions(sides));
   if (const auto special = paradox(*model.assembly)) model.notices.push_back(*special);
   return model;
 }
