@@ -33,10 +33,10 @@ std::optional<Inertia> inertia(const IntervalMatrix& h);
 /// A basis of ker A as the columns of an interval matrix, n×(n − m), the dependent rows of a vector expressed by the
 /// others, whose block is the identity, in ascending order: what every A in the interval matrix has. Nothing where A_D is
 /// not shown to be regular. `sizes`: positive, typical of each unknown, for the choice of a norm; none: all are 1.
-/// Theorem: let A_D be the m dependent columns of A, A_F the others, Y real, |I − Y·A_D|·r ≤ α·r with α < 1 and r the sizes of
-/// the dependent unknowns. Then A_D is regular, and the columns of V, V_F = I and V_D = −A_D⁻¹A_F, are a basis of ker A:
-/// X = A_D⁻¹A_F obeys X = R + (I − Y·A_D)X with R = Y·A_F, so, in the norm max |x_i|/r_i and column by column, ‖X‖ ≤
-/// ‖R‖/(1 − α), and X ∈ R + |I − Y·A_D|·r·‖R‖/(1 − α)·[−1, 1].
+/// Theorem: let A_D be the m dependent columns of A, A_F the others, Y real, |I − Y·A_D|·r ≤ α·r with α < 1 and r the
+/// sizes of the dependent unknowns. Then A_D is regular, and the columns of V, V_F = I and V_D = −A_D⁻¹A_F, are a basis of
+/// ker A: X = A_D⁻¹A_F obeys X = R + (I − Y·A_D)X with R = Y·A_F, so, in the norm max |x_i|/r_i and column by column,
+/// ‖X‖ ≤ ‖R‖/(1 − α), and X ∈ R + |I − Y·A_D|·r·‖R‖/(1 − α)·[−1, 1].
 std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::vector<int>& dependent,
                                            const std::vector<double>& sizes = {});
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <deque>
 #include <stdexcept>
 #include <string>
 
@@ -57,11 +58,35 @@ void evaluate_power(Mpfi& result, const Mpfi& base_in, int n, int precision) {
   }
 }
 
+void apply(Mpfi& result, ConstantFunction f, Mpfi& a, int precision);
+
+// The few angles of a model occur in all of its coefficients: what was computed last of an argument is remembered.
 void evaluate_function(Mpfi& result, const Node& x, int precision) {
-  const ConstantFunction f = x.function;
-  const std::string name = function_name(f);
+  struct Known {
+    Known(ConstantFunction f, int bits) : function(f), precision(bits), argument(bits), value(bits) {}
+    ConstantFunction function;
+    int precision;
+    Mpfi argument, value;
+  };
+  constexpr std::size_t kMost = 16;
+  thread_local std::deque<Known> known;
   Mpfi a(precision);
   evaluate(a, *x.operands[0], precision);
+  for (Known& k : known)
+    if (k.function == x.function && k.precision == precision && mpfr_equal_p(k.argument.lo(), a.lo()) &&
+        mpfr_equal_p(k.argument.hi(), a.hi())) {
+      mpfi_set(result, k.value);
+      return;
+    }
+  apply(result, x.function, a, precision);
+  Known& newest = known.emplace_front(x.function, precision);
+  mpfi_set(newest.argument, a);
+  mpfi_set(newest.value, result);
+  if (known.size() > kMost) known.pop_back();
+}
+
+void apply(Mpfi& result, ConstantFunction f, Mpfi& a, int precision) {
+  const std::string name = function_name(f);
   const auto trig_argument = [&] {
     for (mpfr_srcptr end : {a.lo(), a.hi()})
       if (!mpfr_number_p(end) || (!mpfr_zero_p(end) && mpfr_get_exp(end) > kMaxTrigExponent))

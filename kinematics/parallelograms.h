@@ -1,6 +1,6 @@
-// Parallelograms that are written out: four bodies, or three and a rod, that turn on each other about parallel axes, opposite
-// sides of one length. Such a loop closes in two ways, as a parallelogram and crosswise, as an antiparallelogram. Both meet
-// where it is flat: there C-space has branches that cross, and no box about them can be certified.
+// Parallelograms that are written out: four bodies, or three and a rod, that turn on each other about parallel axes,
+// opposite sides of one length. Such a loop closes in two ways, as a parallelogram and crosswise, as an antiparallelogram.
+// Both meet where it is flat: there C-space has branches that cross, and no box about them can be certified.
 #pragma once
 
 #include <string>

@@ -39,7 +39,8 @@ std::optional<std::string> paradox(const kinematics::Assembly& assembly) {
 // Written-out parallelograms have positions that no box certifies.
 std::string flat_positions(const std::vector<std::string>& sides) {
   return fmt::format(
-      "{} are a parallelogram: where it is flat it can also fold crosswise, and boxes about such positions stay undecided; "
+      "{} are a parallelogram: where it is flat it can also fold crosswise, and boxes about such positions may stay "
+      "undecided; "
       "the line `keep parallelograms` under [JOINTS] leaves the crosswise branch out",
       fmt::join(sides, ", "));
 }

@@ -148,10 +148,28 @@ ConstantValue::ConstantValue(ex value) : value_(reduced(value)) {}
 ConstantValue ConstantValue::number(const std::string& decimal) { return ConstantValue(ex(exact_decimal(decimal))); }
 ConstantValue ConstantValue::pi() { return ConstantValue(ex(GiNaC::Pi)); }
 
-ConstantValue operator+(const ConstantValue& x, const ConstantValue& y) { return ConstantValue(x.value_ + y.value_); }
-ConstantValue operator-(const ConstantValue& x, const ConstantValue& y) { return ConstantValue(x.value_ - y.value_); }
-ConstantValue operator-(const ConstantValue& x) { return ConstantValue(-x.value_); }
-ConstantValue operator*(const ConstantValue& x, const ConstantValue& y) { return ConstantValue(x.value_ * y.value_); }
+// Most coefficients are rational, and many of those 0 or ±1, or short sums: what is made of such numbers needs no look at
+// its parts, each of which GiNaC puts together anew.
+ConstantValue operator+(const ConstantValue& x, const ConstantValue& y) {
+  constexpr std::size_t kShort = 100;
+  if (x.is_zero()) return y;
+  if (y.is_zero()) return x;
+  if (x.is_rational() && y.is_rational()) return ConstantValue(ex(ex_to<numeric>(x.value_).add(ex_to<numeric>(y.value_))));
+  const ex sum = x.value_ + y.value_;  // of expanded ones, so expanded
+  return is_a<GiNaC::add>(sum) && sum.nops() < kShort ? ConstantValue::as_is(sum) : ConstantValue(sum);
+}
+ConstantValue operator-(const ConstantValue& x, const ConstantValue& y) { return x + (-y); }
+ConstantValue operator-(const ConstantValue& x) { return ConstantValue(-1) * x; }
+ConstantValue operator*(const ConstantValue& x, const ConstantValue& y) {
+  constexpr double kFewBits = 64;
+  for (const auto& [one, other] : {std::pair(&x, &y), std::pair(&y, &x)}) {
+    if (!one->is_rational()) continue;
+    if (one->value_.is_equal(1)) return *other;
+    if (other->is_rational()) return ConstantValue(ex(ex_to<numeric>(one->value_).mul(ex_to<numeric>(other->value_))));
+    if (numeric_bits(one->value_) <= kFewBits) return ConstantValue::as_is(one->value_ * other->value_);
+  }
+  return ConstantValue(x.value_ * y.value_);
+}
 
 ConstantValue operator/(const ConstantValue& x, const ConstantValue& y) {
   const std::optional<int> s = y.sign();

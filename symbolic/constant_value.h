@@ -43,6 +43,11 @@ class ConstantValue {
 
  private:
   explicit ConstantValue(GiNaC::ex value);
+  static ConstantValue as_is(const GiNaC::ex& value) {
+    ConstantValue result;
+    result.value_ = value;
+    return result;
+  }
   GiNaC::ex value_;
 };
 

@@ -1,6 +1,7 @@
 #include "corank/symbolic/velocity_equation.h"
 
 #include <algorithm>
+#include <deque>
 
 #include "corank/core/check.h"
 #include "corank/symbolic/ginac_bridge.h"
@@ -83,9 +84,47 @@ void add_given_rows(const Mechanism& mechanism, VelocityEquation& velocity) {
 
 }  // namespace
 
+namespace {
+
+// Do both mechanisms have the same derivation? It knows the constants by their names.
+bool derives_alike(const Mechanism& a, const Mechanism& b) {
+  const auto same = [](const auto& x, const auto& y, auto&& alike) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(), alike);
+  };
+  const auto equations = [](const Constraint& x, const Constraint& y) {
+    return x.relation.kind == y.relation.kind && x.where.line == y.where.line && x.where.column == y.where.column &&
+           x.where.file == y.where.file && same_tree(x.relation.lhs, y.relation.lhs) &&
+           same_tree(x.relation.rhs, y.relation.rhs);
+  };
+  return same(a.constants(), b.constants(), [](const Constant& x, const Constant& y) { return x.name == y.name; }) &&
+         same(a.coordinates(), b.coordinates(),
+              [](const Coordinate& x, const Coordinate& y) { return x.name == y.name && x.kind == y.kind; }) &&
+         same(a.rates(), b.rates(), [](const Rate& x, const Rate& y) { return x.name == y.name && x.role == y.role; }) &&
+         a.inputs() == b.inputs() && a.outputs() == b.outputs() && same(a.constraints(), b.constraints(), equations) &&
+         same(a.velocity_equations(), b.velocity_equations(), equations);
+}
+
+Derivation derived(const Mechanism& mechanism);
+
+}  // namespace
+
+// The same equations are asked for again and again while a question is answered, and GiNaC takes its time.
 Derivation derive(const Mechanism& mechanism) {
+  constexpr std::size_t kRemembered = 4;
   mechanism.validate();
-  const GinacLock lock;
+  const GinacLock lock;  // of what is remembered, too
+  static std::deque<std::pair<Mechanism, Derivation>> remembered;
+  for (const auto& [of, derivation] : remembered)
+    if (derives_alike(of, mechanism)) return derivation;
+  Derivation result = derived(mechanism);
+  remembered.emplace_front(mechanism, result);
+  if (remembered.size() > kRemembered) remembered.pop_back();
+  return result;
+}
+
+namespace {
+
+Derivation derived(const Mechanism& mechanism) {
   const GinacBridge bridge(mechanism);
 
   Derivation result;
@@ -116,6 +155,8 @@ Derivation derive(const Mechanism& mechanism) {
   }
   return result;
 }
+
+}  // namespace
 
 std::vector<std::vector<std::vector<Expression>>> second_derivatives(const Mechanism& mechanism,
                                                                      const std::vector<std::string>& coordinates) {

@@ -58,7 +58,8 @@ TEST(PlanarParts, HaveTheirMobilityByCountByJointsAndByRank) {
     EXPECT_EQ(m.assembly->mobility, expected) << model;
     EXPECT_EQ(m.assembly->mobility_by_joints, expected) << model;
     EXPECT_EQ(m.assembly->mobility_by_rank, expected) << model;
-    EXPECT_TRUE(m.notices.empty()) << model;
+    const bool can_be_flat = std::string(model) == "parallelogram" || std::string(model) == "peaucellier";
+    EXPECT_EQ(m.notices.size(), can_be_flat ? 1u : 0u) << model;
   }
 }
 
