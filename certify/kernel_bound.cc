@@ -20,16 +20,35 @@ std::vector<Polynomial> entries(const KernelMatrix& matrix) {
   return list;
 }
 
-// Rows and columns times positive numbers, by which the largest entries of all are near 1: for the choice of pivots.
-Eigen::MatrixXd balanced(Eigen::MatrixXd a) {
-  constexpr int kTurns = 3;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    for (Eigen::Index i = 0; i < a.rows(); ++i)
-      if (const double largest = a.row(i).cwiseAbs().maxCoeff(); largest > 0) a.row(i) /= std::sqrt(largest);
-    for (Eigen::Index j = 0; j < a.cols(); ++j)
-      if (const double largest = a.col(j).cwiseAbs().maxCoeff(); largest > 0) a.col(j) /= std::sqrt(largest);
+// Rows and columns times positive numbers, by which the largest entries of all are near 1: for the choice of pivots. The
+// columns' numbers are sizes of the unknowns, for that of a norm.
+struct Balanced {
+  Eigen::MatrixXd matrix;
+  std::vector<double> sizes;
+};
+Balanced balanced(Eigen::MatrixXd a) {
+  constexpr int kLeastTurns = 3, kMostTurns = 8;
+  constexpr double kNear = 2;
+  std::vector<double> sizes(static_cast<std::size_t>(a.cols()), 1.0);
+  bool uneven = true;
+  for (int turn = 0; turn < kLeastTurns || (uneven && turn < kMostTurns); ++turn) {
+    uneven = false;
+    const auto factor = [&](const auto& line) {
+      const double largest = line.cwiseAbs().maxCoeff();
+      if (!(largest > 0)) return 1.0;
+      uneven = uneven || largest > kNear || largest < 1 / kNear;
+      return std::sqrt(largest);
+    };
+    for (Eigen::Index i = 0; i < a.rows(); ++i) a.row(i) /= factor(a.row(i));
+    for (Eigen::Index j = 0; j < a.cols(); ++j) {
+      const double by = factor(a.col(j));
+      a.col(j) /= by;
+      sizes[static_cast<std::size_t>(j)] /= by;
+    }
   }
-  return a;
+  for (double& size : sizes)
+    if (!(size > 0) || !std::isfinite(size)) size = 1;
+  return {std::move(a), std::move(sizes)};
 }
 
 }  // namespace
@@ -58,8 +77,8 @@ void KernelBound::note_arguments(const std::vector<Polynomial>& entries) {
   arguments_.erase(std::unique(arguments_.begin(), arguments_.end()), arguments_.end());
 }
 
-bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<int>& rows,
-                             const std::vector<int>& columns) const {
+bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<int>& rows, const std::vector<int>& columns,
+                             const std::vector<double>& sizes) const {
   const int s = static_cast<int>(rows.size()), k = columns_;
   const auto entry = [&](int i, int j) -> const Interval& { return m[static_cast<std::size_t>(rows[i] * k + columns[j])]; };
   Eigen::MatrixXd middle(s, s);
@@ -79,7 +98,9 @@ bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<i
       for (const int b : filled[static_cast<std::size_t>(j)]) e -= Interval(y(i, b)) * entry(b, j);
       excess.push_back(e.mag());
     }
-  return contraction(excess, std::vector<double>(static_cast<std::size_t>(s), 1.0)).has_value();
+  std::vector<double> typical;
+  for (const int column : columns) typical.push_back(sizes[static_cast<std::size_t>(column)]);
+  return contraction(excess, std::move(typical)).has_value();
 }
 
 int KernelBound::at_most(const Box& box, int halvings) const {
@@ -114,7 +135,8 @@ int KernelBound::at_most_in_one(const Box& box) const {
       middle(i, j) = m.back().mid();
     }
   // Complete pivoting: the first s pivots belong to a well-conditioned submatrix, for every s.
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(balanced(middle));
+  const Balanced scaled = balanced(middle);
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(scaled.matrix);
   std::vector<int> row_order, column_order;
   for (int i = 0; i < std::min(rows, k); ++i) {
     // (P·M·Q)_{ii}: row i of P·M is M's row P⁻¹(i), column i of M·Q is M's column Q(i).
@@ -123,7 +145,7 @@ int KernelBound::at_most_in_one(const Box& box) const {
     column_order.push_back(lu.permutationQ().indices()(i));
   }
   for (int tries = 0; !row_order.empty() && tries < most_tries_; ++tries) {
-    if (is_regular(m, row_order, column_order)) return k - static_cast<int>(row_order.size());
+    if (is_regular(m, row_order, column_order, scaled.sizes)) return k - static_cast<int>(row_order.size());
     row_order.pop_back();
     column_order.pop_back();
   }
