@@ -198,6 +198,10 @@ class ShapeCheck {
     report_.heights.push_back(check(critical.system, cover, options_));
     if (!settled(report_.heights.back(), name)) return false;
     if (cover.dimension != 0) return fail(name + ": its critical points are more than points"), false;
+    // What is counted are points: a box that none of them stands for may hold any number of critical points, or a curve.
+    for (std::size_t b = 0; b < cover.boxes.size(); ++b)
+      if (!stands_for_a_point(cover.boxes[b]))
+        return fail(name + ", box " + std::to_string(b + 1) + ": critical points along a set may lie in it"), false;
     const std::vector<int> place = all_variables(critical.system);
     std::vector<Row> inside;
     for (const Polynomial& g : critical.system.inequalities) inside.emplace_back(Terms(g, 0), place);
@@ -234,6 +238,11 @@ class ShapeCheck {
     if (placed)
       for (const auto& [piece, chi] : euler) of_pieces.back().push_back(chi);
     return true;
+  }
+
+  // What the checker of covers does not ask of these: to be, or to lie in, one of the points.
+  static bool stands_for_a_point(const CoverBox& box) {
+    return box.motion < 0 && !(box.verdict == Verdict::undecided && box.reason == Reason::degenerate_set);
   }
 
   static std::optional<int> index_at(const CriticalSystem& critical, const std::vector<int>& place, const Sides& x) {
@@ -276,12 +285,20 @@ class ShapeCheck {
     if (shape_.at_most && *shape_.at_most < report_.at_most)
       fail("at most " + std::to_string(*shape_.at_most) + " components are claimed, at most " +
            std::to_string(report_.at_most) + " shown");
+    if (report_.at_least > report_.at_most)
+      fail("its boxes show at least " + std::to_string(report_.at_least) + " components, its critical points at most " +
+           std::to_string(report_.at_most) + ": they contradict each other, so some of them are missing");
   }
 
   void compare_shape(const std::vector<int>& characteristics, const std::vector<std::vector<int>>& of_pieces) {
     const int dimension = shape_.space.dimension;
+    const bool odd = dimension % 2 != 0;
+    // Of a closed set each height gives the same, 0 where its dimension is odd, whether or not it is claimed.
+    for (const int chi : characteristics)
+      if (report_.closed && (chi != characteristics.front() || (odd && chi != 0)))
+        fail("the critical points contradict each other, as some are missing: a height gives the Euler characteristic " +
+             std::to_string(chi));
     if (shape_.euler_characteristic) {
-      const bool odd = dimension % 2 != 0;
       if (!odd && characteristics.empty()) fail("no height shows the Euler characteristic");
       if (odd && *shape_.euler_characteristic != 0) fail("a closed set of odd dimension has the Euler characteristic 0");
       for (const int chi : characteristics)

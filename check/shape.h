@@ -9,10 +9,13 @@
 //                disjoint, and each holds a solution
 //   closed       no solution is on an end of the domain or an inequality, but for those that the equations imply: so the set
 //                is a compact manifold without boundary
-//   χ            Σ (−1)^index over the critical points of a height (Morse): their cover is complete, each is one simple
-//                solution, in the interior of the multipliers' half-space, and its index is found by check/inertia.h
+//   χ            Σ (−1)^index over the critical points of a height (Morse): their cover is complete, each of its boxes
+//                stands for a point, each point is one simple solution, in the interior of the multipliers' half-space, and
+//                its index is found by check/inertia.h
 //   genus        1 − χ/2 of a closed connected surface, the regular level set of functions, so orientable; of one of several
 //                with the critical points that lie on its sheets
+//   refused      where at_least is above at_most, or heights of a closed set give different χ, or one of odd dimension
+//                another than 0: boxes or critical points are missing
 #pragma once
 
 #include <string>

@@ -137,6 +137,111 @@ TEST(ShapeFile, ThatHasACutSetForAClosedOneIsRefused) {
   EXPECT_FALSE(result::verify(file).verified());
 }
 
+// Without the sheets of odd numbers, their boxes and their links, and without the proof that nothing is missing.
+ShapeFile with_every_other_sheet(const ShapeFile& whole) {
+  ShapeFile file = whole;
+  Shape& s = file.shape;
+  Cover& cover = s.space;
+  const int sheets = static_cast<int>(cover.regions.size());
+  const auto is_out = [&](int sheet) { return sheet < sheets && sheet % 2 != 0; };
+  const auto renumber = [&](int& sheet) { sheet -= sheet < sheets ? sheet / 2 : sheets / 2; };
+  std::erase_if(cover.boxes, [&](const CoverBox& box) { return is_out(box.region); });
+  std::erase_if(s.links, [&](const SheetLink& link) { return is_out(link.first) || is_out(link.second); });
+  for (CoverBox& box : cover.boxes) renumber(box.region);
+  for (SheetLink& link : s.links) {
+    renumber(link.first);
+    renumber(link.second);
+  }
+  for (int sheet = sheets - 1; sheet >= 0; --sheet)
+    if (is_out(sheet)) cover.regions.erase(cover.regions.begin() + sheet);
+  cover.proof = nullptr;
+  return file;
+}
+
+// What is left of the ovals hangs together nowhere, though two minima allow two components only.
+TEST(ShapeFile, WhoseBoxesContradictItsCriticalPointsIsRefused) {
+  const ShapeFile file = with_every_other_sheet(ovals());
+  const check::ShapeReport report = result::verify(file);
+  EXPECT_GT(report.at_least, report.at_most);
+  EXPECT_EQ(report.at_most, 2);
+  EXPECT_FALSE(report.verified());
+  EXPECT_THAT(result::to_table(report, file),
+              testing::AllOf(HasSubstr("they contradict each other"), HasSubstr("NOT VERIFIED")));
+}
+
+// One of a height's points is made a box along which there may be more, in all that the file says.
+ShapeFile with_a_point_along_a_set() {
+  ShapeFile file = sphere();
+  HeightCover& height = file.shape.heights[0];
+  Cover& cover = height.cover;
+  CoverBox& box = cover.boxes[0];
+  std::erase_if(cover.points, [&](const CoverBox& point) { return point.box == box.box; });
+  cover.regions.erase(cover.regions.begin() + box.region);
+  for (CoverBox* other : {&cover.boxes[1], &cover.points[0]}) other->region -= other->region > box.region ? 1 : 0;
+  box.verdict = Verdict::undecided;
+  box.reason = Reason::degenerate_set;
+  box.region = -1;
+  cover.proof = nullptr;
+  file.shape.heights = {height};
+  file.shape.euler_characteristic = 1;
+  file.shape.genus.clear();
+  return file;
+}
+
+TEST(ShapeFile, WhoseCriticalPointsMayLieAlongASetIsRefused) {
+  for (const std::vector<int>& by_index : {std::vector<int>{1, 0, 0}, {0, 0, 1}}) {
+    ShapeFile file = with_a_point_along_a_set();
+    file.shape.heights[0].by_index = by_index;
+    const check::ShapeReport report = result::verify(file);
+    EXPECT_TRUE(report.heights.at(0).verified());
+    EXPECT_FALSE(report.verified());
+    EXPECT_THAT(report.failures, testing::ElementsAre("height 1, box 1: critical points along a set may lie in it"));
+  }
+}
+
+// Nothing is claimed of the characteristic, and the first height has a point less.
+ShapeFile without_a_critical_point(const ShapeFile& whole) {
+  ShapeFile file = whole;
+  file.shape.euler_characteristic.reset();
+  file.shape.genus.clear();
+  Cover& cover = file.shape.heights[0].cover;
+  const CoverBox last = cover.boxes.back();
+  cover.boxes.pop_back();
+  cover.regions.erase(cover.regions.begin() + last.region);
+  for (std::vector<CoverBox>* list : {&cover.boxes, &cover.points})
+    for (CoverBox& box : *list) box.region -= box.region > last.region ? 1 : 0;
+  std::erase_if(cover.points, [&](const CoverBox& point) { return point.box == last.box; });
+  cover.proof = nullptr;
+  return file;
+}
+
+// Refused for that reason where the numbers by index are those of the points that are left.
+void expect_contradiction(ShapeFile file, std::size_t last_index) {
+  const std::vector<int> all = file.shape.heights[0].by_index;
+  int found = 0;
+  for (const std::size_t index : {std::size_t{0}, last_index}) {
+    std::vector<int>& by_index = file.shape.heights[0].by_index = all;
+    --by_index[index];
+    const check::ShapeReport report = result::verify(file);
+    EXPECT_FALSE(report.verified());
+    for (const std::string& f : report.failures)
+      found += f.find("contradict each other, as some are missing") != std::string::npos;
+  }
+  EXPECT_EQ(found, 1);
+}
+
+// Each oval has a minimum and a maximum: without one of them a height contradicts that the set is closed.
+TEST(ShapeFile, WhoseHeightLacksACriticalPointIsRefusedThoughNoCharacteristicIsClaimed) {
+  ShapeFile file = without_a_critical_point(ovals());
+  file.shape.heights.resize(1);
+  expect_contradiction(file, 1);
+}
+
+TEST(ShapeFile, WhoseHeightsDifferIsRefusedThoughNoCharacteristicIsClaimed) {
+  ASSERT_EQ(sphere().shape.heights.size(), 2U);
+  expect_contradiction(without_a_critical_point(sphere()), 2);
+}
+
 struct Change {
   const char* name;
   const ShapeFile& (*of)();
