@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "corank/check/distinct.h"
 #include "corank/check/inertia.h"
@@ -58,20 +59,28 @@ class PieceCheck {
     if (claims_.at_least < 0 || static_cast<std::size_t>(claims_.at_least) != claims_.members.size())
       return fail("there is not one member of each piece that is claimed"), std::move(report_);
     for (std::size_t k = 0; k < claims_.members.size(); ++k) check_member(k);
+    if (report_.failures.empty()) check_distinct_members();
     if (!report_.failures.empty()) return std::move(report_);
+    bool bounded = false;
     for (const int halvings : {4, 8, 11, 14, 17}) {
       std::vector<Cell> cells;
       if (!divide(halvings, cells)) break;
       report_.cells = cells.size();
       report_.at_least = count(cells);
       if (report_.at_least >= claims_.at_least) break;
+      // Cells take long: first, may there be so many at all?
+      if (!std::exchange(bounded, true)) bound();
+      if (report_.at_most && *report_.at_most < claims_.at_least) break;
     }
     if (report_.at_least < claims_.at_least)
       fail("at least " + std::to_string(claims_.at_least) + " pieces are claimed, " + std::to_string(report_.at_least) +
            " shown");
     if (claims_.at_most && *claims_.at_most < report_.at_least)
       fail("at most " + std::to_string(*claims_.at_most) + " pieces are claimed, and there are more");
-    if (report_.failures.empty()) bound();
+    if (report_.failures.empty() && !bounded) bound();
+    if (report_.failures.empty() && report_.at_most && *report_.at_most < report_.at_least)
+      fail("at least " + std::to_string(report_.at_least) + " pieces and at most " + std::to_string(*report_.at_most) +
+           " are shown: these contradict each other");
     return std::move(report_);
   }
 
@@ -139,6 +148,25 @@ class PieceCheck {
     }
     members_.push_back(x);
     ++report_.members;
+  }
+
+  // No configuration stands for two pieces.
+  void check_distinct_members() {
+    std::vector<Box> hulls(members_.size());
+    std::vector<const Box*> boxes;
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      for (const Enclosure& side : members_[k]) hulls[k].emplace_back(side.lo(), side.hi());
+      boxes.push_back(&hulls[k]);
+    }
+    const auto apart = [&](std::size_t a, std::size_t b) {
+      problem_.stop().poll();
+      for (std::size_t j = 0; j < members_[a].size(); ++j)
+        if (!members_[a][j].overlaps(members_[b][j])) return true;
+      return false;
+    };
+    for (const auto& [a, b] : meeting_pairs(boxes, apart, 1))
+      fail("members " + std::to_string(std::min(a, b) + 1) + " and " + std::to_string(std::max(a, b) + 1) +
+           " are one configuration: it cannot stand for two pieces");
   }
 
   // Shrinks the cell to its solutions and finds the functions' signs; false: it has none in the domain.

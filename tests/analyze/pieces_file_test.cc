@@ -210,7 +210,9 @@ TEST(PiecesFile, ThatSomebodyChangedIsRefused) {
          ++f.lists[0].at_least;
          f.lists[0].members.push_back(f.lists[0].members.front());
        },
-       "9 pieces are claimed, 8 shown"},
+       "aspects: members 1 and 9 are one configuration: it cannot stand for two pieces"},
+      {"a member for another", [](PiecesFile& f) { f.lists[0].members[5] = f.lists[0].members[2]; },
+       "members 3 and 6 are one configuration"},
       {"a piece without a member", [](PiecesFile& f) { ++f.lists[1].at_least; }, "not one member of each piece"},
       {"a piece too few at most", [](PiecesFile& f) { f.lists[2].at_most = 1; }, "there are more"},
       {"a factor's sign", [](PiecesFile& f) { f.lists[0].members[2].signs[0] *= -1; }, "the sign of function 1"},
@@ -254,6 +256,26 @@ TEST(PiecesFile, WithMembersOfOnePieceForThoseOfTwoIsRefused) {
   EXPECT_FALSE(report.verified());
   EXPECT_EQ(report.lists.at(2).members, 8U);
   EXPECT_THAT(report.lists[2].failures, testing::ElementsAre(HasSubstr("8 pieces are claimed, 4 shown")));
+}
+
+// Two configurations of one piece: the proof that there are no more ends the search for cells that tell them apart.
+TEST(PiecesFile, WithASecondMemberOfAPieceIsRefusedOnCoarseCells) {
+  PiecesFile file = slider();
+  const std::size_t cells = result::verify(file).lists.at(0).cells;
+  PieceClaims& aspects = file.lists[0];
+  PieceMember second = aspects.members[0];
+  for (Interval& side : second.box) side = Interval(side.lo() - 1e-3, side.hi() + 1e-3);
+  for (const int held : second.free) {
+    Interval& side = second.box[static_cast<std::size_t>(held)];
+    side = Interval(side.lo() + 1e-4, side.hi() + 1e-4);
+  }
+  aspects.members.push_back(second);
+  ++aspects.at_least;
+  const check::PiecesReport report = result::verify(file);
+  EXPECT_FALSE(report.verified());
+  EXPECT_EQ(report.lists.at(0).members, 9U);
+  EXPECT_THAT(report.lists[0].failures, testing::ElementsAre("at least 9 pieces are claimed, 8 shown"));
+  EXPECT_LE(report.lists[0].cells, cells);
 }
 
 // The same members of a model with a limit: one of them is beyond it.
