@@ -14,6 +14,7 @@
 #include "corank/result/pieces_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/solve/options.h"
 
 namespace corank::app {
 namespace {
@@ -73,6 +74,7 @@ void add_aspects(CLI::App& program, Action& action) {
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
   sub->add_option("--threads", command->options.threads, "Threads of the search; 0: one for each core")
+      ->check(CLI::Range(0, solve::kMostThreads))
       ->capture_default_str();
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
       ->type_name("SECONDS")

@@ -12,6 +12,7 @@
 #include "corank/report/parameter_picture.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/solve/options.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::app {
@@ -77,6 +78,9 @@ report::ParameterPicture picture(const analyze::ParameterMap& map) {
 
 ExitStatus write_map(MapCommand command) {
   give_back_model(command.question, command.json);
+  const int n = command.options.resolution;
+  if (n < analyze::kTiles || n > 1024 || (n & (n - 1)) != 0)
+    throw UsageError(fmt::format("--resolution {}: expected a power of two from {} to 1024", n, analyze::kTiles));
   for (const std::string& name : command.outputs) {
     const bool certificate = name.ends_with(".h5");
     const bool known = certificate || name.ends_with(".json") || name.ends_with(".csv") || report::is_picture(name);
@@ -88,9 +92,6 @@ ExitStatus write_map(MapCommand command) {
     command.options.certificate = command.options.certificate || certificate;
     result::check_writable(name);
   }
-  const int n = command.options.resolution;
-  if (n < analyze::kTiles || n > 1024 || (n & (n - 1)) != 0)
-    throw UsageError(fmt::format("--resolution {}: expected a power of two from {} to 1024", n, analyze::kTiles));
   command.options.boundary = !command.no_boundary;
   LimitedRun run({.time = command.time_limit});
   solve::Control& control = run.control();
@@ -140,7 +141,9 @@ void add_map(CLI::App& program, Action& action) {
                   "The narrowest cells are so many along each side: a power of two")
       ->capture_default_str();
   sub->add_flag("--no-boundary", command->no_boundary, "Do not look for the curve on which two solutions meet");
-  sub->add_option("--threads", command->options.threads, "Threads; 0: one for each core")->capture_default_str();
+  sub->add_option("--threads", command->options.threads, "Threads; 0: one for each core")
+      ->check(CLI::Range(0, solve::kMostThreads))
+      ->capture_default_str();
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -20,15 +21,30 @@
 namespace corank::app {
 namespace {
 
-/// What CLI11 lets pass: a file without a name, and "nan", which no range excludes.
+bool is_too_large(const std::string& digits) {
+  errno = 0;
+  std::strtoull(digits.c_str(), nullptr, 10);
+  return errno == ERANGE;
+}
+
+/// What CLI11 lets pass: a file without a name, an empty value, "nan" and "inf", which no range excludes, and whole numbers
+/// that no variable holds.
 void check_values(const CLI::App& program) {
   for (const CLI::App* sub : program.get_subcommands()) {
     for (const CLI::Option* option : sub->get_options()) {
-      const bool is_number = option->get_type_name().starts_with("FLOAT");
+      const std::string type = option->get_type_name();
+      const bool is_count = type == "N" || type.starts_with("UINT") || type.starts_with("N:");
+      const bool is_time = type.starts_with("SECONDS"), is_number = is_time || type.starts_with("FLOAT");
+      const bool may_be_empty = option->get_positional() || option->check_lname("json") || option->check_lname("title");
       for (const std::string& value : option->results()) {
         if (value.empty() && option->check_sname("o")) throw UsageError("-o: no name given; expected the name of a file");
-        if (is_number && std::isnan(std::strtod(value.c_str(), nullptr)))
-          throw UsageError(fmt::format("{}: {} given; expected a number", option->get_name(), value));
+        if (value.empty() && !may_be_empty) throw UsageError(option->get_name() + ": nothing given; expected a value");
+        if (is_count && is_too_large(value))
+          throw UsageError(fmt::format("{}: {} given; expected a smaller number", option->get_name(), value));
+        const double number = is_number ? std::strtod(value.c_str(), nullptr) : 0;
+        if (std::isfinite(number) && !(is_time && number < 0)) continue;
+        throw UsageError(fmt::format("{}: {} given; expected {}", option->get_name(), value,
+                                     is_time ? "seconds, from 0 on; 0: no limit" : "a number"));
       }
     }
   }

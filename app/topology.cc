@@ -13,6 +13,7 @@
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 #include "corank/result/shape_file.h"
+#include "corank/solve/options.h"
 
 namespace corank::app {
 namespace {
@@ -61,7 +62,9 @@ void add_topology(CLI::App& program, Action& action) {
   const auto command = std::make_shared<TopologyCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
-  sub->add_option("--threads", command->options.threads, "Threads; 0: one for each core")->capture_default_str();
+  sub->add_option("--threads", command->options.threads, "Threads; 0: one for each core")
+      ->check(CLI::Range(0, solve::kMostThreads))
+      ->capture_default_str();
   sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);

@@ -6,6 +6,7 @@
 
 #include "corank/kinematics/part_file.h"
 #include "corank/kinematics/urdf.h"
+#include "corank/symbolic/exact_value.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/model_text.h"
 
@@ -88,6 +89,8 @@ Model parse_model(const ModelText& model, const std::vector<result::ConstantOver
     return from_robot(kinematics::parse_parts(model.text, model.file, model.folder), constants);
   Model read{symbolic::parse_model(model.text, model.file), {}, {}};
   result::put_in(constants, read.mechanism);
+  for (const result::ConstantOverride& o : constants)  // whether or not an equation has it
+    symbolic::exact_value(read.mechanism, symbolic::Expression::symbol(o.name), o.name);
   return read;
 }
 

@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <pty.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <fstream>
@@ -36,28 +38,41 @@ int wait_for_end(pid_t child) {
   return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+void limit(int resource, rlim_t most) {
+  rlimit limits{};
+  getrlimit(resource, &limits);
+  limits.rlim_cur = std::min(most, limits.rlim_max);
+  if (setrlimit(resource, &limits) != 0) _exit(125);
+}
+
 int run(const char* program, const std::vector<std::string>& args, const std::filesystem::path& out,
-        const std::filesystem::path& err) {
+        const std::filesystem::path& err, const Allowed& allowed = {}) {
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {
     redirect(STDOUT_FILENO, out);
     redirect(STDERR_FILENO, err);
+    if (allowed.file_bytes) limit(RLIMIT_FSIZE, *allowed.file_bytes);
+    if (allowed.cpu_seconds) limit(RLIMIT_CPU, static_cast<rlim_t>(*allowed.cpu_seconds));
     execute(program, args);
   }
   return wait_for_end(child);
 }
 
-Outcome run(const char* program, const std::vector<std::string>& args) {
+Outcome run(const char* program, const std::vector<std::string>& args, const Allowed& allowed = {}) {
   const TemporaryFolder folder;
   const std::string out = folder.file("out"), err = folder.file("err");
-  const int status = run(program, args, out, err);
+  const int status = run(program, args, out, err, allowed);
   return {status, read_text(out), read_text(err)};
 }
 
 }  // namespace
 
 Outcome run_corank(const std::vector<std::string>& args) { return run(CORANK_PROGRAM, args); }
+
+Outcome run_corank(const std::vector<std::string>& args, const Allowed& allowed) {
+  return run(CORANK_PROGRAM, args, allowed);
+}
 
 Outcome run_corank_without_options(const std::vector<std::string>& args) { return run(CORANK_WITHOUT_OPTIONS, args); }
 

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@ struct Outcome {
 
 /// Runs `corank ARGS` to its end; standard error is no terminal.
 Outcome run_corank(const std::vector<std::string>& args);
+
+/// What the system lets a run have. A program that goes beyond its processor time is ended by a signal.
+struct Allowed {
+  std::optional<std::size_t> file_bytes{};  ///< of each file, as a full disk would
+  std::optional<int> cpu_seconds{};
+};
+Outcome run_corank(const std::vector<std::string>& args, const Allowed& allowed);
 
 /// The same by a program that was linked without OMPL and Cairo.
 Outcome run_corank_without_options(const std::vector<std::string>& args);
