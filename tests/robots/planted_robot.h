@@ -34,6 +34,7 @@ struct Rational {
   }
   friend Rational operator-(Rational a, Rational b) { return a + Rational(-b.numerator, b.denominator); }
   friend Rational operator*(Rational a, Rational b) { return {a.numerator * b.numerator, a.denominator * b.denominator}; }
+  friend bool operator==(Rational a, Rational b) = default;
   double value() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
   Expression exact() const { return Expression(std::to_string(numerator)) / Expression(std::to_string(denominator)); }
 };
@@ -131,6 +132,29 @@ class Planted {
     return {seed, kinds, false};
   }
 
+  /// Links hung on each other at random, and up to two joints or rods more that close loops; in a plane or in space, of all
+  /// kinds of joints, some with ranges, some actuated, with an output or none.
+  static Planted tangled(unsigned seed) {
+    Planted planted(seed);
+    const bool flat = planted.number(0, 1) == 0;
+    const int links = planted.number(2, 5), loops = planted.number(0, 2);
+    planted.add_link(upright(0), flat);
+    for (int i = 1; i < links; ++i) {
+      const auto on = static_cast<std::size_t>(planted.number(0, i - 1));
+      const JointKind kind = planted.any_kind(flat);
+      planted.add_link(flat ? upright(planted.number(-4, 4)) : planted.rotation(), flat);
+      if (kinematics::keeps_orientation(kind)) planted.rotations.back() = planted.rotations[on];
+      planted.tie(kind, on, static_cast<std::size_t>(i), flat);
+    }
+    for (int k = 0; k < loops; ++k) {
+      const auto a = static_cast<std::size_t>(planted.number(0, links - 1)),
+                 b = (a + static_cast<std::size_t>(planted.number(1, links - 1))) % static_cast<std::size_t>(links);
+      planted.tie(planted.any_kind(flat), a, b, flat);
+    }
+    planted.ask();
+    return planted;
+  }
+
   kinematics::Robot robot;
   std::vector<Rotation> rotations;  ///< of the links
   std::vector<Point> origins;
@@ -150,6 +174,83 @@ class Planted {
     j.name = "J" + std::to_string(robot.joints.size());
     const Point there = at + Rational(along, 2) * axis;
     j.ends = {end(from, there, axis, {}), end(to, there, axis, {})};
+  }
+  JointKind any_kind(bool flat) {
+    using enum JointKind;
+    static constexpr JointKind kFlat[] = {revolute,  revolute, revolute, revolute,          prismatic,
+                                          prismatic, fixed,    distance, distance_variable, parallelogram};
+    static constexpr JointKind kInSpace[] = {revolute,  revolute,  revolute,  prismatic, cylindrical,       universal,
+                                             spherical, spherical, planar,    fixed,     distance,          distance,
+                                             revolute,  revolute,  prismatic, fixed,     distance_variable, parallelogram};
+    return flat ? kFlat[number(0, 9)] : kInSpace[number(0, 17)];
+  }
+  /// A joint of this kind between two links where they are, or of one that does not keep their frames parallel where they
+  /// are not.
+  void tie(JointKind kind, std::size_t from, std::size_t to, bool flat) {
+    Joint& j = robot.joints.emplace_back();
+    j.name = "J" + std::to_string(robot.joints.size());
+    if (kinematics::keeps_orientation(kind) && rotations[from] != rotations[to]) kind = JointKind::revolute;
+    if (kind == JointKind::revolute && !flat && number(0, 1) == 0) kind = JointKind::spherical;
+    j.kind = kind;
+    const Rotation frame = flat ? upright(number(-4, 4)) : rotation();
+    const Point along = flat ? Point{0, 0, 1} : column(frame, 2), across = column(frame, 0), third = column(frame, 1);
+    const Point at = flat ? planar_point() : point();
+    const Rational way(number(1, 6), 2);
+    const auto sometimes = [this] { return number(0, 3) == 0; };
+    switch (kind) {
+      case JointKind::revolute:
+        j.ends = {end(from, at, along, across), end(to, at, along, third)};
+        if (sometimes()) j.ranges = {range(angle_between(along, across, third))};
+        j.actuated = sometimes();
+        break;
+      case JointKind::prismatic:
+        j.ends = {end(from, at, across, {}), end(to, at + way * across, across, {})};
+        j.ranges = {kinematics::Range{(way - 8).exact(), (way + 8).exact()}};
+        j.actuated = sometimes();
+        break;
+      case JointKind::parallelogram:
+        j.ends = {end(from, at, along, {}), end(to, at + way * across, along, {})};
+        j.length = way.exact();
+        j.actuated = sometimes();
+        break;
+      case JointKind::cylindrical: j.ends = {end(from, at, along, {}), end(to, at + way * along, along, {})}; break;
+      case JointKind::universal: j.ends = {end(from, at, along, {}), end(to, at, across, {})}; break;
+      case JointKind::planar: j.ends = {end(from, at, along, {}), end(to, at + way * across, along, {})}; break;
+      case JointKind::fixed: {
+        j.ends = {end(from, {}, {}, {}), end(to, {}, {}, {})};
+        j.pose.translation = exact(transposed(rotations[from], origins[to] - origins[from]));
+        for (std::size_t c = 0; c < 3; ++c) {
+          const Point image = transposed(rotations[from], column(rotations[to], c));
+          for (std::size_t r = 0; r < 3; ++r) j.pose.rotation[r][c] = image[r].exact();
+        }
+        break;
+      }
+      case JointKind::distance:
+      case JointKind::distance_variable: {
+        Point far = at;
+        while (dot(far - at, far - at) == 0) far = flat ? planar_point() : point();
+        j.ends = {end(from, at, {}, {}), end(to, far, {}, {})};
+        const Point gap = far - at;
+        const double length = std::sqrt(dot(gap, gap));
+        if (kind == JointKind::distance) {
+          j.length = symbolic::sqrt((gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2]).exact());
+        } else {
+          j.ranges = {kinematics::Range{Rational(static_cast<int>(50 * length), 100).exact(),
+                                        Rational(static_cast<int>(200 * length) + 1, 100).exact()}};
+          j.actuated = sometimes();
+        }
+        break;
+      }
+      case JointKind::spherical: j.ends = {end(from, at, {}, {}), end(to, at, {}, {})}; break;
+    }
+  }
+  /// Where a point of the last link is, or nothing.
+  void ask() {
+    if (number(0, 1) == 0) return;
+    kinematics::Output& output = robot.outputs.emplace_back();
+    output.name = "out";
+    output.link = robot.links.size() - 1;
+    output.point = exact(planar_point());
   }
   void rod(const std::string& name, std::size_t from, std::size_t to) {
     Joint& j = robot.joints.emplace_back();
