@@ -10,6 +10,9 @@
 namespace corank::kinematics {
 namespace {
 
+// Where a body is depends on all that carry it: what is written of a chain grows with the square of its length.
+constexpr std::size_t kMostMovingBodies = 500;
+
 int freedom(JointKind kind) {
   switch (kind) {
     case JointKind::revolute:
@@ -58,6 +61,10 @@ Assembly assemble(const Robot& robot) {
   const symbolic::GinacLock lock;
   Algebra algebra(robot);
   const Bodies bodies = bodies_of(robot, algebra);
+  if (bodies.size() - 1 > kMostMovingBodies)
+    throw symbolic::ModelError({robot.file.empty() ? robot.name : robot.file, 0, 0},
+                               "the robot has " + std::to_string(bodies.size() - 1) + " moving bodies",
+                               "at most " + std::to_string(kMostMovingBodies) + ", whose equations can be written out");
   Draft draft(robot, algebra);
   const auto normals = plane_of(robot, bodies, algebra);
   Space space = Space::planar;

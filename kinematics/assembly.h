@@ -43,11 +43,13 @@ struct Assembly {
   std::vector<JointValue> joint_values;  ///< of every joint that has one value
 };
 
-/// The equations of a robot. Throws ModelError where the robot is faulty or can't be assembled; where it has no coordinates.
+/// The equations of a robot. Throws ModelError where the robot is faulty or can't be assembled; where it has no
+/// coordinates, or more than 500 moving bodies.
 Assembly assemble(const Robot& robot);
 
 /// The mobility of a mechanism at a configuration found by Newton's method from random ones (of fixed seeds): its
-/// coordinates less the rank of Φ_q. Nothing where none of the tries ends in a configuration.
+/// coordinates less the rank of Φ_q. Nothing where none of the tries ends in a configuration, or the variables are
+/// hundreds.
 std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism);
 
 }  // namespace corank::kinematics

@@ -28,6 +28,9 @@ class Builder {
       : robot_(robot), algebra_(algebra), kept_(std::move(kept)) {}
 
   Bodies run() {
+    joints_of_.resize(robot_.links.size());
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j)
+      for (const JointEnd& e : robot_.joints[j].ends) joints_of_[e.link].push_back(j);
     orient_links();
     place_links();
     for (std::size_t j = 0; j < robot_.joints.size(); ++j)
@@ -109,7 +112,8 @@ class Builder {
                                    "' than the fixed and prismatic joints before it",
                                "joints that agree");
         };
-        for (const Joint& joint : robot_.joints) {
+        for (const std::size_t j : joints_of_[link]) {
+          const Joint& joint = robot_.joints[j];
           if (joint.kind != JointKind::fixed && !keeps_orientation(joint.kind)) continue;
           for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
             if (joint.ends[side].link != link) continue;
@@ -142,7 +146,8 @@ class Builder {
       while (!waiting.empty()) {
         const std::size_t link = waiting.front();
         waiting.pop_front();
-        for (const Joint& joint : robot_.joints) {
+        for (const std::size_t j : joints_of_[link]) {
+          const Joint& joint = robot_.joints[j];
           if (joint.kind != JointKind::fixed) continue;
           const Vec shift = algebra_.vector(joint.pose.translation, joint.where);
           for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
@@ -195,8 +200,9 @@ class Builder {
     while (!waiting.empty()) {
       const std::size_t body = waiting.front();
       waiting.pop_front();
-      for (const BodyJoint& j : out_.joints)
+      for (const std::size_t k : joints_of_body_[body])
         for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+          const BodyJoint& j = out_.joints[k];
           const BodyEnd &near = j.ends[side], &far = j.ends[1 - side];
           const bool about_axis = j.kind == JointKind::revolute;
           if (near.body != body || places.contains(far.body) ||
@@ -214,6 +220,9 @@ class Builder {
 
   /// Two points that one body carries stay as far apart as they are there.
   void set_idle_rods_apart() {
+    joints_of_body_.resize(out_.size());
+    for (std::size_t k = 0; k < out_.joints.size(); ++k)
+      for (const BodyEnd& e : out_.joints[k].ends) joints_of_body_[e.body].push_back(k);
     const auto is_idle = [&](const BodyJoint& j) {
       if (j.kind != JointKind::distance) return false;
       const Carried first = carried(j.ends[0]), second = carried(j.ends[1]);
@@ -243,6 +252,7 @@ class Builder {
   Bodies out_;
   std::vector<std::optional<Mat>> rotation_;
   std::vector<std::size_t> link_group_;
+  std::vector<std::vector<std::size_t>> joints_of_, joints_of_body_;  ///< of each link, of each body, in their order
 };
 
 }  // namespace

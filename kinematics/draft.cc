@@ -16,11 +16,10 @@ std::string Draft::free_name(const std::string& wanted) {
   for (const char c : wanted) name += std::isalnum(static_cast<unsigned char>(c)) || c == '_' ? c : '_';
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0]))) name.insert(0, "_");
   const auto taken = [&](const std::string& candidate) {
-    return symbolic::is_reserved(candidate) || std::find(names_.begin(), names_.end(), candidate) != names_.end() ||
-           algebra_.constants().contains(candidate);
+    return symbolic::is_reserved(candidate) || names_.contains(candidate) || algebra_.constants().contains(candidate);
   };
   while (taken(name)) name += "_";
-  names_.push_back(name);
+  names_.insert(name);
   return name;
 }
 
@@ -133,7 +132,7 @@ Vec Draft::unit_vector(const std::string& name, const SourceLocation& where) {
   Vec v;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string component = free + "_" + "xyz"[i];
-    names_.push_back(component);
+    names_.insert(component);
     coordinates_.push_back({i == 0 ? free : component, CoordinateKind::length, {}, false, i == 0, where});
     v[i] = algebra_.coordinate(component);
   }
@@ -147,8 +146,8 @@ bool Draft::equation(const ex& e, const std::string& note, const SourceLocation&
     throw ModelError(where, what + " can never close: it stays open by " + std::to_string(algebra_.value(clean)),
                      "geometry that fits together");
   }
-  for (const DraftEquation& known : equations_)
-    if (!known.inequality && (known.value.is_equal(clean) || known.value.is_equal(-clean))) return false;
+  if (known_.contains(clean) || known_.contains(-clean)) return false;
+  known_.insert(clean);
   equations_.push_back({clean, false, note, where});
   return true;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -122,9 +123,10 @@ class Draft {
   Algebra& algebra_;
   const Couplings couplings_;
   std::vector<std::optional<ex>> common_, rate_;  // of each train
-  std::vector<std::string> names_;
+  std::set<std::string> names_;
   std::vector<DraftCoordinate> coordinates_;
   std::vector<DraftEquation> equations_, velocity_;
+  std::set<ex, GiNaC::ex_is_less> known_;  // equations, as they are
   std::vector<DraftRate> rates_;
   std::vector<ex> inputs_, outputs_;
   struct JointValue {

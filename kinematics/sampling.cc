@@ -63,8 +63,10 @@ class Numeric {
 std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism) {
   constexpr int kTries = 30, kEnough = 4, kSteps = 50;
   constexpr double kZero = 1e-10, kRank = 1e-7, kFar = 1e6;
+  constexpr Eigen::Index kMostVariables = 300;  // dense matrices: beyond, decompositions take many seconds
   const System system = symbolic::algebrize(symbolic::plain_system(mechanism));
   const auto n = static_cast<Eigen::Index>(system.variables.size()), m = static_cast<Eigen::Index>(system.equations.size());
+  if (n > kMostVariables) return std::nullopt;
   VectorXd low(n), high(n), units(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Interval& domain = system.variables[static_cast<std::size_t>(i)].domain;

@@ -19,8 +19,8 @@ class Forest {
   }
 
  private:
-  std::size_t root(std::size_t x) const {
-    while (parent_[x] != x) x = parent_[x];
+  std::size_t root(std::size_t x) {
+    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
     return x;
   }
   std::vector<std::size_t> parent_;
@@ -47,9 +47,12 @@ SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algeb
     reached[body] = true;
     waiting.push_back(body);
   };
+  std::vector<std::vector<std::size_t>> joints_of(bodies.size());
+  for (std::size_t j = 0; j < n; ++j)
+    for (const BodyEnd& end : bodies.joints[j].ends) joints_of[end.body].push_back(j);
   // All that hang on a body by joints of one sort.
   const auto extend = [&](std::size_t body, auto&& wanted) {
-    for (std::size_t j = 0; j < n; ++j) {
+    for (const std::size_t j : joints_of[body]) {
       const auto& ends = bodies.joints[j].ends;
       for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
         if (!used[j] && ends[side].body == body && !reached[ends[1 - side].body] && wanted(j)) take(j, side);

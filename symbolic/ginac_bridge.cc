@@ -137,14 +137,24 @@ ex GinacBridge::to_ginac(const Expression& e, const SourceLocation& otherwise) c
   return 0;
 }
 
+std::set<std::string> GinacBridge::names_in(const ex& e) const {
+  std::set<std::string> names;
+  for (GiNaC::const_preorder_iterator i = e.preorder_begin(); i != e.preorder_end(); ++i)
+    if (is_a<GiNaC::symbol>(*i)) names.insert(ex_to<GiNaC::symbol>(*i).get_name());
+  return names;
+}
+
 bool GinacBridge::mentions_coordinate(const ex& e) const {
-  return std::any_of(coordinates_.begin(), coordinates_.end(), [&](const auto& c) { return e.has(symbols_.at(c.first)); });
+  return first_coordinate(e) < static_cast<int>(coordinates_.size());
 }
 
 int GinacBridge::first_coordinate(const ex& e) const {
   int first = static_cast<int>(coordinates_.size());
-  for (const auto& [name, index] : coordinates_)
-    if (index < first && e.has(symbols_.at(name))) first = index;
+  for (GiNaC::const_preorder_iterator i = e.preorder_begin(); i != e.preorder_end(); ++i) {
+    if (!is_a<GiNaC::symbol>(*i)) continue;
+    const auto found = coordinates_.find(ex_to<GiNaC::symbol>(*i).get_name());
+    if (found != coordinates_.end()) first = std::min(first, found->second);
+  }
   return first;
 }
 

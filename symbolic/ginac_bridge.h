@@ -7,6 +7,7 @@
 #include <ginac/ginac.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -39,6 +40,8 @@ class GinacBridge {
   Expression to_expression(const GiNaC::ex& e) const;
 
   const GiNaC::symbol& symbol(const std::string& name) const { return symbols_.at(name); }
+  /// The symbols that occur.
+  std::set<std::string> names_in(const GiNaC::ex& e) const;
   /// Does a coordinate occur?
   bool mentions_coordinate(const GiNaC::ex& e) const;
 

@@ -32,8 +32,8 @@ void print_entries(std::ostream& out, const ExpressionMatrix& matrix, std::size_
   for (std::size_t i = 0; i < matrix.rows.size(); ++i) {
     std::string number = number_label(i);
     for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
+      if (same_tree(matrix.rows[i][j], Expression(0))) continue;
       const std::string entry = matrix.rows[i][j].text();
-      if (entry == "0") continue;
       out << "  " << padded(number, label) << "  " << padded(matrix.columns[j], column) << "  "
           << broken(entry, indent, indent + 2) << "\n";
       number.clear();
@@ -49,7 +49,7 @@ void print_matrix(std::ostream& out, const std::string& name, const ExpressionMa
   const std::size_t label = number_label(matrix.rows.empty() ? 0 : matrix.rows.size() - 1).size();
   std::vector<std::size_t> widths;
   std::size_t line = 2 + label;
-  for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
+  for (std::size_t j = 0; j < matrix.columns.size() && line <= kLineWidth; ++j) {
     std::size_t width = matrix.columns[j].size();
     for (const auto& row : matrix.rows) width = std::max(width, row[j].text().size());
     widths.push_back(width);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 
 #include "corank/core/check.h"
 #include "corank/symbolic/ginac_bridge.h"
@@ -54,13 +55,65 @@ GiNaC::ex difference(const GinacBridge& bridge, const Constraint& constraint) {
          bridge.to_ginac(constraint.relation.rhs, constraint.where);
 }
 
+// Of a term, by a symbol that it has: of a product, the factors with the symbol alone are differentiated.
+GiNaC::ex derivative(const GiNaC::ex& term, const GiNaC::symbol& by) {
+  if (!GiNaC::is_a<GiNaC::mul>(term)) return term.diff(by);
+  GiNaC::exvector sum;
+  for (std::size_t i = 0; i < term.nops(); ++i) {
+    if (!term.op(i).has(by)) continue;
+    GiNaC::exvector product{term.op(i).diff(by)};
+    for (std::size_t k = 0; k < term.nops(); ++k)
+      if (k != i) product.push_back(term.op(k));
+    sum.push_back(GiNaC::mul(product));
+  }
+  return GiNaC::add(sum);
+}
+
+// The terms in which each symbol occurs, so that no derivative looks at the others.
+std::map<std::string, GiNaC::exvector> terms_by_symbol(const GinacBridge& bridge, const GiNaC::ex& e) {
+  std::map<std::string, GiNaC::exvector> terms;
+  const auto add = [&](const GiNaC::ex& term) {
+    for (const std::string& name : bridge.names_in(term)) terms[name].push_back(term);
+  };
+  if (GiNaC::is_a<GiNaC::add>(e)) {
+    for (const GiNaC::ex& term : e) add(term);
+  } else {
+    add(e);
+  }
+  return terms;
+}
+
+constexpr std::size_t kMostEntries = 10'000'000;
+
+void check_size(std::size_t rows, std::size_t columns, const Mechanism& mechanism) {
+  if (rows <= kMostEntries / std::max<std::size_t>(columns, 1)) return;
+  throw ModelError({mechanism.name(), 0, 0},
+                   "its Jacobian has " + std::to_string(rows) + " rows and " + std::to_string(columns) + " columns",
+                   "at most " + std::to_string(kMostEntries) + " entries; a plain system is solved without it");
+}
+
 // Φ_q, and the coefficients of the rates in a velocity equation, which is linear in them, are derivatives by the columns.
 void add_row(const GinacBridge& bridge, const GiNaC::ex& e, const Constraint& constraint, VelocityEquation& velocity) {
   velocity.where.push_back(constraint.where);
   std::vector<Expression>& row = velocity.matrix.rows.emplace_back();
+  const std::map<std::string, GiNaC::exvector> terms = terms_by_symbol(bridge, e);
+  std::size_t factors = 0;
+  for (const auto& [name, list] : terms)
+    for (const GiNaC::ex& term : list) factors += term.nops();
+  if (factors > kMostEntries / 2)
+    throw ModelError(constraint.where, "the derivatives of an equation have " + std::to_string(factors) + " factors",
+                     "products of fewer variables; at most " + std::to_string(kMostEntries / 2) + " factors");
+  const Expression zero(0);
   for (const std::string& column : velocity.matrix.columns) {
     try {
-      row.push_back(bridge.to_expression(e.diff(bridge.symbol(column))));
+      const auto with = terms.find(column);
+      if (with == terms.end()) {
+        row.push_back(zero);
+        continue;
+      }
+      GiNaC::exvector sum;
+      for (const GiNaC::ex& term : with->second) sum.push_back(derivative(term, bridge.symbol(column)));
+      row.push_back(bridge.to_expression(GiNaC::add(sum)));
     } catch (const std::exception& error) {
       throw ModelError(constraint.where, "the equation `" + constraint.relation.text() + "` cannot be differentiated by " +
                                              column + ": " + error.what());
@@ -78,6 +131,7 @@ void add_given_rows(const Mechanism& mechanism, VelocityEquation& velocity) {
     names.push_back(r.name);
   }
   velocity.given = true;
+  check_size(mechanism.velocity_equations().size(), velocity.matrix.columns.size(), mechanism);
   const GinacBridge bridge(constants, names);
   for (const Constraint& c : mechanism.velocity_equations()) add_row(bridge, difference(bridge, c), c, velocity);
 }
@@ -138,6 +192,7 @@ Derivation derived(const Mechanism& mechanism) {
       velocity.matrix.roles.push_back(role_of(mechanism, coordinate.name));
     }
   }
+  if (!given) check_size(mechanism.constraints().size(), velocity.matrix.columns.size(), mechanism);
   for (const Constraint& constraint : mechanism.constraints()) {
     if (constraint.relation.kind != Relation::Kind::equal) continue;
     const GiNaC::ex phi = difference(bridge, constraint);
