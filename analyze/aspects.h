@@ -68,7 +68,7 @@ struct Aspects {
 
 struct AspectsOptions {
   int threads = 1;
-  int halvings = 16;                  ///< of a cover's box, at most
+  int halvings = 26;                  ///< of a cover's box, at most
   int rounds = 16;                    ///< SignCells::refine
   std::vector<std::string> drawn{};   ///< coordinates
   std::vector<std::string> images{};  ///< two lengths, of a C-space of two dimensions

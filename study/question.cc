@@ -28,7 +28,7 @@ void settle_sizes(System& system) {
     if (system.variables[j].kind == VariableKind::length) length = std::max(length, typical[j]);
   for (std::size_t j = 0; j < typical.size(); ++j) {
     Variable& v = system.variables[j];
-    if (v.kind == VariableKind::length) v.size = unit_of(length);
+    if (v.kind == VariableKind::length) v.size = unit_of(v.auxiliary ? typical[j] : length);
     if (v.kind == VariableKind::auxiliary) v.size = unit_of(typical[j]);
   }
 }
