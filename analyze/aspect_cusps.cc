@@ -7,6 +7,7 @@
 
 #include "corank/analyze/aspects.h"
 #include "corank/analyze/piece_places.h"
+#include "corank/analyze/topology.h"
 #include "corank/core/rounding.h"
 #include "corank/core/signs.h"
 #include "corank/result/locus_words.h"
@@ -82,8 +83,10 @@ void add_cusps(study::Question question, const LocusFactors& locus, SignCells& c
     find.find(cusp, outer);
     cusps.list.push_back(std::move(cusp));
   }
-  if (!found.cover.complete() || found.cover.boxes.size() != proven.size())
-    cusps.reasons.push_back(fmt::format("{} cusps: {}", name, result::locus_sentence(found)));
+  const std::size_t which = locus.forward ? 0 : 1;
+  cusps.looked_for[which] = true;
+  cusps.all[which] = found.cover.complete() && found.cover.boxes.size() == proven.size();
+  if (!cusps.all[which]) cusps.reasons.push_back(fmt::format("{} cusps: {}", name, result::locus_sentence(found)));
 }
 
 }  // namespace
@@ -101,6 +104,8 @@ AspectCusps aspect_cusps(const study::Question& question, const std::vector<Locu
     return cusps;
   }
   for (const LocusFactors& locus : loci) {
+    const std::size_t which = locus.forward ? 0 : 1;
+    if (locus.factors.empty()) cusps.looked_for[which] = cusps.all[which] = true;
     if (locus.factors.empty() || control.ended()) continue;
     try {
       add_cusps(question, locus, cells, pieces, threads, control, cusps);
@@ -110,6 +115,25 @@ AspectCusps aspect_cusps(const study::Question& question, const std::vector<Locu
   }
   if (control.ended()) cusps.reasons.emplace_back("the analysis was ended by a limit");
   return cusps;
+}
+
+void check_parity(const study::Question& question, int threads, solve::Control& control, AspectCusps& cusps) {
+  if (!cusps.all[0] && !cusps.all[1]) return;
+  constexpr std::uint64_t kMostForAHeight = 200'000;
+  const Topology shape = topology(question, {.threads = threads, .most_for_a_height = kMostForAHeight}, control);
+  if (shape.dimension != 2 || !shape.smooth || !shape.ends.empty() || !shape.euler_characteristic) return;
+  cusps.euler_characteristic = shape.euler_characteristic;
+  for (const bool forward : {true, false}) {
+    bool& all = cusps.all[forward ? 0 : 1];
+    const auto count =
+        std::count_if(cusps.list.begin(), cusps.list.end(), [&](const AspectCusp& c) { return c.forward == forward; });
+    if (!all || (count - *shape.euler_characteristic) % 2 == 0) continue;
+    all = false;
+    cusps.reasons.push_back(
+        fmt::format("{} cusps: their number, {}, has not the parity of the Euler characteristic {} of the closed C-space, "
+                    "as those of a generic map have: there may be others",
+                    forward ? "forward" : "inverse", count, *shape.euler_characteristic));
+  }
 }
 
 }  // namespace corank::analyze

@@ -2,6 +2,7 @@
 // motion about a cusp joins without a singularity lie in one aspect. In which, and what lies between them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,11 @@ struct AspectCusp {
 struct AspectCusps {
   std::vector<AspectCusp> list;
   std::vector<std::string> reasons;  ///< what is not known, and why; empty: these are all cusps in the search domain
+  std::array<bool, 2> looked_for{};  ///< those of the forward, of the inverse locus; a locus that is empty has none
+  std::array<bool, 2> all{};         ///< and there are no others in the search domain: proven
+  /// Of C-space, where it is proven to be a closed surface; the number of cusps of a locus that are all has its parity
+  /// (R. Thom 1956; doc/theory.md). Where one had not, a reason would say so.
+  std::optional<int> euler_characteristic;
 };
 
 /// The factors of a determinant, and which of a cells' functions they are.
@@ -41,5 +47,9 @@ struct LocusFactors {
 /// the signs of one side are of one piece, that side is of it. Which side is which says the sign of symbolic::cusp_sides().
 AspectCusps aspect_cusps(const study::Question& question, const std::vector<LocusFactors>& loci, SignCells& cells,
                          const Pieces& pieces, int threads, solve::Control& control);
+
+/// Looks at the parity of their numbers, where C-space, of two dimensions, comes to no end, and its Euler characteristic is
+/// found with few boxes. A locus whose number has the other one is no longer known as a whole.
+void check_parity(const study::Question& question, int threads, solve::Control& control, AspectCusps& cusps);
 
 }  // namespace corank::analyze

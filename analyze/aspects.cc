@@ -466,6 +466,8 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     return found;
   };
   result.aspects = count(both, true);
+  if (result.cusps && cover.dimension == 2 && result.limits.empty())
+    check_parity(question, options.threads, control, *result.cusps);
   const std::vector<Box>& at = result.aspects.representatives;
   const std::vector<int> y = signs_of_determinant(equations, result.system, l_y, at);
   const std::vector<int> z = signs_of_determinant(equations, result.system, l_z, at);

@@ -29,19 +29,42 @@ std::vector<Value> values(const System& system, const Box& box) {
   return result;
 }
 
-// "4; 2 within aspect 1, 2 within aspect 2".
+const char* locus_name(std::size_t which) { return which == 0 ? "forward" : "inverse"; }
+
+// "4; 2 within aspect 1, 2 within aspect 2", "not looked for; the aspects are not exact".
 std::string cusps_line(const AspectCusps& cusps) {
   std::map<int, int> around;
   int open = 0;
   for (const AspectCusp& c : cusps.list) c.around ? ++around[*c.around] : ++open;
-  std::string text = std::to_string(cusps.list.size());
+  const bool any = cusps.looked_for[0] || cusps.looked_for[1];
+  std::string text = any ? std::to_string(cusps.list.size()) : "not looked for";
+  for (std::size_t k = 0; k < 2; ++k)
+    if (any && !cusps.looked_for[k])
+      text += fmt::format(" {}; {} ones were not looked for", locus_name(1 - k), locus_name(k));
   const char* before = "; ";
   for (const auto& [aspect, count] : around) {
     text += fmt::format("{}{} within aspect {}", before, count, aspect + 1);
     before = ", ";
   }
   if (open > 0) text += fmt::format("{}{} not known in which", before, open);
+  for (std::size_t k = 0; k < 2; ++k)
+    if (cusps.euler_characteristic && cusps.all[k])
+      text += fmt::format("; the number of {} ones has the parity of the Euler characteristic {}, as it must", locus_name(k),
+                          *cusps.euler_characteristic);
   for (const std::string& reason : cusps.reasons) text += "; " + reason;
+  return text;
+}
+
+// "; covers an area from 4.36 to 5.83, and shares outputs with 2, 3".
+std::string area_words(const Aspects& a, std::size_t k) {
+  if (!a.images || k >= a.images->areas.size()) return "";
+  constexpr double kRoom = 1e-4;  // more than what the digits round
+  const Interval& area = a.images->areas[k];
+  std::string text = fmt::format("; covers an area from {:.5g} to {:.5g}", area.lo() * (1 - kRoom), area.hi() * (1 + kRoom));
+  std::vector<std::size_t> shared;
+  for (std::size_t other = 0; other < a.images->share[k].size(); ++other)
+    if (other != k && a.images->share[k][other].value_or(false)) shared.push_back(other + 1);
+  if (!shared.empty()) text += fmt::format(", shares outputs with {}", fmt::join(shared, ", "));
   return text;
 }
 
@@ -106,7 +129,7 @@ std::string to_text(const study::Question& question, const Aspects& a) {
     text += fmt::format("  {:>3}", k + 1);
     for (const Value& v : values(a.system, a.aspects.representatives[k]))
       text += fmt::format("  {} {:.4f}", v.name, v.value.mid());
-    text += "\n";
+    text += area_words(a, k) + "\n";
   }
   if (known > kMostShown) text += fmt::format("  and {} more: --json\n", known - kMostShown);
   return text;
@@ -146,8 +169,9 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
     }
     json["representatives"].push_back(entry);
   }
+  json["cusps"] = nullptr;
   if (a.cusps) {
-    json["cusps"] = Json::array();
+    if (a.cusps->looked_for[0] || a.cusps->looked_for[1]) json["cusps"] = Json::array();
     for (const AspectCusp& c : a.cusps->list) {
       Json entry = {{"locus", c.forward ? "forward" : "inverse"}, {"values", Json::object()}};
       for (const Value& v : values(a.system, c.at)) entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
@@ -155,7 +179,11 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
       entry["between"] = or_null(c.between);
       json["cusps"].push_back(entry);
     }
+    json["cusps_of"] = Json::array();
+    for (std::size_t k = 0; k < 2; ++k)
+      if (a.cusps->looked_for[k]) json["cusps_of"].push_back(locus_name(k));
     json["cusps_not_known"] = a.cusps->reasons;
+    json["euler_characteristic"] = or_null(a.cusps->euler_characteristic);
   }
   json["reason"] = !a.reason.empty() ? a.reason : a.aspects.reason;
   json["complete"] = complete;

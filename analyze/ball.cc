@@ -199,6 +199,7 @@ void BallMaker::limit_orientation() {
   }
   const Expression& alpha = *options_.orientation_range;
   if (value(alpha) < 0) throw error("the range of the orientation is negative", "an angle, such as 15deg");
+  bool used = options_.orientation.has_value();
   for (const NamedValue& v : options_.at) {
     const Coordinate& c = coordinate(v.name);
     const auto& outputs = question_.model.outputs();
@@ -206,7 +207,11 @@ void BallMaker::limit_orientation() {
     if (in_ball || c.kind != CoordinateKind::angle || std::find(outputs.begin(), outputs.end(), v.name) == outputs.end())
       continue;
     narrow(model_, c, v.value - alpha, v.value + alpha);
+    used = true;
   }
+  if (!used)
+    throw error("the range of the orientation is without effect: no angle among the outputs has a value",
+                "such a value, or --orientation R");
   if (!options_.orientation || value(alpha) >= std::numbers::pi) return;
   if (!(value(alpha) > 0))
     throw error("an orientation with one value has no range", "a model that keeps it: pose of LINK keeps R");

@@ -132,12 +132,10 @@ ParameterMapper::ParameterMapper(MapQuestion question, const ParameterMapOptions
       !std::has_single_bit(static_cast<unsigned>(options.resolution)))
     throw ModelError(place, "a map's resolution is a power of two", "one of 8, 16, 32 … 1024");
   for (const symbolic::Parameter& p : q.over) {
-    if (q.question.assembly && model.has_constant(p.name))
-      throw ModelError(place, "the equations of a robot from parts depend on its constants in more than their values",
-                       "coordinates of the robot, or a model of equations");
     parts->region.push_back(Interval::hull(symbolic::exact_value(model, p.lower, p.name).enclose(),
                                            symbolic::exact_value(model, p.upper, p.name).enclose()));
   }
+  if (q.question.assembly) symbolic::check_conditions(model, q.question.assembly->conditions, q.over);
   if (q.answer == MapAnswer::solutions) {
     parts->make_family();
   } else {

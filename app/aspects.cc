@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
+#include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
@@ -23,12 +25,14 @@ struct AspectsCommand {
   QuestionOptions question;
   analyze::AspectsOptions options;
   double time_limit = 0;
-  bool json = false;
+  JsonOption json;
   bool areas = false;
   std::string output;
 };
 
 ExitStatus aspects(AspectsCommand command) {
+  command.json.give_back(command.question.file);
+  command.json.check();
   const bool drawn = command.output.ends_with(".svg");
   command.options.certificate = command.output.ends_with(".h5");
   if (!command.output.empty() && !drawn && !command.options.certificate)
@@ -39,8 +43,14 @@ ExitStatus aspects(AspectsCommand command) {
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no aspects", command.question.file));
   if (drawn) command.options.drawn = report::drawn_coordinates(question.model);
-  if (command.areas && question.model.outputs().size() != 2)
-    throw UsageError(fmt::format("{}: areas need two outputs", command.question.file));
+  const auto is_length = [&](const std::string& name) {
+    const int k = question.model.find_coordinate(name);
+    return k >= 0 && question.model.coordinates()[static_cast<std::size_t>(k)].kind == symbolic::CoordinateKind::length;
+  };
+  const std::vector<std::string>& outputs = question.model.outputs();
+  if (command.areas && (outputs.size() != 2 || !std::all_of(outputs.begin(), outputs.end(), is_length)))
+    throw UsageError(fmt::format("--areas: without effect; expected two outputs that are lengths, which {} has not",
+                                 command.question.file));
   if (command.areas) command.options.images = question.model.outputs();
   ProgressLine line;
   line.follow(control);
@@ -53,7 +63,8 @@ ExitStatus aspects(AspectsCommand command) {
                                    command.question.file));
     result::write_text(command.output, to_svg(report::aspects_picture(question.model.name(), result)));
   }
-  fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
+  if (command.json.say([&] { return to_json(question, result, complete); }))
+    fmt::print("{}", result::printable(to_text(question, result)));
   if (!complete) return stopped_early(control);
   if (!command.options.certificate) return kDone;
   if (!result.cover) {
@@ -83,13 +94,12 @@ void add_aspects(CLI::App& program, Action& action) {
          "-o", command->output,
          "A picture of the aspects, in the planes of two outputs and of two inputs; or what corank verify checks (.h5)")
       ->type_name("FILE.svg|FILE.h5");
-  sub->add_flag(
-      "--areas", command->areas,
-      "Of two outputs that are lengths: the area that each aspect covers, in bounds, and which share outputs; in JSON");
+  sub->add_flag("--areas", command->areas,
+                "Of two outputs that are lengths: the area that each aspect covers, in bounds, and which share outputs");
   sub->add_flag(
       "--cusps", command->options.cusps,
       "Look for the cusps of both loci, and say in which aspect each lets the posture or the assembly mode change");
-  sub->add_flag("--json", command->json, "Print the result as JSON");
+  command->json.add(*sub);
   sub->footer(
       "aspects: pieces of C-space without forward and inverse singularities; assembly modes: without forward ones;\n"
       "working modes: without inverse ones. Every number is proven; where one is not, bounds are given.\n\n"

@@ -49,6 +49,8 @@ analyze::BallOptions ball_of(const ClearanceCommand& command) {
   ball.at = named_values(command.at, "--at");
   ball.in = parts_of(command.in);
   for (const std::string& part : parts_of(command.ranges)) ball.ranges.push_back(range_of(part, ball.at));
+  if (command.orientation.empty() && !command.orientation_of.empty())
+    throw UsageError("--orientation-of: without effect; expected --orientation beside it");
   if (!command.orientation.empty()) ball.orientation = analyze::parse_rotation(command.orientation);
   if (!command.orientation_range.empty())
     ball.orientation_range = expression(command.orientation_range, "--orientation-range");
@@ -83,8 +85,7 @@ std::vector<analyze::NamedRange> region_of(const std::vector<std::string>& texts
 namespace {
 
 ExitStatus say(const ClearanceCommand& command, const analyze::Clearance& clearance) {
-  if (say_json(command.json_path, [&] { return to_json(clearance); }))
-    fmt::print("{}", result::printable(to_table(clearance)));
+  if (command.json.say([&] { return to_json(clearance); })) fmt::print("{}", result::printable(to_table(clearance)));
   if (clearance.nearest.complete) return kDone;
   if (!clearance.stopped.empty()) {
     fmt::print(stderr, "corank: stopped by {}; the bounds hold, but are not as close as asked for\n", clearance.stopped);
@@ -116,14 +117,14 @@ bool write_claims(const ClearanceCommand& command, const analyze::Clearance& cle
 ExitStatus run_clearance(ClearanceCommand command) {
   if (command.at.empty()) throw UsageError("--at is required, but for --best and --map");
   if (command.in.empty()) throw UsageError("--in is required, but for --best and --map");
-  give_back_model(command.question, command.json_path);
+  command.json.give_back(command.question.file);
   const solve::Options search = options_of(command);
   search.validate();
   LimitedRun run(limits_of(search, nullptr));
   solve::Control& control = run.control();
   const analyze::BallOptions ball = ball_of(command);
   const study::Question question = question_of(command);
-  check_output(command.json_path.value_or(""));
+  command.json.check();
   if (!command.proof_stem.empty()) {
     check_output(free_file(command));
     check_output(nearest_file(command));
@@ -200,10 +201,7 @@ void add_clearance(CLI::App& program, Action& action) {
       ->excludes(best)
       ->excludes(map);
   command->limits.add_options(*sub, "the search");
-  CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
-      "--json", [command](const std::vector<std::string>& path) { command->json_path = path.empty() ? "" : path.front(); },
-      "Write the result as JSON to PATH, or to standard output instead of the table");
-  json->type_name("[PATH]")->expected(0, 1);
+  command->json.add(*sub);
   sub->footer(
       "The set is forward where --set is not given. A value that --at gives is kept, unless its coordinate is in the ball "
       "or has a\n"
@@ -214,8 +212,7 @@ void add_clearance(CLI::App& program, Action& action) {
       "      --orientation-range 15deg\n"
       "  corank clearance models/dextar.cuik --best J3x=[0,1],J3y=[0,1.5]\n"
       "  corank clearance models/dextar.cuik --map J3x,J3y -o map.svg");
-  sub->callback([command, json, &action] {
-    if (json->count() > 0 && !command->json_path) command->json_path = "";
+  sub->callback([command, &action] {
     action = [command] {
       if (!command->map.empty()) return run_map(*command);
       return command->best.empty() ? run_clearance(*command) : run_best(*command);

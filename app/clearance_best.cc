@@ -13,7 +13,7 @@
 namespace corank::app {
 
 ExitStatus run_best(ClearanceCommand command) {
-  give_back_model(command.question, command.json_path);
+  command.json.give_back(command.question.file);
   const solve::Options search = options_of(command);
   search.validate();
   LimitedRun run(limits_of(search, nullptr));
@@ -21,7 +21,7 @@ ExitStatus run_best(ClearanceCommand command) {
   const analyze::BallOptions ball = ball_of(command);
   const study::Question question = question_of(command);
   const std::vector<analyze::NamedRange> region = region_of(command.best, "--best", question);
-  check_output(command.json_path.value_or(""));
+  command.json.check();
   ProgressLine line;
   analyze::BestOptions options{.precision = command.precision};
   options.progress = [&line](double lower, std::optional<double> upper, std::uint64_t cells) {
@@ -30,7 +30,7 @@ ExitStatus run_best(ClearanceCommand command) {
   };
   const analyze::Best best = analyze::best_center(question, ball, region, options, search, control);
   line.clear();
-  if (say_json(command.json_path, [&] { return to_json(best); })) fmt::print("{}", result::printable(to_table(best)));
+  if (command.json.say([&] { return to_json(best); })) fmt::print("{}", result::printable(to_table(best)));
   if (best.complete) return kDone;
   fmt::print(stderr, "corank: {}the bounds hold, but are not as close as asked for\n",
              best.stopped.empty() ? "" : "stopped by " + best.stopped + "; ");

@@ -1,12 +1,12 @@
 // What the command line of corank clearance says, for its three questions: about one centre, the best centre, a map.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "corank/analyze/center_field.h"
 #include "corank/app/exit_status.h"
+#include "corank/app/json_option.h"
 #include "corank/app/question.h"
 #include "corank/app/search_limits.h"
 
@@ -20,7 +20,7 @@ struct ClearanceCommand {
   std::string proof_stem, output;
   double precision = 0.01;
   int grid = 24;
-  std::optional<std::string> json_path;  ///< "": standard output
+  JsonOption json;
 };
 
 analyze::BallOptions ball_of(const ClearanceCommand& command);
@@ -32,6 +32,6 @@ std::vector<analyze::NamedRange> region_of(const std::vector<std::string>& texts
                                            const study::Question& question);
 
 ExitStatus run_best(ClearanceCommand command);
-ExitStatus run_map(const ClearanceCommand& command);
+ExitStatus run_map(ClearanceCommand command);
 
 }  // namespace corank::app

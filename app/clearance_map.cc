@@ -33,7 +33,8 @@ report::HeatMap picture(const analyze::ClearanceMap& map) {
 
 }  // namespace
 
-ExitStatus run_map(const ClearanceCommand& command) {
+ExitStatus run_map(ClearanceCommand command) {
+  command.json.give_back(command.question.file);
   const auto is = [&](const char* end) { return command.output.ends_with(end); };
   if (!is(".svg") && !is(".csv") && !is(".json"))
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg, .csv or .json", command.output));
@@ -45,15 +46,18 @@ ExitStatus run_map(const ClearanceCommand& command) {
   const study::Question question = question_of(command);
   const std::vector<analyze::NamedRange> region = region_of(command.map, "--map", question);
   check_output(command.output);
+  command.json.check();
   ProgressLine line;
   analyze::MapOptions options{.grid = command.grid, .precision = command.precision};
   options.progress = [&line](std::size_t done, std::size_t all) { line.show(fmt::format("{} of {} cells", done, all)); };
   const analyze::ClearanceMap map = analyze::clearance_map(question, ball, region, options, search, control);
   line.clear();
   result::write_text(command.output, is(".svg") ? to_svg(picture(map)) : is(".csv") ? to_csv(map) : to_json(map) + "\n");
-  if (map.empty) fmt::print("no singularity at all in the ranges: proven\n");
-  fmt::print("{} cells, {} boxes processed, {:.3f} s: {}\n", map.cells.size(), map.processed, map.seconds,
-             result::printable(command.output));
+  if (command.json.say([&] { return to_json(map); })) {
+    if (map.empty) fmt::print("no singularity at all in the ranges: proven\n");
+    fmt::print("{} cells, {} boxes processed, {:.3f} s: {}\n", map.cells.size(), map.processed, map.seconds,
+               result::printable(command.output));
+  }
   if (map.complete) return kDone;
   fmt::print(stderr, "corank: not all cells were examined; the bounds of those that were hold\n");
   return kIncomplete;

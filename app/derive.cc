@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "corank/app/json_option.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/without_effect.h"
+#include "corank/result/derivation_json.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 #include "corank/study/model.h"
@@ -13,6 +16,7 @@
 #include "corank/symbolic/line_breaks.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/symbolic/model_text.h"
+#include "corank/symbolic/parameters.h"
 #include "corank/symbolic/printer.h"
 #include "corank/symbolic/text_file.h"
 
@@ -22,6 +26,7 @@ namespace {
 struct DeriveCommand {
   QuestionOptions question;
   std::string format = "text", path;
+  JsonOption json;
 };
 
 /// Of what corank derive wrote into a file in the model language, which it may write again.
@@ -41,6 +46,33 @@ void check_path(const std::string& path, const std::string& model) {
   if (kept) throw UsageError(path + ": not written over, it was not made by corank derive; remove it first");
 }
 
+/// What equations of parts are not made for: "% Left out, being 0 for these values of the constants: b - 3".
+std::string left_out(const std::vector<symbolic::Condition>& conditions) {
+  constexpr std::size_t kMost = 8;
+  std::vector<std::string> texts;
+  for (const symbolic::Condition& c : conditions)
+    if (c.sign == 0) texts.push_back(texts.size() == kMost ? "…" : c.value.text());
+  if (texts.empty()) return "";
+  if (texts.size() > kMost) texts.resize(kMost + 1);
+  return fmt::format("% Left out, being 0 for these values of the constants: {}\n", fmt::join(texts, ", "));
+}
+
+std::string derivation_json(QuestionOptions options) {
+  study::Question question = load(options);
+  std::optional<std::string> robot;
+  if (question.assembly) robot = study::describe(*question.assembly);
+  std::vector<symbolic::TrigonometricSystem> systems;
+  if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
+  question.set = chosen_set(options, question.model);
+  const bool moves_freely = question.assembly && question.model.constraints().empty();
+  for (const study::Question& part : moves_freely ? std::vector<study::Question>{} : study::parts_of(question)) {
+    systems.push_back(study::equations(part));
+    if (!systems.back().claimed.empty())
+      static_cast<void>(study::system(part, systems.back()));  // refuses what does not follow
+  }
+  return result::derivation_json(question.model, robot, symbolic::definition(question.set).name, systems);
+}
+
 std::string derivation(QuestionOptions options, const std::string& format) {
   study::Question question = load(options);
   std::string head;
@@ -48,7 +80,9 @@ std::string derivation(QuestionOptions options, const std::string& format) {
     head = fmt::format("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
   if (question.assembly && question.model.constraints().empty())
     return head + "It has no loops and no outputs: every value of its joints is a configuration.\n";
-  if (format == "model") return head + symbolic::broken_model(symbolic::to_model(question.model));
+  if (format == "model")
+    return head + (question.assembly ? left_out(question.assembly->conditions) : "") +
+           symbolic::broken_model(symbolic::to_model(question.model));
   if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
   question.set = chosen_set(options, question.model);
   if (symbolic::definition(question.set).of_parts) {
@@ -67,8 +101,16 @@ std::string derivation(QuestionOptions options, const std::string& format) {
   return head + (format == "latex" ? symbolic::to_latex(derivation, system) : symbolic::to_text(derivation, system));
 }
 
-ExitStatus derive(const DeriveCommand& command) {
+ExitStatus derive(const CLI::App& sub, DeriveCommand command) {
+  command.json.give_back(command.question.file);
+  command.json.check();
+  if (command.format == "model" && !command.json.given())
+    refuse_without_effect(sub, {"--set", "--kernel", "--corank"}, "another --format: the model itself is that of all sets");
+  if (command.json.given() && command.json.path().empty() && command.path.empty())
+    refuse_without_effect(sub, {"--format"}, "--json PATH or -o FILE: standard output has the JSON alone");
   check_path(command.path, command.question.file);
+  const bool text_is_asked = command.json.say([&] { return derivation_json(command.question); }) || !command.path.empty();
+  if (!text_is_asked) return kDone;
   const std::string text = derivation(command.question, command.format);
   if (command.path.empty()) {
     fmt::print("{}", result::printable(text));
@@ -97,10 +139,11 @@ void add_derive(CLI::App& program, Action& action) {
       ->check(CLI::IsMember({"text", "latex", "cuik", "model"}))
       ->capture_default_str();
   command->add_option("-o", options->path, "Write it to this file in place of standard output")->type_name("FILE");
+  options->json.add(*command, "constraints, velocity equation and systems", "the text");
   command->footer(
       "The set is cspace where --set is not given.\n\n"
       "Example:\n  corank derive models/dextar.cuik --set inverse --format latex");
-  command->callback([=, &action] { action = [=] { return derive(*options); }; });
+  command->callback([=, &action] { action = [=] { return derive(*command, *options); }; });
 }
 
 }  // namespace corank::app

@@ -4,11 +4,13 @@
 #include <memory>
 
 #include "corank/analyze/parameter_map.h"
+#include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/without_effect.h"
 #include "corank/report/parameter_picture.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
@@ -26,7 +28,7 @@ struct MapCommand {
   bool no_boundary = false;
   double time_limit = 0;
   std::vector<std::string> outputs;
-  JsonPath json;
+  JsonOption json;
 };
 
 // "NAME=FROM:TO".
@@ -76,8 +78,10 @@ report::ParameterPicture picture(const analyze::ParameterMap& map) {
   return result;
 }
 
-ExitStatus write_map(MapCommand command) {
-  give_back_model(command.question, command.json);
+ExitStatus write_map(const CLI::App& sub, MapCommand command) {
+  if (command.count != "solutions") refuse_without_effect(sub, {"--no-boundary"}, "--count solutions");
+  command.json.give_back(command.question.file);
+  command.json.check();
   const int n = command.options.resolution;
   if (n < analyze::kTiles || n > 1024 || (n & (n - 1)) != 0)
     throw UsageError(fmt::format("--resolution {}: expected a power of two from {} to 1024", n, analyze::kTiles));
@@ -114,7 +118,7 @@ ExitStatus write_map(MapCommand command) {
       report::write_picture(name, picture(map));
     }
   }
-  if (say_json(command.json, [&] { return to_json(map); })) fmt::print("{}", result::printable(to_table(map)));
+  if (command.json.say([&] { return to_json(map); })) fmt::print("{}", result::printable(to_table(map)));
   return map.complete ? kDone : stopped_early(control);
 }
 
@@ -153,10 +157,7 @@ void add_map(CLI::App& program, Action& action) {
          "corank verify; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  CLI::Option* json = sub->add_option_function<std::vector<std::string>>(
-      "--json", [command](const std::vector<std::string>& path) { command->json = path.empty() ? "" : path.front(); },
-      "Write the result as JSON to PATH, or to standard output instead of the table");
-  json->type_name("[PATH]")->expected(0, 1);
+  command->json.add(*sub);
   sub->footer(
       "In a cell that is proven the number is the same for every value of the parameters, and all solutions are regular.\n\n"
       "Exit status: 0 done, 1 bad input, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
@@ -164,10 +165,7 @@ void add_map(CLI::App& program, Action& action) {
       "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.svg\n"
       "  corank map models/dextar.cuik --over l2=1/2:3/2 --over l3=1/2:3/2 --fix theta2=pi/3 --fix theta5=2 -o lengths.svg\n"
       "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.h5 && corank verify modes.h5");
-  sub->callback([command, json, &action] {
-    if (json->count() > 0 && !command->json) command->json = "";
-    action = [command] { return write_map(*command); };
-  });
+  sub->callback([command, sub, &action] { action = [command, sub] { return write_map(*sub, *command); }; });
 }
 
 }  // namespace corank::app

@@ -4,23 +4,8 @@
 
 #include "corank/result/assembled.h"
 #include "corank/result/printable.h"
-#include "corank/result/result_file.h"
 
 namespace corank::app {
-
-void give_back_model(QuestionOptions& question, JsonPath& json) {
-  if (question.file.empty() && json && !json->empty()) question.file.swap(*json);
-}
-
-bool say_json(const JsonPath& json, const std::function<std::string()>& text) {
-  if (!json) return true;
-  if (json->empty()) {
-    fmt::print("{}\n", text());
-    return false;
-  }
-  result::write_text(*json, text() + "\n");
-  return true;
-}
 
 bool warn_of_assembly(const result::Result& result) {
   if (result::assembled(result) != std::optional(false) && !result.nearly_solved) return false;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "corank/app/box_files.h"
+#include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/named_values.h"
 #include "corank/app/progress.h"
@@ -28,7 +29,7 @@ struct PathCommand {
   std::string avoid = "forward", csv, output, report;
   analyze::PathOptions options;
   double time_limit = 0;
-  bool json = false;
+  JsonOption json;
 
   /// What a user types for the same path.
   std::string line() const;
@@ -85,6 +86,8 @@ void write_page(const PathCommand& command, const analyze::PathFinder& finder, c
 }
 
 ExitStatus path(PathCommand command) {
+  command.json.give_back(command.question.file);
+  command.json.check();
   LimitedRun run({.time = command.time_limit});
   solve::Control& control = run.control();
   const study::Question question = load(command.question);
@@ -114,7 +117,7 @@ ExitStatus path(PathCommand command) {
   if (!command.csv.empty()) result::write_text(command.csv, to_csv(finder, found));
   if (!command.output.empty() && found.tube) result::write_path(command.output, analyze::to_file(finder, found));
   if (!command.report.empty()) write_page(command, finder, found);
-  fmt::print("{}", command.json ? to_json(finder, found) + "\n" : result::printable(to_text(finder, found)));
+  if (command.json.say([&] { return to_json(finder, found); })) fmt::print("{}", result::printable(to_text(finder, found)));
   return found.status == analyze::Path::Status::unknown ? kIncomplete : kDone;
 }
 
@@ -159,7 +162,7 @@ void add_path(CLI::App& program, Action& action) {
   sub->add_option("--csv", command->csv, "Write the waypoints")->type_name("FILE");
   sub->add_option("--report", command->report, "Write an HTML page on which the mechanism moves along the path")
       ->type_name("FILE.html");
-  sub->add_flag("--json", command->json, "Print the result as JSON");
+  command->json.add(*sub);
   sub->footer(
       "The path keeps to the ranges, limits and inequalities of the model. Every configuration within the radius of it, in\n"
       "sines and cosines of angles and in lengths, is proven to be none of the singularities avoided. Where no path can\n"

@@ -9,6 +9,7 @@
 
 #include "corank/app/box_files.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/without_effect.h"
 #include "corank/report/gcl.h"
 #include "corank/report/portrait.h"
 #include "corank/report/vtp.h"
@@ -71,8 +72,11 @@ void check_format(const PlotCommand& command) {
   report::check_can_draw(command.output);
 }
 
-ExitStatus plot(const PlotCommand& command) {
+ExitStatus plot(const CLI::App& sub, const PlotCommand& command) {
   check_format(command);
+  if (!report::is_portrait_format(command.output))
+    refuse_without_effect(sub, {"--title", "--legend", "--width"}, "-o with a name that ends in .svg, .pdf or .png");
+  if (!command.output.ends_with(".png")) refuse_without_effect(sub, {"--dpi"}, "-o with a name that ends in .png");
   std::list<result::Result> results;
   std::vector<report::PictureSource> sources;
   for (const std::string& path : command.inputs) sources.push_back(read_source(command, path, results));
@@ -141,7 +145,7 @@ void add_plot(CLI::App& program, Action& action) {
       "  corank plot cspace.h5 forward.h5 inverse.h5 --axes J3x,J3y -o output.pdf\n"
       "  corank plot forward.h5 inverse.h5 --axes theta2,theta5 --width 120 -o input.svg\n"
       "  corank plot cspace.h5 forward.h5 --axes J3x,J3y,theta2 -o cspace.vtp");
-  sub->callback([command, &action] { action = [command] { return plot(*command); }; });
+  sub->callback([command, sub, &action] { action = [command, sub] { return plot(*sub, *command); }; });
 }
 
 }  // namespace corank::app

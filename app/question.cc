@@ -99,6 +99,7 @@ study::Question load(const QuestionOptions& options, std::set<std::string>* said
 std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& question, const symbolic::Mechanism& mechanism) {
   if (mechanism.is_plain_system()) {
     if (question.corank != 1) throw UsageError(fmt::format("{}: a plain system has no --corank", question.file));
+    if (!question.kernel.empty()) throw UsageError(fmt::format("{}: a plain system has no --kernel", question.file));
     if (question.set.empty()) return std::nullopt;
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no --set", question.file));
   }
@@ -107,7 +108,7 @@ std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& questi
   }
   if (question.set == kNodes) return symbolic::nodes_of(mechanism);
   const auto set = symbolic::singularity_set_from_string(question.set);
-  if (symbolic::definition(set).of_parts && (question.corank != 1 || !question.kernel.empty()))
+  if (!symbolic::definition(set).has_kernel() && (question.corank != 1 || !question.kernel.empty()))
     throw UsageError(fmt::format("--set {}: has no --corank and no --kernel", question.set));
   return set;
 }

@@ -9,14 +9,17 @@
 #include "corank/app/box_files.h"
 #include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
+#include "corank/app/json_option.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/set_search.h"
 #include "corank/app/set_views.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/without_effect.h"
 #include "corank/report/aspects_picture.h"
 #include "corank/report/page.h"
+#include "corank/report/page_summary.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
@@ -36,6 +39,7 @@ struct ReportCommand {
   SetSearch search{1, kUsualSets, {}, {}, {.max_found = kDefaultMaxFound, .time_limit = kDefaultTimeLimit}};
   std::vector<std::string> results;
   std::string folder;
+  JsonOption json;
 };
 
 std::vector<report::SetView> solve_all(const ReportCommand& command, const study::Question& question) {
@@ -109,7 +113,15 @@ std::vector<report::SetView> read_all(std::vector<std::string>& paths) {
   return views;
 }
 
-ExitStatus write_report(ReportCommand command) {
+ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
+  if (!command.results.empty())
+    refuse_without_effect(sub,
+                          {"--loops", "--sets", "--corank", "-D", "--sigma", "--cspace-sigma", "--threads", "--max-boxes",
+                           "--max-found", "--time-limit", "--memory-limit", "--proof"},
+                          "no --results beside it: they are not searched for again");
+  command.search.check_effect(sub);
+  if (command.results.empty()) command.json.give_back(command.question.file);
+  command.json.check();
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results take the place of FILE: their model is in them");
   command.search.validate();
@@ -148,13 +160,14 @@ ExitStatus write_report(ReportCommand command) {
   }
 
   bool complete = !figures.stopped;
-  for (const auto& [result, set, system, components, words] : views) {
-    complete = complete && result.cover.complete() && result.stopped.empty();
-    fmt::print("{}: {}\n", words.title, words.finding);
-  }
+  for (const auto& view : views) complete = complete && view.result.cover.complete() && view.result.stopped.empty();
+  const bool table = command.json.say(
+      [&] { return report::page_summary(mechanism.name(), (folder / "index.html").string(), options, views, complete); });
+  if (table)
+    for (const auto& view : views) fmt::print("{}: {}\n", view.words.title, view.words.finding);
   for (const auto& view : views)
     if (warn_of_assembly(view.result)) break;  // it is the same of the others
-  fmt::print("{}\n", result::printable_line((folder / "index.html").string()));
+  if (table) fmt::print("{}\n", result::printable_line((folder / "index.html").string()));
   if (complete) return kDone;
   for (const auto& [result, set, system, components, words] : views)
     if (!result.cover.complete() || !result.stopped.empty())
@@ -178,6 +191,7 @@ void add_report(CLI::App& program, Action& action) {
                 "Keep in the result files why no solution is missing, so that corank verify can check that, too");
   sub->add_option("--results", command->results, "Take these results, of one model, instead of solving")
       ->type_name("RESULT.h5...");
+  command->json.add(*sub, "what stands on the page");
   sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-report")
       ->type_name("FOLDER");
   sub->footer(
@@ -186,7 +200,7 @@ void add_report(CLI::App& program, Action& action) {
       "says which sets are incomplete.\n\n"
       "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Example:\n  corank report models/dextar.cuik -o dextar");
-  sub->callback([command, &action] { action = [command] { return write_report(*command); }; });
+  sub->callback([command, sub, &action] { action = [command, sub] { return write_report(*sub, *command); }; });
 }
 
 }  // namespace corank::app

@@ -94,7 +94,7 @@ Resumed::Resumed(const CLI::App& sub, const SolveCommand& now)
   if (given(sub, "-o")) command.result_path = now.result_path;
   if (given(sub, "--digits")) command.digits = now.digits;
   command.keep_sheets = command.keep_sheets || now.keep_sheets;
-  command.json_path = now.json_path;
+  command.json = now.json;
   command.every = now.every;
   command.resume_path = now.resume_path;
   command.refine_path = now.refine_path;

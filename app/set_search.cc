@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "corank/app/interrupt.h"
+#include "corank/app/without_effect.h"
 
 namespace corank::app {
 using symbolic::SingularitySet;
@@ -50,6 +52,16 @@ solve::Options SetSearch::options_of(SingularitySet set) const {
   limits.apply(options);
   options.proof = proof;
   return options;
+}
+
+void SetSearch::check_effect(const CLI::App& command) const {
+  const auto any = [this](auto is) {
+    return std::any_of(sets.begin(), sets.end(), [&](const std::string& s) { return is(symbolic::definition(s)); });
+  };
+  if (!any([](const symbolic::SetDefinition& d) { return d.is_cspace(); }))
+    refuse_without_effect(command, {"--cspace-sigma"}, "cspace among --sets");
+  if (!any([](const symbolic::SetDefinition& d) { return !d.is_cspace(); }))
+    refuse_without_effect(command, {"--sigma"}, "--cspace-sigma, or another set than cspace among --sets");
 }
 
 void SetSearch::validate() const {

@@ -19,6 +19,8 @@ struct SetSearch {
   /// Those of SearchLimits.
   void add_limits(CLI::App& command);
 
+  /// Throws UsageError where an option is given that concerns none of the sets.
+  void check_effect(const CLI::App& command) const;
   /// Throws solve::OptionError where a number is out of its range, whatever the system.
   void validate() const;
   /// For the system of a set. Throws solve::OptionError.

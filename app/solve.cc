@@ -16,6 +16,7 @@
 #include "corank/app/resume.h"
 #include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/without_effect.h"
 #include "corank/result/assembled.h"
 #include "corank/result/cuik_param.h"
 #include "corank/result/printable.h"
@@ -84,6 +85,16 @@ System system_to_solve(SolveCommand& command, const study::Question& question) {
   return system;
 }
 
+bool bounds_an_area(const study::Question& question) {
+  const std::vector<std::string>& outputs = question.model.outputs();
+  const auto is_length = [&](const std::string& name) {
+    const int k = question.model.find_coordinate(name);
+    return k >= 0 && question.model.coordinates()[static_cast<std::size_t>(k)].kind == symbolic::CoordinateKind::length;
+  };
+  return symbolic::definition(question.set).of_parts && outputs.size() == 2 &&
+         std::all_of(outputs.begin(), outputs.end(), is_length);
+}
+
 // Of a boundary in the plane of two lengths.
 std::optional<Interval> area_of(const SolveCommand& command, const study::Question& question, const result::Result& result,
                                 solve::Control& control) {
@@ -99,7 +110,7 @@ std::optional<Interval> area_of(const SolveCommand& command, const study::Questi
 }
 
 ExitStatus say(const SolveCommand& command, const result::Result& result, const std::optional<Interval>& area) {
-  if (say_json(command.json_path, [&] { return result::to_json(result, area); })) {
+  if (command.json.say([&] { return result::to_json(result, area); })) {
     fmt::print("{}", result::printable(result::to_table(result)));
     constexpr double kRoom = 1e-6;  // more than what the digits round
     if (area)
@@ -146,10 +157,7 @@ ExitStatus say_estimate(const SolveCommand& command, const std::vector<System>& 
     fmt::print(stderr, "corank: the trial was ended early\n");
     return kIncomplete;
   }
-  if (command.json_path && !command.json_path->empty())
-    result::write_text(*command.json_path, study::to_json(cost, threads));
-  fmt::print("{}", command.json_path && command.json_path->empty() ? study::to_json(cost, threads)
-                                                                   : study::to_table(cost, threads));
+  if (command.json.say([&] { return study::to_json(cost, threads); })) fmt::print("{}", study::to_table(cost, threads));
   return kDone;
 }
 
@@ -169,11 +177,13 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   study::Question question = load(command.question);
   question.set = chosen_set(command.question, question.model);
   question.tolerance = command.tolerance;
+  if (command.checkpoint_path.empty()) refuse_without_effect(sub, {"--every"}, "--checkpoint FILE beside it");
+  if (!bounds_an_area(question)) refuse_without_effect(sub, {"--area"}, "--set boundary in the plane of two lengths");
   const std::vector<study::Question> parts = study::parts_of(question);
   std::vector<System> systems;
   for (const study::Question& part : parts) systems.push_back(system_to_solve(command, part));
   check_output(command.result_path);
-  check_output(command.json_path.value_or(""));
+  command.json.check();
   if (command.estimate) return say_estimate(command, systems, control);
   if (!command.checkpoint_path.empty()) result::check_writable(command.checkpoint_path);
   study::RunJournal journal = journal_of(command, former ? *former : checkpoint_of(sub, command));
@@ -198,7 +208,7 @@ ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {
     const Resumed resumed(sub, command);
     return solve_model(sub, resumed.command, &resumed.checkpoint);
   }
-  give_back_model(command.question, command.json_path);
+  command.json.give_back(command.question.file);
   return solve_model(sub, std::move(command), nullptr);
 }
 
@@ -222,10 +232,7 @@ void add_solve(CLI::App& program, Action& action) {
       "  corank solve --resume r.kept --threads 8                    # after a limit, Ctrl-C, a crash or a power cut\n"
       "  corank solve models/dextar.cuik --set cspace --sigma 0.1 --keep-sheets -o coarse.h5\n"
       "  corank solve --refine coarse.h5 --sigma 0.01 -o fine.h5");
-  sub->callback([command, sub, &action] {
-    if (sub->get_option("--json")->count() > 0 && !command->json_path) command->json_path = "";
-    action = [command, sub] { return run_solve(*sub, *command); };
-  });
+  sub->callback([command, sub, &action] { action = [command, sub] { return run_solve(*sub, *command); }; });
 }
 
 }  // namespace corank::app

@@ -88,12 +88,7 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
   sub.add_flag("--keep-sheets", command.keep_sheets, "Keep the proven sheets in RESULT.h5, for --refine");
   sub.add_flag("--estimate", command.estimate,
                "Solve nothing: predict boxes, time, memory and the file's size from a trial of a few seconds");
-  sub.add_option_function<std::vector<std::string>>(
-         "--json",
-         [&command](const std::vector<std::string>& path) { command.json_path = path.empty() ? "" : path.front(); },
-         "Write the summary as JSON to PATH, or to standard output instead of the table")
-      ->type_name("[PATH]")
-      ->expected(0, 1);
+  command.json.add(sub, "the summary");
 }
 
 }  // namespace corank::app

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "corank/app/json_option.h"
 #include "corank/app/question.h"
 #include "corank/app/search_limits.h"
 
@@ -18,7 +19,7 @@ struct SolveCommand {
   int digits = 0;
   bool proof = false, area = false;
   std::string param_path, result_path;
-  std::optional<std::string> json_path;  ///< "": standard output
+  JsonOption json;
   std::string checkpoint_path, resume_path, refine_path;
   double every = 60;  ///< seconds
   bool keep_sheets = false, estimate = false;

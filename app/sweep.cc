@@ -11,10 +11,12 @@
 #include "corank/app/family.h"
 #include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
+#include "corank/app/json_option.h"
 #include "corank/app/progress.h"
 #include "corank/app/set_search.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/family_page.h"
+#include "corank/report/page_summary.h"
 #include "corank/report/page_words.h"
 #include "corank/result/result_file.h"
 #include "corank/study/answer.h"
@@ -32,6 +34,7 @@ struct SweepCommand {
   QuestionOptions question;
   SetSearch search{kCoarser, {"cspace", "forward", "inverse"}};
   std::string folder;
+  JsonOption json;
 };
 
 /// A member before it is solved.
@@ -145,7 +148,10 @@ std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const s
   return members;
 }
 
-ExitStatus write_sweep(SweepCommand command) {
+ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
+  command.search.check_effect(sub);
+  command.json.give_back(command.question.file);
+  command.json.check();
   command.search.validate();
   const Family family = family_of(command.question.definitions);
   const std::vector<Plan> plans = plan_all(command, family);
@@ -178,10 +184,16 @@ ExitStatus write_sweep(SweepCommand command) {
         fmt::print(stderr, "corank: {} = {}, {}: {}\n", family.constant, member.value, result.set,
                    study::stopped_words(result));
       complete = complete && result.cover.complete() && result.stopped.empty();
-      fmt::print("{} = {}, {}: {}\n", family.constant, member.value, words.title, words.finding);
     }
   }
-  fmt::print("{}\n", (folder / "index.html").string());
+  if (command.json.say([&] {
+        return report::family_summary(first.name(), family.constant, (folder / "index.html").string(), members, complete);
+      })) {
+    for (const report::FamilyMember& member : members)
+      for (const report::SetView& view : member.sets)
+        fmt::print("{} = {}, {}: {}\n", family.constant, member.value, view.words.title, view.words.finding);
+    fmt::print("{}\n", (folder / "index.html").string());
+  }
   if (complete) return kDone;
   fmt::print(stderr, "corank: {} of {} mechanisms are on the page, and it says what is incomplete\n", members.size(),
              plans.size());
@@ -201,13 +213,14 @@ void add_sweep(CLI::App& program, Action& action) {
       ->allow_extra_args(false);
   command->search.add_sets(*sub);
   command->search.add_limits(*sub);
+  command->json.add(*sub, "what stands on the page");
   sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-sweep")
       ->type_name("FOLDER");
   sub->footer(
       "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Example, a link of Dextar that shrinks from 1.6 to 0.9:\n"
       "  corank sweep models/dextar.cuik -D l2=1.6:0.9:8 -o family");
-  sub->callback([command, &action] { action = [command] { return write_sweep(*command); }; });
+  sub->callback([command, sub, &action] { action = [command, sub] { return write_sweep(*sub, *command); }; });
 }
 
 }  // namespace corank::app

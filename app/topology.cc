@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
@@ -22,11 +23,13 @@ struct TopologyCommand {
   QuestionOptions question;
   analyze::TopologyOptions options;
   double time_limit = 0;
-  bool json = false;
+  JsonOption json;
   std::string output;
 };
 
 ExitStatus topology(TopologyCommand command) {
+  command.json.give_back(command.question.file);
+  command.json.check();
   if (!command.output.empty() && !command.output.ends_with(".h5"))
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .h5", command.output));
   if (!command.output.empty()) result::check_writable(command.output);
@@ -39,7 +42,8 @@ ExitStatus topology(TopologyCommand command) {
   const analyze::Topology result = analyze::topology(question, command.options, control);
   line.clear();
   const bool complete = !control.ended();
-  fmt::print("{}", command.json ? to_json(question, result, complete) + "\n" : result::printable(to_text(question, result)));
+  if (command.json.say([&] { return to_json(question, result, complete); }))
+    fmt::print("{}", result::printable(to_text(question, result)));
   if (!complete) return stopped_early(control);
   if (command.output.empty()) return kDone;
   if (!result.certificate) {
@@ -72,7 +76,7 @@ void add_topology(CLI::App& program, Action& action) {
          "-o,--output", command->output,
          "Write the certificate: boxes, links and critical points, which corank verify checks; of a set without ends")
       ->type_name("FILE.h5");
-  sub->add_flag("--json", command->json, "Print the result as JSON");
+  command->json.add(*sub);
   sub->footer(
       "Every number is proven; where one is not, bounds are given and what stands in the way.\n\n"
       "Exit status: 0 done, 1 bad input or no certificate to write, 2 usage, 3 stopped by a limit or an interrupt.\n\n"

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "corank/app/interrupt.h"
+#include "corank/app/json_option.h"
 #include "corank/app/progress.h"
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
@@ -26,7 +27,7 @@ constexpr auto kInterval = std::chrono::milliseconds(100);  // between two pictu
 
 struct VerifyCommand {
   std::string input;
-  bool json = false;
+  JsonOption json;
   bool require_proof = false;
   int threads = 1;
   double time_limit = 0;
@@ -54,9 +55,7 @@ result::Verification check(const result::Result& result, const System& system, c
 
 // Called where the work does not end although it was asked to; the other threads still run.
 [[noreturn]] void give_up(const VerifyCommand& command, const std::string& stage) {
-  if (command.json) {
-    fmt::print("{}\n", result::ended_early_json(stage));
-  } else {
+  if (command.json.say([&] { return result::ended_early_json(stage); })) {
     fmt::print("{}: interrupted in {}: what it had checked is not known, and nothing is said of the file\n",
                result::printable_line(command.input), stage);
   }
@@ -83,7 +82,7 @@ auto checked(const VerifyCommand& command, Watch& watch, File (*read)(const std:
   options.stop = &watch.stop();
   auto report = result::verify(file, options);
   watch.done();
-  fmt::print("{}", command.json ? result::to_json(report, file) + "\n" : result::to_table(report, file));
+  if (command.json.say([&] { return result::to_json(report, file); })) fmt::print("{}", result::to_table(report, file));
   return report;
 }
 
@@ -114,11 +113,17 @@ ExitStatus verify_map(const VerifyCommand& command, Watch& watch) {
   return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
 }
 
-ExitStatus verify(const VerifyCommand& command) {
+ExitStatus verify(VerifyCommand command) {
+  command.json.give_back(command.input, "RESULT");
+  command.json.check();
   const Interrupt interrupt;
   Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
   watch.enter("reading the file");
   const std::string format = result::format_of(command.input);
+  if (command.sample > 0 && (format == result::kPathFormat || format == result::kShapeFormat ||
+                             format == result::kPiecesFormat || format == result::kMapFormat))
+    throw UsageError(
+        fmt::format("--sample: without effect; expected the result of a search, and {} is none", command.input));
   if (format == result::kPathFormat) return verify_path(command, watch);
   if (format == result::kShapeFormat) return verify_shape(command, watch);
   if (format == result::kPiecesFormat) return verify_pieces(command, watch);
@@ -129,7 +134,8 @@ ExitStatus verify(const VerifyCommand& command) {
   watch.enter("the check");
   const result::Verification verification = check(result, system, command, watch);
   watch.done();
-  fmt::print("{}", command.json ? result::to_json(verification) + "\n" : result::to_table(verification, result));
+  if (command.json.say([&] { return result::to_json(verification); }))
+    fmt::print("{}", result::to_table(verification, result));
   const ExitStatus result_status = status(verification, command);
   if (verification.verified() && result_status == kBadInput)
     fmt::print(stderr, "corank: --require-proof: that the boxes hold all solutions is not proven by this file\n");
@@ -142,8 +148,8 @@ void add_verify(CLI::App& program, Action& action) {
   CLI::App* sub =
       program.add_subcommand("verify", "Check a result against its model, with code that shares nothing with the solver");
   const auto command = std::make_shared<VerifyCommand>();
-  sub->add_option("RESULT", command->input, "The file (.h5)")->required();
-  sub->add_flag("--json", command->json, "Print JSON instead of the table");
+  sub->add_option("RESULT", command->input, "The file (.h5)");
+  command->json.add(*sub, "what was found");
   sub->add_flag("--require-proof", command->require_proof,
                 "Fail where the file does not prove that its boxes hold all solutions in the search domain");
   sub->add_option("--threads", command->threads, "Threads; 0: one for each core")

@@ -75,7 +75,9 @@ Algebra::Algebra(const Robot& robot) {
         values.constant(constant.value, "the constant " + symbolic::in_quotes(constant.name), constant.where);
     values.add_constant(constant.name, value);
     add_constant(constant.name, value.exact());
-    if (value.sign().value_or(0) == 0) zeros_[constants_.at(constant.name)] = 0;
+    if (value.sign().value_or(0) != 0) continue;
+    zeros_[constants_.at(constant.name)] = 0;
+    note(constants_.at(constant.name), 0);
   }
 }
 
@@ -125,7 +127,9 @@ double Algebra::value(const ex& e) const {
 std::optional<numeric> Algebra::rational(const ex& constant) const {
   const ExactNumber value = exact(constant);
   if (!value.is_rational()) return std::nullopt;
-  return numeric(value.text().c_str());
+  const numeric number(value.text().c_str());
+  note(constant - number, 0);
+  return number;
 }
 
 ExactNumber Algebra::exact(const ex& e) const {
@@ -147,7 +151,20 @@ ExactNumber Algebra::exact(const ex& e) const {
   return result;
 }
 
+void Algebra::note(const ex& constant, int sign) const {
+  for (GiNaC::const_preorder_iterator i = constant.preorder_begin(); i != constant.preorder_end(); ++i)
+    if (is_a<GiNaC::symbol>(*i)) return void(decisions_.emplace(constant, sign));
+}
+
+std::vector<std::pair<ex, int>> Algebra::decisions() const { return {decisions_.begin(), decisions_.end()}; }
+
 int Algebra::sign(const ex& constant) const {
+  const int result = sign_by_value(constant);
+  note(constant, result);
+  return result;
+}
+
+int Algebra::sign_by_value(const ex& constant) const {
   constexpr double kPlain = 1e-6;  // far beyond the rounding errors of numbers as robots have them
   constexpr int kBits = 512;
   if (is_a<numeric>(constant)) return ex_to<numeric>(constant).csgn();
@@ -207,9 +224,11 @@ bool is_short(const ex& e) {
 
 ex Algebra::named(const ex& constant) {
   if (is_short(constant)) return constant;
-  if (const int s = sign(constant); s == 0) return 0;
-  for (const int simple : {1, -1})
-    if (is_zero(constant - simple)) return simple;
+  for (const int simple : {0, 1, -1}) {
+    if (sign_by_value(constant - simple) != 0) continue;
+    note(constant - simple, 0);
+    return simple;
+  }
   const auto known = names_of_.find(constant);
   if (known != names_of_.end()) return known->second;
   const auto negative = names_of_.find((-constant).expand());
@@ -283,7 +302,11 @@ ex Algebra::collected(const ex& e) const {
   }
   ex result = 0;
   for (const auto& [product, coefficient] : coefficients)
-    if (!is_zero(coefficient)) result += coefficient * product;
+    if (sign_by_value(coefficient) != 0) {
+      result += coefficient * product;
+    } else if (!coefficient.is_zero()) {
+      note(coefficient, 0);
+    }
   return result;
 }
 

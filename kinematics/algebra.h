@@ -68,6 +68,11 @@ class Algebra {
   /// The constants named so, which refer to the robot's and to those before them.
   std::vector<symbolic::Constant> named_constants() const;
 
+  /// What was decided by the constants' values so far, so that equations are made for those: expressions in constants and
+  /// their signs, those of constants that are put in among them. Terms that were kept need no condition: they are right
+  /// where they are 0, too.
+  std::vector<std::pair<ex, int>> decisions() const;
+
   /// No coordinate occurs.
   bool is_constant(const ex& e) const;
   bool is_constant(const Vec& v) const { return is_constant(v[0]) && is_constant(v[1]) && is_constant(v[2]); }
@@ -79,6 +84,8 @@ class Algebra {
 
  private:
   ex collected(const ex& e) const;
+  int sign_by_value(const ex& constant) const;
+  void note(const ex& constant, int sign) const;
   void add_constant(const std::string& name, const ExactNumber& value);
   /// Enclosed tighter than doubles, constants put in.
   ExactNumber exact(const ex& constant) const;
@@ -90,7 +97,8 @@ class Algebra {
   std::map<std::string, double> plain_;       // the same in doubles
   GiNaC::lst coordinate_symbols_;
   mutable std::map<ex, int, GiNaC::ex_is_less> signs_;
-  std::map<ex, ex, GiNaC::ex_is_less> names_of_;  // of constants that were given a name
+  mutable std::map<ex, int, GiNaC::ex_is_less> decisions_;  // of which the equations are made
+  std::map<ex, ex, GiNaC::ex_is_less> names_of_;            // of constants that were given a name
   std::vector<std::pair<std::string, ex>> named_;
   int numbered_ = 0;
 };

@@ -38,6 +38,23 @@ int count_mobility(const Bodies& bodies, Space space) {
   return mobility;
 }
 
+/// What decided how the equations are made, with what the reader of the parts decided of axes.
+std::vector<symbolic::Condition> conditions(const Robot& robot, const Bodies& bodies, const Algebra& algebra) {
+  for (const BodyJoint& j : bodies.joints) {
+    const Joint& joint = robot.joints[j.index];
+    if (!keeps_orientation(joint.kind)) continue;
+    const Vec a = algebra.vector(joint.ends[0].axis, joint.where), b = algebra.vector(joint.ends[1].axis, joint.where);
+    for (const ex& across : cross(a, b)) static_cast<void>(algebra.sign(across.expand()));
+    static_cast<void>(algebra.sign(dot(a, b).expand()));
+  }
+  std::vector<ex> values;
+  const std::vector<std::pair<ex, int>> decisions = algebra.decisions();
+  for (const auto& [value, sign] : decisions) values.push_back(value);
+  std::vector<symbolic::Condition> list;
+  for (const Expression& value : algebra.translated(values)) list.push_back({value, decisions[list.size()].second});
+  return list;
+}
+
 }  // namespace
 
 const char* to_string(Space space) {
@@ -71,10 +88,15 @@ Assembly assemble(const Robot& robot) {
   if (normals) {
     draft_planar(robot, bodies, *normals, algebra, draft);
   } else {
+    for (const Output& output : robot.outputs)
+      if (output.turn)
+        throw symbolic::ModelError(output.where, "the output '" + output.name + "' has a range of phi, but turns in space",
+                                   "keeps R behind it, or ranges of joints");
     space = draft_spatial(robot, bodies, algebra, draft) ? Space::spherical : Space::spatial;
   }
   Assembly assembly = draft.assembly();
   assembly.space = space;
+  assembly.conditions = conditions(robot, bodies, algebra);
   if (!robot.keeps_parallelograms)
     for (Parallelogram& one : parallelograms_of(robot, bodies, algebra))
       assembly.parallelograms.push_back(std::move(one.sides));

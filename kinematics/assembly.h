@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corank/kinematics/robot.h"
+#include "corank/symbolic/parameters.h"
 
 namespace corank::kinematics {
 
@@ -41,6 +42,10 @@ struct Assembly {
   std::vector<std::vector<std::string>> parallelograms;
   std::vector<LinkPose> poses;           ///< of every link
   std::vector<JointValue> joint_values;  ///< of every joint that has one value
+  /// Where these hold, the robot has these equations for other values of its constants, too. Theorem: whatever was decided
+  /// while they were made, was decided by the sign of one of these expressions, so that the same decisions make the same
+  /// equations, in which the constants stand by name.
+  std::vector<symbolic::Condition> conditions;
 };
 
 /// The equations of a robot. Throws ModelError where the robot is faulty or can't be assembled; where it has no

@@ -38,8 +38,33 @@ ex Draft::length(const std::string& name, const std::optional<Range>& range, con
 void Draft::limit_last() {
   DraftCoordinate& c = coordinates_.back();
   // A range of one value is a part of the motion that is looked at.
-  c.limited =
-      c.range && algebra_.sign(algebra_.constant(c.range->upper, c.where) - algebra_.constant(c.range->lower, c.where)) != 0;
+  if (c.range && algebra_.sign(algebra_.constant(c.range->upper, c.where) - algebra_.constant(c.range->lower, c.where)) != 0)
+    c.limit = c.range;
+}
+
+void Draft::slice(const ex& angle, const Range& range, const std::string& what, const SourceLocation& where) {
+  const std::string name = GiNaC::ex_to<GiNaC::symbol>(angle).get_name();
+  const auto c =
+      std::find_if(coordinates_.begin(), coordinates_.end(), [&](const DraftCoordinate& d) { return d.name == name; });
+  const ex lower = algebra_.constant(range.lower, where), upper = algebra_.constant(range.upper, where);
+  bool meets_limit = false;
+  if (c->range) {
+    const int above = algebra_.sign(lower - algebra_.constant(c->range->lower, where)),
+              below = algebra_.sign(algebra_.constant(c->range->upper, where) - upper);
+    if (above < 0 || below < 0)
+      throw ModelError(where, what + " leaves that of '" + name + "'",
+                       "a range within [" + c->range->lower.text() + ", " + c->range->upper.text() + "]");
+    meets_limit = c->limit && (above == 0 || below == 0);
+  }
+  if (meets_limit && algebra_.sign(upper - lower) > 0) {  // the limit is one still
+    const ex middle = (lower + upper) / 2, half = (upper - lower) / 2;
+    if (algebra_.sign(half - GiNaC::Pi) < 0)
+      at_least_zero(GiNaC::cos(angle) * GiNaC::cos(middle) + GiNaC::sin(angle) * GiNaC::sin(middle) - GiNaC::cos(half),
+                    "range", where);
+    return;
+  }
+  c->range = range;
+  c->limit.reset();
 }
 
 Draft::JointCoordinate Draft::joint_angle(std::size_t joint, const std::string& name) {
@@ -210,7 +235,7 @@ Assembly Draft::assembly() const {
               : mechanism.length_without_range(c.name, c.where);
     }
     if (c.auxiliary) mechanism.mark_auxiliary();
-    if (c.limited) mechanism.limit(c.name, c.range->lower, c.range->upper, c.where);
+    if (c.limit) mechanism.limit(c.name, c.limit->lower, c.limit->upper, c.where);
   }
   std::vector<ex> all;
   for (const DraftEquation& e : equations_) all.push_back(e.value);

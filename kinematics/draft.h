@@ -28,6 +28,8 @@ class Draft {
   ex angle(const std::string& name, const std::optional<Range>& range, const SourceLocation& where);
   /// Without a range: what the equations leave.
   ex length(const std::string& name, const std::optional<Range>& range, const SourceLocation& where, bool auxiliary = false);
+  /// An angle that is a coordinate is looked at in this range only. Throws ModelError where its own range has other values.
+  void slice(const ex& angle, const Range& range, const std::string& what, const SourceLocation& where);
   /// The range of the coordinate declared last is a joint's: the mechanism's limit, where it is one.
   void limit_last();
   /// A joint's angle or way, in terms of its coordinate.
@@ -101,7 +103,7 @@ class Draft {
     std::optional<Range> range;
     bool auxiliary, unit;  ///< unit: the first of three that are a unit vector
     SourceLocation where;
-    bool limited = false;
+    std::optional<Range> limit{};  ///< of the joint
   };
   struct DraftEquation {
     ex value;

@@ -15,9 +15,9 @@ constexpr double kMayBeEqual = 1e-9;     // relative: what is further apart need
 constexpr std::size_t kMostSides = 400;  // of one direction: loops are looked for among pairs of them
 
 /// What turns about axes of one direction: bodies, their hinges, and what keeps two hinges at a distance.
-class Direction {
+class ParallelAxes {
  public:
-  Direction(const Robot& robot, const Bodies& bodies, const Algebra& algebra, std::size_t seed)
+  ParallelAxes(const Robot& robot, const Bodies& bodies, const Algebra& algebra, std::size_t seed)
       : robot_(robot), bodies_(bodies), algebra_(algebra) {
     reach(seed);
     for (std::size_t j = 0; j < bodies.joints.size(); ++j) {
@@ -163,8 +163,9 @@ class Direction {
 
   bool same_length(std::size_t a, std::size_t b) const {
     const Side &s = sides_[a], &t = sides_[b];
-    return std::abs(s.value - t.value) <= kMayBeEqual * std::max(s.value, t.value) &&
-           algebra_.is_zero(algebra_.clean(s.square - t.square));
+    const bool may_be = std::abs(s.value - t.value) <= kMayBeEqual * std::max(s.value, t.value);
+    // The algebra notes what equations depend on; those of robots that keep their parallelograms do on all such pairs.
+    return (may_be || robot_.keeps_parallelograms) && algebra_.is_zero(algebra_.clean(s.square - t.square));
   }
 
   std::string name(std::size_t side) const {
@@ -217,11 +218,11 @@ class Direction {
 
 std::vector<Parallelogram> parallelograms_of(const Robot& robot, const Bodies& bodies, const Algebra& algebra) {
   std::vector<Parallelogram> found;
-  std::deque<Direction> directions;
+  std::deque<ParallelAxes> directions;
   for (std::size_t seed = 0; seed < bodies.joints.size(); ++seed) {
     const BodyJoint& joint = bodies.joints[seed];
     if (joint.kind != JointKind::revolute ||
-        std::any_of(directions.begin(), directions.end(), [&](const Direction& d) { return d.is_ours(joint); }))
+        std::any_of(directions.begin(), directions.end(), [&](const ParallelAxes& d) { return d.is_ours(joint); }))
       continue;
     for (Parallelogram& one : directions.emplace_back(robot, bodies, algebra, seed).parallelograms())
       found.push_back(std::move(one));

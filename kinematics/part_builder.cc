@@ -133,11 +133,13 @@ void PartBuilder::add_input(std::string_view name_read, const SourceLocation& wh
 }
 
 void PartBuilder::finish_output_range(const SourceLocation& where) {
-  const std::string of = std::string("the range of ") + "xyz"[output_axis] + " of the output " + in_quotes(output.name);
+  const std::array<const char*, 4> names{"x", "y", "z", "phi"};
+  const std::string of = std::string("the range of ") + names[output_axis] + " of the output " + in_quotes(output.name);
   if (!bracket_has_two) throw ModelError(where, of + " has one number", "[lower, upper]");
   const Expression upper = pop_value(), lower = pop_value();
-  if (output.ranges[output_axis]) throw ModelError(where, of + " is given twice", "one range for each component");
-  output.ranges[output_axis] = Range{lower, upper};
+  std::optional<Range>& range = output_axis == 3 ? output.turn : output.ranges[output_axis];
+  if (range) throw ModelError(where, of + " is given twice", "one range for each component");
+  range = Range{lower, upper};
 }
 
 void PartBuilder::begin_only(const SourceLocation& where) {
@@ -179,6 +181,7 @@ void PartBuilder::resolve_outputs() {
                        "direction of link (x, y, z)");
     result.asked = read.asked;
     result.ranges = read.ranges;
+    result.turn = read.turn;
     result.kept = read.kept;
     if (read.vector) result.point = *read.vector;
     if (!read.point.empty()) {

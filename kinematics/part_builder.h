@@ -83,6 +83,7 @@ struct OutputDraft {
   std::optional<Vector> vector;
   std::array<bool, 3> asked{true, true, true};
   std::array<std::optional<Range>, 3> ranges;
+  std::optional<Range> turn;
   std::optional<Pose> kept;
 };
 
@@ -171,7 +172,7 @@ class PartBuilder : public symbolic::ModelBuilder {
 
   // The other sections.
   OutputDraft output;
-  std::size_t output_axis = 0;
+  std::size_t output_axis = 0;  ///< x, y, z; 3: the angle phi
   void add_input(std::string_view name_read, const SourceLocation& where);
   void finish_output_range(const SourceLocation& where);
   void begin_only(const SourceLocation& where);

@@ -99,7 +99,9 @@ CORANK_FAULT(grammar::output_link, fault.found_instead_of("the name of a link"))
 CORANK_FAULT(grammar::output_frame, fault.found_instead_of("the name of a link behind in"))
 CORANK_FAULT(grammar::output_point, fault.found_instead_of("the name of a point behind '.'"))
 CORANK_FAULT(grammar::output_joint, fault.found_instead_of("the name of a joint"))
-CORANK_FAULT(grammar::output_axis_range, fault.found_instead_of("the range of a component: x [lower, upper]"))
+CORANK_FAULT(
+    grammar::output_axis_range,
+    fault.found_instead_of("the range of a component: x [lower, upper], or of an angle in the plane: phi [lower, upper]"))
 CORANK_FAULT(grammar::only_axis, fault.found_instead_of("one or two of x, y and z behind only"))
 CORANK_FAULT(grammar::of_word, fault.found_instead_of("of and the name of a link"))
 CORANK_FAULT(grammar::output_what, fault.no_output_kind())

@@ -288,7 +288,10 @@ CORANK_ACTION(output_joint, {
   b.output.joint_where = place(in, b);
 })
 CORANK_ACTION0(output_tuple, { b.output.vector = b.pop_vector(); })
-CORANK_ACTION(output_axis, { b.output_axis = static_cast<std::size_t>(small_letters(in.string_view())[0] - 'x'); })
+CORANK_ACTION(output_axis, {
+  const char first = small_letters(in.string_view())[0];
+  b.output_axis = first == 'p' ? 3 : static_cast<std::size_t>(first - 'x');
+})
 CORANK_ACTION(output_bracket, { b.finish_output_range(place(in, b)); })
 CORANK_ACTION(only_word, { b.begin_only(place(in, b)); })
 CORANK_ACTION(only_axis, { b.output.asked[static_cast<std::size_t>(small_letters(in.string_view())[0] - 'x')] = true; })

@@ -382,9 +382,11 @@ struct output_of : seq<must<of_word>, gap, must<output_link>,
 struct output_in : opt<gap, in_word, gap, must<output_frame>> {};
 struct output_end : success {};
 CORANK_WORD(keeps_word, "keeps");
-struct output_axis : one<'x', 'y', 'z', 'X', 'Y', 'Z'> {};
+struct output_angle : TAO_PEGTL_ISTRING("phi") {};
+struct output_axis : sor<output_angle, one<'x', 'y', 'z', 'X', 'Y', 'Z'>> {};
 struct output_bracket : bracket {};
-struct output_axis_range : seq<at<one<'x', 'y', 'z', 'X', 'Y', 'Z'>, gap, one<'['>>, output_axis, gap, output_bracket> {};
+struct output_axis_range
+    : seq<at<sor<output_angle, one<'x', 'y', 'z', 'X', 'Y', 'Z'>>, gap, one<'['>>, output_axis, gap, output_bracket> {};
 struct output_range : seq<sor<range_word, limits_word>, gap, must<output_axis_range>, star<gap, output_axis_range>> {};
 struct only_word : seq<word<TAO_PEGTL_ISTRING("only")>, not_at<gap, one<':'>>> {};
 struct only_axis : seq<one<'x', 'y', 'z', 'X', 'Y', 'Z'>, not_at<model::name_tail>, not_at<gap, one<':'>>> {};

@@ -186,8 +186,8 @@ class PlanarRobot {
     if (!draft_.equation(difference.sine(), "angle", where)) return;
     draft_.at_least_zero(difference.cosine(), "angle", where);
   }
-  ex angle_of(const Turn& turn, const std::string& name, const SourceLocation& where) {
-    const ex theta = draft_.angle(name, {}, where);
+  ex angle_of(const Turn& turn, const std::string& name, const std::optional<Range>& range, const SourceLocation& where) {
+    const ex theta = draft_.angle(name, range, where);
     equal(turn, {{1, 0}, -theta}, where);
     return theta;
   }
@@ -242,7 +242,7 @@ class PlanarRobot {
   void add(const Output& output) {
     if (output.kept)
       throw ModelError(output.where, "the output '" + output.name + "' keeps an orientation in a plane",
-                       "for a robot that moves in a plane: range [a, a] of a joint's angle");
+                       "for a robot that moves in a plane: range phi [a, a]");
     const std::size_t body = bodies_.of_link[output.link], base = bodies_.of_link[output.relative_to];
     switch (output.kind) {
       case Output::Kind::joint:
@@ -261,7 +261,9 @@ class PlanarRobot {
     const bool is_coordinate =
         algebra_.is_zero(relative.k.im) && algebra_.sign(relative.k.re) > 0 && GiNaC::is_a<GiNaC::symbol>(relative.angle);
     const std::string name = output.kind == Output::Kind::pose ? output.name + "_phi" : output.name;
-    draft_.output(is_coordinate ? relative.angle : angle_of(relative, name, output.where));
+    const std::string range_of = "the range of phi of the output '" + output.name + "'";
+    if (is_coordinate && output.turn) draft_.slice(relative.angle, *output.turn, range_of, output.where);
+    draft_.output(is_coordinate ? relative.angle : angle_of(relative, name, output.turn, output.where));
   }
 
   void add_position(const Output& output, std::size_t body, std::size_t base) {

@@ -113,7 +113,7 @@ struct Output {
     joint         ///< the angle or the way of a joint
   };
   Kind kind = Kind::position;
-  std::string name;  ///< of the coordinates: name_x …, or name itself for a joint
+  std::string name;  ///< of the coordinates: name_x …; a joint's has the joint's name
   std::size_t link = 0, relative_to = 0, joint = 0;
   Vector point{0, 0, 0};                        ///< or the direction
   std::array<bool, 3> asked{true, true, true};  ///< of a position: which components are outputs
@@ -121,6 +121,7 @@ struct Output {
   /// (a rotation). The robot moves as it would without; only where it is found is restricted.
   std::array<std::optional<Range>, 3> ranges{};
   std::optional<Pose> kept{};
+  std::optional<Range> turn{};  ///< of an orientation or a pose in the plane: of its angle
   SourceLocation where;
 };
 

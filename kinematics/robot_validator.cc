@@ -194,6 +194,11 @@ class RobotValidator {
                          "a range of a position or a pose");
       check_range(*output.ranges[i], std::string("the range of ") + "xyz"[i] + " of " + what, where);
     }
+    if (output.turn) {
+      if (output.kind != Output::Kind::orientation && output.kind != Output::Kind::pose)
+        throw ModelError(where, what + " has a range of an angle, but no angle", "a range of an orientation or a pose");
+      check_range(*output.turn, "the range of phi of " + what, where);
+    }
     if (!output.kept) return;
     if (output.kind != Output::Kind::orientation && output.kind != Output::Kind::pose)
       throw ModelError(where, what + " keeps an orientation, but is none", "keeps behind an orientation or a pose");

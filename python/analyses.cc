@@ -195,7 +195,7 @@ py::tuple path(const Model& model, const End& from, const End& to, const std::st
         watcher.follow(control);
         analyze::PathFinder finder(question, options);
         std::vector<Box> ends;
-        for (const auto& [end, name] : {std::pair(&from, "from"), std::pair(&to, "to")}) {
+        for (const auto& [end, name] : {std::pair(&from, "start"), std::pair(&to, "end")}) {
           std::vector<analyze::NamedValue> values;
           for (const auto& [coordinate, value] : end->values) values.push_back({coordinate, value});
           ends.push_back(finder.end(values, end->mode, name, control));

@@ -28,7 +28,8 @@ void bind_errors() {
     } catch (const result::ResultFileError& e) {
       raise("ResultFileError", e.what());
     } catch (const analyze::EndError& e) {
-      PyErr_SetString(PyExc_ValueError, e.what());
+      const py::object text = py::module_::import("corank.errors").attr("in_python")(e.what());
+      PyErr_SetObject(PyExc_ValueError, text.ptr());
     } catch (const solve::OptionError& e) {
       raise("OptionError", e.option(), e.reason());
     }

@@ -174,14 +174,8 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
   page["to"] = value_html(members.back(), options.constant);
   page["valuesHtml"] = values;
   page["constants"] = constants_html(mechanism, options.constant);
-  const auto chosen = [&](symbolic::Role role) {
-    std::vector<std::string> rates;
-    for (const symbolic::Rate& rate : mechanism.rates())
-      if (rate.role == role) rates.push_back(rate.name);
-    return names_html(mechanism.has_own_velocity_equation() ? rates : names_of(mechanism, role));
-  };
-  page["inputs"] = chosen(symbolic::Role::input);
-  page["outputs"] = chosen(symbolic::Role::output);
+  page["inputs"] = chosen_html(mechanism, symbolic::Role::input);
+  page["outputs"] = chosen_html(mechanism, symbolic::Role::output);
   page["unit"] = mechanism.drawing().unit;
   page.set("hasUnit", truth(!mechanism.drawing().unit.empty()));
   page.set("missing", truth(members.size() < options.asked));

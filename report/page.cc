@@ -77,16 +77,12 @@ std::string fixed_html(const symbolic::Mechanism& mechanism) {
   return html;
 }
 
-/// Names of coordinates; of rates, with that word, where the mechanism's own have no coordinates for it; and "tied by 1
-/// equation" where equations speak of them alone.
-std::string chosen_html(const std::vector<std::string>& coordinates, const symbolic::VelocityEquation& velocity,
-                        symbolic::Role role) {
-  const bool rates = velocity.given && coordinates.size() != velocity.names_of(role).size();
-  const std::vector<std::string> names = rates ? velocity.names_of(role) : coordinates;
+/// And "tied by 1 equation" where equations speak of them alone.
+std::string chosen_and_tied_html(const symbolic::Mechanism& mechanism, const symbolic::VelocityEquation& velocity,
+                                 symbolic::Role role) {
   const std::size_t ties = velocity.ties(std::span(&role, 1)).size();
-  if (rates && !names.empty() && ties == 0) return names_html(names) + " <small>rates</small>";
-  if (ties == 0) return names_html(names);
-  return fmt::format("{} <small>tied by {} equation{}</small>", names_html(names), ties, ties == 1 ? "" : "s");
+  const std::string names = chosen_html(mechanism, role);
+  return ties == 0 ? names : fmt::format("{} <small>tied by {} equation{}</small>", names, ties, ties == 1 ? "" : "s");
 }
 
 /// Ranges that the model leaves out: "<i>x</i> in [−0.41, 1.76]".
@@ -136,8 +132,8 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["script"] = std::string(kPageScript);
   page["three"] = std::string(kThree);
   page["data"] = page_model(mechanism, derivation, pictured);
-  page["inputs"] = chosen_html(mechanism.inputs(), derivation.velocity, symbolic::Role::input);
-  page["outputs"] = chosen_html(mechanism.outputs(), derivation.velocity, symbolic::Role::output);
+  page["inputs"] = chosen_and_tied_html(mechanism, derivation.velocity, symbolic::Role::input);
+  page["outputs"] = chosen_and_tied_html(mechanism, derivation.velocity, symbolic::Role::output);
   const std::string found = found_html(views);
   page["found"] = found;
   page.set("hasFound", truth(!found.empty()));

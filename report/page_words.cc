@@ -230,6 +230,15 @@ std::string names_html(const std::vector<std::string>& names) {
   return html;
 }
 
+std::string chosen_html(const symbolic::Mechanism& mechanism, symbolic::Role role) {
+  const std::vector<std::string>& names = role == symbolic::Role::input ? mechanism.inputs() : mechanism.outputs();
+  std::vector<std::string> rates;
+  for (const symbolic::Rate& rate : mechanism.rates())
+    if (rate.role == role) rates.push_back(rate.name);
+  if (rates.empty() || rates.size() == names.size()) return names_html(names);
+  return names_html(rates) + " <small>rates</small>";
+}
+
 // The name in HTML, whose subscripts do not depend on the reader having a font for mathematics.
 std::string constant_html(const std::string& name, const symbolic::Expression& value) {
   return "<span class=\"constant\">" + symbolic::html_name(name) + " = " + symbolic::math(symbolic::mathml(value)) +

@@ -32,6 +32,9 @@ std::string grouped(std::uint64_t n);
 std::string with_minus(std::string text);
 /// Names with commas between them: "<i>θ</i><sub>2</sub>, …".
 std::string names_html(const std::vector<std::string>& names);
+/// The inputs or the outputs, by their coordinates; by rates, with that word, where the mechanism's own of this role have no
+/// coordinates one by one.
+std::string chosen_html(const symbolic::Mechanism& mechanism, symbolic::Role role);
 /// "<i>l</i> = 9/10" with the value in MathML.
 std::string constant_html(const std::string& name, const symbolic::Expression& value);
 /// "l = 9/10, d = 1.18", likewise, without the constant `except`; "none" where there is no other.

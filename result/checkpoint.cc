@@ -193,7 +193,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string&
       if (!file.has(kArray))
         refuse(path,
                "this result keeps nothing to go on from; expected one that a limit has ended, or one that was solved "
-               "with --keep-sheets");
+               "by corank solve --keep-sheets");
       std::vector<std::uint8_t> data;
       file.read(kArray, data);
       bytes.assign(data.begin(), data.end());

@@ -90,7 +90,7 @@ std::string to_json(const solve::CostEstimate& cost, int threads) {
   return fmt::format(
       "{{\n  \"processed\": {},\n  \"sheets\": {},\n  \"boxes\": {},\n  \"seconds\": {},\n  \"memory_bytes\": {},\n"
       "  \"file_bytes\": {},\n  \"sigma_length\": {:.17g},\n  \"sigma_angle\": {:.17g},\n  \"threads\": {},\n"
-      "  \"whole_tree\": {},\n  \"postponed\": {:.6g},\n  \"trial_seconds\": {:.6g}\n}}\n",
+      "  \"whole_tree\": {},\n  \"postponed\": {:.6g},\n  \"trial_seconds\": {:.6g}\n}}",
       json_of(cost.processed), json_of(cost.sheets), json_of(cost.boxes), json_of(cost.seconds), json_of(cost.memory),
       json_of(cost.file), cost.sigma.length, cost.sigma.angle, threads, cost.whole_tree, cost.postponed, cost.trial_seconds);
 }

@@ -46,6 +46,17 @@ std::string flat_positions(const std::vector<std::string>& sides) {
       fmt::join(sides, ", "));
 }
 
+// Joints whose output has another name: that of a coordinate is the joint's, in every command.
+std::optional<std::string> other_names(const kinematics::Robot& robot) {
+  std::string list;
+  for (const kinematics::Output& o : robot.outputs) {
+    if (o.kind != kinematics::Output::Kind::joint || o.name == robot.joints[o.joint].name) continue;
+    list += (list.empty() ? "" : ", ") + o.name + " is " + robot.joints[o.joint].name;
+  }
+  if (list.empty()) return std::nullopt;
+  return "outputs that are joints go by the joints' names, here and in results: " + list;
+}
+
 Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOverride>& constants) {
   put_in(constants, robot);
   if (!robot.missing.empty()) throw ModelError({robot.file, 0, 0}, robot.missing.front(), "all files that the robot names");
@@ -56,6 +67,7 @@ Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOver
     model.mechanism.set_source_text("% The equations of " + file + ": " + describe(*model.assembly) + ".\n" +
                                     symbolic::to_model(model.mechanism));
   for (const auto& sides : model.assembly->parallelograms) model.notices.push_back(flat_positions(sides));
+  if (const auto names = other_names(robot)) model.notices.push_back(*names);
   if (const auto special = paradox(*model.assembly)) model.notices.push_back(*special);
   return model;
 }

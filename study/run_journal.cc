@@ -17,7 +17,8 @@ void check_refinable(const solve::Prepared& prepared, const std::optional<solve:
   if (searched)
     for (const solve::Shard& shard : state->shards) searched = searched && shard.postponed.empty() && shard.left.empty();
   if (!searched)
-    throw result::ResultFileError("the search was ended early; expected a complete one: go on with it first (--resume)");
+    throw result::ResultFileError(
+        "the search was ended early; expected a complete one: go on with it first (corank solve --resume)");
 }
 
 constexpr std::uint64_t kMostInResult = std::uint64_t{1} << 30;  // it is made in memory: more is a matter for a checkpoint

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "corank/core/check.h"
@@ -44,6 +45,25 @@ class Family {
     out_.system = std::move(system);
   }
 
+  void check(const std::vector<Condition>& conditions) {
+    for (const Parameter& p : parameters_) parameter_names_.insert(p.name);
+    out_.system.constants = mechanism_.constants();
+    split_constants();
+    const UpwardRounding rounding;
+    for (const Condition& c : conditions) {
+      if (is_free(c.value)) continue;
+      const Expression value = substituted(c.value, values_);
+      if (c.sign == 0)
+        refuse("the equations leave out " + value.text() + ", which is 0 for the constants' own values",
+               "parameters on which nothing depends that is 0 for one value: " + remedy());
+      const std::optional<Interval> range = try_enclose(value);
+      if (range && (c.sign > 0 ? range->lo() > 0 : range->hi() < 0)) continue;
+      refuse("the equations are made for " + value.text() + (c.sign > 0 ? " > 0" : " < 0") +
+                 ", which is not proven for all values of the parameters",
+             "smaller ranges, or other parameters: " + remedy());
+    }
+  }
+
   ParametricSystem run() {
     check_names();
     split_constants();
@@ -62,6 +82,9 @@ class Family {
   }
 
  private:
+  static std::string remedy() {
+    return "corank derive FILE --format model prints these equations as a model, whose constants may be changed as you like";
+  }
   [[noreturn]] void refuse(const std::string& what, const std::string& expected) const {
     throw ModelError(place_, what, expected);
   }
@@ -148,25 +171,38 @@ class Family {
     c.upper = Expression(ExactNumber::dyadic(range.hi() + margin).text());
   }
 
-  // Over all values of the parameters.
-  Interval enclosed(const Expression& e, const Coordinate& of) const {
-    if (is_free(e)) return exact_value(mechanism_, e, of.name).enclose();
-    const auto operand = [&](std::size_t k) { return enclosed(e.operands()[k], of); };
+  // Over all values of the parameters; nothing but for sums, products, quotients and squares that it bounds.
+  std::optional<Interval> try_enclose(const Expression& e) const {
+    if (is_free(e)) return exact_value(mechanism_, e, e.text()).enclose();
+    std::vector<Interval> operands;
+    if (e.kind() != Kind::function) {
+      for (const Expression& operand : e.operands()) {
+        const std::optional<Interval> range = try_enclose(operand);
+        if (!range) return std::nullopt;
+        operands.push_back(*range);
+      }
+    }
     switch (e.kind()) {
       case Kind::symbol: return ranges_.at(e.name());
-      case Kind::negation: return -operand(0);
+      case Kind::negation: return -operands[0];
       case Kind::sum:
       case Kind::product: {
-        Interval result = operand(0);
-        for (std::size_t k = 1; k < e.operands().size(); ++k)
-          result = e.kind() == Kind::sum ? result + operand(k) : result * operand(k);
+        Interval result = operands[0];
+        for (std::size_t k = 1; k < operands.size(); ++k)
+          result = e.kind() == Kind::sum ? result + operands[k] : result * operands[k];
         return result;
       }
       case Kind::quotient:
-        if (const auto quotient = divide(operand(0), operand(1), Interval::whole())) return *quotient;
-        break;
-      default: break;
+        if (operands[1].contains(0)) return std::nullopt;
+        return divide(operands[0], operands[1], Interval::whole());
+      case Kind::power:
+        if (const Expression& n = e.operands()[1]; n.kind() == Kind::number && n.text() == "2") return square(operands[0]);
+        return std::nullopt;
+      default: return std::nullopt;
     }
+  }
+  Interval enclosed(const Expression& e, const Coordinate& of) const {
+    if (const std::optional<Interval> range = try_enclose(e)) return *range;
     refuse("the range of " + in_quotes(of.name) + ", " + e.text() + ", is not bounded over the parameters",
            "sums, products and quotients");
   }
@@ -182,6 +218,14 @@ class Family {
 };
 
 }  // namespace
+
+void check_conditions(const Mechanism& mechanism, const std::vector<Condition>& conditions,
+                      const std::vector<Parameter>& parameters) {
+  std::vector<Parameter> constants;
+  for (const Parameter& p : parameters)
+    if (mechanism.has_constant(p.name)) constants.push_back(p);
+  if (!constants.empty()) Family(mechanism, {}, constants, {}).check(conditions);
+}
 
 ParametricSystem with_parameters(const Mechanism& mechanism, TrigonometricSystem system,
                                  const std::vector<Parameter>& parameters, const std::vector<FixedCoordinate>& fixed) {

@@ -21,6 +21,18 @@ struct FixedCoordinate {
   Expression value;
 };
 
+/// On constants: what was decided by their values when equations were made of something else, such as a robot's geometry.
+/// Where every expression keeps its sign, the same equations are made.
+struct Condition {
+  Expression value;
+  int sign = 0;
+};
+
+/// Throws ModelError where a condition depends on a parameter, also through other constants, and is not proven to hold
+/// for all of its values.
+void check_conditions(const Mechanism& mechanism, const std::vector<Condition>& conditions,
+                      const std::vector<Parameter>& parameters);
+
 /// The system, its equations derived before, with its parameters as lengths at the end of its coordinates. Constants that
 /// are defined through a parameter follow it. A coordinate's range that depends on one is as wide as it gets for any value,
 /// and a fiftieth more. Half-spaces that drop the negatives of kernel vectors are left out: `copies` says how many solutions

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional
 
 from . import _corank
 from ._corank import Expression
-from .errors import deliver
+from .errors import deliver, in_python
 from .expression import ExpressionLike, as_expression
 from .optional import require
 from .point import Interval
@@ -58,7 +58,7 @@ class Analysis:
         self.complete: bool = self.data["complete"]
 
     def __str__(self) -> str:
-        return self._table
+        return in_python(self._table)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__.lower()}: {' '.join(self._table.split())[:200]}>"
@@ -112,8 +112,11 @@ class Aspects(Analysis):
             factors of the determinants. reason: what is not known, and why.
         areas: with areas=True, of each representative the area that its aspect covers in the plane of the outputs, in bounds;
             else None.
-        cusps: with cusps=True, those of both loci; else None. cusps_not_known: what is not known of them, and why; where it
-            is empty, these are proven to be all in the search domain.
+        cusps: with cusps=True, those of both loci, as far as they were looked for; None where none were. cusps_of:
+            "forward", "inverse": the loci whose cusps were looked for. cusps_not_known: what is not known of them, and why;
+            where it is empty, these are proven to be all in the search domain.
+        euler_characteristic: of C-space, where it is a closed surface and cusps were asked for: the number of cusps of each
+            locus has its parity; else None.
     """
 
     def __init__(self, text: str, table: str, file: Optional["_corank.PiecesFile"] = None) -> None:
@@ -130,8 +133,10 @@ class Aspects(Analysis):
         if pieces and "area" in pieces[0]:
             self.areas = [Interval(r["area"]["lo"], r["area"]["hi"]) for r in pieces]
         self.cusps: Optional[List[Cusp]] = None
-        if "cusps" in self.data:
+        if self.data["cusps"] is not None:
             self.cusps = [Cusp(c["locus"], _values(c["values"]), c["around"], c["between"]) for c in self.data["cusps"]]
+        self.cusps_of: List[str] = self.data.get("cusps_of", [])
+        self.euler_characteristic: Optional[int] = self.data.get("euler_characteristic")
         self.cusps_not_known: List[str] = self.data.get("cusps_not_known", [])
         self.reason: str = self.data["reason"]
 

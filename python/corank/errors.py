@@ -3,7 +3,41 @@ what was proven by then."""
 
 from __future__ import annotations
 
+import re
 from typing import Any, Optional
+
+# What the library's texts name as on a command line, and what it is called here; the first that fits is taken. Options
+# behind "corank solve" are meant as such.
+_SAID_HERE = [
+    (r"--over NAME=FROM:TO twice", "over={NAME: (FROM, TO), NAME: (FROM, TO)}"),
+    (r"no --fix\b", "no fixed"),
+    (r"--map (\w+)=\[0,1\],(\w+)=\[0,1\]", r'region={"\1": (0, 1), "\2": (0, 1)}'),
+    (r"--map (\w+)=\[0,1\],…", r'region={"\1": (0, 1), …}'),
+    (r"--map (\w+),(\w+)", r'region=("\1", "\2")'),
+    (r"--at for one centre", "clearance() for one centre"),
+    (r"--at (\w+)=([\d.]+)", r'at={"\1": \2}'),
+    (r"--in (\w+),(\w+)", r'within=("\1", "\2")'),
+    (r"--outputs NAME,NAME", 'outputs=("NAME", "NAME")'),
+    (r"--outputs:", "outputs:"),
+    (r"--orientation R\b", 'orientation="R"'),
+    (r"--orientation-range (\d+)deg", r"orientation_range=corank.degrees(\1)"),
+    (r"--orientation-of (\w+)", r'orientation_of="\1"'),
+    (r"--tolerance (\S+)", r"tolerance=\1"),
+    (r"--corank (\d+)", r"corank=\1"),
+    (r"\(all coordinates: --json\)", "(all coordinates: sample)"),
+    (r"(?<=more: )--json\b", "summary"),
+    (r"corank derive FILE --format model prints these equations as", "Mechanism.text has these equations as"),
+    (r"-D (?=\w+:)", ""),
+    (r"\b(start|end)-mode\b", r"\1_mode"),
+]
+_SAID = [(re.compile(r"(?<![\w-])" + option if option.startswith("-") else option), said) for option, said in _SAID_HERE]
+
+
+def in_python(text: str) -> str:
+    """A text of corank's library with the names of Python's arguments in place of the command line's options."""
+    for option, said in _SAID:
+        text = option.sub(said, text)
+    return text
 
 
 class ModelError(ValueError):
@@ -15,8 +49,8 @@ class ModelError(ValueError):
     """
 
     def __init__(self, message: str, file: str = "", line: int = 0, column: int = 0) -> None:
-        super().__init__(message)
-        self.file = file
+        super().__init__(in_python(message))
+        self.file = in_python(file + ":")[:-1]
         self.line: Optional[int] = line or None
         self.column: Optional[int] = column or None
 
@@ -32,7 +66,7 @@ class ResultFileError(OSError):
     """
 
     def __init__(self, message: str, line: int = 0) -> None:
-        super().__init__(message)
+        super().__init__(in_python(message))
         self.line: Optional[int] = line or None
 
     def __reduce__(self) -> Any:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Tuple, 
 import numpy as np
 
 from . import _corank, notebook, plotting
-from .errors import deliver
+from .errors import deliver, in_python
 from .optional import require
 from .point import Interval, Point
 from .progress import ProgressOption, Shown
@@ -291,19 +291,27 @@ class Result:
 
     # --- what to do with it ---
 
-    def to_pandas(self, angles: bool = False) -> "pandas.DataFrame":
-        """A data frame with a row for each box: its verdict, and NAME_lo and NAME_hi of each variable; with `angles` those
-        of each angle, in radians, too."""
+    def to_pandas(self, angles: bool = False, kernel: bool = False) -> "pandas.DataFrame":
+        """A data frame with a row for each box: its verdict, and of each variable NAME_mid, NAME_lo and NAME_hi: the
+        middle and the ends of its side.
+
+        Args:
+            angles: those of each angle, in radians, too.
+            kernel: those of the kernel vectors' components, too.
+        """
         pandas = require("pandas")
 
-        n = len(self)
-        columns = [f"{name}_{end}" for name in self.variables for end in ("lo", "hi")]
-        frame = pandas.DataFrame(self.boxes.reshape(n, -1), columns=columns, copy=False)
-        frame.insert(0, "verdict", pandas.Categorical.from_codes(self._arrays["verdict"].astype("int8"), _corank.verdicts))
-        if not angles:
-            return frame
-        more = {f"{a}_{end}": self[a][:, k] for a in self.angles for k, end in enumerate(("lo", "hi"))}
-        return pandas.concat([frame, pandas.DataFrame(more)], axis=1)
+        hidden = () if kernel else self.kernel_unknowns
+        shown = [k for k, name in enumerate(self.variables) if name not in hidden]
+        sides = {self.variables[k]: self.boxes[:, k, :] for k in shown}
+        if angles:
+            sides.update({name: self[name] for name in self.angles})
+        verdicts = pandas.Categorical.from_codes(self._arrays["verdict"].astype("int8"), _corank.verdicts)
+        columns: Dict[str, Any] = {"verdict": verdicts}
+        for name, ends in sides.items():
+            columns[f"{name}_mid"] = 0.5 * ends[:, 0] + 0.5 * ends[:, 1]
+            columns[f"{name}_lo"], columns[f"{name}_hi"] = ends[:, 0], ends[:, 1]
+        return pandas.DataFrame(columns)
 
     def save(self, path: PathLike) -> None:
         """Writes a result file: HDF5, every double bit for bit, or the CUIK suite's layout where the name ends in .sol."""
@@ -364,7 +372,7 @@ class Result:
         return tuple(t for k, t in enumerate(_corank.types) if bits >> k & 1)
 
     def __str__(self) -> str:
-        return self._core.table()
+        return in_python(self._core.table())
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{n} {word}" for word, n in self.counts.items())

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <vector>
 
@@ -122,6 +123,8 @@ TEST(AspectCusps, OfAnOrthogonalArmAreInTheAspectOfTwoOfTheThreePosturesNearby) 
         [&](const Box& box) {
           return Pair{angle(a, box, "theta2"), angle(a, box, "theta3")};
         });
+    EXPECT_EQ(a.cusps->all, (std::array{true, true}));
+    EXPECT_EQ(a.cusps->euler_characteristic, 0);  // a torus of two angles
   }
   const Aspects none = with_cusps(model("0.85", "0.26", "0.59"));
   ASSERT_TRUE(none.cusps);
@@ -175,6 +178,12 @@ TEST(AspectCusps, OfPlantedMapsAreKnownAndNoneIsFalse) {
     ASSERT_TRUE(found.cusps);
     if (!found.aspects.exact()) {
       EXPECT_TRUE(found.cusps->list.empty());
+      EXPECT_EQ(found.cusps->looked_for, (std::array{false, false}));
+      EXPECT_NE(to_text({.model = m}, found).find("cusps           not looked for; the aspects are not exact"),
+                std::string::npos);
+      const auto json = nlohmann::json::parse(to_json({.model = m}, found, true));
+      EXPECT_TRUE(json["cusps"].is_null());
+      EXPECT_EQ(json["cusps_of"].size(), 0u);
       ++bounded;
       continue;
     }
@@ -195,6 +204,62 @@ TEST(AspectCusps, OfPlantedMapsAreKnownAndNoneIsFalse) {
   EXPECT_GE(cusps, 6) << bounded;
   EXPECT_EQ(lost, 0);
   EXPECT_EQ(wrong, 0);
+}
+
+// The 3-RPR of Innocenti and Parenti-Castelli with its first leg held at 14.98 (lengths in tens), by the angles of leg 1 and
+// of the platform, a torus, and the squares of the other legs: χ = 0, and six cusps.
+TEST(AspectCusps, HaveTheParityOfAClosedSurface) {
+  Mechanism m("torus");
+  for (const auto& [name, value] : {std::pair{"l", "1.498"}, {"a2", "1.591"}, {"a3", "1"}, {"d1", "1.704"}, {"d3", "2.084"}})
+    m.constant(name, Expression(value));
+  m.constant("u", Expression("(d1^2 + d3^2 - 1.654^2)/(2*d1)"));
+  m.constant("k", Expression("sqrt(d3^2 - u^2)"));
+  const Expression leg = m.angle("leg"), phi = m.angle("phi"), s2 = m.length("s2", -1, 40), s3 = m.length("s3", -1, 40);
+  m.constrain(s2 == Expression("(l*cos(leg) + d1*cos(phi) - a2)^2 + (l*sin(leg) + d1*sin(phi))^2"));
+  m.constrain(s3 == Expression("(l*cos(leg) + u*cos(phi) - k*sin(phi))^2 + (l*sin(leg) + u*sin(phi) + k*cos(phi) - a3)^2"));
+  m.inputs({s2, s3});
+  m.outputs({leg, phi});
+  const Aspects torus = with_cusps(m);
+  ASSERT_TRUE(torus.cusps);
+  EXPECT_EQ(torus.cusps->list.size(), 6u);
+  EXPECT_EQ(torus.cusps->all, (std::array{true, true}));
+  EXPECT_EQ(torus.cusps->euler_characteristic, 0);
+  EXPECT_NE(to_text({.model = m}, torus).find("the number of forward ones has the parity of the Euler characteristic 0"),
+            std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(to_json({.model = m}, torus, true))["euler_characteristic"], 0);
+}
+
+// The same robot as it is modelled, by the legs' lengths: their ranges cut the torus, one cusp is cut off with a part of it,
+// and nothing is said of the parity of the others.
+TEST(AspectCusps, OfACutSurfaceHaveNoParityToKeep) {
+  const Aspects cut = with_cusps(study::read_model(CORANK_SOURCE_DIR "/models/planar/3rpr_innocenti.cuik").mechanism);
+  ASSERT_TRUE(cut.cusps);
+  EXPECT_EQ(cut.cusps->list.size(), 5u);
+  EXPECT_TRUE(cut.cusps->all[0]);
+  EXPECT_FALSE(cut.cusps->euler_characteristic);
+}
+
+TEST(AspectCusps, OfTheOtherParityAreNotSaidToBeAll) {
+  const study::Question arm{.model =
+                                study::read_model(CORANK_SOURCE_DIR "/models/serial/orthogonal_3r_section.cuik").mechanism};
+  AspectCusps cusps;
+  cusps.looked_for = cusps.all = {true, true};
+  cusps.list.assign(3, AspectCusp{.forward = false});
+  solve::Control control;
+  study::Question cspace = arm;
+  cspace.set = symbolic::SingularitySet::cspace;
+  check_parity(cspace, 1, control, cusps);
+  EXPECT_EQ(cusps.all, (std::array{true, false}));
+  ASSERT_EQ(cusps.reasons.size(), 1u);
+  EXPECT_NE(cusps.reasons[0].find("inverse cusps: their number, 3, has not the parity"), std::string::npos);
+}
+
+TEST(AspectCusps, ThatNobodyAskedForAreNull) {
+  solve::Control control;
+  study::Question slider{.model = study::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik").mechanism};
+  const Aspects a = aspects(slider, {}, control);
+  EXPECT_TRUE(nlohmann::json::parse(to_json(slider, a, true))["cusps"].is_null());
+  EXPECT_EQ(to_text(slider, a).find("cusps"), std::string::npos);
 }
 
 // Both arms of Dextar are alike: its loci are covered twice, and cusps fill curves. Nothing is claimed.

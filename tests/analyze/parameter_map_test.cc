@@ -230,6 +230,61 @@ TEST(ParameterMap, RefusesWhatHasNoNumber) {
 
 // Random systems of two polynomials in two unknowns, their coefficients linear in two parameters: what is proven of a cell
 // holds at random values in it, where the ordinary search counts.
+// A four-bar; `more` is what its coupler's first joint has across the crank.
+study::Question four_bar(const std::string& more = "0", const std::string& normal = "1") {
+  const std::string axis = "+(0,0," + normal + ")";
+  study::Model model = study::parse_model(
+      {"[CONSTANTS]\na := 1\nb := 3\nc := 2\nd := 5/2\n[LINKS]\nground\ncrank\ncoupler\nrocker\n[JOINTS]\n"
+       "revolute t1 : ground (0,0,0)" +
+           axis + " crank (0,0,0)" + axis +
+           " zero (1,0,0) (1,0,0) actuated\n"
+           "revolute A : crank (a," +
+           more +
+           ",0)+(0,0,1) coupler (0,0,0)+(0,0,1)\n"
+           "revolute B : coupler (b,0,0)+(0,0,1) rocker (c,0,0)+(0,0,1)\n"
+           "revolute t2 : ground (d,0,0)+(0,0,1) rocker (0,0,0)+(0,0,1)\n[OUTPUTS]\nt2 : joint t2\n",
+       "four_bar.cuik"});
+  return {
+      .model = std::move(model.mechanism), .set = symbolic::SingularitySet::cspace, .assembly = std::move(model.assembly)};
+}
+
+std::string fault_of(const study::Question& question, const std::vector<symbolic::Parameter>& over) {
+  try {
+    map_of({.question = question, .over = over, .fixed = {{"t1", "pi/2"}}}, 8);
+  } catch (const symbolic::ModelError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+// With the crank across the ground, coupler and rocker close the triangle with a side of sqrt(a² + d²), in two ways or none.
+TEST(ParameterMap, OfConstantsOfARobotFromPartsIsThatOfItsTriangles) {
+  const ParameterMap lengths =
+      map_of({.question = four_bar(), .over = {{"b", "1", "4"}, {"c", "1", "4"}}, .fixed = {{"t1", "pi/2"}}});
+  const auto closes = [](double b, double c, double side) { return std::fabs(b - c) < side && side < b + c ? 2 : 0; };
+  expect_counts(lengths, [&](double b, double c) { return closes(b, c, std::hypot(1, 2.5)); });
+  EXPECT_GT(lengths.proven_share(), 0.8);
+  const ParameterMap base =
+      map_of({.question = four_bar(), .over = {{"a", "0.5", "4"}, {"d", "0.5", "4"}}, .fixed = {{"t1", "pi/2"}}});
+  expect_counts(base, [&](double a, double d) { return closes(3, 2, std::hypot(a, d)); });
+  EXPECT_GT(base.proven_share(), 0.8);
+}
+
+// b − 3 is 0 for the constants' own values, and no term of the equations that are made for those.
+TEST(ParameterMap, RefusesConstantsOfARobotFromPartsWhereItsEquationsAreNotProvenToBeTheSame) {
+  const study::Question offset = four_bar("b - 3");
+  const std::string left_out = fault_of(offset, {{"b", "2", "4"}, {"c", "1", "4"}});
+  EXPECT_NE(left_out.find("the equations leave out -3 + b, which is 0 for the constants' own values"), std::string::npos)
+      << left_out;
+  EXPECT_NE(left_out.find("corank derive FILE --format model"), std::string::npos);
+  EXPECT_EQ(fault_of(offset, {{"d", "2", "4"}, {"c", "1", "4"}}), "none");
+
+  const study::Question turned = four_bar("0", "c - 3/2");  // the axis' sense is that of c − 3/2, and its length counts
+  const std::string sense = fault_of(turned, {{"c", "1", "4"}, {"d", "2", "4"}});
+  EXPECT_NE(sense.find("the equations"), std::string::npos) << sense;
+  EXPECT_EQ(fault_of(turned, {{"b", "2", "4"}, {"d", "2", "4"}}), "none");
+}
+
 TEST(ParameterMap, AgreesWithSearchesAtRandomValuesInProvenCells) {
   std::mt19937 random(20);
   std::uniform_int_distribution<int> digit(-9, 9);

@@ -66,6 +66,40 @@ constexpr const char* kArm =
     "revolute elbow : upper E + (0, sin(tilt), cos(tilt))  fore (0, 0, 0) + (0, 0, 1)  actuated\n"
     "[OUTPUTS]\nhand : position of fore.H\n";
 
+// Equations are made for the constants' own values: a model of them says of which terms nothing is left.
+TEST(Parts, DeriveSaysWhatIsLeftOutOfAModel) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(run_corank({"derive", folder.write("arm.cuik", kArm), "--format", "model"}).out,
+              HasSubstr("% Left out, being 0 for these values of the constants: tilt\n"));
+  EXPECT_THAT(run_corank({"derive", folder.write("four_bar.cuik", kFourBar), "--format", "model"}).out,
+              Not(HasSubstr("Left out")));
+}
+
+TEST(Parts, AMapOverAConstantIsThatOfTheEquationsOrSaysWhatWouldChange) {
+  const TemporaryFolder folder;
+  const std::string four_bar = folder.write("four_bar.cuik", kFourBar), arm = folder.write("arm.cuik", kArm);
+  const Outcome map = run_corank(
+      {"map", four_bar, "--over", "c=1/2:3", "--over", "drive=-pi:pi", "--resolution", "8", "--no-boundary", "--json"});
+  ASSERT_EQ(map.status, 0) << map.err;
+  EXPECT_TRUE(json::parse(map.out).contains("cells"));
+  const Outcome tilted =
+      run_corank({"map", arm, "--over", "tilt=-1:1", "--over", "shoulder=-pi:pi", "--fix", "elbow=1", "--resolution", "8"});
+  EXPECT_EQ(tilted.status, 1);
+  EXPECT_THAT(tilted.err, HasSubstr("the equations leave out tilt"));
+  EXPECT_THAT(tilted.err, HasSubstr("corank derive FILE --format model"));
+}
+
+TEST(Parts, AnOutputThatIsAJointGoesByTheJointsName) {
+  const TemporaryFolder folder;
+  std::string text = kFourBar;
+  text.replace(text.find("swing : joint"), 5, "angle");
+  const Outcome other = run_corank({"derive", folder.write("four_bar.cuik", text), "--format", "model"});
+  EXPECT_THAT(other.err,
+              HasSubstr("note: outputs that are joints go by the joints' names, here and in results: angle is swing"));
+  EXPECT_THAT(other.out, HasSubstr("[OUTPUTS]  swing"));
+  EXPECT_EQ(run_corank({"derive", folder.write("four_bar.cuik", kFourBar), "--format", "model"}).err, "");
+}
+
 using Vector3 = std::array<double, 3>;
 
 Vector3 image(const json& link, const Vector3& v, bool is_point = true) {

@@ -284,6 +284,67 @@ TEST(Assembly, HoldsARodThatIsBesideTheAxis) {
   EXPECT_EQ(of(text).mobility, 0);
 }
 
+// Three rods carry a platform in the plane.
+std::string platform(const std::string& output) {
+  return "[CONSTANTS]\nturn := pi/9\n[LINKS]\nbase\nplatform\n[JOINTS]\n"
+         "planar P : base (0,0,0)+(0,0,1) platform (0,0,0)+(0,0,1)\n"
+         "sph_prs_sph l1 : base (0,0,0) platform (0,0,0) range [1/2, 2] actuated\n"
+         "sph_prs_sph l2 : base (2,0,0) platform (1,0,0) range [1/2, 2] actuated\n"
+         "sph_prs_sph l3 : base (0,2,0) platform (0,1,0) range [1/2, 2] actuated\n"
+         "[OUTPUTS]\n" +
+         output + "\n";
+}
+
+TEST(Assembly, SlicesTheTurningOfAPlanarLink) {
+  const auto range_of = [](const Assembly& a, const std::string& name) {
+    const int k = a.mechanism.find_coordinate(name);
+    if (k < 0) return std::string("none");
+    const symbolic::Coordinate& c = a.mechanism.coordinates()[static_cast<std::size_t>(k)];
+    return c.lower.text() + ", " + c.upper.text();
+  };
+  const Assembly pose = of(platform("pose : pose of platform (1/2, 0, 0) range phi [turn, turn] x [0, 1]"));
+  EXPECT_EQ(range_of(pose, "pose_phi"), "turn, turn");
+  EXPECT_EQ(range_of(pose, "pose_x"), "0, 1");
+  EXPECT_EQ(pose.mobility, 3);
+  EXPECT_EQ(equations(pose), equations(of(platform("pose : pose of platform (1/2, 0, 0)"))));
+  EXPECT_EQ(range_of(of(platform("tilt : orientation of platform range phi [-15deg, 15deg]")), "tilt"), "-pi/12, pi/12");
+
+  const auto crank = [](const std::string& range) {
+    std::string text = kFourBar;
+    text.replace(text.find("t : joint t2"), 12, "t : orientation of rocker range phi " + range);
+    text.insert(text.find("\n[OUTPUTS]"), "   range [0, pi/2]");
+    return text;
+  };
+  const Assembly rocker = of(crank("[pi/4, pi/3]"));
+  EXPECT_EQ(range_of(rocker, "t2"), "pi/4, pi/3");
+  EXPECT_EQ(rocker.mechanism.limits().size(), 0u);
+  const Assembly at_limit = of(crank("[pi/4, pi/2]"));
+  EXPECT_EQ(range_of(at_limit, "t2"), "0, pi/2");
+  ASSERT_EQ(at_limit.mechanism.limits().size(), 1u);  // the joint's own, which it meets
+  EXPECT_EQ(at_limit.mechanism.limits()[0].upper.text(), "pi/2");
+  EXPECT_THAT(equations(at_limit).back(), HasSubstr(">= 0"));
+  EXPECT_THAT(fault(crank("[-pi/4, pi/3]")),
+              HasSubstr("the range of phi of the output 't' leaves that of 't2'; expected a range within"));
+}
+
+TEST(Assembly, RefusesATurningThatIsNone) {
+  EXPECT_THAT(
+      fault(platform("p : position of platform range phi [0, 1]")),
+      HasSubstr("the output 'p' has a range of an angle, but no angle; expected a range of an orientation or a pose"));
+  EXPECT_THAT(fault(platform("p : pose of platform range phi [1, 0]")),
+              HasSubstr("the range of phi of the output 'p' is empty"));
+  EXPECT_THAT(fault(platform("p : pose of platform range phi [0]")), HasSubstr("has one number"));
+  EXPECT_THAT(fault(platform("p : pose of platform range phi [0, 1] phi [0, 1]")), HasSubstr("given twice"));
+  EXPECT_THAT(fault(platform("p : pose of platform keeps Rz(1)")),
+              HasSubstr("expected for a robot that moves in a plane: range phi [a, a]"));
+  EXPECT_THAT(fault("[LINKS]\nbase\nplatform\n[JOINTS]\nspherical s : base (0,0,0) platform (0,0,0)\n"
+                    "sph_prs_sph l : base (2,0,0) platform (1,0,0) range [1, 2] actuated\n"
+                    "sph_prs_sph m : base (0,2,0) platform (0,1,0) range [1, 2] actuated\n"
+                    "sph_prs_sph n : base (0,0,2) platform (0,1,1) range [1, 2] actuated\n"
+                    "[OUTPUTS]\no : orientation of platform range phi [0, 1]\n"),
+              HasSubstr("the output 'o' has a range of phi, but turns in space; expected keeps R behind it"));
+}
+
 TEST(Assembly, RefusesAnOutputsComponentThatCannotMove) {
   std::string text = kFourBar;
   text.erase(text.find("t : joint t2"));

@@ -186,6 +186,16 @@ def test_a_data_frame_has_a_row_for_each_box(forward):
     assert (frame["J3x_lo"].to_numpy() == forward["J3x"][:, 0]).all()
     assert (frame["theta2_hi"].to_numpy() == forward["theta2"][:, 1]).all()
     assert frame["verdict"].value_counts()["regular"] == forward.counts["regular"]
+    assert (frame["J3x_mid"].to_numpy() == forward["J3x"].mean(axis=1)).all()
+    assert list(frame.columns[:4]) == ["verdict", "J3x_mid", "J3x_lo", "J3x_hi"]
+
+
+def test_a_data_frame_has_kernel_vectors_where_they_are_asked_for(forward):
+    pytest.importorskip("pandas")
+    kernel = forward.kernel_unknowns
+    assert kernel and not {c for c in forward.to_pandas().columns if c.split("_")[0] in kernel}
+    frame = forward.to_pandas(kernel=True)
+    assert (frame[f"{kernel[0]}_hi"].to_numpy() == forward[kernel[0]][:, 1]).all()
 
 
 def test_a_boundary_has_parts_and_passages(models):

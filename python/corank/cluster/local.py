@@ -52,7 +52,7 @@ def security(ca: Optional[str] = None, cert: Optional[str] = None, key: Optional
         return None
     if ca is None or cert is None:
         raise ClusterError(
-            "TLS needs the files of the authority and of the certificate: --tls-ca, --tls-cert (and --tls-key)"
+            "TLS needs the files of the authority and of the certificate: ca and cert (and key)"
         )
     files = {
         f"tls_{role}_{kind}": name
@@ -99,6 +99,6 @@ def remote_client(address: str, tls: Optional[Security] = None) -> Iterator[Clie
     except (OSError, ValueError) as error:
         raise ClusterError(f"no scheduler at {address}: {error}") from None
     except TypeError as error:  # dask's, without the files of a certificate
-        raise ClusterError(f"no scheduler at {address}: TLS needs a certificate (--tls-ca, --tls-cert): {error}") from None
+        raise ClusterError(f"no scheduler at {address}: TLS needs a certificate's files, see security(): {error}") from None
     with client:
         yield client
