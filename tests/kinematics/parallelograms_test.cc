@@ -19,11 +19,11 @@ using testing::IsEmpty;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
-Assembly of(const std::string& parts) { return assemble(parse_parts(parts, "r.cuik")); }
+Assembly robot_of(const std::string& parts) { return assemble(parse_parts(parts, "r.cuik")); }
 
 std::string fault(const std::string& parts) {
   try {
-    of(parts);
+    robot_of(parts);
   } catch (const symbolic::ModelError& error) {
     return error.what();
   }
@@ -50,14 +50,14 @@ std::string leg(const std::string& more, const std::string& rod = "220") {
 }
 
 TEST(Parallelograms, AreFoundWhereTwoSidesTurnAboutOneAxis) {
-  const Assembly a = of(leg(""));
+  const Assembly a = robot_of(leg(""));
   ASSERT_THAT(a.parallelograms, SizeIs(1));
   EXPECT_THAT(a.parallelograms[0], UnorderedElementsAre("thigh", "shank", "rod", "crank"));
-  EXPECT_THAT(of(leg("", "221")).parallelograms, IsEmpty());
+  EXPECT_THAT(robot_of(leg("", "221")).parallelograms, IsEmpty());
 }
 
 TEST(Parallelograms, ThatAreKeptLeaveNoLoop) {
-  const Assembly a = of(leg("keep parallelograms\n"));
+  const Assembly a = robot_of(leg("keep parallelograms\n"));
   EXPECT_THAT(a.parallelograms, IsEmpty());
   EXPECT_THAT(coordinates(a), ElementsAre("q1", "q2", "F_x", "F_y"));
   EXPECT_EQ(a.mobility, 2);
@@ -72,13 +72,13 @@ TEST(Parallelograms, AreKeptOnlyWhereThereIsOne) {
 
 // On a turning column, the fourth side a rod between two points.
 TEST(Parallelograms, WithARodInSpaceAreKept) {
-  const Assembly a =
-      of("[LINKS]\nbase\ncol\nupper\ncrank\nfore\n[JOINTS]\nkeep parallelograms\n"
-         "revolute j1 : base (0,0,0)+(0,0,1) col (0,0,0)+(0,0,1) actuated\n"
-         "revolute j2 : col (26,0,56)+(0,1,0) upper (0,0,0)+(0,1,0) actuated\n"
-         "revolute j3 : col (26,0,56)+(0,1,0) crank (0,0,0)+(0,1,0) actuated\n"
-         "revolute elbow : upper (0,0,85)+(0,1,0) fore (0,0,0)+(0,1,0)\n"
-         "sph_sph rod : crank (-30,0,0) fore (-30,0,0) length 85\n");
+  const Assembly a = robot_of(
+      "[LINKS]\nbase\ncol\nupper\ncrank\nfore\n[JOINTS]\nkeep parallelograms\n"
+      "revolute j1 : base (0,0,0)+(0,0,1) col (0,0,0)+(0,0,1) actuated\n"
+      "revolute j2 : col (26,0,56)+(0,1,0) upper (0,0,0)+(0,1,0) actuated\n"
+      "revolute j3 : col (26,0,56)+(0,1,0) crank (0,0,0)+(0,1,0) actuated\n"
+      "revolute elbow : upper (0,0,85)+(0,1,0) fore (0,0,0)+(0,1,0)\n"
+      "sph_sph rod : crank (-30,0,0) fore (-30,0,0) length 85\n");
   EXPECT_EQ(a.mobility, 3);
   const auto values = completed(a, {{"j1", 0.4}, {"j2", -0.7}, {"j3", 1.1}});
   const Transform crank = pose_of(a, "crank", values), fore = pose_of(a, "fore", values);
@@ -124,10 +124,10 @@ TEST(Parallelograms, OfRandomGeometryAreFoundAndKept) {
              end(2, true) + "+(0,0,1) D " + end(3, false) + "+(0,0,1)\nrevolute : D " + end(3, true) + "+(0,0,1) A " +
              end(0, false) + "+(0,0,1)\n";
     };
-    const Assembly open = of(text(""));
+    const Assembly open = robot_of(text(""));
     EXPECT_EQ(open.parallelograms.size(), off == 0 ? 1u : 0u) << text("");
     if (off != 0) continue;
-    const Assembly kept = of(text("keep parallelograms\n"));
+    const Assembly kept = robot_of(text("keep parallelograms\n"));
     EXPECT_EQ(kept.mobility, 1) << text("");
     EXPECT_THAT(kept.mechanism.constraints(), IsEmpty());
     const auto values = completed(kept, {{kept.mechanism.coordinates().at(0).name, 0.1 * pick(-30, 30)}});
