@@ -16,7 +16,9 @@ else:
 # The corners of a rectangle and of a box's six faces: for each axis 0 its lower end, 1 its upper.
 _SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 _FACES = [
-    [(end, a, b) if k == 0 else (a, end, b) if k == 1 else (a, b, end) for a, b in _SQUARE] for end in range(2) for k in range(3)
+    [(end, a, b) if k == 0 else (a, end, b) if k == 1 else (a, b, end) for a, b in _SQUARE]
+    for end in range(2)
+    for k in range(3)
 ]
 
 
