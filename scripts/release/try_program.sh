@@ -25,6 +25,7 @@ corank verify inverse.h5 >said
 says "^verified$" said
 corank report "$models/dextar.cuik" -o page >said
 [[ $(wc -c <page/index.html) -gt 1000000 ]]
+echo "a report of $(wc -c <page/index.html) bytes"
 head -c 300 page/figures/output-portrait.svg | grep -q "<svg"
 if corank plot inverse.h5 --axes J3x,J3y -o portrait.pdf >said 2>&1; then
   head -c 5 portrait.pdf | grep -q "%PDF-"
