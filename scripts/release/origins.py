@@ -66,11 +66,14 @@ def packages_of(files: Iterable[pathlib.Path]) -> Dict[pathlib.Path, Package]:
 
 
 def compiled_in(build: pathlib.Path) -> List[Package]:
-    """The packages whose headers the build's sources include: parts of them are in its programs. Without those of the C and
-    C++ libraries, whose licences ask for nothing there."""
+    """The packages whose headers the sources of its programs include: parts of them are in these. Without the tests', and without
+    those of the C and C++ libraries, whose licences ask for nothing there."""
     headers: Set[pathlib.Path] = set()
+    shipped = False
     for line in output("ninja", "-C", build, "-t", "deps").splitlines():
-        if line.startswith("    /usr/include/") and not line.startswith("    /usr/include/c++/"):
+        if line and not line.startswith(" "):
+            shipped = not line.startswith(("tests/", "bench/"))
+        elif shipped and line.startswith("    /usr/include/") and not line.startswith("    /usr/include/c++/"):
             headers.add(pathlib.Path(line.strip()).resolve())
     owners = set(_owners(sorted(h for h in headers if h.exists())).values())
     left = {o for o in owners if not re.match(r"(libc6-dev|linux-libc-dev|libstdc\+\+-.*|libgcc-.*)(:|$)", o)}
