@@ -168,6 +168,7 @@ void bind_result(py::module_& module) {
   type.def_property_readonly("outputs", [](const Result& r) { return r->outputs; });
   type.def_property_readonly("dimension", [](const Result& r) { return r->cover.dimension; });
   type.def_property_readonly("complete", [](const Result& r) { return r->cover.complete(); });
+  type.def_property_readonly("counts", [](const Result& r) { return r->cover.counts(); });
   type.def_property_readonly("has_proof", [](const Result& r) { return r->cover.proof != nullptr; });
   type.def_property_readonly("sigma",
                              [](const Result& r) { return py::make_tuple(r->cover.sigma.length, r->cover.sigma.angle); });

@@ -80,15 +80,13 @@ class ParameterMap(Analysis):
     def boundary(self) -> "numpy.ndarray":
         """An array of shape (n, 5): lower and upper ends in both parameters of boxes where two solutions may meet, and whether
         a piece of the curve on which they do is proven in it, 1 or 0."""
-        import numpy
-
+        numpy = require("numpy")
         return numpy.array(self.data["boundary"], dtype=float).reshape(-1, 5)
 
     def grid(self) -> "numpy.ma.MaskedArray":
         """The numbers as an array of shape (resolution, resolution), the second parameter along the first axis, both
         ascending; masked where nothing is proven for the whole cell (of centre answers, for its centre)."""
-        import numpy
-
+        numpy = require("numpy")
         numbers = numpy.ma.masked_all((self.resolution, self.resolution), dtype=int)
         (x0, x1), (y0, y1) = self.region
         for xl, xu, yl, yu, kind, count, at_centre in self.data["cells"]:

@@ -8,7 +8,9 @@ from typing import Any
 
 
 def _missing(package: str) -> ModuleNotFoundError:
-    return ModuleNotFoundError(f"this needs the Python package {package}: apt-get install python3-{package}", name=package)
+    return ModuleNotFoundError(
+        f"this needs the Python package {package}: apt-get install python3-{package}, or pip install {package}", name=package
+    )
 
 
 def require(module: str) -> Any:
@@ -20,6 +22,16 @@ def require(module: str) -> Any:
         if error.name != package:
             raise
         raise _missing(package) from None
+
+
+class _Numpy:
+    """NumPy, imported where one of its names is asked for: searches, proofs and reports need none of it."""
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(require("numpy"), name)
+
+
+numpy = _Numpy()
 
 
 def expect(package: str) -> None:

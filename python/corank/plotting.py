@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Sequence
 
-import numpy as np
-
 from . import _corank
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from .result import Result
+else:
+    from .optional import numpy as np
 
 # The corners of a rectangle and of a box's six faces: for each axis 0 its lower end, 1 its upper.
-_SQUARE = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
-_FACES = np.array(
-    [[(0, a, b) if k == 0 else (a, 0, b) if k == 1 else (a, b, 0) for a, b in _SQUARE] for k in range(3)]
-    + [[(1, a, b) if k == 0 else (a, 1, b) if k == 1 else (a, b, 1) for a, b in _SQUARE] for k in range(3)]
-)
+_SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+_FACES = [
+    [(end, a, b) if k == 0 else (a, end, b) if k == 1 else (a, b, end) for a, b in _SQUARE]
+    for end in range(2)
+    for k in range(3)
+]
 
 
 def plot(
@@ -61,14 +64,16 @@ def plot(
 def _rectangles(sides: np.ndarray, options: Any) -> Any:
     from matplotlib.collections import PolyCollection
 
-    corners = np.stack([sides[:, k][:, _SQUARE[:, k]] for k in range(2)], axis=-1)
+    square = np.array(_SQUARE)
+    corners = np.stack([sides[:, k][:, square[:, k]] for k in range(2)], axis=-1)
     return PolyCollection(corners, closed=True, **options)
 
 
 def _solids(sides: np.ndarray, options: Any) -> Any:
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-    corners = np.stack([sides[:, k][:, _FACES[:, :, k]] for k in range(3)], axis=-1)
+    faces = np.array(_FACES)
+    corners = np.stack([sides[:, k][:, faces[:, :, k]] for k in range(3)], axis=-1)
     return Poly3DCollection(corners.reshape(-1, 4, 3), **options)
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Tuple
 
-import numpy as np
-
 from . import exact
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from .result import Result
 
 

@@ -8,8 +8,6 @@ import os
 import tempfile
 from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
-import numpy as np
-
 from . import _corank, notebook, plotting
 from .errors import deliver, in_python
 from .optional import require
@@ -17,9 +15,12 @@ from .point import Interval, Point
 from .progress import ProgressOption, Shown
 
 if TYPE_CHECKING:
+    import numpy as np
     import pandas
 
     from .mechanism import Mechanism
+else:
+    from .optional import numpy as np
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -95,6 +96,7 @@ class Result:
 
     @functools.cached_property
     def _arrays(self) -> Dict[str, np.ndarray]:
+        require("numpy")
         return self._core.boxes()
 
     @property
@@ -129,8 +131,7 @@ class Result:
     @property
     def counts(self) -> Dict[str, int]:
         """How many boxes have each verdict; those that none has are left out."""
-        n = np.bincount(self._arrays["verdict"], minlength=len(_corank.verdicts))
-        return {word: int(k) for word, k in zip(_corank.verdicts, n) if k}
+        return {word: k for word, k in zip(_corank.verdicts, self._core.counts) if k}
 
     @property
     def reasons(self) -> np.ndarray:
@@ -171,7 +172,7 @@ class Result:
         return self.boxes[:, self._index(name), :]
 
     def __len__(self) -> int:
-        return int(self.boxes.shape[0])
+        return sum(self._core.counts)
 
     # --- its points ---
 
@@ -192,6 +193,7 @@ class Result:
 
     @property
     def _point_arrays(self) -> Dict[str, np.ndarray]:
+        require("numpy")
         return self._core.points()
 
     @property
@@ -365,6 +367,7 @@ class Result:
 
     def _enclosures(self, name: str, of_points: bool) -> np.ndarray:
         if (name, of_points) not in self._angle_enclosures:
+            require("numpy")
             self._angle_enclosures[name, of_points] = self._core.angle_enclosures(name, of_points)
         return self._angle_enclosures[name, of_points]
 

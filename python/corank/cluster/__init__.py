@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .units import ClusterError, Plan, check_versions
 
 expect("distributed")
+expect("numpy")
 
 __all__ = [
     "Checkpoints",
