@@ -16,7 +16,7 @@ namespace corank::result {
 enum class Contents : bool { result, search };
 inline constexpr const char* kSearchGroup = "search";
 
-/// Writes all groups, arrays and attributes of the file as items (report/plain_items.h). To be called where a crash or a
+/// Writes all groups, arrays and attributes of the file as items (result/plain_items.h). To be called where a crash or a
 /// hang of the HDF5 library does no harm: it has both in store for damaged files. Throws std::runtime_error that names the
 /// item, not the file.
 void copy_contents(const std::string& path, ByteSink& sink, Contents wanted = Contents::result);

@@ -70,11 +70,11 @@ class Hdf5Writer {
 };
 
 /// Reads what a stranger may have written: the HDF5 library works in a child process with limits of memory and time, after
-/// a check of the file's structure (report/hdf5_contents.h); what comes back is plain.
+/// a check of the file's structure (result/hdf5_contents.h); what comes back is plain.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& path, Contents wanted = Contents::result);
-  /// Items that are in memory already, as report/plain_items.h lays them out; `path` is for messages. The bytes have to
+  /// Items that are in memory already, as result/plain_items.h lays them out; `path` is for messages. The bytes have to
   /// outlive the reader.
   Hdf5Reader(std::string path, std::span<const std::byte> items);
 
