@@ -42,8 +42,8 @@ def scaled(text, factor):
                 lines.append(names.sub(rf"(\1/({factor}))", head) + percent + comment)
             body = "\n".join(lines)
         elif name in ("SYSTEM VARS", "LIMITS"):
-            body = re.sub(r"^(\s*(?:" + "|".join(lengths) + r")\s*:\s*)\[([^,\n]+),([^\]\n]+)\]", rf"\1[({factor})*(\2), ({factor})*(\3)]", body,
-                          flags=re.M)
+            ranges = re.compile(r"^(\s*(?:" + "|".join(lengths) + r")\s*:\s*)\[([^,\n]+),([^\]\n]+)\]", re.M)
+            body = ranges.sub(rf"\1[({factor})*(\2), ({factor})*(\3)]", body)
         result += f"[{name}]{body}"
     return result
 
