@@ -1,5 +1,5 @@
 // Ways on a C-space of any dimension by sampling: OMPL's planners on the projected state space of a constraint (key
-// Kingston2019). In doubles; nothing is proven by them. Without OMPL there are none (path_sampling_missing.cc); CMake
+// Kingston2019). In doubles; nothing is proven by them. Without OMPL no way is sampled (path_sampling_missing.cc); CMake
 // chooses.
 #pragma once
 

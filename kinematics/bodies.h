@@ -43,8 +43,8 @@ struct Bodies {
 };
 
 /// Throws ModelError where fixed joints contradict one another, sliding joints or parallelograms that are kept ask one link
-/// for two orientations, or joints keep a rod's ends at another distance than its length; where parallelograms are to be
-/// kept and there are none.
+/// for two orientations, or joints keep a rod's ends at another distance than its length; where the robot keeps
+/// parallelograms and has no such loop.
 Bodies bodies_of(const Robot& robot, Algebra& algebra);
 
 }  // namespace corank::kinematics

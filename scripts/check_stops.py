@@ -27,13 +27,13 @@ SETS = ["forward", "inverse", "cspace", "boundary", "redundant-input", "self-mot
 def processor_time(pid):
     """Of a process and all below it, in seconds; those that ended and were waited for are in their parent's."""
     total = 0
-    todo = [pid]
-    while todo:
-        p = todo.pop()
+    waiting = [pid]
+    while waiting:
+        p = waiting.pop()
         try:
             fields = pathlib.Path(f"/proc/{p}/stat").read_text().rsplit(")", 1)[1].split()
             for task in pathlib.Path(f"/proc/{p}/task").iterdir():
-                todo += [int(c) for c in (task / "children").read_text().split()]
+                waiting += [int(c) for c in (task / "children").read_text().split()]
         except (FileNotFoundError, ProcessLookupError, IndexError):
             continue
         total += sum(int(fields[i]) for i in (11, 12, 13, 14)) / TICK

@@ -158,26 +158,6 @@ bool derives_alike(const Mechanism& a, const Mechanism& b) {
          same(a.velocity_equations(), b.velocity_equations(), equations);
 }
 
-Derivation derived(const Mechanism& mechanism);
-
-}  // namespace
-
-// The same equations are asked for again and again while a question is answered, and GiNaC takes its time.
-Derivation derive(const Mechanism& mechanism) {
-  constexpr std::size_t kRemembered = 4;
-  mechanism.validate();
-  const GinacLock lock;  // of what is remembered, too
-  static std::deque<std::pair<Mechanism, Derivation>> remembered;
-  for (const auto& [of, derivation] : remembered)
-    if (derives_alike(of, mechanism)) return derivation;
-  Derivation result = derived(mechanism);
-  remembered.emplace_front(mechanism, result);
-  if (remembered.size() > kRemembered) remembered.pop_back();
-  return result;
-}
-
-namespace {
-
 Derivation derived(const Mechanism& mechanism) {
   const GinacBridge bridge(mechanism);
 
@@ -212,6 +192,20 @@ Derivation derived(const Mechanism& mechanism) {
 }
 
 }  // namespace
+
+// The same equations are asked for again and again while a question is answered, and GiNaC takes its time.
+Derivation derive(const Mechanism& mechanism) {
+  constexpr std::size_t kRemembered = 4;
+  mechanism.validate();
+  const GinacLock lock;  // of what is remembered, too
+  static std::deque<std::pair<Mechanism, Derivation>> remembered;
+  for (const auto& [of, derivation] : remembered)
+    if (derives_alike(of, mechanism)) return derivation;
+  Derivation result = derived(mechanism);
+  remembered.emplace_front(mechanism, result);
+  if (remembered.size() > kRemembered) remembered.pop_back();
+  return result;
+}
 
 std::vector<std::vector<std::vector<Expression>>> second_derivatives(const Mechanism& mechanism,
                                                                      const std::vector<std::string>& coordinates) {

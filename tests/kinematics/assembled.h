@@ -1,4 +1,4 @@
-// Poses of an assembled robot's links in numbers, where its joints' coordinates are given.
+// A robot written in parts, assembled; poses of its links in numbers, where its joints' coordinates are given.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,10 +8,29 @@
 #include <vector>
 
 #include "corank/kinematics/assembly.h"
+#include "corank/kinematics/part_file.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/tests/kinematics/transform.h"
 
 namespace corank::kinematics {
+
+inline Assembly assembled(const std::string& parts) { return assemble(parse_parts(parts, "r.cuik")); }
+
+/// What is wrong with these parts: "none" where nothing is.
+inline std::string fault_of(const std::string& parts) {
+  try {
+    assembled(parts);
+  } catch (const symbolic::ModelError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+inline std::vector<std::string> coordinate_names(const Assembly& a) {
+  std::vector<std::string> names;
+  for (const symbolic::Coordinate& c : a.mechanism.coordinates()) names.push_back(c.name);
+  return names;
+}
 
 /// All coordinates where some are known: as long as an equation has one unknown, in which it is linear, that one follows.
 /// Expects that all equations hold then.

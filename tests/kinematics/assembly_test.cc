@@ -8,6 +8,7 @@
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/model_text.h"
+#include "corank/tests/kinematics/assembled.h"
 
 namespace corank::kinematics {
 namespace {
@@ -21,23 +22,6 @@ std::vector<std::string> equations(const Assembly& a) {
   return texts;
 }
 
-std::vector<std::string> coordinates(const Assembly& a) {
-  std::vector<std::string> names;
-  for (const symbolic::Coordinate& c : a.mechanism.coordinates()) names.push_back(c.name);
-  return names;
-}
-
-std::string fault(const std::string& parts) {
-  try {
-    assemble(parse_parts(parts, "r.cuik"));
-  } catch (const symbolic::ModelError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
-Assembly of(const std::string& parts) { return assemble(parse_parts(parts, "r.cuik")); }
-
 constexpr const char* kFourBar =
     "[CONSTANTS]\na := 1\nb := 3\nc := 2\nd := 5/2\n"
     "[LINKS]\nground\ncrank\ncoupler\nrocker\n[JOINTS]\n"
@@ -48,9 +32,9 @@ constexpr const char* kFourBar =
     "[OUTPUTS]\nt : joint t2\n";
 
 TEST(Assembly, MakesAFourBarOfThreeAnglesAndTwoEquations) {
-  const Assembly a = of(kFourBar);
+  const Assembly a = assembled(kFourBar);
   EXPECT_EQ(a.space, Space::planar);
-  EXPECT_THAT(coordinates(a), ElementsAre("t1", "t2", "phi_coupler"));
+  EXPECT_THAT(coordinate_names(a), ElementsAre("t1", "t2", "phi_coupler"));
   EXPECT_THAT(equations(a), ElementsAre("-a*cos(t1) - b*cos(phi_coupler) + c*cos(t2) + d = 0",
                                         "-a*sin(t1) - b*sin(phi_coupler) + c*sin(t2) = 0"));
   EXPECT_EQ(a.mobility, 1);
@@ -64,7 +48,7 @@ TEST(Assembly, MakesAFourBarOfThreeAnglesAndTwoEquations) {
 TEST(Assembly, FindsThePlaneWhereverItIs) {
   std::string text = kFourBar;
   for (std::size_t at = 0; (at = text.find("(0,0,1)", at)) != std::string::npos;) text.replace(at, 7, "(0,3,0)");
-  const Assembly a = of(text);
+  const Assembly a = assembled(text);
   EXPECT_EQ(a.space, Space::planar);
   EXPECT_EQ(equations(a).size(), 2u);
 }
@@ -73,7 +57,7 @@ TEST(Assembly, TellsParallelAxesByTheirConstantsValues) {
   std::string text = kFourBar;
   text.replace(text.find("d := 5/2"), 8, "d := 5/2\nx := 0");
   text.replace(text.rfind("(d,0,0)+(0,0,1)"), 15, "(d,0,0)+(x,0,1)");
-  EXPECT_EQ(of(text).space, Space::planar);
+  EXPECT_EQ(assembled(text).space, Space::planar);
   Robot tilted = parse_parts(text, "r.cuik");
   for (symbolic::Constant& c : tilted.constants)
     if (c.name == "x") c.value = symbolic::Expression("1/10");
@@ -81,7 +65,7 @@ TEST(Assembly, TellsParallelAxesByTheirConstantsValues) {
 }
 
 TEST(Assembly, ReadsBackTheTextOfItsMechanism) {
-  const Assembly a = of(kFourBar);
+  const Assembly a = assembled(kFourBar);
   const symbolic::Mechanism again = symbolic::parse_model(symbolic::to_model(a.mechanism), "again.cuik");
   ASSERT_EQ(again.constraints().size(), a.mechanism.constraints().size());
   for (std::size_t i = 0; i < again.constraints().size(); ++i)
@@ -89,23 +73,23 @@ TEST(Assembly, ReadsBackTheTextOfItsMechanism) {
 }
 
 TEST(Assembly, KeepsThreeSlidersAsTheirEquations) {
-  const Assembly a =
-      of("[CONSTANTS]\nL1 := 1\nL2 := 4/5\n[LINKS]\nground\nA\nB\nC\n[JOINTS]\n"
-         "prismatic y_A : ground (0,0,0)+(0,1,0) A (0,0,0)+(0,1,0) actuated\n"
-         "prismatic y_B : ground (0,0,0)+(0,1,0) B (0,0,0)+(0,1,0)\n"
-         "prismatic x_C : ground (0,0,0)+(1,0,0) C (0,0,0)+(1,0,0)\n"
-         "sph_sph p : A (0,0,0) C (0,0,0) length L1\nsph_sph q : B (0,0,0) C (0,0,0) length L2\n[OUTPUTS]\ny : joint y_B\n");
+  const Assembly a = assembled(
+      "[CONSTANTS]\nL1 := 1\nL2 := 4/5\n[LINKS]\nground\nA\nB\nC\n[JOINTS]\n"
+      "prismatic y_A : ground (0,0,0)+(0,1,0) A (0,0,0)+(0,1,0) actuated\n"
+      "prismatic y_B : ground (0,0,0)+(0,1,0) B (0,0,0)+(0,1,0)\n"
+      "prismatic x_C : ground (0,0,0)+(1,0,0) C (0,0,0)+(1,0,0)\n"
+      "sph_sph p : A (0,0,0) C (0,0,0) length L1\nsph_sph q : B (0,0,0) C (0,0,0) length L2\n[OUTPUTS]\ny : joint y_B\n");
   EXPECT_EQ(a.space, Space::planar);
   EXPECT_THAT(equations(a), ElementsAre("-L1^2 + y_A^2 + x_C^2 = 0", "-L2^2 + y_B^2 + x_C^2 = 0"));
 }
 
 TEST(Assembly, KnowsASphericalRobotByItsAxes) {
-  const Assembly a =
-      of("[LINKS]\nground\na\nb\n c\n[JOINTS]\n"
-         "revolute j1 : ground (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1) actuated\n"
-         "revolute j2 : a (0,0,0)+(0,3/5,4/5) b (0,0,0)+(0,0,1)\n"
-         "revolute j3 : b (0,0,0)+(0,1,0) c (0,0,0)+(0,0,1)\n"
-         "revolute j4 : c (0,0,0)+(3/5,0,4/5) ground (0,0,0)+(1,0,0)\n[OUTPUTS]\nt : joint j4\n");
+  const Assembly a = assembled(
+      "[LINKS]\nground\na\nb\n c\n[JOINTS]\n"
+      "revolute j1 : ground (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1) actuated\n"
+      "revolute j2 : a (0,0,0)+(0,3/5,4/5) b (0,0,0)+(0,0,1)\n"
+      "revolute j3 : b (0,0,0)+(0,1,0) c (0,0,0)+(0,0,1)\n"
+      "revolute j4 : c (0,0,0)+(3/5,0,4/5) ground (0,0,0)+(1,0,0)\n[OUTPUTS]\nt : joint j4\n");
   EXPECT_EQ(a.space, Space::spherical);
   EXPECT_EQ(a.mobility, 1);
   EXPECT_EQ(a.mobility_by_joints, 1);
@@ -133,7 +117,7 @@ std::vector<std::string> velocity_rows(const Assembly& a) {
 }
 
 TEST(Assembly, FindsTheCommonPointOfAxesWhereverTheirJointsAre) {
-  const Assembly built = of(kJointsOnASphere), centred = of(kJointsAtTheCentre);
+  const Assembly built = assembled(kJointsOnASphere), centred = assembled(kJointsAtTheCentre);
   EXPECT_EQ(built.space, Space::spherical);
   EXPECT_EQ(built.mobility, 1);
   EXPECT_EQ(built.mobility_by_joints, 1);
@@ -145,7 +129,7 @@ TEST(Assembly, FindsTheCommonPointOfAxesWhereverTheirJointsAre) {
 
 // Each link's frame is where its axes meet: x = centre + R (x of the link − its centre).
 TEST(Assembly, PutsALinkOfASphericalRobotWhereItsJointsAre) {
-  const Assembly a = of(kJointsOnASphere);
+  const Assembly a = assembled(kJointsOnASphere);
   for (const std::size_t link : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
     const double own[4][3] = {{1, 2, 3}, {2, 0, 0}, {0, 0, -1}, {0, 5, 0}};
     std::map<std::string, double> values;  // any: the common point stays where it is
@@ -164,15 +148,17 @@ TEST(Assembly, TakesAxesThatMissEachOtherForARobotInSpace) {
   std::string linkage = kJointsOnASphere;
   linkage.replace(linkage.find(" actuated"), 9, "");
   linkage.erase(linkage.find("[OUTPUTS]"));
-  EXPECT_EQ(of(linkage).space, Space::spherical);
+  EXPECT_EQ(assembled(linkage).space, Space::spherical);
   const auto with = [&](const std::string& place, const std::string& elsewhere) {
     std::string text = linkage;
     return text.replace(text.find(place), place.size(), elsewhere);
   };
-  EXPECT_EQ(of(with("(2,0,r)", "(2,1/1000000000,r)")).space, Space::spatial) << "an axis beside the others of its link";
-  EXPECT_EQ(of(with("(3/5,5,4/5)", "(3/5,5+1/1000000000,4/5)")).space, Space::spatial) << "two axes that do not meet";
-  EXPECT_THAT(fault(with("(2,2,3)", "(2,2+1/1000000000,3)")), HasSubstr("can never close")) << "of the ground";
-  EXPECT_THAT(fault(with("(0,0,2)", "(0,0,2+1/1000000000)")), HasSubstr("can never close")) << "a joint's two points apart";
+  EXPECT_EQ(assembled(with("(2,0,r)", "(2,1/1000000000,r)")).space, Space::spatial)
+      << "an axis beside the others of its link";
+  EXPECT_EQ(assembled(with("(3/5,5,4/5)", "(3/5,5+1/1000000000,4/5)")).space, Space::spatial) << "two axes that do not meet";
+  EXPECT_THAT(fault_of(with("(2,2,3)", "(2,2+1/1000000000,3)")), HasSubstr("can never close")) << "of the ground";
+  EXPECT_THAT(fault_of(with("(0,0,2)", "(0,0,2+1/1000000000)")), HasSubstr("can never close"))
+      << "a joint's two points apart";
 }
 
 TEST(Assembly, LetsAUniversalJointSayWhereTheCentreIs) {
@@ -181,34 +167,34 @@ TEST(Assembly, LetsAUniversalJointSayWhereTheCentreIs) {
       "universal j1 : ground (1,0,0)+(0,0,1) a (0,0,0)+(1,0,0)\n"
       "revolute j2 : a (0,0,1)+(0,0,1) b (0,3/5,4/5)+(0,3/5,4/5)\n"
       "revolute j3 : b (1,0,0)+(1,0,0) ground (1,1,0)+(0,1,0)\n";
-  EXPECT_EQ(of(text).space, Space::spherical);
-  EXPECT_EQ(of(text).mobility, 1);
+  EXPECT_EQ(assembled(text).space, Space::spherical);
+  EXPECT_EQ(assembled(text).mobility, 1);
   std::string moved = text;
   moved.replace(moved.find("(0,0,1)+(0,0,1)"), 15, "(1,0,1)+(0,0,1)");
-  EXPECT_EQ(of(moved).space, Space::spatial) << "an axis beside the universal joint";
+  EXPECT_EQ(assembled(moved).space, Space::spatial) << "an axis beside the universal joint";
 }
 
 // A spherical loop that carries another, about another point, and an arm.
 TEST(Assembly, KnowsSphericalLoopsAboutSeveralPoints) {
-  const Assembly a = of(std::string(kJointsOnASphere).substr(0, std::string(kJointsOnASphere).find("[OUTPUTS]")) +
-                        "[LINKS]\nd\ne\nf\ng\n[JOINTS]\n"
-                        "revolute k1 : c (0,0,1)+(0,0,1) d (0,0,1)+(0,0,1)\n"
-                        "revolute k2 : d (0,3/5,4/5)+(0,3/5,4/5) e (0,0,1)+(0,0,1)\n"
-                        "revolute k3 : e (0,1,0)+(0,1,0) f (0,0,1)+(0,0,1)\n"
-                        "revolute k4 : f (3/5,0,4/5)+(3/5,0,4/5) c (1,0,0)+(1,0,0)\n"
-                        "revolute arm : f (1,1,1)+(0,0,1) g (1,0,0)+(0,1,0)\n");
+  const Assembly a = assembled(std::string(kJointsOnASphere).substr(0, std::string(kJointsOnASphere).find("[OUTPUTS]")) +
+                               "[LINKS]\nd\ne\nf\ng\n[JOINTS]\n"
+                               "revolute k1 : c (0,0,1)+(0,0,1) d (0,0,1)+(0,0,1)\n"
+                               "revolute k2 : d (0,3/5,4/5)+(0,3/5,4/5) e (0,0,1)+(0,0,1)\n"
+                               "revolute k3 : e (0,1,0)+(0,1,0) f (0,0,1)+(0,0,1)\n"
+                               "revolute k4 : f (3/5,0,4/5)+(3/5,0,4/5) c (1,0,0)+(1,0,0)\n"
+                               "revolute arm : f (1,1,1)+(0,0,1) g (1,0,0)+(0,1,0)\n");
   EXPECT_EQ(a.space, Space::spherical);
   EXPECT_EQ(a.mobility_by_rank, a.mobility);
 }
 
 // Bennett 1903: sin(alpha)/a = sin(beta)/b; here a = 1, alpha = 30°, b = sqrt(3), beta = 60°.
 TEST(Assembly, SeesThatABennettLinkageMovesThoughTheCountSaysNo) {
-  const Assembly a =
-      of("[CONSTANTS]\nh := sqrt(3)/2\n[LINKS]\ng\na\nb\nc\n[JOINTS]\n"
-         "revolute j1 : g (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1)\n"
-         "revolute j2 : a (1,0,0)+(0,-1/2,h) b (0,0,0)+(0,0,1)\n"
-         "revolute j3 : b (sqrt(3),0,0)+(0,-h,1/2) c (0,0,0)+(0,0,1)\n"
-         "revolute j4 : c (1,0,0)+(0,-1/2,h) g (-sqrt(3),0,0)+(0,h,1/2)\n");
+  const Assembly a = assembled(
+      "[CONSTANTS]\nh := sqrt(3)/2\n[LINKS]\ng\na\nb\nc\n[JOINTS]\n"
+      "revolute j1 : g (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1)\n"
+      "revolute j2 : a (1,0,0)+(0,-1/2,h) b (0,0,0)+(0,0,1)\n"
+      "revolute j3 : b (sqrt(3),0,0)+(0,-h,1/2) c (0,0,0)+(0,0,1)\n"
+      "revolute j4 : c (1,0,0)+(0,-1/2,h) g (-sqrt(3),0,0)+(0,h,1/2)\n");
   EXPECT_EQ(a.space, Space::spatial);
   EXPECT_EQ(a.mobility, -2);
   EXPECT_EQ(a.mobility_by_joints, -2);
@@ -219,19 +205,19 @@ TEST(Assembly, RefusesWhatDoesNotFitTogether) {
   const std::string chain =
       "[LINKS]\nground\na\nb\n[JOINTS]\nrevolute j1 : ground (0,0,0)+(0,0,1) a (0,0,0)+(0,0,1)\n"
       "revolute j2 : a (1,0,0)+(0,0,1) b (0,0,0)+(0,0,1)\n";
-  EXPECT_THAT(fault(chain + "revolute j3 : b (1,0,0)+(0,0,1) ground (1,0,2)+(0,0,1)\n"),
+  EXPECT_THAT(fault_of(chain + "revolute j3 : b (1,0,0)+(0,0,1) ground (1,0,2)+(0,0,1)\n"),
               HasSubstr("the loop that the joint 'j2' closes leaves the plane and can never close"));
-  EXPECT_THAT(fault(chain + "fix : a b Tx(1)\nfix : a b Tx(2)\n"),
+  EXPECT_THAT(fault_of(chain + "fix : a b Tx(1)\nfix : a b Tx(2)\n"),
               HasSubstr("'b' elsewhere than the fixed joints before it"));
-  EXPECT_THAT(fault(chain + "fix : a b Rz(1)\nfix : a b Rz(2)\n"), HasSubstr("another orientation of 'b'"));
-  EXPECT_THAT(fault(chain + "fix : a b id\n"), HasSubstr("which fixed joints make one body"));
-  EXPECT_THAT(fault(chain + "prismatic s : b (0,0,0)+(1,0,0) ground (0,0,0)+(0,1,0)\n"), HasSubstr("prismatic"));
+  EXPECT_THAT(fault_of(chain + "fix : a b Rz(1)\nfix : a b Rz(2)\n"), HasSubstr("another orientation of 'b'"));
+  EXPECT_THAT(fault_of(chain + "fix : a b id\n"), HasSubstr("which fixed joints make one body"));
+  EXPECT_THAT(fault_of(chain + "prismatic s : b (0,0,0)+(1,0,0) ground (0,0,0)+(0,1,0)\n"), HasSubstr("prismatic"));
 }
 
 TEST(Assembly, LocksAJointByARangeOfOneValue) {
   std::string text = kFourBar;
   text.replace(text.find("actuated"), 8, "actuated limits [1, 1]");
-  const Assembly a = of(text);
+  const Assembly a = assembled(text);
   EXPECT_EQ(a.mobility, 1);
   EXPECT_EQ(a.mobility_by_rank, 1) << "the locked joint counts as free";
 }
@@ -239,7 +225,7 @@ TEST(Assembly, LocksAJointByARangeOfOneValue) {
 // The prismatic joint carries the direction of its link: the tree reaches the actuated Jd with both directions known.
 // Its angle gets an equation of its own.
 TEST(Assembly, AnActuatedJointBetweenKnownDirectionsHasItsAngle) {
-  const Assembly a = of(R"([LINKS]
+  const Assembly a = assembled(R"([LINKS]
 b0
 b1
 b2
@@ -265,23 +251,23 @@ constexpr const char* kIdleRod =
     "sph_sph  r1 : crank (1, 0, 0)  arm (1, 1, 1)  length 4\n";
 
 TEST(Assembly, LeavesOutARodWhoseEndIsOnTheAxisOfTheOther) {
-  const Assembly without = of(kIdleRod);
+  const Assembly without = assembled(kIdleRod);
   EXPECT_EQ(without.mobility, 1);
   for (const char* rod : {"base A  crank (1, 1, 1)  length sqrt(3)", "crank (0, 3, 4)  base (1, 2, 0)  length 5"}) {
     SCOPED_TRACE(rod);
-    const Assembly a = of(std::string(kIdleRod) + "sph_sph r2 : " + rod + "\n");
+    const Assembly a = assembled(std::string(kIdleRod) + "sph_sph r2 : " + rod + "\n");
     EXPECT_EQ(equations(a), equations(without));
     EXPECT_EQ(a.mobility_by_joints, 1);
     EXPECT_EQ(a.mechanism.velocity_equations().size(), without.mechanism.velocity_equations().size());
     EXPECT_GT(a.mechanism.drawing().parts.size(), without.mechanism.drawing().parts.size()) << "it is drawn";
   }
-  EXPECT_THAT(fault(std::string(kIdleRod) + "sph_sph r2 : base A  crank (1, 1, 1)  length 2\n"),
+  EXPECT_THAT(fault_of(std::string(kIdleRod) + "sph_sph r2 : base A  crank (1, 1, 1)  length 2\n"),
               HasSubstr("the rod 'r2' has the length 2.000000, but the joints keep its ends at the distance 1.732051"));
 }
 
 TEST(Assembly, HoldsARodThatIsBesideTheAxis) {
   const std::string text = std::string(kIdleRod) + "sph_sph r2 : base (1, 2, 1)  crank (1, 1, 1)  length 2\n";
-  EXPECT_EQ(of(text).mobility, 0);
+  EXPECT_EQ(assembled(text).mobility, 0);
 }
 
 // Three rods carry a platform in the plane.
@@ -302,12 +288,13 @@ TEST(Assembly, SlicesTheTurningOfAPlanarLink) {
     const symbolic::Coordinate& c = a.mechanism.coordinates()[static_cast<std::size_t>(k)];
     return c.lower.text() + ", " + c.upper.text();
   };
-  const Assembly pose = of(platform("pose : pose of platform (1/2, 0, 0) range phi [turn, turn] x [0, 1]"));
+  const Assembly pose = assembled(platform("pose : pose of platform (1/2, 0, 0) range phi [turn, turn] x [0, 1]"));
   EXPECT_EQ(range_of(pose, "pose_phi"), "turn, turn");
   EXPECT_EQ(range_of(pose, "pose_x"), "0, 1");
   EXPECT_EQ(pose.mobility, 3);
-  EXPECT_EQ(equations(pose), equations(of(platform("pose : pose of platform (1/2, 0, 0)"))));
-  EXPECT_EQ(range_of(of(platform("tilt : orientation of platform range phi [-15deg, 15deg]")), "tilt"), "-pi/12, pi/12");
+  EXPECT_EQ(equations(pose), equations(assembled(platform("pose : pose of platform (1/2, 0, 0)"))));
+  EXPECT_EQ(range_of(assembled(platform("tilt : orientation of platform range phi [-15deg, 15deg]")), "tilt"),
+            "-pi/12, pi/12");
 
   const auto crank = [](const std::string& range) {
     std::string text = kFourBar;
@@ -315,54 +302,54 @@ TEST(Assembly, SlicesTheTurningOfAPlanarLink) {
     text.insert(text.find("\n[OUTPUTS]"), "   range [0, pi/2]");
     return text;
   };
-  const Assembly rocker = of(crank("[pi/4, pi/3]"));
+  const Assembly rocker = assembled(crank("[pi/4, pi/3]"));
   EXPECT_EQ(range_of(rocker, "t2"), "pi/4, pi/3");
   EXPECT_EQ(rocker.mechanism.limits().size(), 0u);
-  const Assembly at_limit = of(crank("[pi/4, pi/2]"));
+  const Assembly at_limit = assembled(crank("[pi/4, pi/2]"));
   EXPECT_EQ(range_of(at_limit, "t2"), "0, pi/2");
   ASSERT_EQ(at_limit.mechanism.limits().size(), 1u);  // the joint's own, which it meets
   EXPECT_EQ(at_limit.mechanism.limits()[0].upper.text(), "pi/2");
   EXPECT_THAT(equations(at_limit).back(), HasSubstr(">= 0"));
-  EXPECT_THAT(fault(crank("[-pi/4, pi/3]")),
+  EXPECT_THAT(fault_of(crank("[-pi/4, pi/3]")),
               HasSubstr("the range of phi of the output 't' leaves that of 't2'; expected a range within"));
 }
 
 TEST(Assembly, RefusesATurningThatIsNone) {
   EXPECT_THAT(
-      fault(platform("p : position of platform range phi [0, 1]")),
+      fault_of(platform("p : position of platform range phi [0, 1]")),
       HasSubstr("the output 'p' has a range of an angle, but no angle; expected a range of an orientation or a pose"));
-  EXPECT_THAT(fault(platform("p : pose of platform range phi [1, 0]")),
+  EXPECT_THAT(fault_of(platform("p : pose of platform range phi [1, 0]")),
               HasSubstr("the range of phi of the output 'p' is empty"));
-  EXPECT_THAT(fault(platform("p : pose of platform range phi [0]")), HasSubstr("has one number"));
-  EXPECT_THAT(fault(platform("p : pose of platform range phi [0, 1] phi [0, 1]")), HasSubstr("given twice"));
-  EXPECT_THAT(fault(platform("p : pose of platform keeps Rz(1)")),
+  EXPECT_THAT(fault_of(platform("p : pose of platform range phi [0]")), HasSubstr("has one number"));
+  EXPECT_THAT(fault_of(platform("p : pose of platform range phi [0, 1] phi [0, 1]")), HasSubstr("given twice"));
+  EXPECT_THAT(fault_of(platform("p : pose of platform keeps Rz(1)")),
               HasSubstr("expected for a robot that moves in a plane: range phi [a, a]"));
-  EXPECT_THAT(fault("[LINKS]\nbase\nplatform\n[JOINTS]\nspherical s : base (0,0,0) platform (0,0,0)\n"
-                    "sph_prs_sph l : base (2,0,0) platform (1,0,0) range [1, 2] actuated\n"
-                    "sph_prs_sph m : base (0,2,0) platform (0,1,0) range [1, 2] actuated\n"
-                    "sph_prs_sph n : base (0,0,2) platform (0,1,1) range [1, 2] actuated\n"
-                    "[OUTPUTS]\no : orientation of platform range phi [0, 1]\n"),
+  EXPECT_THAT(fault_of("[LINKS]\nbase\nplatform\n[JOINTS]\nspherical s : base (0,0,0) platform (0,0,0)\n"
+                       "sph_prs_sph l : base (2,0,0) platform (1,0,0) range [1, 2] actuated\n"
+                       "sph_prs_sph m : base (0,2,0) platform (0,1,0) range [1, 2] actuated\n"
+                       "sph_prs_sph n : base (0,0,2) platform (0,1,1) range [1, 2] actuated\n"
+                       "[OUTPUTS]\no : orientation of platform range phi [0, 1]\n"),
               HasSubstr("the output 'o' has a range of phi, but turns in space; expected keeps R behind it"));
 }
 
 TEST(Assembly, RefusesAnOutputsComponentThatCannotMove) {
   std::string text = kFourBar;
   text.erase(text.find("t : joint t2"));
-  EXPECT_THAT(fault(text + "p : position of coupler (1, 0, 1/2) only x z\n"),
+  EXPECT_THAT(fault_of(text + "p : position of coupler (1, 0, 1/2) only x z\n"),
               HasSubstr("r.cuik:17:1: the component z of the output 'p' cannot move: it is always 0.5"));
-  EXPECT_THAT(fault(text + "p : position of coupler (1, 0, 1/2) range z [1, 2]\n"), HasSubstr("the component z"));
-  EXPECT_EQ(of(text + "p : position of coupler (1, 0, 1/2) only x\n").mechanism.outputs().size(), 1u);
-  EXPECT_EQ(of(text + "p : position of coupler (1, 0, 1/2)\n").mechanism.outputs().size(), 2u) << "what moves of all";
+  EXPECT_THAT(fault_of(text + "p : position of coupler (1, 0, 1/2) range z [1, 2]\n"), HasSubstr("the component z"));
+  EXPECT_EQ(assembled(text + "p : position of coupler (1, 0, 1/2) only x\n").mechanism.outputs().size(), 1u);
+  EXPECT_EQ(assembled(text + "p : position of coupler (1, 0, 1/2)\n").mechanism.outputs().size(), 2u) << "what moves of all";
   const std::string arm =
       "[LINKS]\nbase\na\nb\n[JOINTS]\nrevolute j1 : base (0, 0, 0) + (0, 0, 1)  a (0, 0, 0) + (0, 0, 1) actuated\n"
       "revolute j2 : a (1, 0, 0) + (1, 0, 0)  b (0, 0, 0) + (1, 0, 0)\n[OUTPUTS]\n";
-  EXPECT_THAT(fault(arm + "p : position of a (1, 0, 2) only x z\n"), HasSubstr("the component z of the output 'p'"));
-  EXPECT_EQ(of(arm + "p : position of a (1, 0, 2)\n").space, Space::spatial);
+  EXPECT_THAT(fault_of(arm + "p : position of a (1, 0, 2) only x z\n"), HasSubstr("the component z of the output 'p'"));
+  EXPECT_EQ(assembled(arm + "p : position of a (1, 0, 2)\n").space, Space::spatial);
 }
 
 // Twelve numbers of a pose and a joint's value, at a configuration that is known.
 TEST(Assembly, SaysWhereLinksAre) {
-  const Assembly a = of(kFourBar);
+  const Assembly a = assembled(kFourBar);
   ASSERT_EQ(a.poses.size(), 4u);
   EXPECT_EQ(a.poses[1].link, "crank");
   EXPECT_EQ(a.poses[1].rotation[1][0].text(), "sin(t1)");

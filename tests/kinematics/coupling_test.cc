@@ -15,23 +15,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Assembly of(const std::string& parts) { return assemble(parse_parts(parts, "r.cuik")); }
-
-std::vector<std::string> coordinates(const Assembly& a) {
-  std::vector<std::string> names;
-  for (const symbolic::Coordinate& c : a.mechanism.coordinates()) names.push_back(c.name);
-  return names;
-}
-
-std::string fault(const std::string& parts) {
-  try {
-    of(parts);
-  } catch (const symbolic::ModelError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
 constexpr const char* kArm =
     "[LINKS]\nbase\nupper\nfore\n[JOINTS]\n"
     "revolute a : base (0,0,0)+(0,0,1) upper (0,0,0)+(0,0,1) actuated\n"
@@ -45,8 +28,9 @@ Transform at(double x, double y, double z, const Transform& turned) {
 
 // Equal links, the elbow turning back twice the shoulder's angle: Scott Russell's straight line.
 TEST(Gears, LeadAlongAStraightLine) {
-  const Assembly a = of(std::string(kArm) + "gear : a b ratio -2\n[OUTPUTS]\nhand : position of fore (3,0,0) only x\n");
-  EXPECT_THAT(coordinates(a), ElementsAre("a", "hand_x"));
+  const Assembly a =
+      assembled(std::string(kArm) + "gear : a b ratio -2\n[OUTPUTS]\nhand : position of fore (3,0,0) only x\n");
+  EXPECT_THAT(coordinate_names(a), ElementsAre("a", "hand_x"));
   EXPECT_EQ(a.mobility, 1);
   EXPECT_EQ(a.mobility_by_joints, 1);
   const auto values = completed(a, {{"a", 0.7}});
@@ -57,8 +41,8 @@ TEST(Gears, LeadAlongAStraightLine) {
 
 // By 3/2 both are back where they began after two turns of a: the coordinate is the half of its angle.
 TEST(Gears, OfRationalRatiosShareAPartOfTheAngle) {
-  const Assembly a = of(std::string(kArm) + "gear train : a b ratio 3/2 offset 30deg\n");
-  EXPECT_THAT(coordinates(a), ElementsAre("a_over_2"));
+  const Assembly a = assembled(std::string(kArm) + "gear train : a b ratio 3/2 offset 30deg\n");
+  EXPECT_THAT(coordinate_names(a), ElementsAre("a_over_2"));
   EXPECT_THAT(a.mechanism.inputs(), ElementsAre("a_over_2"));
   const double t = 0.4;
   const auto values = completed(a, {{"a_over_2", t}});
@@ -71,11 +55,11 @@ TEST(Gears, OfRationalRatiosShareAPartOfTheAngle) {
 
 // Ranges are of the joints' own angles: a in [-1, 1] and b = a/2 + 1/4 in [0, 3/5] leave a/2 in [-1/4, 7/20].
 TEST(Gears, LeaveWhatAllRangesLeave) {
-  const Assembly a =
-      of("[LINKS]\nbase\nupper\nfore\n[JOINTS]\n"
-         "revolute a : base (0,0,0)+(0,0,1) upper (0,0,0)+(0,0,1) range [-1, 1]\n"
-         "revolute b : upper (3,0,0)+(0,0,1) fore (0,0,0)+(0,0,1) range [0, 3/5] actuated mimic a ratio 1/2 offset 1/4\n");
-  ASSERT_THAT(coordinates(a), ElementsAre("a_over_2"));
+  const Assembly a = assembled(
+      "[LINKS]\nbase\nupper\nfore\n[JOINTS]\n"
+      "revolute a : base (0,0,0)+(0,0,1) upper (0,0,0)+(0,0,1) range [-1, 1]\n"
+      "revolute b : upper (3,0,0)+(0,0,1) fore (0,0,0)+(0,0,1) range [0, 3/5] actuated mimic a ratio 1/2 offset 1/4\n");
+  ASSERT_THAT(coordinate_names(a), ElementsAre("a_over_2"));
   const symbolic::Coordinate& c = a.mechanism.coordinates()[0];
   EXPECT_NEAR(symbolic::evaluate(c.lower, {}), -0.25, 1e-12);
   EXPECT_NEAR(symbolic::evaluate(c.upper, {}), 0.35, 1e-12);
@@ -106,11 +90,11 @@ TEST(Gears, InSpaceTurnAsTheProductOfTheirJoints) {
 
 // The twist of what is geared: w_tool = w_a (axis a + 2 axis b), by a difference quotient.
 TEST(Gears, RatesFollowAsTheAnglesDo) {
-  const Assembly a =
-      of("[LINKS]\nbase\nl1\nl2\n[JOINTS]\n"
-         "revolute a : base (0,0,0)+(0,0,1) l1 (0,0,0)+(0,0,1) actuated\n"
-         "revolute b : l1 (2,0,0)+(0,1,0) l2 (0,0,0)+(0,1,0) zero (1,0,0) (1,0,0)\n"
-         "gear : a b ratio 2/3\n[OUTPUTS]\np : position of l2 (1,0,0)\n");
+  const Assembly a = assembled(
+      "[LINKS]\nbase\nl1\nl2\n[JOINTS]\n"
+      "revolute a : base (0,0,0)+(0,0,1) l1 (0,0,0)+(0,0,1) actuated\n"
+      "revolute b : l1 (2,0,0)+(0,1,0) l2 (0,0,0)+(0,1,0) zero (1,0,0) (1,0,0)\n"
+      "gear : a b ratio 2/3\n[OUTPUTS]\np : position of l2 (1,0,0)\n");
   std::vector<std::string> rates;
   for (const symbolic::Rate& r : a.mechanism.rates()) rates.push_back(r.name);
   EXPECT_THAT(rates, ElementsAre("w_a", "v_p_x", "v_p_y", "v_p_z"));
@@ -126,33 +110,33 @@ TEST(Gears, RatesFollowAsTheAnglesDo) {
 }
 
 TEST(Gears, SlidingJointsFollowByAnyRatio) {
-  const Assembly a =
-      of("[CONSTANTS]\nk := sqrt(2)\n[LINKS]\nbase\nleft\nright\n[JOINTS]\n"
-         "prismatic s : base (0,0,0)+(1,0,0) left (0,0,0)+(1,0,0) range [0, 1] actuated\n"
-         "prismatic r : base (0,0,0)+(1,0,0) right (0,0,0)+(1,0,0) mimic s ratio -k offset 1/2\n");
-  EXPECT_THAT(coordinates(a), ElementsAre("s"));
+  const Assembly a = assembled(
+      "[CONSTANTS]\nk := sqrt(2)\n[LINKS]\nbase\nleft\nright\n[JOINTS]\n"
+      "prismatic s : base (0,0,0)+(1,0,0) left (0,0,0)+(1,0,0) range [0, 1] actuated\n"
+      "prismatic r : base (0,0,0)+(1,0,0) right (0,0,0)+(1,0,0) mimic s ratio -k offset 1/2\n");
+  EXPECT_THAT(coordinate_names(a), ElementsAre("s"));
   EXPECT_NEAR(pose_of(a, "right", completed(a, {{"s", 0.3}})).p[0], 0.5 - 0.3 * std::sqrt(2), 1e-12);
 }
 
 // A four-bar whose rocker is geared to its crank: the train's joints close a loop, by an equation.
 TEST(Gears, MayCloseALoop) {
-  const Assembly a =
-      of("[LINKS]\nground\ncrank\ncoupler\nrocker\n[JOINTS]\n"
-         "revolute t1 : ground (0,0,0)+(0,0,1) crank (0,0,0)+(0,0,1) actuated\n"
-         "revolute e : crank (1,0,0)+(0,0,1) coupler (0,0,0)+(0,0,1)\n"
-         "revolute f : coupler (3,0,0)+(0,0,1) rocker (2,0,0)+(0,0,1)\n"
-         "revolute t2 : ground (5/2,0,0)+(0,0,1) rocker (0,0,0)+(0,0,1)\n"
-         "gear : t1 e ratio -1\n");
+  const Assembly a = assembled(
+      "[LINKS]\nground\ncrank\ncoupler\nrocker\n[JOINTS]\n"
+      "revolute t1 : ground (0,0,0)+(0,0,1) crank (0,0,0)+(0,0,1) actuated\n"
+      "revolute e : crank (1,0,0)+(0,0,1) coupler (0,0,0)+(0,0,1)\n"
+      "revolute f : coupler (3,0,0)+(0,0,1) rocker (2,0,0)+(0,0,1)\n"
+      "revolute t2 : ground (5/2,0,0)+(0,0,1) rocker (0,0,0)+(0,0,1)\n"
+      "gear : t1 e ratio -1\n");
   EXPECT_EQ(a.mobility, 0);
   EXPECT_EQ(a.mobility_by_joints, 0);
 }
 
 TEST(Parallelograms, KeepTheOrientationAndCircle) {
-  const Assembly a =
-      of("[CONSTANTS]\nl := 2\n[LINKS]\nbase\ncoupler\nhand\n[JOINTS]\n"
-         "parallelogram p : base (1,0,0)+(0,0,1) coupler (0,1,0)+(0,0,1) length l actuated\n"
-         "revolute q : coupler (3,0,0)+(0,0,1) hand (0,0,0)+(0,0,1) actuated\n"
-         "[OUTPUTS]\nh : position of hand (1,0,0)\n");
+  const Assembly a = assembled(
+      "[CONSTANTS]\nl := 2\n[LINKS]\nbase\ncoupler\nhand\n[JOINTS]\n"
+      "parallelogram p : base (1,0,0)+(0,0,1) coupler (0,1,0)+(0,0,1) length l actuated\n"
+      "revolute q : coupler (3,0,0)+(0,0,1) hand (0,0,0)+(0,0,1) actuated\n"
+      "[OUTPUTS]\nh : position of hand (1,0,0)\n");
   EXPECT_EQ(a.space, Space::planar);
   EXPECT_EQ(a.mobility, 2);
   EXPECT_EQ(a.mobility_by_joints, 2);
@@ -164,13 +148,13 @@ TEST(Parallelograms, KeepTheOrientationAndCircle) {
 
 // A palletizer: two parallelograms behind each other on a turning column; its hand stays level.
 TEST(Parallelograms, OnATurningColumnAreAPalletizer) {
-  const Assembly a =
-      of("[CONSTANTS]\nunit mm\n[LINKS]\nbase\ncol\nbracket\nhand\n[JOINTS]\n"
-         "revolute j1 : base (0,0,0)+(0,0,1) col (0,0,0)+(0,0,1) actuated\n"
-         "parallelogram j2 : col (260,0,565)+(0,1,0) bracket (0,0,0)+(0,1,0) length 850 zero (0,0,1) "
-         "range [-40deg, 85deg] actuated\n"
-         "parallelogram j3 : bracket (0,0,0)+(0,1,0) hand (0,0,0)+(0,1,0) length 950 zero (1,0,0) actuated\n"
-         "[OUTPUTS]\nW : position of hand\n");
+  const Assembly a = assembled(
+      "[CONSTANTS]\nunit mm\n[LINKS]\nbase\ncol\nbracket\nhand\n[JOINTS]\n"
+      "revolute j1 : base (0,0,0)+(0,0,1) col (0,0,0)+(0,0,1) actuated\n"
+      "parallelogram j2 : col (260,0,565)+(0,1,0) bracket (0,0,0)+(0,1,0) length 850 zero (0,0,1) "
+      "range [-40deg, 85deg] actuated\n"
+      "parallelogram j3 : bracket (0,0,0)+(0,1,0) hand (0,0,0)+(0,1,0) length 950 zero (1,0,0) actuated\n"
+      "[OUTPUTS]\nW : position of hand\n");
   EXPECT_EQ(a.space, Space::spatial);
   EXPECT_EQ(a.mobility, 3);
   EXPECT_EQ(a.mechanism.velocity_equations().size(), 3u);
@@ -194,11 +178,11 @@ TEST(Parallelograms, OnATurningColumnAreAPalletizer) {
 
 // Two of them with bars of different lengths hold one coupler that keeps its orientation.
 TEST(Parallelograms, CloseLoops) {
-  const Assembly a =
-      of("[LINKS]\nbase\ncoupler\n[JOINTS]\n"
-         "parallelogram p : base (0,0,0)+(0,0,1) coupler (0,0,0)+(0,0,1) length 2 actuated\n"
-         "parallelogram r : base (3,0,0)+(0,0,1) coupler (3,1,0)+(0,0,1) length 1\n[OUTPUTS]\nr : joint r\n");
-  EXPECT_THAT(coordinates(a), ElementsAre("p", "r"));
+  const Assembly a = assembled(
+      "[LINKS]\nbase\ncoupler\n[JOINTS]\n"
+      "parallelogram p : base (0,0,0)+(0,0,1) coupler (0,0,0)+(0,0,1) length 2 actuated\n"
+      "parallelogram r : base (3,0,0)+(0,0,1) coupler (3,1,0)+(0,0,1) length 1\n[OUTPUTS]\nr : joint r\n");
+  EXPECT_THAT(coordinate_names(a), ElementsAre("p", "r"));
   EXPECT_EQ(a.mechanism.constraints().size(), 2u);
   EXPECT_EQ(a.mobility, 0);
 }
@@ -234,8 +218,8 @@ TEST(Couplings, FaultsSayWhereAndWhatWasExpected) {
       {arm + "parallelogram p : base (0,0,0)+(0,0,1) fore (0,0,0)+(0,0,1) length 0\n",
        "r.cuik:8:1: the length of the parallelogram joint 'p', '0', is 0", "a length above 0"}};
   for (const auto& [text, begin, expectation] : cases) {
-    EXPECT_THAT(fault(text), testing::StartsWith(begin)) << text;
-    EXPECT_THAT(fault(text), HasSubstr(expectation)) << text;
+    EXPECT_THAT(fault_of(text), testing::StartsWith(begin)) << text;
+    EXPECT_THAT(fault_of(text), HasSubstr(expectation)) << text;
   }
 }
 
@@ -258,7 +242,7 @@ TEST(Couplings, UrdfsMimicIsOne) {
   EXPECT_EQ(r.couplings[0].ratio.text(), "1");
   EXPECT_EQ(r.couplings[0].offset.text(), "0");
   r.joints[0].actuated = true;
-  EXPECT_THAT(coordinates(assemble(r)), ElementsAre("j"));
+  EXPECT_THAT(coordinate_names(assemble(r)), ElementsAre("j"));
 }
 
 }  // namespace

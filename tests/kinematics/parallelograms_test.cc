@@ -19,23 +19,6 @@ using testing::IsEmpty;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
-Assembly robot_of(const std::string& parts) { return assemble(parse_parts(parts, "r.cuik")); }
-
-std::string fault(const std::string& parts) {
-  try {
-    robot_of(parts);
-  } catch (const symbolic::ModelError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
-std::vector<std::string> coordinates(const Assembly& a) {
-  std::vector<std::string> names;
-  for (const symbolic::Coordinate& c : a.mechanism.coordinates()) names.push_back(c.name);
-  return names;
-}
-
 // A leg whose shank is driven by a crank about the hip and a rod along the thigh.
 std::string leg(const std::string& more, const std::string& rod = "220") {
   return "[LINKS]\nhip\nthigh\ncrank\nrod\nshank\n[JOINTS]\n" + more +
@@ -50,16 +33,16 @@ std::string leg(const std::string& more, const std::string& rod = "220") {
 }
 
 TEST(Parallelograms, AreFoundWhereTwoSidesTurnAboutOneAxis) {
-  const Assembly a = robot_of(leg(""));
+  const Assembly a = assembled(leg(""));
   ASSERT_THAT(a.parallelograms, SizeIs(1));
   EXPECT_THAT(a.parallelograms[0], UnorderedElementsAre("thigh", "shank", "rod", "crank"));
-  EXPECT_THAT(robot_of(leg("", "221")).parallelograms, IsEmpty());
+  EXPECT_THAT(assembled(leg("", "221")).parallelograms, IsEmpty());
 }
 
 TEST(Parallelograms, ThatAreKeptLeaveNoLoop) {
-  const Assembly a = robot_of(leg("keep parallelograms\n"));
+  const Assembly a = assembled(leg("keep parallelograms\n"));
   EXPECT_THAT(a.parallelograms, IsEmpty());
-  EXPECT_THAT(coordinates(a), ElementsAre("q1", "q2", "F_x", "F_y"));
+  EXPECT_THAT(coordinate_names(a), ElementsAre("q1", "q2", "F_x", "F_y"));
   EXPECT_EQ(a.mobility, 2);
   const auto values = completed(a, {{"q1", 0.3}, {"q2", 1.9}});
   EXPECT_NEAR(values.at("F_x"), 220 * std::cos(0.3) - 240 * std::cos(1.9), 1e-9);
@@ -67,12 +50,12 @@ TEST(Parallelograms, ThatAreKeptLeaveNoLoop) {
 }
 
 TEST(Parallelograms, AreKeptOnlyWhereThereIsOne) {
-  EXPECT_THAT(fault(leg("keep parallelograms\n", "221")), HasSubstr("there is no parallelogram to be kept"));
+  EXPECT_THAT(fault_of(leg("keep parallelograms\n", "221")), HasSubstr("there is no parallelogram to be kept"));
 }
 
 // On a turning column, the fourth side a rod between two points.
 TEST(Parallelograms, WithARodInSpaceAreKept) {
-  const Assembly a = robot_of(
+  const Assembly a = assembled(
       "[LINKS]\nbase\ncol\nupper\ncrank\nfore\n[JOINTS]\nkeep parallelograms\n"
       "revolute j1 : base (0,0,0)+(0,0,1) col (0,0,0)+(0,0,1) actuated\n"
       "revolute j2 : col (26,0,56)+(0,1,0) upper (0,0,0)+(0,1,0) actuated\n"
@@ -124,10 +107,10 @@ TEST(Parallelograms, OfRandomGeometryAreFoundAndKept) {
              end(2, true) + "+(0,0,1) D " + end(3, false) + "+(0,0,1)\nrevolute : D " + end(3, true) + "+(0,0,1) A " +
              end(0, false) + "+(0,0,1)\n";
     };
-    const Assembly open = robot_of(text(""));
+    const Assembly open = assembled(text(""));
     EXPECT_EQ(open.parallelograms.size(), off == 0 ? 1u : 0u) << text("");
     if (off != 0) continue;
-    const Assembly kept = robot_of(text("keep parallelograms\n"));
+    const Assembly kept = assembled(text("keep parallelograms\n"));
     EXPECT_EQ(kept.mobility, 1) << text("");
     EXPECT_THAT(kept.mechanism.constraints(), IsEmpty());
     const auto values = completed(kept, {{kept.mechanism.coordinates().at(0).name, 0.1 * pick(-30, 30)}});

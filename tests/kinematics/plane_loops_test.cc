@@ -13,8 +13,6 @@ namespace {
 using testing::HasSubstr;
 using Values = std::map<std::string, double>;
 
-Assembly of(const std::string& parts) { return assemble(parse_parts(parts, "r.cuik")); }
-
 std::size_t loops_of(const Assembly& a) {
   std::size_t count = 0;
   for (const symbolic::Constraint& c : a.mechanism.constraints()) count += c.note == "loop" || c.note == "rod";
@@ -49,7 +47,7 @@ Numbers hand(double j1, double j2, double j3) {
 }
 
 TEST(PlaneLoops, OnATurningColumnCloseByTwoEquations) {
-  const Assembly a = of(palletizer(kBars));
+  const Assembly a = assembled(palletizer(kBars));
   EXPECT_EQ(a.space, Space::spatial);
   EXPECT_EQ(a.mobility, 3);
   EXPECT_EQ(a.mobility_by_rank, 3);
@@ -76,13 +74,13 @@ TEST(PlaneLoops, OnATurningColumnCloseByTwoEquations) {
 }
 
 TEST(PlaneLoops, HaveRodsInTheirPlane) {
-  const Assembly a = of(palletizer("fix : base rod id\nsph_sph bar : crank (-300,0,0) fore (-300,0,0) length 850\n"));
+  const Assembly a = assembled(palletizer("fix : base rod id\nsph_sph bar : crank (-300,0,0) fore (-300,0,0) length 850\n"));
   EXPECT_EQ(a.mobility, 3);
   EXPECT_EQ(loops_of(a), 1u);
   completed(a, {{"j1", 0.3}, {"j2", 0.4}, {"j3", -0.5}, {"phi_fore", -0.5}});
   // A rod of variable length 100 beside the plane: l² = d² + 100².
-  const Assembly driven =
-      of(palletizer("fix : base rod id\nsph_prs_sph bar : crank (-300,100,0) fore (-300,0,0) range [1, 2000] actuated\n"));
+  const Assembly driven = assembled(
+      palletizer("fix : base rod id\nsph_prs_sph bar : crank (-300,100,0) fore (-300,0,0) range [1, 2000] actuated\n"));
   EXPECT_EQ(driven.mobility, 4);
   const double l = std::sqrt(850. * 850 + 100. * 100);
   Values values = completed(driven, {{"j1", 0.3}, {"j2", 0.4}, {"j3", -0.5}, {"phi_fore", -0.5}, {"bar", l}});
@@ -193,7 +191,7 @@ TEST(PlaneLoops, RandomFiveBarsOnASkewCarrier) {
 
 TEST(PlaneLoops, ThatLeaveTheirPlaneCannotClose) {
   try {
-    of(
+    assembled(
         palletizer("revolute r1 : crank (-300,0,0)+(0,1,0) rod (0,0,0)+(0,1,0)\n"
                    "revolute r2 : rod (0,1,850)+(0,1,0) fore (-300,0,0)+(0,1,0)\n"));
     ADD_FAILURE();
@@ -204,14 +202,14 @@ TEST(PlaneLoops, ThatLeaveTheirPlaneCannotClose) {
 
 // A slider–crank on a turning column: the block's way closes it, and is a coordinate.
 TEST(PlaneLoops, SlideToo) {
-  const Assembly a =
-      of("[LINKS]\nbase\ncol\ncrank\nrod\nblock\n[JOINTS]\n"
-         "revolute j1 : base (0,0,0)+(0,0,1) col (0,0,0)+(0,0,1) actuated\n"
-         "revolute j2 : col (0,0,0)+(0,1,0) crank (0,0,0)+(0,1,0) zero (1,0,0) (1,0,0)\n"
-         "revolute e : crank (1,0,0)+(0,1,0) rod (0,0,0)+(0,1,0)\n"
-         "revolute f : rod (3,0,0)+(0,1,0) block (0,0,0)+(0,1,0)\n"
-         "prismatic s : col (0,0,0)+(1,0,0) block (0,0,0)+(1,0,0) range [1, 5] actuated\n"
-         "[OUTPUTS]\np : position of crank (1,0,0)\n");
+  const Assembly a = assembled(
+      "[LINKS]\nbase\ncol\ncrank\nrod\nblock\n[JOINTS]\n"
+      "revolute j1 : base (0,0,0)+(0,0,1) col (0,0,0)+(0,0,1) actuated\n"
+      "revolute j2 : col (0,0,0)+(0,1,0) crank (0,0,0)+(0,1,0) zero (1,0,0) (1,0,0)\n"
+      "revolute e : crank (1,0,0)+(0,1,0) rod (0,0,0)+(0,1,0)\n"
+      "revolute f : rod (3,0,0)+(0,1,0) block (0,0,0)+(0,1,0)\n"
+      "prismatic s : col (0,0,0)+(1,0,0) block (0,0,0)+(1,0,0) range [1, 5] actuated\n"
+      "[OUTPUTS]\np : position of crank (1,0,0)\n");
   EXPECT_EQ(a.mobility, 2);
   EXPECT_EQ(a.mobility_by_rank, 2);
   const double j2 = 0.4, s = std::cos(j2) + std::sqrt(9 - std::sin(j2) * std::sin(j2));
