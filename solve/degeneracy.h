@@ -16,7 +16,7 @@ class SelfMotions {
   /// Looks for self-motions through the boxes, all of about `share` of the typical sizes, and proves what it can:
   /// Postponed::proof. Returns for each other box Reason::none where it is to be divided further, else why not. Around an
   /// isolated degenerate solution a few boxes stay at each size, so those are divided on, down to a share of about 1e-7
-  /// where the set is to have dimension 0, and 0.003 else. Along a curve or a larger set of degenerate solutions their
+  /// where the set is to have dimension 0, and 1/400 else. Along a curve or a larger set of degenerate solutions their
   /// number grows without end: what is not proven there stays as it is.
   std::vector<Reason> prove(const Problem& problem, const System& system, std::vector<Postponed>& boxes, double share);
   bool none() const { return known_.empty(); }

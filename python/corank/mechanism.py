@@ -238,8 +238,8 @@ class Mechanism:
                 limit. memory_limit None: three quarters of the machine's memory.
             coarser: the default of sigma is multiplied by this.
             progress: None: shown on a terminal and in a notebook; True, False, or a function (stage, share, text).
-            client: of dask.distributed, whose workers search (corank.cluster); threads are then those of one unit, 0: one,
-                and there are no limits but Ctrl-C.
+            client: of dask.distributed, whose workers search (corank.cluster). Limits hold there, too; threads are
+                then those of one unit, 0: one.
 
         Raises:
             ModelError: where the model does not answer such a question.

@@ -120,7 +120,7 @@ class Result:
 
     @property
     def verdicts(self) -> np.ndarray:
-        """What is proven of each box, as words: an array of n strings; see README for what they mean."""
+        """What is proven of each box, as words: an array of n strings; doc/certificates.md says what each means."""
         return np.array(_corank.verdicts)[self._arrays["verdict"]]
 
     @property
