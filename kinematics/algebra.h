@@ -44,6 +44,8 @@ class Algebra {
   ex expression(const Expression& e, const SourceLocation& where) const;
   /// A new coordinate's symbol.
   ex coordinate(const std::string& name);
+  /// That of a coordinate that there is.
+  ex symbol_of(const std::string& coordinate) const { return coordinates_.at(coordinate); }
 
   /// Of an expression in constants; 0 where it cannot be told from zero.
   int sign(const ex& constant) const;

@@ -55,6 +55,50 @@ std::vector<symbolic::Condition> conditions(const Robot& robot, const Bodies& bo
   return list;
 }
 
+/// How a robot's loops are written.
+struct Way {
+  bool in_branches = true;  ///< those of parallelograms (loop_branches.h)
+};
+
+Assembly draft(const Robot& robot, Way way) {
+  Algebra algebra(robot);
+  const Bodies bodies = bodies_of(robot, algebra);
+  if (bodies.size() - 1 > kMostMovingBodies)
+    throw symbolic::ModelError({robot.file.empty() ? robot.name : robot.file, 0, 0},
+                               "the robot has " + std::to_string(bodies.size() - 1) + " moving bodies",
+                               "at most " + std::to_string(kMostMovingBodies) + ", whose equations can be written out");
+  // Looked for with a copy, since most of what is compared says nothing about the equations.
+  const Algebra aside = algebra;
+  std::vector<Parallelogram> parallelograms;
+  if (!robot.keeps_parallelograms) parallelograms = parallelograms_of(robot, bodies, aside);
+  Draft draft(robot, algebra, std::move(parallelograms), way.in_branches);
+  const auto normals = plane_of(robot, bodies, algebra);
+  Space space = Space::planar;
+  if (normals) {
+    draft_planar(robot, bodies, *normals, algebra, draft);
+  } else {
+    for (const Output& output : robot.outputs)
+      if (output.turn)
+        throw symbolic::ModelError(output.where, "the output '" + output.name + "' has a range of phi, but turns in space",
+                                   "keeps R behind it, or ranges of joints");
+    space = draft_spatial(robot, bodies, algebra, draft) ? Space::spherical : Space::spatial;
+  }
+  Assembly assembly = draft.assembly();
+  assembly.space = space;
+  assembly.conditions = conditions(robot, bodies, algebra);
+  assembly.mobility_by_joints = count_mobility(bodies, space) - static_cast<int>(robot.couplings.size());
+  assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
+  for (const symbolic::Constraint& c : assembly.mechanism.constraints())
+    assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;
+  if (!assembly.mechanism.constraints().empty()) assembly.mobility_by_rank = sampled_mobility(assembly.mechanism);
+  if (assembly.mobility_by_rank)  // an angle that its range locks has an equation of its own, and would be free
+    for (const symbolic::Coordinate& c : assembly.mechanism.coordinates())
+      *assembly.mobility_by_rank += symbolic::is_fixed(c) && c.kind == symbolic::CoordinateKind::angle ? 1 : 0;
+  return assembly;
+}
+
+bool seems_redundant(const Assembly& assembly) { return assembly.mobility_by_rank.value_or(0) > assembly.mobility; }
+
 }  // namespace
 
 const char* to_string(Space space) {
@@ -76,39 +120,13 @@ Assembly assemble(const Robot& robot) {
   }
   robot.validate();
   const symbolic::GinacLock lock;
-  Algebra algebra(robot);
-  const Bodies bodies = bodies_of(robot, algebra);
-  if (bodies.size() - 1 > kMostMovingBodies)
-    throw symbolic::ModelError({robot.file.empty() ? robot.name : robot.file, 0, 0},
-                               "the robot has " + std::to_string(bodies.size() - 1) + " moving bodies",
-                               "at most " + std::to_string(kMostMovingBodies) + ", whose equations can be written out");
-  Draft draft(robot, algebra);
-  const auto normals = plane_of(robot, bodies, algebra);
-  Space space = Space::planar;
-  if (normals) {
-    draft_planar(robot, bodies, *normals, algebra, draft);
-  } else {
-    for (const Output& output : robot.outputs)
-      if (output.turn)
-        throw symbolic::ModelError(output.where, "the output '" + output.name + "' has a range of phi, but turns in space",
-                                   "keeps R behind it, or ranges of joints");
-    space = draft_spatial(robot, bodies, algebra, draft) ? Space::spherical : Space::spatial;
-  }
-  Assembly assembly = draft.assembly();
-  assembly.space = space;
-  assembly.conditions = conditions(robot, bodies, algebra);
-  if (!robot.keeps_parallelograms)
-    for (Parallelogram& one : parallelograms_of(robot, bodies, algebra))
-      assembly.parallelograms.push_back(std::move(one.sides));
-  assembly.mobility_by_joints = count_mobility(bodies, space) - static_cast<int>(robot.couplings.size());
-  assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
-  for (const symbolic::Constraint& c : assembly.mechanism.constraints())
-    assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;
-  if (!assembly.mechanism.constraints().empty()) assembly.mobility_by_rank = sampled_mobility(assembly.mechanism);
-  if (assembly.mobility_by_rank)  // an angle that its range locks has an equation of its own, and would be free
-    for (const symbolic::Coordinate& c : assembly.mechanism.coordinates())
-      *assembly.mobility_by_rank += symbolic::is_fixed(c) && c.kind == symbolic::CoordinateKind::angle ? 1 : 0;
-  return assembly;
+  Assembly best = draft(robot, {});
+  // Several parallelograms that share sides may make each other's loops redundant on some of their branches.
+  const bool in_branches = std::any_of(best.parallelograms.begin(), best.parallelograms.end(),
+                                       [](const Assembly::WrittenParallelogram& p) { return !p.angle.empty(); });
+  if (in_branches && seems_redundant(best))
+    if (Assembly whole = draft(robot, {.in_branches = false}); !seems_redundant(whole)) best = std::move(whole);
+  return best;
 }
 
 }  // namespace corank::kinematics

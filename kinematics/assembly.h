@@ -38,8 +38,13 @@ struct Assembly {
   int mobility_by_joints = 0;
   /// At a configuration that was found by sampling; nothing where none was found. It proves nothing.
   std::optional<int> mobility_by_rank;
-  /// Parallelograms that are written out and not kept: the names of their sides.
-  std::vector<std::vector<std::string>> parallelograms;
+  /// Parallelograms that are written out and not kept (loop_branches.h).
+  struct WrittenParallelogram {
+    std::vector<std::string> sides;  ///< their names
+    std::string angle;               ///< the coordinate that tells how it closes; none where its ways are not told apart
+    bool is_rhombus = false;         ///< 0: a parallelogram, pi: crosswise; of a rhombus pi/2 and pi
+  };
+  std::vector<WrittenParallelogram> parallelograms;
   std::vector<LinkPose> poses;           ///< of every link
   std::vector<JointValue> joint_values;  ///< of every joint that has one value
   /// Where these hold, the robot has these equations for other values of its constants, too. Theorem: whatever was decided

@@ -177,6 +177,45 @@ bool Draft::equation(const ex& e, const std::string& note, const SourceLocation&
   return true;
 }
 
+bool Draft::closing(const std::vector<ex>& loop, const std::optional<LoopBranches>& branches, const std::string& note,
+                    const SourceLocation& where, const std::string& what) {
+  if (!branches) {
+    bool says = false;
+    for (const ex& e : loop) says = equation(e, note, where, what) || says;
+    return says;
+  }
+  const auto& sides = branches_.parallelograms()[branches->parallelogram].sides;
+  const bool only = branches_.parallelograms().size() == 1;
+  const ex which = angle(only ? "crosswise" : "crosswise_" + sides[0], {}, where);
+  taken_apart_.emplace(branches->parallelogram, std::pair{coordinates_.back().name, branches->list.size()});
+  const ex c = GiNaC::cos(which), s = GiNaC::sin(which);
+  // The angle is 0, π; or 0, π/2, π. Each branch has weight 1 at its own angle and 0 at the others.
+  const bool two = branches->list.size() == 2;
+  const std::vector<ex> weights =
+      two ? std::vector<ex>{(1 + c) / 2, (1 - c) / 2} : std::vector<ex>{(c * c + c) / 2, s, (c * c - c) / 2};
+  const auto add = [&](const ex& e, bool inequality, const std::string& of) {
+    equations_.push_back({algebra_.clean(e), inequality, note + of, where, true});
+  };
+  add(two ? s : s * c, false, ", which branch");
+  if (!two) add(s + ex(1) / 2, true, ", which branch");
+  const auto weighted = [&](auto member, std::size_t i) {
+    ex sum = 0;
+    for (std::size_t b = 0; b < weights.size(); ++b) {
+      const std::vector<ex>& list = branches->list[b].*member;
+      sum += weights[b] * (i < list.size() ? list[i] : ex(1));
+    }
+    return sum;
+  };
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    add(weighted(&LoopBranches::Branch::zero, i), false, ", in branches");
+    loops_.push_back({algebra_.clean(loop[i]), false, note, where});
+  }
+  std::size_t conditions = 0;
+  for (const auto& branch : branches->list) conditions = std::max(conditions, branch.not_negative.size());
+  for (std::size_t i = 0; i < conditions; ++i) add(weighted(&LoopBranches::Branch::not_negative, i), true, ", in branches");
+  return true;
+}
+
 std::array<bool, 3> Draft::moving(const Output& output, const Vec& value) const {
   std::array<bool, 3> moves{};
   const bool all_asked = output.asked[0] && output.asked[1] && output.asked[2];
@@ -205,6 +244,30 @@ ex Draft::rate(const std::string& name, CoordinateKind kind, symbolic::Role role
 void Draft::velocity(const ex& e, const std::string& note, const SourceLocation& where) {
   const ex clean = algebra_.clean(e);
   if (!clean.is_zero()) velocity_.push_back({clean, false, note, where});
+}
+
+void Draft::velocity_of_equations() {
+  const auto is_in = [](const std::vector<ex>& list, const ex& e) {
+    return std::any_of(list.begin(), list.end(), [&](const ex& other) { return other.is_equal(e); });
+  };
+  std::vector<std::pair<ex, ex>> rates;  // of each coordinate that does not tell branches
+  for (const DraftCoordinate& c : std::vector<DraftCoordinate>(coordinates_)) {
+    const ex q = algebra_.symbol_of(c.name);
+    if (std::any_of(taken_apart_.begin(), taken_apart_.end(), [&](const auto& t) { return t.second.first == c.name; }))
+      continue;
+    const symbolic::Role role = is_in(inputs_, q)    ? symbolic::Role::input
+                                : is_in(outputs_, q) ? symbolic::Role::output
+                                                     : symbolic::Role::passive;
+    rates.emplace_back(q, rate((c.kind == CoordinateKind::angle ? "w_" : "v_") + c.name, c.kind, role, c.where));
+  }
+  const auto differentiate = [&](const DraftEquation& e) {
+    ex sum = 0;
+    for (const auto& [q, own] : rates) sum += e.value.diff(GiNaC::ex_to<GiNaC::symbol>(q)) * own;
+    velocity(sum, e.note, e.where);
+  };
+  for (const DraftEquation& e : equations_)
+    if (!e.inequality && !e.of_branch) differentiate(e);
+  for (const DraftEquation& e : loops_) differentiate(e);
 }
 
 std::string Draft::point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity, int dimension) {
@@ -300,6 +363,11 @@ Assembly Draft::assembly() const {
     if (v.sine) value.sine = *next++;
   }
   assembly.mechanism = std::move(mechanism);
+  for (std::size_t p = 0; p < branches_.parallelograms().size(); ++p) {
+    const auto angle = taken_apart_.find(p);
+    const auto& [name, ways] = angle == taken_apart_.end() ? std::pair<std::string, std::size_t>{} : angle->second;
+    assembly.parallelograms.push_back({branches_.parallelograms()[p].sides, name, ways > 2});
+  }
   return assembly;
 }
 

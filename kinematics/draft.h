@@ -11,6 +11,7 @@
 #include "corank/kinematics/algebra.h"
 #include "corank/kinematics/assembly.h"
 #include "corank/kinematics/couplings.h"
+#include "corank/kinematics/loop_branches.h"
 #include "corank/kinematics/plane.h"
 #include "corank/symbolic/mechanism.h"
 #include "corank/symbolic/set_definition.h"
@@ -19,8 +20,13 @@ namespace corank::kinematics {
 
 class Draft {
  public:
-  Draft(const Robot& robot, Algebra& algebra)
-      : robot_(robot), algebra_(algebra), couplings_(robot, algebra), common_(couplings_.trains().size()), rate_(common_) {}
+  Draft(const Robot& robot, Algebra& algebra, std::vector<Parallelogram> parallelograms, bool in_branches)
+      : robot_(robot),
+        algebra_(algebra),
+        branches_(std::move(parallelograms), algebra, in_branches),
+        couplings_(robot, algebra),
+        common_(couplings_.trains().size()),
+        rate_(common_) {}
 
   /// Free names: `wanted`, or with underscores where that is taken or no name.
   std::string free_name(const std::string& wanted);
@@ -62,6 +68,13 @@ class Draft {
   /// e = 0, left out where it is 0 by its constants alone. Throws ModelError where it is a constant that is not 0: `what`
   /// then cannot be assembled. Returns whether there is anything to say.
   bool equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what = "the loop");
+  /// A loop that closes where `loop` = 0. Where it has branches their equations take the place of these, and an angle tells
+  /// which branch it is; velocities are those of `loop` all the same, so that the branches' meeting stays a singularity.
+  /// Returns whether there is anything to say.
+  bool closing(const std::vector<ex>& loop, const std::optional<LoopBranches>& branches, const std::string& note,
+               const SourceLocation& where, const std::string& what);
+  const BranchFinder& branches() const { return branches_; }
+  bool has_branches() const { return !loops_.empty(); }
   /// Which of an output's components are coordinates: those asked for that are not constant. Throws ModelError where the
   /// output names a component, by `only` or by a range, that is.
   std::array<bool, 3> moving(const Output& output, const Vec& value) const;
@@ -70,6 +83,8 @@ class Draft {
   ex rate(const std::string& name, symbolic::CoordinateKind kind, symbolic::Role role, const SourceLocation& where);
   /// Left out where it is 0.
   void velocity(const ex& e, const std::string& note, const SourceLocation& where);
+  /// The derivative of all equations so far, loops as they are without branches, with a rate for each coordinate.
+  void velocity_of_equations();
 
   // What a solution means, and how it is drawn.
   struct LinkPose {
@@ -110,6 +125,7 @@ class Draft {
     bool inequality;
     std::string note;
     SourceLocation where;
+    bool of_branch = false;
   };
   struct DraftRate {
     std::string name;
@@ -123,11 +139,15 @@ class Draft {
 
   const Robot& robot_;
   Algebra& algebra_;
+  const BranchFinder branches_;
   const Couplings couplings_;
   std::vector<std::optional<ex>> common_, rate_;  // of each train
   std::set<std::string> names_;
   std::vector<DraftCoordinate> coordinates_;
   std::vector<DraftEquation> equations_, velocity_;
+  /// Of parallelograms whose branches are told apart: the angle's name and the number of branches.
+  std::map<std::size_t, std::pair<std::string, std::size_t>> taken_apart_;
+  std::vector<DraftEquation> loops_;       // whose branches took their place
   std::set<ex, GiNaC::ex_is_less> known_;  // equations, as they are
   std::vector<DraftRate> rates_;
   std::vector<ex> inputs_, outputs_;

@@ -65,7 +65,10 @@ class ParallelAxes {
               const std::set<std::size_t> carriers{sides_[a].carrier, sides_[b].carrier, sides_[c].carrier,
                                                    sides_[d].carrier};
               if (carriers.size() < 4 || !same_length(b, d) || !seen.insert({a, b, c, d}).second) continue;
-              Parallelogram one{{name(a), name(b), name(c), name(d)}, {}};
+              Parallelogram one{{name(a), name(b), name(c), name(d)},
+                                {way(a, p1, p2), way(b, p2, p3), way(c, p4, p3), way(d, p1, p4)},
+                                {sides_[a].square - sides_[c].square, sides_[b].square - sides_[d].square},
+                                {}};
               keep(one, a, p1, p2, c, p4, p3);
               keep(one, b, p2, p3, d, p1, p4);
               if (!one.opposite.empty()) found.push_back(std::move(one));
@@ -178,14 +181,20 @@ class ParallelAxes {
     return static_cast<std::size_t>(at - bodies_.of_link.begin());
   }
 
+  std::size_t mark_at(std::size_t body, std::size_t hinge) const {
+    std::size_t m = 0;
+    while (marks_[m].body != body || hinge_[m] != hinge) ++m;
+    return m;
+  }
+  SideWay way(std::size_t side, std::size_t p, std::size_t q) const {
+    const std::size_t carrier = sides_[side].carrier;
+    if (carrier >= bodies_.size()) return {{}, carrier - bodies_.size(), {}};
+    return {carrier, {}, across(mark_at(carrier, p), mark_at(carrier, q))};
+  }
+
   // The unit vector from hinge p to hinge q in a body's frame, the axes' direction and their cross product, as rows.
   Mat frame(std::size_t body, std::size_t p, std::size_t q) const {
-    const auto mark_at = [&](std::size_t hinge) {
-      std::size_t m = 0;
-      while (marks_[m].body != body || hinge_[m] != hinge) ++m;
-      return m;
-    };
-    const Vec along = algebra_.unit(across(mark_at(p), mark_at(q))), &n = normals_.at(body);
+    const Vec along = algebra_.unit(across(mark_at(body, p), mark_at(body, q))), &n = normals_.at(body);
     const Vec third = cross(n, along);
     return {n, along, {algebra_.clean(third[0]), algebra_.clean(third[1]), algebra_.clean(third[2])}};
   }

@@ -3,6 +3,8 @@
 // Both meet where it is flat: there C-space has branches that cross, and no box about them can be certified.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +18,16 @@ struct KeptRotation {
   Mat rotation;
 };
 
+/// From hinge to hinge: a vector of a body, or a rod.
+struct SideWay {
+  std::optional<std::size_t> body, rod;  ///< in Bodies, in Bodies::joints
+  Vec way;                               ///< in the body's frame, across the axes
+};
+
 struct Parallelogram {
-  std::vector<std::string> sides;      ///< names of links, and of the rod, in their order around
+  std::vector<std::string> sides;  ///< names of links, and of the rod, in their order around
+  std::array<SideWay, 4> ways;     ///< A, B, C, D with A + B = C + D, of these sides in another order: A and C are opposite
+  std::vector<ex> differences;     ///< of squares of lengths, which are 0: |A|² − |C|², |B|² − |D|²
   std::vector<KeptRotation> opposite;  ///< of each pair of opposite sides that are no rods
 };
 

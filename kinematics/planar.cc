@@ -34,6 +34,7 @@ class PlanarRobot {
     for (const Joint& joint : robot_.joints)
       if (joint.actuated) draft_.input(symbol_of(static_cast<std::size_t>(&joint - robot_.joints.data())));
     for (const Output& output : robot_.outputs) add(output);
+    if (draft_.has_branches()) draft_.velocity_of_equations();
     draw(robot_, bodies_, algebra_, draft_, Space::planar, [this](std::size_t body, const Vec& point) -> Motion {
       const PlanePoint p = plus(*origins_[body], image(body, point));
       return {{p.x(), p.y(), 0}, {}};
@@ -176,8 +177,11 @@ class PlanarRobot {
   void all_zero(const PlanePoint& p, const Joint& of) {
     const std::string what = "the loop that the joint '" + of.name + "' closes";
     draft_.equation(p.height, "height", of.where, what + " leaves the plane and");
-    draft_.equation(p.x(), "loop", of.where, what);
-    draft_.equation(p.y(), "loop", of.where, what);
+    draft_.closing({p.x(), p.y()}, draft_.branches().of_loop(p, seen()), "loop", of.where, what);
+  }
+
+  BranchFinder::Image seen() const {
+    return [this](std::size_t body, const Vec& way) { return *turns_[group(body)] * Turn{in_plane(group(body), way)}; };
   }
 
   /// The angle of a turn, where no coordinate is it: sin(turn − θ) = 0 and cos(turn − θ) ≥ 0.
@@ -211,7 +215,9 @@ class PlanarRobot {
       case JointKind::planar: draft_.equation(gap.height, "height", of.where, "the joint '" + of.name + "'"); break;
       case JointKind::distance: {
         const ex length = algebra_.constant(of.length, of.where);
-        draft_.equation(gap.squared() - length * length, "rod", of.where, "the rod '" + of.name + "'");
+        const auto number = static_cast<std::size_t>(&j - bodies_.joints.data());
+        draft_.closing({gap.squared() - length * length}, draft_.branches().of_rod(number, gap, seen()), "rod", of.where,
+                       "the rod '" + of.name + "'");
         break;
       }
       case JointKind::distance_variable: {

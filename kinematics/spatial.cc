@@ -281,9 +281,15 @@ class SpatialRobot {
     const BodyJoint& j = bodies_.joints[index];
     const Joint& of = joint(j);
     const PlanePoint gap = plus(plane_place(*part, j.ends[1]), plane_place(*part, j.ends[0]), -1);
+    const BranchFinder::Image seen = [&](std::size_t body, const Vec& way) -> std::optional<Turn> {
+      const auto turn = part->turns.find(group(body));
+      if (turn == part->turns.end()) return std::nullopt;
+      return turn->second * Turn{part->in_plane(group(body), way, algebra_)};
+    };
     if (is_rod(j.kind)) {
       const ex length = length_of(j), square = gap.squared();
-      draft_.equation(square - length * length, "rod", of.where, "the rod '" + of.name + "'");
+      const auto branches = j.kind == JointKind::distance ? draft_.branches().of_rod(index, gap, seen) : std::nullopt;
+      draft_.closing({square - length * length}, branches, "rod", of.where, "the rod '" + of.name + "'");
       part->closings[index] = {square / 2};
       return true;
     }
@@ -292,8 +298,8 @@ class SpatialRobot {
     const std::string what = "the loop that the joint '" + of.name + "' closes";
     draft_.equation(open.height, "height", of.where, what + " leaves its plane and");
     part->closings[index] = {open.x(), open.y()};
-    for (const ex& component : {open.x(), open.y()})
-      if (draft_.equation(component, "loop", of.where, what)) translates_ = true;
+    if (draft_.closing({open.x(), open.y()}, draft_.branches().of_loop(open, seen), "loop", of.where, what))
+      translates_ = true;
     return true;
   }
 

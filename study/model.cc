@@ -37,13 +37,19 @@ std::optional<std::string> paradox(const kinematics::Assembly& assembly) {
       assembly.mobility, assembly.mobility == 1 ? "" : "s", *assembly.mobility_by_rank, more, more == 1 ? "s" : "");
 }
 
-// Written-out parallelograms have positions that no box certifies.
-std::string flat_positions(const std::vector<std::string>& sides) {
+// Written-out parallelograms close in other ways, too.
+std::string flat_positions(const kinematics::Assembly::WrittenParallelogram& p) {
+  const std::string sides = fmt::format("{}", fmt::join(p.sides, ", "));
+  const std::string keep = "the line `keep parallelograms` under [JOINTS] leaves all but the parallelogram out";
+  if (p.angle.empty())
+    return fmt::format(
+        "{} are a parallelogram: where it is flat it can also fold crosswise, and boxes about such "
+        "positions may stay undecided; {}",
+        sides, keep);
   return fmt::format(
-      "{} are a parallelogram: where it is flat it can also fold crosswise, and boxes about such positions may stay "
-      "undecided; "
-      "the line `keep parallelograms` under [JOINTS] leaves the crosswise branch out",
-      fmt::join(sides, ", "));
+      "{} are a parallelogram that can also fold {}: {} = 0 where it is a parallelogram, {} where it is not. "
+      "Where these meet, at flat positions, it is singular; {}",
+      sides, p.is_rhombus ? "upon itself" : "crosswise", p.angle, p.is_rhombus ? "pi/2 or pi" : "pi", keep);
 }
 
 // Joints whose output has another name: that of a coordinate is the joint's, in every command.
@@ -66,7 +72,7 @@ Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOver
   if (!model.mechanism.coordinates().empty())
     model.mechanism.set_source_text("% The equations of " + file + ": " + describe(*model.assembly) + ".\n" +
                                     symbolic::to_model(model.mechanism));
-  for (const auto& sides : model.assembly->parallelograms) model.notices.push_back(flat_positions(sides));
+  for (const auto& one : model.assembly->parallelograms) model.notices.push_back(flat_positions(one));
   if (const auto names = other_names(robot)) model.notices.push_back(*names);
   if (const auto special = paradox(*model.assembly)) model.notices.push_back(*special);
   return model;

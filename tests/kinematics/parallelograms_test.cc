@@ -35,7 +35,8 @@ std::string leg(const std::string& more, const std::string& rod = "220") {
 TEST(Parallelograms, AreFoundWhereTwoSidesTurnAboutOneAxis) {
   const Assembly a = assembled(leg(""));
   ASSERT_THAT(a.parallelograms, SizeIs(1));
-  EXPECT_THAT(a.parallelograms[0], UnorderedElementsAre("thigh", "shank", "rod", "crank"));
+  EXPECT_THAT(a.parallelograms[0].sides, UnorderedElementsAre("thigh", "shank", "rod", "crank"));
+  EXPECT_EQ(a.parallelograms[0].angle, "crosswise");
   EXPECT_THAT(assembled(leg("", "221")).parallelograms, IsEmpty());
 }
 

@@ -133,17 +133,23 @@ TEST(FourBar, ThatIsAParallelogramBranchesInItsChangePoints) {
     const System system = test::set_of(m.mechanism, set);
     const Cover cover = test::answer_to(m.mechanism, set);
     EXPECT_TRUE(cover.complete());
-    EXPECT_EQ(cover.count(Verdict::exact), cover.boxes.size());
-    EXPECT_EQ(cover.points.size(), 2u);
-    const Places folded{{{"theta", 0}, {"phi_coupler", 0}, {"psi", 0}},
-                        {{"theta", M_PI}, {"phi_coupler", 0}, {"psi", M_PI}}};
-    EXPECT_EQ(test::lost(system, cover, folded, 1e-12), 0u);
+    EXPECT_EQ(cover.count(Verdict::isolated) + cover.count(Verdict::exact), cover.boxes.size());
+    EXPECT_EQ(cover.points.size(), 4u);  // two, each on two branches
+    for (const double crosswise : {0.0, M_PI}) {
+      const Places folded{{{"theta", 0}, {"phi_coupler", 0}, {"psi", 0}, {"crosswise", crosswise}},
+                          {{"theta", M_PI}, {"phi_coupler", 0}, {"psi", M_PI}, {"crosswise", crosswise}}};
+      EXPECT_EQ(test::lost(system, cover, folded, 1e-12), 0u);
+    }
   }
   const System cspace = test::set_of(m.mechanism, SingularitySet::cspace);
   const Cover cover = test::cover_of(cspace, 0.1, 0.1);
-  EXPECT_EQ(test::lost(cspace, cover, FourBar{1, 2, 1, 2}.all(1000)), 0u);
   // Parallelogram and antiparallelogram: two solutions for each theta, one of them psi = theta.
+  Places all = FourBar{1, 2, 1, 2}.all(1000);
+  for (Configuration& q : all)
+    q["crosswise"] = std::fabs(std::remainder(q.at("psi") - q.at("theta"), 2 * M_PI)) < 1e-9 ? 0 : M_PI;
+  EXPECT_EQ(test::lost(cspace, cover, all), 0u);
   EXPECT_GT(cover.count(Verdict::regular), 100u);
+  EXPECT_EQ(cover.count(Verdict::undecided), 0u);
 }
 
 TEST(FourBar, ThatIsARhombusTurnsWhileItsCrankStands) {
@@ -154,7 +160,7 @@ TEST(FourBar, ThatIsARhombusTurnsWhileItsCrankStands) {
   Places circle;  // B = D: the coupler lies on the rocker
   for (int k = 0; k < 1000; ++k) {
     const double psi = 0.002 + 2 * M_PI * k / 1000;
-    circle.push_back({{"theta", 0}, {"phi_coupler", psi}, {"psi", psi}});
+    circle.push_back({{"theta", 0}, {"phi_coupler", psi}, {"psi", psi}, {"crosswise", M_PI / 2}});
   }
   EXPECT_EQ(test::lost(system, cover, circle), 0u);
   ASSERT_FALSE(cover.self_motions.empty());
