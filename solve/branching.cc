@@ -13,6 +13,7 @@ constexpr double kLeastSmear = 1e-6;  // a variable that no equation holds has i
 // Measured on Peaucellier's inversor in Cartesian coordinates, see bench/HISTORY.md.
 constexpr int kManyUnknowns = 6;
 constexpr double kLateWeight = 0.01, kLatePatience = 100;
+constexpr double kAloneWeight = 1000;
 
 // The variable x_j of a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine and at least one of them there; −1 for another
 // equation.
@@ -51,6 +52,17 @@ std::vector<bool> linearly_defined(const System& system) {
   return linear;
 }
 
+// The variable of an equation that has no other; −1 for another equation.
+int only_variable(const Polynomial& f) {
+  int only = -1;
+  for (const auto& m : f.monomials)
+    for (const auto& factor : m.factors) {
+      if (only >= 0 && factor.variable != only) return -1;
+      only = factor.variable;
+    }
+  return only;
+}
+
 }  // namespace
 
 BranchingRule::BranchingRule(const System& system, double kernel_weight, int kernel_vectors)
@@ -66,6 +78,8 @@ BranchingRule::BranchingRule(const System& system, double kernel_weight, int ker
     }
     if (defined[j]) weight_[j] = 0;
   }
+  for (const Polynomial& f : system.equations)
+    if (const int j = only_variable(f); j >= 0) weight_[static_cast<std::size_t>(j)] = kAloneWeight;
   if (std::all_of(weight_.begin(), weight_.end(), [](double w) { return w == 0; }))
     std::fill(weight_.begin(), weight_.end(), 1.0);
 }
