@@ -58,6 +58,7 @@ std::vector<symbolic::Condition> conditions(const Robot& robot, const Bodies& bo
 /// How a robot's loops are written.
 struct Way {
   bool in_branches = true;  ///< those of parallelograms (loop_branches.h)
+  bool seek_identities = false, deep = false;
 };
 
 Assembly draft(const Robot& robot, Way way) {
@@ -72,6 +73,7 @@ Assembly draft(const Robot& robot, Way way) {
   std::vector<Parallelogram> parallelograms;
   if (!robot.keeps_parallelograms) parallelograms = parallelograms_of(robot, bodies, aside);
   Draft draft(robot, algebra, std::move(parallelograms), way.in_branches);
+  if (way.seek_identities) draft.seek_identities();
   const auto normals = plane_of(robot, bodies, algebra);
   Space space = Space::planar;
   if (normals) {
@@ -81,7 +83,7 @@ Assembly draft(const Robot& robot, Way way) {
       if (output.turn)
         throw symbolic::ModelError(output.where, "the output '" + output.name + "' has a range of phi, but turns in space",
                                    "keeps R behind it, or ranges of joints");
-    space = draft_spatial(robot, bodies, algebra, draft) ? Space::spherical : Space::spatial;
+    space = draft_spatial(robot, bodies, algebra, draft, way.deep) ? Space::spherical : Space::spatial;
   }
   Assembly assembly = draft.assembly();
   assembly.space = space;
@@ -95,6 +97,13 @@ Assembly draft(const Robot& robot, Way way) {
     for (const symbolic::Coordinate& c : assembly.mechanism.coordinates())
       *assembly.mobility_by_rank += symbolic::is_fixed(c) && c.kind == symbolic::CoordinateKind::angle ? 1 : 0;
   return assembly;
+}
+
+/// As many velocity equations as its mobility asks for.
+bool has_rates_for(const Assembly& assembly) {
+  const symbolic::Mechanism& m = assembly.mechanism;
+  return m.rates().empty() ||
+         static_cast<int>(m.rates().size()) - static_cast<int>(m.velocity_equations().size()) == assembly.mobility;
 }
 
 bool seems_redundant(const Assembly& assembly) { return assembly.mobility_by_rank.value_or(0) > assembly.mobility; }
@@ -122,10 +131,22 @@ Assembly assemble(const Robot& robot) {
   const symbolic::GinacLock lock;
   Assembly best = draft(robot, {});
   // Several parallelograms that share sides may make each other's loops redundant on some of their branches.
-  const bool in_branches = std::any_of(best.parallelograms.begin(), best.parallelograms.end(),
-                                       [](const Assembly::WrittenParallelogram& p) { return !p.angle.empty(); });
+  bool in_branches = std::any_of(best.parallelograms.begin(), best.parallelograms.end(),
+                                 [](const Assembly::WrittenParallelogram& p) { return !p.angle.empty(); });
   if (in_branches && seems_redundant(best))
-    if (Assembly whole = draft(robot, {.in_branches = false}); !seems_redundant(whole)) best = std::move(whole);
+    if (Assembly whole = draft(robot, {.in_branches = false}); !seems_redundant(whole)) {
+      best = std::move(whole);
+      in_branches = false;
+    }
+  // Over-constrained, as it seems: other ways to write its loops may show which equations follow from the others.
+  for (const bool deep : {false, true}) {
+    if (best.space == Space::planar || !seems_redundant(best)) break;
+    try {
+      Assembly other = draft(robot, {in_branches, true, deep});
+      if (other.mobility > best.mobility && has_rates_for(other)) best = std::move(other);
+    } catch (const symbolic::ModelError&) {  // this way cannot write the robot; the first one could
+    }
+  }
   return best;
 }
 

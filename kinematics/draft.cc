@@ -161,6 +161,7 @@ Vec Draft::unit_vector(const std::string& name, const SourceLocation& where) {
     coordinates_.push_back({i == 0 ? free : component, CoordinateKind::length, {}, false, i == 0, where});
     v[i] = algebra_.coordinate(component);
   }
+  if (identities_) identities_->add(dot(v, v) - 1);
   return v;
 }
 
@@ -171,8 +172,9 @@ bool Draft::equation(const ex& e, const std::string& note, const SourceLocation&
     throw ModelError(where, what + " can never close: it stays open by " + std::to_string(algebra_.value(clean)),
                      "geometry that fits together");
   }
-  if (known_.contains(clean) || known_.contains(-clean)) return false;
+  if (known_.contains(clean) || known_.contains(-clean) || follows(clean)) return false;
   known_.insert(clean);
+  if (identities_) identities_->add(clean);
   equations_.push_back({clean, false, note, where});
   return true;
 }
@@ -243,7 +245,9 @@ ex Draft::rate(const std::string& name, CoordinateKind kind, symbolic::Role role
 
 void Draft::velocity(const ex& e, const std::string& note, const SourceLocation& where) {
   const ex clean = algebra_.clean(e);
-  if (!clean.is_zero()) velocity_.push_back({clean, false, note, where});
+  if (clean.is_zero() || follows(clean)) return;
+  if (identities_) identities_->add(clean);
+  velocity_.push_back({clean, false, note, where});
 }
 
 void Draft::velocity_of_equations() {

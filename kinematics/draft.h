@@ -11,6 +11,7 @@
 #include "corank/kinematics/algebra.h"
 #include "corank/kinematics/assembly.h"
 #include "corank/kinematics/couplings.h"
+#include "corank/kinematics/identities.h"
 #include "corank/kinematics/loop_branches.h"
 #include "corank/kinematics/plane.h"
 #include "corank/symbolic/mechanism.h"
@@ -27,6 +28,11 @@ class Draft {
         couplings_(robot, algebra),
         common_(couplings_.trains().size()),
         rate_(common_) {}
+
+  /// From now on equations that follow from those before them, by exact identities, are left out.
+  void seek_identities() { identities_.emplace(algebra_); }
+  /// Is e = 0 known to follow?
+  bool follows(const ex& e) { return identities_ && identities_->imply(algebra_.clean(e)); }
 
   /// Free names: `wanted`, or with underscores where that is taken or no name.
   std::string free_name(const std::string& wanted);
@@ -65,8 +71,8 @@ class Draft {
   /// With |w| = 1.
   Vec unit_vector(const std::string& name, const SourceLocation& where);
 
-  /// e = 0, left out where it is 0 by its constants alone. Throws ModelError where it is a constant that is not 0: `what`
-  /// then cannot be assembled. Returns whether there is anything to say.
+  /// e = 0, left out where it is 0 by its constants alone or known to follow. Throws ModelError where it is a constant that
+  /// is not 0: `what` then cannot be assembled. Returns whether there is anything to say.
   bool equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what = "the loop");
   /// A loop that closes where `loop` = 0. Where it has branches their equations take the place of these, and an angle tells
   /// which branch it is; velocities are those of `loop` all the same, so that the branches' meeting stays a singularity.
@@ -81,7 +87,7 @@ class Draft {
   void at_least_zero(const ex& e, const std::string& note, const SourceLocation& where);
 
   ex rate(const std::string& name, symbolic::CoordinateKind kind, symbolic::Role role, const SourceLocation& where);
-  /// Left out where it is 0.
+  /// Left out where it is 0 or known to follow.
   void velocity(const ex& e, const std::string& note, const SourceLocation& where);
   /// The derivative of all equations so far, loops as they are without branches, with a rate for each coordinate.
   void velocity_of_equations();
@@ -149,6 +155,7 @@ class Draft {
   std::map<std::size_t, std::pair<std::string, std::size_t>> taken_apart_;
   std::vector<DraftEquation> loops_;       // whose branches took their place
   std::set<ex, GiNaC::ex_is_less> known_;  // equations, as they are
+  std::optional<Identities> identities_;   // of equations and velocity equations
   std::vector<DraftRate> rates_;
   std::vector<ex> inputs_, outputs_;
   struct JointValue {

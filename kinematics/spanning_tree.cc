@@ -28,7 +28,8 @@ class Forest {
 
 }  // namespace
 
-SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra, const std::vector<int>& order) {
+SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra, const std::vector<int>& order,
+                           bool deep) {
   const std::size_t n = bodies.joints.size();
   std::vector<bool> in_forest(n, false), reached(bodies.size(), false);
   Forest forest(bodies.size());
@@ -50,33 +51,41 @@ SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algeb
   std::vector<std::vector<std::size_t>> joints_of(bodies.size());
   for (std::size_t j = 0; j < n; ++j)
     for (const BodyEnd& end : bodies.joints[j].ends) joints_of[end.body].push_back(j);
-  // All that hang on a body by joints of one sort.
-  const auto extend = [&](std::size_t body, auto&& wanted) {
+  // All that hang on a body by joints of one sort, or the first one.
+  const auto extend = [&](std::size_t body, bool one, auto&& wanted) {
     for (const std::size_t j : joints_of[body]) {
       const auto& ends = bodies.joints[j].ends;
       for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
-        if (!used[j] && ends[side].body == body && !reached[ends[1 - side].body] && wanted(j)) take(j, side);
+        if (!used[j] && ends[side].body == body && !reached[ends[1 - side].body] && wanted(j)) {
+          take(j, side);
+          if (one) return true;
+        }
     }
+    return false;
   };
   reached[0] = true;
   waiting.push_back(0);
   for (;;) {
     while (!waiting.empty()) {
       // What the forest carries comes along at once, so that no shorter way takes it elsewhere.
-      std::deque<std::size_t> whole{waiting.front()};
-      waiting.pop_front();
+      std::deque<std::size_t> whole{deep ? waiting.back() : waiting.front()};
+      deep ? waiting.pop_back() : waiting.pop_front();
       std::vector<std::size_t> together;
       while (!whole.empty()) {
         const std::size_t body = whole.front();
         whole.pop_front();
         together.push_back(body);
         const std::size_t before = waiting.size();
-        extend(body, [&](std::size_t j) { return in_forest[j]; });
+        extend(body, false, [&](std::size_t j) { return in_forest[j]; });
         for (std::size_t i = before; i < waiting.size(); ++i) whole.push_back(waiting[i]);
         waiting.resize(before);
       }
-      for (const std::size_t body : together)
-        extend(body, [&](std::size_t j) { return order[j] == 0 && !is_rod(bodies.joints[j].kind); });
+      const auto any = [&](std::size_t j) { return order[j] == 0 && !is_rod(bodies.joints[j].kind); };
+      if (!deep) {
+        for (const std::size_t body : together) extend(body, false, any);
+      } else if (std::any_of(together.begin(), together.end(), [&](std::size_t body) { return extend(body, true, any); })) {
+        waiting.insert(waiting.end() - 1, together.begin(), together.end());  // for later: the new body comes next
+      }
     }
     std::optional<TreeEdge> shortest;
     double length = 0;

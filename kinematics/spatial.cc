@@ -24,12 +24,13 @@ bool same_points(const Bodies& a, const Bodies& b) {
 
 class SpatialRobot {
  public:
-  SpatialRobot(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft)
+  SpatialRobot(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft, bool deep)
       : robot_(robot),
         given_(bodies),
         bodies_(about_centres(robot, bodies, algebra)),
         algebra_(algebra),
         draft_(draft),
+        deep_(deep),
         loops_(bodies_, algebra),
         frames_(robot, bodies_, loops_, algebra, draft) {
     positions_.origins.resize(bodies.size());
@@ -45,7 +46,7 @@ class SpatialRobot {
           keeps_orientation(joint.kind) || (joint.kind == JointKind::revolute && frames_.is_asked_for(joint.index));
       order.push_back(is_rod(joint.kind) ? 0 : loops_.has(j) ? (early ? 1 : 2) : early ? 3 : 0);
     }
-    tree_ = spanning_tree(robot_, bodies_, algebra_, order);
+    tree_ = spanning_tree(robot_, bodies_, algebra_, order, deep_);
     keep_orientations();
     orient();
     for (const std::size_t j : tree_.chords) frames_.close(bodies_.joints[j]);
@@ -315,9 +316,27 @@ class SpatialRobot {
       draft_.equation(dot(gap, frames_.image(group(j.ends[0].body), j.ends[0].axis)), "plane", of.where, what);
       return;
     }
-    const Vec open = gap - way(j);
-    for (const ex& component : open)
-      if (draft_.equation(component, "loop", of.where, what)) translates_ = true;
+    const Vec open = cleaned(algebra_, gap - way(j));
+    const std::array<Vec, 3> along = closing_directions(open);
+    positions_.closing.emplace(static_cast<std::size_t>(&j - bodies_.joints.data()), along);
+    for (const Vec& direction : along)
+      if (draft_.equation(dot(open, direction), "loop", of.where, what)) translates_ = true;
+  }
+
+  /// Directions that span space, along which a loop closes: the world's, or, where it is known to be closed along a
+  /// direction of a body, this one first.
+  std::array<Vec, 3> closing_directions(const Vec& open) {
+    for (std::size_t g = 1; g < bodies_.groups; ++g) {
+      if (!frames_.has_frame(g)) continue;
+      const std::array<Vec, 2> own = frames_.directions(g);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Vec direction = frames_.direction(g, i);
+        if (!draft_.follows(dot(open, direction))) continue;
+        const std::array<Vec, 2> across = frames_.across(g, own[i]);
+        return {direction, across[0], across[1]};
+      }
+    }
+    return {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
   }
 
   /// Poses of links and values of joints, for whoever wants to know them of a solution.
@@ -389,6 +408,7 @@ class SpatialRobot {
   const Bodies bodies_;  // joints about the centres of spherical loops
   Algebra& algebra_;
   Draft& draft_;
+  const bool deep_;
   PlaneLoops loops_;
   Frames frames_;
   SpanningTree tree_;
@@ -399,8 +419,8 @@ class SpatialRobot {
 
 }  // namespace
 
-bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft) {
-  SpatialRobot spatial(robot, bodies, algebra, draft);
+bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft, bool deep) {
+  SpatialRobot spatial(robot, bodies, algebra, draft, deep);
   spatial.run();
   return spatial.is_spherical();
 }

@@ -15,7 +15,7 @@
 namespace corank::kinematics {
 
 /// Whether it is a spherical one: all of its loops close wherever its bodies are turned to, since all axes go through one
-/// point. Throws ModelError where the robot can't be assembled.
-bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft);
+/// point. `deep`: of the spanning tree. Throws ModelError where the robot can't be assembled.
+bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft, bool deep = false);
 
 }  // namespace corank::kinematics

@@ -202,6 +202,12 @@ void Twists::rows(const Vec& v, const Joint& of) {
   for (const ex& e : v) row(e, of);
 }
 
+void Twists::closing_rows(const Vec& v, const BodyJoint& j) {
+  const auto closing = positions_.closing.find(static_cast<std::size_t>(&j - bodies_.joints.data()));
+  if (closing == positions_.closing.end()) return rows(v, joint(j));
+  for (const Vec& direction : closing->second) row(dot(v, direction), joint(j));
+}
+
 void Twists::close(const Dyad& dyad) {
   const Joint& of = joint(bodies_.joints[dyad.outer]);
   const auto [a, b] = axes(dyad);
@@ -261,12 +267,12 @@ void Twists::close(const BodyJoint& j) {
   const Vec c = place(j.ends[0]);
   Vec turned = turning(b1) - turning(b0), moved = velocity(b1, c) - velocity(b0, c);
   if (j.kind == JointKind::spherical) {
-    rows(moved, of);
+    closing_rows(moved, j);
     return;
   }
   if (j.kind == JointKind::universal && role(j.index) == Role::passive) {
     row(dot(turned, cross(axis(j, 0), axis(j, 1))), of);
-    rows(moved, of);
+    closing_rows(moved, j);
     return;
   }
   if (j.kind == JointKind::planar) {
@@ -277,14 +283,14 @@ void Twists::close(const BodyJoint& j) {
   }
   if (j.kind == JointKind::revolute && !has_rate(j.index)) {
     for (const Vec& across : frames_.across(group(b1), j.ends[1].axis)) row(dot(turned, across), of);
-    rows(moved, of);
+    closing_rows(moved, j);
     return;
   }
   const std::vector<Screw> own = screws(j);
   add_turning(turned, own, -1);
   add_velocity(moved, own, c, -1);
   rows(turned, of);
-  rows(moved, of);
+  closing_rows(moved, j);
 }
 
 void Twists::add(const Output& output) {

@@ -27,6 +27,8 @@ struct Positions {
   std::vector<std::optional<Vec>> origins;    ///< of each body's frame
   std::vector<std::optional<ex>> coordinate;  ///< of each joint of the robot: its angle, way or length
   std::map<std::string, Vec> output_points;   ///< by the output's name
+  /// Of each joint in Bodies::joints that closes a loop at a point: three directions along which it does.
+  std::map<std::size_t, std::array<Vec, 3>> closing;
 };
 
 /// One rate's part of a body's motion.
@@ -88,6 +90,8 @@ class Twists {
   Vec turning(std::size_t body) const;
   void row(const ex& e, const Joint& of);
   void rows(const Vec& v, const Joint& of);
+  /// v along the directions in which the loop closes that the joint closes.
+  void closing_rows(const Vec& v, const BodyJoint& j);
   void close(const BodyJoint& j);
   void close_in_plane(const BodyJoint& j, const PlanePart& part, const std::vector<ex>& closing);
   void close(const Dyad& dyad);

@@ -1,0 +1,144 @@
+#include "corank/kinematics/identities.h"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace corank::kinematics {
+namespace {
+
+// Of a coefficient in constants.
+std::size_t terms(const ex& sum) { return GiNaC::is_a<GiNaC::add>(sum) ? sum.nops() : 1; }
+
+int degree(const std::map<std::size_t, int>& monomial) {
+  return std::accumulate(monomial.begin(), monomial.end(), 0, [](int sum, const auto& f) { return sum + f.second; });
+}
+
+// monomial / by, where that is one.
+std::optional<std::map<std::size_t, int>> quotient(std::map<std::size_t, int> monomial,
+                                                   const std::map<std::size_t, int>& by) {
+  for (const auto& [number, power] : by) {
+    const auto found = monomial.find(number);
+    if (found == monomial.end() || found->second < power) return std::nullopt;
+    if ((found->second -= power) == 0) monomial.erase(found);
+  }
+  return monomial;
+}
+
+}  // namespace
+
+bool Identities::Before::operator()(const Monomial& a, const Monomial& b) const {
+  const int of_a = degree(a), of_b = degree(b);
+  return of_a != of_b ? of_a > of_b : a > b;
+}
+
+void Identities::insert(Polynomial& sum, const Monomial& monomial, const ex& coefficient) const {
+  const auto [at, is_new] = sum.try_emplace(monomial, coefficient);
+  if (!is_new) at->second = (at->second + coefficient).expand();
+  if (algebra_.is_zero(at->second)) sum.erase(at);
+}
+
+// With a sine or cosine comes its circle.
+std::size_t Identities::number(const ex& base) {
+  const auto [at, is_new] = numbers_.try_emplace(base, numbers_.size());
+  const std::size_t result = at->second;
+  if (!is_new || !GiNaC::is_a<GiNaC::function>(base)) return result;
+  const std::string name = GiNaC::ex_to<GiNaC::function>(base).get_name();
+  const bool is_sine = name == "sin";
+  if (!is_sine && name != "cos") return result;
+  const ex other = is_sine ? ex(GiNaC::cos(base.op(0))) : ex(GiNaC::sin(base.op(0)));
+  const auto [partner, other_is_new] = numbers_.try_emplace(other, numbers_.size());
+  if (other_is_new) add({{{{result, 2}}, 1}, {{{partner->second, 2}}, 1}, {{}, -1}});
+  return result;
+}
+
+// New bases are numbered in the order of their texts: that of GiNaC's terms is not the same in each run.
+Identities::Polynomial Identities::polynomial(const ex& e) {
+  std::vector<std::pair<ex, std::vector<std::pair<ex, int>>>> terms;
+  std::map<std::string, ex> fresh;
+  const auto term = [&](const ex& t) {
+    auto& [coefficient, powers] = terms.emplace_back(1, std::vector<std::pair<ex, int>>{});
+    const auto factor = [&, &coefficient = coefficient, &powers = powers](const ex& f) {
+      if (algebra_.is_constant(f)) {
+        coefficient *= f;
+        return;
+      }
+      const bool is_power = GiNaC::is_a<GiNaC::power>(f) && f.op(1).info(GiNaC::info_flags::posint);
+      const ex base = is_power ? f.op(0) : f;
+      powers.emplace_back(base, is_power ? GiNaC::ex_to<GiNaC::numeric>(f.op(1)).to_int() : 1);
+      if (numbers_.contains(base)) return;
+      std::ostringstream text;
+      text << base;
+      fresh.emplace(text.str(), base);
+    };
+    if (GiNaC::is_a<GiNaC::mul>(t)) {
+      for (const ex& f : t) factor(f);
+    } else {
+      factor(t);
+    }
+  };
+  const ex sum = e.expand();
+  if (GiNaC::is_a<GiNaC::add>(sum)) {
+    for (const ex& t : sum) term(t);
+  } else {
+    term(sum);
+  }
+  for (const auto& [text, base] : fresh) number(base);
+  Polynomial result;
+  for (const auto& [coefficient, powers] : terms) {
+    Monomial monomial;
+    for (const auto& [base, power] : powers) monomial[number(base)] += power;
+    insert(result, monomial, coefficient);
+  }
+  return result;
+}
+
+std::optional<Identities::Polynomial> Identities::remainder(const ex& e) {
+  if (operations_left_ == 0) return std::nullopt;
+  const auto spend = [&](std::size_t operations) { operations_left_ -= std::min(operations_left_, operations); };
+  Polynomial f = polynomial(e), left;
+  spend(f.size());
+  while (!f.empty()) {
+    if (operations_left_ == 0) return std::nullopt;
+    const auto [monomial, coefficient] = *f.begin();
+    std::optional<Monomial> factor;
+    const auto divisor = std::find_if(known_.begin(), known_.end(), [&](const Polynomial& p) {
+      factor = quotient(monomial, p.begin()->first);
+      return factor.has_value();
+    });
+    if (divisor == known_.end()) {
+      spend(1);
+      left.emplace(monomial, coefficient);
+      f.erase(f.begin());
+      continue;
+    }
+    for (const auto& [other, times] : *divisor) {
+      spend(terms(coefficient) * terms(times));
+      Monomial product = *factor;
+      for (const auto& [number, power] : other) product[number] += power;
+      insert(f, product, -coefficient * times);
+    }
+  }
+  return left;
+}
+
+void Identities::add(const ex& e) {
+  if (std::optional<Polynomial> rest = remainder(e)) add(std::move(*rest));
+}
+
+bool Identities::imply(const ex& e) {
+  const std::optional<Polynomial> rest = remainder(e);
+  return rest && rest->empty();
+}
+
+void Identities::add(Polynomial rest) {
+  if (rest.empty()) return;
+  const ex first = rest.begin()->second;
+  for (auto& [monomial, coefficient] : rest) coefficient = (coefficient / first).expand();
+  rest.begin()->second = 1;
+  known_.push_back(std::move(rest));
+}
+
+}  // namespace corank::kinematics

@@ -1,0 +1,52 @@
+// Which equations of a robot follow from others, by exact identities.
+//
+// A robot that is over-constrained by its count, such as the 3-UPU translator, has closure equations that say again what
+// others say. Where e = Σ pᵢ fᵢ with polynomials pᵢ and equations fᵢ = 0 that are known, e = 0 adds nothing and is left out.
+// Multiplying out Σ pᵢ fᵢ again is the proof.
+//
+// Found by division: known polynomials are divided by in the order in which they were added, with the circles
+// sin² + cos² = 1 of all angles among them. They are no Gröbner basis, so a remainder that is not 0 proves nothing.
+// Work is bounded by a count of operations on terms, the same on each machine; after those nothing more is implied.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "corank/kinematics/algebra.h"
+
+namespace corank::kinematics {
+
+class Identities {
+ public:
+  static constexpr std::size_t kOperations = 4'000;  // an Exechon takes 2,000 of them
+  explicit Identities(const Algebra& algebra, std::size_t operations = kOperations)
+      : algebra_(algebra), operations_left_(operations) {}
+
+  /// From now on e = 0 is known. e: a polynomial in coordinates, and sines and cosines of them.
+  void add(const ex& e);
+  /// Does e = 0 follow from what is known? True is proven, false says nothing.
+  bool imply(const ex& e);
+
+ private:
+  using Monomial = std::map<std::size_t, int>;  // powers of numbered bases
+  struct Before {                               // by degree, the largest first
+    bool operator()(const Monomial& a, const Monomial& b) const;
+  };
+  using Polynomial = std::map<Monomial, ex, Before>;  // coefficients that are not 0
+
+  void insert(Polynomial& sum, const Monomial& monomial, const ex& coefficient) const;
+  std::size_t number(const ex& base);
+  Polynomial polynomial(const ex& e);
+  /// Of the division; nothing once the operations are used up.
+  std::optional<Polynomial> remainder(const ex& e);
+  void add(Polynomial rest);
+
+  const Algebra& algebra_;
+  std::size_t operations_left_;
+  std::map<ex, std::size_t, GiNaC::ex_is_less> numbers_;
+  std::vector<Polynomial> known_;  // whose first coefficients are 1
+};
+
+}  // namespace corank::kinematics

@@ -1,0 +1,85 @@
+// Equations that follow from others by exact identities, alone and in a robot that is over-constrained by its count.
+#include "corank/kinematics/identities.h"
+
+#include <gtest/gtest.h>
+
+#include "corank/symbolic/ginac_lock.h"
+#include "corank/tests/kinematics/assembled.h"
+
+namespace corank::kinematics {
+namespace {
+
+class IdentitiesTest : public testing::Test {
+ protected:
+  const symbolic::GinacLock lock_;
+  const Robot robot_;
+  Algebra algebra_{robot_};
+  const ex x_ = algebra_.coordinate("x"), y_ = algebra_.coordinate("y"), z_ = algebra_.coordinate("z");
+  Identities known_{algebra_};
+};
+
+TEST_F(IdentitiesTest, ImplyCombinationsWithPolynomialMultipliers) {
+  const ex f = x_ * x_ * x_ + y_ - 1, g = y_ * y_ * z_ - 2 * x_;  // a Gröbner basis: the first terms are coprime
+  known_.add(f);
+  known_.add(g);
+  EXPECT_TRUE(known_.imply((y_ * z_ + 3) * f - (x_ * x_ - z_) * g));
+}
+
+TEST_F(IdentitiesTest, DoNotImplyWhatIsNoCombination) {
+  known_.add(x_ * x_ + y_ * y_ - 1);
+  EXPECT_FALSE(known_.imply(x_ * x_ + y_ * y_ - 2));
+  EXPECT_FALSE(known_.imply(x_ + y_ - 1));
+  EXPECT_FALSE(known_.imply(z_ * (x_ * x_ - y_ * y_ - 1)));
+}
+
+TEST_F(IdentitiesTest, KnowTheCirclesOfAnglesButNoOtherFunctions) {
+  const ex s = GiNaC::sin(x_), c = GiNaC::cos(x_);
+  EXPECT_TRUE(known_.imply(z_ * s * s + z_ * c * c - z_));
+  EXPECT_FALSE(known_.imply(s * s + GiNaC::pow(GiNaC::cos(y_), 2) - 1));
+  EXPECT_FALSE(known_.imply(GiNaC::pow(GiNaC::exp(x_), 2) + s * s - 1));
+}
+
+TEST_F(IdentitiesTest, ImplyNothingOnceTheirOperationsAreUsedUp) {
+  Identities few(algebra_, 12);
+  few.add(x_ - y_);
+  EXPECT_TRUE(few.imply(x_ - y_));
+  EXPECT_FALSE(few.imply(GiNaC::pow(x_, 20) - GiNaC::pow(y_, 20)));
+  EXPECT_FALSE(few.imply(x_ - y_));
+}
+
+// Two legs UPR that turn about one axis, and a leg SPR.
+TEST(Assembly, LeavesOutWhatFollowsInAnExechonLikeRobot) {
+  const Assembly a = assembled(R"([CONSTANTS]
+a := 250
+b := 430
+p := 150
+r := 250
+[LINKS]
+base : point A1 (0,a,0) point A2 (0,-a,0) point A3 (b,0,0)
+l1 : point A (0,0,0)
+l2 : point A (0,0,0)
+l3 : point A (0,0,0)
+r1 : point B (0,0,0)
+r2 : point B (0,0,0)
+r3 : point B (0,0,0)
+plat : point C (0,0,0) point B1 (0,p,0) point B2 (0,-p,0) point B3 (r,0,0)
+[JOINTS]
+universal : base A1 + (0,1,0)  l1 A + (1,0,0)
+universal : base A2 + (0,1,0)  l2 A + (1,0,0)
+spherical : base A3 l3 A
+prismatic d1 : l1 A + (0,0,1) r1 B + (0,0,1) range [500,1500] actuated
+prismatic d2 : l2 A + (0,0,1) r2 B + (0,0,1) range [500,1500] actuated
+prismatic d3 : l3 A + (0,0,1) r3 B + (0,0,1) range [500,1500] actuated
+revolute : r1 B + (1,0,0) plat B1 + (1,0,0)
+revolute : r2 B + (1,0,0) plat B2 + (1,0,0)
+revolute : r3 B + (0,1,0) plat B3 + (0,1,0)
+[OUTPUTS]
+P : position of plat.C range z [900,900]
+)");
+  EXPECT_EQ(a.mobility, 3);
+  EXPECT_EQ(a.mobility_by_rank, 3);  // so there is no note of redundancy
+  EXPECT_EQ(a.mechanism.rates().size() - a.mechanism.velocity_equations().size(), 3U);
+}
+
+}  // namespace
+}  // namespace corank::kinematics
