@@ -312,7 +312,9 @@ study::Question changed(const std::string& name, const std::vector<std::pair<std
     EXPECT_NE(at, std::string::npos) << from;
     model.replace(at, from.size(), to);
   }
-  const std::string path = ::testing::TempDir() + "path_test_model.cuik";
+  // Of each test another: they may run at the same time.
+  const std::string path =
+      ::testing::TempDir() + "path_test_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".cuik";
   std::ofstream(path) << model;
   return {.model = study::read_model(path).mechanism};
 }

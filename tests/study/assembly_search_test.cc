@@ -48,7 +48,8 @@ symbolic::Mechanism held_arm(double a, double b, double r, double at) {
 void expect_confirmed(const result::Result& result, bool expected) {
   EXPECT_EQ(result::assembled(result), std::optional(expected));
   EXPECT_EQ(result::sample(result).has_value(), expected);
-  const auto path = std::filesystem::path(testing::TempDir()) / "corank_assembly_search_test.h5";
+  const auto path = std::filesystem::path(testing::TempDir()) /  // of each test another: they may run at the same time
+                    fmt::format("corank_{}.h5", testing::UnitTest::GetInstance()->current_test_info()->name());
   result::write_result(path, result);
   const result::Result read = result::read_result(path);
   EXPECT_EQ(result::to_json(read), result::to_json(result));
