@@ -163,6 +163,8 @@ void Slicer::add(Task& task, Box piece, Location location) {
     narrow.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
     found.sheet = std::make_unique<const Sheet>(std::move(narrow));
   }
+  // That the sheet's other equations hold on it is not shown within the tolerance.
+  if (verdict == Verdict::undecided) found.box.reason = problem_.ended() ? Reason::limit : Reason::tolerance;
   found.box.motion = sheet.motion;
   leave_room(task, found.box.box);
   if (recorder_) recorder_->leaf_box(task.found.size());

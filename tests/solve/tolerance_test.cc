@@ -79,6 +79,24 @@ TEST(Solve, ATolerancedSystemIsProvenForEveryChoiceOfItsCoefficients) {
   EXPECT_FALSE(covers(zero, {0.449, 0.898})) << "beyond the tolerance";
 }
 
+// A circle and a hyperbola that cross at a small angle, at the end of the range of x, and their sum: whether the point is in
+// the range depends on the coefficients.
+TEST(Solve, LeavesNoBoxOfAnOverDeterminedSystemUndecidedWithoutAReason) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-2", "0.50702107"), y = b.variable("y", "-2", "2");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-0.5", {}}}).equation({{"1", {{x, 1}, {y, 1}}}, {"-0.2499", {}}});
+  b.equation({{"1", {{x, 2}}}, {"1", {{x, 1}, {y, 1}}}, {"1", {{y, 2}}}, {"-0.7499", {}}});
+  System system = b.system();
+  system.coefficient_tolerance = 1e-6;
+  const Cover cover = solve_with(system, 0.01);
+  EXPECT_GT(cover.count(Verdict::undecided), 0u);
+  for (const CoverBox& box : cover.boxes) {
+    if (box.verdict == Verdict::undecided) {
+      EXPECT_EQ(box.reason, Reason::tolerance);
+    }
+  }
+}
+
 TEST(Solve, RefusesANonsensicalTolerance) {
   System system = circle_and_diagonal().system();
   for (double tolerance : {-1e-9, 0.1, std::nan(""), HUGE_VAL}) {
