@@ -55,7 +55,7 @@ enum class Reason : std::uint8_t {
   none,              ///< it is not, or nobody knows
   degenerate_point,  ///< next to a solution at which the Jacobian has not its full rank, as far as doubles tell
   degenerate_set,    ///< the same along a curve or a larger set of such solutions
-  tolerance,         ///< as above, or it is not shown that redundant equations hold
+  tolerance,         ///< the coefficients' tolerance is too large, or redundant equations are not shown to hold
   precision,         ///< doubles divide it no further
   limit,             ///< a limit or an interrupt ended the search before it was divided further
 };

@@ -228,7 +228,8 @@ std::string in_words(Reason reason, const Cover& cover) {
     case none: break;
     case degenerate_point: return "next to a degenerate solution, where the Jacobian has not its full rank";
     case degenerate_set: return along_set_text(cover);
-    case tolerance: return "the coefficients' tolerance moves the solutions too far, or it is not shown that redundant equations hold";
+    case tolerance:
+      return "the coefficients' tolerance moves the solutions too far, or it is not shown that redundant equations hold";
     case precision: return "doubles divide them no further";
     case limit: return "a limit ended the search before they were divided further";
   }
