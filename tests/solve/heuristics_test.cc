@@ -48,6 +48,20 @@ TEST(Branching, BisectsWhatNewtonsRowsLeaveOpen) {
   EXPECT_EQ(rule.choose(compiled, box, limits, &step), z);
 }
 
+// c² = 1 says that c is 1 or −1, and which of them, in whatever else it occurs.
+TEST(Branching, BeginsWithTheVariableOfAnEquationThatHasNoOther) {
+  SystemBuilder b;
+  const int x = b.variable("x", "-8", "8"), y = b.variable("y", "-8", "8"), c = b.variable("c", "-1", "1");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1/100", {{x, 1}, {c, 1}}}, {"-9", {}}});
+  b.equation({{"1", {{c, 2}}}, {"-1", {}}});
+  const UpwardRounding rounding;
+  const certify::CompiledSystem compiled(b.system());
+  const std::vector<Interval> box{Interval(-8, 8), Interval(-8, 8), Interval(-1, 1)};
+  const BranchingRule rule(b.system());
+  EXPECT_GT(rule.weights()[2], rule.weights()[0]);
+  EXPECT_EQ(rule.choose(compiled, box, std::vector<double>(3, 0.05)), c);
+}
+
 // ξ of six unknowns on a sphere, and as many equations as variables: ξ waits. With a free variable it does not.
 TEST(Branching, LetsManyRatesWaitWhereConfigurationsAreIsolated) {
   const auto rule = [](bool isolated) {
@@ -55,7 +69,7 @@ TEST(Branching, LetsManyRatesWaitWhereConfigurationsAreIsolated) {
     const int x = b.variable("x", "-1", "1");
     for (int k = 1; k <= 6; ++k) b.variable("xi" + std::to_string(k), "-1", "1", VariableKind::kernel);
     for (int k = 1; k <= (isolated ? 6 : 5); ++k) b.equation({{"1", {{x, 1}, {k, 1}}}});
-    b.equation({{"1", {{x, 2}}}, {"-1/2", {}}});
+    b.equation({{"1", {{x, 2}}}, {"1", {{1, 1}}}, {"-1/2", {}}});
     return BranchingRule(b.system());
   };
   EXPECT_LT(rule(true).weights()[1], rule(true).weights()[0]);
