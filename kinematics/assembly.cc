@@ -68,10 +68,11 @@ Assembly draft(const Robot& robot, Way way) {
     throw symbolic::ModelError({robot.file.empty() ? robot.name : robot.file, 0, 0},
                                "the robot has " + std::to_string(bodies.size() - 1) + " moving bodies",
                                "at most " + std::to_string(kMostMovingBodies) + ", whose equations can be written out");
-  // Looked for with a copy, since most of what is compared says nothing about the equations.
-  const Algebra aside = algebra;
   std::vector<Parallelogram> parallelograms;
-  if (!robot.keeps_parallelograms) parallelograms = parallelograms_of(robot, bodies, aside);
+  if (!robot.keeps_parallelograms) {
+    const Algebra aside = algebra;  // a copy, since most of what is compared says nothing about the equations
+    parallelograms = parallelograms_of(robot, bodies, aside);
+  }
   Draft draft(robot, algebra, std::move(parallelograms), way.in_branches);
   if (way.seek_identities) draft.seek_identities();
   const auto normals = plane_of(robot, bodies, algebra);

@@ -255,7 +255,7 @@ void Draft::velocity_of_equations() {
     return std::any_of(list.begin(), list.end(), [&](const ex& other) { return other.is_equal(e); });
   };
   std::vector<std::pair<ex, ex>> rates;  // of each coordinate that does not tell branches
-  for (const DraftCoordinate& c : std::vector<DraftCoordinate>(coordinates_)) {
+  for (const DraftCoordinate& c : coordinates_) {
     const ex q = algebra_.symbol_of(c.name);
     if (std::any_of(taken_apart_.begin(), taken_apart_.end(), [&](const auto& t) { return t.second.first == c.name; }))
       continue;

@@ -31,6 +31,7 @@ class Draft {
 
   /// From now on equations that follow from those before them, by exact identities, are left out.
   void seek_identities() { identities_.emplace(algebra_); }
+  bool seeks_identities() const { return identities_.has_value(); }
   /// Is e = 0 known to follow?
   bool follows(const ex& e) { return identities_ && identities_->imply(algebra_.clean(e)); }
 

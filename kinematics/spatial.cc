@@ -317,15 +317,19 @@ class SpatialRobot {
       return;
     }
     const Vec open = cleaned(algebra_, gap - way(j));
-    const std::array<Vec, 3> along = closing_directions(open);
-    positions_.closing.emplace(static_cast<std::size_t>(&j - bodies_.joints.data()), along);
-    for (const Vec& direction : along)
-      if (draft_.equation(dot(open, direction), "loop", of.where, what)) translates_ = true;
+    Vec components = open;
+    if (const auto along = closing_directions(open)) {
+      components = {dot(open, (*along)[0]), dot(open, (*along)[1]), dot(open, (*along)[2])};
+      positions_.closing.emplace(static_cast<std::size_t>(&j - bodies_.joints.data()), *along);
+    }
+    for (const ex& component : components)
+      if (draft_.equation(component, "loop", of.where, what)) translates_ = true;
   }
 
-  /// Directions that span space, along which a loop closes: the world's, or, where it is known to be closed along a
-  /// direction of a body, this one first.
-  std::array<Vec, 3> closing_directions(const Vec& open) {
+  /// A loop closes along the world's directions; or, where it is known to be closed along a direction of a body, along three
+  /// that span space, this one first. Looking for it may make coordinates, so only those who seek identities do.
+  std::optional<std::array<Vec, 3>> closing_directions(const Vec& open) {
+    if (!draft_.seeks_identities()) return std::nullopt;
     for (std::size_t g = 1; g < bodies_.groups; ++g) {
       if (!frames_.has_frame(g)) continue;
       const std::array<Vec, 2> own = frames_.directions(g);
@@ -333,10 +337,10 @@ class SpatialRobot {
         const Vec direction = frames_.direction(g, i);
         if (!draft_.follows(dot(open, direction))) continue;
         const std::array<Vec, 2> across = frames_.across(g, own[i]);
-        return {direction, across[0], across[1]};
+        return std::array<Vec, 3>{direction, across[0], across[1]};
       }
     }
-    return {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
+    return std::nullopt;
   }
 
   /// Poses of links and values of joints, for whoever wants to know them of a solution.

@@ -27,7 +27,7 @@ struct Positions {
   std::vector<std::optional<Vec>> origins;    ///< of each body's frame
   std::vector<std::optional<ex>> coordinate;  ///< of each joint of the robot: its angle, way or length
   std::map<std::string, Vec> output_points;   ///< by the output's name
-  /// Of each joint in Bodies::joints that closes a loop at a point: three directions along which it does.
+  /// Of joints in Bodies::joints that close a loop along other directions than the world's: these three.
   std::map<std::size_t, std::array<Vec, 3>> closing;
 };
 

@@ -13,7 +13,7 @@ constexpr double kLeastSmear = 1e-6;  // a variable that no equation holds has i
 // Measured on Peaucellier's inversor in Cartesian coordinates, see bench/HISTORY.md.
 constexpr int kManyUnknowns = 6;
 constexpr double kLateWeight = 0.01, kLatePatience = 100;
-constexpr double kAloneWeight = 1000;
+constexpr double kAloneWeight = 1000;  // before all others, see "Parallelograms in branches" there
 
 // The variable x_j of a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine and at least one of them there; −1 for another
 // equation.
