@@ -64,6 +64,7 @@ std::string derivation_json(QuestionOptions options) {
   std::vector<symbolic::TrigonometricSystem> systems;
   if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
   question.set = chosen_set(options, question.model);
+  if (!question.in_parts) question.in_parts = false;
   const bool moves_freely = question.assembly && question.model.constraints().empty();
   for (const study::Question& part : moves_freely ? std::vector<study::Question>{} : study::parts_of(question)) {
     systems.push_back(study::equations(part));
@@ -85,7 +86,7 @@ std::string derivation(QuestionOptions options, const std::string& format) {
            symbolic::broken_model(symbolic::to_model(question.model));
   if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
   question.set = chosen_set(options, question.model);
-  if (symbolic::definition(question.set).of_parts) {
+  if (symbolic::definition(question.set).of_parts || question.in_parts) {
     if (format == "cuik") throw UsageError("--format cuik: the set consists of several systems; --format text shows them");
     const symbolic::Derivation derivation = symbolic::derive(question.model);
     for (const study::Question& part : study::parts_of(question)) {

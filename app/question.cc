@@ -21,8 +21,10 @@ void QuestionOptions::add_options(CLI::App& command) {
   command
       .add_option("--kernel", kernel,
                   "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
-                  "default: right where the matrix M is square or tall, else left")
-      ->check(CLI::IsMember({"right", "left"}));
+                  "none: solve the set in parts, each with an equation of its own and no kernel vector;\n"
+                  "default: right where the matrix M is square or tall, else left; none where a set of\n"
+                  "dimension 2 or more is the union of parts")
+      ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(command);
   add_outputs(command);
   add_definitions(command);
@@ -93,7 +95,8 @@ study::Question load(const QuestionOptions& options, std::set<std::string>* said
           .corank = options.corank,
           .constants = std::move(constants),
           .assembly = std::move(model.assembly),
-          .outputs = options.outputs};
+          .outputs = options.outputs,
+          .in_parts = options.kernel == "none" ? std::optional(true) : std::nullopt};
 }
 
 std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& question, const symbolic::Mechanism& mechanism) {

@@ -21,7 +21,7 @@ report::SetView solve_view(const SetSearch& search, study::Question question, st
   search.limits.apply(limits);
   solve::Control control(search.limits_beside(limits, taken));
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  const std::vector<study::Question> parts = study::parts_of(question);
+  const std::vector<study::Question> parts = study::parts_of(question, [&control] { return control.ended(); });
   std::vector<System> systems;
   for (const study::Question& part : parts) systems.push_back(study::system(part));
   control.ended();  // notes the stage

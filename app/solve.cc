@@ -74,9 +74,9 @@ void write_file(const std::string& path, const result::Result& result) {
 }
 
 // The system of the set, and what else the options have to say about it.
-System system_to_solve(SolveCommand& command, const study::Question& question) {
+System system_to_solve(SolveCommand& command, const study::Question& question, bool is_first) {
   System system = study::system(question);
-  if (!question.part || question.part->active.empty()) apply_parameters(command, system);
+  if (is_first) apply_parameters(command, system);
   options_of(command).validate(system);
   if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
     throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
@@ -179,9 +179,9 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   question.tolerance = command.tolerance;
   if (command.checkpoint_path.empty()) refuse_without_effect(sub, {"--every"}, "--checkpoint FILE beside it");
   if (!bounds_an_area(question)) refuse_without_effect(sub, {"--area"}, "--set boundary in the plane of two lengths");
-  const std::vector<study::Question> parts = study::parts_of(question);
+  const std::vector<study::Question> parts = study::parts_of(question, [&control] { return control.ended(); });
   std::vector<System> systems;
-  for (const study::Question& part : parts) systems.push_back(system_to_solve(command, part));
+  for (const study::Question& part : parts) systems.push_back(system_to_solve(command, part, systems.empty()));
   check_output(command.result_path);
   command.json.check();
   if (command.estimate) return say_estimate(command, systems, control);

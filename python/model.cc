@@ -163,9 +163,11 @@ study::Question question_of(const Model& model, const std::optional<std::string>
   q.model.validate();
   if (!model.origin) q.model.set_source_text(symbolic::to_model(q.model));
   result::put_in(outputs, q.model);
-  if (kernel) {
+  if (kernel == "none") {
+    q.in_parts = true;
+  } else if (kernel) {
     q.kernel = symbolic::kernel_side_from_string(*kernel);
-    if (!q.kernel) throw std::invalid_argument("the kernel's side is right or left, not '" + *kernel + "'");
+    if (!q.kernel) throw std::invalid_argument("the kernel's side is right, left or none, not '" + *kernel + "'");
   }
   if (q.model.is_plain_system()) {
     if (set)

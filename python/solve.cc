@@ -32,7 +32,7 @@ py::tuple solve_question(const Model& model, const std::optional<std::string>& s
     solve::Control control(limits_of(options, &watcher.stop));
     watcher.follow(control);
     std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-    const std::vector<study::Question> parts = study::parts_of(question);
+    const std::vector<study::Question> parts = study::parts_of(question, [&control] { return control.ended(); });
     std::vector<System> systems;
     for (const study::Question& part : parts) {
       systems.push_back(study::system(part));
@@ -55,7 +55,7 @@ std::string derivation(study::Question question, const std::string& format) {
     return format == "latex" ? symbolic::to_latex(d, system) : symbolic::to_text(d, system);
   };
   std::string text;
-  if (symbolic::definition(question.set).of_parts) {
+  if (symbolic::definition(question.set).of_parts || question.in_parts) {
     if (format == "cuik") throw std::invalid_argument("format cuik: the set consists of several systems");
     for (const study::Question& part : study::parts_of(question)) text += printed(study::equations(part));
     return text;

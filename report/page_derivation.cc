@@ -53,6 +53,24 @@ std::string system_html(const symbolic::TrigonometricSystem& system, const SetVi
                      kernel.empty() ? "" : ", " + symbolic::html_text(kernel) + " kernel", numbered(equations, sources));
 }
 
+std::string union_html(const SetView& view) {
+  std::string list;
+  for (const result::Result& part : view.result.parts) {
+    const std::size_t equals = part.condition.rfind(" = ");
+    const std::string name = symbolic::html_text(part.part);
+    list += equals == std::string::npos ? "<li>" + name + ": singular, with a kernel vector of its own</li>"
+                                        : fmt::format("<li>{}<span class=\"source\">{}</span></li>",
+                                                      math(mathml(symbolic::Expression(part.condition.substr(0, equals)) ==
+                                                                  symbolic::Expression(part.condition.substr(equals + 3)))),
+                                                      part.part == part.condition ? "" : name);
+  }
+  return fmt::format(
+      "<details><summary>{}: the union of {} parts</summary><p>The assembly constraints and one of these "
+      "equations, in which the determinant of the block above factors:</p><div class=\"scroll\"><ol "
+      "class=\"equations\">{}</ol></div></details>",
+      view.words.title, view.result.parts.size(), list);
+}
+
 }  // namespace
 
 std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
@@ -78,7 +96,9 @@ std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic
       "<h3>Systems solved</h3><p>Cosines and sines of angles are variables of their own in the search, with their circle as "
       "an equation.</p>";
   for (const SetView& view : views)
-    html += system_html(result::equations_of(mechanism, view.set->set.value(), view.result.options), view);
+    html += view.result.parts.empty() || view.set->of_parts
+                ? system_html(result::equations_of(mechanism, view.set->set.value(), view.result.options), view)
+                : union_html(view);
   return html;
 }
 

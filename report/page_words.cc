@@ -159,6 +159,16 @@ void say_passages(const result::Result& result, SetWords& words) {
         fmt::format("Whether the output can pass is open in {}.", boxes_text(boxes(Passage::unproven))));
 }
 
+/// Of a union.
+void say_parts(const result::Result& result, SetWords& words) {
+  if (result.parts.empty() || !result.outputs.empty()) return;
+  std::string list;
+  for (const result::Result& part : result.parts)
+    list += fmt::format("{}{} ({})", list.empty() ? "" : "; ", part.part, boxes_text(part.cover.boxes.size()));
+  if (result.parts.size() > 1)
+    words.proven.push_back(fmt::format("The set is the union of {} parts: {}.", result.parts.size(), list));
+}
+
 void say_pieces(const result::Result& result, const Components& found, SetWords& words) {
   const Cover& cover = result.cover;
   words.finding = fmt::format("{}: {} in {} as boxes touch", shape(cover.dimension), boxes_text(cover.boxes.size()),
@@ -189,6 +199,7 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   }
   say_kernel(cover, words);
   say_passages(result, words);
+  say_parts(result, words);
   const auto explained = static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) {
     return b.verdict == Verdict::undecided && b.point >= 0;
   }));

@@ -97,6 +97,7 @@ struct Result {
   /// variables; `part` says which one it is. The whole then has the boxes of all parts, in their order and in the
   /// configuration's variables alone, and leaves what is proven of them to the parts (merge_parts).
   std::string part;
+  std::string condition;  ///< of a part that is a factor's: "d1 - x = 0"
   std::vector<Result> parts;
   /// Of an empty set of a robot: what was found out about its C-space (result/assembled.h), one result or none. Its boxes,
   /// if any, are those about one configuration, or, where no such one was found, what the search had left.

@@ -46,22 +46,27 @@ void write_reasons(Hdf5Writer& file, const std::string& group, const std::vector
   file.enumeration(group + "/reason", reasons, reason_words());
 }
 
-// Of a workspace boundary; of the whole, from which part each box comes.
+// Of a workspace boundary.
 void write_passages(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, const Result& result) {
   if (result.outputs.empty()) return;
   const std::size_t n = result.outputs.size();
   std::vector<std::uint8_t> passages;
   std::vector<double> sides(boxes.size() * n, 0.0);
-  std::vector<std::int64_t> parts;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     passages.push_back(static_cast<std::uint8_t>(boxes[i].passage));
     CORANK_CHECK(boxes[i].side.empty() || boxes[i].side.size() == n);
     std::copy(boxes[i].side.begin(), boxes[i].side.end(), sides.begin() + static_cast<std::ptrdiff_t>(i * n));
-    parts.push_back(boxes[i].part);
   }
   file.enumeration(group + "/passage", passages, passage_words());
   file.doubles(group + "/side", sides, boxes.size(), n);
-  if (!result.parts.empty()) file.integers(group + "/part", parts);
+}
+
+// Of a whole, from which part each box comes.
+void write_parts(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, const Result& result) {
+  if (result.parts.empty()) return;
+  std::vector<std::int64_t> parts;
+  for (const CoverBox& box : boxes) parts.push_back(box.part);
+  file.integers(group + "/part", parts);
 }
 
 // Bits of the types' names, in the order of the attribute `types`.
@@ -188,6 +193,7 @@ class ResultReader {
       file_.enter("/parts/" + std::to_string(i));
       Result part = read_one(&result);
       part.part = word("/", "part");
+      if (file_.has_attribute("/", "condition")) part.condition = word("/", "condition");
       if (part.outputs != result.outputs) refuse("a part has other outputs than the whole");
       result.parts.push_back(std::move(part));
     }
@@ -253,6 +259,8 @@ class ResultReader {
       read_passages("/boxes", result.outputs.size(), result.cover.boxes);
       read_passages("/points", result.outputs.size(), result.cover.points);
     }
+    read_parts("/boxes", result.cover.boxes);
+    read_parts("/points", result.cover.points);
     if (reading_.sides) keep_sides(result);
     return result;
   }
@@ -278,15 +286,20 @@ class ResultReader {
   void read_passages(const std::string& group, std::size_t n, std::vector<CoverBox>& boxes) const {
     const std::vector<std::uint8_t> passages = file_.enumeration(group + "/passage", passage_words());
     const std::vector<double> sides = file_.doubles(group + "/side", boxes.size(), n);
-    const bool has_parts = file_.has(group + "/part");
-    const std::vector<std::int64_t> parts =
-        has_parts ? file_.integers(group + "/part") : std::vector<std::int64_t>(boxes.size(), -1);
-    if (passages.size() != boxes.size() || parts.size() != boxes.size()) refuse(group + " differ in length");
+    if (passages.size() != boxes.size()) refuse(group + " differ in length");
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       boxes[i].passage = static_cast<Passage>(passages[i]);
       if (boxes[i].passage != Passage::unproven)
         boxes[i].side.assign(sides.begin() + static_cast<std::ptrdiff_t>(i * n),
                              sides.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
+    }
+  }
+
+  void read_parts(const std::string& group, std::vector<CoverBox>& boxes) const {
+    if (!file_.has(group + "/part")) return;
+    const std::vector<std::int64_t> parts = file_.integers(group + "/part");
+    if (parts.size() != boxes.size()) refuse(group + " differ in length");
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
       if (parts[i] < -1 || parts[i] > kMostParts) refuse(group + "/part names a part that is not there");
       boxes[i].part = static_cast<int>(parts[i]);
     }
@@ -474,10 +487,12 @@ void write_own(Hdf5Writer& file, const Result& result) {
   write_boxes(file, "/boxes", result.cover.boxes, result.variables.size());
   write_reasons(file, "/boxes", result.cover.boxes);
   write_passages(file, "/boxes", result.cover.boxes, result);
+  write_parts(file, "/boxes", result.cover.boxes, result);
   write_counts(file, result.cover);
   write_boxes(file, "/points", result.cover.points, result.variables.size());
   write_reasons(file, "/points", result.cover.points);
   write_passages(file, "/points", result.cover.points, result);
+  write_parts(file, "/points", result.cover.points, result);
   write_types(file, result.cover);
   write_statistics(file, result.cover.statistics);
   write_certificates(file, result.cover, result.variables.size());
@@ -501,6 +516,7 @@ void write_result(const std::filesystem::path& path, const Result& result) {
   for (std::size_t i = 0; i < result.parts.size(); ++i) {
     file.enter("/parts/" + std::to_string(i));
     file.attribute("/", "part", result.parts[i].part);
+    if (!result.parts[i].condition.empty()) file.attribute("/", "condition", result.parts[i].condition);
     write_own(file, result.parts[i]);
   }
   if (!result.assembly.empty()) {

@@ -183,15 +183,29 @@ std::string passages_text(const Result& result) {
     between = ",";
   }
   text += " boxes\n";
+  return text;
+}
+
+// What of each part of a set was found.
+std::string parts_text(const Result& result) {
+  std::string text;
   std::size_t width = 0, empty = 0;
   for (const Result& part : result.parts) width = std::max(width, part.cover.boxes.empty() ? 0 : part.part.size());
   for (const Result& part : result.parts) {
-    empty += part.cover.boxes.empty();
-    if (!part.cover.boxes.empty())
-      text += fmt::format("  {:<{}}  {:>8}\n", part.part, width, plural(part.cover.boxes.size(), "box"));
+    const bool is_empty = part.cover.boxes.empty();
+    empty += is_empty;
+    if (!is_empty) {
+      const std::size_t open = part.cover.counts()[static_cast<std::size_t>(Verdict::undecided)];
+      text += fmt::format("  {:<{}}  {:>8}{}{}\n", part.part, width, plural(part.cover.boxes.size(), "box"),
+                          open > 0 ? fmt::format(", {} undecided", open) : "", part.cover.complete() ? "" : ", INCOMPLETE");
+    }
   }
   if (empty > 0) text += fmt::format("  {} without a solution\n", plural(empty, "part"));
-  return text;
+  if (result.parts.empty() || !result.outputs.empty()) return text;
+  return fmt::format("\n{}:\n{}",
+                     result.parts.size() == 1 ? "by one equation in place of a kernel vector"
+                                              : fmt::format("the union of {} parts", result.parts.size()),
+                     text);
 }
 
 std::string seconds_text(const Cover& cover) {
@@ -281,7 +295,8 @@ std::string to_table(const Result& result) {
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
   text += reasons_text(cover);
   if (result.seems_of_corank > result.options.corank)
-    text += fmt::format("    the kernel there seems to have dimension {0}: try --corank {0}\n", result.seems_of_corank);
+    text += fmt::format("    the kernel there seems to have dimension {0}: try --corank {0}, or --kernel none\n",
+                        result.seems_of_corank);
   text += motions_text(result);
   if (!result.domain.boundary.empty()) text += boundary_text(result.domain);
   if (const std::size_t wide = cover.wider_than_sigma; wide > 0) {
@@ -318,7 +333,7 @@ std::string to_table(const Result& result) {
     if (!cover.decimals.empty()) text += decimals_text(result);
   }
   if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += "\n" + meaning + "\n";
-  text += kernel_text(result) + types_text(cover) + passages_text(result);
+  text += kernel_text(result) + types_text(cover) + passages_text(result) + parts_text(result);
   return text + seconds_text(cover);
 }
 

@@ -60,12 +60,18 @@ Json passages_json(const Result& result) {
 Json parts_json(const Result& result) {
   Json list = Json::array();
   for (const Result& part : result.parts) {
-    Json entry = {{"part", part.part}, {"boxes", part.cover.boxes.size()}};
+    Json entry = {{"part", part.part},
+                  {"boxes", part.cover.boxes.size()},
+                  {"dimension", part.cover.dimension},
+                  {"complete", part.cover.complete()}};
+    if (!part.condition.empty()) entry["condition"] = part.condition;
     const auto counts = part.cover.counts();
     for (const Verdict verdict : kVerdictsInOrder)
       if (const std::size_t n = counts[static_cast<std::size_t>(verdict)]; n > 0) entry[to_string(verdict)] = n;
-    entry["boundary"] = passages_json(part);
-    entry["boundary"].erase("outputs");
+    if (!result.outputs.empty()) {
+      entry["boundary"] = passages_json(part);
+      entry["boundary"].erase("outputs");
+    }
     entry["seconds"] = part.cover.statistics.seconds_total;
     list.push_back(std::move(entry));
   }

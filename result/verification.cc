@@ -14,9 +14,9 @@
 #include "corank/result/printable.h"
 #include "corank/result/summary.h"
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/boundary.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
+#include "corank/symbolic/set_parts.h"
 #include "corank/symbolic/velocity_blocks.h"
 
 namespace corank::result {
@@ -129,7 +129,7 @@ symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism,
                                            const RunOptions& options) {
   const auto side = symbolic::kernel_side_from_string(options.kernel);
   if (symbolic::definition(set).of_parts)
-    return symbolic::boundary_system(mechanism, symbolic::boundary_parts(mechanism).front(), options.kernel_scales);
+    return part_system(mechanism, set, symbolic::set_parts(mechanism, set).front(), options.kernel_scales);
   if (!symbolic::definition(set).has_kernel() || !options.passive_rates_eliminated)
     return symbolic::singularity_system(mechanism, set, side, options.kernel_scales, options.corank);
   return symbolic::singularity_system(
@@ -142,15 +142,15 @@ symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism,
 namespace {
 
 // Of a part, or of what all parts have in common.
-System system_of_part(const symbolic::Mechanism& mechanism, const Result& result) {
+System system_of_part(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const Result& result) {
   if (result.part.empty()) {
     System system = symbolic::configurations(mechanism);
     system.coefficient_tolerance = result.options.tolerance;
     return system;
   }
-  for (const symbolic::BoundaryPart& part : symbolic::boundary_parts(mechanism)) {
-    if (part.text() != result.part) continue;
-    System system = symbolic::compiled_part(mechanism, part, result.options.kernel_scales);
+  for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, set)) {
+    if (text(part) != result.part) continue;
+    System system = symbolic::compiled_part(mechanism, set, part, result.options.kernel_scales);
     system.coefficient_tolerance = result.options.tolerance;
     return system;
   }
@@ -165,7 +165,8 @@ System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (mechanism.is_plain_system() ? result.set != symbolic::definition(std::nullopt).name : !set)
     throw ResultFileError("the result's model has no set '" + result.set + "'");
-  if (set && symbolic::definition(set).of_parts) return system_of_part(mechanism, result);
+  if (set && (symbolic::definition(set).of_parts || !result.part.empty() || !result.parts.empty()))
+    return system_of_part(mechanism, *set, result);
   System system =
       symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism));
   system.coefficient_tolerance = result.options.tolerance;
@@ -230,15 +231,18 @@ bool same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBox>& b) 
 }  // namespace
 
 std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result) {
-  if (!symbolic::definition(result.set).of_parts)
-    return result.parts.empty() ? std::vector<std::string>{} : std::vector<std::string>{"the set has no parts"};
-  const std::vector<symbolic::BoundaryPart> expected = symbolic::boundary_parts(model);
+  const bool is_boundary = symbolic::definition(result.set).of_parts;
+  if (!is_boundary && result.parts.empty()) return {};
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (!set || !symbolic::definition(set).has_kernel()) return {"the set has no parts"};
+  const std::vector<symbolic::SetPart> expected = symbolic::set_parts(model, *set);
   const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(),
-                              [](const symbolic::BoundaryPart& a, const Result& b) { return a.text() == b.part; });
+                              [](const symbolic::SetPart& a, const Result& b) { return text(a) == b.part; });
   if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
   std::vector<std::string> list;
   for (const Result& part : result.parts) {
-    if (part.outputs != model.outputs()) list.push_back("(part: " + part.part + ") the outputs are not those of the model");
+    if (is_boundary && part.outputs != model.outputs())
+      list.push_back("(part: " + part.part + ") the outputs are not those of the model");
     if (part.variables.size() < result.variables.size() || part.set != result.set) return {"a part is of another set"};
   }
   Result merged = result;

@@ -19,9 +19,11 @@
 namespace corank::study {
 namespace {
 
+bool is_component(const Question& q) { return q.part && std::holds_alternative<symbolic::Component>(*q.part); }
+
 // The side that was taken where none was asked for.
 std::string kernel_of(const Question& q) {
-  if (!symbolic::definition(q.set).has_kernel()) return "";
+  if (!symbolic::definition(q.set).has_kernel() || is_component(q)) return "";
   return to_string(symbolic::kernel_question(q.model, derive(q.model).velocity, *q.set, q.kernel).side);
 }
 
@@ -65,7 +67,7 @@ result::Result answer(const Question& question, const Options& options) {
   options.search.validate();
   solve::Control control(solve::limits_of(options.search));
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  const std::vector<Question> parts = parts_of(question);
+  const std::vector<Question> parts = parts_of(question, [&control] { return control.ended(); });
   std::vector<System> systems;
   for (const Question& part : parts) systems.push_back(system(part));
   control.ended();  // notes the stage
@@ -96,7 +98,9 @@ result::Result join(const std::vector<Question>& parts, std::vector<result::Resu
   whole.system_text = symbolic::to_cuik(common);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     whole.parts.push_back(std::move(results[i]));
-    whole.parts.back().part = parts[i].part->text();
+    whole.parts.back().part = text(*parts[i].part);
+    if (const auto* component = std::get_if<symbolic::Component>(&*parts[i].part))
+      whole.parts.back().condition = component->relation();
   }
   result::merge_parts(whole);
   result::describe_in_words(first.model, common, whole);
@@ -123,7 +127,7 @@ result::Result answer(const Question& question, const System& system, const Opti
 }
 
 std::optional<VelocityBlocks> type_blocks(const Question& q) {
-  if (!q.set || symbolic::definition(q.set).of_parts) return std::nullopt;
+  if (!q.set || q.part) return std::nullopt;
   return symbolic::velocity_blocks(q.model, *q.set, q.kernel, q.corank);
 }
 
@@ -157,7 +161,7 @@ result::Result describe(const Question& question, const System& system, const Op
                     search.max_solutions,         search.time_limit,  question.constants};
   result.options.corank = system.kernel_vectors;
   result.options.outputs = question.outputs;
-  if (question.part) result.outputs = question.model.outputs();
+  if (question.part && !is_component(question)) result.outputs = question.model.outputs();
   result.options.passive_rates_eliminated = system.passive_rates_eliminated;
   describe_corank(system, result);
   if (question.assembly) describe_states(*question.assembly, result);

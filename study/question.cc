@@ -33,24 +33,43 @@ void settle_sizes(System& system) {
   }
 }
 
+bool is_solved_in_components(const Question& q) {
+  const symbolic::SetDefinition& set = definition(q.set);
+  if (!set.has_kernel() || set.locked.empty() || set.type || q.kernel || q.corank != 1) return false;
+  if (q.in_parts) return *q.in_parts;
+  if (q.assembly && !q.assembly->parallelograms.empty()) return true;
+  constexpr long kLeastMobility = 3;
+  const symbolic::ExpressionMatrix velocity = derive(q.model).velocity.matrix;
+  const std::vector<symbolic::Coordinate>& all = q.model.coordinates();
+  return std::ssize(velocity.columns) - std::ssize(velocity.rows) -
+             std::count_if(all.begin(), all.end(), symbolic::is_fixed) >=
+         kLeastMobility;
+}
+
+// The only part of a set, or all of a boundary.
+bool is_better_than_whole(const symbolic::SetPart& part) {
+  const auto* component = std::get_if<symbolic::Component>(&part);
+  return !component || component->is_free;
+}
+
 }  // namespace
 
-std::vector<Question> parts_of(const Question& question) {
-  if (!definition(question.set).of_parts) return {question};
+std::vector<Question> parts_of(const Question& question, const Ended& ended) {
   std::vector<Question> parts;
-  for (symbolic::BoundaryPart& part : symbolic::boundary_parts(question.model)) {
+  if (!question.set || !(definition(question.set).of_parts || is_solved_in_components(question))) return {question};
+  for (symbolic::SetPart& part : symbolic::set_parts(question.model, *question.set, ended)) {
     parts.push_back(question);
     parts.back().part = std::move(part);
   }
-  return parts;
+  if (parts.size() > 1 || (parts.size() == 1 && (question.in_parts.value_or(false) || is_better_than_whole(*parts[0].part))))
+    return parts;
+  return {question};
 }
 
 symbolic::TrigonometricSystem equations(const Question& q) {
   if (!q.set) return symbolic::plain_system(q.model);
-  if (definition(q.set).of_parts) {
-    CORANK_CHECK(q.part.has_value());
-    return symbolic::boundary_system(q.model, *q.part, symbolic::boundary_scales(q.model, *q.part));
-  }
+  CORANK_CHECK(q.part || !definition(q.set).of_parts);
+  if (q.part) return symbolic::part_system(q.model, *q.set, *q.part, symbolic::part_scales(q.model, *q.set, *q.part));
   if (!definition(q.set).has_kernel())
     return symbolic::singularity_system(q.model, *q.set, q.kernel, symbolic::kernel_scales(q.model, *q.set), q.corank);
   const auto kernel = symbolic::without_passive_rates(
@@ -70,7 +89,8 @@ System system(const Question& question, const symbolic::TrigonometricSystem& equ
                                  "a sum of the equations times polynomials, with rational coefficients; or leave it out, "
                                  "since it only serves to shorten the search");
   }
-  if (question.part) system.passage = symbolic::passage_form(question.model, *question.part, equations);
+  if (const auto* limits = question.part ? std::get_if<symbolic::BoundaryPart>(&*question.part) : nullptr)
+    system.passage = symbolic::passage_form(question.model, *limits, equations);
   settle_sizes(system);
   system.coefficient_tolerance = question.tolerance.value_or(question.set ? 0 : solve::printed_tolerance(system));
   return system;

@@ -7,7 +7,7 @@
 #include "corank/core/system.h"
 #include "corank/kinematics/assembly.h"
 #include "corank/result/result.h"
-#include "corank/symbolic/boundary.h"
+#include "corank/symbolic/set_parts.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::study {
@@ -19,13 +19,18 @@ struct Question {
   int corank = 1;                                     ///< the kernel's dimension, at least, of the configurations asked for
   std::vector<result::ConstantOverride> constants{};  ///< those that were put in, for the record
   std::optional<kinematics::Assembly> assembly{};     ///< of a robot from parts: results say where its links are
-  std::vector<std::string> outputs{};  ///< that were put in (result::put_in), for the record: of a workspace boundary
-  std::optional<symbolic::BoundaryPart> part{};  ///< of a set of parts: which one (parts_of)
+  std::vector<std::string> outputs{};       ///< that were put in (result::put_in), for the record: of a workspace boundary
+  std::optional<bool> in_parts{};           ///< is a union solved part by part? Nothing: parts_of() decides
+  std::optional<symbolic::SetPart> part{};  ///< which one
   std::optional<double> tolerance{};  ///< of coefficients, relative; nothing: printed_tolerance() of a plain system, else 0
 };
 
-/// Of a set of parts the question about each of them; of another set the question itself. Throws symbolic::ModelError.
-std::vector<Question> parts_of(const Question& question);
+/// Of a set that is solved in parts the question about each of them (symbolic/set_parts.h); of another set the question
+/// itself. A union, or a hypersurface among an arm's joints, is solved so where it has dimension 2 or more, or the robot has
+/// written-out parallelograms, along whose flat positions parts coincide; where it is asked for without a kernel's side or
+/// corank, and `in_parts` does not say otherwise. Other curves and points are few boxes either way, and the kernel vector of
+/// the whole says more. Throws symbolic::ModelError. `ended`: as decompose().
+std::vector<Question> parts_of(const Question& question, const Ended& ended = {});
 
 /// The equations of the set, its kernel vectors scaled (symbolic/kernel_scale.h); of a set of parts those of
 /// question.part. Throws symbolic::ModelError.

@@ -29,7 +29,7 @@ Options of_cluster(Options options) {
 SpreadRun::SpreadRun(const Question& question, Options options, const std::atomic<bool>* stop)
     : options_(of_cluster(options)), control_(limits_of(options_.search, stop)) {
   const solve::InStage stage(control_, solve::Stage::model);
-  parts_ = parts_of(question);
+  parts_ = parts_of(question, [this] { return control_.ended(); });
   for (const Question& part : parts_) {
     systems_.push_back(system(part));
     options_.search.validate(systems_.back());

@@ -31,6 +31,7 @@ class Algebrizer {
   void add_coordinates();
   void add_length(const Coordinate& coordinate);
   void add_angle(const Coordinate& coordinate);
+  void add_tie(const AngleTie& tie);
   void add_kernel_unknowns();
   void add_equation(const TrigonometricSystem::Equation& equation);
   void add_inequality(const TrigonometricSystem::Equation& inequality);
@@ -45,7 +46,7 @@ class Algebrizer {
   PolynomialExpander expander_;
   std::set<std::string> names_;
   std::vector<Polynomial> angle_equations_, chords_;
-  std::vector<std::string> fixed_angles_;
+  std::vector<std::string> special_angles_;  // of one value, or tied
 };
 
 std::string equation_text(const TrigonometricSystem::Equation& equation) {
@@ -118,9 +119,11 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
   const auto c = ExpandedPolynomial::variable(angle.cosine), s = ExpandedPolynomial::variable(angle.sine);
   if (condition.value) {
     expander_.add_fixed_angle(coordinate.name, range.lower);
-    fixed_angles_.push_back(coordinate.name);
+    special_angles_.push_back(coordinate.name);
     angle_equations_.push_back((c - condition.value->cosine).compile("value of " + coordinate.name));
     angle_equations_.push_back((s - condition.value->sine).compile("value of " + coordinate.name));
+  } else if (in_.tie && in_.tie->angle == coordinate.name) {
+    expander_.add_tied_angle(*in_.tie);
   } else {
     expander_.add_angle(coordinate.name, angle.cosine, angle.sine);
     angle_equations_.push_back((pow(c, 2) + pow(s, 2) - 1).compile("circle of " + coordinate.name));
@@ -130,6 +133,18 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
     chords_.push_back((cos_m * c + sin_m * s - cos_h).compile("range of " + coordinate.name));
   }
   out_.angles.push_back(std::move(angle));
+}
+
+// In place of the circle, on which the other angle is.
+void Algebrizer::add_tie(const AngleTie& tie) {
+  const Expression angle = Expression::symbol(tie.angle);
+  const auto own = std::find_if(out_.angles.begin(), out_.angles.end(), [&](const Angle& a) { return a.name == tie.angle; });
+  for (const auto& [function, variable] : {std::pair("cos", own->cosine), std::pair("sin", own->sine)}) {
+    const ExpandedPolynomial value =
+        expander_.polynomial(Expression::function(function, {angle}), tie.text(), {in_.name, 0, 0});
+    angle_equations_.push_back((ExpandedPolynomial::variable(variable) - value).compile(tie.text()));
+  }
+  special_angles_.insert(special_angles_.end(), {tie.angle, tie.other});
 }
 
 void Algebrizer::add_kernel_unknowns() {
@@ -155,9 +170,9 @@ ExpandedPolynomial Algebrizer::difference(const TrigonometricSystem::Equation& e
 void Algebrizer::add_equation(const TrigonometricSystem::Equation& equation) {
   Polynomial polynomial = difference(equation).compile(equation.source);
   if (polynomial.monomials.empty()) {
-    // A kernel row that the constants make zero says nothing about xi, and where an angle has one value an equation may say
-    // nothing there. Any other equation of the model that says nothing is a mistake.
-    if (equation.of_kernel || mentions(equation.relation, fixed_angles_)) return;
+    // A kernel row that the constants make zero says nothing about xi, and where an angle has one value, or
+    // is tied to another, an equation may say nothing there. Any other equation of the model that says nothing is a mistake.
+    if (equation.of_kernel || mentions(equation.relation, special_angles_)) return;
     throw ModelError(equation.where, "the equation " + equation_text(equation) + " holds always",
                      "an equation between unknowns");
   }
@@ -202,6 +217,7 @@ void Algebrizer::add_coordinates() {
     coordinate.kind == CoordinateKind::angle ? add_angle(coordinate) : add_length(coordinate);
     for (auto v = first; v < out_.variables.size(); ++v) out_.variables[v].auxiliary = coordinate.auxiliary;
   }
+  if (in_.tie) add_tie(*in_.tie);
 }
 
 System Algebrizer::run() {
@@ -221,7 +237,7 @@ System Algebrizer::run() {
     if (!equation.of_kernel) add_equation(equation);
   out_.equations.insert(out_.equations.end(), angle_equations_.begin(), angle_equations_.end());
   for (const auto& equation : in_.equations)
-    if (equation.of_kernel) add_equation(equation);
+    if (equation.of_kernel && !equation.is_tie) add_equation(equation);
   for (const auto& inequality : in_.inequalities) add_inequality(inequality);
   for (const auto& claim : in_.claimed) out_.claimed.push_back(difference(claim).compile(claim.source));
   out_.inequalities.insert(out_.inequalities.end(), chords_.begin(), chords_.end());

@@ -216,13 +216,6 @@ std::optional<PassageForm> passage_form(const Mechanism& mechanism, const Bounda
   return form;
 }
 
-System compiled_part(const Mechanism& mechanism, const BoundaryPart& part, const std::vector<std::string>& scales) {
-  const TrigonometricSystem equations = boundary_system(mechanism, part, scales);
-  System system = algebrize(equations);
-  system.passage = passage_form(mechanism, part, equations);
-  return system;
-}
-
 System configurations(const Mechanism& mechanism) {
   System system = algebrize(plain_system(mechanism));
   const int n = system.configuration_size;

@@ -52,9 +52,6 @@ std::vector<std::string> boundary_scales(const Mechanism& mechanism, const Bound
 std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
                                         const TrigonometricSystem& system);
 
-/// algebrize() of the part's system, with its passage form.
-System compiled_part(const Mechanism& mechanism, const BoundaryPart& part, const std::vector<std::string>& scales);
-
 /// The configurations of a mechanism, without what is no coordinate or its sine or cosine: what boxes of all parts have
 /// in common.
 System configurations(const Mechanism& mechanism);

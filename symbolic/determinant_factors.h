@@ -5,16 +5,10 @@
 #include <vector>
 
 #include "corank/core/ended.h"
-#include "corank/symbolic/model_error.h"
+#include "corank/symbolic/exact_matrix.h"
 #include "corank/symbolic/velocity_equation.h"
 
 namespace corank::symbolic {
-
-/// No mistake of the model's: its determinant, expanded, is too long to be of use.
-class DeterminantTooLarge : public ModelError {
- public:
-  using ModelError::ModelError;
-};
 
 /// Expressions in coordinates and constants, none twice, of which each divides det M and whose zeros are those of det M;
 /// none where det M is a constant other than 0. Sines and cosines count as unknowns of their own: what only sin² + cos² =

@@ -196,16 +196,22 @@ ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e
   std::map<std::string, int> angles;
   std::map<std::string, ConstantValue> lengths;
   ConstantValue offset = form.offset;
+  int quarters = 0;
   for (const auto& each : form.multiples) {  // no structured binding: C++20's lambdas may capture it, clang 14's may not
     const std::string& name = each.first;
     const ConstantValue& multiple = each.second;
     if (is_angle(name)) {
       const int n = whole_multiple(e, name, multiple);
       const auto fixed = fixed_angles_.find(name);
-      if (fixed == fixed_angles_.end()) {
-        angles.emplace(name, n);
-      } else {
+      const auto tied = tied_angles_.find(name);
+      if (fixed != fixed_angles_.end()) {
         offset = guarded(e, [&] { return offset + n * fixed->second; });
+      } else if (tied != tied_angles_.end()) {
+        const AngleTie& tie = tied->second;
+        angles[tie.other] += tie.sign * n;
+        quarters += tie.quarters * n;
+      } else {
+        angles[name] += n;
       }
       continue;
     }
@@ -223,7 +229,13 @@ ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e
       sine = sine * b.first + cosine * b.second;
       cosine = std::move(next);
     };
+    for (; quarters % 4 != 0; quarters += quarters > 0 ? -1 : 1) {
+      ExpandedPolynomial next = quarters > 0 ? -sine : sine;
+      sine = quarters > 0 ? cosine : -cosine;
+      cosine = std::move(next);
+    }
     for (const auto& [name, n] : angles) {
+      if (n == 0) continue;
       const AngleVariables& own = angles_.at(name);
       add(multiple_angle(n, ExpandedPolynomial::variable(own.cosine), ExpandedPolynomial::variable(own.sine)));
     }

@@ -9,6 +9,7 @@
 #include "corank/symbolic/expanded_polynomial.h"
 #include "corank/symbolic/expression.h"
 #include "corank/symbolic/length_functions.h"
+#include "corank/symbolic/singularity_system.h"
 
 namespace corank::symbolic {
 
@@ -22,6 +23,8 @@ class PolynomialExpander {
   void add_angle(const std::string& name, int cosine, int sine) { angles_.emplace(name, AngleVariables{cosine, sine}); }
   /// An angle of one value. It may stand where an angle may, and counts as that constant.
   void add_fixed_angle(const std::string& name, ConstantValue value) { fixed_angles_.emplace(name, std::move(value)); }
+  /// sign·other + quarters·π/2, where `other` is an angle with variables.
+  void add_tied_angle(const AngleTie& tie) { tied_angles_.emplace(tie.angle, tie); }
   /// Sines and cosines of lengths that polynomials hold, to be settled when all of them are made.
   LengthFunctions& length_functions() { return length_functions_; }
 
@@ -52,7 +55,9 @@ class PolynomialExpander {
   LinearForm linear_form(const Expression& e);
   int whole_multiple(const Expression& e, const std::string& angle, const ConstantValue& multiple) const;
   CosineAndSine of_lengths(const std::map<std::string, ConstantValue>& multiples);
-  bool is_angle(const std::string& name) const { return angles_.contains(name) || fixed_angles_.contains(name); }
+  bool is_angle(const std::string& name) const {
+    return angles_.contains(name) || fixed_angles_.contains(name) || tied_angles_.contains(name);
+  }
   bool has_unknown(const Expression& e) const;
   /// What an expression without unknowns is worth.
   ConstantValue value(const Expression& e);
@@ -64,6 +69,7 @@ class PolynomialExpander {
   std::map<std::string, int> unknowns_;
   std::map<std::string, AngleVariables> angles_;
   std::map<std::string, ConstantValue> fixed_angles_;
+  std::map<std::string, AngleTie> tied_angles_;
   LengthFunctions length_functions_;
   std::string what_;      // being expanded, for messages
   SourceLocation where_;  // its place

@@ -1,6 +1,7 @@
 #include "corank/symbolic/singularity_system.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <ranges>
 
@@ -253,6 +254,12 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
 }
 
 }  // namespace
+
+Relation AngleTie::relation() const {
+  static constexpr std::array<const char*, 4> kOffsets = {"", " + pi/2", " + pi", " - pi/2"};
+  return Expression::symbol(angle) ==
+         Expression((sign < 0 ? "-" : "") + other + kOffsets[static_cast<std::size_t>(quarters)]);
+}
 
 std::vector<Expression> kernel_components(const TrigonometricSystem& system) {
   return scaled(system.kernel_unknowns, system.kernel_scales);

@@ -15,6 +15,16 @@
 
 namespace corank::symbolic {
 
+/// a = sign·b + quarters·π/2 (mod 2π), between angles a and b of which a stands behind b.
+struct AngleTie {
+  std::string angle, other;
+  int sign = 1, quarters = 0;
+
+  Relation relation() const;
+  /// "phi = theta", "phi = -theta + pi", "phi = theta - pi/2".
+  std::string text() const { return relation().text(); }
+};
+
 /// Equations with sines and cosines over coordinates, then kernel unknowns.
 struct TrigonometricSystem {
   std::string name;  ///< "dextar forward"
@@ -33,11 +43,13 @@ struct TrigonometricSystem {
     int lower = -1, upper = 1;
   };
   std::vector<Unknown> further_unknowns;  ///< of cusps and nodes, in place of kernel unknowns
+  std::optional<AngleTie> tie{};          ///< of angles that have more than one value
   struct Equation {
     Relation relation;
     std::string source;  ///< "dextar.cuik:17", "row 3 of L_y xi = 0", "norm of xi" …
     SourceLocation where;
     bool of_kernel = false;  ///< about ξ, not q alone
+    bool is_tie = false;     ///< what `tie` says, in words
   };
   std::vector<Equation> equations;     ///< all with =
   std::vector<Equation> inequalities;  ///< ≤ or ≥

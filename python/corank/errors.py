@@ -24,6 +24,7 @@ _SAID_HERE = [
     (r"--orientation-of (\w+)", r'orientation_of="\1"'),
     (r"--tolerance (\S+)", r"tolerance=\1"),
     (r"--corank (\d+)", r"corank=\1"),
+    (r"--kernel (\w+)", r'kernel="\1"'),
     (r"\(all coordinates: --json\)", "(all coordinates: sample)"),
     (r"(?<=more: )--json\b", "summary"),
     (r"corank derive FILE --format model prints these equations as", "Mechanism.text has these equations as"),

@@ -226,7 +226,9 @@ class Mechanism:
             set: corank.SETS has the names: "cspace", "forward", "inverse" …, or "nodes". Of a plain system None.
             sigma: the largest edge of a box of proven solutions, in lengths and in the sines and cosines of angles; None: a
                 share of the size of the set that is found. sigma_length, sigma_angle: for each kind.
-            kernel: the side of the kernel vector, "right" or "left"; None: what fits the matrix.
+            kernel: the side of the kernel vector, "right" or "left"; "none": the set is solved in parts, each with an
+                equation of its own and no kernel vector; None: what fits the matrix, or "none" where a set of dimension 2
+                or more is the union of parts.
             corank: the configurations where the kernel has this dimension at least.
             outputs: of the set "boundary", in place of the model's.
             tolerance: of the coefficients that are no integers, relative; 0: exact; None: 1e-6 for a plain system with more

@@ -274,8 +274,13 @@ class Result:
 
     @property
     def parts(self) -> List["Result"]:
-        """Of a set that consists of parts, such as "boundary": a result of each."""
+        """Of a set that is solved in parts (a workspace's boundary, or a union): a result of each, whose name is `part`."""
         return [Result(part) for part in self._core.parts]
+
+    @property
+    def part(self) -> str:
+        """Which part of a set it is, "theta2 at its upper limit" or "psi1 = theta1"; "" of a whole."""
+        return str(self._core.part)
 
     @property
     def summary(self) -> Dict[str, Any]:

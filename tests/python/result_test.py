@@ -207,6 +207,16 @@ def test_a_boundary_has_parts_and_passages(models):
     assert area is not None and 0 < area.lo <= area.hi
 
 
+def test_a_union_has_parts_with_conditions(models):
+    legs = corank.load(models / "planar" / "3prr.cuik").solve("inverse", sigma=0.5)
+    assert len(legs.parts) == 3 and len(legs) == sum(len(p) for p in legs.parts)
+    assert [p["condition"] for p in legs.summary["parts"]] == [p.part for p in legs.parts]
+    assert legs.parts[2].part == "cos(psi1) = 0"
+    dextar = corank.load(models / "dextar.cuik")
+    assert not dextar.solve("forward").parts
+    assert [p.part for p in dextar.solve("forward", kernel="none").parts] == ["theta4 = theta3", "theta4 = theta3 + pi"]
+
+
 def test_limits_leave_a_valid_result_that_says_so(dextar):
     r = dextar.solve("cspace", sigma=0.2, max_boxes=100, threads=1)
     assert not r.complete and "box limit" in r.stopped and r.counts["pending"] > 0

@@ -10,9 +10,9 @@
 #include "corank/result/verification.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
-#include "corank/symbolic/boundary.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
+#include "corank/symbolic/set_parts.h"
 
 namespace corank::result {
 namespace {
@@ -28,7 +28,7 @@ const Result& arm() {
     describe_system(common, whole);
     whole.system_text = symbolic::to_cuik(common);
     for (const symbolic::BoundaryPart& part : symbolic::boundary_parts(mechanism)) {
-      const System system = symbolic::compiled_part(mechanism, part, {});
+      const System system = symbolic::compiled_part(mechanism, symbolic::SingularitySet::boundary, part, {});
       Result one;
       one.model = whole.model;
       one.model_text = whole.model_text;

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/boundary.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/model_text.h"
+#include "corank/symbolic/set_parts.h"
 
 namespace corank::symbolic {
 namespace {
@@ -113,7 +113,7 @@ TEST(BoundaryParts, NeedOutputs) {
 TEST(BoundaryParts, AreSystemsOfTheExpectedDimension) {
   const Mechanism m = parse_model(rod("t : [0, pi]\ns : [-1, 1]\nx : [0, 1]\n"), "m.cuik");
   for (const BoundaryPart& part : boundary_parts(m)) {
-    const System system = compiled_part(m, part, boundary_scales(m, part));
+    const System system = compiled_part(m, SingularitySet::boundary, part, boundary_scales(m, part));
     EXPECT_EQ(system.dimension(), part.of_output ? 2 : 1) << part.text();  // a length at its limit is a domain of one number
     ASSERT_TRUE(system.passage.has_value());
     EXPECT_EQ(system.passage->slack.size(), part.active.size());

@@ -1,0 +1,260 @@
+#include "corank/symbolic/decomposition.h"
+
+#include <algorithm>
+
+#include "corank/certify/compiled_system.h"
+#include "corank/core/rounding.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/exact_matrix.h"
+#include "corank/symbolic/kernel_scale.h"
+#include "corank/symbolic/passive_rates.h"
+
+namespace corank::symbolic {
+namespace {
+
+constexpr std::size_t kMostRows = 3;     // of a block whose determinant is a condition though it is no product
+constexpr std::size_t kMostTerms = 200;  // of a condition: longer ones make wide enclosures
+constexpr std::size_t kLongestName = 60;
+
+// The configurations, whatever the set.
+class Space {
+ public:
+  explicit Space(const Mechanism& mechanism) : mechanism_(mechanism), equations_(plain_system(mechanism)) {}
+
+  // Proven, over the whole search domain: no zero.
+  bool vanishes_nowhere(const Expression& condition) const {
+    std::vector<Polynomial> value;
+    try {
+      value = polynomials(equations_, {condition});
+    } catch (const ModelError&) {  // a sine of a length
+      return false;
+    }
+    const System system = algebrize(equations_);
+    const certify::CompiledSystem compiled(system, value);
+    const UpwardRounding rounding;
+    return compiled.evaluate(compiled.value_row(0), system.domain()).mig() > 0;
+  }
+
+  bool is_fixed(const std::string& angle) const { return symbolic::is_fixed(coordinate(angle)); }
+  std::size_t index(const std::string& angle) const { return static_cast<std::size_t>(mechanism_.find_coordinate(angle)); }
+
+  // Else an equation is a contradiction.
+  bool has_system(const AngleTie& tie) const {
+    TrigonometricSystem system = equations_;
+    system.tie = tie;
+    try {
+      static_cast<void>(algebrize(system));
+    } catch (const ModelError&) {
+      return false;
+    }
+    return true;
+  }
+
+ private:
+  const Coordinate& coordinate(const std::string& name) const { return equations_.coordinates[index(name)]; }
+  const Mechanism& mechanism_;
+  const TrigonometricSystem equations_;
+};
+
+// sin and cos of one coordinate each, as they stand in a product of two.
+struct Wave {
+  std::string angle;
+  bool is_sine = false;
+};
+
+std::optional<Wave> wave_of(const Expression& e) {
+  if (e.kind() != Expression::Kind::function || (e.name() != "sin" && e.name() != "cos")) return std::nullopt;
+  const Expression& argument = e.operands()[0];
+  if (argument.kind() != Expression::Kind::symbol) return std::nullopt;
+  return Wave{argument.name(), e.name() == "sin"};
+}
+
+struct Product {
+  int sign = 1;
+  Wave first, second;
+};
+
+std::optional<Product> product_of(Expression e) {
+  Product result;
+  if (e.kind() == Expression::Kind::negation) {
+    result.sign = -1;
+    e = Expression(e.operands()[0]);
+  }
+  if (e.kind() != Expression::Kind::product || e.operands().size() != 2) return std::nullopt;
+  if (e.operands()[0].kind() == Expression::Kind::negation) {
+    result.sign = -result.sign;
+    e = Expression(e.operands()[0].operands()[0]) * e.operands()[1];
+    if (e.operands().size() != 2) return std::nullopt;
+  }
+  const auto first = wave_of(e.operands()[0]), second = wave_of(e.operands()[1]);
+  if (!first || !second || first->angle == second->angle) return std::nullopt;
+  result.first = *first;
+  result.second = *second;
+  return result;
+}
+
+// Of ±(sin a cos b ∓ cos a sin b) and ±(cos a cos b ± sin a sin b), which are sin(a ∓ b) and cos(a ∓ b): a ∓ b is one of two
+// values.
+std::vector<AngleTie> ties_of(const Space& space, const Expression& condition) {
+  if (condition.kind() != Expression::Kind::sum || condition.operands().size() != 2) return {};
+  const auto p = product_of(condition.operands()[0]);
+  auto q = product_of(condition.operands()[1]);
+  if (!p || !q) return {};
+  if (q->first.angle != p->first.angle) std::swap(q->first, q->second);
+  if (q->first.angle != p->first.angle || q->second.angle != p->second.angle) return {};
+  if (q->first.is_sine == p->first.is_sine || q->second.is_sine == p->second.is_sine) return {};
+  if (space.is_fixed(p->first.angle) || space.is_fixed(p->second.angle)) return {};
+  const bool in_order = space.index(p->first.angle) < space.index(p->second.angle);
+  const std::string &later = in_order ? p->second.angle : p->first.angle,
+                    &earlier = in_order ? p->first.angle : p->second.angle;
+  // Sine or cosine of the sum or the difference of both: of products of a sine and a cosine, or of two of a kind.
+  const bool is_sine = p->first.is_sine != p->second.is_sine, same = p->sign == q->sign;
+  const int sign = is_sine == same ? -1 : 1;  // sin(a + b) = 0: a = −b; cos(a − b) = 0: a = b ± π/2
+  std::vector<AngleTie> ties;
+  for (const int quarters : {0, 2}) ties.push_back({later, earlier, sign, quarters + (is_sine ? 0 : 1)});
+  const bool both = std::all_of(ties.begin(), ties.end(), [&](const AngleTie& tie) { return space.has_system(tie); });
+  return both ? ties : std::vector<AngleTie>{};
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+class Decomposer {
+ public:
+  Decomposer(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended)
+      : ended_(ended), space_(mechanism), matrix_(mechanism, matrix, derive(mechanism).phi) {}
+
+  std::vector<Component> run() {
+    matrix_.eliminate_numbers();
+    const auto blocks = matrix_.blocks();
+    if (!blocks) return {};
+    for (const SquareBlock& block : *blocks) {
+      const auto factors = factors_of(block);
+      if (!factors) {
+        add_block(block);
+      } else if (factors->vanishes) {
+        return {};
+      } else {
+        add_conditions(block, factors->conditions);
+      }
+    }
+    return std::move(components_);
+  }
+
+ private:
+  std::string columns_of(const SquareBlock& block) const {
+    std::vector<std::string> columns;
+    for (const std::size_t j : block.columns) columns.push_back(matrix_.columns()[j]);
+    return list_of(columns);
+  }
+
+  void add(Component component) {
+    if (std::find(components_.begin(), components_.end(), component) == components_.end())
+      components_.push_back(std::move(component));
+  }
+
+  void add_block(const SquareBlock& block) {
+    Component component{"block of " + columns_of(block)};
+    ExpressionMatrix& b = component.block.emplace();
+    for (const std::size_t j : block.columns) b.columns.push_back(matrix_.columns()[j]);
+    b.roles.assign(b.columns.size(), Role::passive);
+    for (const std::size_t i : block.rows) {
+      b.rows.emplace_back();
+      for (const std::size_t j : block.columns) b.rows.back().push_back(matrix_.entry(i, j));
+    }
+    add(std::move(component));
+  }
+
+  struct Factors {
+    bool vanishes = false;  // everywhere
+    std::vector<Expression> conditions{};
+  };
+
+  // Nothing: a kernel vector describes the block better.
+  std::optional<Factors> factors_of(const SquareBlock& block) const {
+    Factors result;
+    try {
+      const RationalPolynomial value = matrix_.modulo_circles(matrix_.determinant(block));
+      if (value.is_zero()) return Factors{.vanishes = true};
+      for (const RationalPolynomial& factor : value.factors(ended_)) {
+        const RationalPolynomial on_cspace = matrix_.in_free_coordinates(matrix_.modulo_circles(factor));
+        if (on_cspace.is_zero()) return Factors{.vanishes = true};
+        for (const RationalPolynomial& f : on_cspace.factors(ended_)) {
+          if (f.size() > kMostTerms) return std::nullopt;
+          auto condition = matrix_.condition(f);
+          if (condition && !space_.vanishes_nowhere(*condition)) result.conditions.push_back(std::move(*condition));
+        }
+      }
+    } catch (const DeterminantTooLarge&) {
+      return std::nullopt;
+    }
+    // GiNaC's order, and so FLINT's, is another in each process.
+    std::sort(result.conditions.begin(), result.conditions.end(), [](const Expression& a, const Expression& b) {
+      return std::pair(a.text().size(), a.text()) < std::pair(b.text().size(), b.text());
+    });
+    if (block.rows.size() > kMostRows && result.conditions.size() == 1 && !matrix_.is_explicit()) return std::nullopt;
+    return result;
+  }
+
+  void add_conditions(const SquareBlock& block, const std::vector<Expression>& conditions) {
+    for (const Expression& condition : conditions) {
+      const std::vector<AngleTie> ties = ties_of(space_, condition);
+      for (const AngleTie& tie : ties) add({tie.text(), tie, {}, matrix_.is_explicit()});
+      if (!ties.empty()) continue;
+      const std::string text = condition.text();
+      const std::string number =
+          conditions.size() > 1 ? " (" + std::to_string(&condition - conditions.data() + 1) + ")" : "";
+      add({text.size() <= kLongestName ? text + " = 0" : "condition on " + columns_of(block) + number,
+           {},
+           condition,
+           matrix_.is_explicit()});
+    }
+  }
+
+  const Ended& ended_;
+  const Space space_;
+  ExactMatrix matrix_;
+  std::vector<Component> components_;
+};
+
+KernelQuestion question_of(SingularitySet set, const Component& component, const Mechanism& mechanism) {
+  KernelQuestion kernel{definition(set), "B", *component.block, {}, KernelSide::right, {}};
+  kernel.where.assign(component.block->rows.size(), SourceLocation{mechanism.name(), 0, 0});
+  return kernel;
+}
+
+}  // namespace
+
+std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended) {
+  ExpressionMatrix matrix = kernel.matrix;
+  // A row of zeros, which a tie has, says nothing about the kernel.
+  std::erase_if(matrix.rows, [](const std::vector<Expression>& row) {
+    return std::all_of(row.begin(), row.end(), [](const Expression& e) { return same_tree(e, 0); });
+  });
+  if (!kernel.also.empty() || matrix.rows.size() != matrix.columns.size()) return {};
+  PassiveRates passive = eliminate_passive_rates(mechanism, matrix);
+  return Decomposer(mechanism, passive.eliminated.empty() ? matrix : passive.matrix, ended).run();
+}
+
+std::vector<std::string> component_scales(const Mechanism& mechanism, SingularitySet set, const Component& component) {
+  if (!component.block) return {};
+  return kernel_scales(mechanism, question_of(set, component, mechanism));
+}
+
+TrigonometricSystem component_system(const Mechanism& mechanism, SingularitySet set, const Component& component,
+                                     const std::vector<std::string>& scales) {
+  if (component.block) return singularity_system(mechanism, question_of(set, component, mechanism), scales, 1);
+  TrigonometricSystem system = plain_system(mechanism);
+  system.name += std::string(" ") + definition(set).name;
+  system.tie = component.tie;
+  if (component.tie)
+    system.equations.push_back({component.tie->relation(), component.name, {mechanism.name(), 0, 0}, true, true});
+  if (component.condition)
+    system.equations.push_back({*component.condition == Expression(0), component.name, {mechanism.name(), 0, 0}, true});
+  return system;
+}
+
+}  // namespace corank::symbolic

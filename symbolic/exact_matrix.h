@@ -1,0 +1,75 @@
+// A square matrix of expressions as polynomials over the rational numbers, and what leaves its zeros as they are: rows
+// eliminated by entries that are numbers, the block triangular form of the rest, determinants of its blocks.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "corank/symbolic/block_triangular.h"
+#include "corank/symbolic/model_error.h"
+#include "corank/symbolic/rational_polynomial.h"
+#include "corank/symbolic/velocity_equation.h"
+
+namespace corank::symbolic {
+
+/// No mistake of the model's: its determinant, expanded, is too long to be of use.
+class DeterminantTooLarge : public ModelError {
+ public:
+  using ModelError::ModelError;
+};
+
+class ExactMatrix {
+ public:
+  /// Coordinates, constants, sines, cosines and irrational numbers are the unknowns. Holds GiNaC's lock while it lives.
+  /// `phi`: Φ, for in_free_coordinates(). Throws ModelError where M is not square, or an entry is no polynomial in
+  /// coordinates, sines and cosines.
+  ExactMatrix(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi = {});
+  ~ExactMatrix();
+
+  /// det M = ± c det M', where c is an entry that is a number and M' is M without its row and column, after multiples of the
+  /// row have made the rest of the column zero. M becomes M', and so on, while there is such an entry.
+  void eliminate_numbers();
+  std::size_t size() const { return rows_.size(); }
+  /// The columns' names.
+  const std::vector<std::string>& columns() const { return columns_; }
+  /// block_triangular_form() of the pattern.
+  std::optional<std::vector<SquareBlock>> blocks() const;
+  /// By Laplace's expansion along one row after the other; minors of the same columns are summed once. Throws
+  /// DeterminantTooLarge above 16 rows, or above `most` terms.
+  RationalPolynomial determinant(const SquareBlock& block, std::size_t most = 20000) const;
+  /// 0 where cos² + sin² = 1 of all angles shows it, else the same polynomial or one with fewer terms.
+  RationalPolynomial modulo_circles(const RationalPolynomial& f) const;
+
+  /// The same at every configuration: coordinates that an equation of Φ gives explicitly, as a polynomial in coordinates
+  /// that occur before, are replaced by it, and even powers of sines by cosines. f itself where that is longer.
+  RationalPolynomial in_free_coordinates(const RationalPolynomial& f) const;
+
+  /// Does every equation of Φ give a coordinate so?
+  bool is_explicit() const { return explicit_.size() == equations_; }
+
+  Expression entry(std::size_t row, std::size_t column) const;
+  Expression expression(const RationalPolynomial& f) const;
+  /// The one of ±f with the shorter text; nothing where f holds no coordinate.
+  std::optional<Expression> condition(const RationalPolynomial& f) const;
+
+ private:
+  bool eliminate_a_number();
+  std::vector<std::vector<std::size_t>> filled() const;
+
+  class Unknowns;
+  struct Explicit {
+    std::size_t unknown;
+    RationalPolynomial value;
+  };
+  RationalPolynomial without_squares(const RationalPolynomial& f, std::size_t gone, std::size_t kept) const;
+
+  SourceLocation where_;
+  std::unique_ptr<Unknowns> unknowns_;
+  std::vector<std::vector<RationalPolynomial>> rows_;
+  std::vector<std::string> columns_;
+  std::size_t equations_ = 0;
+  std::vector<Explicit> explicit_;  // each in unknowns that are none, or stand before it
+};
+
+}  // namespace corank::symbolic

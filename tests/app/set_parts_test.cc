@@ -1,0 +1,76 @@
+// Sets in parts on the command line: in the table, in JSON, in files, in the derivation and on the report's page.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "corank/tests/app/program.h"
+
+namespace corank::app {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(SetPartsOnTheCommandLine, AreListedAndStoredAndVerified) {
+  const TemporaryFolder folder;
+  const Outcome table = run_corank(
+      {"solve", model("planar/3prr"), "--set", "inverse", "--sigma", "0.3", "--proof", "-o", folder.file("r.h5")});
+  EXPECT_EQ(table.status, 0) << table.err;
+  EXPECT_THAT(table.out, HasSubstr("the union of 3 parts:"));
+  EXPECT_THAT(table.out, HasSubstr("\n  cos(psi1) = 0 "));
+  EXPECT_THAT(table.out, Not(HasSubstr("undecided")));
+  const Outcome verified = run_corank({"verify", folder.file("r.h5")});
+  EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
+  const Outcome asked = run_corank({"solve", model("planar/3prr"), "--set", "inverse", "--sigma", "0.3", "--json"});
+  const json result = json::parse(asked.out);
+  ASSERT_EQ(result["parts"].size(), 3u);
+  std::size_t boxes = 0;
+  for (const json& part : result["parts"]) {
+    EXPECT_EQ(part["dimension"], 2);
+    EXPECT_EQ(part["complete"], true);
+    EXPECT_EQ(part["part"], part["condition"]);
+    boxes += part["boxes"].get<std::size_t>();
+  }
+  EXPECT_EQ(boxes, result["boxes"]["regular"].get<std::size_t>() + result["boxes"]["boundary"].get<std::size_t>());
+  EXPECT_EQ(result["options"]["kernel"], json());
+}
+
+TEST(SetPartsOnTheCommandLine, AreLeftTogetherWhereAKernelIsAskedFor) {
+  const Outcome whole = run_corank({"solve", model("dextar"), "--set", "inverse"});
+  EXPECT_THAT(whole.out, HasSubstr("kernel right"));
+  const Outcome parts = run_corank({"solve", model("dextar"), "--set", "inverse", "--kernel", "none"});
+  EXPECT_EQ(parts.status, 0) << parts.err;
+  EXPECT_THAT(parts.out, HasSubstr("the union of 4 parts:"));
+  EXPECT_THAT(parts.out, HasSubstr("  theta3 = theta2 + pi "));
+  const Outcome right = run_corank({"solve", model("planar/3prr"), "--set", "inverse", "--kernel", "right", "--estimate"});
+  EXPECT_EQ(right.status, 0) << right.err;
+  EXPECT_EQ(run_corank({"solve", model("dextar"), "--set", "cspace", "--kernel", "none"}).status, 2);
+}
+
+TEST(SetPartsOnTheCommandLine, AreDerivedOneByOne) {
+  const Outcome parts = run_corank({"derive", model("dextar"), "--set", "forward", "--kernel", "none"});
+  EXPECT_EQ(parts.status, 0) << parts.err;
+  EXPECT_THAT(parts.out, HasSubstr("theta4 = theta3 + pi"));
+  EXPECT_THAT(parts.out, Not(HasSubstr("xi1")));
+  EXPECT_EQ(run_corank({"derive", model("dextar"), "--set", "forward", "--kernel", "none", "--format", "cuik"}).status, 2);
+  EXPECT_EQ(run_corank({"derive", model("planar/3prr"), "--set", "inverse", "--format", "cuik"}).status, 0);
+}
+
+TEST(SetPartsOnTheCommandLine, AreSaidOnTheReportsPage) {
+  const TemporaryFolder folder;
+  const Outcome report =
+      run_corank({"report", model("planar/3prr"), "--sets", "inverse", "--sigma", "0.3", "-o", folder.file("page")});
+  ASSERT_EQ(report.status, 0) << report.err;
+  std::ifstream file(folder.file("page") + "/index.html");
+  std::stringstream page;
+  page << file.rdbuf();
+  EXPECT_THAT(page.str(), HasSubstr("The set is the union of 3 parts: "));
+  EXPECT_THAT(page.str(), HasSubstr("<summary>Inverse singularities: the union of 3 parts</summary>"));
+}
+
+}  // namespace
+}  // namespace corank::app

@@ -1,0 +1,322 @@
+// Sets that are solved in parts: that the parts are the set, no more and no less, by samples of both in doubles; that what
+// is stored of them is verified, and what was tampered with is not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "corank/core/dense.h"
+#include "corank/result/result_file.h"
+#include "corank/result/verification.h"
+#include "corank/study/answer.h"
+#include "corank/study/model.h"
+#include "corank/symbolic/algebrizer.h"
+
+namespace corank::study {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using std::numbers::pi;
+using symbolic::SingularitySet;
+using testing::ElementsAre;
+
+double value_of(const Polynomial& f, const VectorXd& x) {
+  double sum = 0;
+  for (const Monomial& m : f.monomials) {
+    double product = m.enclosure.mid();
+    for (const Factor& factor : m.factors) product *= std::pow(x[factor.variable], factor.power);
+    sum += product;
+  }
+  return sum;
+}
+
+double derivative(const Polynomial& f, const VectorXd& x, int variable) {
+  double sum = 0;
+  for (const Monomial& m : f.monomials) {
+    double product = m.enclosure.mid();
+    bool occurs = false;
+    for (const Factor& factor : m.factors) {
+      const bool own = factor.variable == variable;
+      occurs = occurs || own;
+      product *=
+          own ? factor.power * std::pow(x[factor.variable], factor.power - 1) : std::pow(x[factor.variable], factor.power);
+    }
+    if (occurs) sum += product;
+  }
+  return sum;
+}
+
+// A solution near a random start, by Gauss–Newton steps; nothing where these do not converge inside the domain.
+std::optional<VectorXd> sample(const System& system, std::mt19937_64& random) {
+  const auto n = static_cast<Eigen::Index>(system.variables.size()), m = static_cast<Eigen::Index>(system.equations.size());
+  VectorXd x(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Interval& domain = system.variables[static_cast<std::size_t>(j)].domain;
+    x[j] = std::uniform_real_distribution<>(domain.lo(), domain.hi())(random);
+  }
+  for (int step = 0; step < 60; ++step) {
+    VectorXd f(m);
+    MatrixXd jacobian(m, n);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Polynomial& equation = system.equations[static_cast<std::size_t>(i)];
+      f[i] = value_of(equation, x);
+      for (Eigen::Index j = 0; j < n; ++j) jacobian(i, j) = derivative(equation, x, static_cast<int>(j));
+    }
+    if (f.lpNorm<Eigen::Infinity>() < 1e-11) {
+      for (Eigen::Index j = 0; j < n; ++j)
+        if (!system.variables[static_cast<std::size_t>(j)].domain.contains(x[j])) return std::nullopt;
+      for (const Polynomial& g : system.inequalities)
+        if (value_of(g, x) < 0) return std::nullopt;
+      return x;
+    }
+    const VectorXd change = least_squares(jacobian, f, 1e-9).x;
+    if (!(change.norm() < 1e3)) return std::nullopt;
+    x -= change;
+  }
+  return std::nullopt;
+}
+
+symbolic::Mechanism model_named(const std::string& name) {
+  return read_model(CORANK_SOURCE_DIR "/models/" + name + ".cuik").mechanism;
+}
+
+struct Case {
+  const char* model;
+  SingularitySet set;
+  std::size_t parts, reached = parts;
+};
+
+// The smallest singular value of M, relative to the largest, at a configuration. These models' lengths are near 1.
+class Deficiency {
+ public:
+  Deficiency(const symbolic::Mechanism& mechanism, SingularitySet set) {
+    const auto kernel = symbolic::kernel_question(mechanism, derive(mechanism).velocity, set);
+    std::vector<symbolic::Expression> entries;
+    for (const auto& row : kernel.matrix.rows) entries.insert(entries.end(), row.begin(), row.end());
+    entries_ = symbolic::polynomials(symbolic::plain_system(mechanism), entries);
+    rows_ = static_cast<Eigen::Index>(kernel.matrix.rows.size());
+    columns_ = static_cast<Eigen::Index>(kernel.matrix.columns.size());
+  }
+  double at(const VectorXd& x) const {
+    MatrixXd m(rows_, columns_);
+    for (Eigen::Index i = 0; i < rows_; ++i)
+      for (Eigen::Index j = 0; j < columns_; ++j)
+        m(i, j) = value_of(entries_[static_cast<std::size_t>(i * columns_ + j)], x);
+    const VectorXd s = singular_values(m);
+    return s[std::min(rows_, columns_) - 1] / std::max(s[0], 1e-3);  // M may vanish
+  }
+
+ private:
+  std::vector<Polynomial> entries_;
+  Eigen::Index rows_ = 0, columns_ = 0;
+};
+
+class SetParts : public testing::TestWithParam<Case> {};
+
+TEST_P(SetParts, AreTheSetNoMoreAndNoLess) {
+  const Question question{.model = model_named(GetParam().model), .set = GetParam().set, .in_parts = true};
+  const std::vector<Question> parts = parts_of(question);
+  ASSERT_EQ(parts.size(), GetParam().parts);
+  const Deficiency deficiency(question.model, *question.set);
+  std::mt19937_64 random(5);
+  std::vector<System> systems;
+  std::size_t reached = 0;  // of isolated points a part may have none
+  for (const Question& part : parts) {
+    systems.push_back(system(part));
+    int found = 0;
+    for (int trial = 0; trial < 200 && found < 10; ++trial) {
+      const auto x = sample(systems.back(), random);
+      if (!x) continue;
+      ++found;
+      EXPECT_LT(deficiency.at(*x), 1e-6) << text(*part.part);
+    }
+    reached += found > 0;
+  }
+  EXPECT_EQ(reached, GetParam().reached);
+  // What Newton's method finds of the whole, with its kernel vector, is a solution of some part.
+  const System whole = system(question);
+  int found = 0;
+  for (int trial = 0; trial < 300 && found < 30; ++trial) {
+    const auto x = sample(whole, random);
+    if (!x) continue;
+    ++found;
+    const bool of_a_part = std::any_of(systems.begin(), systems.end(), [&](const System& part) {
+      const bool has_kernel = part.size() > part.configuration_size;
+      return has_kernel || std::all_of(part.equations.begin(), part.equations.end(),
+                                       [&](const Polynomial& f) { return std::fabs(value_of(f, *x)) < 1e-5; });
+    });
+    EXPECT_TRUE(of_a_part);
+  }
+  EXPECT_GE(found, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, SetParts,
+    testing::Values(Case{"planar/3rrr", SingularitySet::inverse, 6}, Case{"planar/3prr", SingularitySet::inverse, 3},
+                    Case{"dextar", SingularitySet::inverse, 4}, Case{"dextar", SingularitySet::forward, 2},
+                    Case{"three_slider", SingularitySet::forward, 2},
+                    Case{"planar/stephenson", SingularitySet::forward, 4, 1},
+                    Case{"planar/watt", SingularitySet::inverse, 4, 1},
+                    Case{"platforms/orthoglide", SingularitySet::inverse, 3},
+                    Case{"spatial/agile_eye", SingularitySet::inverse, 3},
+                    Case{"serial/puma_560", SingularitySet::inverse, 3}, Case{"serial/ur5", SingularitySet::inverse, 3}),
+    [](const testing::TestParamInfo<Case>& test) {
+      std::string name = std::string(test.param.model) + "_" + to_string(test.param.set);
+      std::replace(name.begin(), name.end(), '/', '_');
+      return name;
+    });
+
+TEST(SetPartsOf, MechanismsWithoutSuchSingularitiesAreNone) {
+  const Question legs{.model = model_named("platforms/stewart"), .set = SingularitySet::inverse};
+  const auto kernel = symbolic::kernel_question(legs.model, derive(legs.model).velocity, SingularitySet::inverse);
+  EXPECT_TRUE(symbolic::decompose(legs.model, kernel).empty());  // legs have lengths above 0
+}
+
+std::vector<std::string> names_of(const std::vector<Question>& parts);
+
+TEST(SetPartsOf, ArmsAreConditionsOnTheirJoints) {
+  const auto conditions = [](const std::string& model) {
+    std::vector<std::string> list;
+    for (const Question& part : parts_of({.model = model_named(model), .set = SingularitySet::inverse, .in_parts = true}))
+      list.push_back(std::get<symbolic::Component>(*part.part).relation());
+    return list;
+  };
+  // Wrist, elbow and shoulder, as textbooks have them.
+  EXPECT_THAT(conditions("serial/puma_560"),
+              ElementsAre("sin(theta5) = 0", "a3*sin(theta3) + d4*cos(theta3) = 0",
+                          "a2*cos(theta2) + a3*cos(theta2)*cos(theta3) - a3*sin(theta2)*sin(theta3) - "
+                          "d4*cos(theta2)*sin(theta3) - d4*sin(theta2)*cos(theta3) = 0"));
+  EXPECT_THAT(conditions("serial/orthogonal_3r"),
+              ElementsAre("d2*sin(theta3) + d3*cos(theta2)*sin(theta3) - r2*cos(theta2)*cos(theta3) = 0"));
+  Question arm{.model = model_named("serial/orthogonal_3r"), .set = SingularitySet::inverse};
+  EXPECT_THAT(names_of(parts_of(arm)), ElementsAre("whole")) << "a curve: its first joint has one value";
+  arm.model.set_range("theta1", -symbolic::pi(), symbolic::pi());
+  EXPECT_THAT(names_of(parts_of(arm)), ElementsAre(testing::StartsWith("condition on ")));
+}
+
+std::vector<std::string> names_of(const std::vector<Question>& parts) {
+  std::vector<std::string> names;
+  for (const Question& part : parts) names.push_back(part.part ? text(*part.part) : "whole");
+  return names;
+}
+
+TEST(SetPartsOf, SurfacesByDefaultAndOfCurvesWhereTheyAreAskedFor) {
+  Question legs{.model = model_named("planar/3prr"), .set = SingularitySet::inverse};
+  EXPECT_THAT(names_of(parts_of(legs)),
+              ElementsAre("2*h*sin(psi2) - cos(psi2) = 0", "2*h*sin(psi3) + cos(psi3) = 0", "cos(psi1) = 0"));
+  for (auto change : std::vector<std::function<void(Question&)>>{
+           [](Question& q) { q.kernel = symbolic::KernelSide::right; }, [](Question& q) { q.corank = 2; },
+           [](Question& q) { q.in_parts = false; }, [](Question& q) { q.set = SingularitySet::forward; },
+           [](Question& q) { q.set = SingularitySet::cspace; }}) {
+    Question other = legs;
+    change(other);
+    EXPECT_THAT(names_of(parts_of(other)), ElementsAre("whole"));
+  }
+  Question curve{.model = model_named("dextar"), .set = SingularitySet::forward};
+  EXPECT_THAT(names_of(parts_of(curve)), ElementsAre("whole"));
+  curve.in_parts = true;
+  EXPECT_THAT(names_of(parts_of(curve)), ElementsAre("theta4 = theta3", "theta4 = theta3 + pi"));
+}
+
+const result::Result& legs() {
+  static const result::Result result = [] {
+    Question question{.model = model_named("planar/3prr"), .set = SingularitySet::inverse};
+    Options options;
+    options.search.sigma = 0.5;
+    options.search.proof = true;
+    return answer(question, options);
+  }();
+  return result;
+}
+
+TEST(SetPartsOf, AMechanismsLegsAreProvenAndVerified) {
+  EXPECT_TRUE(legs().cover.complete());
+  EXPECT_EQ(legs().cover.dimension, 2);
+  ASSERT_EQ(legs().parts.size(), 3u);
+  EXPECT_EQ(legs().cover.count(Verdict::undecided), 0u);
+  EXPECT_EQ(legs().parts[2].condition, "cos(psi1) = 0");
+  // cos ψ_i = 0 in the frame of each rail, whose directions are 0 and ±120 degrees.
+  std::size_t inside = 0;
+  for (const CoverBox& box : legs().parts[2].cover.boxes) inside += box.box[3].contains(0.0);
+  EXPECT_EQ(inside, legs().parts[2].cover.boxes.size());
+}
+
+class SetPartsFile : public testing::Test {
+ protected:
+  ~SetPartsFile() override { std::filesystem::remove(path_); }
+  // Through a file: why the result is rejected; nothing where it is accepted.
+  std::string rejection(const result::Result& result) const {
+    std::string reasons;
+    try {
+      result::write_result(path_, result);
+      const result::Verification verification = result::verify(result::read_result(path_));
+      for (const std::string& c : verification.contradictions) reasons += c + "\n";
+      for (const auto& failure : verification.report.failures) reasons += failure.reason + "\n";
+      EXPECT_EQ(verification.verified(), reasons.empty());
+      EXPECT_TRUE(verification.complete() || !reasons.empty());
+    } catch (const result::ResultFileError& error) {
+      reasons = error.what();
+    }
+    return reasons;
+  }
+  std::string rejection_of(const std::function<void(result::Result&)>& change) const {
+    result::Result result = legs();
+    change(result);
+    merge_parts(result);
+    return rejection(result);
+  }
+
+ private:
+  const std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("corank-set-parts-" + std::to_string(getpid()) + ".h5");
+};
+
+TEST_F(SetPartsFile, ComesBackAndIsVerified) { EXPECT_EQ(rejection(legs()), ""); }
+
+TEST_F(SetPartsFile, IsRejectedWithoutAPartOrWithAnother) {
+  EXPECT_THAT(rejection_of([](result::Result& r) { r.parts.pop_back(); }), testing::HasSubstr("the parts are not those"));
+  EXPECT_THAT(rejection_of([](result::Result& r) { std::swap(r.parts[0], r.parts[1]); }),
+              testing::HasSubstr("the parts are not those"));
+  EXPECT_THAT(rejection_of([](result::Result& r) { r.parts[0].part = "cos(psi1) = 1"; }),
+              testing::HasSubstr("the parts are not those"));
+  EXPECT_NE(rejection_of([](result::Result& r) { std::swap(r.parts[0].cover, r.parts[1].cover); }), "");
+  EXPECT_NE(rejection_of([](result::Result& r) { r.parts[2].cover.boxes.pop_back(); }), "");
+}
+
+// Ties against the equations that they stand for: the same boxes of an angle's two values, for each kind of tie.
+TEST(AngleTies, HoldWhatTheyStandFor) {
+  std::mt19937_64 random(11);
+  for (const int sign : {1, -1})
+    for (int quarters = 0; quarters < 4; ++quarters) {
+      symbolic::Mechanism rods("rods");
+      const auto a = rods.angle("a"), b = rods.angle("b");
+      const auto x = rods.length("x", -5, 5);
+      rods.constrain(x == 2 * cos(a) + sin(b + a) + cos(2 * b));
+      symbolic::TrigonometricSystem tied = symbolic::plain_system(rods);
+      tied.tie = symbolic::AngleTie{"b", "a", sign, quarters};
+      const System system = symbolic::algebrize(tied);
+      EXPECT_EQ(system.size() - static_cast<int>(system.equations.size()), 1);
+      for (int trial = 0; trial < 20; ++trial) {
+        const double alpha = std::uniform_real_distribution<>(-pi, pi)(random), beta = sign * alpha + quarters * pi / 2;
+        VectorXd v(5);
+        v << std::cos(alpha), std::sin(alpha), std::cos(beta), std::sin(beta),
+            2 * std::cos(alpha) + std::sin(beta + alpha) + std::cos(2 * beta);
+        for (const Polynomial& f : system.equations) EXPECT_NEAR(value_of(f, v), 0, 1e-12) << tied.tie->text() << f.source;
+        v[2] = -v[2];
+        v[3] = -v[3];
+        EXPECT_TRUE(std::any_of(system.equations.begin(), system.equations.end(),
+                                [&](const Polynomial& f) { return std::fabs(value_of(f, v)) > 1e-6; }));
+      }
+    }
+}
+
+}  // namespace
+}  // namespace corank::study
