@@ -17,6 +17,23 @@ std::vector<Polynomial> joined(std::vector<Polynomial> a, const std::vector<Poly
   return a;
 }
 
+// The largest term that is not constant, where each variable has its typical size: so that functions which are lengths and
+// others count alike, in every unit.
+std::vector<double> sizes_of(const System& system, const std::vector<Polynomial>& functions) {
+  std::vector<double> sizes;
+  for (const Polynomial& f : functions) {
+    double size = 0;
+    for (const Monomial& m : f.monomials) {
+      double term = m.enclosure.mag();
+      for (const Factor& x : m.factors)
+        term *= std::pow(system.variables[static_cast<std::size_t>(x.variable)].size, x.power);
+      if (!m.factors.empty()) size = std::max(size, term);
+    }
+    sizes.push_back(size > 0 && std::isfinite(size) ? size : 1);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
@@ -25,6 +42,7 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
       cover_(cover),
       given_(cover.boxes.size()),
       limits_(static_cast<int>(limits.size())),
+      sizes_(sizes_of(system, joined(functions, limits))),
       proof_(system, joined(functions, limits)),
       test_(system) {
   const UpwardRounding rounding;
@@ -219,7 +237,8 @@ std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
     const double width = cell.sides[j].width();
     double variation = known ? 0 : width / system_.variables[j].size;
     if (known)
-      for (const auto& slope : s) variation = std::max(variation, slope[f].mag() * width);
+      for (std::size_t k = 0; k < s.size(); ++k)
+        variation = std::max(variation, s[k][f].mag() * width / sizes_[static_cast<std::size_t>(cell.mixed[k])]);
     if (variation > most) most = variation, best = f;
   }
   const auto j = static_cast<std::size_t>(frees[best]);

@@ -110,6 +110,7 @@ class SignCells {
   Cover cover_;
   std::size_t given_;  // boxes of the cover that was given
   int limits_;
+  std::vector<double> sizes_;  // of the functions
   certify::SignCellTest proof_;
   certify::MeetingTest test_;
   std::vector<SignCell> cells_;

@@ -51,6 +51,23 @@ TEST(Aspects, DoNotDependOnTheUnitOfLength) {
   }
 }
 
+// Limits of lengths count as the sines that are 0 where it is singular do.
+TEST(Aspects, WithinLimitsOfLengthsDoNotDependOnTheirUnit) {
+  for (const std::string unit : {"1/1000", "1", "1000000"}) {
+    const auto model = study::parse_model(
+        {"[CONSTANTS]\nu := " + unit + "\nl1 := u\nl2 := 6/5*u\nw := 3/2*u\n[SYSTEM VARS]\n" +
+             "a : [-w, w]\nb : [-w, w]\nx :\ny :\ntheta1 ~ [-pi, pi]\ntheta2 ~ [-pi, pi]\n[SYSTEM EQS]\n" +
+             "x = a + l1*cos(theta1);\ny = l1*sin(theta1);\nx = b + l2*cos(theta2);\ny = l2*sin(theta2);\n" +
+             "[INPUTS] a, b\n[OUTPUTS] x, y\n[LIMITS]\na : [-w, w]\nb : [-w, w]\n",
+         "sliders.cuik"});
+    const Aspects a = of(model.mechanism);
+    ASSERT_TRUE(a.aspects.exact() && a.assembly_modes.exact() && a.working_modes.exact()) << unit;
+    EXPECT_EQ(a.aspects.at_least, 8) << unit;
+    EXPECT_EQ(a.assembly_modes.at_least, 4) << unit;
+    EXPECT_EQ(a.working_modes.at_least, 4) << unit;
+  }
+}
+
 // C-space is two closed curves where the linkage is of Grashof's kind, else one. A crank has no dead points: the other
 // link's four (two on each curve) divide the curves.
 TEST(Aspects, OfFourBarsAreThoseOfTheirGrashofType) {
