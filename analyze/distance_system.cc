@@ -42,7 +42,7 @@ Polynomial reduced(const Polynomial& f, const certify::Reduction& reduction) {
 
 // A variable whose domain holds the interval in its interior.
 Variable around(const std::string& name, const Interval& x) {
-  const double room = 1e-3 * std::max(x.width(), 1e-6);
+  const double room = 1e-3 * (x.width() > 0 ? x.width() : x.mag() > 0 ? x.mag() : 1);
   Variable v(name, VariableKind::auxiliary, ExactNumber::dyadic(x.lo() - room), ExactNumber::dyadic(x.hi() + room));
   v.auxiliary = true;
   return v;

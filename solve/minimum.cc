@@ -19,13 +19,22 @@ using Ipopt::Number;
 constexpr int kIterations = 150;
 constexpr double kInfinity = 2e19;  // what Ipopt takes for it
 
-// min x_variable, F(x) = 0, G(x) ≥ 0, x in the box.
+// min x_variable, F(x) = 0, G(x) ≥ 0, x in the box; Ipopt sees each variable, and each row, divided by its typical size, so
+// that its tolerances are in no unit.
 class LeastValue : public Ipopt::TNLP {
  public:
   LeastValue(const certify::CompiledSystem& system, int variable, const Box& box, const std::vector<double>& start,
              const Ended& ended)
       : system_(system), variable_(variable), box_(box), start_(start), ended_(ended) {
     derivatives_.resize(static_cast<std::size_t>(system.entries()));
+    const UpwardRounding rounding;
+    for (Index i = 0; i < system.rows(); ++i) {
+      system.jacobian(i, box, derivatives_);
+      double largest = 0;
+      for (Index k = system.row_begin(i); k < system.row_begin(i + 1); ++k)
+        largest = std::max(largest, derivatives_[static_cast<std::size_t>(k)].mag() * size(system.column(k)));
+      row_sizes_.push_back(largest > 0 && std::isfinite(largest) ? largest : 1);
+    }
   }
   const std::optional<std::vector<double>>& solution() const { return solution_; }
 
@@ -39,13 +48,14 @@ class LeastValue : public Ipopt::TNLP {
   }
   bool get_bounds_info(Index n, Number* lower, Number* upper, Index m, Number* least, Number* greatest) override {
     for (Index j = 0; j < n; ++j)
-      lower[j] = box_[static_cast<std::size_t>(j)].lo(), upper[j] = box_[static_cast<std::size_t>(j)].hi();
+      lower[j] = box_[static_cast<std::size_t>(j)].lo() / size(j),
+      upper[j] = box_[static_cast<std::size_t>(j)].hi() / size(j);
     std::fill(least, least + m, 0.0);
     for (Index i = 0; i < m; ++i) greatest[i] = i < system_.equations() ? 0 : kInfinity;
     return true;
   }
   bool get_starting_point(Index n, bool, Number* x, bool, Number*, Number*, Index, bool, Number*) override {
-    std::copy(start_.begin(), start_.begin() + n, x);
+    for (Index j = 0; j < n; ++j) x[j] = start_[static_cast<std::size_t>(j)] / size(j);
     return true;
   }
   bool eval_f(Index, const Number* x, bool, Number& value) override {
@@ -57,9 +67,10 @@ class LeastValue : public Ipopt::TNLP {
     gradient[variable_] = 1;
     return true;
   }
-  bool eval_g(Index, const Number* x, bool, Index m, Number* g) override {
+  bool eval_g(Index n, const Number* x, bool, Index m, Number* g) override {
+    const std::vector<double> at = point(n, x);
     const UpwardRounding rounding;
-    for (Index i = 0; i < m; ++i) g[i] = system_.evaluate_at(i, x).mid();
+    for (Index i = 0; i < m; ++i) g[i] = system_.evaluate_at(i, at.data()).mid() / row_size(i);
     return all_finite(g, m);
   }
   bool eval_jac_g(Index n, const Number* x, bool, Index m, Index entries, Index* rows, Index* columns,
@@ -69,10 +80,14 @@ class LeastValue : public Ipopt::TNLP {
         for (Index k = system_.row_begin(i); k < system_.row_begin(i + 1); ++k) rows[k] = i, columns[k] = system_.column(k);
       return true;
     }
+    const std::vector<double> at = point(n, x);
     const UpwardRounding rounding;
-    const std::vector<Interval> point(x, x + n);
-    for (Index i = 0; i < m; ++i) system_.jacobian(i, point, derivatives_);
-    for (Index k = 0; k < entries; ++k) values[k] = derivatives_[static_cast<std::size_t>(k)].mid();
+    const std::vector<Interval> sides(at.begin(), at.end());
+    for (Index i = 0; i < m; ++i) {
+      system_.jacobian(i, sides, derivatives_);
+      for (Index k = system_.row_begin(i); k < system_.row_begin(i + 1); ++k)
+        values[k] = derivatives_[static_cast<std::size_t>(k)].mid() * size(system_.column(k)) / row_size(i);
+    }
     return all_finite(values, entries);
   }
   bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number, Number, Number, Number,
@@ -82,10 +97,18 @@ class LeastValue : public Ipopt::TNLP {
   void finalize_solution(Ipopt::SolverReturn status, Index n, const Number* x, const Number*, const Number*, Index,
                          const Number*, const Number*, Number, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
-    if (status != Ipopt::LOCAL_INFEASIBILITY && status != Ipopt::INVALID_NUMBER_DETECTED) solution_.emplace(x, x + n);
+    if (status != Ipopt::LOCAL_INFEASIBILITY && status != Ipopt::INVALID_NUMBER_DETECTED) solution_ = point(n, x);
   }
 
  private:
+  double size(Index j) const { return system_.scales()[static_cast<std::size_t>(j)]; }
+  double row_size(Index i) const { return row_sizes_[static_cast<std::size_t>(i)]; }
+  std::vector<double> point(Index n, const Number* x) const {
+    std::vector<double> at;
+    for (Index j = 0; j < n; ++j) at.push_back(x[j] * size(j));
+    return at;
+  }
+
   // Ipopt's linear solver writes past its memory where it meets infinities.
   static bool all_finite(const Number* x, Index n) {
     return std::all_of(x, x + n, [](Number a) { return std::isfinite(a); });
@@ -97,6 +120,7 @@ class LeastValue : public Ipopt::TNLP {
   const std::vector<double>& start_;
   const Ended& ended_;
   std::vector<Interval> derivatives_;
+  std::vector<double> row_sizes_;
   std::optional<std::vector<double>> solution_;
 };
 

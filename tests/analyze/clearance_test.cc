@@ -80,6 +80,25 @@ TEST(Clearance, OfDextarIsThatOfItsClosedForm) {
   }
 }
 
+TEST(Clearance, DoesNotDependOnTheUnitOfLength) {
+  std::uint64_t processed = 0;
+  for (const double unit : {1.0, 1e-3, 1e3, 1e6}) {
+    const auto times = [unit](const std::string& text) {
+      return symbolic::parse_expression("(" + text + ")*" + ExactNumber::dyadic(unit > 1 ? unit : 1 / unit).text() +
+                                        (unit > 1 ? "" : "^(-1)"));
+    };
+    study::Question dextar = model("dextar.cuik");
+    dextar.model.set_constant("l", times("9/10"));
+    dextar.model.set_constant("d", times("59/50"));
+    const Clearance c = of(dextar, {.at = {{"J3x", times("-7/100")}, {"J3y", times("-3/10")}}, .in = {"J3x", "J3y"}});
+    expect_close(c);
+    EXPECT_NEAR(c.nearest.lower / unit, 0.03558, 1e-4) << unit;
+    EXPECT_NEAR(*c.nearest.upper / unit, 0.03594, 1e-4) << unit;
+    if (processed == 0) processed = c.nearest.statistics.processed;
+    EXPECT_LT(c.nearest.statistics.processed, 2 * processed) << unit;
+  }
+}
+
 // The rows of the platform's statics: the legs' directions and moments. Nothing where a leg is out of its range.
 struct Platform {
   Eigen::Matrix<double, 3, 6> base, platform;
