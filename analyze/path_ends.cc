@@ -107,7 +107,9 @@ std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>
       const bool angle = std::any_of(angles.begin(), angles.end(), [&](const Angle& a) { return a.name == v.name; });
       double distance = at->value.mid() - asked;
       if (angle) distance = std::remainder(distance, 2 * std::numbers::pi);
-      return std::fabs(distance) > PathFinder::kNear * std::max(1.0, angle ? 1.0 : std::fabs(asked));
+      const int length = space.system().find(v.name);
+      const double size = angle || length < 0 ? 1 : space.sizes()[static_cast<std::size_t>(length)];
+      return std::fabs(distance) > PathFinder::kNear * (angle ? 1 : std::max(size, std::fabs(asked)));
     });
   };
   result.erase(std::remove_if(result.begin(), result.end(), is_far), result.end());

@@ -217,6 +217,24 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, RandomPairs,
                                                    Avoid::inverse}),
                          [](const auto& test) { return "Subject" + std::to_string(test.index); });
 
+// A further coordinate chooses between the two configurations, whose J3y differ by a third of a link.
+TEST(PathEnds, AreChosenByFurtherCoordinatesInEveryUnit) {
+  for (const std::string unit : {"1/1000", "1", "1000"}) {
+    study::Question dextar = model_of("dextar");
+    dextar.model.set_constant("l", symbolic::parse_expression("9/10*" + unit));
+    dextar.model.set_constant("d", symbolic::parse_expression("59/50*" + unit));
+    const PathFinder finder(dextar, {});
+    solve::Control control;
+    const auto motors = values({{"theta2", "1.334"}, {"theta5", "2"}});
+    EXPECT_EQ(finder.ends(motors, control).size(), 2U) << unit;
+    for (const std::string y : {"1.019", "0.674"}) {
+      auto chosen = motors;
+      chosen.push_back(values({{"J3y", y + "*" + unit}}).front());
+      EXPECT_EQ(finder.ends(chosen, control).size(), 1U) << unit;
+    }
+  }
+}
+
 TEST(PathEnds, AreSolvedForFromSomeOfTheirCoordinates) {
   const PathFinder finder(model_of("dextar"), {});
   solve::Control control;
