@@ -83,6 +83,13 @@ double Control::seconds_left() const {
   return limits_.time > 0 ? deadline_ - limits_.clock() : std::numeric_limits<double>::infinity();
 }
 
+Control::Limits Control::rest() const {
+  Limits limits = limits_;
+  if (limits.boxes > 0) limits.boxes = std::max<std::uint64_t>(boxes_left(), 1);
+  if (limits.time > 0) limits.time = std::max(seconds_left(), 1e-9);
+  return limits;
+}
+
 bool Control::overdue() const { return ended() && limits_.clock() - ended_at_ >= kGrace; }
 
 bool Control::search_ended() const {

@@ -161,11 +161,13 @@ class Prover {
     while ((ExactNumber::dyadic(radius) - needed).sign() != 1) radius *= 2;
     const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius), ended_);
     if (!faces) return false;
-    Options options;
+    Options options{.max_found = 1};  // one box that may hold a solution says enough
     options.threads = prepared_.options.threads;
     try {
       for (const System& face : *faces) {
-        const Cover solutions = solve(prepare(face, options, control_), control_, kFaceBoxes);
+        Control search(control_.rest());
+        const Cover solutions = solve(prepare(face, options, search), search, kFaceBoxes);
+        control_.count_boxes(solutions.statistics.processed);
         if (!solutions.complete() || !solutions.boxes.empty()) return false;
       }
     } catch (const std::invalid_argument&) {  // elimination has made coefficients that no double holds

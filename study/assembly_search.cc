@@ -18,9 +18,8 @@ constexpr std::uint64_t kSheets[] = {1, 64};  // the first one may leave the ran
 
 // What is left of the run, and no more than so many boxes.
 solve::Control::Limits rest_of(const solve::Control& control, std::uint64_t boxes) {
-  solve::Control::Limits limits = control.limits();
-  limits.boxes = limits.boxes > 0 ? std::min(boxes, std::max<std::uint64_t>(control.boxes_left(), 1)) : boxes;
-  if (limits.time > 0) limits.time = std::max(control.seconds_left(), 1e-9);
+  solve::Control::Limits limits = control.rest();
+  limits.boxes = limits.boxes > 0 ? std::min(boxes, limits.boxes) : boxes;
   return limits;
 }
 
