@@ -169,17 +169,19 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
   if (outputs.size() != 2 || symbolic::algebrize(symbolic::plain_system(question.model)).size() != system.size())
     return std::nullopt;
   const int x = system.find(outputs[0]), y = system.find(outputs[1]);
+  constexpr double kWholeCircle = 2;  // of sines and cosines
   std::vector<Box> edges;
   if (x < 0 || y < 0 || !has_no_other_ends(question.model, system, x, y, edges, control)) return std::nullopt;
 
   std::vector<Box> boundary;
-  std::optional<double> sigma;
+  std::optional<double> sigma;             // of lengths; what angles are in a box has no effect
   for (const bool fine : {false, true}) {  // first of any size, to know how large the workspace is
     boundary = edges;
     for (const study::Question& part : study::parts_of(question)) {
       solve::Options search;
       search.threads = options.threads;
-      search.sigma = sigma;
+      search.sigma_length = sigma;
+      search.sigma_angle = kWholeCircle;
       const Cover cover = solve::solve(solve::prepare(study::system(part), search, control), control);
       if (!cover.complete()) return std::nullopt;
       for (const CoverBox& box : cover.boxes)

@@ -69,7 +69,7 @@ PathGraph::PathGraph(const PathSpace& space, double sigma, int threads, std::uin
     : space_(space), sigma_(sigma), graph_(std::make_unique<Graph>()) {
   double length = 1;
   for (std::size_t j = 0; j < space.sizes().size(); ++j)
-    if (space.system().variables[j].kind == VariableKind::length) length = space.sizes()[j];
+    if (space.system().variables[j].is_plain_length()) length = space.sizes()[j];
   solve::Options options;
   options.threads = threads;
   options.sigma_angle = sigma;

@@ -28,7 +28,7 @@ std::string radius_text(const System& system, const Tube& tube) {
 
 std::optional<double> length_size(const System& system, const Tube& tube) {
   for (std::size_t j = 0; j < system.variables.size(); ++j)
-    if (system.variables[j].kind == VariableKind::length) return tube.sizes[j];
+    if (system.variables[j].is_plain_length()) return tube.sizes[j];
   return std::nullopt;
 }
 

@@ -56,7 +56,8 @@ class Measure {
   Cell whole() {
     Cell cell{{}, {}, {system_.domain()}};
     const Box domain = system_.domain();
-    for (const Interval& side : domain) widths_.push_back(std::max(side.width(), 1e-300));
+    for (const Interval& side : domain) widths_.push_back(side.width() > 0 ? side.width() : side.mag() > 0 ? side.mag() : 1);
+    compiled_.set_scales(widths_);
     if (!contract(cell.left[0])) cell.left.clear();
     cell.x = cell.left.empty() ? domain[x_] : cell.left[0][x_];
     cell.y = cell.left.empty() ? domain[y_] : cell.left[0][y_];
@@ -197,14 +198,14 @@ class Measure {
     const Eigen::MatrixXd j = jacobian(*sample);
     const auto m = static_cast<Eigen::Index>(m_);
     for (Eigen::Index a = 0; a < m; ++a) {
-      double radius = 1e-9;
+      const auto d = static_cast<std::size_t>(p->dependent[static_cast<std::size_t>(a)]);
+      double radius = 1e-9 * widths_[d];
       for (const std::size_t v : {x_, y_}) {
         double slope = 0;
         for (Eigen::Index k = 0; k < m; ++k)
           slope += p->y[static_cast<std::size_t>(a * m + k)] * j(k, static_cast<Eigen::Index>(v));
         radius += std::fabs(slope) * box[v].width();
       }
-      const auto d = static_cast<std::size_t>(p->dependent[static_cast<std::size_t>(a)]);
       box[d] = Interval((*sample)[d] - radius, (*sample)[d] + radius);
       if (!box[d].is_bounded()) return false;
     }

@@ -26,8 +26,8 @@ const char* to_string(Passage passage);
 
 struct PassageForm {
   int equations = 0, columns = 0;    ///< of Φ_z
-  std::vector<Polynomial> jacobian;  ///< Φ_z, row by row
-  std::vector<Polynomial> hessian;   ///< λᵀ Φ_{z_j z_k} for k ≥ j: row by row
+  std::vector<Polynomial> jacobian;  ///< Φ_z, row by row; rows and columns times positive numbers, in no unit
+  std::vector<Polynomial> hessian;   ///< λᵀ Φ_{z_j z_k} for k ≥ j, row by row, times those of columns j and k
   std::vector<Polynomial> slack;     ///< s_i λᵀ Φ_{q_i}: s_i = −1 at an upper limit, 1 at a lower one
   std::vector<Polynomial> normal;    ///< n
   std::vector<int> multipliers;      ///< of each equation the variable that λ's component is a positive multiple of

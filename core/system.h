@@ -30,8 +30,12 @@ struct Variable {
   Interval domain;                                    ///< encloses [lower, upper]
   bool lower_implied = false, upper_implied = false;  ///< the equations imply this side of the domain: it is no boundary
   bool auxiliary = false;  ///< of no interest by itself, as in [DUMMY VARS]: a box may be wide in it, whatever σ
+  bool direction = false;  ///< a length without a unit: a component of a unit vector or of a rotation
   /// A typical size of its changes, positive, so that no choice depends on the model's unit of length. Only for heuristics.
   double size = 1;
+
+  /// One of the model's own lengths.
+  bool is_plain_length() const { return kind == VariableKind::length && !direction && !auxiliary; }
 
   Variable() = default;
   Variable(std::string name, VariableKind kind, ExactNumber lower, ExactNumber upper);

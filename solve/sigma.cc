@@ -34,7 +34,7 @@ double preferred_number(double x) {
 SigmaClass sigma_class(const Variable& variable) {
   if (variable.auxiliary) return SigmaClass::none;
   switch (variable.kind) {
-    case VariableKind::length: return SigmaClass::length;
+    case VariableKind::length: return variable.direction ? SigmaClass::angle : SigmaClass::length;
     case VariableKind::sine:
     case VariableKind::cosine: return SigmaClass::angle;
     case VariableKind::kernel:

@@ -25,10 +25,10 @@ void settle_sizes(System& system) {
   const std::vector<double> typical = solve::typical_sizes(certify::CompiledSystem(system), system.domain()).variables;
   double length = 0;
   for (std::size_t j = 0; j < typical.size(); ++j)
-    if (system.variables[j].kind == VariableKind::length) length = std::max(length, typical[j]);
+    if (system.variables[j].is_plain_length()) length = std::max(length, typical[j]);
   for (std::size_t j = 0; j < typical.size(); ++j) {
     Variable& v = system.variables[j];
-    if (v.kind == VariableKind::length) v.size = unit_of(v.auxiliary ? typical[j] : length);
+    if (v.kind == VariableKind::length && !v.direction) v.size = unit_of(v.auxiliary ? typical[j] : length);
     if (v.kind == VariableKind::auxiliary) v.size = unit_of(typical[j]);
   }
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "corank/certify/polynomial_algebra.h"
+#include "corank/core/rounding.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/ginac_bridge.h"
@@ -120,6 +122,28 @@ class Lagrangian {
   GiNaC::ex value_ = 0;
 };
 
+// Rows times the scales of λ, columns of lengths times a typical length: N stays regular, and S is the form of ker Φ_z in
+// another basis.
+void take_out_units(const Mechanism& mechanism, const std::vector<std::string>& columns,
+                    const std::vector<std::string>& scales, PassageForm& form) {
+  const ExactNumber length = ExactNumber::rational(typical_length(mechanism));
+  const UpwardRounding rounding;
+  std::vector<ExactNumber> by;
+  for (const std::string& name : columns) {
+    const Coordinate& c = mechanism.coordinates()[static_cast<std::size_t>(mechanism.find_coordinate(name))];
+    by.push_back(c.kind == CoordinateKind::angle || c.direction ? ExactNumber(1) : length);
+  }
+  const auto multiply = [](Polynomial& f, const ExactNumber& factor) { f = certify::sum({}, factor, f); };
+  std::size_t entry = 0;
+  for (int i = 0; i < form.equations; ++i) {
+    const ExactNumber row = scales.empty() ? ExactNumber(1) : ExactNumber::rational(scales[static_cast<std::size_t>(i)]);
+    for (const ExactNumber& column : by) multiply(form.jacobian[entry++], row * column);
+  }
+  entry = 0;
+  for (std::size_t j = 0; j < by.size(); ++j)
+    for (std::size_t k = j; k < by.size(); ++k) multiply(form.hessian[entry++], by[j] * by[k]);
+}
+
 Polynomial constant(int value) {
   Polynomial p;
   if (value != 0) p.monomials.push_back(Monomial(value, {}));
@@ -210,6 +234,7 @@ std::optional<PassageForm> passage_form(const Mechanism& mechanism, const Bounda
   } catch (const ModelError&) {  // sines of lengths, which are no polynomials in the system's own variables
     return std::nullopt;
   }
+  take_out_units(o.mechanism, kernel.matrix.columns, system.kernel_scales, form);
   // Unknowns stand behind the configuration's variables.
   const int before = configurations(mechanism).size();
   for (int i = 0; i < form.equations; ++i) form.multipliers.push_back(before + i);

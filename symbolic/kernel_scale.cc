@@ -130,7 +130,7 @@ std::vector<std::string> scales_of_rates(const Mechanism& mechanism, const Kerne
   return result;
 }
 
-// Of the columns of a right kernel: 0 is an angle's, or that of a rate that was eliminated.
+// Of the columns of a right kernel: 0 is an angle's, a direction's, or that of a rate that was eliminated.
 struct Sizes {
   std::vector<double> of_columns;
   double largest = 0;
@@ -143,15 +143,15 @@ Sizes right_sizes(const Mechanism& mechanism, const KernelQuestion& kernel, cons
   const std::vector<std::size_t>& eliminated = kernel.passive.eliminated;
   std::size_t variable = 0;
   for (const Coordinate& coordinate : mechanism.coordinates()) {
-    const bool is_angle = coordinate.kind == CoordinateKind::angle;
+    const bool is_angle = coordinate.kind == CoordinateKind::angle, has_unit = !is_angle && !coordinate.direction;
     const auto column = std::find(columns.begin(), columns.end(), coordinate.name);
     if (column != columns.end() &&
         std::binary_search(eliminated.begin(), eliminated.end(), static_cast<std::size_t>(column - columns.begin()))) {
       sizes.of_columns.push_back(0);
     } else if (column != columns.end()) {
-      sizes.of_columns.push_back(is_angle ? 0 : size_of(box[variable]));
+      sizes.of_columns.push_back(has_unit ? size_of(box[variable]) : 0);
       sizes.largest = std::max(sizes.largest, sizes.of_columns.back());
-      sizes.angles = sizes.angles || is_angle;
+      sizes.angles = sizes.angles || !has_unit;
     }
     variable += is_angle ? 2 : 1;
   }
@@ -188,6 +188,18 @@ std::string size_per_scale(const Mechanism& mechanism, const KernelQuestion& ker
 
 std::vector<double> equation_sizes(const Mechanism& mechanism) {
   return equation_sizes(mechanism, configurations(algebrize(plain_system(mechanism))));
+}
+
+std::string typical_length(const Mechanism& mechanism) {
+  const Configurations all = configurations(algebrize(plain_system(mechanism)));
+  double largest = 0;
+  std::size_t variable = 0;
+  for (const Coordinate& coordinate : mechanism.coordinates()) {
+    const bool is_angle = coordinate.kind == CoordinateKind::angle;
+    if (!is_angle && !coordinate.direction) largest = std::max(largest, size_of(all.box[variable]));
+    variable += is_angle ? 2 : 1;
+  }
+  return largest > 0 ? number(largest, 0) : "1";
 }
 
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel) {

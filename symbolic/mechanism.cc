@@ -90,6 +90,7 @@ std::vector<Expression> Mechanism::compose(Composite::Kind kind, const std::stri
   std::vector<Expression> components;
   for (const std::string& suffix : suffixes) {
     components.push_back(length(name + "_" + suffix, -1, 1, where));
+    coordinates_.back().direction = true;
     composites_.back().components.push_back(components.back().name());
   }
   return components;

@@ -39,7 +39,8 @@ struct Coordinate {
   SourceLocation where;
   bool auxiliary =
       false;  ///< from [DUMMY VARS] or [CARTESIAN VARS]: defined by the others through equations, and of no interest
-  bool has_range = true;  ///< false: a length whose range the equations are to give (found_ranges.h)
+  bool has_range = true;   ///< false: a length whose range the equations are to give (found_ranges.h)
+  bool direction = false;  ///< a length without a unit: a component of a Composite
 };
 
 /// A coordinate with a range of one value.

@@ -11,6 +11,7 @@
 
 #include "corank/analyze/area_by_boundary.h"
 #include "corank/core/dense.h"
+#include "corank/result/verification.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/boundary.h"
 #include "corank/symbolic/model_file.h"
@@ -442,6 +443,39 @@ TEST(WorkspaceArea, IsKnownByItsBoundary) {
   const double sampled = 2.969;  // within 0.2 %, see above
   EXPECT_LT(bounds->lo, sampled * 1.002);
   EXPECT_GT(bounds->hi, sampled * 0.998);
+}
+
+// planar/3rpr_limits.cuik, its lengths times `unit`.
+study::Question limited_platform(const std::string& unit) {
+  return about_boundary(symbolic::parse_model(
+      "[CONSTANTS]\nu := " + unit +
+          "\n[SYSTEM VARS]\nx : [-5*u, 5*u]\ny : [-5*u, 5*u]\nphi ~ [-pi, pi]\nrho1 : [0, 4*u]\nrho2 : [0, 4*u]\n"
+          "rho3 : [0, 4*u]\n[SYSTEM EQS]\n(x/u - cos(phi) + 1)^2 + (y/u - sin(phi))^2 = (rho1/u)^2;\n"
+          "(x/u - cos(phi) - 1)^2 + (y/u - sin(phi))^2 = (rho2/u)^2;\n"
+          "(x/u + cos(phi) - 2)^2 + (y/u + sin(phi))^2 = (rho3/u)^2;\n[OUTPUTS] x, y\n[LIMITS]\n"
+          "rho1 : [sqrt(2)*u, 2*u]\nrho2 : [sqrt(2)*u, 2*u]\nrho3 : [u, 3*u]\n",
+      "platform.cuik"));
+}
+
+TEST(Boundary, HasTheSameBarriersAndAreaInEveryUnitOfLength) {
+  std::map<Passage, double> first;
+  for (const auto& [text, unit] : {std::pair("1", 1.0), {"1/1000", 1e-3}, {"1000000", 1e6}}) {
+    const study::Question question = limited_platform(text);
+    const result::Result result = study::answer(question);
+    EXPECT_TRUE(result.cover.complete());
+    std::map<Passage, double> count;
+    for (const CoverBox& box : result.cover.boxes) ++count[box.passage];
+    if (first.empty()) first = count;
+    EXPECT_GT(count[Passage::barrier], 1000);
+    EXPECT_GT(count[Passage::traversable], 1000);
+    for (const auto& [passage, boxes] : first) EXPECT_NEAR(count[passage], boxes, 0.02 * boxes + 4) << text;
+    EXPECT_TRUE(result::verify(result).verified()) << text;
+    solve::Control control;
+    const auto area = analyze::area_by_boundary(question, {}, control);
+    ASSERT_TRUE(area);
+    EXPECT_GT(area->lo / (unit * unit), 4.09) << text;
+    EXPECT_LT(area->hi / (unit * unit), 4.19) << text;
+  }
 }
 
 // Annular sectors by closed form: t2 in [0, b] makes the elbow's side one, so outputs are (r, angle) one to one.

@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "corank/solve/solve.h"
+#include "corank/study/question.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_file.h"
@@ -102,6 +103,25 @@ TEST(Unit, OfLengthChangesNothingWhereTheVelocityEquationIsGiven) {
       expect_same_places(metres, solved("1/1000", 1e-3), described, 1e-3, kSigma);
       expect_same_places(metres, solved("1000", 1e3), described, 1e3, kSigma);
     }
+}
+
+// A sphere's directions and one of its heights, in `unit` per metre: components of unit vectors count as sines do.
+TEST(Unit, OfDirectionsIsNone) {
+  std::size_t boxes = 0;
+  for (const auto& [text, unit] : {std::pair("1", 1.0), {"1/1000", 1e-3}, {"1000", 1e3}, {"1000000", 1e6}}) {
+    const System system = study::system({.model = symbolic::parse_model(std::string("[CONSTANTS]\nr := ") + text +
+                                                                            "\n[SYSTEM VARS]\nu @ unit\nx : [-2*r, 2*r]\n"
+                                                                            "[SYSTEM EQS]\nx = r*u_x;\n",
+                                                                        "sphere.cuik")});
+    EXPECT_EQ(system.variables[static_cast<std::size_t>(system.find("u_x"))].size, 1) << text;
+    EXPECT_DOUBLE_EQ(system.variables[static_cast<std::size_t>(system.find("x"))].size, unit) << text;
+    const Cover cover = solve::solve(system);
+    EXPECT_TRUE(cover.complete());
+    EXPECT_NEAR(cover.sigma.length / unit, cover.sigma.angle, 1e-12) << text;
+    if (boxes == 0) boxes = cover.boxes.size();
+    EXPECT_GT(boxes, 100u);
+    EXPECT_NEAR(static_cast<double>(cover.boxes.size()), static_cast<double>(boxes), 4) << text;
+  }
 }
 
 TEST(Sigma, DoesNotSteerTheSearch) {
