@@ -109,6 +109,33 @@ bool has_rates_for(const Assembly& assembly) {
 
 bool seems_redundant(const Assembly& assembly) { return assembly.mobility_by_rank.value_or(0) > assembly.mobility; }
 
+long output_rates(const symbolic::Mechanism& mechanism) {
+  return std::count_if(mechanism.rates().begin(), mechanism.rates().end(),
+                       [](const symbolic::Rate& rate) { return rate.role == symbolic::Role::output; });
+}
+
+Assembly as_asked(const Robot& robot) {
+  Assembly best = draft(robot, {});
+  // Several parallelograms that share sides may make each other's loops redundant on some of their branches.
+  bool in_branches = std::any_of(best.parallelograms.begin(), best.parallelograms.end(),
+                                 [](const Assembly::WrittenParallelogram& p) { return !p.angle.empty(); });
+  if (in_branches && seems_redundant(best))
+    if (Assembly whole = draft(robot, {.in_branches = false}); !seems_redundant(whole)) {
+      best = std::move(whole);
+      in_branches = false;
+    }
+  // Over-constrained, as it seems: other ways to write its loops may show which equations follow from the others.
+  for (const bool deep : {false, true}) {
+    if (best.space == Space::planar || !seems_redundant(best)) break;
+    try {
+      Assembly other = draft(robot, {in_branches, true, deep});
+      if (other.mobility > best.mobility && has_rates_for(other)) best = std::move(other);
+    } catch (const symbolic::ModelError&) {  // this way cannot write the robot; the first one could
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 const char* to_string(Space space) {
@@ -130,25 +157,14 @@ Assembly assemble(const Robot& robot) {
   }
   robot.validate();
   const symbolic::GinacLock lock;
-  Assembly best = draft(robot, {});
-  // Several parallelograms that share sides may make each other's loops redundant on some of their branches.
-  bool in_branches = std::any_of(best.parallelograms.begin(), best.parallelograms.end(),
-                                 [](const Assembly::WrittenParallelogram& p) { return !p.angle.empty(); });
-  if (in_branches && seems_redundant(best))
-    if (Assembly whole = draft(robot, {.in_branches = false}); !seems_redundant(whole)) {
-      best = std::move(whole);
-      in_branches = false;
-    }
-  // Over-constrained, as it seems: other ways to write its loops may show which equations follow from the others.
-  for (const bool deep : {false, true}) {
-    if (best.space == Space::planar || !seems_redundant(best)) break;
-    try {
-      Assembly other = draft(robot, {in_branches, true, deep});
-      if (other.mobility > best.mobility && has_rates_for(other)) best = std::move(other);
-    } catch (const symbolic::ModelError&) {  // this way cannot write the robot; the first one could
-    }
-  }
-  return best;
+  Assembly whole = as_asked(robot);
+  // Of a robot with fewer freedoms than a pose has, its position is asked for, in the orientation that is kept.
+  Robot in_positions = robot;
+  for (Output& output : in_positions.outputs)
+    if (output.kind == Output::Kind::pose && output.kept) output.kind = Output::Kind::position;
+  if (output_rates(whole.mechanism) <= whole.mobility) return whole;
+  Assembly positions = as_asked(in_positions);
+  return output_rates(positions.mechanism) <= positions.mobility ? std::move(positions) : std::move(whole);
 }
 
 }  // namespace corank::kinematics

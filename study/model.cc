@@ -63,6 +63,22 @@ std::optional<std::string> other_names(const kinematics::Robot& robot) {
   return "outputs that are joints go by the joints' names, here and in results: " + list;
 }
 
+// Poses in one orientation, of which the position alone is an output (kinematics::assemble).
+std::optional<std::string> only_positions(const kinematics::Robot& robot, const kinematics::Assembly& assembly) {
+  std::string list;
+  const auto& rates = assembly.mechanism.rates();
+  for (const kinematics::Output& o : robot.outputs) {
+    const bool turns = std::any_of(rates.begin(), rates.end(),
+                                   [&](const symbolic::Rate& rate) { return rate.name.starts_with("w_" + o.name + "_"); });
+    if (o.kind != kinematics::Output::Kind::pose || !o.kept || turns || rates.empty()) continue;
+    list += (list.empty() ? "" : ", ") + o.name;
+  }
+  if (list.empty()) return std::nullopt;
+  return fmt::format(
+      "the robot has mobility {}, fewer than a pose has: of {} the position is the output, in the orientation that is kept",
+      assembly.mobility, list);
+}
+
 Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOverride>& constants) {
   put_in(constants, robot);
   if (!robot.missing.empty()) throw ModelError({robot.file, 0, 0}, robot.missing.front(), "all files that the robot names");
@@ -74,6 +90,7 @@ Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOver
                                     symbolic::to_model(model.mechanism));
   for (const auto& one : model.assembly->parallelograms) model.notices.push_back(flat_positions(one));
   if (const auto names = other_names(robot)) model.notices.push_back(*names);
+  if (const auto positions = only_positions(robot, *model.assembly)) model.notices.push_back(*positions);
   if (const auto special = paradox(*model.assembly)) model.notices.push_back(*special);
   return model;
 }

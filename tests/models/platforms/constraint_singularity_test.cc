@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,7 @@
 #include "corank/solve/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
+#include "corank/symbolic/model_file.h"
 
 namespace corank {
 namespace {
@@ -71,6 +73,30 @@ TEST(ConstraintSingularities, OfA3UpuAlongALineAreTwoPostures) {
     }
     EXPECT_EQ(holding, 1u) << "x = " << x;
   }
+}
+
+// The pose of a platform with three freedoms, in one orientation: its position is the output. There the platform may turn
+// although the motors are locked.
+TEST(ConstraintSingularities, OfA3UpuInOneOrientationAreForwardSingularities) {
+  std::string text = symbolic::read_text(CORANK_SOURCE_DIR "/models/platforms/3upu_constraint.cuik");
+  text.resize(text.find("[OUTPUTS]"));
+  const study::Model model =
+      study::parse_model({text + "[OUTPUTS]\nP : pose of platform.C range y [y0, y0] z [z0, z0] keeps id\n", "3upu.cuik"});
+  EXPECT_EQ(model.assembly->mobility, 3);
+  EXPECT_TRUE(std::any_of(model.notices.begin(), model.notices.end(), [](const std::string& notice) {
+    return notice.find("of P the position is the output, in the orientation that is kept") != std::string::npos;
+  }));
+  const System system =
+      study::system({.model = model.mechanism, .set = symbolic::SingularitySet::forward, .assembly = model.assembly});
+  const Cover cover = solve::solve(system, {});
+  EXPECT_TRUE(cover.complete());
+  ASSERT_EQ(cover.count(Verdict::isolated), 2u);
+  ASSERT_EQ(cover.boxes.size(), 2u);
+  std::vector<double> x;
+  for (const CoverBox& b : cover.boxes) x.push_back(b.box[static_cast<std::size_t>(system.find("P_x"))].mid());
+  std::sort(x.begin(), x.end());
+  EXPECT_NEAR(x[0], -1, 1e-9);
+  EXPECT_NEAR(x[1], 1, 1e-9);
 }
 
 }  // namespace
