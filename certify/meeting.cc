@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/certify/projection.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {
+
+constexpr double kRadius = 1e-10;  // of the scales
 
 bool contains(const Box& outer, const std::vector<Interval>& inner) {
   for (std::size_t j = 0; j < outer.size(); ++j)
@@ -39,6 +42,17 @@ Eigen::MatrixXd weighted(Eigen::MatrixXd j, const Eigen::VectorXd& weights, Eige
   return j;
 }
 
+// The box holds its solutions still: a projection takes none away (projection.h). A variable with an equation of its own
+// gets its value, without what rounding has added.
+void keep_values(const CompiledSystem& system, Box& box) {
+  std::vector<std::uint8_t> changed(box.size());
+  Box kept = box;
+  for (int row = 0; row < system.equations(); ++row)
+    if (system.row_begin(row + 1) - system.row_begin(row) == 1 && !certify::project(system, row, kept, 0, changed.data()))
+      return;
+  box = std::move(kept);
+}
+
 }  // namespace
 
 bool MeetingTest::project(const Box& within, std::vector<double>& c) {
@@ -66,7 +80,6 @@ bool MeetingTest::project(const Box& within, std::vector<double>& c) {
 }
 
 Sheet MeetingTest::prove(std::vector<Interval> x, const std::vector<double>& c, const std::vector<double>& weights) {
-  constexpr double kRadius = 1e-10;
   const int m = system_.equations();
   const Eigen::MatrixXd j = jacobian(system_, c);
   const Eigen::Map<const Eigen::VectorXd> w(weights.data(), static_cast<Eigen::Index>(weights.size()));
@@ -93,6 +106,7 @@ Sheet MeetingTest::prove(std::vector<Interval> x, const std::vector<double>& c, 
 
 std::optional<Sheet> MeetingTest::sheet_in(const Box& box, const Box& near) {
   CORANK_CHECK(UpwardRounding::active());
+  const bool has_one_value = std::any_of(box.begin(), box.end(), [](const Interval& side) { return side.width() == 0; });
   // From the middle, then from points on the way to the ends of its sides.
   for (const double share : {0.5, 0.2, 0.8, 0.05, 0.95}) {
     std::vector<double> c;
@@ -103,8 +117,10 @@ std::optional<Sheet> MeetingTest::sheet_in(const Box& box, const Box& near) {
     }
     if (!project(box, c)) continue;
     std::vector<double> widths;
-    for (const Interval& side : box) widths.push_back(side.width());
+    for (std::size_t j = 0; j < box.size(); ++j)
+      widths.push_back(box[j].width() > 0 ? box[j].width() : kRadius * system_.scales()[j]);
     Sheet sheet = prove({c.begin(), c.end()}, c, widths);
+    if (sheet.proven && has_one_value) keep_values(system_, sheet.image);
     if (sheet.proven && contains(box, sheet.image)) return sheet;
   }
   return std::nullopt;

@@ -157,6 +157,8 @@ void Strata::relax(System& system, const std::vector<int>& ends) const {
     const ExactNumber room = power_of_two_near(v.domain.width());
     Variable wider(v.name, v.kind, lower ? v.lower - room : v.lower, lower ? v.upper : v.upper + room);
     wider.auxiliary = v.auxiliary;
+    wider.direction = v.direction;
+    wider.size = v.size;
     v = std::move(wider);
   }
   std::vector<Polynomial> rest;

@@ -57,6 +57,24 @@ TEST(SolutionIn, IsInTheBoxAndOnTheCircle) {
   EXPECT_GT(found, 0.9 * there) << "others have a corner alone in the box";
 }
 
+// A variable with an equation of its own has one value, which a piece's region may hold without any room.
+TEST(SolutionIn, IsFoundWhereAVariableHasOneValue) {
+  const UpwardRounding rounding;
+  test::SystemBuilder b;
+  const int x = b.variable("x", "-8", "8"), y = b.variable("y", "-8", "8"), z = b.variable("z", "35000", "35000");
+  b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-25", {}}});
+  b.equation({{"1", {{z, 1}}}, {"-35000", {}}});
+  const System system = b.system();
+  MeetingTest test(system);
+  const Interval value = system.variables[2].domain;
+  for (const Interval& known : {value, value + Interval(-1e-9, 1e-9)}) {
+    const auto solution = test.solution_in({{2.9, 3.1}, {3.9, 4.1}, known}, {{2.9, 3.1}, {3.9, 4.1}, known});
+    ASSERT_TRUE(solution);
+    EXPECT_TRUE(known.contains((*solution)[2]));
+  }
+  EXPECT_FALSE(test.solution_in({{2.9, 3.1}, {3.9, 4.1}, Interval(34999)}, {{2.9, 3.1}, {3.9, 4.1}, Interval(34999)}));
+}
+
 TEST(Meeting, IsProvenOnlyWhereARegionOfBothIsCrossed) {
   Boxes boxes(2);
   const UpwardRounding rounding;
