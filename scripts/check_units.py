@@ -18,7 +18,7 @@ Compared are, for each K:
 - map, over two inputs or outputs: the number of cells by what is proven of them;
 - processor times, where they are above a second: within 1.5 times.
 
-A question that reaches the limit of time is asked in one other unit only. Prints a line for each difference and one for
+A question that is not done in the limit of time is named and not compared. Prints a line for each difference and one for
 each model; exit status 1 if any differed.
 """
 import argparse
@@ -322,27 +322,31 @@ def check(program, path, scales, limit, only, folder):
     if not units.plain:
         found, _, _ = asker.ask(units.arguments("1"), "aspects")
         sample = [r["values"] for r in found.get("representatives", [])]
-    count, asked = 0, 0
+    count, asked, open_questions = 0, 0, []
     for name, (question, compared) in asker.questions(sample).items():
         if only and not any(name.startswith(word) for word in only):
             continue
         command = question("1")
         found, seconds, ended = asker.ask(units.arguments("1"), *command)
+        if ended:
+            open_questions.append(name)
+            continue
         first = (*compared(found, "1"), seconds)
         asked += 1
-        for scale in scales[:1] if ended else scales:
+        for scale in scales:
             command = question(scale)
-            found, seconds, other_ended = asker.ask(units.arguments(scale), *command)
-            if other_ended and not ended:  # a busy machine?
-                found, seconds, other_ended = asker.ask(units.arguments(scale), *command, limit=4 * limit)
-            if is_slower(first[2], seconds) and not ended and not other_ended:  # a busy machine?
+            found, seconds, ended = asker.ask(units.arguments(scale), *command)
+            if ended:  # a busy machine?
+                found, seconds, ended = asker.ask(units.arguments(scale), *command, limit=4 * limit)
+            if is_slower(first[2], seconds) and not ended:  # a busy machine?
                 seconds = min(seconds, asker.ask(units.arguments(scale), *command)[1])
                 again = asker.ask(units.arguments("1"), *question("1"))[1]
                 first = (*first[:2], min(first[2], again))
             for difference in differences(name, first, (*compared(found, scale), seconds)):
                 print(f"{path}, lengths times {scale}: {difference}", flush=True)
                 count += 1
-    print(f"{path} ({units.way}): {asked} questions, {count} differences", flush=True)
+    rest = f"; not done in {limit:g} s: {', '.join(open_questions)}" if open_questions else ""
+    print(f"{path} ({units.way}): {asked} questions, {count} differences{rest}", flush=True)
     return count
 
 

@@ -162,6 +162,17 @@ TEST(TopologyWithEnds, OfMechanismsWithLimits) {
   };
   expect_surface(model("dextar_limits", {}), -1, 1, 1);
   expect_surface(model("planar/3rpr_innocenti", {}), -5, 5, 1);
+  const auto in_thousandths = model("planar/3rpr_innocenti", {{"a2", "15910"},
+                                                              {"a3", "10000"},
+                                                              {"d1", "17040"},
+                                                              {"d2", "16540"},
+                                                              {"d3", "20840"},
+                                                              {"leg1", "14980"},
+                                                              {"lower2", "1000"},
+                                                              {"upper2", "35000"},
+                                                              {"lower3", "1000"},
+                                                              {"upper3", "35000"}});
+  expect_surface(in_thousandths, -5, 5, 1);
   expect_surface(model("planar/3rpr", {{"lower1", "4/5"}, {"upper1", "4/5"}}), -2, 4, 0);
   expect_surface(model("planar/3rpr", {{"lower1", "6/5"}, {"upper1", "6/5"}}), -1, 3, 0);
   const Topology sliders = model("planar/five_bar_sliders", {});
