@@ -234,7 +234,9 @@ class Asker:
         boxes = found.get("boxes", {})
         kinds = boxes if isinstance(boxes, dict) else collections.Counter(b["verdict"] for b in boxes)
         kinds = {k: n for k, n in kinds.items() if k != "processed"}
-        same = {k: found.get(k) for k in ("exit", "error", "complete", "assembled", "observed_dimension", "dimension")}
+        same = {k: found.get(k) for k in ("exit", "error", "complete", "assembled", "dimension")}
+        if kinds.get("undecided", 0) > FEW * sum(kinds.values()):
+            same["observed_dimension"] = found.get("observed_dimension")
         if not found.get("complete"):
             return same, {}
         points = found.get("points")
@@ -243,7 +245,11 @@ class Asker:
         if points is not None and not any(kinds.get(k) for k in ("regular", "partial", "undecided")):
             same["boxes"] = kinds
             return same, {}
-        return same, {k: (n, NEAR if points is None else LARGER) for k, n in kinds.items()}
+        near = {k: (n, NEAR if points is None else LARGER) for k, n in kinds.items()}
+        for kind, n in (found.get("boundary") or {}).items():
+            if isinstance(n, int):
+                near[f"boundary that is {kind}"] = (n, NEAR)
+        return same, near
 
     @staticmethod
     def aspects(found, factor):
