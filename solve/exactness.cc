@@ -25,6 +25,7 @@ namespace corank::solve {
 namespace {
 
 constexpr std::uint64_t kFaceBoxes = 200'000;  // to search in one face of a blow-up
+constexpr double kUncut = 1e9;                 // a sigma above which no sheet is cut
 constexpr std::size_t kMostOpenBoxes = 3000;   // beyond, clusters are no longer sought
 constexpr int kMostVariables = 150;            // exact points of larger systems take too long
 constexpr int kMostFutile = 16;                // attempts, before a kind of point is no longer sought
@@ -161,13 +162,11 @@ class Prover {
     while ((ExactNumber::dyadic(radius) - needed).sign() != 1) radius *= 2;
     const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius), ended_);
     if (!faces) return false;
-    Options options{.max_found = 1};  // one box that may hold a solution says enough
+    Options options{.sigma = kUncut};  // whether there is any box is asked, not how many
     options.threads = prepared_.options.threads;
     try {
       for (const System& face : *faces) {
-        Control search(control_.rest());
-        const Cover solutions = solve(prepare(face, options, search), search, kFaceBoxes);
-        control_.count_boxes(solutions.statistics.processed);
+        const Cover solutions = solve(prepare(face, options, control_), control_, kFaceBoxes);
         if (!solutions.complete() || !solutions.boxes.empty()) return false;
       }
     } catch (const std::invalid_argument&) {  // elimination has made coefficients that no double holds
