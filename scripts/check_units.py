@@ -11,7 +11,7 @@ How lengths are multiplied by K:
 Compared are, for each K:
 - solve, of each set: whether it is complete, its dimension, its points if it has dimension 0; else its boxes by verdict.
   These may differ by NEAR and FEW, since numbers that are no powers of two round differently, so that a box is bisected
-  once more or less; by LARGER where a system of points has a curve of solutions;
+  once more or less; by LARGER where the solutions are a larger set than the equations' count says;
 - aspects (with cusps), assembly and working modes; components, Euler characteristic and genus;
 - clearance: the radius, within its precision; times K where the ball lies in lengths;
 - path: what it finds; on a straight way, its radius and, times K, its radius in lengths;
@@ -28,6 +28,7 @@ import json
 import pathlib
 import re
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -169,6 +170,9 @@ class Units:
             return None
         path = pathlib.Path(self.folder) / f"{self.path.stem}.cuik"
         path.write_text(text)
+        for name in re.findall(r'"([^"/\n]+)"', text):
+            if (self.path.parent / name).is_file():
+                shutil.copy(self.path.parent / name, self.folder)
         return [str(path)]
 
     def values(self, representative, names, factor):
@@ -245,7 +249,8 @@ class Asker:
         if points is not None and not any(kinds.get(k) for k in ("regular", "partial", "undecided")):
             same["boxes"] = kinds
             return same, {}
-        near = {k: (n, NEAR if points is None else LARGER) for k, n in kinds.items()}
+        larger = points is not None or kinds.get("undecided", 0) > FEW * sum(kinds.values())
+        near = {k: (n, LARGER if larger else NEAR) for k, n in kinds.items()}
         for kind, n in (found.get("boundary") or {}).items():
             if isinstance(n, int):
                 near[f"boundary that is {kind}"] = (n, NEAR)
