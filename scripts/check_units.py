@@ -85,7 +85,8 @@ def split_at_commas(text):
 
 
 def scaled_points(text, factor):
-    """(x, y, z) are points, except behind a plus sign or a colour, and in the two parentheses behind `zero`."""
+    """(x, y, z) are points, except behind a plus sign or a colour, and in the two parentheses behind `zero`; of fixed joints
+    the translations are lengths."""
     result, i = "", 0
     while i < len(text):
         if text[i] != "(":
@@ -98,8 +99,15 @@ def scaled_points(text, factor):
             end += 1
         inside = split_at_commas(text[i + 1 : end - 1])
         before = result.rstrip()
+        translation = re.search(r"\bT(x|y|z|xyz|R)$", before)
+        if translation and translation[1] == "R":  # rows with the translation behind the rotation
+            rows = [split_at_commas(row) for row in text[i + 1 : end - 1].split(";")]
+            scaled_rows = [", ".join([*row[:3], *(f"({factor})*({x})" for x in row[3:])]) for row in rows]
+            result += "(" + "; ".join(scaled_rows) + ")"
+            i = end
+            continue
         direction = before.endswith(("+", "color", "zero")) or re.search(r"zero\s*\([^()]*(\([^()]*\)[^()]*)*\)$", before)
-        if len(inside) == 3 and not direction:
+        if translation or (len(inside) == 3 and not direction):
             result += "(" + ", ".join(f"({factor})*({x})" for x in inside) + ")"
         else:
             result += text[i:end]
