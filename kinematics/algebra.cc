@@ -97,7 +97,9 @@ ex Algebra::expression(const Expression& e, const SourceLocation& where) const {
 }
 
 ex Algebra::constant(const Expression& e, const SourceLocation& where) const {
-  if (e.kind() == Expression::Kind::number) return symbolic::exact_decimal(e.name());
+  using Kind = Expression::Kind;
+  if (e.kind() == Kind::number) return symbolic::exact_decimal(e.name());
+  if (e.kind() == Kind::negation) return -constant(e.operands()[0], where);
   return expression(e, where);
 }
 
@@ -300,14 +302,14 @@ ex Algebra::collected(const ex& e) const {
   } else {
     add(sum);
   }
-  ex result = 0;
+  GiNaC::exvector kept;  // added at once: one by one takes quadratic time
   for (const auto& [product, coefficient] : coefficients)
     if (sign_by_value(coefficient) != 0) {
-      result += coefficient * product;
+      kept.push_back(coefficient * product);
     } else if (!coefficient.is_zero()) {
       note(coefficient, 0);
     }
-  return result;
+  return GiNaC::add(kept);
 }
 
 std::vector<Expression> Algebra::translated(const std::vector<ex>& list) const {

@@ -27,8 +27,8 @@ Expression Expression::make(Kind kind, std::string name, std::vector<Expression>
 }
 
 Expression::Expression(int n) {
-  const std::string digits = std::to_string(n);
-  *this = number(digits);
+  static const Expression kZero = number("0"), kOne = number("1");  // of which matrices are full: shared
+  *this = n == 0 ? kZero : n == 1 ? kOne : number(std::to_string(n));
 }
 
 Expression::Expression(const char* text) : Expression(std::string(text)) {}

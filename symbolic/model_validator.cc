@@ -190,31 +190,31 @@ ModelValidator::Size ModelValidator::check_symbol(const Expression& e, const Con
   const std::string& name = e.name();
   if (name == "pi") return {1, true, std::numbers::pi_v<long double>};
   if (const auto known = constants_.find(name); known != constants_.end()) return known->second;
-  const SourceLocation where = e.where_or(context.where);
-  const std::string what = in_quotes(name) + " in " + context.owner;
+  const auto where = [&] { return e.where_or(context.where); };  // made for a fault only: points have thousands of names
+  const auto what = [&] { return in_quotes(name) + " in " + context.owner; };
   const auto constant = declared_.find(name);
   if (constant != declared_.end()) {
     const int line = constant->second->where.line;
     throw ModelError(
-        where,
-        "the constant " + what + " is used before its declaration" + (line > 0 ? " in line " + std::to_string(line) : ""),
+        where(),
+        "the constant " + what() + " is used before its declaration" + (line > 0 ? " in line " + std::to_string(line) : ""),
         "constants declared before");
   }
   if (rates_.contains(name)) {
     if (context.rates) return {1, false, 0};
-    throw ModelError(where, "the rate " + what + " may not stand there",
+    throw ModelError(where(), "the rate " + what() + " may not stand there",
                      context.constants_only ? "numbers and constants" : "numbers, constants and variables");
   }
   const bool is_coordinate = coordinates_.contains(name);
   if (is_coordinate && !context.constants_only) return {1, false, 0};
-  if (is_coordinate) throw ModelError(where, "the variable " + what + " may not stand there", "numbers and constants");
+  if (is_coordinate) throw ModelError(where(), "the variable " + what() + " may not stand there", "numbers and constants");
   if (const auto composite = composites_.find(name); composite != composites_.end()) {
     const Composite& c = *composite->second;
     const bool unit = c.kind == Composite::Kind::unit;
-    throw ModelError(where, std::string(unit ? "the unit vector " : "the rotation matrix ") + what + " is no number",
+    throw ModelError(where(), std::string(unit ? "the unit vector " : "the rotation matrix ") + what() + " is no number",
                      "one of its components " + c.components.front() + " … " + c.components.back());
   }
-  throw ModelError(where, "the name " + what + " is not declared",
+  throw ModelError(where(), "the name " + what() + " is not declared",
                    context.constants_only ? "a declared constant"
                    : context.rates        ? "a declared constant, variable or rate"
                                           : "a declared constant or variable");
