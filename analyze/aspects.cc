@@ -407,8 +407,8 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   const symbolic::ExpressionMatrix l_y = block(question, symbolic::SingularitySet::forward);
   const symbolic::ExpressionMatrix l_z = block(question, symbolic::SingularitySet::inverse);
   std::vector<symbolic::Expression> forward, inverse;
+  const Ended ended = [&control] { return control.ended(); };
   try {
-    const Ended ended = [&control] { return control.ended(); };
     forward = symbolic::determinant_factors(question.model, l_y, ended);
     inverse = symbolic::determinant_factors(question.model, l_z, ended);
   } catch (const symbolic::DeterminantTooLarge& error) {
@@ -421,6 +421,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   solve::Options search;
   search.threads = options.threads;
   search.proof = options.certificate;
+  search.proof_of_parts = false;
   const std::vector<Interval> domain = result.system.domain();
   search.sigma = 2 * std::max_element(domain.begin(), domain.end(),
                                       [](const Interval& a, const Interval& b) { return a.width() < b.width(); })
@@ -460,7 +461,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     const bool plane = cover.dimension == 2 && options.images.size() == 2 && found.exact();
     const int x = plane ? result.system.find(options.images[0]) : -1, y = plane ? result.system.find(options.images[1]) : -1;
     if (first && x >= 0 && y >= 0) result.images = images(cells, found, x, y, options.rows, control);
-    if (first && !options.drawn.empty()) result.drawing = draw(cells, found, options.drawn);
+    if (first && !options.drawn.empty()) result.drawing = draw(cells, found, options.drawn, ended);
     if (first && options.cusps) result.cusps = aspect_cusps(question, loci, cells, found, options.threads, control);
     if (first && options.placed) result.places = piece_places(cells, found, options.placed->boxes, control);
     return found;

@@ -17,7 +17,7 @@ struct Corner {
 
 class Drawer {
  public:
-  Drawer(SignCells& cells, const std::vector<std::string>& names) : cells_(cells) {
+  Drawer(SignCells& cells, const std::vector<std::string>& names, const Ended& ended) : cells_(cells), ended_(ended) {
     const System& system = cells.system();
     for (const std::string& name : names) {
       Coordinate c;
@@ -34,6 +34,7 @@ class Drawer {
 
   void draw(const SignCell& cell, const Box& sides, const std::vector<int>& signs, int depth,
             std::vector<PieceDrawing::Polygon>& out) {
+    if (ended_()) return;
     const SignCell here = cells_.cell_over(cell, sides);
     const int all = SignCells::holds(here, signs);
     if (all < 0) return;
@@ -112,16 +113,18 @@ class Drawer {
   }
 
   SignCells& cells_;
+  const Ended& ended_;
   std::vector<Coordinate> coordinates_;
   bool known_ = true;
 };
 
 }  // namespace
 
-PieceDrawing draw(SignCells& cells, const Pieces& pieces, const std::vector<std::string>& coordinates) {
+std::optional<PieceDrawing> draw(SignCells& cells, const Pieces& pieces, const std::vector<std::string>& coordinates,
+                                 const Ended& ended) {
   constexpr int kDepth = 2;
   PieceDrawing result;
-  Drawer drawer(cells, coordinates);
+  Drawer drawer(cells, coordinates, ended);
   if (cells.cover().dimension != 2 || !drawer.known()) return result;
   result.coordinates = coordinates;
   for (std::size_t k = 0; k < coordinates.size(); ++k) result.is_angle.push_back(drawer.is_angle(k));
@@ -131,6 +134,7 @@ PieceDrawing draw(SignCells& cells, const Pieces& pieces, const std::vector<std:
     const SignCell& cell = cells.cells()[part.cell];
     drawer.draw(cell, cell.sides, part.signs, kDepth, result.pieces[static_cast<std::size_t>(part.piece)]);
   }
+  if (ended()) return std::nullopt;
   return result;
 }
 

@@ -1,10 +1,12 @@
 // Pieces of a set of dimension 2 as polygons in some of its coordinates, to be looked at: nothing is proven by them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "corank/analyze/sign_cells.h"
+#include "corank/core/ended.h"
 
 namespace corank::analyze {
 
@@ -19,7 +21,8 @@ struct PieceDrawing {
 };
 
 /// `coordinates`: lengths and angles of the cells' system. Empty where the set has not two dimensions, or there is no such
-/// coordinate.
-PieceDrawing draw(SignCells& cells, const Pieces& pieces, const std::vector<std::string>& coordinates);
+/// coordinate; nothing where it was `ended`.
+std::optional<PieceDrawing> draw(SignCells& cells, const Pieces& pieces, const std::vector<std::string>& coordinates,
+                                 const Ended& ended);
 
 }  // namespace corank::analyze

@@ -159,7 +159,9 @@ CenterField::Configurations CenterField::configurations(std::span<const Interval
   options.max_boxes = kBoxes;
   options.time_limit = std::clamp(control_.seconds_left(), 1e-3, kSeconds);
   options.memory_limit = search_.memory_limit;
-  solve::Control own(limits_of(options, control_.limits().stop));
+  solve::Control::Limits limits = limits_of(options, control_.limits().stop);
+  limits.clock = control_.limits().clock;
+  solve::Control own(std::move(limits));
   const Cover cover = solve::solve(solve::prepare(std::move(system), options, own), own);
   result.excluded = cover.complete() && cover.boxes.empty();
   for (const CoverBox& box : cover.boxes) {

@@ -16,14 +16,17 @@ constexpr double kCenterSeconds = 3;  // for the question whether a configuratio
 
 Clearance::Center center_of(const study::Question& question, const Ball& ball, const solve::Options& search,
                             const solve::Control& control) {
+  if (control.ended()) return Clearance::Center::unknown;
   study::Question at = question;
   at.model = ball.assembled;
   if (at.set) at.set = symbolic::SingularitySet::cspace;
   solve::Options options;
   options.max_solutions = 64;  // a proven sheet may pass by its box: one of them need not hold a configuration
   options.threads = search.threads;
-  options.time_limit = search.time_limit > 0 ? std::min(search.time_limit, kCenterSeconds) : kCenterSeconds;
-  solve::Control own(limits_of(options, control.limits().stop));
+  options.time_limit = std::clamp(control.seconds_left(), 1e-3, kCenterSeconds);
+  solve::Control::Limits limits = limits_of(options, control.limits().stop);
+  limits.clock = control.limits().clock;
+  solve::Control own(std::move(limits));
   const Cover cover = solve::solve(solve::prepare(study::system(at), options, own), own);
   if (cover.complete() && cover.boxes.empty()) return Clearance::Center::not_assembled;
   for (const Verdict v : {Verdict::regular, Verdict::isolated, Verdict::exact})

@@ -34,6 +34,7 @@ Cover solved(const System& system, std::optional<double> sigma, const TopologyOp
   options.sigma = sigma;
   options.threads = how.threads;
   options.proof = how.certificate;
+  options.proof_of_parts = false;
   const solve::Prepared prepared = solve::prepare(system, options, control);
   Cover cover = solve::solve(prepared, control, most);
   if (cover.dimension == 0) solve::prove_exactly(prepared, cover, control);

@@ -57,7 +57,7 @@ ExitStatus aspects(AspectsCommand command) {
   const analyze::Aspects result = analyze::aspects(question, command.options, control);
   line.clear();
   const bool complete = !control.ended();
-  if (drawn) {
+  if (drawn && complete) {
     if (!result.drawing || result.drawing->pieces.empty())
       throw UsageError(fmt::format("{}: a picture needs aspects of two dimensions, with two outputs or two inputs",
                                    command.question.file));

@@ -105,12 +105,16 @@ bool write_claims(const ClearanceCommand& command, const analyze::Clearance& cle
   const result::Result free = claim_free(clearance, search, control);
   result::write_result(free_file(command), free);
   const bool is_free = free.cover.complete() && free.cover.boxes.empty();
-  if (!is_free) fmt::print(stderr, "corank: {}: boxes are left, it does not prove the lower bound\n", free_file(command));
+  if (!is_free)
+    fmt::print(stderr, "corank: {}: boxes are left{}, it does not prove the lower bound\n", free_file(command),
+               ending_words(control));
   if (!clearance.nearest.upper) return is_free;
   std::filesystem::remove(nearest_file(command));  // of a former run
   const auto nearest = claim_nearest(clearance, control);
   if (nearest) result::write_result(nearest_file(command), *nearest);
-  if (!nearest) fmt::print(stderr, "corank: the nearest singularity was not proven again for {}\n", nearest_file(command));
+  if (!nearest)
+    fmt::print(stderr, "corank: the nearest singularity was not proven again for {}{}\n", nearest_file(command),
+               ending_words(control));
   return is_free && nearest;
 }
 

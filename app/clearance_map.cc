@@ -6,6 +6,7 @@
 #include "corank/app/box_files.h"
 #include "corank/app/clearance_command.h"
 #include "corank/app/limited_run.h"
+#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/report/heat_map.h"
 #include "corank/result/printable.h"
@@ -59,7 +60,7 @@ ExitStatus run_map(ClearanceCommand command) {
                result::printable(command.output));
   }
   if (map.complete) return kDone;
-  fmt::print(stderr, "corank: not all cells were examined; the bounds of those that were hold\n");
+  fmt::print(stderr, "corank: not all cells were examined{}; the bounds of those that were hold\n", ending_words(control));
   return kIncomplete;
 }
 

@@ -6,17 +6,13 @@
 #include <cstdlib>
 #include <utility>
 
+#include "corank/app/command_control.h"
 #include "corank/app/exit_status.h"
 #include "corank/result/output_file.h"
 #include "corank/symbolic/ginac_lock.h"
 
 namespace corank::app {
 namespace {
-
-solve::Control::Limits with_stop(solve::Control::Limits limits) {
-  limits.stop = &Interrupt::stop();
-  return limits;
-}
 
 // Until the model's equations are there all is one piece of work; later each call of GiNaC is one.
 Watch::Work deaf_work(const solve::Control& control) {
@@ -37,7 +33,7 @@ Watch::Work deaf_work(const solve::Control& control) {
 }  // namespace
 
 LimitedRun::LimitedRun(solve::Control::Limits limits)
-    : control_(with_stop(std::move(limits))),
+    : control_(of_command(std::move(limits))),
       watch_(
           control_.limits().time, Interrupt::stop(), [this](const std::string&) { give_up(control_); }, Watch::kGrace,
           [this] { return deaf_work(control_); }) {}

@@ -19,4 +19,8 @@ ExitStatus stopped_early(const solve::Control& control) {
   return kIncomplete;
 }
 
+std::string ending_words(const solve::Control& control) {
+  return control.ended() ? ", stopped by " + to_string(*control.ending()) : "";
+}
+
 }  // namespace corank::app

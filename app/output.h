@@ -1,6 +1,8 @@
 // What commands say at their end.
 #pragma once
 
+#include <string>
+
 #include "corank/app/exit_status.h"
 #include "corank/result/result.h"
 #include "corank/solve/control.h"
@@ -11,5 +13,7 @@ namespace corank::app {
 bool warn_of_assembly(const result::Result& result);
 /// Says what ended an analysis early whose numbers are proven at any time. Requires that something did.
 ExitStatus stopped_early(const solve::Control& control);
+/// ", stopped by the time limit, in the stage search"; empty where nothing has ended it.
+std::string ending_words(const solve::Control& control);
 
 }  // namespace corank::app

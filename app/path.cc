@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/named_values.h"
+#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/set_views.h"
@@ -53,22 +55,27 @@ std::string PathCommand::line() const {
 
 /// What the portraits of a page show, as far as it is found soon; what is not goes to `missing`. C-space is a background.
 std::vector<report::SetView> portrayed_sets(const PathCommand& command, const study::Question& question,
-                                            std::vector<std::string>& missing) {
+                                            const solve::Control& control, std::vector<std::string>& missing) {
   constexpr double kTimeOfEach = 4, kCoarserBackground = 3;
   constexpr std::uint64_t kMostBoxes = 100'000;
   std::vector<report::SetView> views;
   for (const char* name : {"cspace", "forward", "inverse"}) {
     const symbolic::SetDefinition& set = symbolic::definition(std::string(name));
-    const SetSearch search{
-        .coarser = set.is_cspace() ? kCoarserBackground : 1,
-        .sets = {name},
-        .limits = {.threads = command.options.threads, .max_found = kMostBoxes, .time_limit = kTimeOfEach}};
+    if (control.ended()) {
+      missing.emplace_back(set.title);
+      continue;
+    }
+    const SetSearch search{.coarser = set.is_cspace() ? kCoarserBackground : 1,
+                           .sets = {name},
+                           .limits = {.threads = command.options.threads,
+                                      .max_found = kMostBoxes,
+                                      .time_limit = std::min(kTimeOfEach, control.seconds_left())}};
     try {
-      report::SetView view = solve_view(search, question, 0, 0);
-      if (view.result.cover.complete())
-        views.push_back(std::move(view));
+      std::optional<report::SetView> view = solve_view(search, question, 0, 0);
+      if (view && view->result.cover.complete())
+        views.push_back(std::move(*view));
       else
-        missing.push_back(view.words.title);
+        missing.emplace_back(set.title);
     } catch (const symbolic::ModelError&) {  // the model does not answer such a question
       missing.emplace_back(set.title);
     }
@@ -76,12 +83,13 @@ std::vector<report::SetView> portrayed_sets(const PathCommand& command, const st
   return views;
 }
 
-void write_page(const PathCommand& command, const analyze::PathFinder& finder, const analyze::Path& found) {
+void write_page(const PathCommand& command, const analyze::PathFinder& finder, const analyze::Path& found,
+                const solve::Control& control) {
   const study::Question& question = finder.question();
   report::PathPageOptions options;
   options.command = command.line();
   if (found.tube) options.file = std::filesystem::path(command.output).filename().string();
-  const std::vector<report::SetView> sets = portrayed_sets(command, question, options.missing);
+  const std::vector<report::SetView> sets = portrayed_sets(command, question, control, options.missing);
   result::write_text(command.report, report::path_page(question.model, report::path_view(finder, found), sets, options));
 }
 
@@ -116,9 +124,12 @@ ExitStatus path(PathCommand command) {
   line.clear();
   if (!command.csv.empty()) result::write_text(command.csv, to_csv(finder, found));
   if (!command.output.empty() && found.tube) result::write_path(command.output, analyze::to_file(finder, found));
-  if (!command.report.empty()) write_page(command, finder, found);
+  if (!command.report.empty()) write_page(command, finder, found, control);
   if (command.json.say([&] { return to_json(finder, found); })) fmt::print("{}", result::printable(to_text(finder, found)));
-  return found.status == analyze::Path::Status::unknown ? kIncomplete : kDone;
+  if (found.status == analyze::Path::Status::unknown) return kIncomplete;
+  if (control.ended())
+    fmt::print(stderr, "corank: what is said is proven{}; the path might keep farther away\n", ending_words(control));
+  return kDone;
 }
 
 }  // namespace

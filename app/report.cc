@@ -7,9 +7,11 @@
 #include <memory>
 
 #include "corank/app/box_files.h"
+#include "corank/app/command_control.h"
 #include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/json_option.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
@@ -42,12 +44,19 @@ struct ReportCommand {
   JsonOption json;
 };
 
-std::vector<report::SetView> solve_all(const ReportCommand& command, const study::Question& question) {
+/// `left_out`: sets of very many parts whose equations took longer than their search may.
+std::vector<report::SetView> solve_all(const ReportCommand& command, const study::Question& question,
+                                       std::vector<std::string>& left_out) {
   std::vector<report::SetView> views;
   std::uint64_t taken = 0;
   // After an interrupt the searches left end at once, with all of their domain pending.
   for (std::size_t i = 0; i < command.search.sets.size(); ++i) {
-    views.push_back(solve_view(command.search, question, i, taken));
+    std::optional<report::SetView> view = solve_view(command.search, question, i, taken);
+    if (!view) {
+      left_out.push_back(command.search.sets[i]);
+      continue;
+    }
+    views.push_back(std::move(*view));
     taken += solve::bytes_of(views.back().result.cover, solve::kPageBytes);
   }
   return views;
@@ -58,7 +67,7 @@ void add_aspects(const ReportCommand& command, const study::Question& question, 
                  report::PageOptions& options) {
   const auto cspace = std::find_if(views.begin(), views.end(), [](const report::SetView& v) { return v.set->is_cspace(); });
   if (cspace == views.end() || !cspace->result.cover.complete() || cspace->result.cover.dimension > 2) return;
-  solve::Control control({.time = command.search.limits.time_limit, .stop = &Interrupt::stop()});
+  solve::Control control(of_command({.time = command.search.limits.time_limit}));
   ProgressLine line("aspects");
   line.follow(control);
   analyze::AspectsOptions wanted{.threads = command.search.limits.threads};
@@ -135,16 +144,21 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   make_folder(folder / "figures");
   result::check_writable(folder / "index.html");
 
-  const Interrupt interrupt;
+  LimitedRun run({});
+  const solve::InStage stage(run.control(), solve::Stage::page);
   report::PageOptions options;
+  std::vector<std::string> left_out;
   if (views.empty()) {
-    views = solve_all(command, question);
+    views = solve_all(command, question, left_out);
+    for (const std::string& set : left_out)
+      fmt::print(stderr, "corank: {}: its equations were not derived in time; it is left out\n", set);
+    if (views.empty()) return kIncomplete;
     options.command = command.search.command_line("report", command.question);
     ProgressLine line;
     for (const auto& [result, set, system, components, words] : views) {
       line.show("writing " + result.set + ".h5");
       options.files.push_back(result.set + ".h5");
-      result::write_result(folder / options.files.back(), result);
+      result::write_result(folder / options.files.back(), result, [] { return Interrupt::stop().load(); });
     }
   } else {
     options.command = "corank report --results " + fmt::format("{}", fmt::join(command.results, " "));
@@ -159,7 +173,7 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     result::write_text(folder / "index.html", report_page(mechanism, views, options));
   }
 
-  bool complete = !figures.stopped;
+  bool complete = !figures.stopped && left_out.empty();
   for (const auto& view : views) complete = complete && view.result.cover.complete() && view.result.stopped.empty();
   const bool table = command.json.say(
       [&] { return report::page_summary(mechanism.name(), (folder / "index.html").string(), options, views, complete); });

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "corank/app/interrupt.h"
+#include "corank/app/command_control.h"
 #include "corank/app/without_effect.h"
 
 namespace corank::app {
@@ -39,7 +39,7 @@ void SetSearch::add_sets(CLI::App& command) {
 void SetSearch::add_limits(CLI::App& command) { limits.add_options(command, "each search"); }
 
 solve::Control::Limits SetSearch::limits_beside(const solve::Options& options, std::uint64_t taken) const {
-  solve::Control::Limits result = limits_of(options, &Interrupt::stop());
+  solve::Control::Limits result = of_command(limits_of(options));
   result.later_bytes = solve::kPageBytes;
   if (result.memory > 0) result.memory = result.memory > taken ? result.memory - taken : 1;
   return result;

@@ -13,7 +13,8 @@ namespace corank::app {
 
 constexpr int kDigits = 12;  // of isolated points
 
-report::SetView solve_view(const SetSearch& search, study::Question question, std::size_t index, std::uint64_t taken) {
+std::optional<report::SetView> solve_view(const SetSearch& search, study::Question question, std::size_t index,
+                                          std::uint64_t taken) {
   const std::vector<std::string>& sets = search.sets;
   question.set = symbolic::singularity_set_from_string(sets[index]);
   if (!symbolic::definition(question.set).has_kernel()) question.corank = 1;
@@ -23,7 +24,10 @@ report::SetView solve_view(const SetSearch& search, study::Question question, st
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
   const std::vector<study::Question> parts = study::parts_of(question, [&control] { return control.ended(); });
   std::vector<System> systems;
-  for (const study::Question& part : parts) systems.push_back(study::system(part));
+  for (const study::Question& part : parts) {
+    if (control.ended() && !systems.empty()) return std::nullopt;
+    systems.push_back(study::system(part));
+  }
   control.ended();  // notes the stage
   stage.reset();
   study::Options options{search.options(systems.front(), *question.set), kDigits};
@@ -31,7 +35,8 @@ report::SetView solve_view(const SetSearch& search, study::Question question, st
   line.follow(control);
   result::Result result = study::answer(parts, systems, options, control);
   System system = parts.front().part ? result::system_of(question.model, result) : std::move(systems.front());
-  return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation());
+  return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation(),
+                          [&control] { return control.overdue(); });
 }
 
 }  // namespace corank::app

@@ -64,12 +64,12 @@ void apply_parameters(SolveCommand& command, const System& system) {
   }
 }
 
-void write_file(const std::string& path, const result::Result& result) {
+void write_file(const std::string& path, const result::Result& result, const solve::Control& control) {
   if (path.empty()) return;
   if (std::filesystem::path(path).extension() == ".sol") {
     result::write_text(path, result::to_sol(result));
   } else {
-    result::write_result(path, result);
+    result::write_result(path, result, [&control] { return control.overdue(); });
   }
 }
 
@@ -109,7 +109,8 @@ std::optional<Interval> area_of(const SolveCommand& command, const study::Questi
   return Interval(bounds.lo, bounds.hi);
 }
 
-ExitStatus say(const SolveCommand& command, const result::Result& result, const std::optional<Interval>& area) {
+ExitStatus say(const SolveCommand& command, const result::Result& result, const std::optional<Interval>& area,
+               const std::string& area_missed) {
   if (command.json.say([&] { return result::to_json(result, area); })) {
     fmt::print("{}", result::printable(result::to_table(result)));
     constexpr double kRoom = 1e-6;  // more than what the digits round
@@ -117,6 +118,11 @@ ExitStatus say(const SolveCommand& command, const result::Result& result, const 
       fmt::print("area of the workspace: from {:.7g} to {:.7g}\n", area->lo() * (1 - kRoom), area->hi() * (1 + kRoom));
   }
   warn_of_assembly(result);
+  if (result.cover.complete() && result.stopped.empty() && !area_missed.empty()) {
+    fmt::print(stderr, "corank: complete, but the area of the workspace is not bounded as closely as it could be{}\n",
+               area_missed);
+    return kIncomplete;
+  }
   if (result.cover.complete() && result.stopped.empty())
     return result::assembled(result) == std::optional(false) ? kNotAssembled : kDone;
   fmt::print(stderr, "corank: {}; {}\n", study::stopped_words(result),
@@ -196,11 +202,12 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   result::Result& result = kept(study::answer(parts, systems, options, control, &journal));
   result.search = journal.search();
   stage.emplace(control, solve::Stage::writing);
-  write_file(command.result_path, result);
+  write_file(command.result_path, result, control);
   const std::optional<Interval> area = area_of(command, question, result, control);
   line.clear();
   remove_checkpoint(command, result);
-  return say(command, result, area);
+  const bool area_missed = bounds_an_area(question) && control.ended();
+  return say(command, result, area, area_missed ? ending_words(control) : "");
 }
 
 ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {

@@ -12,6 +12,7 @@
 #include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/json_option.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
 #include "corank/app/set_search.h"
 #include "corank/app/subcommands.h"
@@ -115,7 +116,8 @@ report::SetView solve_one(const SweepCommand& command, const Plan& plan, std::si
                             std::move(early->components));
   solve::Control control(limits);
   line.follow(control);
-  return report::set_view(study::answer(question, system, options, control), system, given);
+  return report::set_view(study::answer(question, system, options, control), system, given,
+                          [&control] { return control.overdue(); });
 }
 
 /// "member-03-forward.h5": members from 1, with as many digits as the last one needs.
@@ -124,14 +126,15 @@ std::string file_name(std::size_t member, std::size_t members, const std::string
 }
 
 /// Describes member after member and writes each result at once. An interrupt ends the searches that are on. The one whose
-/// turn it is leaves what is not searched pending; so do the member's sets behind it, and further members are left out.
+/// turn it is leaves what is not searched pending; so do the member's sets behind it, and further members are left out. The
+/// first one is there in any case.
 std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const std::vector<Plan>& plans,
                                             const std::string& constant) {
   std::vector<report::FamilyMember> members;
   std::uint64_t taken = 0;
   EarlySearches early(early_tasks(command, plans), command.search.limits.threads);
   const std::size_t sets = command.search.sets.size();
-  for (std::size_t k = 0; k < plans.size() && !Interrupt::stop(); ++k) {
+  for (std::size_t k = 0; k < plans.size() && (k == 0 || !Interrupt::stop()); ++k) {
     report::FamilyMember member{plans[k].value, plans[k].question.model, {}, {}};
     for (std::size_t s = 0; s < sets; ++s) {
       member.sets.push_back(solve_one(
@@ -141,7 +144,8 @@ std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const s
       const result::Result& result = member.sets.back().result;
       taken += solve::bytes_of(result.cover, solve::kPageBytes);
       member.files.push_back(file_name(k, plans.size(), "-" + command.search.sets[s] + ".h5"));
-      result::write_result(std::filesystem::path(command.folder) / member.files.back(), result);
+      result::write_result(std::filesystem::path(command.folder) / member.files.back(), result,
+                           [] { return Interrupt::stop().load(); });
     }
     members.push_back(std::move(member));
   }
@@ -163,7 +167,8 @@ ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
   make_folder(folder / "figures");
   result::check_writable(folder / "index.html");
 
-  const Interrupt interrupt;
+  LimitedRun run({});
+  const solve::InStage stage(run.control(), solve::Stage::page);
   const std::vector<report::FamilyMember> members = solve_all(command, plans, family.constant);
   report::FamilyOptions options;
   options.constant = family.constant;
@@ -195,8 +200,8 @@ ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
     fmt::print("{}\n", (folder / "index.html").string());
   }
   if (complete) return kDone;
-  fmt::print(stderr, "corank: {} of {} mechanisms are on the page, and it says what is incomplete\n", members.size(),
-             plans.size());
+  fmt::print(stderr, "corank: {} of {} mechanisms are on the page{}, and it says what is incomplete\n", members.size(),
+             plans.size(), Interrupt::stop() ? ", stopped by an interrupt" : "");
   return kIncomplete;
 }
 

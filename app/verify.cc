@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 
+#include "corank/app/command_control.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/json_option.h"
 #include "corank/app/progress.h"
@@ -34,14 +35,15 @@ struct VerifyCommand {
   std::size_t sample = 0;
 };
 
-result::Verification check(const result::Result& result, const System& system, const VerifyCommand& command, Watch& watch) {
+result::Verification check(const result::Result& result, const System& system, const VerifyCommand& command,
+                           const Ended& ended) {
   using Clock = std::chrono::steady_clock;
   ProgressLine line;
   check::Options options;
   options.threads = command.threads;
   options.sample = command.sample;
   if (command.sample > 0) options.seed = std::random_device()();  // nobody can have prepared the file for it
-  options.stop = &watch.stop();
+  options.ended = ended;
   if (line.visible()) {
     options.progress = [&line, next = Clock::now()](const check::Progress& p) mutable {
       if (Clock::now() < next) return;
@@ -74,12 +76,12 @@ ExitStatus status(const result::Verification& verification, const VerifyCommand&
 
 // Reads a certificate, checks it, and prints what comes of it.
 template <class File>
-auto checked(const VerifyCommand& command, Watch& watch, File (*read)(const std::filesystem::path&)) {
+auto checked(const VerifyCommand& command, Watch& watch, const Ended& ended, File (*read)(const std::filesystem::path&)) {
   const File file = read(command.input);
   watch.enter("the check");
   check::Options options;
   options.threads = command.threads;
-  options.stop = &watch.stop();
+  options.ended = ended;
   auto report = result::verify(file, options);
   watch.done();
   if (command.json.say([&] { return result::to_json(report, file); })) fmt::print("{}", result::to_table(report, file));
@@ -87,27 +89,27 @@ auto checked(const VerifyCommand& command, Watch& watch, File (*read)(const std:
 }
 
 // A path's claims leave nothing out: its check has no completeness beside it.
-ExitStatus verify_path(const VerifyCommand& command, Watch& watch) {
-  const check::TubeReport report = checked(command, watch, &result::read_path);
+ExitStatus verify_path(const VerifyCommand& command, Watch& watch, const Ended& ended) {
+  const check::TubeReport report = checked(command, watch, ended, &result::read_path);
   return report.verified() ? kDone : report.failures.empty() ? kIncomplete : kBadInput;
 }
 
-ExitStatus verify_shape(const VerifyCommand& command, Watch& watch) {
-  const check::ShapeReport report = checked(command, watch, &result::read_shape);
+ExitStatus verify_shape(const VerifyCommand& command, Watch& watch, const Ended& ended) {
+  const check::ShapeReport report = checked(command, watch, ended, &result::read_shape);
   if (report.complete()) return kDone;
   if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
   return report.failures.empty() ? kIncomplete : kBadInput;
 }
 
-ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch) {
-  const check::PiecesReport report = checked(command, watch, &result::read_pieces);
+ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch, const Ended& ended) {
+  const check::PiecesReport report = checked(command, watch, ended, &result::read_pieces);
   if (report.complete()) return kDone;
   if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
   return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
 }
 
-ExitStatus verify_map(const VerifyCommand& command, Watch& watch) {
-  const check::MapReport report = checked(command, watch, &result::read_map);
+ExitStatus verify_map(const VerifyCommand& command, Watch& watch, const Ended& ended) {
+  const check::MapReport report = checked(command, watch, ended, &result::read_map);
   if (report.complete()) return kDone;
   if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
   return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
@@ -118,21 +120,23 @@ ExitStatus verify(VerifyCommand command) {
   command.json.check();
   const Interrupt interrupt;
   Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
+  const solve::Control control(of_command({.time = command.time_limit}));
+  const Ended ended = [&] { return watch.stop() || control.ended(); };
   watch.enter("reading the file");
   const std::string format = result::format_of(command.input);
   if (command.sample > 0 && (format == result::kPathFormat || format == result::kShapeFormat ||
                              format == result::kPiecesFormat || format == result::kMapFormat))
     throw UsageError(
         fmt::format("--sample: without effect; expected the result of a search, and {} is none", command.input));
-  if (format == result::kPathFormat) return verify_path(command, watch);
-  if (format == result::kShapeFormat) return verify_shape(command, watch);
-  if (format == result::kPiecesFormat) return verify_pieces(command, watch);
-  if (format == result::kMapFormat) return verify_map(command, watch);
+  if (format == result::kPathFormat) return verify_path(command, watch, ended);
+  if (format == result::kShapeFormat) return verify_shape(command, watch, ended);
+  if (format == result::kPiecesFormat) return verify_pieces(command, watch, ended);
+  if (format == result::kMapFormat) return verify_map(command, watch, ended);
   const result::Result result = result::read_result(command.input);
   watch.enter("deriving the equations from the model");
   const System system = result::system_of(result);
   watch.enter("the check");
-  const result::Verification verification = check(result, system, command, watch);
+  const result::Verification verification = check(result, system, command, ended);
   watch.done();
   if (command.json.say([&] { return result::to_json(verification); }))
     fmt::print("{}", result::to_table(verification, result));

@@ -47,7 +47,7 @@ bool same(const CoverBox& a, const CoverBox& b) {
 class Checker {
  public:
   Checker(const System& system, const Cover& cover, const Options& options, const VelocityBlocks* blocks)
-      : system_(system), cover_(cover), options_(options), blocks_(blocks), stop_(options.stop), arena_(options.threads) {}
+      : system_(system), cover_(cover), options_(options), blocks_(blocks), stop_(options.ended), arena_(options.threads) {}
 
   Report run() {
     const NearestRounding nearest;

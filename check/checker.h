@@ -15,13 +15,13 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "corank/core/cover.h"
+#include "corank/core/ended.h"
 #include "corank/core/singularity_types.h"
 
 namespace corank::check {
@@ -77,7 +77,7 @@ struct Progress {
 struct Options {
   int threads = 1;                                ///< 0: one for each core
   std::function<void(const Progress&)> progress;  ///< called now and then, from one thread at a time
-  const std::atomic<bool>* stop = nullptr;
+  Ended ended;                                    ///< asked from all threads
   /// 0: all boxes; else so many, chosen at random, and completeness is not looked at. What takes little is checked of all:
   /// that boxes are in order and in bounds, exact points, points.
   std::size_t sample = 0;

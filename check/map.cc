@@ -32,7 +32,7 @@ class MapCheck {
         copies_(copies),
         claims_(claims),
         options_(options),
-        problem_(system, claims.reduction, StopFlag(options.stop)),
+        problem_(system, claims.reduction, StopFlag(options.ended)),
         report_(report) {
     report_.cells.resize(claims.cells.size());
     for (int k = 0; k < problem_.size(); ++k)

@@ -313,7 +313,7 @@ bool PiecesReport::complete() const {
 PiecesReport check_pieces(const System& system, const Cover& cover, const std::vector<PieceClaims>& claims,
                           const std::vector<PieceFunctions>& functions, const Options& options) {
   const NearestRounding nearest;
-  const StopFlag stop(options.stop);
+  const StopFlag stop(options.ended);
   PiecesReport report;
   const auto fail = [&](std::string what) { report.failures.push_back(std::move(what)); };
   try {

@@ -24,7 +24,7 @@ std::vector<int> all_variables(const System& system) {
 class ShapeCheck {
  public:
   ShapeCheck(const System& system, const Shape& shape, const std::vector<CriticalSystem>& heights, const Options& options)
-      : system_(system), shape_(shape), heights_(heights), options_(options), stop_(options.stop) {}
+      : system_(system), shape_(shape), heights_(heights), options_(options), stop_(options.ended) {}
 
   ShapeReport run() {
     const NearestRounding nearest;

@@ -1,7 +1,9 @@
-// How a check ends early: whatever loops polls a flag, which somebody else sets.
+// How a check ends early: whatever loops asks whether it is to.
 #pragma once
 
-#include <atomic>
+#include <utility>
+
+#include "corank/core/ended.h"
 
 namespace corank::check {
 
@@ -11,15 +13,15 @@ struct Stopped {};
 class StopFlag {
  public:
   StopFlag() = default;
-  explicit StopFlag(const std::atomic<bool>* flag) : flag_(flag) {}
-  bool is_set() const { return flag_ && flag_->load(std::memory_order_relaxed); }
+  explicit StopFlag(Ended ended) : ended_(std::move(ended)) {}
+  bool is_set() const { return is_over(ended_); }
   /// Throws Stopped where the flag is set.
   void poll() const {
     if (is_set()) throw Stopped{};
   }
 
  private:
-  const std::atomic<bool>* flag_ = nullptr;
+  Ended ended_;
 };
 
 }  // namespace corank::check

@@ -159,7 +159,7 @@ std::string TubeCheck::about(const Box& piece, double radius) const {
 TubeReport check_tube(const System& system, const std::vector<PolynomialMatrix>& matrices, const Tube& tube,
                       const Options& options) {
   const NearestRounding rounding;
-  const StopFlag stop(options.stop);
+  const StopFlag stop(options.ended);
   TubeReport report;
   try {
     const TubeCheck check(system, matrices, tube, stop);

@@ -38,7 +38,7 @@ py::tuple verify(const File& file, int threads, const py::object& progress) {
   return said(progress, [file, threads](Watcher& watcher) {
     check::Options options;
     options.threads = threads;
-    options.stop = &watcher.stop;
+    options.ended = [&watcher] { return watcher.stop.load(); };
     const auto report = result::verify(file, options);
     return Texts{to_json(report, file), to_table(report, file)};
   });

@@ -91,7 +91,7 @@ void bind_maps(py::module_& module) {
     auto [texts, raised] = run_for(progress, [file, threads](Watcher& watcher) {
       check::Options options;
       options.threads = threads;
-      options.stop = &watcher.stop;
+      options.ended = [&watcher] { return watcher.stop.load(); };
       const check::MapReport report = result::verify(file, options);
       return Texts{to_json(report, file), to_table(report, file)};
     });

@@ -111,7 +111,7 @@ py::tuple verify(const Result& r, int threads, const py::object& progress) {
   const auto work = [shared, threads](Watcher& watcher) {
     check::Options options;
     options.threads = threads;
-    options.stop = &watcher.stop;
+    options.ended = [&watcher] { return watcher.stop.load(); };
     options.progress = [&watcher](const check::Progress& p) {
       const bool script = p.steps > 0;
       const double done = static_cast<double>(script ? p.steps : p.boxes),

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "corank/core/ended.h"
 #include "corank/result/result.h"
 
 namespace corank::report {
@@ -13,13 +14,14 @@ namespace corank::report {
 /// connected piece lies in the union of the boxes, whose components are closed and disjoint. That the solutions in one
 /// component are one piece is not proven, nor that a component without a proven solution holds any.
 struct Components {
+  bool counted = true;      ///< false: the count was ended, and all below is empty
   std::vector<int> of_box;  ///< component of each box, from 0, by each component's first box
   int count = 0;
   int with_proven_solution = 0;  ///< those with a regular, isolated or exact box
 };
 
 /// Two boxes touch where they have a point in common; pending boxes count as any other.
-Components components(const result::Result& result);
-Components components(const std::vector<CoverBox>& boxes, std::size_t configuration_size);
+Components components(const result::Result& result, const Ended& ended = {});
+Components components(const std::vector<CoverBox>& boxes, std::size_t configuration_size, const Ended& ended = {});
 
 }  // namespace corank::report

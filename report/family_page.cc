@@ -88,7 +88,7 @@ mustache::data counts(const std::vector<Columns>& all, const FamilyMember& membe
   for (const Columns& columns : all) {
     const SetView& view = member.sets[columns.set];
     const Cover& cover = view.result.cover;
-    cells << cell("count", grouped(static_cast<std::uint64_t>(view.components.count)), true)
+    cells << cell("count", view.components.counted ? grouped(static_cast<std::uint64_t>(view.components.count)) : "–", true)
           << cell("count", grouped(cover.boxes.size()), false);
     for (const Verdict verdict : columns.verdicts) cells << cell("count", grouped(cover.count(verdict)), false);
   }

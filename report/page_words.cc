@@ -171,8 +171,10 @@ void say_parts(const result::Result& result, SetWords& words) {
 
 void say_pieces(const result::Result& result, const Components& found, SetWords& words) {
   const Cover& cover = result.cover;
-  words.finding = fmt::format("{}: {} in {} as boxes touch", shape(cover.dimension), boxes_text(cover.boxes.size()),
-                              counted(static_cast<std::size_t>(found.count), "component", "components"));
+  words.finding = fmt::format("{}: {}", shape(cover.dimension), boxes_text(cover.boxes.size()));
+  if (found.counted)
+    words.finding +=
+        fmt::format(" in {} as boxes touch", counted(static_cast<std::size_t>(found.count), "component", "components"));
   const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
   if (regular > 0) {
     words.proven.push_back(
@@ -191,7 +193,8 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
                                        found.with_proven_solution == 1 ? "holds" : "hold"));
   }
   words.unproven.push_back(
-      "That the solutions in one component are one piece is not proven: the count is of boxes that touch.");
+      found.counted ? "That the solutions in one component are one piece is not proven: the count is of boxes that touch."
+                    : "How the boxes hang together was not counted: the run was ended.");
   if (const std::size_t partial = cover.count(Verdict::partial); partial > 0) {
     words.unproven.push_back(
         fmt::format("In {} only independent equations are proven to hold, the others within a tolerance of {:g}.",

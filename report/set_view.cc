@@ -8,8 +8,8 @@
 
 namespace corank::report {
 
-SetView set_view(result::Result result, System system, bool given_velocity_equation) {
-  Components found = components(result);
+SetView set_view(result::Result result, System system, bool given_velocity_equation, const Ended& ended) {
+  Components found = components(result, ended);
   return set_view(std::move(result), std::move(system), given_velocity_equation, std::move(found));
 }
 

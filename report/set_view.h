@@ -18,7 +18,7 @@ struct SetView {
 };
 
 /// Of a result and the system that was solved; whether its velocity equation is given changes words.
-SetView set_view(result::Result result, System system, bool given_velocity_equation);
+SetView set_view(result::Result result, System system, bool given_velocity_equation, const Ended& ended = {});
 /// The same with the components, found before.
 SetView set_view(result::Result result, System system, bool given_velocity_equation, Components found);
 /// The same of a result that was read. Throws ResultFileError where it is none of this mechanism: its variables differ from

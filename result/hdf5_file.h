@@ -25,8 +25,9 @@ class ResultFileError : public std::runtime_error {
 
 class Hdf5Writer {
  public:
-  /// Creates or truncates the file. So many threads compress what is to be packed, 0: one for each core.
-  explicit Hdf5Writer(const std::string& path, int threads = 1);
+  /// Creates or truncates the file. So many threads compress what is to be packed, 0: one for each core. Once `in_haste`
+  /// says so, it is written as it is: a larger file, sooner.
+  explicit Hdf5Writer(const std::string& path, int threads = 1, Ended in_haste = {});
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -66,6 +67,7 @@ class Hdf5Writer {
 
   std::string path_, prefix_;
   int threads_;
+  Ended in_haste_;
   std::int64_t file_ = -1;
 };
 

@@ -87,9 +87,10 @@ void write_rows(hid_t file, const std::string& path, const std::string& name, hi
 }
 
 void write_packed(hid_t file, const std::string& path, const std::string& name, hid_t type, std::span<const std::byte> data,
-                  int threads) {
+                  int threads, const Ended& in_haste) {
   constexpr hsize_t kChunk = 1 << 16;
   constexpr unsigned kLevel = 1;
+  constexpr std::uint32_t kAllFilters = 0, kNoFilter = 3;  // a bit for each that a chunk goes without
   const std::size_t width = H5Tget_size(type), size = data.size() / width;
   const OwnHandle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path, "cannot write " + name);
   const hsize_t chunk = std::clamp<hsize_t>(size, 1, kChunk);
@@ -98,11 +99,12 @@ void write_packed(hid_t file, const std::string& path, const std::string& name, 
   const QuietErrors quiet;
   const Shape space(size, 0, path);
   const OwnHandle set(create_dataset(file, path, name, type, space, properties), H5Dclose, path, "cannot write " + name);
-  for_each_packed_chunk({data, width, chunk, kLevel}, threads, [&](std::size_t k, std::span<const std::byte> bytes) {
+  const auto write = [&](std::size_t k, std::span<const std::byte> bytes, bool packed) {
     const hsize_t offset = k * chunk;
-    if (H5Dwrite_chunk(set, H5P_DEFAULT, 0, &offset, bytes.size(), bytes.data()) < 0)
+    if (H5Dwrite_chunk(set, H5P_DEFAULT, packed ? kAllFilters : kNoFilter, &offset, bytes.size(), bytes.data()) < 0)
       fail(path, "cannot write " + name + " (disk full?)");
-  });
+  };
+  for_each_packed_chunk({data, width, chunk, kLevel}, threads, in_haste, write);
 }
 
 void write_attribute(hid_t file, const std::string& path, const std::string& object, const std::string& name, hid_t type,
@@ -117,7 +119,8 @@ void write_attribute(hid_t file, const std::string& path, const std::string& obj
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer(const std::string& path, int threads) : path_(path), threads_(threads) {
+Hdf5Writer::Hdf5Writer(const std::string& path, int threads, Ended in_haste)
+    : path_(path), threads_(threads), in_haste_(std::move(in_haste)) {
   // At the end of the process HDF5 would write once more what a full disk has refused, and crash.
   static const bool no_second_attempt = H5dont_atexit() >= 0;
   static_cast<void>(no_second_attempt);
@@ -172,16 +175,16 @@ void Hdf5Writer::integers(const std::string& name, std::span<const std::int64_t>
 }
 
 void Hdf5Writer::packed(const std::string& name, std::span<const std::uint8_t> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_UINT8, std::as_bytes(data), threads_);
+  write_packed(file_, path_, at(name), H5T_NATIVE_UINT8, std::as_bytes(data), threads_, in_haste_);
 }
 void Hdf5Writer::packed(const std::string& name, std::span<const std::int32_t> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_INT32, std::as_bytes(data), threads_);
+  write_packed(file_, path_, at(name), H5T_NATIVE_INT32, std::as_bytes(data), threads_, in_haste_);
 }
 void Hdf5Writer::packed(const std::string& name, std::span<const float> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_FLOAT, std::as_bytes(data), threads_);
+  write_packed(file_, path_, at(name), H5T_NATIVE_FLOAT, std::as_bytes(data), threads_, in_haste_);
 }
 void Hdf5Writer::packed(const std::string& name, std::span<const double> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_DOUBLE, std::as_bytes(data), threads_);
+  write_packed(file_, path_, at(name), H5T_NATIVE_DOUBLE, std::as_bytes(data), threads_, in_haste_);
 }
 
 void Hdf5Writer::enumeration(const std::string& name, std::span<const std::uint8_t> data,

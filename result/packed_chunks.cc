@@ -29,19 +29,31 @@ std::vector<std::byte> packed_chunk(const ChunkedArray& array, std::size_t k) {
   return packed;
 }
 
+void use_plain_chunk(const ChunkedArray& array, std::size_t k, const UseChunk& use) {
+  const std::size_t size = array.chunk * array.width;
+  const std::span<const std::byte> rest = array.bytes.subspan(k * size);
+  if (rest.size() >= size) return use(k, rest.first(size), false);
+  std::vector<std::byte> last(size);
+  std::copy(rest.begin(), rest.end(), last.begin());
+  use(k, last, false);
+}
+
 }  // namespace
 
-void for_each_packed_chunk(const ChunkedArray& array, int threads,
-                           const std::function<void(std::size_t k, std::span<const std::byte> bytes)>& use) {
+void for_each_packed_chunk(const ChunkedArray& array, int threads, const Ended& in_haste, const UseChunk& use) {
   const std::size_t elements = array.bytes.size() / array.width, chunks = (elements + array.chunk - 1) / array.chunk;
   ThreadArena arena(threads);
   std::vector<std::vector<std::byte>> packed(kChunksPerThread * static_cast<std::size_t>(arena.threads()));
   for (std::size_t from = 0; from < chunks; from += packed.size()) {
     const std::size_t count = std::min(packed.size(), chunks - from);
+    if (is_over(in_haste)) {
+      for (std::size_t k = 0; k < count; ++k) use_plain_chunk(array, from + k, use);
+      continue;
+    }
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) { packed[k] = packed_chunk(array, from + k); });
     });
-    for (std::size_t k = 0; k < count; ++k) use(from + k, packed[k]);
+    for (std::size_t k = 0; k < count; ++k) use(from + k, packed[k], true);
   }
 }
 

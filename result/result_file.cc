@@ -500,9 +500,9 @@ void write_own(Hdf5Writer& file, const Result& result) {
 
 }  // namespace
 
-void write_result(const std::filesystem::path& path, const Result& result) {
+void write_result(const std::filesystem::path& path, const Result& result, const Ended& in_haste) {
   const OutputFile target(path);
-  Hdf5Writer file(target.part().string(), result.options.threads);
+  Hdf5Writer file(target.part().string(), result.options.threads, in_haste);
   file.attribute("/", "format", std::string(kFormat));
   file.attribute("/", "format_version", std::int64_t{kFormatVersion});
   file.attribute("/", "version", result.version);

@@ -92,7 +92,8 @@ Cover assemble(const Prepared& prepared, const Problem& problem, const std::vect
   for (const Found* f : found) cover.wider_than_sigma += f->region != nullptr && problem.excess(f->box.box) > 1;
   // A replay would have to find the self-motions again.
   const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial;
-  if (prepared.options.proof && replayable) cover.proof = script_of(shards, first_pass, found);
+  const bool is_asked = prepared.options.proof && (prepared.options.proof_of_parts || !control.ended());
+  if (is_asked && replayable) cover.proof = script_of(shards, first_pass, found);
   // The reduced equations contradict each other: nothing was searched, and a checker sees it without help.
   if (prepared.options.proof && !reduction.consistent && !reduction.tolerant)
     cover.proof = std::make_shared<const Proof>(

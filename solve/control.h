@@ -71,6 +71,7 @@ class Control {
     /// Seconds since any moment; called from any thread. Default: the machine's steady clock.
     std::function<double()> clock = {};
     std::uint64_t later_bytes = kFileBytes;  ///< what later stages take for each side of a box
+    bool leaves_memory = false;              ///< the process ends with the run: a search that was ended early is not freed
   };
   struct Progress {
     Stage stage;

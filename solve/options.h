@@ -44,6 +44,7 @@ struct Options {
   /// Keep the script of the search (Cover::proof), so that a checker can replay why the cover is complete. Systems with a
   /// tolerance, and covers with self-motions, have none.
   bool proof = false;
+  bool proof_of_parts = true;  ///< false: a cover that a limit left incomplete needs no script, and to make it takes time
   /// Where given: search these boxes, in all variables, instead of the whole domain; the cover is of their solutions.
   std::vector<Box> roots{};
 

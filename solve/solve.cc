@@ -1,6 +1,9 @@
 #include "corank/solve/solve.h"
 
+#include <memory>
+#include <mutex>
 #include <utility>
+#include <vector>
 
 #include "corank/solve/assembly.h"
 #include "corank/solve/passes.h"
@@ -149,6 +152,18 @@ class Search {
   Sigma sigma_;
 };
 
+// To free millions of sheets takes as long as a search of seconds; with the process they go at once.
+Cover run(std::unique_ptr<Search> search, const Control& control) {
+  Cover cover = search->run();
+  if (control.limits().leaves_memory && control.ended()) {
+    static std::mutex mutex;
+    static auto* const left = new std::vector<std::unique_ptr<Search>>;
+    const std::lock_guard lock(mutex);
+    left->push_back(std::move(search));
+  }
+  return cover;
+}
+
 }  // namespace
 
 double printed_tolerance(const System& system) {
@@ -162,11 +177,12 @@ Cover solve(const System& system, const Options& options) {
 }
 
 Cover solve(const Prepared& prepared, Control& control, std::uint64_t most) {
-  return Search(prepared, control, most, nullptr, beginning(prepared)).run();
+  return run(std::make_unique<Search>(prepared, control, most, nullptr, beginning(prepared)), control);
 }
 
 Cover solve_on(const Prepared& prepared, Control& control, Journal* journal, std::optional<SearchState> from) {
-  return Search(prepared, control, 0, journal, from ? std::move(*from) : beginning(prepared)).run();
+  return run(std::make_unique<Search>(prepared, control, 0, journal, from ? std::move(*from) : beginning(prepared)),
+             control);
 }
 
 bool refinable(const Prepared& prepared) {

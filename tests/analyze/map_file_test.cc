@@ -310,7 +310,7 @@ TEST(MapFile, WithRootsBeyondTheDomainIsRefused) {
 TEST(MapFile, IsNotCheckedFurtherOnceStopped) {
   const std::atomic<bool> stop = true;
   check::Options options;
-  options.stop = &stop;
+  options.ended = [&stop] { return stop.load(); };
   const check::MapReport report = result::verify(cubic(), options);
   EXPECT_TRUE(report.interrupted);
   EXPECT_FALSE(report.verified());

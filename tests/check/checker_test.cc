@@ -83,7 +83,7 @@ TEST(Checker, GivesTheSameReportForAnyNumberOfThreads) {
 Report stopped(const System& system, const Cover& cover, const std::function<bool(const Progress&)>& at) {
   std::atomic<bool> stop = at({});
   Options options;
-  options.stop = &stop;
+  options.ended = [&stop] { return stop.load(); };
   options.progress = [&](const Progress& p) { stop = stop || at(p); };
   return check(system, cover, options);
 }

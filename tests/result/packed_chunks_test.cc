@@ -41,7 +41,7 @@ TEST(PackedChunks, AreTheArrayInOrderWithZerosBehindIt) {
         const ChunkedArray array{bytes, width, 100, 1};
         std::vector<std::byte> found;
         std::size_t next = 0;
-        for_each_packed_chunk(array, threads, [&](std::size_t k, std::span<const std::byte> packed) {
+        for_each_packed_chunk(array, threads, {}, [&](std::size_t k, std::span<const std::byte> packed, bool) {
           EXPECT_EQ(k, next++);
           const std::vector<std::byte> chunk = unpacked(packed, array);
           found.insert(found.end(), chunk.begin(), chunk.end());
@@ -53,14 +53,35 @@ TEST(PackedChunks, AreTheArrayInOrderWithZerosBehindIt) {
       }
 }
 
+TEST(PackedChunks, AreTheBytesAsTheyAreOnceThereIsHaste) {
+  const std::vector<std::byte> bytes = random_bytes(4 * 2034);
+  const ChunkedArray array{bytes, 4, 100, 1};
+  int asked = 0;
+  std::vector<std::byte> found;
+  std::size_t plain = 0;
+  for_each_packed_chunk(
+      array, 1, [&] { return ++asked > 3; },
+      [&](std::size_t, std::span<const std::byte> chunk, bool packed) {
+        plain += !packed;
+        const auto elements = packed ? unpacked(chunk, array) : std::vector<std::byte>(chunk.begin(), chunk.end());
+        EXPECT_EQ(elements.size(), 400u);
+        found.insert(found.end(), elements.begin(), elements.end());
+      });
+  EXPECT_GT(plain, 0u);
+  EXPECT_LT(plain, 21u);
+  std::vector<std::byte> expected = bytes;
+  expected.resize(21 * 400);
+  EXPECT_EQ(found, expected);
+}
+
 TEST(PackedChunks, EndWhereTheirUserFails) {
   const std::vector<std::byte> bytes = random_bytes(100'000);
   std::size_t used = 0;
-  const auto use = [&](std::size_t k, std::span<const std::byte>) {
+  const auto use = [&](std::size_t k, std::span<const std::byte>, bool) {
     if (k == 5) throw std::runtime_error("disk full");
     ++used;
   };
-  EXPECT_THROW(for_each_packed_chunk({bytes, 4, 100, 1}, 2, use), std::runtime_error);
+  EXPECT_THROW(for_each_packed_chunk({bytes, 4, 100, 1}, 2, {}, use), std::runtime_error);
   EXPECT_EQ(used, 5);
 }
 
@@ -71,7 +92,7 @@ void expect_read_back(Hdf5Reader& file, const std::string& name, const std::vect
   EXPECT_EQ(found, expected) << name;
 }
 
-TEST(PackedChunks, AreReadByTheLibraryWhateverTheThreads) {
+TEST(PackedChunks, AreReadByTheLibraryWhateverTheThreadsAndTheHaste) {
   const std::filesystem::path path =
       std::filesystem::path(testing::TempDir()) / ("corank_packed_" + std::to_string(getpid()) + ".h5");
   std::mt19937 random(1);
@@ -80,8 +101,9 @@ TEST(PackedChunks, AreReadByTheLibraryWhateverTheThreads) {
   std::vector<std::int32_t> integers(65'536);
   for (std::int32_t& x : integers) x = static_cast<std::int32_t>(random());
   const std::vector<std::uint8_t> bytes{1, 2, 3}, none;
-  for (const int threads : {0, 1, 3}) {
-    Hdf5Writer writer(path.string(), threads);
+  for (const auto& [threads, unhurried] : {std::pair(0, 1000), {1, 1000}, {3, 1000}, {1, 1}, {1, 0}}) {
+    int asked = 0;
+    Hdf5Writer writer(path.string(), threads, [&asked, most = unhurried] { return ++asked > most; });
     writer.packed("/doubles", doubles);
     writer.packed("/integers", integers);
     writer.packed("/bytes", bytes);

@@ -1,0 +1,180 @@
+// Every command, ended at any question that it asks its clock: by the limit of time and by a signal. What it has found by
+// then is said to be incomplete and holds, or is all that there is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <regex>
+#include <set>
+
+#include "corank/app/command_control.h"
+#include "corank/app/run.h"
+#include "corank/tests/app/program.h"
+
+namespace corank::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+enum class Way { limit, interrupt };
+
+// Stands still for k questions. Then it is late, later with each; or it sends a signal once.
+class Clock {
+ public:
+  Clock(Way way, long k) : way_(way), k_(k) {}
+  double operator()() {
+    const long late = ++questions_ - k_;
+    if (late <= 0) return 0;
+    if (way_ == Way::limit) return 1e6 * static_cast<double>(late);
+    if (late == 1) std::raise(SIGTERM);
+    return 0;
+  }
+  long questions() const { return questions_; }
+
+ private:
+  const Way way_;
+  const long k_;
+  std::atomic<long> questions_{0};
+};
+
+struct Done {
+  int status = -1;
+  std::string out, err;
+  long questions = 0;
+};
+
+// In this process: its clock is the test's.
+Done run_by(Way way, long k, Words args) {
+  Clock clock(way, k);
+  const ClockOfCommands in_place([&clock] { return clock(); });
+  args.insert(args.end(), {"--time-limit", "100000"});
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  Done result;
+  result.status = run("corank", args);
+  result.out = testing::internal::GetCapturedStdout();
+  result.err = testing::internal::GetCapturedStderr();
+  result.questions = clock.questions();
+  return result;
+}
+
+// Without the times that the machine's clock has measured.
+std::string untimed(const std::string& text) {
+  static const std::regex times("[0-9.e+-]+ s(?![a-z])");
+  return std::regex_replace(text, times, "… s");
+}
+
+constexpr long kNever = 1'000'000'000;
+
+struct Command {
+  const char* name;
+  Words args;                  // {} is a folder of its own
+  Words before = {};           // run before it, undisturbed: writes what the command reads
+  int status = 0;              // undisturbed
+  const char* page = nullptr;  // is there in any case
+};
+
+Words in_folder(Words args, const TemporaryFolder& folder) {
+  for (std::string& word : args)
+    if (const std::size_t at = word.find("{}"); at != std::string::npos) word.replace(at, 2, folder.file(""));
+  return args;
+}
+
+// 1, 3, 9, … and as many before the end.
+std::set<long> moments(long questions) {
+  std::set<long> all;
+  for (long k = 1; k <= questions; k *= 3) all.insert({k, questions + 1 - k});
+  return all;
+}
+
+// No claim of any file fails, and none is half written.
+void expect_files_hold(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    if (entry.path().extension() != ".h5") continue;
+    const Done check = run_by(Way::limit, kNever, {"verify", entry.path().string(), "--sample", "20"});
+    const Done whole = check.status == 2 ? run_by(Way::limit, kNever, {"verify", entry.path().string()}) : check;
+    EXPECT_THAT(whole.status, testing::AnyOf(0, 3, 4)) << entry.path() << whole.out << whole.err;
+  }
+}
+
+class AnyMoment : public testing::TestWithParam<Command> {};
+
+TEST_P(AnyMoment, EndsTheCommandWithWhatHoldsByThen) {
+  const Command& command = GetParam();
+  std::optional<TemporaryFolder> kept;
+  if (!command.before.empty()) {
+    ASSERT_EQ(run_by(Way::limit, kNever, in_folder(command.before, kept.emplace())).status, 0);
+  }
+  const auto run_at = [&](Way way, long k, bool last) {
+    const TemporaryFolder own;
+    const TemporaryFolder& folder = kept ? *kept : own;
+    Done result = run_by(way, k, in_folder(command.args, folder));
+    for (std::size_t at; (at = result.out.find(folder.file(""))) != std::string::npos;)
+      result.out.replace(at, folder.file("").size(), "");
+    if (command.page) {
+      EXPECT_TRUE(fs::exists(folder.file(command.page)));
+    }
+    if (!kept && (last || result.status != command.status)) expect_files_hold(folder.file(""));
+    return result;
+  };
+  const Done whole = run_at(Way::limit, kNever, true);
+  ASSERT_EQ(whole.status, command.status) << whole.err;
+  ASSERT_GT(whole.questions, 0) << "it never asks whether it is to end";
+  int ended = 0;
+  for (const Way way : {Way::limit, Way::interrupt}) {
+    for (const long k : moments(whole.questions)) {
+      SCOPED_TRACE((way == Way::limit ? "the limit at question " : "a signal at question ") + std::to_string(k) + " of " +
+                   std::to_string(whole.questions));
+      const Done run = run_at(way, k - 1, false);
+      const auto says_so = testing::ContainsRegex(way == Way::limit ? "time limit|a limit|interrupted in"
+                                                                    : "an interrupt|a limit|interrupted in");
+      const bool said = testing::Matches(says_so)(run.out + run.err);
+      if (run.status == command.status) {  // too late to matter
+        EXPECT_TRUE(said || untimed(run.out) == untimed(whole.out)) << run.out << whole.out;
+        continue;
+      }
+      ++ended;
+      EXPECT_TRUE(said) << run.out << run.err;
+      EXPECT_EQ(run.status, 3) << run.err;
+    }
+  }
+  EXPECT_GT(ended, 0);
+}
+
+const std::string kModels = CORANK_SOURCE_DIR "/models/";
+const std::string kSlider = kModels + "three_slider.cuik", kDextar = kModels + "dextar.cuik",
+                  kCrank = kModels + "planar/slider_crank.cuik", kArm = kModels + "planar/arm_2r_limits.cuik";
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, AnyMoment,
+    testing::Values(
+        Command{"points", {"solve", kSlider, "--set", "forward", "-D", "L2=1", "--digits", "20", "--proof", "-o", "{}r.h5"}},
+        Command{"curves", {"solve", kDextar, "--set", "inverse", "--sigma", "0.3", "-o", "{}r.h5"}},
+        Command{"checkpoint", {"solve", kSlider, "--set", "cspace", "--checkpoint", "{}kept", "-o", "{}r.h5"}},
+        Command{"boundary", {"solve", kArm, "--set", "boundary", "--sigma", "0.3", "-o", "{}r.h5"}},
+        Command{"aspects", {"aspects", kCrank, "--cusps", "-o", "{}a.h5"}},
+        Command{"picture", {"aspects", kArm, "-o", "{}a.svg"}}, Command{"topology", {"topology", kCrank, "-o", "{}t.h5"}},
+        Command{"path",
+                {"path", kDextar, "--from", "J3x=0.5,J3y=1", "--from-mode", "1", "--to", "J3x=0.6,J3y=1", "--to-mode", "1",
+                 "-o", "{}p.h5"}},
+        Command{"clearance", {"clearance", kDextar, "--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y", "--proof", "{}c"}},
+        Command{"clearance_map",
+                {"clearance", kDextar, "--map", "J3x=[0.4,0.6],J3y=[0.9,1]", "--grid", "2", "-o", "{}m.svg"}},
+        Command{"map",
+                {"map", kDextar, "--over", "theta2=1:2", "--over", "theta5=1:2", "--resolution", "8", "--threads", "1", "-o",
+                 "{}m.h5"}},
+        Command{"report", {"report", kSlider, "-o", "{}page"}, {}, 0, "page/index.html"},
+        Command{"sweep", {"sweep", kSlider, "-D", "L1=1:1.1:2", "-o", "{}family"}, {}, 0, "family/index.html"},
+        Command{"verify_result", {"verify", "{}r.h5"}, {"solve", kSlider, "--set", "forward", "--proof", "-o", "{}r.h5"}},
+        Command{"verify_shape", {"verify", "{}t.h5"}, {"topology", kCrank, "-o", "{}t.h5"}},
+        Command{"verify_pieces", {"verify", "{}a.h5"}, {"aspects", kCrank, "-o", "{}a.h5"}}),
+    [](const auto& command) { return std::string(command.param.name); });
+
+}  // namespace
+}  // namespace corank::app
