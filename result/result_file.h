@@ -33,8 +33,8 @@ inline constexpr int kFormatVersion = 4;
 /// computation.
 void check_writable(const std::filesystem::path& path);
 
-/// Writes a new file beside `path` and renames it, so that `path` never holds half a result. Once `in_haste` says so, what is
-/// left is not compressed. Throws ResultFileError.
+/// Writes a new file beside `path` and renames it, so that `path` never holds half a result. Once `in_haste` says so, what
+/// is left is not compressed. Throws ResultFileError.
 void write_result(const std::filesystem::path& path, const Result& result, const Ended& in_haste = {});
 
 /// The result that write_result was given, bit for bit (free variables in ascending order; control characters in names made

@@ -137,7 +137,8 @@ def arguments(name, model, folder, rng):
         words = ["solve", *model.words, "-o", out]
         if model.facts().get("inputs"):
             words += ["--set", rng.choice(SETS)]
-        extras = [[], [], ["--proof"], ["--digits", "30"], ["--checkpoint", str(folder / "kept")], ["--keep-sheets"], ["--area"]]
+        kept = ["--checkpoint", str(folder / "kept")]
+        extras = [[], [], ["--proof"], ["--digits", "30"], kept, ["--keep-sheets"], ["--area"]]
         extra = rng.choice(extras)
         return words + (extra if extra != ["--area"] or "boundary" in words else [])
     if name == "solve-boundary":
@@ -151,7 +152,8 @@ def arguments(name, model, folder, rng):
     if name == "topology":
         return ["topology", *model.words, "-o", out]
     if name == "derive":
-        return ["derive", *model.words, "--set", rng.choice(SETS), "--format", rng.choice(["text", "latex", "cuik", "model"])]
+        form = rng.choice(["text", "latex", "cuik", "model"])
+        return ["derive", *model.words, "--set", rng.choice(SETS), "--format", form]
     if name == "path":
         names = [c["name"] for c in rng.sample(model.coordinates(), min(model.mobility(), len(model.coordinates())))]
         if not names:
@@ -382,7 +384,8 @@ def main():
             failed += 1
             how = "--time-limit" if way == "limit" else way.name
             print(
-                f"{case}: {' '.join(command)}: {how} at {moment} s: {'; '.join(faults)} (status {status}, used {used:.1f} s)",
+                f"{case}: {' '.join(command)}: {how} at {moment} s: {'; '.join(faults)} "
+                f"(status {status}, used {used:.1f} s)",
                 flush=True,
             )
     print(
