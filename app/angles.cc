@@ -23,7 +23,7 @@ std::vector<Pair> pairs_of(const std::vector<std::string>& words, const result::
   for (std::size_t i = 1; i + 2 < words.size(); i += 2) {
     const Pair pair{variable_index(boxes, words[0], words[i]), variable_index(boxes, words[0], words[i + 1])};
     for (const int v : {pair.sine, pair.cosine}) {
-      if (!seen.insert(v).second) throw UsageError(fmt::format("the variable {} stands twice in the pairs", v + 1));
+      if (!seen.insert(v).second) throw UsageError(fmt::format("variable {} occurs twice in the pairs", v + 1));
     }
     pairs.push_back(pair);
   }
@@ -86,13 +86,15 @@ void add_angles(CLI::App& program, Action& action) {
   CLI::App* sub =
       program.add_subcommand("angles", "Replace pairs of a sine and a cosine by angles, in the boxes of a result");
   const auto words = std::make_shared<std::vector<std::string>>();
-  sub->add_option("WORDS", *words, "The boxes (.sol or .h5), pairs of variables by name or number from 1, the new .sol")
+  sub->add_option("WORDS", *words,
+                  "The result (.sol or .h5), pairs of variables by name or by number from 1, and the new file (.sol)")
       ->type_name("RESULT SINE COSINE [SINE COSINE ...] OUTPUT.sol")
       ->required();
   sub->footer(
-      "Each angle is an interval in radians that encloses all angles of its box, appended at the end of the box in the "
-      "order\n"
-      "of the pairs. An interval across -pi goes on beyond pi.\n\n"
+      "An angle is an interval in radians that encloses all angles of its box. The angles come after the other variables, "
+      "in the\n"
+      "order of the pairs. An interval that crosses pi goes on beyond it: it does not start again at -pi.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 done, but the search of the result had ended early.\n\n"
       "Example:\n  corank angles forward.sol st4 ct4 st2 ct2 forward_angles.sol");
   sub->callback([words, &action] { action = [words] { return angles(*words); }; });
 }

@@ -49,7 +49,7 @@ ExitStatus aspects(AspectsCommand command) {
   };
   const std::vector<std::string>& outputs = question.model.outputs();
   if (command.areas && (outputs.size() != 2 || !std::all_of(outputs.begin(), outputs.end(), is_length)))
-    throw UsageError(fmt::format("--areas: without effect; expected two outputs that are lengths, which {} has not",
+    throw UsageError(fmt::format("--areas: without effect; expected two outputs that are lengths, which {} does not have",
                                  command.question.file));
   if (command.areas) command.options.images = question.model.outputs();
   ProgressLine line;
@@ -68,7 +68,7 @@ ExitStatus aspects(AspectsCommand command) {
   if (!complete) return stopped_early(control);
   if (!command.options.certificate) return kDone;
   if (!result.cover) {
-    fmt::print(stderr, "corank: {} is not written: nothing is known that it could prove\n",
+    fmt::print(stderr, "corank: {} is not written: nothing was found that it could prove\n",
                result::printable_line(command.output));
     return kBadInput;
   }
@@ -80,30 +80,34 @@ ExitStatus aspects(AspectsCommand command) {
 
 void add_aspects(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand(
-      "aspects", "The pieces into which singularities divide a C-space: aspects, assembly modes, working modes");
+      "aspects", "Find the pieces into which singularities divide a C-space: aspects, assembly modes, working modes");
   const auto command = std::make_shared<AspectsCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
-  sub->add_option("--threads", command->options.threads, "Threads of the search; 0: one for each core")
+  sub->add_option("--threads", command->options.threads, "Number of threads; 0: one for each core")
       ->check(CLI::Range(0, solve::kMostThreads))
       ->capture_default_str();
-  sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
+  sub->add_option("--time-limit", command->time_limit,
+                  "End after SECONDS with what is proven by then; 0: no limit (default)")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
   sub->add_option(
          "-o", command->output,
-         "A picture of the aspects, in the planes of two outputs and of two inputs; or what corank verify checks (.h5)")
+         "A picture of the aspects over two outputs and over two inputs (.svg), or a certificate for corank verify (.h5)")
       ->type_name("FILE.svg|FILE.h5");
   sub->add_flag("--areas", command->areas,
-                "Of two outputs that are lengths: the area that each aspect covers, in bounds, and which share outputs");
+                "If the model has two outputs, both lengths: bound the area that each aspect covers, and say which aspects\n"
+                "share outputs");
   sub->add_flag(
       "--cusps", command->options.cusps,
-      "Look for the cusps of both loci, and say in which aspect each lets the posture or the assembly mode change");
+      "Find the cusps of both loci, and the aspect in which each cusp lets the posture or the assembly mode change");
   command->json.add(*sub);
   sub->footer(
-      "aspects: pieces of C-space without forward and inverse singularities; assembly modes: without forward ones;\n"
-      "working modes: without inverse ones. Every number is proven; where one is not, bounds are given.\n\n"
-      "Exit status: 0 done, 1 bad input or nothing to write, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
+      "Aspects are the pieces of C-space without forward and inverse singularities, assembly modes the pieces without\n"
+      "forward singularities, and working modes the pieces without inverse singularities. Every number is proven. If "
+      "corank\n"
+      "cannot prove a number, it prints proven bounds.\n\n"
+      "Exit status: 0 done, 1 bad input or nothing to write, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
       "Examples:\n  corank aspects models/dextar.cuik\n  corank aspects models/dextar.cuik -o aspects.svg\n"
       "  corank aspects models/dextar.cuik -o aspects.h5\n  corank verify aspects.h5");
   sub->callback([command, &action] { action = [command] { return aspects(*command); }; });

@@ -30,7 +30,7 @@ ExitStatus completeness(const result::SolFile& boxes, const std::string& file) {
 
 ExitStatus completeness(bool complete, const std::string& file) {
   if (complete) return kDone;
-  fmt::print(stderr, "corank: {} is incomplete: its search ended before its end\n", result::printable_line(file));
+  fmt::print(stderr, "corank: {} is incomplete: its search had ended early\n", result::printable_line(file));
   return kIncomplete;
 }
 
@@ -38,8 +38,8 @@ void check_output(const std::string& path) {
   if (path.empty()) return;
   std::error_code ignored;
   for (const std::filesystem::path& name : {std::filesystem::path(path), std::filesystem::weakly_canonical(path, ignored)}) {
-    if (name.extension() == ".cuik") throw UsageError(path + ": not written over, it looks like a model");
-    if (name.extension() == ".param") throw UsageError(path + ": not written over, it looks like a parameter file");
+    if (name.extension() == ".cuik") throw UsageError(path + ": not overwritten, because it looks like a model");
+    if (name.extension() == ".param") throw UsageError(path + ": not overwritten, because it looks like a parameter file");
   }
   result::check_writable(path);
 }

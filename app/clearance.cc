@@ -26,7 +26,7 @@ namespace {
 // "±0.2", "+-0.2" about the value, or "[a,b]".
 analyze::NamedRange range_of(const std::string& text, const std::vector<analyze::NamedValue>& at,
                              const std::string& option = "--range") {
-  const std::string expected = option == "--range" ? "NAME=[A,B], or NAME=±D where --at gives NAME" : "NAME=[A,B],…";
+  const std::string expected = option == "--range" ? "NAME=[A,B], or NAME=±D if --at gives NAME" : "NAME=[A,B],…";
   auto [name, range] = split_at_equals(text, option, expected);
   if (range.front() == '[' && range.back() == ']') {
     const std::vector<std::string> ends = parts_of({range.substr(1, range.size() - 2)});
@@ -106,21 +106,21 @@ bool write_claims(const ClearanceCommand& command, const analyze::Clearance& cle
   result::write_result(free_file(command), free);
   const bool is_free = free.cover.complete() && free.cover.boxes.empty();
   if (!is_free)
-    fmt::print(stderr, "corank: {}: boxes are left{}, it does not prove the lower bound\n", free_file(command),
+    fmt::print(stderr, "corank: {}: does not prove the lower bound, since boxes are left{}\n", free_file(command),
                ending_words(control));
   if (!clearance.nearest.upper) return is_free;
   std::filesystem::remove(nearest_file(command));  // of a former run
   const auto nearest = claim_nearest(clearance, control);
   if (nearest) result::write_result(nearest_file(command), *nearest);
   if (!nearest)
-    fmt::print(stderr, "corank: the nearest singularity was not proven again for {}{}\n", nearest_file(command),
-               ending_words(control));
+    fmt::print(stderr, "corank: {}: not written, since the nearest singularity could not be proven again{}\n",
+               nearest_file(command), ending_words(control));
   return is_free && nearest;
 }
 
 ExitStatus run_clearance(ClearanceCommand command) {
-  if (command.at.empty()) throw UsageError("--at is required, but for --best and --map");
-  if (command.in.empty()) throw UsageError("--in is required, but for --best and --map");
+  if (command.at.empty()) throw UsageError("--at is required, except with --best or --map");
+  if (command.in.empty()) throw UsageError("--in is required, except with --best or --map");
   command.json.give_back(command.question.file);
   const solve::Options search = options_of(command);
   search.validate();
@@ -150,67 +150,68 @@ ExitStatus run_clearance(ClearanceCommand command) {
 }  // namespace
 
 void add_clearance(CLI::App& program, Action& action) {
-  CLI::App* sub = program.add_subcommand("clearance", "The largest ball about a configuration that holds no singularity");
+  CLI::App* sub =
+      program.add_subcommand("clearance", "Find the largest ball about a configuration that holds no singularity");
   const auto command = std::make_shared<ClearanceCommand>();
   command->question.add_options(*sub);
   sub->add_option(
          "--at", command->at,
-         "Values of coordinates, expressions in the model's constants: the ball's centre, and what keeps its value;\n"
+         "The centre of the ball, and other coordinates that keep a value; a VALUE may use the model's constants, and\n"
          "15deg is an angle in degrees")
       ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
-  sub->add_option("--in", command->in, "The coordinates in which the ball lies; lengths and radians count alike")
+  sub->add_option("--in", command->in, "The coordinates in which the ball lies; one radian counts like one unit of length")
       ->type_name("NAME,...")
       ->allow_extra_args(false);
   sub->add_option("--range,--mode", command->ranges,
-                  "Keep coordinates within other ranges than the model's: a mode, a limit, an angle that may move")
+                  "Keep coordinates within these ranges instead of the model's: for a mode, a limit, an angle that may move")
       ->type_name("NAME=[A,B],NAME=±D,...")
       ->allow_extra_args(false);
   sub->add_option("--orientation-range", command->orientation_range,
-                  "The angles among the outputs that have a value, and the --orientation, stay within so much of it")
+                  "Let the outputs' angles that --at gives, and the --orientation, vary by at most ANGLE")
       ->type_name("ANGLE");
-  sub->add_option("--orientation", command->orientation,
-                  "Orientation of a spatial robot about which it moves: Rz(0.2)*Ry(10deg)*Rx(0.3)")
+  sub->add_option("--orientation", command->orientation, "Orientation of a spatial robot, such as Rz(0.2)*Ry(10deg)*Rx(0.3)")
       ->type_name("R");
-  sub->add_option("--orientation-of", command->orientation_of, "Its link, or its rotation matrix, where there are several")
+  sub->add_option("--orientation-of", command->orientation_of,
+                  "The link or the rotation matrix that --orientation is for, if there are several")
       ->type_name("NAME");
   CLI::Option* best =
       sub->add_option("--best", command->best,
-                      "Look for the centre of the largest ball, in this region of lengths; the ball lies in these\n"
-                      "coordinates where --in is not given")
+                      "Find the centre of the largest ball within these ranges of lengths; without --in, the ball lies in\n"
+                      "these coordinates")
           ->type_name("NAME=[A,B],...")
           ->allow_extra_args(false);
   CLI::Option* map =
       sub->add_option("--map", command->map,
-                      "The clearance over a grid of centres in two lengths, within these or the declared ranges, each cell\n"
-                      "with bounds that hold all over it")
+                      "Compute the clearance over a grid of centres in two lengths, within these or the declared ranges;\n"
+                      "the bounds of a cell hold for every centre in it")
           ->type_name("NAME,NAME or NAME=[A,B],NAME=[A,B]")
           ->allow_extra_args(false)
           ->excludes(best);
-  CLI::Option* output = sub->add_option("-o,--output", command->output, "The map: a .svg, .csv or .json")->type_name("FILE");
+  CLI::Option* output =
+      sub->add_option("-o,--output", command->output, "The file for the map: .svg, .csv or .json")->type_name("FILE");
   map->needs(output);
   output->needs(map);
-  sub->add_option("--grid", command->grid, "Cells of the map along each side")
+  sub->add_option("--grid", command->grid, "Number of the map's cells along each side")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str()
       ->needs(map);
-  sub->add_option("--precision", command->precision, "How close the bounds of the radius are to be, relative to it")
+  sub->add_option("--precision", command->precision, "End when the bounds of the radius are this close, relative to it")
       ->check(CLI::Range(1e-6, 0.9))
       ->capture_default_str();
   sub->add_option(
          "--proof", command->proof_stem,
-         "Write NAME-free.h5, no singularity within the lower bound, with the script of a search that found none, and\n"
-         "NAME-nearest.h5, one within the upper bound: corank verify checks both")
+         "Write two files that corank verify checks: NAME-free.h5, which proves that no singularity lies within the lower\n"
+         "bound, and NAME-nearest.h5, with a singularity within the upper bound")
       ->type_name("NAME")
       ->excludes(best)
       ->excludes(map);
   command->limits.add_options(*sub, "the search");
   command->json.add(*sub);
   sub->footer(
-      "The set is forward where --set is not given. A value that --at gives is kept, unless its coordinate is in the ball "
-      "or has a\n"
-      "range; all other coordinates are free, so the ball is free of the singularities of every mode that --mode leaves.\n\n"
-      "Exit status: 0 done, 1 bad input, 2 usage, 3 the bounds hold but are not as close as asked for.\n\n"
+      "Without --set, the set is forward. A coordinate that --at gives keeps its value, unless it is in the ball or has a\n"
+      "range. All other coordinates are free: the ball holds no singularity of any mode that --mode allows.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 the bounds hold, but are not as close as asked for.\n\n"
       "Examples:\n  corank clearance models/dextar.cuik --at J3x=0.5,J3y=1 --in J3x,J3y\n"
       "  corank clearance models/planar/3rpr.cuik --at pose_x=0.8,pose_y=0.5,pose_phi=0.1 --in pose_x,pose_y\\\n"
       "      --orientation-range 15deg\n"

@@ -55,12 +55,12 @@ ExitStatus run_map(ClearanceCommand command) {
   line.clear();
   result::write_text(command.output, is(".svg") ? to_svg(picture(map)) : is(".csv") ? to_csv(map) : to_json(map) + "\n");
   if (command.json.say([&] { return to_json(map); })) {
-    if (map.empty) fmt::print("no singularity at all in the ranges: proven\n");
+    if (map.empty) fmt::print("it is proven that there is no singularity in the ranges\n");
     fmt::print("{} cells, {} boxes processed, {:.3f} s: {}\n", map.cells.size(), map.processed, map.seconds,
                result::printable(command.output));
   }
   if (map.complete) return kDone;
-  fmt::print(stderr, "corank: not all cells were examined{}; the bounds of those that were hold\n", ending_words(control));
+  fmt::print(stderr, "corank: some cells were not examined{}; the bounds of the others hold\n", ending_words(control));
   return kIncomplete;
 }
 

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   const std::vector<std::string> args(argv + (argc > 0 ? 1 : 0), argv + argc);
   const std::string usage =
       "Usage: cuik NAME [OPTIONS]\n"
-      "Encloses every solution of NAME.cuik in boxes, with the parameters of NAME.param where that exists, and writes "
+      "Encloses every solution of NAME.cuik in boxes, with the parameters of NAME.param if it exists, and writes "
       "NAME.sol.\n"
       "The options are those of corank solve.\n";
   if (const auto status = usage_status(usage, args, 1)) return *status;

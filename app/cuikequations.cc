@@ -7,9 +7,9 @@ int main(int argc, char** argv) {
   const std::vector<std::string> args(argv + (argc > 0 ? 1 : 0), argv + argc);
   const std::string usage =
       "Usage: cuikequations NAME [OPTIONS]\n"
-      "Writes the equations of the mechanism in NAME.world as polynomials, NAME.cuik, for cuik NAME to solve with the "
-      "parameters\n"
-      "of NAME.param. A NAME.cuik that it did not write is kept.\n"
+      "Writes the equations of the mechanism in NAME.world as polynomials to NAME.cuik. Then cuik NAME solves them with "
+      "the\n"
+      "parameters of NAME.param. A NAME.cuik that cuikequations did not write is not overwritten.\n"
       "The options are those of corank derive.\n";
   if (const auto status = usage_status(usage, args, 1)) return *status;
   const std::string file = with_extension(args[0], ".world"), name = file.substr(0, file.size() - 6);

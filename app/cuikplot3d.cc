@@ -6,8 +6,8 @@ int main(int argc, char** argv) {
   const std::vector<std::string> args(argv + (argc > 0 ? 1 : 0), argv + argc);
   const std::string usage =
       "Usage: cuikplot3d NAME X Y Z SIZE PICTURE\n"
-      "Draws the boxes of NAME.sol in three variables, numbered from 1, and writes PICTURE.gcl for Geomview.\n"
-      "SIZE 0 draws boxes as they are, another number cubes with this edge about their centres.\n";
+      "Draws the boxes of NAME.sol over three variables, numbered from 1, and writes PICTURE.gcl for Geomview.\n"
+      "SIZE 0 draws boxes as they are. Any other SIZE draws each box as a cube with this edge about its centre.\n";
   if (const auto status = usage_status(usage, args, 6)) return *status;
   std::vector<std::string> command{"plot",    with_extension(args[0], ".sol"),
                                    "--axes",  args[1] + "," + args[2] + "," + args[3],

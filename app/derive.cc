@@ -43,7 +43,7 @@ void check_path(const std::string& path, const std::string& model) {
   if (extension == ".cuik" && !kept) {
     kept = symbolic::reading_fault(file).empty() && symbolic::read_bytes(file, kMark.size()) != kMark;
   }
-  if (kept) throw UsageError(path + ": not written over, it was not made by corank derive; remove it first");
+  if (kept) throw UsageError(path + ": not overwritten, because corank derive did not make it; remove it first");
 }
 
 /// What equations of parts are not made for: "% Left out, being 0 for these values of the constants: b - 3".
@@ -106,9 +106,9 @@ ExitStatus derive(const CLI::App& sub, DeriveCommand command) {
   command.json.give_back(command.question.file);
   command.json.check();
   if (command.format == "model" && !command.json.given())
-    refuse_without_effect(sub, {"--set", "--kernel", "--corank"}, "another --format: the model itself is that of all sets");
+    refuse_without_effect(sub, {"--set", "--kernel", "--corank"}, "another --format: the model is the same for all sets");
   if (command.json.given() && command.json.path().empty() && command.path.empty())
-    refuse_without_effect(sub, {"--format"}, "--json PATH or -o FILE: standard output has the JSON alone");
+    refuse_without_effect(sub, {"--format"}, "--json PATH or -o FILE: standard output holds only the JSON");
   check_path(command.path, command.question.file);
   const bool text_is_asked = command.json.say([&] { return derivation_json(command.question); }) || !command.path.empty();
   if (!text_is_asked) return kDone;
@@ -130,19 +130,21 @@ ExitStatus derive(const CLI::App& sub, DeriveCommand command) {
 }  // namespace
 
 void add_derive(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("derive", "Print the constraints, their Jacobian blocks and a system");
+  CLI::App* command = program.add_subcommand(
+      "derive", "Print the equations of a model: constraints, Jacobian blocks and the system of a set");
   const auto options = std::make_shared<DeriveCommand>();
   options->question.add_options(*command);
   command
       ->add_option("--format", options->format,
-                   "text or latex: with sines and cosines; cuik: polynomials, a file that corank solve accepts;\n"
-                   "model: the model itself in order, whatever --set")
+                   "text or latex: with sines and cosines; cuik: as polynomials, in a file that corank solve accepts;\n"
+                   "model: the model itself, written out in order")
       ->check(CLI::IsMember({"text", "latex", "cuik", "model"}))
       ->capture_default_str();
-  command->add_option("-o", options->path, "Write it to this file in place of standard output")->type_name("FILE");
-  options->json.add(*command, "constraints, velocity equation and systems", "the text");
+  command->add_option("-o", options->path, "Write to this file instead of standard output")->type_name("FILE");
+  options->json.add(*command, "the constraints, the velocity equation and the systems", "the text");
   command->footer(
-      "The set is cspace where --set is not given.\n\n"
+      "Without --set, the set is cspace.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 wrong usage.\n\n"
       "Example:\n  corank derive models/dextar.cuik --set inverse --format latex");
   command->callback([=, &action] { action = [=] { return derive(*command, *options); }; });
 }

@@ -11,7 +11,7 @@ namespace corank::app {
 void JsonOption::add(CLI::App& sub, const std::string& what, const std::string& table) {
   option_ = sub.add_option_function<std::vector<std::string>>(
                    "--json", [this](const std::vector<std::string>& words) { path_ = words.empty() ? "" : words.front(); },
-                   fmt::format("Write {} as JSON to PATH, or to standard output instead of {}", what, table))
+                   fmt::format("Write {} as JSON to PATH or, without PATH, to standard output instead of {}", what, table))
                 ->type_name("[PATH]")
                 ->expected(0, 1);
 }

@@ -57,7 +57,7 @@ analyze::MapQuestion question_of(const MapCommand& command) {
   QuestionOptions set = command.question;
   const bool plain = question.question.model.is_plain_system();
   if (question.answer != analyze::MapAnswer::solutions && !set.set.empty())
-    throw UsageError(fmt::format("--count {}: belongs to all configurations and has no --set", command.count));
+    throw UsageError(fmt::format("--count {}: counts among all configurations; expected no --set beside it", command.count));
   if (set.set.empty() && !plain) set.set = "cspace";
   question.question.set = chosen_set(set, question.question.model);
   for (const std::string& text : command.over) question.over.push_back(parameter(text));
@@ -92,7 +92,8 @@ ExitStatus write_map(const CLI::App& sub, MapCommand command) {
       throw UsageError(fmt::format("-o {}: expected a file name that ends in .h5, .svg, .pdf, .png, .csv or .json", name));
     if (certificate && command.count != "solutions")
       throw UsageError(
-          fmt::format("-o {}: --count {} is proven at centres alone, and has no certificate", name, command.count));
+          fmt::format("-o {}: --count {} is proven only at the centres of cells; there is no certificate for that", name,
+                      command.count));
     command.options.certificate = command.options.certificate || certificate;
     result::check_writable(name);
   }
@@ -100,7 +101,7 @@ ExitStatus write_map(const CLI::App& sub, MapCommand command) {
   LimitedRun run({.time = command.time_limit});
   solve::Control& control = run.control();
   const analyze::MapQuestion question = question_of(command);
-  if (question.over.size() != 2) throw UsageError("a map has two parameters: --over NAME=FROM:TO twice");
+  if (question.over.size() != 2) throw UsageError("a map has two parameters; expected --over NAME=FROM:TO twice");
   ProgressLine line;
   command.options.progress = [&line](std::size_t done, std::size_t all) {
     line.show(fmt::format("{} of {} parts of the plane", done, all));
@@ -126,45 +127,49 @@ ExitStatus write_map(const CLI::App& sub, MapCommand command) {
 
 void add_map(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand(
-      "map", "The number of solutions over a plane of two constants or coordinates, proven cell by cell");
+      "map", "Count solutions over a plane of two constants or coordinates, and prove the number cell by cell");
   const auto command = std::make_shared<MapCommand>();
   command->question.add_options(*sub);
   sub->add_option("--over", command->over,
-                  "A constant of the model, or a coordinate (angles in radians), that runs from FROM to TO; twice")
+                  "A constant or a coordinate (angles in radians) that runs from FROM to TO; required twice")
       ->type_name("NAME=FROM:TO")
       ->allow_extra_args(false);
   sub->add_option("--fix", command->fixed, "A coordinate that keeps one value; may be repeated")
       ->type_name("NAME=EXPR")
       ->allow_extra_args(false);
   sub->add_option("--count", command->count,
-                  "What is counted. solutions: of --set (default cspace), proven over whole cells;\n"
-                  "the others belong to all configurations of one mechanism, and are proven at the cells' centres alone")
+                  "What to count. solutions: those of --set (default: cspace), proven over whole cells; the others:\n"
+                  "pieces among all configurations of one mechanism, proven only at the centres of cells")
       ->check(CLI::IsMember({"solutions", "components", "aspects", "assembly-modes", "working-modes"}))
       ->capture_default_str();
   sub->add_option("--resolution", command->options.resolution,
-                  "The narrowest cells are so many along each side: a power of two")
+                  "Number of the narrowest cells along each side: a power of two")
       ->capture_default_str();
   sub->add_flag("--no-boundary", command->no_boundary, "Do not look for the curve on which two solutions meet");
-  sub->add_option("--threads", command->options.threads, "Threads; 0: one for each core")
+  sub->add_option("--threads", command->options.threads, "Number of threads; 0: one for each core")
       ->check(CLI::Range(0, solve::kMostThreads))
       ->capture_default_str();
-  sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
+  sub->add_option("--time-limit", command->time_limit,
+                  "End after SECONDS with what is proven by then; 0: no limit (default)")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
   sub->add_option(
          "-o", command->outputs,
-         "A picture (.svg, .pdf, .png), the cells (.csv, .json), or the proven ones with what proves them (.h5), for\n"
-         "corank verify; may be repeated")
+         "A picture (.svg, .pdf, .png), the cells (.csv, .json), or the proven cells with their proofs for corank verify\n"
+         "(.h5); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->json.add(*sub);
   sub->footer(
-      "In a cell that is proven the number is the same for every value of the parameters, and all solutions are regular.\n\n"
-      "Exit status: 0 done, 1 bad input, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
-      "Examples, the assembly modes of a five-bar over its motors' angles, and over two lengths:\n"
+      "In a proven cell, the number of solutions is the same for every value of the parameters, and every solution is\n"
+      "regular.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
+      "Examples: the assembly modes of a five-bar robot over its motors' angles, and over two lengths\n"
       "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.svg\n"
-      "  corank map models/dextar.cuik --over l2=1/2:3/2 --over l3=1/2:3/2 --fix theta2=pi/3 --fix theta5=2 -o lengths.svg\n"
-      "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.h5 && corank verify modes.h5");
+      "  corank map models/dextar.cuik --over l2=1/2:3/2 --over l3=1/2:3/2 --fix theta2=pi/3 --fix theta5=2\\\n"
+      "      -o lengths.svg\n"
+      "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.h5\n"
+      "  corank verify modes.h5");
   sub->callback([command, sub, &action] { action = [command, sub] { return write_map(*sub, *command); }; });
 }
 

@@ -15,7 +15,8 @@ bool warn_of_assembly(const result::Result& result) {
 }
 
 ExitStatus stopped_early(const solve::Control& control) {
-  fmt::print(stderr, "corank: stopped by {}; what is said is proven, but more could be\n", to_string(*control.ending()));
+  fmt::print(stderr, "corank: stopped by {}; what is printed is proven, but more could have been\n",
+             to_string(*control.ending()));
   return kIncomplete;
 }
 

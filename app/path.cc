@@ -135,18 +135,20 @@ ExitStatus path(PathCommand command) {
 }  // namespace
 
 void add_path(CLI::App& program, Action& action) {
-  CLI::App* sub = program.add_subcommand("path", "A proven way between two configurations that meets no singularity");
+  CLI::App* sub =
+      program.add_subcommand("path", "Find a path between two configurations that meets no singularity, and prove it");
   const auto command = std::make_shared<PathCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
   const auto add_end = [&](const std::string& name, std::vector<std::string>& values, int& mode) {
     sub->add_option(name, values,
-                    "Values of coordinates, as many as the mobility; the rest is solved for, and further values choose "
-                    "between\nthe solutions; 15deg is an angle in degrees")
+                    std::string(name == "--from" ? "The start" : "The goal") +
+                        ": values of coordinates, as many as the mobility; corank solves for the others, and further values "
+                        "choose among the solutions; 15deg is an angle in degrees")
         ->type_name("NAME=VALUE,...")
         ->allow_extra_args(false)
         ->required();
-    sub->add_option(name + "-mode", mode, "Which of several solutions: its number in the list that is printed without it")
+    sub->add_option(name + "-mode", mode, "The number of the solution, if there are several; without it, corank lists them")
         ->check(CLI::PositiveNumber);
   };
   add_end("--from", command->from, command->from_mode);
@@ -155,30 +157,30 @@ void add_path(CLI::App& program, Action& action) {
       ->check(CLI::IsMember({"forward", "inverse", "both"}))
       ->capture_default_str();
   sub->add_option("--radius", command->options.radius,
-                  "The clearance that the path is to have, where possible: of sines and cosines of angles; lengths have it\n"
-                  "times their typical size")
+                  "The clearance that the path keeps where possible, in sines and cosines of angles; for lengths it is\n"
+                  "multiplied by their typical size")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("--threads", command->options.threads, "Threads of a search; 0: one for each core")
+  sub->add_option("--threads", command->options.threads, "Number of threads; 0: one for each core")
       ->check(CLI::Range(0, solve::kMostThreads))
       ->capture_default_str();
-  sub->add_option("--max-boxes", command->options.max_boxes, "No cover of C-space is to have more boxes")
+  sub->add_option("--max-boxes", command->options.max_boxes, "The largest number of boxes in a cover of C-space")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  sub->add_option("--time-limit", command->time_limit, "End after so many seconds; 0: no limit")
+  sub->add_option("--time-limit", command->time_limit, "End after SECONDS; 0: no limit (default)")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
   sub->add_option("-o,--output", command->output,
-                  "Write the path with its tube, which corank verify checks, where there is one")
+                  "Write the path, if there is one, with the tube about it, for corank verify")
       ->type_name("FILE.h5");
-  sub->add_option("--csv", command->csv, "Write the waypoints")->type_name("FILE");
+  sub->add_option("--csv", command->csv, "Write the waypoints of the path")->type_name("FILE");
   sub->add_option("--report", command->report, "Write an HTML page on which the mechanism moves along the path")
       ->type_name("FILE.html");
   command->json.add(*sub);
   sub->footer(
-      "The path keeps to the ranges, limits and inequalities of the model. Every configuration within the radius of it, in\n"
-      "sines and cosines of angles and in lengths, is proven to be none of the singularities avoided. Where no path can\n"
-      "exist, because the ends lie in different pieces, that is proven.\n\n"
-      "Exit status: 0 a path or the proof that there is none, 1 bad input, 2 usage, 3 neither.\n\n"
+      "The path keeps to the ranges, limits and inequalities of the model. No configuration within the radius about it, in\n"
+      "sines and cosines of angles and in lengths, is one of the avoided singularities: this is proven. If no path can\n"
+      "exist, because the two configurations lie in different pieces, that is proven instead.\n\n"
+      "Exit status: 0 a path, or the proof that there is none; 1 bad input; 2 wrong usage; 3 neither.\n\n"
       "Examples:\n  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=1 --to-mode 1\\\n"
       "      -o path.h5 --report path.html\n  corank verify path.h5");
   sub->callback([command, &action] { action = [command] { return path(*command); }; });

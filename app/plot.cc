@@ -110,37 +110,39 @@ ExitStatus plot(const CLI::App& sub, const PlotCommand& command) {
 }  // namespace
 
 void add_plot(CLI::App& program, Action& action) {
-  CLI::App* sub = program.add_subcommand("plot", "Draw the boxes of results in two or three coordinates");
+  CLI::App* sub = program.add_subcommand("plot", "Draw the boxes of results over two or three coordinates");
   const auto command = std::make_shared<PlotCommand>();
-  sub->add_option("RESULT", command->inputs, "The boxes (.h5 or .sol) of one or several sets")->required();
+  sub->add_option("RESULT", command->inputs, "Result files (.h5 or .sol), one or several")->required();
   sub->add_option("--axes", command->picture.axes,
-                  "Two or three variables, by name or number from 1, or angles by name, with commas")
+                  "Two or three axes, with commas: variables by name or by number from 1, angles by name")
       ->type_name("X,Y[,Z]")
       ->delimiter(',')
       ->required();
   sub->add_option(
          "--color", command->picture.color,
-         "set: C-space grey, forward red, inverse blue, cspace-singular violet, others grey-blue; verdict: a colour for "
-         "each verdict; plain: all blue")
-      ->transform(CLI::Transformer(kSchemes))
+         "set: C-space grey, forward red, inverse blue, cspace-singular violet, others grey-blue; verdict: one colour "
+         "for each verdict; plain: all blue")
+      ->transform(CLI::Transformer(kSchemes).description(""))
       ->type_name("set|verdict|plain")
       ->default_str("set");
-  sub->add_option("--size", command->picture.size, "0: boxes as they are; else cubes with this edge about their centres")
+  sub->add_option("--size", command->picture.size,
+                  "Draw each box as a cube with this edge about its centre; 0: draw boxes as they are")
       ->check(CLI::Range(0.0, 1e300, "a non-negative number"))
       ->capture_default_str();
-  sub->add_option("--title", command->portrait.title, "A line above a .svg, .pdf or .png")->type_name("TEXT");
-  sub->add_flag("--legend,!--no-legend", command->portrait.legend,
-                "Say what the colours mean in a .svg, .pdf or .png (default)");
+  sub->add_option("--title", command->portrait.title, "A line of text above a .svg, .pdf or .png")->type_name("TEXT");
+  sub->add_flag("--legend,!--no-legend", command->portrait.legend, "Explain the colours in a .svg, .pdf or .png (default)");
   sub->add_option("--width", command->portrait.width_mm, "Width in mm of a .svg, .pdf or .png")
       ->check(CLI::Range(20.0, 1000.0))
       ->capture_default_str();
   sub->add_option("--dpi", command->portrait.dots_per_inch, "Dots per inch of a .png")
       ->check(CLI::Range(10.0, 2400.0))
       ->capture_default_str();
-  sub->add_option("-o", command->output, "The picture: .svg, .pdf or .png (flat), .vtp (ParaView), .gcl (Geomview)")
+  sub->add_option("-o", command->output,
+                  "The picture: .svg, .pdf or .png for two axes; .vtp (ParaView) or .gcl (Geomview) for two or three")
       ->type_name("PICTURE")
       ->required();
   sub->footer(
+      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 done, but the search of a result had ended early.\n\n"
       "Examples:\n"
       "  corank plot cspace.h5 forward.h5 inverse.h5 --axes J3x,J3y -o output.pdf\n"
       "  corank plot forward.h5 inverse.h5 --axes theta2,theta5 --width 120 -o input.svg\n"

@@ -15,15 +15,16 @@ void QuestionOptions::add_options(CLI::App& command) {
   sets.emplace_back(kNodes);
   command
       .add_option("--set", set,
-                  "The set of a mechanism: " + symbolic::names_of_sets() +
-                      ";\nnodes: those of the one locus that is not empty for a plain reason")
+                  "Which configurations of a mechanism: all (cspace), its forward, inverse or C-space singularities, the "
+                  "boundary of its workspace, the singularities of one type (ro to iim), or the cusps or nodes of a locus.\n"
+                  "nodes: forward-nodes or inverse-nodes, if only one of these loci can have nodes")
       ->check(CLI::IsMember(sets));
   command
       .add_option("--kernel", kernel,
-                  "Side of the kernel vector: right (M xi = 0) or left (M^T xi = 0);\n"
+                  "Side of the kernel vector xi of the set's matrix M: right (M xi = 0) or left (M^T xi = 0);\n"
                   "none: solve the set in parts, each with an equation of its own and no kernel vector;\n"
-                  "default: right where the matrix M is square or tall, else left; none where a set of\n"
-                  "dimension 2 or more is the union of parts")
+                  "default: right if M is square or tall, else left; none if a set of dimension 2 or more\n"
+                  "is the union of parts")
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(command);
   add_outputs(command);
@@ -33,16 +34,15 @@ void QuestionOptions::add_options(CLI::App& command) {
 void QuestionOptions::add_outputs(CLI::App& command) {
   command
       .add_option("--outputs", outputs,
-                  "Of --set boundary: the coordinates in whose space the workspace is, with commas;\n"
-                  "default: the model's outputs; as many as its mobility, or fewer")
+                  "For --set boundary: the coordinates of the workspace, with commas, at most as many as the mobility;\n"
+                  "default: the model's outputs")
       ->type_name("NAME[,NAME...]")
       ->delimiter(',');
 }
 
 void QuestionOptions::add_model(CLI::App& command) {
-  command.add_option("FILE", file, "The model: equations (.cuik), parts (.world, or .cuik with [LINKS]) or URDF (.urdf)");
-  command
-      .add_option("--loops", loops, "Of a URDF file: its companion, with the joints that close loops, inputs and outputs")
+  command.add_option("FILE", file, "The model: equations (.cuik), parts (.cuik with [LINKS], or .world) or URDF (.urdf)");
+  command.add_option("--loops", loops, "Companion of a URDF file: the joints that close loops, the inputs and the outputs")
       ->type_name("FILE.loops")
       ->check(CLI::ExistingFile);
 }
@@ -50,7 +50,7 @@ void QuestionOptions::add_model(CLI::App& command) {
 void QuestionOptions::add_corank(CLI::App& command) {
   command
       .add_option("--corank", corank,
-                  "The configurations where the kernel of M has at least this dimension, as a set of its own;\n"
+                  "Only configurations at which the kernel of the set's matrix M has dimension C or more;\n"
                   "default: 1, all singularities")
       ->type_name("C")
       ->check(CLI::PositiveNumber);
@@ -88,7 +88,7 @@ study::Question load(const QuestionOptions& options, std::set<std::string>* said
   for (const std::string& notice : model.notices)
     if (!said || said->insert(notice).second) fmt::print(stderr, "{}: note: {}\n", options.file, result::printable(notice));
   if (!options.outputs.empty() && options.set != symbolic::definition(symbolic::SingularitySet::boundary).name)
-    throw UsageError("--outputs: only for --set boundary");
+    throw UsageError("--outputs: without effect; expected --set boundary beside it");
   result::put_in(options.outputs, model.mechanism);
   return {.model = std::move(model.mechanism),
           .kernel = symbolic::kernel_side_from_string(options.kernel),
@@ -112,7 +112,7 @@ std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& questi
   if (question.set == kNodes) return symbolic::nodes_of(mechanism);
   const auto set = symbolic::singularity_set_from_string(question.set);
   if (!symbolic::definition(set).has_kernel() && (question.corank != 1 || !question.kernel.empty()))
-    throw UsageError(fmt::format("--set {}: has no --corank and no --kernel", question.set));
+    throw UsageError(fmt::format("--set {}: expected no --corank and no --kernel beside it", question.set));
   return set;
 }
 

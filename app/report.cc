@@ -106,12 +106,14 @@ std::vector<report::SetView> read_all(std::vector<std::string>& paths) {
     const auto [place, added] = by_set.try_emplace(view.set, path, std::move(view));
     if (!added) {
       const auto& [other, of_set] = place->second;
-      throw result::ResultFileError(fmt::format("{}: holds the set {}, as {} does", path, of_set.result.set, other));
+      throw result::ResultFileError(
+          fmt::format("{}: holds the set {}, which {} holds already", path, of_set.result.set, other));
     }
     const auto& [first_path, first] = by_set.begin()->second;
     const result::Result &a = place->second.second.result, &b = first.result;
     if (a.model_text != b.model_text || a.options.constants != b.options.constants)
-      throw result::ResultFileError(fmt::format("{} and {} are of two models, or with other constants", path, first_path));
+      throw result::ResultFileError(
+          fmt::format("{} and {} are results of different models, or with different constants", path, first_path));
   }
   std::vector<report::SetView> views;
   paths.clear();
@@ -127,12 +129,12 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     refuse_without_effect(sub,
                           {"--loops", "--sets", "--corank", "-D", "--sigma", "--cspace-sigma", "--threads", "--max-boxes",
                            "--max-found", "--time-limit", "--memory-limit", "--proof"},
-                          "no --results beside it: they are not searched for again");
+                          "no --results beside it: these sets are not solved again");
   command.search.check_effect(sub);
   if (command.results.empty()) command.json.give_back(command.question.file);
   command.json.check();
   if (!command.results.empty() && !command.question.file.empty())
-    throw UsageError("--results take the place of FILE: their model is in them");
+    throw UsageError("--results: expected no FILE beside it: the results hold their model");
   command.search.validate();
   std::vector<report::SetView> views;
   if (!command.results.empty()) views = read_all(command.results);
@@ -187,14 +189,14 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     if (!result.cover.complete() || !result.stopped.empty())
       fmt::print(stderr, "corank: {}: {}\n", result.set, study::stopped_words(result));
   if (figures.stopped) fmt::print(stderr, "corank: stopped by an interrupt, in the stage figures\n");
-  fmt::print(stderr, "corank: the report is incomplete, and says so\n");
+  fmt::print(stderr, "corank: the report is incomplete, and says what is missing\n");
   return kIncomplete;
 }
 
 }  // namespace
 
 void add_report(CLI::App& program, Action& action) {
-  CLI::App* sub = program.add_subcommand("report", "Solve all sets of a mechanism and write a page about them");
+  CLI::App* sub = program.add_subcommand("report", "Solve several sets of a mechanism and write a web page about them");
   const auto command = std::make_shared<ReportCommand>();
   command->question.add_model(*sub);
   command->search.add_sets(*sub);
@@ -202,17 +204,16 @@ void add_report(CLI::App& program, Action& action) {
   command->question.add_definitions(*sub);
   command->search.add_limits(*sub);
   sub->add_flag("--proof", command->search.proof,
-                "Keep in the result files why no solution is missing, so that corank verify can check that, too");
-  sub->add_option("--results", command->results, "Take these results, of one model, instead of solving")
+                "Record each search in its result file, so that corank verify can check that no solution is missing");
+  sub->add_option("--results", command->results, "Write the page about these results of one model, instead of solving")
       ->type_name("RESULT.h5...");
-  command->json.add(*sub, "what stands on the page");
-  sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-report")
+  command->json.add(*sub, "the contents of the page");
+  sub->add_option("-o", command->folder, "Folder for index.html, the results and the figures; default: MODEL-report")
       ->type_name("FOLDER");
   sub->footer(
-      "Each search ends after 8 seconds or 200000 boxes unless other limits are given, so that there is a page within a "
-      "minute; it\n"
-      "says which sets are incomplete.\n\n"
-      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
+      "Each search ends after 8 seconds or 200000 boxes, unless you give other limits. So the page is there within a\n"
+      "minute. It says which sets are incomplete.\n\n"
+      "Exit status: 0 done and complete, 1 bad input, 2 wrong usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Example:\n  corank report models/dextar.cuik -o dextar");
   sub->callback([command, sub, &action] { action = [command, sub] { return write_report(*sub, *command); }; });
 }

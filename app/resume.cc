@@ -45,7 +45,7 @@ void check_given(const CLI::App& sub, const char* option, bool refine) {
     const std::string name = o->get_name();
     if (o->count() == 0 || is_among(kOfOneRun, name) || is_among(kMayChange, name)) continue;
     if (refine && is_among(kSigmas, name)) continue;
-    throw UsageError(fmt::format("{}: the model and the question are those of the run that goes on; expected no {}", option,
+    throw UsageError(fmt::format("{}: its file holds the model and the question; expected no {}", option,
                                  o->get_positional() ? "FILE beside it" : name));
   }
 }

@@ -62,10 +62,15 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   program.set_version_flag("--version", "corank " + result::version());
   program.require_subcommand(1);
   program.footer(
-      "Example:\n  corank solve models/three_slider.cuik --set forward\n\n"
-      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt), 4 (verify only)\n"
-      "verified, but not that nothing is missing.\n"
-      "corank SUBCOMMAND --help tells more.");
+      "corank SUBCOMMAND --help explains a subcommand.\n\n"
+      "Exit status:\n"
+      "  0  done and complete\n"
+      "  1  bad input\n"
+      "  2  wrong usage\n"
+      "  3  incomplete: a limit or an interrupt ended the work; what is said holds\n"
+      "  4  of verify: every claim holds, but it is not proven that no solution is missing\n"
+      "  5  of solve: it is proven that the robot cannot be assembled within its ranges\n\n"
+      "Example:\n  corank solve models/three_slider.cuik --set forward");
   Action action;
   add_derive(program, action);
   add_solve(program, action);
@@ -101,7 +106,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   } catch (const result::ResultFileError& error) {
     return say(kBadInput, error.what());
   } catch (const std::bad_alloc&) {
-    return say(kBadInput, "out of memory; a larger --sigma or --max-boxes needs less");
+    return say(kBadInput, "out of memory; a larger --sigma or a smaller --max-boxes needs less");
   } catch (const InvariantError& error) {
     return say(kBug, fmt::format("{}; this is a bug in corank", error.what()));
   } catch (const std::exception& error) {

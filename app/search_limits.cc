@@ -7,28 +7,29 @@
 namespace corank::app {
 
 void SearchLimits::add_options(CLI::App& command, const std::string& search) {
-  const auto default_text = [](double value) { return value > 0 ? fmt::format("{:g}", value) : std::string("none"); };
-  command.add_option("--threads", threads, "Threads; 0: one for each core")->capture_default_str();
+  const auto default_text = [](double value) {
+    return value > 0 ? fmt::format("0: no limit; default: {:.15g}", value) : std::string("0: no limit (default)");
+  };
+  command.add_option("--threads", threads, "Number of threads; 0: one for each core")->capture_default_str();
   command
       .add_option("--max-boxes", max_boxes,
-                  fmt::format("End {} after so many processed boxes; 0: no limit; default: {}", search,
-                              default_text(static_cast<double>(max_boxes))))
+                  fmt::format("End {} after N processed boxes; {}", search, default_text(static_cast<double>(max_boxes))))
+      ->type_name("N")
       ->check(CLI::NonNegativeNumber);
   command
       .add_option("--max-found", max_found,
-                  fmt::format("End {} after so many found boxes, proven or undecided; 0: no limit; default: {}", search,
-                              max_found > 0 ? std::to_string(max_found) : "none"))
+                  fmt::format("End {} when it has found N boxes, proven or undecided; {}", search,
+                              default_text(static_cast<double>(max_found))))
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
   command
       .add_option("--time-limit", time_limit,
-                  fmt::format("End {}, and what follows it, after so many seconds; 0: no limit; default: {}", search,
-                              default_text(time_limit)))
+                  fmt::format("After SECONDS, end {} and the work that follows it; {}", search, default_text(time_limit)))
       ->type_name("SECONDS");
   command
       .add_option("--memory-limit", memory_limit,
-                  fmt::format("End {} when its boxes take so much memory, such as 800M or 8G; 0: no limit;\n"
-                              "default: three quarters of the machine's",
+                  fmt::format("End {} when its boxes take BYTES of memory, such as 800M or 8G; 0: no limit;\n"
+                              "default: three quarters of the machine's memory",
                               search))
       ->type_name("BYTES")
       ->transform(CLI::AsSizeValue(false));

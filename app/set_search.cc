@@ -26,13 +26,13 @@ void name_errors(SingularitySet set, F validate) {
 }  // namespace
 
 void SetSearch::add_sets(CLI::App& command) {
-  command.add_option("--sets", sets, "The sets, with commas")
+  command.add_option("--sets", sets, "The sets to solve, with commas")
       ->type_name("SET[,SET...]")
       ->delimiter(',')
       ->check(CLI::IsMember(kSets))
       ->capture_default_str();
   command.add_option("--sigma", sigma,
-                     "Largest edge of a box in the sets of singularities; default: a share of the size of the set found");
+                     "Largest edge of a box in sets of singularities; default: a share of the size of the set found");
   command.add_option("--cspace-sigma", cspace_sigma, "The same in C-space");
 }
 

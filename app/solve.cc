@@ -47,7 +47,7 @@ std::string parameters_beside(const std::string& model) {
   if (path.extension() != ".world" || !std::filesystem::exists(path.replace_extension(".param"))) return "";
   fmt::print(
       stderr, "{}: note: {}\n", result::printable_line(model),
-      result::printable_line(fmt::format("with the parameters of {}, where the command line has none", path.string())));
+      result::printable_line(fmt::format("takes the parameters of {} that the command line does not give", path.string())));
   return path.string();
 }
 
@@ -59,7 +59,7 @@ void apply_parameters(SolveCommand& command, const System& system) {
   if (!command.max_solutions) command.max_solutions = parameters.n_solutions;
   if (!parameters.ignored.empty()) {
     fmt::print(stderr, "{}",
-               result::printable(fmt::format("corank: {}: without effect here: {}\n", command.param_path,
+               result::printable(fmt::format("corank: {}: these parameters have no effect here: {}\n", command.param_path,
                                              fmt::join(parameters.ignored, ", "))));
   }
 }
@@ -81,7 +81,7 @@ System system_to_solve(SolveCommand& command, const study::Question& question, b
   if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
     throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
   if (command.proof && system.coefficient_tolerance > 0)
-    throw UsageError("--proof: there is none for coefficients with a tolerance; --tolerance 0 takes them as exact");
+    throw UsageError("--proof: expected exact coefficients; --tolerance 0 takes them as exact");
   return system;
 }
 
@@ -126,14 +126,14 @@ ExitStatus say(const SolveCommand& command, const result::Result& result, const 
   if (result.cover.complete() && result.stopped.empty())
     return result::assembled(result) == std::optional(false) ? kNotAssembled : kDone;
   fmt::print(stderr, "corank: {}; {}\n", study::stopped_words(result),
-             result.cover.complete() ? "the cover is complete, but less is proven of it than could be"
+             result.cover.complete() ? "the cover is complete, but not all that could be proven about it was"
                                      : "the result is incomplete");
   if (!command.checkpoint_path.empty()) {
     std::error_code error;
     const bool kept = std::filesystem::exists(command.checkpoint_path, error);
     fmt::print(stderr, "corank: {}\n",
                result::printable_line(kept ? fmt::format("to go on: corank solve --resume {}", command.checkpoint_path)
-                                           : "no search had begun: there is nothing to go on from"));
+                                           : "no search had begun, so there is no checkpoint"));
   }
   return kIncomplete;
 }
@@ -222,21 +222,26 @@ ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {
 }  // namespace
 
 void add_solve(CLI::App& program, Action& action) {
-  CLI::App* sub = program.add_subcommand("solve", "Enclose every solution of a system or of a mechanism's set in boxes");
+  CLI::App* sub =
+      program.add_subcommand("solve", "Enclose every solution of a system, or of a set of a mechanism, in boxes");
   const auto command = std::make_shared<SolveCommand>();
   add_solve_options(*sub, *command);
   sub->footer(
-      "An empty set of a robot says whether the robot can be assembled within its ranges at all, with one configuration "
-      "that\n"
-      "is proven to exist. Where rounded decimals contradict each other, --tolerance is proposed.\n\n"
-      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt), 5 complete, but the\n"
-      "robot cannot be assembled within its ranges (proven), so that every set of it is empty.\n\n"
+      "If the set of a robot is empty, corank solve looks for any configuration: it names one that is proven to exist, or\n"
+      "proves that the robot cannot be assembled within its ranges. If rounded decimals contradict each other, it proposes\n"
+      "--tolerance.\n\n"
+      "Exit status:\n"
+      "  0  done and complete\n"
+      "  1  bad input\n"
+      "  2  wrong usage\n"
+      "  3  incomplete: a limit or an interrupt ended the work; what is said holds\n"
+      "  5  complete, but every set is empty: it is proven that the robot cannot be assembled\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --sigma 0.01 -o forward.h5\n"
       "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50\n"
       "  corank solve models/dextar.cuik --set inverse --corank 2    # both arms stretched at once\n"
       "  corank solve models/3rrr.cuik --set forward --sigma 0.2 --estimate    # seconds, before hours\n"
       "  corank solve models/3rrr.cuik --set forward --sigma 0.2 -o r.h5 --checkpoint r.kept --every 10m\n"
-      "  corank solve --resume r.kept --threads 8                    # after a limit, Ctrl-C, a crash or a power cut\n"
+      "  corank solve --resume r.kept --threads 8    # after a limit, Ctrl-C, a crash or a power cut\n"
       "  corank solve models/dextar.cuik --set cspace --sigma 0.1 --keep-sheets -o coarse.h5\n"
       "  corank solve --refine coarse.h5 --sigma 0.01 -o fine.h5");
   sub->callback([command, sub, &action] { action = [command, sub] { return run_solve(*sub, *command); }; });

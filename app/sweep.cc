@@ -58,8 +58,9 @@ void check_alike(const std::string& constant, const Plan& first, const Plan& oth
     return p.question.assembly ? study::describe(*p.question.assembly)
                                : fmt::format("{} coordinates", p.question.model.coordinates().size());
   };
-  throw UsageError(fmt::format("at {} = {} the mechanism has other coordinates ({}) than at {} ({}); a sweep needs the same",
-                               constant, other.value, words(other), first.value, words(first)));
+  throw UsageError(
+      fmt::format("at {} = {} the mechanism has other coordinates ({}) than at {} ({}); expected the same coordinates",
+                  constant, other.value, words(other), first.value, words(first)));
 }
 
 /// All of them before the first search, so that a value that makes no mechanism is known at once.
@@ -73,7 +74,8 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
     check_alike(family.constant, plans.front(), p);
     for (const std::string& name : command.search.sets) {
       if (symbolic::definition(name).of_parts)
-        throw UsageError(fmt::format("--sets {}: a family of it is not drawn; corank solve finds it of one member", name));
+        throw UsageError(
+            fmt::format("--sets {}: corank sweep cannot draw this set; corank solve computes it for one mechanism", name));
       p.question.set = symbolic::singularity_set_from_string(name);
       p.systems.push_back(study::system(p.question));
       p.blocks.push_back(study::type_blocks(p.question));
@@ -161,7 +163,7 @@ ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
   const std::vector<Plan> plans = plan_all(command, family);
   const symbolic::Mechanism& first = plans.front().question.model;
   const std::vector<std::string> axes = portrait_axes(first, first.outputs());
-  if (axes.size() < 2) throw UsageError(fmt::format("{} has no two coordinates to draw a portrait over", first.name()));
+  if (axes.size() < 2) throw UsageError(fmt::format("{}: a portrait needs two coordinates that vary", first.name()));
   if (command.folder.empty()) command.folder = first.name() + "-sweep";
   const std::filesystem::path folder = command.folder;
   make_folder(folder / "figures");
@@ -200,30 +202,31 @@ ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
     fmt::print("{}\n", (folder / "index.html").string());
   }
   if (complete) return kDone;
-  fmt::print(stderr, "corank: {} of {} mechanisms are on the page{}, and it says what is incomplete\n", members.size(),
-             plans.size(), Interrupt::stop() ? ", stopped by an interrupt" : "");
+  fmt::print(stderr, "corank: {} of {} mechanisms are on the page{}, which says what is incomplete\n", members.size(),
+             plans.size(), Interrupt::stop() ? ", stopped by an interrupt," : "");
   return kIncomplete;
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& program, Action& action) {
-  CLI::App* sub = program.add_subcommand("sweep", "Solve a family of mechanisms that differ in one constant, on one page");
+  CLI::App* sub = program.add_subcommand(
+      "sweep", "Solve a family of mechanisms that differ in one constant, and write one page about it");
   const auto command = std::make_shared<SweepCommand>();
   command->question.add_model(*sub);
   sub->add_option("-D", command->question.definitions,
-                  "NAME=FROM:TO:COUNT: the constant that runs through COUNT equally spaced values, ends included;\n"
-                  "NAME=EXPR: another value for a constant, for all of them. May be repeated")
+                  "NAME=FROM:TO:COUNT: give one constant COUNT equally spaced values from FROM to TO;\n"
+                  "NAME=EXPR: give another constant the same new value in all mechanisms; may be repeated")
       ->type_name("NAME=FROM:TO:COUNT|NAME=EXPR")
       ->allow_extra_args(false);
   command->search.add_sets(*sub);
   command->search.add_limits(*sub);
-  command->json.add(*sub, "what stands on the page");
-  sub->add_option("-o", command->folder, "Where index.html, the results and the figures go; default: MODEL-sweep")
+  command->json.add(*sub, "the contents of the page");
+  sub->add_option("-o", command->folder, "Folder for index.html, the results and the figures; default: MODEL-sweep")
       ->type_name("FOLDER");
   sub->footer(
-      "Exit status: 0 done and complete, 1 bad input, 2 usage, 3 incomplete (a limit or an interrupt).\n\n"
-      "Example, a link of Dextar that shrinks from 1.6 to 0.9:\n"
+      "Exit status: 0 done and complete, 1 bad input, 2 wrong usage, 3 incomplete (a limit or an interrupt).\n\n"
+      "Example: a link of Dextar shrinks from 1.6 to 0.9\n"
       "  corank sweep models/dextar.cuik -D l2=1.6:0.9:8 -o family");
   sub->callback([command, sub, &action] { action = [command, sub] { return write_sweep(*sub, *command); }; });
 }

@@ -48,8 +48,8 @@ ExitStatus topology(TopologyCommand command) {
   if (command.output.empty()) return kDone;
   if (!result.certificate) {
     fmt::print(stderr,
-               "corank: {} is not written: there is a certificate of sets that are proven to be smooth, of dimension "
-               "1 or more and without ends\n",
+               "corank: {} is not written: expected a set that is proven to be smooth, of dimension 1 or more and without "
+               "ends\n",
                result::printable_line(command.output));
     return kBadInput;
   }
@@ -62,24 +62,25 @@ ExitStatus topology(TopologyCommand command) {
 void add_topology(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand(
       "topology",
-      "The shape of a mechanism's C-space or of a plain system's solutions: pieces, Euler characteristic, genus");
+      "Find the shape of a mechanism's C-space or of a plain system's solutions: pieces, Euler characteristic, genus");
   const auto command = std::make_shared<TopologyCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
-  sub->add_option("--threads", command->options.threads, "Threads; 0: one for each core")
+  sub->add_option("--threads", command->options.threads, "Number of threads; 0: one for each core")
       ->check(CLI::Range(0, solve::kMostThreads))
       ->capture_default_str();
-  sub->add_option("--time-limit", command->time_limit, "End after so many seconds with what is proven by then; 0: no limit")
+  sub->add_option("--time-limit", command->time_limit,
+                  "End after SECONDS with what is proven by then; 0: no limit (default)")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
   sub->add_option(
          "-o,--output", command->output,
-         "Write the certificate: boxes, links and critical points, which corank verify checks; of a set without ends")
+         "Write a certificate that corank verify checks: boxes, links and critical points; only for a set without ends")
       ->type_name("FILE.h5");
   command->json.add(*sub);
   sub->footer(
-      "Every number is proven; where one is not, bounds are given and what stands in the way.\n\n"
-      "Exit status: 0 done, 1 bad input or no certificate to write, 2 usage, 3 stopped by a limit or an interrupt.\n\n"
+      "Every number is proven. If corank cannot prove a number, it prints proven bounds and says what stands in the way.\n\n"
+      "Exit status: 0 done, 1 bad input or no certificate to write, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
       "Examples:\n  corank topology models/dextar.cuik\n  corank topology models/dextar.cuik -o shape.h5\n  corank verify "
       "shape.h5");
   sub->callback([command, &action] { action = [command] { return topology(*command); }; });

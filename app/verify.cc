@@ -58,7 +58,7 @@ result::Verification check(const result::Result& result, const System& system, c
 // Called where the work does not end although it was asked to; the other threads still run.
 [[noreturn]] void give_up(const VerifyCommand& command, const std::string& stage) {
   if (command.json.say([&] { return result::ended_early_json(stage); })) {
-    fmt::print("{}: interrupted in {}: what it had checked is not known, and nothing is said of the file\n",
+    fmt::print("{}: interrupted in {}: it is not known what was checked, so nothing is said about the file\n",
                result::printable_line(command.input), stage);
   }
   std::fflush(nullptr);
@@ -127,7 +127,7 @@ ExitStatus verify(VerifyCommand command) {
   if (command.sample > 0 && (format == result::kPathFormat || format == result::kShapeFormat ||
                              format == result::kPiecesFormat || format == result::kMapFormat))
     throw UsageError(
-        fmt::format("--sample: without effect; expected the result of a search, and {} is none", command.input));
+        fmt::format("--sample: without effect; expected the result of a search, which {} is not", command.input));
   if (format == result::kPathFormat) return verify_path(command, watch, ended);
   if (format == result::kShapeFormat) return verify_shape(command, watch, ended);
   if (format == result::kPiecesFormat) return verify_pieces(command, watch, ended);
@@ -142,7 +142,7 @@ ExitStatus verify(VerifyCommand command) {
     fmt::print("{}", result::to_table(verification, result));
   const ExitStatus result_status = status(verification, command);
   if (verification.verified() && result_status == kBadInput)
-    fmt::print(stderr, "corank: --require-proof: that the boxes hold all solutions is not proven by this file\n");
+    fmt::print(stderr, "corank: --require-proof: this file does not prove that its boxes hold all solutions\n");
   return result_status;
 }
 
@@ -152,34 +152,40 @@ void add_verify(CLI::App& program, Action& action) {
   CLI::App* sub =
       program.add_subcommand("verify", "Check a result against its model, with code that shares nothing with the solver");
   const auto command = std::make_shared<VerifyCommand>();
-  sub->add_option("RESULT", command->input, "The file (.h5)");
-  command->json.add(*sub, "what was found");
+  sub->add_option("RESULT", command->input, "The result file (.h5)");
+  command->json.add(*sub, "what it finds");
   sub->add_flag("--require-proof", command->require_proof,
-                "Fail where the file does not prove that its boxes hold all solutions in the search domain");
-  sub->add_option("--threads", command->threads, "Threads; 0: one for each core")
+                "Fail unless the file proves that its boxes hold all solutions in the search domain");
+  sub->add_option("--threads", command->threads, "Number of threads; 0: one for each core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   sub->add_option("--sample", command->sample,
-                  "Check so many boxes only, chosen at random anew each time, and no proof of completeness;\n"
-                  "for files that take too long to check as a whole; 0: all boxes")
+                  "Check only N boxes, chosen at random each time, and no proof of completeness; for files that take too\n"
+                  "long to check completely; 0: all boxes (default)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->excludes("--require-proof");
-  sub->add_option("--time-limit", command->time_limit, "End the check after so many seconds; 0: no limit")
+  sub->add_option("--time-limit", command->time_limit, "End the check after SECONDS; 0: no limit (default)")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber);
   sub->footer(
-      "Every box is proven again from the model in the file: with intervals of 160 bits where its verdict is regular,\n"
-      "isolated or boundary, in exact arithmetic where it is exact or has an exact point. An undecided box without one\n"
-      "and a pending box claim nothing; a partial box is not checkable. Where the file holds a proof that the cover is\n"
-      "complete (corank solve --proof), it is replayed.\n\n"
-      "What corank path, topology, aspects and map write is checked, too: a tube; components, Euler characteristic and\n"
-      "genus; of aspects and modes a member of each, its signs, and how many there are, at least and at most (where the\n"
-      "file does not show that there are no more: exit status 4); of a map the number of each proven cell.\n\n"
-      "Exit status: 0 all verified, completeness included; 1 something failed or is not checkable, or the file cannot be\n"
-      "read; 2 usage; 3 ended early (limit, interrupt or --sample), nothing was found wrong so far; 4 all verified, but\n"
-      "not its completeness: the file has no proof of it, or one that could not be shown next to a self-motion, or the\n"
-      "search had ended early (1 with --require-proof).\n\n"
+      "corank verify proves every box again, from the model in the file: a regular, isolated or boundary box with\n"
+      "intervals of 160 bits, an exact box or point in exact arithmetic. An undecided box without an exact point and a\n"
+      "pending box claim nothing. A partial box cannot be checked. If the file proves that the cover is complete\n"
+      "(corank solve --proof), the proof is replayed.\n\n"
+      "It also checks what these commands write:\n"
+      "  corank path      the tube about the path\n"
+      "  corank topology  components, Euler characteristic and genus\n"
+      "  corank aspects   a member of each aspect and mode, its signs, and bounds of how many there are\n"
+      "  corank map       the number of each proven cell\n\n"
+      "Exit status:\n"
+      "  0  every claim is verified, completeness included\n"
+      "  1  a claim is false or cannot be checked, or the file cannot be read\n"
+      "  2  wrong usage\n"
+      "  3  ended early by a limit, an interrupt or --sample; nothing wrong was found until then\n"
+      "  4  every claim is verified, but not completeness: the file has no proof that no solution, aspect\n"
+      "     or mode is missing, or its search had ended early, or the proof could not be shown next to a\n"
+      "     self-motion; with --require-proof: 1\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --proof -o forward.h5\n  corank verify forward.h5\n"
       "  corank topology models/dextar.cuik -o shape.h5\n  corank verify shape.h5");
   sub->callback([command, &action] { action = [command] { return verify(*command); }; });

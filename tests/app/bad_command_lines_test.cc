@@ -152,7 +152,7 @@ TEST(BadCommandLines, ThatContradictThemselvesAreRefused) {
       {{"derive", "/nowhere/at/all"}, 1, "no such file"},
       {{"derive", slider, "--loops", slider}, 1, "URDF"},
       {{"derive", slider, "--loops", "/nowhere"}, 2, "--loops"},
-      {{"derive", slider, "-o", slider}, 2, "not written over"},
+      {{"derive", slider, "-o", slider}, 2, "not overwritten"},
       {{"solve", slider, "--set", ""}, 2, "--set"},
       {{"solve", slider, "--set", "forward", "--outputs", "y_A"}, 2, "--outputs"},
       {{"solve", slider, "--set", "forward", "--proof"}, 2, "--proof"},

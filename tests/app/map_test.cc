@@ -51,7 +51,7 @@ TEST(MapCommand, WritesWhatVerifyConfirms) {
   const auto centres = run_corank({"map", model("three_slider"), "--over", "L1=1:2", "--over", "L2=1/2:9/10", "--count",
                                    "aspects", "--resolution", "8", "-o", file});
   EXPECT_EQ(centres.status, 2);
-  EXPECT_THAT(centres.err, HasSubstr("has no certificate"));
+  EXPECT_THAT(centres.err, HasSubstr("there is no certificate for that"));
 }
 
 TEST(MapCommand, PrintsJsonAlone) {

@@ -154,7 +154,7 @@ TEST(Report, RefusesResultsThatDoNotBelongTogether) {
   EXPECT_THAT(twice.err, HasSubstr("holds the set forward"));
   const Outcome both = run_corank({"report", model("three_slider"), "--results", other, "-o", folder.file("r")});
   EXPECT_EQ(both.status, 2);
-  EXPECT_THAT(both.err, HasSubstr("take the place of FILE"));
+  EXPECT_THAT(both.err, HasSubstr("--results: expected no FILE beside it"));
 }
 
 TEST(Report, RefusesAPlainSystemBeforeItSolvesAnything) {

@@ -65,7 +65,7 @@ TEST(Limits, ThatEndAReportAreOnItsPage) {
       run_corank({"report", model("dextar"), "--sets", "cspace,forward", "--memory-limit", "2M", "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.err, HasSubstr("corank: cspace: stopped by the memory limit, in the stage search\n"));
-  EXPECT_THAT(outcome.err, HasSubstr("corank: the report is incomplete, and says so\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("corank: the report is incomplete, and says what is missing\n"));
   EXPECT_THAT(read_text(folder.file("r/index.html")), HasSubstr("was stopped by the memory limit, in the stage search"));
 }
 

@@ -180,7 +180,7 @@ TEST(Cuikequations, NeverWritesOverAModel) {
   folder.write("a.cuik", kCircle);
   const Outcome kept = folder.run("cuikequations a");
   EXPECT_EQ(kept.status, 2);
-  EXPECT_THAT(kept.err, HasSubstr("cuikequations: a.cuik: not written over"));
+  EXPECT_THAT(kept.err, HasSubstr("cuikequations: a.cuik: not overwritten"));
   EXPECT_EQ(folder.read("a.cuik"), kCircle);
   for (const char* input : {"a.world", "a.cuik", "./a.world"})
     EXPECT_EQ(folder.run(std::string("corank derive a.world --format cuik -o ") + input).status, 2) << input;
