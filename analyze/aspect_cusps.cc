@@ -129,10 +129,10 @@ void check_parity(const study::Question& question, int threads, solve::Control& 
         std::count_if(cusps.list.begin(), cusps.list.end(), [&](const AspectCusp& c) { return c.forward == forward; });
     if (!all || (count - *shape.euler_characteristic) % 2 == 0) continue;
     all = false;
-    cusps.reasons.push_back(
-        fmt::format("{} cusps: their number, {}, has not the parity of the Euler characteristic {} of the closed C-space, "
-                    "as those of a generic map have: there may be others",
-                    forward ? "forward" : "inverse", count, *shape.euler_characteristic));
+    cusps.reasons.push_back(fmt::format(
+        "{} cusps: their number, {}, does not have the parity of the Euler characteristic {} of the closed C-space, "
+        "as it has for a generic map; there may be others",
+        forward ? "forward" : "inverse", count, *shape.euler_characteristic));
   }
 }
 

@@ -37,16 +37,16 @@ std::string cusps_line(const AspectCusps& cusps) {
   int open = 0;
   for (const AspectCusp& c : cusps.list) c.around ? ++around[*c.around] : ++open;
   const bool any = cusps.looked_for[0] || cusps.looked_for[1];
-  std::string text = any ? std::to_string(cusps.list.size()) : "not looked for";
+  std::string text = any ? std::to_string(cusps.list.size()) : "not searched for";
   for (std::size_t k = 0; k < 2; ++k)
     if (any && !cusps.looked_for[k])
-      text += fmt::format(" {}; {} ones were not looked for", locus_name(1 - k), locus_name(k));
+      text += fmt::format(" {}; {} ones were not searched for", locus_name(1 - k), locus_name(k));
   const char* before = "; ";
   for (const auto& [aspect, count] : around) {
     text += fmt::format("{}{} within aspect {}", before, count, aspect + 1);
     before = ", ";
   }
-  if (open > 0) text += fmt::format("{}{} not known in which", before, open);
+  if (open > 0) text += fmt::format("{}{} in an aspect that is not known", before, open);
   for (std::size_t k = 0; k < 2; ++k)
     if (cusps.euler_characteristic && cusps.all[k])
       text += fmt::format("; the number of {} ones has the parity of the Euler characteristic {}, as it must", locus_name(k),
@@ -117,10 +117,10 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   text += fmt::format("  aspects         {}\n  assembly modes  {}\n  working modes   {}\n", bounds(a.aspects),
                       bounds(a.assembly_modes), bounds(a.working_modes));
   if (!a.limits.empty()) text += fmt::format("  strictly within {}\n", fmt::join(a.limits, ", "));
-  text += fmt::format("  det L_y = 0 where {}\n",
-                      a.forward_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.forward_factors, " = 0 or ")));
-  text += fmt::format("  det L_z = 0 where {}\n",
-                      a.inverse_factors.empty() ? "never" : fmt::format("{} = 0", fmt::join(a.inverse_factors, " = 0 or ")));
+  const auto zeros = [](const std::vector<std::string>& factors) {
+    return factors.empty() ? "nowhere" : fmt::format("where {} = 0", fmt::join(factors, " = 0 or "));
+  };
+  text += fmt::format("  det L_y = 0 {}\n  det L_z = 0 {}\n", zeros(a.forward_factors), zeros(a.inverse_factors));
   if (a.cusps) text += fmt::format("  cusps           {}\n", cusps_line(*a.cusps));
   text += "A configuration of each aspect:\n";
   constexpr std::size_t kMostShown = 20;

@@ -187,7 +187,7 @@ Rotation BallMaker::orientation() const {
     names += (names.empty() ? "" : ", ") + name;
   }
   if (found.empty()) throw error("it has no orientation in space", "a rotation matrix, or a robot from parts");
-  throw error("whose orientation is meant is not said", "--orientation-of " + names);
+  throw error("the link or the matrix of the orientation is not given", "--orientation-of " + names);
 }
 
 // A turn by α at most of R0, trace(R0ᵀR) ≥ 1 + 2 cos α, moves no entry by more than 2 sin(α/2): that follows, and is quicker
@@ -210,7 +210,7 @@ void BallMaker::limit_orientation() {
     used = true;
   }
   if (!used)
-    throw error("the range of the orientation is without effect: no angle among the outputs has a value",
+    throw error("the range of the orientation has no effect: no angle among the outputs has a value",
                 "such a value, or --orientation R");
   if (!options_.orientation || value(alpha) >= std::numbers::pi) return;
   if (!(value(alpha) > 0))

@@ -16,13 +16,13 @@ std::string to_table(const Best& b) {
   for (std::size_t k = 0; k < b.names.size(); ++k)
     region +=
         fmt::format("{}{} in [{:.6g}, {:.6g}]", region.empty() ? "" : ", ", b.names[k], b.region[k].lo(), b.region[k].hi());
-  std::string text = fmt::format("{}, {}: the largest ball in {}, its centre with {}\n", b.ball.question.model.name(),
+  std::string text = fmt::format("{}, {}: the largest ball in {} with its centre in {}\n", b.ball.question.model.name(),
                                  set_of(b.ball), in, region);
   const std::string what = b.ball.question.set ? "singularity" : "solution";
   if (b.empty) {
-    text += fmt::format("no {} at all in the ranges: proven\n", what);
+    text += fmt::format("it is proven that there is no {} in the ranges\n", what);
   } else if (b.unassembled) {
-    text += "the robot has no configuration with a centre in the region: proven\n";
+    text += "it is proven that the robot has no configuration with a centre in the region\n";
   } else {
     text += fmt::format("radius in [{}, {}]", rounded(b.lower, false), b.upper ? rounded(*b.upper, true) : "unknown");
     if (b.upper && *b.upper > 0) text += fmt::format("   ({:.2g} %)", 100 * (*b.upper - b.lower) / *b.upper);

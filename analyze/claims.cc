@@ -87,7 +87,7 @@ std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::C
   result::describe_system(system, result);
   result.cover.dimension = reduction.system.dimension();
   result::describe_in_words(question.model, system, result);
-  result.stopped = "the first solution that was asked for";
+  result.stopped = "the first solution that was requested";
   return result;
 }
 

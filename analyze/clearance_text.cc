@@ -36,7 +36,7 @@ std::string to_table(const Clearance& c) {
   const bool plain = !c.ball.question.set;
   const std::string what = plain ? "solution" : "singularity";
   if (n.empty) {
-    text += fmt::format("no {} at all in the ranges: proven", what);
+    text += fmt::format("it is proven that there is no {} in the ranges", what);
     text += std::isfinite(c.ball.room)
                 ? fmt::format("; at the radius {} the ball meets {}\n", rounded(c.ball.room, false), c.ball.end)
                 : "\n";
@@ -44,30 +44,30 @@ std::string to_table(const Clearance& c) {
     const std::string hi = n.upper ? rounded(*n.upper, true) : "unknown";
     const bool ends_first = c.ball.room < n.lower;  // so no larger ball was searched as a whole
     if (ends_first) {
-      text += fmt::format("radius {}: there the ball meets {}; no {} in it: proven\n", rounded(c.ball.room, false),
-                          c.ball.end, what);
-      text += fmt::format("  within the ranges no {} is nearer than {}: proven\n", what, rounded(n.lower, false));
+      text += fmt::format("radius {}: there the ball meets {}; it is proven that the ball holds no {}\n",
+                          rounded(c.ball.room, false), c.ball.end, what);
+      text += fmt::format("  it is proven that within the ranges no {} is nearer than {}\n", what, rounded(n.lower, false));
     } else {
       text += fmt::format("radius in [{}, {}]", rounded(n.lower, false), hi);
       if (n.upper && n.lower > 0) text += fmt::format("   ({:.2g} %)", 100 * (*n.upper - n.lower) / *n.upper);
-      text += fmt::format("\n  no {} is nearer than the lower bound: proven\n", what);
+      text += fmt::format("\n  it is proven that no {} is nearer than the lower bound\n", what);
       if (std::isfinite(c.ball.room))
         text += fmt::format("  at the radius {} the ball meets {}\n", rounded(c.ball.room, false), c.ball.end);
     }
     if (n.upper) {
       text += fmt::format("  nearest {} found, proven to exist{}:\n", what,
-                          ends_first ? fmt::format(", at a distance of {} at most", hi) : "");
+                          ends_first ? fmt::format(", at a distance of at most {}", hi) : "");
       for (const CoordinateValue& v : c.values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
     } else {
-      text += fmt::format("  no {} is proven\n", what);
+      text += fmt::format("  no {} is proven to exist\n", what);
     }
   }
   if (!c.seemingly.empty()) {
-    text += fmt::format("  seemingly there is one at the distance {:.6g}, not proven:\n", n.unproven_distance);
+    text += fmt::format("  there seems to be one at the distance {:.6g}, which is not proven:\n", n.unproven_distance);
     for (const auto& [name, value] : c.seemingly) text += fmt::format("    {} = {:.9g}\n", name, value);
   }
   if (c.ball.question.set && c.center == Clearance::Center::unknown)
-    text += "  that the robot has a configuration at the centre is neither proven nor excluded\n";
+    text += "  it is neither proven nor excluded that the robot has a configuration at the centre\n";
   return text + fmt::format("{} boxes processed, {:.3f} s\n", n.statistics.processed, c.seconds);
 }
 

@@ -143,7 +143,7 @@ ParameterMapper::ParameterMapper(MapQuestion question, const ParameterMapOptions
     for (const symbolic::Parameter& p : q.over)
       if (!model.has_constant(p.name))
         throw ModelError(place, std::string(to_string(q.answer)) + " belong to all configurations together",
-                         "constants, where " + p.name + " is none");
+                         "constants; " + p.name + " is not one");
   }
   parts_ = std::move(parts);
 }

@@ -82,7 +82,7 @@ bool PathFinder::Search::try_way(const Ends& ends, const TubeBuilder::Points& po
       path.method = method;
       path.tube = std::move(outcome.tube);
       path.reason.clear();
-      if (path.tube->radius() < options_.radius) path.reason = "no path with the radius asked for was found";
+      if (path.tube->radius() < options_.radius) path.reason = "no path with the requested radius was found";
       return true;
     }
   return false;
@@ -117,7 +117,7 @@ void PathFinder::Search::find_by_graph(const Ends& ends, Path& path, solve::Cont
   path.reason = control.ended() ? "ended by " + to_string(*control.ending())
                 : !graphs_.empty() && !graphs_.back().ready()
                     ? "no path was found, and a finer cover would have too many boxes"
-                    : "no path was found, and none of the covers keeps the ends apart";
+                    : "no path was found, and no cover separates the ends";
 }
 
 void PathFinder::Search::find_by_sampling(const Ends& ends, const std::vector<double>& shares, double seconds, Path& path,
@@ -147,10 +147,10 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
   const auto known = [](const std::vector<int>& signs) { return std::find(signs.begin(), signs.end(), 0) == signs.end(); };
   const PathSpace::State goal = space_.state(ends.b);
   if (!known(ends.signs) || !known(there)) {
-    path.reason = "an end is singular, or too near a singularity to be told from one";
+    path.reason = "an end is singular, or too near a singularity to be distinguished from one";
   } else if (ends.signs != there) {
     path.status = Path::Status::separated;
-    path.reason = "a determinant, or a factor of it, has unlike signs at the ends";
+    path.reason = "a determinant, or a factor of it, has opposite signs at the ends";
   } else if (!ends.state.inside || !goal.inside) {
     path.reason = "an end is on the border of the ranges, the limits or the inequalities";
   } else {

@@ -77,8 +77,7 @@ std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>
     (moves && exact.size() < needed ? exact : further).push_back(v);
   }
   if (exact.size() < needed)
-    throw EndError(fmt::format("{} value{} of {} that are needed: the mechanism can still move", exact.size(),
-                               exact.size() == 1 ? "" : "s", needed));
+    throw EndError(fmt::format("{} of the {} values that are needed: the mechanism can still move", exact.size(), needed));
   const System system = fixed(space, exact);
   for (const NamedValue& v : further)
     if (space.question().model.find_coordinate(v.name) < 0) fixed(space, {v});  // throws
@@ -91,12 +90,13 @@ std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>
   for (const CoverBox& point : cover.points) {
     if (point.verdict == Verdict::boundary) throw EndError("one of the configurations may be outside the ranges");
     if (point.verdict != Verdict::isolated && point.verdict != Verdict::exact)
-      throw EndError("these values leave configurations that are not isolated, or not proven to be; others may do");
+      throw EndError(
+          "with these values there are configurations that are not isolated, or not proven to be; other values may help");
     // The solution that the box holds, as narrow as doubles prove it.
     const UpwardRounding rounding;
     result.push_back(test.solution_in(point.box, point.box).value_or(point.box));
   }
-  if (cover.points.empty() && !cover.boxes.empty()) throw EndError("these values leave the mechanism a motion");
+  if (cover.points.empty() && !cover.boxes.empty()) throw EndError("with these values the mechanism can still move");
   const auto is_far = [&](const Box& box) {
     const std::vector<CoordinateValue> there = coordinate_values(space.system(), box);
     return std::any_of(further.begin(), further.end(), [&](const NamedValue& v) {

@@ -20,7 +20,7 @@ Json values_of(const System& system, const Box& box) {
 std::string radius_text(const System& system, const Tube& tube) {
   const std::optional<double> length = length_size(system, tube);
   std::string text = fmt::format("{:.3g}", tube.radius());
-  if (length) text += fmt::format(" of sines and cosines, {:.3g} of lengths", tube.radius() * *length);
+  if (length) text += fmt::format(" in sines and cosines, {:.3g} in lengths", tube.radius() * *length);
   return text;
 }
 
@@ -49,7 +49,7 @@ std::string to_text(const PathFinder& finder, const Path& path) {
     text += fmt::format("  {:<10}  {}\n", name, value);
   };
   line("status", path.status == Path::Status::path        ? "path, proven"
-                 : path.status == Path::Status::separated ? "separated: no such path exists, proven"
+                 : path.status == Path::Status::separated ? "separated: it is proven that no such path exists"
                                                           : "unknown");
   if (!path.reason.empty()) line("", path.reason);
   if (path.tube) {

@@ -52,7 +52,7 @@ std::size_t closing(const std::string& text, std::size_t from) {
 
 Rotation parse_rotation(const std::string& text) {
   std::string rest = std::regex_replace(text, std::regex("\\s"), "");
-  const auto refuse = [&] { return ModelError({"orientation", 0, 0}, "'" + text + "' is no rotation", kExpected); };
+  const auto refuse = [&] { return ModelError({"orientation", 0, 0}, "'" + text + "' is not a rotation", kExpected); };
   std::optional<Rotation> result;
   while (!rest.empty()) {
     if (result && rest[0] != '*') throw refuse();

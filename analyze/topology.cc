@@ -107,7 +107,7 @@ HeightCount count_critical_points(const study::Question& question, int height, c
     system = study::system(question, critical.system);
     indices.emplace(critical, system);
   } catch (const symbolic::ModelError&) {  // no polynomials: sines of lengths
-    result.problem = "the equations of critical points are no polynomials";
+    result.problem = "the equations of critical points are not polynomials";
     return result;
   }
   Cover cover = solved(system, std::nullopt, options, control, options.most_for_a_height);

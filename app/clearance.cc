@@ -213,8 +213,8 @@ void add_clearance(CLI::App& program, Action& action) {
       "range. All other coordinates are free: the ball holds no singularity of any mode that --mode allows.\n\n"
       "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 the bounds hold, but are not as close as asked for.\n\n"
       "Examples:\n  corank clearance models/dextar.cuik --at J3x=0.5,J3y=1 --in J3x,J3y\n"
-      "  corank clearance models/planar/3rpr.cuik --at pose_x=0.8,pose_y=0.5,pose_phi=0.1 --in pose_x,pose_y\\\n"
-      "      --orientation-range 15deg\n"
+      "  corank clearance models/planar/3rpr.cuik --at pose_x=0.8,pose_y=0.5,pose_phi=0.1\\\n"
+      "      --in pose_x,pose_y --orientation-range 15deg\n"
       "  corank clearance models/dextar.cuik --best J3x=[0,1],J3y=[0,1.5]\n"
       "  corank clearance models/dextar.cuik --map J3x,J3y -o map.svg");
   sub->callback([command, &action] {

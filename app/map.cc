@@ -166,8 +166,8 @@ void add_map(CLI::App& program, Action& action) {
       "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
       "Examples: the assembly modes of a five-bar robot over its motors' angles, and over two lengths\n"
       "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.svg\n"
-      "  corank map models/dextar.cuik --over l2=1/2:3/2 --over l3=1/2:3/2 --fix theta2=pi/3 --fix theta5=2\\\n"
-      "      -o lengths.svg\n"
+      "  corank map models/dextar.cuik --over l2=1/2:3/2 --over l3=1/2:3/2\\\n"
+      "      --fix theta2=pi/3 --fix theta5=2 -o lengths.svg\n"
       "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.h5\n"
       "  corank verify modes.h5");
   sub->callback([command, sub, &action] { action = [command, sub] { return write_map(*sub, *command); }; });

@@ -63,7 +63,7 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
   sub.add_flag(
       "--area", command.area,
       "For --set boundary with two lengths as outputs: bound the workspace's area also if its boundary does not suffice\n"
-      "for that (a range that is no limit cuts the workspace, or the model has inequalities); this takes long");
+      "for that (a range that is not a limit cuts the workspace, or the model has inequalities); this takes long");
   sub.add_option("-o", command.result_path,
                  "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's format if its name\n"
                  "ends in .sol")

@@ -55,7 +55,7 @@ class BlowUp {
   Form shifted(const Polynomial& f) const {
     Form result;
     for (const Monomial& m : f.monomials) {
-      if (!m.coefficient.is_rational() || m.is_trigonometric()) throw std::domain_error("no rational polynomial");
+      if (!m.coefficient.is_rational() || m.is_trigonometric()) throw std::domain_error("not a rational polynomial");
       Form product{{Exponents(n_, 0), {m.coefficient}}};
       for (const Factor& x : m.factors)
         for (int k = 0; k < x.power; ++k) {

@@ -16,7 +16,7 @@ RationalPolynomial value_of(const Polynomial& f, const ExactPoint& point, const 
   RationalPolynomial value;
   for (const Monomial& m : f.monomials) {
     if (!m.coefficient.is_rational() || m.is_trigonometric())
-      throw std::domain_error(f.source + " has a coefficient that is no rational number, or a sine or cosine");
+      throw std::domain_error(f.source + " has a coefficient that is not a rational number, or a sine or cosine");
     RationalPolynomial product{m.coefficient};
     for (const Factor& x : m.factors)
       for (int k = 0; k < x.power; ++k)

@@ -92,7 +92,7 @@ void Strata::find_coordinates() {
     if (circles == 1 && values == 0)
       coordinates_.push_back({-1, angle.cosine, angle.sine});
     else if (circles != 0 || values != 2)
-      problem_ = "an equation of one angle alone";
+      problem_ = "an equation in one angle only";
   }
   for (int j = 0; j < system_.size(); ++j) {
     const Variable& v = system_.variables[static_cast<std::size_t>(j)];

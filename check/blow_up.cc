@@ -22,14 +22,14 @@ class BlowUp {
   std::string run(double radius) {
     for (const Polynomial& f : system_.equations) {
       std::optional<Blown> row = blown(f);
-      if (!row) return "its equations are no polynomials with rational coefficients";
+      if (!row) return "its equations are not polynomials with rational coefficients";
       rows_.push_back(std::move(*row));
     }
     if (!eliminate()) return "the rank of the Jacobian is not shown there";
     for (Blown& row : rows_)
       if (!divide(row)) return "an equation does not hold there";
     for (int j = 0; j < n_; ++j)
-      if (!is_empty(face(j, radius))) return "that no other solution is near it is not shown";
+      if (!is_empty(face(j, radius))) return "it is not shown that no other solution is near it";
     return {};
   }
 

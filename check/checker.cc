@@ -110,7 +110,7 @@ class Checker {
   // What every later step relies on.
   void check_shapes() {
     const std::size_t n = system_.variables.size();
-    if (!(cover_.sigma.length > 0 && cover_.sigma.angle > 0)) fail(Place::cover, 0, "sigma is no positive number");
+    if (!(cover_.sigma.length > 0 && cover_.sigma.angle > 0)) fail(Place::cover, 0, "sigma is not a positive number");
     const auto valid = [&](const CoverBox& b) {
       return b.box.size() == n && bounded(b.box) && b.region >= -1 && b.region < static_cast<int>(cover_.regions.size()) &&
              b.point >= -1 && b.point < static_cast<int>(cover_.exact_points.size()) && b.motion >= -1 &&
@@ -118,24 +118,24 @@ class Checker {
              b.kernel_at_most <= static_cast<int>(n);
     };
     const std::string fault =
-        "it has not one bounded side for each variable, or names a region or a point that does not exist";
+        "it does not have one bounded side for each variable, or names a region or a point that does not exist";
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
       if (!valid(cover_.boxes[i])) fail(Place::box, i, fault);
     for (std::size_t i = 0; i < cover_.points.size(); ++i)
       if (!valid(cover_.points[i])) fail(Place::point, i, fault);
     for (const Box& region : cover_.regions)
       if (region.size() != n || !bounded(region))
-        fail(Place::cover, 0, "a region has not one bounded side for each variable");
+        fail(Place::cover, 0, "a region does not have one bounded side for each variable");
   }
 
   void check_asked_types() {
     const CoverTypes& said = cover_.types;
     if (said.asked != 0 && !(blocks_ && said.asked == blocks_->asked && said.of_set == blocks_->of_set))
-      fail(Place::cover, 0, "the types that were asked for are not those of the mechanism's set");
+      fail(Place::cover, 0, "the requested types are not those of the mechanism's set");
     const bool tolerant = system_.coefficient_tolerance > 0;
     const auto labelled = [](const CoverBox& b) { return b.types != TypeLabels{}; };
     if ((said.asked == 0 || tolerant) && std::any_of(cover_.boxes.begin(), cover_.boxes.end(), labelled))
-      fail(Place::cover, 0, "boxes have types that were not asked for");
+      fail(Place::cover, 0, "boxes have types that were not requested");
   }
 
   void check_order() {
@@ -174,9 +174,9 @@ class Checker {
         if (reason.empty()) reason = exact_.back()->kernel();
         if (reason.empty() && point.types != TypeLabels{})
           reason = types_ ? types_->of_point(point.types, *exact_.back())
-                          : "it has types, but nothing says what ranks they speak of";
+                          : "it has types, but the file does not say of which ranks";
         if (reason.empty() && !(point.sole_within >= 0 && std::isfinite(point.sole_within)))
-          reason = "a radius is no number";
+          reason = "a radius is not a number";
         if (reason.empty() && point.sole_within > 0) reason = check_sole(system_, *exact_.back(), point.sole_within);
       } catch (const std::domain_error& error) {  // numbers of too many bits
         reason = error.what();
@@ -203,7 +203,7 @@ class Checker {
 
   // A box whose only solution is known exactly has that point's types; else they are shown all over the box.
   std::string check_types(const CoverBox& box) const {
-    if (!types_) return "it has types, but nothing says what ranks they speak of";
+    if (!types_) return "it has types, but the file does not say of which ranks";
     if ((box.verdict == Verdict::exact || box.verdict == Verdict::isolated) && box.point >= 0) {
       const auto p = static_cast<std::size_t>(box.point);
       if (exact_reasons_[p].empty() && types_->of_point(box.types, *exact_[p]).empty()) return {};
@@ -213,7 +213,7 @@ class Checker {
 
   // A piece of a self-motion: one zero of its relations and what they leave, and no other of the equations themselves.
   std::string check_on_motion(const MotionCheck& motion, const CoverBox& box, const Box& region) const {
-    if (!motion.fault().empty()) return "its self-motion is none: " + motion.fault();
+    if (!motion.fault().empty()) return "its self-motion is not shown to be one: " + motion.fault();
     std::string reason = check_sheet(*problem_, motion.rows(), box, region);
     return reason.empty() ? motion.unique(box, region) : reason;
   }
@@ -238,7 +238,7 @@ class Checker {
         return reason;
       }
       case Verdict::exact:
-        if (box.motion >= 0) return "it names a self-motion, of which it is no piece";  // and would be missing in the points
+        if (box.motion >= 0) return "it names a self-motion but is not a piece of it";  // and would be missing in the points
         return check_point_in(box, false);
       case Verdict::undecided:
         if (box.region >= 0) return "it names a region";
@@ -256,14 +256,14 @@ class Checker {
   std::string check_point_in(const CoverBox& box, bool explained) const {
     if (box.point < 0) return "the file has no exact point for it";
     const auto p = static_cast<std::size_t>(box.point);
-    if (!exact_reasons_[p].empty()) return "its exact point is not one: " + exact_reasons_[p];
+    if (!exact_reasons_[p].empty()) return "its exact point is not confirmed: " + exact_reasons_[p];
     for (int j = 0; j < system_.size(); ++j) {
       const Variable& v = system_.variables[static_cast<std::size_t>(j)];
       if (!exact_[p]->knows(j) && !(explained && v.kind == VariableKind::kernel))
         return "its exact point says nothing of " + v.name;
     }
     if (const int least = std::max(2, system_.kernel_vectors); explained && cover_.exact_points[p].corank < least)
-      return "its exact point has no kernel of dimension " + std::to_string(least) + " or more";
+      return "its exact point does not have a kernel of dimension " + std::to_string(least) + " or more";
     if (std::string reason = exact_[p]->inside(box.box); !reason.empty()) return reason;
     return box.verdict == Verdict::exact ? exact_[p]->within(cover_.exact_points[p].sole_within, box.box) : "";
   }
@@ -333,7 +333,7 @@ class Checker {
   // For sets of dimension 0: every proven box is a point and every proven point a box; every other box is inside a point.
   void check_points() {
     if (cover_.dimension != 0) {
-      for (std::size_t i = 0; i < cover_.points.size(); ++i) fail(Place::point, i, "the set has more than points");
+      for (std::size_t i = 0; i < cover_.points.size(); ++i) fail(Place::point, i, "the set does not consist of points");
       return;
     }
     const auto by_box = [](const CoverBox& b) { return b.verdict != Verdict::undecided && b.verdict != Verdict::pending; };
@@ -354,12 +354,12 @@ class Checker {
         found = found || (box.verdict == Verdict::exact && point.verdict == Verdict::exact && box.point == point.point);
         if (found) claimed[k] = 1, next = k + 1;
       }
-      if (!found) fail(Place::box, i, "no entry of the list of points stands for it");
+      if (!found) fail(Place::box, i, "the list of points has no entry for it");
     }
     for (std::size_t k = 0; k < cover_.points.size(); ++k) {
       const CoverBox& point = cover_.points[k];
       std::string reason;
-      if (!claimed[k]) reason = "no box stands for it";
+      if (!claimed[k]) reason = "there is no box for it";
       if (reason.empty() && point.verdict == Verdict::pending) reason = "a point cannot be pending";
       // An exact or undecided entry is not always one of the boxes, which have been checked.
       if (bool can = false; reason.empty() && (point.verdict == Verdict::exact || point.verdict == Verdict::undecided))

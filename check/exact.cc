@@ -123,13 +123,13 @@ int roots_between(const RationalPolynomial& p, const ExactNumber& lower, const E
 ExactCheck::ExactCheck(const System& system, const ExactPoint& point, const StopFlag& stop)
     : system_(system), point_(point), stop_(stop) {
   if (point.coordinates.size() != system.variables.size()) {
-    fault_ = "it has not one coordinate for each variable";
+    fault_ = "it does not have one coordinate for each variable";
     return;
   }
   fault_ = check_root();
   if (!fault_.empty()) return;
   for (const RationalPolynomial& x : point.coordinates) {
-    if (!is_rational(x)) fault_ = "a coordinate has a coefficient that is no rational number";
+    if (!is_rational(x)) fault_ = "a coordinate has a coefficient that is not a rational number";
     if (!fault_.empty()) return;
     reduced_.push_back(reduced(x));
     coordinates_.push_back(enclose(reduced_.back()));
@@ -150,11 +150,11 @@ std::string ExactCheck::check_root() {
     return sign ? *sign : sign_at(p_, x);
   };
   if ((upper - lower).sign() != 1 || sign_of_p(lower) * sign_of_p(upper) != -1)
-    return "its polynomial has not opposite signs at the ends of its interval";
+    return "its polynomial does not have opposite signs at the ends of its interval";
   const bool is_short = p_.size() <= kLongestSturm;  // else the numbers of exact steps fill the memory
   if (!is_crossed_once(p_, lower, upper, stop_) && (!is_short || roots_between(p_, lower, upper, stop_) != 1))
-    return is_short ? "its polynomial has not exactly one root in its interval"
-                    : "that its polynomial, of a large degree, has exactly one root in its interval is not shown";
+    return is_short ? "its polynomial does not have exactly one root in its interval"
+                    : "it is not shown that its polynomial, of a large degree, has exactly one root in its interval";
   const int sign = sign_of_p(lower);
   for (int step = 0; step < Enclosure::kBits + 16; ++step) {
     stop_.poll();
@@ -238,7 +238,8 @@ std::string ExactCheck::holds() const {
     const Polynomial& f = system_.equations[i];
     if (!is_known(f)) continue;
     const auto v = value(f);
-    if (!v) return "equation " + std::to_string(i + 1) + " (" + f.source + ") is no polynomial with rational coefficients";
+    if (!v)
+      return "equation " + std::to_string(i + 1) + " (" + f.source + ") is not a polynomial with rational coefficients";
     if (!v->empty()) return "equation " + std::to_string(i + 1) + " (" + f.source + ") does not hold there";
   }
   for (const Polynomial& g : system_.inequalities) {
@@ -380,7 +381,7 @@ std::string ExactCheck::within(double radius, const Box& box) const {
     // Every x − p_j, rounded outward: the ends of the ball itself would be rounded to its favour.
     const Enclosure offset = Enclosure(box[static_cast<std::size_t>(j)]) - coordinate(j);
     if (!offset.inside(Enclosure(-radius, radius)))
-      return "it reaches farther from its exact point than that is shown to be the only solution";
+      return "it reaches beyond the distance at which its exact point is shown to be the only solution";
   }
   return {};
 }

@@ -17,7 +17,7 @@ Linking::Linking(const System& system, const Problem& problem, const Cover& cove
     if (box.region < 0) continue;
     const auto r = static_cast<std::size_t>(box.region);
     if (!free_[r].empty() && free_[r] != box.free) {
-      contradiction_[r] = "its boxes have not the same free variables";
+      contradiction_[r] = "its boxes do not have the same free variables";
       continue;
     }
     if (free_[r].empty()) contradiction_[r].clear();
@@ -71,7 +71,7 @@ bool Linking::holds(std::size_t sheet, const Box& box) const {
 
 std::string Linking::link_fault(const SheetLink& link) const {
   const auto is_sheet = [&](int k) { return k >= 0 && static_cast<std::size_t>(k) < sheets(); };
-  if (!is_sheet(link.first) || !is_sheet(link.second)) return "it names a sheet that is none";
+  if (!is_sheet(link.first) || !is_sheet(link.second)) return "it names a sheet that does not exist";
   std::string fault;
   const Sides x = solution_near(whole_, link.point, link.held, fault);
   if (!fault.empty()) return fault;

@@ -83,15 +83,15 @@ class MapCheck {
   void fail(std::size_t cell, const std::string& what) { fail("cell " + std::to_string(cell + 1) + ": " + what); }
 
   std::string shape_fault(const MapCellClaim& cell) const {
-    if (cell.sides.size() != parameters_.size()) return "it has not one side for each parameter";
+    if (cell.sides.size() != parameters_.size()) return "it does not have one side for each parameter";
     for (std::size_t k = 0; k < parameters_.size(); ++k)
       if (!system_.variables[static_cast<std::size_t>(parameters_[k])].domain.contains(cell.sides[k]))
         return "it is not within the map";
     if (cell.count < 0 || static_cast<std::int64_t>(cell.sheets.size()) != std::int64_t{cell.count} * copies_)
-      return "it has not as many sheets as it claims solutions";
+      return "it does not have as many sheets as it claims solutions";
     for (const MapSheet& sheet : cell.sheets) {
       if (sheet.box.size() != system_.variables.size() || sheet.region.size() != sheet.box.size())
-        return "a sheet has not one side for each variable";
+        return "a sheet does not have one side for each variable";
       for (std::size_t k = 0; k < parameters_.size(); ++k)
         if (sheet.box[static_cast<std::size_t>(parameters_[k])] != cell.sides[k]) return "a sheet is not over the cell";
     }

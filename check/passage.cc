@@ -224,10 +224,10 @@ bool PassageCheck::contract(Sides& x) const {
 
 std::string PassageCheck::fault(const CoverBox& box) const {
   if (box.passage == Passage::unproven) return box.side.empty() ? "" : "it names a side, but no passage";
-  if (!has_form_) return "it says whether the output can pass, which nothing decides here";
+  if (!has_form_) return "it says whether the output can pass, but nothing decides that here";
   double length = 0;
   for (const double d : box.side) length = std::hypot(length, d);
-  if (box.side.size() != normal_.size() || !(std::fabs(length - 1) < 1e-9)) return "its side is no unit vector";
+  if (box.side.size() != normal_.size() || !(std::fabs(length - 1) < 1e-9)) return "its side is not a unit vector";
   Sides whole;
   for (const Interval& side : box.box) whole.emplace_back(side);
   std::vector<Sides> open{std::move(whole)};
@@ -243,8 +243,8 @@ std::string PassageCheck::fault(const CoverBox& box) const {
           side.width() > width * lengths_[static_cast<std::size_t>(j)] && side.lo() < side.mid() && side.mid() < side.hi())
         width = side.width() / lengths_[static_cast<std::size_t>(j)], widest = static_cast<std::size_t>(j);
     if (widest == x.size() || parts > kMostParts)
-      return std::string("that the output finds a ") +
-             (box.passage == Passage::barrier ? "barrier there, on that side," : "way through there") + " is not shown";
+      return std::string("it is not shown that the output finds a ") +
+             (box.passage == Passage::barrier ? "barrier there, on that side" : "way through there");
     const double from = x[widest].lo(), middle = x[widest].mid(), to = x[widest].hi();
     open.push_back(x);
     open.back()[widest] = Enclosure(middle, to);

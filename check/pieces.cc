@@ -129,7 +129,7 @@ class PieceCheck {
       if (!x[j].inside(member.box[j])) return fail(name + "its solution is not shown to lie in its box");
     for (const Condition& c : problem_.conditions())
       if (is_end(c) && !c.row.value(x).is_positive()) return fail(name + "it is not shown to lie within the limits");
-    if (member.signs.size() != rows_.size()) return fail(name + "it has not one sign for each function");
+    if (member.signs.size() != rows_.size()) return fail(name + "it does not have one sign for each function");
     for (std::size_t g = 0; g < rows_.size(); ++g) {
       const Enclosure value = rows_[g].value(x);
       if (!(member.signs[g] == 1 ? value.is_positive() : member.signs[g] == -1 && value.is_negative()))
@@ -329,7 +329,7 @@ PiecesReport check_pieces(const System& system, const Cover& cover, const std::v
         fail("a box is neither regular nor at a limit");
     const Problem problem(with_single_values(system), {}, stop);
     if (static_cast<int>(problem.equations().size()) + cover.dimension != problem.size() || cover.dimension < 1)
-      fail("the set has not the dimension that its equations leave");
+      fail("the set does not have the dimension that its equations leave");
     if (claims.size() != functions.size()) fail("the lists of pieces are not those of the model");
     if (!report.failures.empty()) return report;
     report.stage = "the pieces";

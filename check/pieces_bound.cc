@@ -96,7 +96,7 @@ class Bound {
     for (std::size_t k = 0; k < proof_.bridges.size(); ++k) {
       const SheetBridge& bridge = proof_.bridges[k];
       if (bridge.region.size() != static_cast<std::size_t>(whole_.size()) || bridge.free.empty())
-        return "a sheet of its own is none";
+        return "a sheet of its own has no box or no free variable";
       if (const std::string fault = sheets_.bridge_fault(k); !fault.empty())
         return "sheet " + std::to_string(k + 1) + " of its own: " + fault;
     }
@@ -107,9 +107,10 @@ class Bound {
     if (proof_.cells.size() > kMostPieceCells) return "there are too many cells";
     cells_of_.resize(sheets_.size());
     for (const PieceCell& cell : proof_.cells) {
-      if (cell.sheet < 0 || static_cast<std::size_t>(cell.sheet) >= sheets_.size()) return "a cell is of no sheet";
+      if (cell.sheet < 0 || static_cast<std::size_t>(cell.sheet) >= sheets_.size())
+        return "a cell does not belong to a sheet";
       const FreeSides over = sheets_.over(static_cast<std::size_t>(cell.sheet));
-      if (cell.sides.size() != over.size()) return "a cell has not one side for each free variable";
+      if (cell.sides.size() != over.size()) return "a cell does not have one side for each free variable";
       for (std::size_t k = 0; k < over.size(); ++k)
         if (!over[k].contains(cell.sides[k])) return "a cell is not within its sheet";
       cells_of_[static_cast<std::size_t>(cell.sheet)].push_back(&cell.sides);

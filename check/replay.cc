@@ -64,7 +64,7 @@ class Script {
     for (const auto& root : proof_.roots)
       if (root.size() != n ||
           !std::all_of(root.begin(), root.end(), [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); }))
-        refuse("a root has not one bounded side for each variable that was kept");
+        refuse("a root does not have one bounded side for each variable that was kept");
     const auto within = [](const std::vector<int>& list, std::size_t size) {
       return std::all_of(list.begin(), list.end(), [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < size; });
     };
@@ -74,7 +74,7 @@ class Script {
           !std::all_of(c.y.begin(), c.y.end(), [](float y) { return std::isfinite(y); }))
         refuse("a combination is malformed");
     if (std::any_of(proof_.reals.begin(), proof_.reals.end(), [](double x) { return std::isnan(x); }))
-      refuse("a number is none");
+      refuse("a value is not a number");
   }
 
   std::size_t count(const Cursor& at, std::size_t k) const {

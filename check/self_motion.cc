@@ -96,11 +96,11 @@ MotionCheck::MotionCheck(const Problem& problem, const SelfMotionRecord& record)
     rows_.push_back(problem.equations()[i]);
   }
   if (problem.size() - static_cast<int>(rows_.size()) != record.dimension)
-    fault_ = "its relations leave " + std::to_string(classes.size()) + " equations, which make no set of dimension " +
+    fault_ = "its relations leave " + std::to_string(classes.size()) + " equations, which do not make a set of dimension " +
              std::to_string(record.dimension);
   // Else points would be pieces of a set, which nobody counts.
   if (record.dimension <= std::max(0, problem.size() - static_cast<int>(problem.equations().size())))
-    fault_ = "a set of dimension " + std::to_string(record.dimension) + " is no larger than the count of equations says";
+    fault_ = "a set of dimension " + std::to_string(record.dimension) + " is not larger than the number of equations says";
 }
 
 std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {

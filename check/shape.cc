@@ -51,7 +51,7 @@ class ShapeCheck {
     if (!settled(report_.space, "the cover")) return;
     if (heights_.size() != shape_.heights.size()) return fail("its heights are not those of the model");
     if (cover.dimension < 1 || static_cast<int>(system_.equations.size()) + cover.dimension != system_.size())
-      return fail("the set has not the dimension that its equations leave");
+      return fail("the set does not have the dimension that its equations leave");
     for (const CoverBox& box : cover.boxes)
       if (box.verdict != Verdict::regular || box.region < 0 || box.motion >= 0)
         return fail("a box is not regular: the set is not shown to be smooth");
@@ -59,7 +59,7 @@ class ShapeCheck {
     for (const SheetBridge& b : shape_.bridges)
       if (b.region.size() != n || !std::all_of(b.region.begin(), b.region.end(),
                                                [](const Interval& s) { return s.is_bounded() && s.lo() <= s.hi(); }))
-        return fail("a bridge has not one bounded side for each variable");
+        return fail("a bridge does not have one bounded side for each variable");
     const Problem problem(system_, cover.reduction, stop_);
     enter("the components");
     const Linking linking(system_, problem, cover, shape_.bridges);
@@ -154,7 +154,7 @@ class ShapeCheck {
     for (std::size_t i = 0; i < shape_.space.boxes.size(); ++i)
       for (const Condition& c : problem.conditions()) {
         if (c.implied || holds_strictly(problem, c, shape_.space.boxes[i].box)) continue;
-        return fail("that the set is closed is not shown: box " + std::to_string(i + 1) + " may come to " +
+        return fail("it is not shown that the set is closed: box " + std::to_string(i + 1) + " may come to " +
                     (c.variable < 0 ? std::string("an inequality")
                                     : "an end of " + system_.variables[static_cast<std::size_t>(c.variable)].name));
       }
@@ -197,7 +197,7 @@ class ShapeCheck {
     const CriticalSystem& critical = heights_[k];
     report_.heights.push_back(check(critical.system, cover, options_));
     if (!settled(report_.heights.back(), name)) return false;
-    if (cover.dimension != 0) return fail(name + ": its critical points are more than points"), false;
+    if (cover.dimension != 0) return fail(name + ": its critical points are not isolated"), false;
     // What is counted are points: a box that none of them stands for may hold any number of critical points, or a curve.
     for (std::size_t b = 0; b < cover.boxes.size(); ++b)
       if (!stands_for_a_point(cover.boxes[b]))
@@ -219,7 +219,7 @@ class ShapeCheck {
         if (!g.value(x).is_positive()) return fail(which + "it may be counted twice"), false;
       const std::optional<int> index = index_at(critical, place, x);
       if (!index || *index >= static_cast<int>(by_index.size()))
-        return fail(which + "that it is nondegenerate is not shown"), false;
+        return fail(which + "it is not shown to be nondegenerate"), false;
       ++by_index[static_cast<std::size_t>(*index)];
       const std::optional<std::size_t> piece = class_at(linking, classes, critical.system, point.box);
       placed = placed && piece;
@@ -307,7 +307,7 @@ class ShapeCheck {
     }
     if (shape_.genus.empty()) return;
     if (dimension != 2 || characteristics.empty() || report_.at_least != report_.at_most)
-      return fail("that its components are so many closed surfaces is not shown");
+      return fail("it is not shown that its components are closed surfaces, one for each genus");
     std::vector<int> genus;
     if (report_.at_least == 1) {
       genus = {1 - characteristics.front() / 2};

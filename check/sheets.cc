@@ -32,7 +32,7 @@ class SheetCheck {
  private:
   std::string check_shape() {
     const std::size_t n = problem_.system().variables.size();
-    if (box_.box.size() != n || region_.size() != n) return "it has not one side for each variable";
+    if (box_.box.size() != n || region_.size() != n) return "it does not have one side for each variable";
     is_free_.assign(n, 0);
     for (const int j : box_.free) {
       if (j < 0 || j >= static_cast<int>(n) || problem_.place(j) < 0 || is_free_[static_cast<std::size_t>(j)])

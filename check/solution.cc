@@ -16,10 +16,11 @@ Sides solution_near(const Problem& problem, const std::vector<double>& point, co
     return Sides();
   };
   if (point.size() != n || !std::all_of(point.begin(), point.end(), [](double x) { return std::isfinite(x); }))
-    return no("its point is none");
+    return no("its point does not have one number for each variable");
   std::vector<unsigned char> held(n, 0);
   for (const int j : held_variables) {
-    if (j < 0 || j >= static_cast<int>(n) || held[static_cast<std::size_t>(j)]) return no("it holds what is no variable");
+    if (j < 0 || j >= static_cast<int>(n) || held[static_cast<std::size_t>(j)])
+      return no("it holds a variable that does not exist, or one twice");
     held[static_cast<std::size_t>(j)] = 1;
   }
   std::vector<int> dependent;
@@ -30,7 +31,8 @@ Sides solution_near(const Problem& problem, const std::vector<double>& point, co
     if (!held[j]) dependent.push_back(static_cast<int>(j));
   }
   Krawczyk newton(problem.equations(), static_cast<int>(n));
-  if (dependent.size() != problem.equations().size()) return no("it holds not as many variables as the set has dimensions");
+  if (dependent.size() != problem.equations().size())
+    return no("the number of variables that it holds is not the dimension of the set");
   bool exists = false;
   for (int step = 0; !exists && step < kInflations; ++step) {
     problem.stop().poll();

@@ -262,7 +262,7 @@ class Reducer {
       return i >= 0 && i < static_cast<int>(equations_.size()) && equations_[static_cast<std::size_t>(i)];
     };
     if (!is_there(row) || !is_there(other) || row == other)
-      throw std::invalid_argument("a sum of equations: not two different ones that are there");
+      throw std::invalid_argument("a sum of equations: it does not name two different equations that exist");
     if (!factor.is_rational()) throw std::invalid_argument("a sum of equations: the factor is not rational");
     if (!result_.implied.empty()) throw std::invalid_argument("a sum of equations: after an implied equation");
     Terms& f = *equations_[static_cast<std::size_t>(row)];

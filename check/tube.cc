@@ -62,7 +62,7 @@ bool finite(const std::vector<double>& list) {
 }
 
 std::string TubeCheck::misshapen() const {
-  if (tube_.nodes.size() < 2) return "a tube has two nodes at least";
+  if (tube_.nodes.size() < 2) return "a tube has at least two nodes";
   if (tube_.pieces.size() + 1 != tube_.nodes.size()) return "there is not one piece between each two nodes";
   if (tube_.radii.size() != tube_.pieces.size()) return "there is not one radius for each piece";
   if (system_.equations.size() >= n_) return "the system leaves no motion";
@@ -70,14 +70,14 @@ std::string TubeCheck::misshapen() const {
   for (const TubeNode& node : tube_.nodes)
     if (!is_box(node.box, n_) || node.values.size() != across || node.rows.size() != across * n_ || !finite(node.values) ||
         !finite(node.rows))
-      return "a node has not the system's sizes";
+      return "a node does not have the system's sizes";
   for (const Box& piece : tube_.pieces)
-    if (!is_box(piece, n_)) return "a piece's box has not the system's sizes";
+    if (!is_box(piece, n_)) return "a piece's box does not have the system's sizes";
   for (const double r : tube_.radii)
-    if (!(std::isfinite(r) && r >= 0)) return "a radius is no length";
+    if (!(std::isfinite(r) && r >= 0)) return "a radius is not a length";
   if (tube_.sizes.size() != n_) return "there is not one size for each variable";
   for (const double size : tube_.sizes)
-    if (!(std::isfinite(size) && size > 0)) return "a variable's size is no length";
+    if (!(std::isfinite(size) && size > 0)) return "a variable's size is not a length";
   return "";
 }
 

@@ -6,7 +6,7 @@ namespace corank::check {
 namespace {
 
 std::string what_fails(SingularityType type, bool proven) {
-  return std::string("that its solutions are ") + (proven ? "" : "not ") + to_string(type) + " is not shown";
+  return std::string("it is not shown that its solutions are ") + (proven ? "" : "not ") + to_string(type);
 }
 
 bool says(const TypeLabels& labels, SingularityType type, bool proven) {

@@ -13,7 +13,7 @@ const char* to_string(Verdict verdict) { return kNames.at(static_cast<std::size_
 
 Verdict verdict_from_string(const std::string& text) {
   const auto at = std::find(kNames.begin(), kNames.end(), text);
-  if (at == kNames.end()) throw std::invalid_argument("no verdict is called '" + text + "'");
+  if (at == kNames.end()) throw std::invalid_argument("there is no verdict '" + text + "'");
   return static_cast<Verdict>(at - kNames.begin());
 }
 

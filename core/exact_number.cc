@@ -255,7 +255,7 @@ ExactNumber ExactNumber::rational(const std::string& text) {
       *q /= *d;
     }
   }
-  if (!q) throw std::invalid_argument("`" + text + "` is no number such as 12, -3/4, 0.90 or 1e-6");
+  if (!q) throw std::invalid_argument("`" + text + "` is not a number such as 12, -3/4, 0.90 or 1e-6");
   return ExactNumber(make_rational(*q));
 }
 

@@ -48,7 +48,7 @@ void evaluate_power(Mpfi& result, const Mpfi& base_in, int n, int precision) {
   Mpfi base(precision);
   mpfi_set(base, const_cast<Mpfi&>(base_in));
   if (n < 0) {
-    if (mpfr_sgn(base.lo()) <= 0 && mpfr_sgn(base.hi()) >= 0) throw Undecided("a divisor cannot be told from zero");
+    if (mpfr_sgn(base.lo()) <= 0 && mpfr_sgn(base.hi()) >= 0) throw Undecided("a divisor cannot be distinguished from zero");
     mpfi_ui_div(base, 1, base);
   }
   mpfi_set_ui(result, 1);
@@ -96,18 +96,18 @@ void apply(Mpfi& result, ConstantFunction f, Mpfi& a, int precision) {
     if (mpfr_cmp_si(a.lo(), 1) > 0 || mpfr_cmp_si(a.hi(), -1) < 0)
       throw std::domain_error(name + " of a number outside [-1, 1]");
     if (mpfr_cmp_si(a.hi(), 1) > 0 || mpfr_cmp_si(a.lo(), -1) < 0)
-      throw Undecided(name + " of a number that cannot be told from one outside [-1, 1]");
+      throw Undecided(name + " of a number that cannot be distinguished from one outside [-1, 1]");
   };
   switch (f) {
     case ConstantFunction::sqrt:
       if (mpfr_sgn(a.hi()) < 0) throw std::domain_error("sqrt of a negative number");
-      if (mpfr_sgn(a.lo()) < 0) throw Undecided("sqrt of a number that cannot be told from a negative one");
+      if (mpfr_sgn(a.lo()) < 0) throw Undecided("sqrt of a number that cannot be distinguished from a negative one");
       mpfi_sqrt(result, a);
       break;
     case ConstantFunction::log:
       if (mpfr_sgn(a.hi()) < 0 || (mpfr_zero_p(a.lo()) && mpfr_zero_p(a.hi())))
         throw std::domain_error("log of a number that is not positive");
-      if (mpfr_sgn(a.lo()) <= 0) throw Undecided("log of a number that cannot be told from zero");
+      if (mpfr_sgn(a.lo()) <= 0) throw Undecided("log of a number that cannot be distinguished from zero");
       mpfi_log(result, a);
       break;
     case ConstantFunction::sin: trig_argument(), mpfi_sin(result, a); break;
@@ -117,7 +117,8 @@ void apply(Mpfi& result, ConstantFunction f, Mpfi& a, int precision) {
       trig_argument();
       Mpfi c(precision);
       mpfi_cos(c, a);
-      if (mpfr_sgn(c.lo()) <= 0 && mpfr_sgn(c.hi()) >= 0) throw Undecided("tan at a number that cannot be told from a pole");
+      if (mpfr_sgn(c.lo()) <= 0 && mpfr_sgn(c.hi()) >= 0)
+        throw Undecided("tan at a number that cannot be distinguished from a pole");
       mpfi_sin(result, a);
       mpfi_div(result, result, c);
       break;
@@ -187,9 +188,9 @@ Interval ExactNumber::enclose() const {
       evaluate(x, *node_, precision);
       if (narrow(x) || 2 * precision > kLastBits) return outward(x);
     } catch (const Undecided& undecided) {
-      if (2 * precision > kLastBits) throw std::domain_error(text() + " is no real number: " + undecided.what());
+      if (2 * precision > kLastBits) throw std::domain_error(text() + " is not a real number: " + undecided.what());
     } catch (const std::domain_error& error) {
-      throw std::domain_error(text() + " is no real number: " + error.what());
+      throw std::domain_error(text() + " is not a real number: " + error.what());
     }
   }
 }
@@ -211,9 +212,9 @@ std::pair<ExactNumber, ExactNumber> ExactNumber::bounds(int bits) const {
       return {rational_of(x.lo()), rational_of(x.hi())};
     } catch (const Undecided& undecided) {
       if (2 * precision > std::max(kLastBits, 2 * bits))
-        throw std::domain_error(text() + " is no real number: " + undecided.what());
+        throw std::domain_error(text() + " is not a real number: " + undecided.what());
     } catch (const std::domain_error& error) {
-      throw std::domain_error(text() + " is no real number: " + error.what());
+      throw std::domain_error(text() + " is not a real number: " + error.what());
     }
   }
 }
@@ -230,7 +231,7 @@ std::optional<int> ExactNumber::sign(int max_bits) const {
       if (mpfr_zero_p(x.lo()) && mpfr_zero_p(x.hi())) return 0;
     } catch (const Undecided&) {
     } catch (const std::domain_error& error) {
-      throw std::domain_error(text() + " is no real number: " + error.what());
+      throw std::domain_error(text() + " is not a real number: " + error.what());
     }
   }
   return std::nullopt;

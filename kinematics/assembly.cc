@@ -82,8 +82,9 @@ Assembly draft(const Robot& robot, Way way) {
   } else {
     for (const Output& output : robot.outputs)
       if (output.turn)
-        throw symbolic::ModelError(output.where, "the output '" + output.name + "' has a range of phi, but turns in space",
-                                   "keeps R behind it, or ranges of joints");
+        throw symbolic::ModelError(output.where,
+                                   "the output '" + output.name + "' has a range of phi, but it turns in space",
+                                   "`keeps R` after it, or ranges of joints");
     space = draft_spatial(robot, bodies, algebra, draft, way.deep) ? Space::spherical : Space::spatial;
   }
   Assembly assembly = draft.assembly();
@@ -153,7 +154,7 @@ Assembly assemble(const Robot& robot) {
     throw symbolic::ModelError({robot.file.empty() ? robot.name : robot.file, 0, 0},
                                "part of the robot is missing: " + robot.missing.front() +
                                    (more > 0 ? ", and " + std::to_string(more) + " more" : ""),
-                               "a robot that is known whole, for questions about its motion");
+                               "a complete robot, for questions about its motion");
   }
   robot.validate();
   const symbolic::GinacLock lock;

@@ -264,7 +264,7 @@ Bodies bodies_of(const Robot& robot, Algebra& algebra) {
   for (const Parallelogram& one : parallelograms_of(robot, bodies, algebra))
     kept.insert(kept.end(), one.opposite.begin(), one.opposite.end());
   if (kept.empty())
-    throw ModelError(*robot.keeps_parallelograms, "there is no parallelogram to be kept",
+    throw ModelError(*robot.keeps_parallelograms, "`keep parallelograms` finds no parallelogram",
                      "four links that turn on each other about parallel axes, opposite sides of one length");
   return Builder(robot, algebra, std::move(kept)).run();
 }

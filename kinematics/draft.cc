@@ -52,7 +52,7 @@ void Draft::slice(const ex& angle, const Range& range, const std::string& what, 
     const int above = algebra_.sign(lower - algebra_.constant(c->range->lower, where)),
               below = algebra_.sign(algebra_.constant(c->range->upper, where) - upper);
     if (above < 0 || below < 0)
-      throw ModelError(where, what + " leaves that of '" + name + "'",
+      throw ModelError(where, what + " goes beyond that of '" + name + "'",
                        "a range within [" + c->range->lower.text() + ", " + c->range->upper.text() + "]");
     meets_limit = c->limit && (above == 0 || below == 0);
   }

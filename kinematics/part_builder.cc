@@ -286,7 +286,7 @@ void PartBuilder::finish() {
     Joint& joint = robot.joints[require_joint(input.joint, input.where, "the name of a joint")];
     if (joint.actuated) {
       throw ModelError(input.where, "the joint " + in_quotes(input.joint) + " is actuated already",
-                       "`actuated` behind the joint, or the joint in [INPUTS]");
+                       "`actuated` after the joint, or the joint in [INPUTS]");
     }
     joint.actuated = true;
   }

@@ -19,13 +19,13 @@ void PartBuilder::begin_dh(std::string_view convention, const SourceLocation& wh
 }
 
 void PartBuilder::start_dh_from(std::string_view name_read, const SourceLocation& where) {
-  dh.base = require_link(resolve(name_read), where, "the name of a link that stands before");
+  dh.base = require_link(resolve(name_read), where, "the name of a link that is declared before");
 }
 
 void PartBuilder::add_dh_column(std::string_view word, const SourceLocation& where) {
   const std::string column = small_letters(word);
   if (std::find(dh.columns.begin(), dh.columns.end(), column) != dh.columns.end())
-    throw ModelError(where, "the column " + in_quotes(column) + " stands here twice", "each of a, alpha, d and theta once");
+    throw ModelError(where, "the column " + in_quotes(column) + " occurs twice here", "each of a, alpha, d and theta once");
   dh.columns.push_back(column);
 }
 
@@ -60,7 +60,7 @@ void PartBuilder::finish_dh_cells() {
     if (other.name != variable.name || other.column != variable.column) {
       throw ModelError(
           other.where,
-          "two names in this row, " + in_quotes(variable.name) + " and " + in_quotes(other.name) + ", are no constants",
+          "two names in this row, " + in_quotes(variable.name) + " and " + in_quotes(other.name) + ", are not constants",
           "one joint's name, in theta or d; all others are constants of [CONSTANTS]");
     }
   }
@@ -90,11 +90,10 @@ void PartBuilder::read_dh_variable(DhRow& row, bool& slides, int& sense) const {
     }
   }
   if (found != 1 || rest.mentions(symbol)) {
-    throw ModelError(
-        dh.variables[0].where,
-        "the column " + in_quotes(slides ? "d" : "theta") + " is " + in_quotes(cell.text()) +
-            ": the joint's coordinate is not simply added there",
-        "the joint's name, with a constant added or taken away: " + draft.name + ", " + draft.name + " - 90deg");
+    throw ModelError(dh.variables[0].where,
+                     "the column " + in_quotes(slides ? "d" : "theta") + " is " + in_quotes(cell.text()) +
+                         ": the joint's coordinate is not simply added there",
+                     "the joint's name, plus or minus a constant: " + draft.name + ", " + draft.name + " - 90deg");
   }
   cell = rest;
 }
@@ -105,7 +104,7 @@ void PartBuilder::finish_dh_row() {
   int sense = 1;
   read_dh_variable(row, slides, sense);
   if (draft.kind == "fix" && draft.actuated)
-    throw ModelError(draft.where, "the row is actuated, but no joint's name stands in theta or d",
+    throw ModelError(draft.where, "the row is actuated, but there is no joint's name in theta or d",
                      "theta = q1, for instance");
   Joint joint = named_joint();
   std::size_t far = 0;

@@ -47,7 +47,7 @@ void PartFault::no_joint() const {
   const std::string kind = nearest_name(name, kKinds);
   if (!parts.last_joint.empty() && parts.robot.find_link(parts.resolve(name)) >= 0 && kind.empty())
     say("found a third end of " + parts.last_joint + ", on the link " + in_quotes(name), "two ends");
-  if (parts.last_joint.empty()) say(in_quotes(name) + " is no kind of joint", kKindList + suggestion(name, kKinds));
+  if (parts.last_joint.empty()) say(in_quotes(name) + " is not a kind of joint", kKindList + suggestion(name, kKinds));
   say(in_quotes(name) + " is neither a kind of joint nor an option of " + parts.last_joint,
       std::string("an option such as range, zero or actuated, or the next joint: ") + kKindList +
           suggestion(name, joined(kKinds, kOptions)));
@@ -59,13 +59,13 @@ void PartFault::no_joint_link() const {
 }
 
 void PartFault::no_joint_colon() const {
-  found_instead_of(parts.draft.name.empty() ? "':' or a name behind the kind of the joint" : "':' behind the joint's name");
+  found_instead_of(parts.draft.name.empty() ? "':' or a name after the kind of the joint" : "':' after the joint's name");
 }
 
 void PartFault::no_point() const {
   if (parts.draft.links.empty()) found_instead_of("a point (x, y, z)");
   const std::string link = parts.robot.links[parts.draft.links.back()].name;
-  say("found " + describe_start(rest) + " where a point of the link " + in_quotes(link) + " should stand",
+  say("found " + describe_start(rest) + " where a point of the link " + in_quotes(link) + " should be",
       "(x, y, z), a point named in the link, or the number of a vertex");
 }
 
@@ -79,7 +79,7 @@ void PartFault::no_second_point() const {
 void PartFault::no_colour() const {
   const std::string name = name_found();
   if (name.empty()) found_instead_of(kColours);
-  say(in_quotes(name) + " is no colour", kColours + suggestion(name, kColourWords));
+  say(in_quotes(name) + " is not a colour", kColours + suggestion(name, kColourWords));
 }
 
 void PartFault::no_output_kind() const {
@@ -88,7 +88,7 @@ void PartFault::no_output_kind() const {
       "position of link.point, orientation of link, pose of link, direction of link (x, y, z) or "
       "joint name";
   if (name.empty()) found_instead_of(expectation);
-  say(in_quotes(name) + " is nothing that can be an output", expectation + suggestion(name, kOutputs));
+  say(in_quotes(name) + " cannot be an output", expectation + suggestion(name, kOutputs));
 }
 
 void PartFault::no_dh_column() const { found_instead_of("the names of the four columns in their order: a alpha d theta"); }
@@ -96,7 +96,7 @@ void PartFault::no_dh_column() const { found_instead_of("the names of the four c
 void PartFault::no_dh_cell() const {
   const std::vector<std::string>& columns = parts.dh.columns;
   const std::size_t read = parts.dh.cells.size();
-  say("found " + describe_start(rest) + " where the column " + in_quotes(columns[read]) + " of the row should stand",
+  say("found " + describe_start(rest) + " where the column " + in_quotes(columns[read]) + " of the row should be",
       "four expressions without blanks, or commas between them: 0, -90deg, 0, q1 - 90deg");
 }
 

@@ -46,7 +46,7 @@ void PartBuilder::joint_link(std::string_view name_read, const SourceLocation& w
   const std::string link = resolve(name_read);
   if (robot.find_link(link) < 0 && draft.links.size() == 1 && is_kind(small_letters(name_read)))
     throw ModelError(where, draft.described() + " has one end only", "two links, each with its points");
-  const std::size_t index = require_link(link, where, "the name of a link that stands in [LINKS] before");
+  const std::size_t index = require_link(link, where, "the name of a link that [LINKS] declares before");
   if (draft.links.size() == 1 && draft.links[0] == index) {
     throw ModelError(where, draft.described() + " connects the link " + in_quotes(name_read) + " with itself",
                      "two different links");
@@ -157,7 +157,7 @@ void PartBuilder::set_ranges(Joint& joint) {
                      "one for each end");
   }
   if (is_size && !draft.brackets.empty() && n == 0) {
-    throw ModelError(draft.brackets[0].where, "the half angle of " + draft.described() + " has no directions behind it",
+    throw ModelError(draft.brackets[0].where, "the half angle of " + draft.described() + " has no directions after it",
                      "range [half angle] R R: a direction in each link, the angle between which is limited");
   }
   for (std::size_t i = 0; i < n; ++i) {
@@ -278,7 +278,7 @@ void PartBuilder::set_zero_directions() {
     throw ModelError(
         joint.where,
         std::string("the range of the ") + to_string(joint.kind) + " joint has no directions from which its angle counts",
-        "two points behind the range, or zero (u) (v), a direction across the axis in each link");
+        "two points after the range, or zero (u) (v), a direction across the axis in each link");
   }
 }
 

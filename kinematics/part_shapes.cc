@@ -65,7 +65,7 @@ void PartBuilder::refuse_point(std::size_t link, const std::string& point, const
 const PartBuilder::LinkData* PartBuilder::current() const { return link_ ? &link_data_[*link_] : nullptr; }
 
 void PartBuilder::push_vertex(std::string_view digits, const SourceLocation& where) {
-  if (!link_) throw ModelError(where, "found a number where a point should stand", "(x, y, z)");
+  if (!link_) throw ModelError(where, "found a number where a point should be", "(x, y, z)");
   const std::string& owner = robot.links[*link_].name;
   std::array<std::size_t, 2> number{0, 0};  // body, vertex
   const std::size_t colon = digits.find(':');
@@ -132,7 +132,7 @@ void PartBuilder::finish_transform() {
   if (arguments.size() != wanted) {
     throw ModelError(transform_where,
                      "the transformation " + in_quotes(word) + " has " + std::to_string(arguments.size()) + " numbers",
-                     word == "tr" ? "12 numbers, the rows of a rotation matrix each with its translation behind it"
+                     word == "tr" ? "12 numbers, the rows of a rotation matrix each followed by its translation"
                                   : std::to_string(wanted));
   }
   Pose step;

@@ -258,7 +258,8 @@ class PlanarRobot {
         draft_.output(symbol_of(output.joint));
         return;
       case Output::Kind::direction:
-        throw ModelError(output.where, "a direction as output of a robot that moves in a plane", "orientation of the link");
+        throw ModelError(output.where, "a direction is an output of a robot that moves in a plane",
+                         "orientation of the link");
       default: break;
     }
     if (output.kind != Output::Kind::orientation) add_position(output, body, base);

@@ -94,7 +94,7 @@ class RobotValidator {
                                   joint.kind == JointKind::spherical || joint.kind == JointKind::planar;
     if (joint.actuated && cannot_be_driven) {
       throw ModelError(
-          where, what + " cannot be actuated: it has no angle or way of its own",
+          where, what + " cannot be actuated: it has no angle or displacement of its own",
           "an actuated joint of the kind revolute, prismatic, parallelogram, cylindrical, universal or sph_prs_sph");
     }
   }
@@ -152,7 +152,7 @@ class RobotValidator {
         throw ModelError(where, what + " is of a joint that is not there", "a joint of the robot");
       const Joint& joint = robot_.joints[output.joint];
       if (most_ranges(joint.kind) == 0 || joint.kind == JointKind::spherical) {
-        throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or way of its own",
+        throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or displacement of its own",
                          "a revolute, prismatic, parallelogram, cylindrical, universal or sph_prs_sph joint");
       }
       if (joint.actuated) {
@@ -177,12 +177,12 @@ class RobotValidator {
     const auto& asked = output.asked;
     if (asked[0] && asked[1] && asked[2]) return;
     if (output.kind != Output::Kind::position)
-      throw ModelError(where, what + " is asked for some components only, but is no position", "only behind a position");
+      throw ModelError(where, what + " is asked for some components only, but is not a position", "`only` after a position");
     if (!asked[0] && !asked[1] && !asked[2]) throw ModelError(where, what + " has no component", "x, y or z");
     for (std::size_t i = 0; i < 3; ++i)
       if (!asked[i] && output.ranges[i])
         throw ModelError(where, std::string("there is a range of ") + "xyz"[i] + ", for which " + what + " does not ask",
-                         "ranges of the components behind only");
+                         "ranges of the components after only");
   }
 
   void check_slice(const Output& output, const std::string& what, const symbolic::SourceLocation& where) {
@@ -201,15 +201,15 @@ class RobotValidator {
     }
     if (!output.kept) return;
     if (output.kind != Output::Kind::orientation && output.kind != Output::Kind::pose)
-      throw ModelError(where, what + " keeps an orientation, but is none", "keeps behind an orientation or a pose");
+      throw ModelError(where, what + " keeps an orientation, but it is not an orientation or a pose",
+                       "`keeps` after an orientation or a pose");
     if (output.relative_to != 0)
       throw ModelError(where, what + " keeps an orientation relative to " + in_quotes(robot_.links[output.relative_to].name),
                        "one in the ground " + in_quotes(robot_.links[0].name));
     check_pose(*output.kept, what, where);
     for (const Expression& e : output.kept->translation)
       if (scope_.sign(e, what, where).value_or(1) != 0)
-        throw ModelError(where, "what " + what + " keeps is no rotation alone",
-                         "a product of Rx Ry Rz, or TR without a way");
+        throw ModelError(where, what + " keeps more than a rotation", "a product of Rx Ry Rz, or TR without a translation");
   }
 
   void check_connections() const {
@@ -250,7 +250,7 @@ class RobotValidator {
                         const symbolic::SourceLocation& where) {
     const std::optional<int> sign = scope_.sign(e, what, where);
     if (sign == 1) return;
-    const std::string problem = sign == 0 ? " is 0" : sign == -1 ? " is negative" : " cannot be told from 0";
+    const std::string problem = sign == 0 ? " is 0" : sign == -1 ? " is negative" : " cannot be distinguished from 0";
     throw ModelError(where, what + ", " + in_quotes(e.text()) + ", " + problem.substr(1), expectation);
   }
 
@@ -313,17 +313,17 @@ class RobotValidator {
     const auto require_equal = [&](const Expression& a, int b, const std::string& problem) {
       const std::optional<int> sign = scope_.sign(folded_difference(a, b), of, where);
       if (sign && *sign != 0)
-        throw ModelError(where, of + " is no rotation and translation: " + problem, "a rotation matrix");
+        throw ModelError(where, of + " is not a rotation and translation: " + problem, "a rotation matrix");
     };
     const auto& r = pose.rotation;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string row = "row " + std::to_string(i + 1);
-      require_equal(dot(r[i], r[i]), 1, row + " has not the length 1");
+      require_equal(dot(r[i], r[i]), 1, row + " does not have the length 1");
       for (std::size_t j = 0; j < i; ++j)
         require_equal(dot(r[i], r[j]), 0, row + " is not perpendicular to row " + std::to_string(j + 1));
     }
     if (scope_.sign(dot(cross(r[0], r[1]), r[2]), of, where) == -1)
-      throw ModelError(where, of + " is no rotation and translation: the matrix is a reflection", "a determinant of 1");
+      throw ModelError(where, of + " is not a rotation and translation: the matrix is a reflection", "a determinant of 1");
   }
 
   const Robot& robot_;

@@ -28,7 +28,7 @@ Robot parse_urdf(std::string_view text, const std::string& file, const std::opti
   Robot robot = read_urdf_tree(UrdfDocument(text, file), file, loops.has_value());
   if (loops) add_loops(robot, *loops);
   if (std::none_of(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.actuated; }))
-    robot.notices.push_back("no <transmission> says which joints are actuated: [INPUTS] of a .loops file does");
+    robot.notices.push_back("no <transmission> says which joints are actuated; list them in [INPUTS] of a .loops file");
   robot.validate();
   return robot;
 }

@@ -112,7 +112,7 @@ void UrdfDocument::check_entities(const pugi::xml_attribute& attribute) const {
     const std::string_view reference = written.substr(i + 1, written.find_first_of("; \t\r\n", i) - i - 1);
     if (reference.starts_with('#') || std::find(kEntities.begin(), kEntities.end(), reference) != kEntities.end()) continue;
     throw ModelError(place_at(begin + i), "the entity " + in_quotes(reference) + " is unknown",
-                     "&amp; for the character &: entities of a file's own are not read");
+                     "&amp; for the character &: a file's own entities are not read");
   }
 }
 

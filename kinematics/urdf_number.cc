@@ -90,7 +90,7 @@ UrdfNumber urdf_number(std::string_view text, const SourceLocation& where, const
   const bool is_negative = text.starts_with('-');
   if (is_negative || text.starts_with('+')) unsigned_text.remove_prefix(1);
   if (unsigned_text.empty() || unsigned_text.find_first_not_of("0123456789.eE+-") != std::string_view::npos)
-    throw ModelError(where, what + " is " + in_quotes(text) + ", no number", "a decimal such as 0.25 or -1e-3");
+    throw ModelError(where, what + " is " + in_quotes(text) + ", not a number", "a decimal such as 0.25 or -1e-3");
   std::string decimal = symbolic::normal_decimal(unsigned_text, where);
   const Digits digits = digits_of(decimal);
   UrdfNumber number;

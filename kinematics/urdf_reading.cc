@@ -117,7 +117,7 @@ std::vector<std::string> UrdfReading::notices() const {
   std::vector<std::string> sentences;
   for (const auto& [sentence, times] : notices_) {
     if (sentences.size() == kMaxNotices) {
-      sentences.push_back("and " + std::to_string(notices_.size() - kMaxNotices) + " notices more");
+      sentences.push_back("and " + std::to_string(notices_.size() - kMaxNotices) + " more notices");
       break;
     }
     sentences.push_back(sentence + (times > 1 ? ", " + std::to_string(times) + " times" : ""));

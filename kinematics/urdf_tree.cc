@@ -31,7 +31,7 @@ class Names {
     const auto [at, is_new] = index_.try_emplace(name, list_.size());
     if (!is_new) {
       throw ModelError(reading_.where(element.attribute("name")), "a second " + what_ + " called " + in_quotes(name),
-                       "each name once; the first stands in line " + std::to_string(lines_[at->second]));
+                       "each name once; the first is in line " + std::to_string(lines_[at->second]));
     }
     list_.push_back(name);
     lines_.push_back(reading_.where(element).line);
@@ -129,7 +129,7 @@ class TreeReader {
     for (const pugi::xml_node& gazebo : top_.children("gazebo")) {
       reading_.notice("<gazebo> passed over");
       if (gazebo.child("joint"))
-        reading_.notice("a <gazebo> holds a joint; if it closes a loop, a .loops file has to say so");
+        reading_.notice("a <gazebo> holds a joint; if it closes a loop, declare it in a .loops file");
     }
   }
 
@@ -140,7 +140,7 @@ class TreeReader {
       const std::string_view name = child.name();
       if (name.find("loop") == std::string_view::npos && name.find("constraint") == std::string_view::npos) continue;
       throw ModelError(reading_.where(child), "<" + symbolic::shortened(name) + "> is not URDF's and may close a loop",
-                       "the loop in a .loops file; with one given this is passed over");
+                       "the loop in a .loops file; if you give one, this element is passed over");
     }
   }
 
@@ -196,14 +196,15 @@ class TreeReader {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       if (parent_edge_[i] != kNone) continue;
       if (root != kNone) {
-        throw ModelError(reading_.where(link_elements_[i]),
-                         "two links are no joint's child, " + in_quotes(links_[root]) + " and " + in_quotes(links_[i]),
-                         "one root, which is the ground");
+        throw ModelError(
+            reading_.where(link_elements_[i]),
+            "two links are not the child of a joint, " + in_quotes(links_[root]) + " and " + in_quotes(links_[i]),
+            "one root, which is the ground");
       }
       root = i;
     }
     if (root == kNone) {
-      throw ModelError(reading_.where(link_elements_[0]), "every link is a joint's child, so none is the ground",
+      throw ModelError(reading_.where(link_elements_[0]), "every link is the child of a joint, so there is no ground",
                        kCloseLoops);
     }
     return root;
@@ -339,7 +340,7 @@ class TreeReader {
       throw ModelError(where, joint_text(index) + " is floating: nothing holds the link " + child,
                        "a fixed joint, or a .loops file whose joints hold it");
     }
-    reading_.notice(joint_text(index) + " is floating, so no joint: loops have to hold the link " + child);
+    reading_.notice(joint_text(index) + " is floating, so it is left out: loops have to hold the link " + child);
   }
 
   void place_axis(std::size_t index, const Pose& pose, Joint& joint) {
@@ -352,7 +353,7 @@ class TreeReader {
       if (std::all_of(axis.begin(), axis.end(), [](const UrdfNumber& x) { return x.is_zero; }))
         throw ModelError(reading_.where(xyz), "the axis of " + joint_text(index) + " is 0", "a direction");
     } else {
-      reading_.notice("a joint has no <axis>: x, as URDF has it");
+      reading_.notice("a joint has no <axis>: x is taken, the default of URDF");
     }
     const Vector direction{axis[0].value, axis[1].value, axis[2].value};
     const Vector zero = perpendicular(axis);
@@ -393,7 +394,7 @@ class TreeReader {
     const std::optional<UrdfNumber> written_lower = read("lower"), written_upper = read("upper");
     if (!written_lower && !written_upper) {
       throw ModelError(reading_.where(limit),
-                       joint_text(index) + " has neither a lower nor an upper limit, which URDF takes for 0", otherwise);
+                       joint_text(index) + " has neither a lower nor an upper limit: URDF takes 0 for both", otherwise);
     }
     const UrdfNumber zero = urdf_angle("0", {}, "0");
     const UrdfNumber lower = written_lower.value_or(zero), upper = written_upper.value_or(zero);
@@ -404,7 +405,7 @@ class TreeReader {
                        "lower <= upper");
     }
     if (is_angle && covers_circle(lower, upper)) {
-      reading_.notice("limits of a whole turn or more are none");
+      reading_.notice("limits of a whole turn or more do not limit a joint");
       return {};
     }
     return Range{lower.value, upper.value};

@@ -215,7 +215,7 @@ std::optional<std::pair<double, double>> area(const Model& model, const std::vec
                                               double time_limit, bool anyway, const py::object& progress) {
   study::Question question = question_of(model, "boundary", {}, 1, outputs);
   const std::vector<std::string> names = question.model.outputs();
-  if (names.size() != 2) throw std::invalid_argument("an area is that of a workspace in the plane of two outputs");
+  if (names.size() != 2) throw std::invalid_argument("an area needs two outputs");
   return run_whole(progress, [question = std::move(question), names, threads, time_limit, anyway](Watcher& watcher) {
     using Bounds = std::optional<std::pair<double, double>>;
     solve::Control control({.time = time_limit, .stop = &watcher.stop});

@@ -180,7 +180,7 @@ study::Question question_of(const Model& model, const std::optional<std::string>
   q.set = *set == "nodes" ? symbolic::nodes_of(q.model) : symbolic::singularity_set_from_string(*set);
   if (!q.set) throw std::invalid_argument("there is no set '" + *set + "'; expected " + symbolic::names_of_sets());
   const bool of_parts = symbolic::definition(q.set).of_parts;
-  if (of_parts && (corank != 1 || kernel)) throw std::invalid_argument("the set " + *set + " has no corank and no kernel");
+  if (of_parts && (corank != 1 || kernel)) throw std::invalid_argument("the set " + *set + " takes no corank and no kernel");
   if (!of_parts && !outputs.empty()) throw std::invalid_argument("outputs are chosen for the set boundary only");
   return q;
 }

@@ -8,7 +8,7 @@
 
 PYBIND11_MODULE(_corank, module) {
   using namespace corank::python;
-  module.doc() = "corank in C++; use the package corank, which stands on it.";
+  module.doc() = "The C++ part of corank; use the package corank, which is built on it.";
   module.attr("__version__") = corank::result::version();
   bind_errors();
   bind_expression(module);

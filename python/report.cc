@@ -35,7 +35,7 @@ symbolic::Mechanism mechanism_of(const std::vector<Result>& results) {
   if (results.empty()) throw std::invalid_argument("there is no result to show");
   for (const Result& r : results)
     if (r->model_text != results.front()->model_text || r->options.constants != results.front()->options.constants)
-      throw std::invalid_argument("the results are of two models, or with other constants");
+      throw std::invalid_argument("the results are of different models, or with different constants");
   return result::model_of(*results.front());
 }
 

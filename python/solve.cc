@@ -38,8 +38,7 @@ py::tuple solve_question(const Model& model, const std::optional<std::string>& s
       systems.push_back(study::system(part));
       options.validate(systems.back());
       if (options.proof && systems.back().coefficient_tolerance > 0)
-        throw std::invalid_argument(
-            "proof: there is none for coefficients with a tolerance; tolerance=0 takes them as exact");
+        throw std::invalid_argument("proof: expected exact coefficients; tolerance=0 takes them as exact");
     }
     control.ended();  // notes the stage
     stage.reset();

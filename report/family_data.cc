@@ -23,7 +23,7 @@ Json coordinates(const symbolic::Mechanism& mechanism, const std::array<std::str
   int next = 0;
   for (const std::string& name : axes) {
     const int found = mechanism.find_coordinate(name);
-    if (found < 0) throw std::invalid_argument(name + " is no coordinate of " + mechanism.name());
+    if (found < 0) throw std::invalid_argument(name + " is not a coordinate of " + mechanism.name());
     Json entry = {{"name", name}, {"label", label(name)}};
     if (mechanism.coordinates()[static_cast<std::size_t>(found)].kind == symbolic::CoordinateKind::angle) {
       entry["cosine"] = next++;

@@ -37,7 +37,7 @@ mustache::data sentences(const std::vector<std::string>& lines) {
 std::string value_html(const FamilyMember& member, const std::string& constant, const std::string& before = "") {
   const auto& all = member.mechanism.constants();
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == constant; });
-  if (found == all.end()) throw std::invalid_argument(constant + " is no constant of " + member.mechanism.name());
+  if (found == all.end()) throw std::invalid_argument(constant + " is not a constant of " + member.mechanism.name());
   return symbolic::math(before + symbolic::mathml(found->value));
 }
 

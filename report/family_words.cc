@@ -46,39 +46,39 @@ FamilyWords family_words(const std::vector<FamilyMember>& members, const FamilyO
   const Totals t = totals_of(members);
   FamilyWords words;
   words.proven.push_back(
-      fmt::format("Each picture is of one mechanism, whose {} has exactly the value written under it.", options.constant));
+      fmt::format("Each picture shows one mechanism, whose {} has exactly the value under the picture.", options.constant));
   if (t.complete == t.covers) {
     words.proven.push_back(
-        "For each of them, every configuration of every set shown lies in a box: all else in the search domain is "
-        "excluded with outward rounding.");
+        "For each mechanism, every solution in the search domain lies in a box: the rest of the domain is excluded with "
+        "outward rounding.");
     if (has_surface(members.front()))
-      words.proven.push_back("So where no box of C-space lies over a place, that place is out of reach.");
+      words.proven.push_back("So the robot cannot reach a place over which there is no box of C-space.");
   } else {
-    words.unproven.push_back(fmt::format("{} of {} searches ended early: what {} boxes may hold was not looked into.",
-                                         grouped(t.covers - t.complete), grouped(t.covers), grouped(t.pending)));
+    words.unproven.push_back(
+        fmt::format("{} of {} searches ended early and left {} boxes unsearched, which may hold solutions.",
+                    grouped(t.covers - t.complete), grouped(t.covers), grouped(t.pending)));
   }
   if (t.proven > 0) {
     words.proven.push_back(
-        fmt::format("{} of all {} boxes ({}) hold solutions for certain: for every value of their free coordinates "
-                    "exactly one.",
+        fmt::format("{} of all {} boxes ({}) are proven to hold solutions: exactly one for every value of their free "
+                    "coordinates.",
                     grouped(t.proven), grouped(t.boxes), percentage(t.proven, t.boxes)));
   }
   if (t.border > 0) {
-    words.proven.push_back(fmt::format("In {} boxes the same is proven of a piece that may reach beyond the search domain.",
+    words.proven.push_back(fmt::format("In {} boxes the same is proven for a piece that may reach beyond the search domain.",
                                        grouped(t.border)));
   }
   if (t.partial > 0)
     words.unproven.push_back(fmt::format("In {} boxes only independent equations are proven to hold.", grouped(t.partial)));
   if (t.undecided > 0) {
-    words.unproven.push_back(fmt::format("{} boxes are undecided: solutions may lie there, or none.", grouped(t.undecided)));
+    words.unproven.push_back(
+        fmt::format("{} boxes are undecided: they may or may not hold solutions.", grouped(t.undecided)));
   }
   words.unproven.push_back(fmt::format("Nothing is claimed about values of {} between those shown.", options.constant));
   const std::string edges =
       t.finest == t.coarsest ? fmt::format("{:g}", t.finest) : fmt::format("{:g} to {:g}", t.finest, t.coarsest);
-  words.unproven.push_back(
-      fmt::format("A gap narrower than the boxes (σ: {}) may be covered by them, and a locus looks as wide as "
-                  "they are.",
-                  edges));
+  words.unproven.push_back(fmt::format(
+      "Boxes (σ: {}) may cover a gap that is narrower than they are, and a locus looks as wide as its boxes.", edges));
   return words;
 }
 

@@ -93,8 +93,9 @@ std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic
           fmt::format("without the {}s; rank deficient at {} singularities", to_string(set.locked.front()), set.name),
           derivation.velocity.without(set.locked));
   html +=
-      "<h3>Systems solved</h3><p>Cosines and sines of angles are variables of their own in the search, with their circle as "
-      "an equation.</p>";
+      "<h3>Systems solved</h3><p>In the search, the cosine c and the sine s of an angle are variables of their own, with "
+      "the "
+      "equation c² + s² = 1.</p>";
   for (const SetView& view : views)
     html += view.result.parts.empty() || view.set->of_parts
                 ? system_html(result::equations_of(mechanism, view.set->set.value(), view.result.options), view)

@@ -94,7 +94,8 @@ std::string kernel_points_html(const result::Result& result, const std::vector<C
   std::string head;
   for (const Column& column : shown) head += "<th>" + symbolic::html_name(column.name) + "</th>";
   return fmt::format(
-      "<p>Known exactly, and proven in exact arithmetic: the kernel has a larger dimension there.</p><div "
+      "<p>At these points the kernel has a larger dimension. They are known exactly, and proven in exact "
+      "arithmetic.</p><div "
       "class=\"scroll\"><table>"
       "<thead><tr><th>point</th>{}<th>kernel’s dimension</th></tr></thead><tbody>{}</tbody></table></div>",
       head, rows);
@@ -142,7 +143,7 @@ std::string points_html(const std::vector<SetView>& views) {
                                      [](const ExactPoint& point) { return point.corank > 1; });
     if (isolated || kernels) html += table_html(view);
   }
-  return html.empty() ? "<p>None: no set of this mechanism consists of isolated points.</p>" : html;
+  return html.empty() ? "<p>No set of this mechanism consists of isolated points.</p>" : html;
 }
 
 }  // namespace corank::report

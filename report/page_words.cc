@@ -7,6 +7,7 @@
 
 #include "corank/report/drawn_boxes.h"
 #include "corank/result/assembled.h"
+#include "corank/result/domain_notes.h"
 #include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/number_text.h"
@@ -79,7 +80,7 @@ void say_points(const result::Result& result, SetWords& words) {
   const std::size_t isolated = count_points(cover, Verdict::isolated), exact = count_points(cover, Verdict::exact),
                     border = count_points(cover, Verdict::boundary),
                     others = cover.points.size() - isolated - exact - border;
-  words.finding = isolated + exact == 0 ? "None proven to exist" : counted(isolated + exact, "point", "points");
+  words.finding = isolated + exact == 0 ? "No point is proven to exist" : counted(isolated + exact, "point", "points");
   if (const auto on_sets = static_cast<std::size_t>(
           std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) { return b.motion >= 0; }));
       on_sets > 0) {
@@ -91,40 +92,33 @@ void say_points(const result::Result& result, SetWords& words) {
   if (border > 0) words.finding += fmt::format(", {} at the border of the search domain", border);
   if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place", "undecided places"));
   if (isolated > 0) {
-    words.proven.push_back(fmt::format("{} exactly one solution each, and no two of them the same one.",
-                                       isolated == 1 ? "One small box holds" : grouped(isolated) + " small boxes hold"));
+    words.proven.push_back(isolated == 1 ? "One small box holds exactly one solution."
+                                         : grouped(isolated) + " small boxes hold exactly one solution each, all distinct.");
   }
   if (exact > 0)
     words.proven.push_back(fmt::format("{} known exactly.", exact == 1 ? "One point is" : grouped(exact) + " points are"));
   if (border > 0) {
     words.unproven.push_back(
-        fmt::format("Whether {} inside the search domain is not proven.",
+        fmt::format("It is not proven that {} inside the search domain.",
                     border == 1 ? "the solution at its border lies" : "the solutions at its border lie"));
   }
   if (others > 0) {
     words.unproven.push_back(
-        fmt::format("At {} nothing is proven: {} may hold any number of solutions, or none. Solutions that merge into a "
-                    "double one look so.",
+        fmt::format("At {} nothing is proven: {} may hold any number of solutions, or none. A double solution looks like "
+                    "this.",
                     counted(others, "place", "places"), others == 1 ? "it" : "each"));
   }
 }
 
 /// Ranges that cut the set, and what keeps boxes at the border.
 void say_domain(const result::DomainNotes& notes, SetWords& words) {
-  for (const bool reached : {true, false}) {
-    std::string names;
-    for (const result::DomainNotes::End& end : notes.ends)
-      if (end.reached == reached) names += (names.empty() ? "" : ", ") + end.coordinate;
-    if (names.empty()) continue;
-    words.unproven.push_back(
-        fmt::format("The set {} the ends of the declared range of {}: what lies beyond was not searched.",
-                    reached ? "reaches" : "may reach", names));
-  }
+  for (const std::string& sentence : result::range_end_sentences(notes))
+    words.unproven.push_back("T" + sentence.substr(1) + ".");
   if (notes.boundary.empty()) return;
   std::string reasons;
   for (const result::DomainNotes::Reason& reason : notes.boundary)
     reasons += fmt::format("{}{} ({})", reasons.empty() ? "" : ", ", reason.text, boxes_text(reason.boxes));
-  words.unproven.push_back("Boxes at the border are not shown to lie inside of: " + reasons + ".");
+  words.unproven.push_back("Boxes at the border may reach beyond " + reasons + ".");
 }
 
 /// Where the kernel's dimension is known.
@@ -151,12 +145,12 @@ void say_passages(const result::Result& result, SetWords& words) {
   const auto counts = result::passages(result.cover);
   const auto boxes = [&](Passage passage) { return counts[static_cast<std::size_t>(passage)]; };
   words.proven.push_back(
-      fmt::format("Where no further limit is reached, the output stays on one side near the configurations in {}, "
-                  "and can pass in {}.",
+      fmt::format("If no further limit is reached, the output stays on one side near the configurations in {}, and can "
+                  "pass at those in {}.",
                   boxes_text(boxes(Passage::barrier)), boxes_text(boxes(Passage::traversable))));
   if (boxes(Passage::unproven) > 0)
     words.unproven.push_back(
-        fmt::format("Whether the output can pass is open in {}.", boxes_text(boxes(Passage::unproven))));
+        fmt::format("In {} it is open whether the output can pass.", boxes_text(boxes(Passage::unproven))));
 }
 
 /// Of a union.
@@ -173,8 +167,8 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   const Cover& cover = result.cover;
   words.finding = fmt::format("{}: {}", shape(cover.dimension), boxes_text(cover.boxes.size()));
   if (found.counted)
-    words.finding +=
-        fmt::format(" in {} as boxes touch", counted(static_cast<std::size_t>(found.count), "component", "components"));
+    words.finding += fmt::format(" in {} of touching boxes",
+                                 counted(static_cast<std::size_t>(found.count), "component", "components"));
   const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
   if (regular > 0) {
     words.proven.push_back(
@@ -185,16 +179,17 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   }
   if (boundary > 0) {
     words.proven.push_back(
-        fmt::format("In {} the same is proven of a piece that may reach beyond the search domain.", boxes_text(boundary)));
+        fmt::format("In {} the same is proven for a piece that may reach beyond the search domain.", boxes_text(boundary)));
   }
   if (found.count > 1 && cover.complete()) {
-    words.proven.push_back(fmt::format("No two of the {} components are connected; {} of them {} solutions for certain.",
+    words.proven.push_back(fmt::format("No two of the {} components are connected; {} of them {} proven to hold solutions.",
                                        found.count, found.with_proven_solution,
-                                       found.with_proven_solution == 1 ? "holds" : "hold"));
+                                       found.with_proven_solution == 1 ? "is" : "are"));
   }
   words.unproven.push_back(
-      found.counted ? "That the solutions in one component are one piece is not proven: the count is of boxes that touch."
-                    : "How the boxes hang together was not counted: the run was ended.");
+      found.counted
+          ? "It is not proven that the solutions in one component form one piece: components are counted by boxes that touch."
+          : "The components were not counted, because the run was ended.");
   if (const std::size_t partial = cover.count(Verdict::partial); partial > 0) {
     words.unproven.push_back(
         fmt::format("In {} only independent equations are proven to hold, the others within a tolerance of {:g}.",
@@ -209,11 +204,11 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   const std::size_t open = cover.count(Verdict::undecided) - explained;
   if (explained > 0) {
     words.unproven.push_back(fmt::format(
-        "{} undecided around a point that is known exactly: what else {}, if anything, is open.",
+        "{} undecided around a point that is known exactly: it is open whether {} anything else.",
         explained == 1 ? "One box is" : grouped(explained) + " boxes are", explained == 1 ? "it holds" : "they hold"));
   }
   if (open > 0) {
-    words.unproven.push_back(fmt::format("{} undecided: solutions may lie there, or none.",
+    words.unproven.push_back(fmt::format("{} undecided: it is open whether there are solutions.",
                                          open == 1 ? "One box is" : grouped(open) + " boxes are"));
   }
 }
@@ -278,9 +273,9 @@ const char* meaning_of(SingularityType type) {
     case SingularityType::ro: return "redundant output: with the actuators locked the output can still move";
     case SingularityType::rpm:
       return "redundant passive motion: with actuators and output locked passive joints can still move";
-    case SingularityType::ii: return "impossible input: some velocity of the actuators cannot be had";
+    case SingularityType::ii: return "impossible input: the actuators cannot achieve some velocity";
     case SingularityType::ri: return "redundant input: the actuators can move while the output stands still";
-    case SingularityType::io: return "impossible output: some velocity of the output cannot be had";
+    case SingularityType::io: return "impossible output: the output cannot achieve some velocity";
     case SingularityType::iim: return "increased instantaneous mobility: more ways to move than the mobility says";
   }
   return "";
@@ -292,10 +287,10 @@ void say_types(const Cover& cover, SetWords& words) {
   for (const auto& [type, n] : tally.proven)
     if (n > 0)
       words.proven.push_back(
-          fmt::format("{} ({}), at every solution in {}.", to_string(type), meaning_of(type), boxes_text(n)));
+          fmt::format("Every solution in {} has the type {} ({}).", boxes_text(n), to_string(type), meaning_of(type)));
   if (tally.proven.empty() || tally.unproven == 0) return;
   words.unproven.push_back(
-      fmt::format("Which types {} hold is not settled, or whether they hold a solution.", boxes_text(tally.unproven)));
+      fmt::format("In {} it is open which types there are, or whether there is a solution.", boxes_text(tally.unproven)));
 }
 
 }  // namespace
@@ -312,7 +307,7 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
       words.shares.push_back({verdict, n, static_cast<double>(n) / static_cast<double>(cover.boxes.size())});
   }
   if (const std::size_t in_one = boxes_in_one(result); in_one > 1)
-    words.meaning += fmt::format("; drawn here: hulls of up to {} neighbouring boxes of one verdict each", in_one);
+    words.meaning += fmt::format("; drawn here: hulls of up to {} neighbouring boxes with the same verdict", in_one);
   if (cover.boxes.empty()) {
     words.finding = "None";
     const char* const none = given_velocity_equation && set.given_none ? set.given_none : set.none;
@@ -329,15 +324,16 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
     (cover.dimension == 0 ? words.proven : words.unproven).push_back(meaning + ".");
   }
   if (cover.complete()) {
-    words.proven.push_back("Every one in the search domain lies in a box: all else is excluded with outward rounding.");
+    words.proven.push_back(
+        "Every solution in the search domain lies in a box: the rest of the domain is excluded with outward rounding.");
   } else {
-    words.unproven.push_back(fmt::format("The search {}: what {} may hold was not looked into.",
+    words.unproven.push_back(fmt::format("The search {} and left {} unsearched, which may hold solutions.",
                                          result.stopped.empty() ? "ended early" : "was stopped by " + result.stopped,
                                          boxes_text(cover.count(Verdict::pending))));
   }
   if (cover.complete() && !result.stopped.empty()) {
     words.unproven.push_back(
-        fmt::format("The work on it was stopped by {}: less is proven of its boxes than could be.", result.stopped));
+        fmt::format("The work on this set was stopped by {}: more could be proven about its boxes.", result.stopped));
   }
   if (cover.dimension == 0) {
     say_points(result, words);

@@ -50,24 +50,26 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
   const std::size_t n = tube.pieces.size();
   words.finding = "There is a path, proven from end to end.";
   const std::string test = "a Newton test with one parameter proves one lift onto C-space";
-  words.proven.push_back("One unbroken way of configurations from the start to the end: " +
-                         (n == 1 ? test : fmt::format("{} pieces that meet, in each of which {}", grouped(n), test)) + ".");
-  words.proven.push_back(fmt::format("No {} singularity on it: {} keep{} full rank all along.",
+  words.proven.push_back("The path is unbroken from the start to the end: " +
+                         (n == 1 ? test : fmt::format("it has {} pieces that meet, and in each {}", grouped(n), test)) +
+                         ".");
+  words.proven.push_back(fmt::format("The path meets no {} singularity: {} full rank on all of it.",
                                      view.avoid == Avoid::both ? "forward or inverse" : avoided(view.avoid),
-                                     kept_rank(view.avoid), view.avoid == Avoid::both ? "" : "s"));
+                                     kept_rank(view.avoid) + (view.avoid == Avoid::both ? " have" : " has")));
   if (const std::string bounds = bounds_of(mechanism, view.system); !bounds.empty())
     words.proven.push_back(fmt::format("It keeps to {}.", bounds));
   if (const double radius = tube.radius(); radius > 0) {
     const std::optional<double> length = analyze::length_size(view.system, tube);
     words.proven.push_back(fmt::format(
-        "All of that holds about it, too: for every configuration of which no sine or cosine of an angle differs by "
-        "more than {} from a point of the path{}.",
-        number(radius, 3), length ? ", and no length by more than " + number(radius * *length, 3) : ""));
+        "The same holds around the path: for every configuration whose sines and cosines of angles differ by at most {} "
+        "from "
+        "those of a point of the path{}.",
+        number(radius, 3), length ? ", and whose lengths differ by at most " + number(radius * *length, 3) : ""));
   }
   if (view.radius_asked > tube.radius())
-    words.unproven.push_back(fmt::format("The radius {} that was asked for.", number(view.radius_asked, 3)));
+    words.unproven.push_back(fmt::format("The path does not have the requested radius, {}.", number(view.radius_asked, 3)));
   words.unproven.push_back(
-      "That the path is the shortest, or the radius the true distance from singularities, which may be larger.");
+      "The path may not be the shortest, and the distance from singularities may be larger than the radius.");
 }
 
 }  // namespace
@@ -79,18 +81,18 @@ PathWords path_words(const symbolic::Mechanism& mechanism, const PathView& view)
   switch (view.path.status) {
     case Path::Status::path: say_of_a_path(mechanism, view, words); break;
     case Path::Status::separated:
-      words.finding = "There is no such path, proven.";
+      words.finding = "It is proven that there is no such path.";
       words.proven.push_back(
           fmt::format("The two configurations lie in different pieces of C-space without {} singularities: {}.",
                       avoided(view.avoid), reason));
       words.proven.push_back(
-          fmt::format("Whoever moves from the one to the other comes through {} {} singularity, or leaves the ranges.",
+          fmt::format("Every motion from one to the other passes {} {} singularity, or leaves the ranges.",
                       view.avoid == Avoid::inverse ? "an" : "a",
                       view.avoid == Avoid::both ? "forward or inverse" : avoided(view.avoid)));
       break;
     case Path::Status::unknown:
-      words.finding = "Neither a path nor a proof that there is none was found.";
-      words.unproven.push_back(fmt::format("That the two configurations can be joined, or not: {}.", reason));
+      words.finding = "corank found neither a path nor a proof that there is no path.";
+      words.unproven.push_back(fmt::format("It is open whether a path joins the two configurations: {}.", reason));
       break;
   }
   return words;

@@ -26,7 +26,7 @@ void check_can_draw(const std::filesystem::path& path) {
     throw result::ResultFileError(
         path.string() +
         ": this corank was built without Cairo, which draws .pdf and .png; write a .svg, or install "
-        "Cairo (on Debian: apt install libcairo2-dev) and build corank anew");
+        "Cairo (on Debian: apt install libcairo2-dev) and build corank again");
 }
 
 void write_drawing(const std::filesystem::path& path, const Layout& drawing, const std::string& title,

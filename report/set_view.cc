@@ -21,7 +21,7 @@ SetView set_view(result::Result result, System system, bool given_velocity_equat
 
 SetView set_view(const symbolic::Mechanism& mechanism, result::Result result) {
   if (!symbolic::singularity_set_from_string(result.set))
-    throw result::ResultFileError("the result's set '" + result.set + "' is no set of a mechanism");
+    throw result::ResultFileError("the result's set '" + result.set + "' is not a set of a mechanism");
   System system;
   try {
     system = result::system_of(mechanism, result);

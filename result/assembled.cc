@@ -33,11 +33,12 @@ std::string sample_text(const Sample& sample) {
 }
 
 std::string unknown_text(const Result& result) {
-  if (result.assembly.empty()) return result.stopped.empty() ? "it was not looked for" : "stopped by " + result.stopped;
+  if (result.assembly.empty())
+    return result.stopped.empty() ? "corank did not search for a configuration" : "stopped by " + result.stopped;
   const Result& search = result.assembly.front();
   if (!search.stopped.empty())
     return fmt::format("stopped by {}, after {} boxes", search.stopped, search.cover.statistics.processed);
-  return "its C-space is not empty as far as known, but no configuration could be proven";
+  return "C-space is not proven to be empty, but no configuration is proven to exist";
 }
 
 }  // namespace
@@ -62,15 +63,16 @@ std::vector<std::string> assembly_sentences(const Result& result) {
   if (!is_proven_empty(result)) return list;
   if (result.set != symbolic::definition(std::nullopt).name) {
     const auto can = assembled(result);
-    list.push_back(!can   ? "whether the robot can be assembled within its ranges is not known: " + unknown_text(result)
-                   : *can ? "the robot can be assembled within its ranges; proven to exist: " + sample_text(*sample(result))
-                          : "the robot cannot be assembled within its ranges: proven, it has no configuration at all");
+    list.push_back(!can   ? "it is not known whether the robot can be assembled within its ranges: " + unknown_text(result)
+                   : *can ? "the robot can be assembled within its ranges; this configuration is proven to exist: " +
+                                sample_text(*sample(result))
+                          : "the robot cannot be assembled within its ranges: it is proven that it has no configuration");
   }
   if (result.nearly_solved)
     list.push_back(fmt::format(
-        "within {0:g} of its coefficients there are solutions: equations that depend on each other contradict each other "
-        "once "
-        "their decimals are rounded; --tolerance {0:g} finds what is meant, or write exact numbers such as sqrt(3)/2",
+        "there are solutions if the coefficients may vary by {0:g} of their size: equations that depend on each other "
+        "contradict each other once their decimals are rounded; use --tolerance {0:g}, or write exact numbers such as "
+        "sqrt(3)/2",
         kRounding));
   return list;
 }

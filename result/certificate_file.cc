@@ -262,7 +262,7 @@ class Reader {
     if (n_ == 0 || texts.size() != cover_.points.size() * n_)
       refuse(kGroup + "decimals has another length than the list of points");
     const auto is_decimal = [](const std::string& t) { return t.find_first_not_of("-.0123456789") == std::string::npos; };
-    if (!std::all_of(texts.begin(), texts.end(), is_decimal)) refuse(kGroup + "decimals holds what is no number");
+    if (!std::all_of(texts.begin(), texts.end(), is_decimal)) refuse(kGroup + "decimals holds a text that is not a number");
     for (std::size_t i = 0; i < cover_.points.size(); ++i) {
       const auto from = texts.begin() + static_cast<std::ptrdiff_t>(i * n_);
       cover_.decimals.emplace_back(from, from + static_cast<std::ptrdiff_t>(n_));

@@ -133,13 +133,13 @@ class Parser {
 };
 
 Checkpoint parse(const std::filesystem::path& path, std::string_view bytes, const std::string& version) {
-  if (!bytes.starts_with(kFirstWords)) refuse(path, "no checkpoint, and no result, of corank");
+  if (!bytes.starts_with(kFirstWords)) refuse(path, "neither a checkpoint nor a result of corank");
   const std::size_t end = bytes.substr(0, kFirstWords.size() + kLongestVersion).find('\n');
   if (end == std::string_view::npos || bytes.size() < end + 1 + kSumBytes)
     refuse(path, "a damaged checkpoint: it is cut short");
   const std::string made_by(bytes.substr(kFirstWords.size(), end - kFirstWords.size()));
   if (made_by != version)
-    refuse(path, "a checkpoint by corank " + made_by + "; this is corank " + version + ", whose search may be another");
+    refuse(path, "a checkpoint by corank " + made_by + "; this is corank " + version + ", whose search may differ");
   const std::string_view summed = bytes.substr(0, bytes.size() - kSumBytes);
   const std::uint64_t sum = Parser(path, bytes.substr(summed.size())).number(kSumBytes);
   if (crc32_z(0, reinterpret_cast<const Bytef*>(summed.data()), summed.size()) != sum)
@@ -192,8 +192,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string&
       const Hdf5Reader file(path.string(), Contents::search);
       if (!file.has(kArray))
         refuse(path,
-               "this result keeps nothing to go on from; expected one that a limit has ended, or one that was solved "
-               "by corank solve --keep-sheets");
+               "this result does not hold the state of a search; expected a result that a limit ended, or one made by "
+               "corank solve --keep-sheets");
       std::vector<std::uint8_t> data;
       file.read(kArray, data);
       bytes.assign(data.begin(), data.end());

@@ -41,7 +41,8 @@ std::vector<CoverBox> read_boxes(Hdf5Reader& file, const std::string& group, std
                  [&](std::size_t i, std::span<const std::span<const double>> ends, std::span<const std::uint8_t> free) {
                    for (std::size_t j = 0; j < n; ++j) {
                      const double lower = ends[0][j], upper = ends[1][j];
-                     if (!(lower <= upper)) throw ResultFileError(file.path() + ": a box in " + group + " is none");
+                     if (!(lower <= upper))
+                       throw ResultFileError(file.path() + ": a box in " + group + " has a side that is not an interval");
                      boxes[i].box.emplace_back(lower, upper);
                      if (free[j] != 0) boxes[i].free.push_back(static_cast<int>(j));
                    }

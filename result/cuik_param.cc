@@ -110,7 +110,7 @@ class ParamParser {
         fail(line_, error == std::errc::result_out_of_range ? "a number is out of range" : "found '.'", "a number");
       end = static_cast<std::size_t>(stop - text_.data());
       if (end < text_.size() && (is_word(text_[end]) || text_[end] == '.'))
-        fail(line_, "found a letter right behind a number", "a blank");
+        fail(line_, "found a letter right after a number", "a blank");
       token_.kind = Token::Kind::number;
     } else if (is_word(c)) {
       while (end < text_.size() && is_word(text_[end])) ++end;
@@ -118,7 +118,7 @@ class ParamParser {
     } else {
       if (std::string_view("+-*/^()=?:<>").find(c) == std::string_view::npos) {
         const bool printable = c > 0x20 && c < 0x7F;
-        fail(line_, printable ? std::string("found '") + c + "'" : "found a character that has no place here",
+        fail(line_, printable ? std::string("found '") + c + "'" : "found a character that is not allowed here",
              "NAME = value, with +, -, *, /, ^, <, >, ? : and parentheses in the value");
       }
       end = at_ + 1;
@@ -174,7 +174,7 @@ class ParamParser {
   void apply(const CuikParameter& parameter, const Token& name, std::optional<double> value) {
     const auto positive = [&] {
       if (!value || !std::isfinite(*value) || *value <= 0)
-        fail(name.line, name.text + " has no use like that", "a positive number");
+        fail(name.line, name.text + " cannot be used", "a positive number");
       return *value;
     };
     switch (parameter.use) {
@@ -182,7 +182,7 @@ class ParamParser {
       case Use::small_sigma: out_.small_sigma = positive(); return;
       case Use::n_solutions:
         if (!value || !(*value >= 0 && *value <= std::numeric_limits<int>::max()) || *value != std::floor(*value)) {
-          fail(name.line, name.text + " has no use like that", "a number of boxes, or 0 for all");
+          fail(name.line, name.text + " cannot be used", "a number of boxes, or 0 for all");
         }
         out_.n_solutions = static_cast<int>(*value);
         return;

@@ -63,7 +63,7 @@ std::string statistics(const Result& result) {
     if (const std::size_t n = cover.count(verdict); n > 0) out += fmt::format("      {:<16}: {:6}\n", to_string(verdict), n);
   }
   out += cover.complete() ? "Complete: every solution in the search domain is in a box\n"
-                          : "Incomplete: the search ended before its end; pending boxes are not searched\n";
+                          : "Incomplete: the search ended early; pending boxes were not searched\n";
   return out;
 }
 
@@ -108,7 +108,7 @@ std::string to_sol(const Result& result) {
   out += fmt::format("\n{}\nEquations from file: {}.cuik\n", kRule, model);
   out += fmt::format("% the set solved: {}\n", result.set);
   if (result.options.tolerance > 0) {
-    out += fmt::format("% coefficients that are no integers: within {} of their size\n", result.options.tolerance);
+    out += fmt::format("% coefficients that are not integers: within {} of their size\n", result.options.tolerance);
   }
   for (const ConstantOverride& c : result.options.constants) {
     out += without_braces(fmt::format("% with {} = {}\n", c.name, c.expression));

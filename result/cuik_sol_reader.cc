@@ -47,7 +47,7 @@ class SolParser {
     }
     if (out_.variables.empty() && out_.boxes.empty()) return out_;
     if (std::set<std::string>(out_.variables.begin(), out_.variables.end()).size() != out_.variables.size()) {
-      throw CuikFileError(file_, first_box_line_, "a name stands twice in a box", "distinct names of variables");
+      throw CuikFileError(file_, first_box_line_, "a name occurs twice in a box", "distinct names of variables");
     }
     return out_;
   }
@@ -101,9 +101,9 @@ class SolParser {
     const double lo = number<double>("a lower bound");
     expect(',', "',' between the bounds");
     const double hi = number<double>("an upper bound");
-    expect(']', "']' behind the bounds");
+    expect(']', "']' after the bounds");
     if (!std::isfinite(lo) || !std::isfinite(hi)) fail("a bound is not finite", "finite numbers");
-    if (!(lo <= hi)) fail("a side of a box is empty", "a lower bound that is no larger than the upper one");
+    if (!(lo <= hi)) fail("a side of a box is empty", "a lower bound of at most the upper one");
     return {lo, hi};
   }
 
@@ -125,7 +125,7 @@ class SolParser {
       if (at_ < text_.size() && text_[at_] != '[' && !is_blank(text_[at_])) found("'[' or a variable's name");
       box.box.push_back(interval());
       if (!names.empty() && names.size() != box.box.size())
-        fail("only some sides have a name", "a name for each side or none");
+        fail("only some sides have a name", "a name for each side, or no names");
     }
     if (at_ >= text_.size()) found("'}'");
     advance();
@@ -167,7 +167,7 @@ class SolParser {
     std::istringstream names{std::string(rest.substr(5))};
     for (std::string name; names >> name; box.free.push_back(name)) {
       if (std::find(out_.variables.begin(), out_.variables.end(), name) == out_.variables.end()) {
-        fail("the free variable " + shown(name) + " is none of the box", "names of its variables");
+        fail("the free variable " + shown(name) + " is not a variable of the box", "names of its variables");
       }
     }
   }

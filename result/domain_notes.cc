@@ -40,7 +40,9 @@ bool is_of(const System& system, const Result& result) {
 }
 
 std::string sentence(const char* verb, const std::vector<std::string>& names) {
-  return fmt::format("{} the end{} of {}: not searched beyond", verb, names.size() == 1 ? "" : "s", fmt::join(names, ", "));
+  const char* const s = names.size() == 1 ? "" : "s";
+  return fmt::format("the set {} the end{} of the declared range{} of {}; nothing beyond was searched", verb, s, s,
+                     fmt::join(names, ", "));
 }
 
 }  // namespace

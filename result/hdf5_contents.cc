@@ -39,7 +39,8 @@ Extents shape_of(hid_t space, const std::string& name) {
   const H5S_class_t kind = H5Sget_simple_extent_type(space);
   if (kind == H5S_SCALAR) return shape;
   shape.rank = H5Sget_simple_extent_ndims(space);
-  if (kind != H5S_SIMPLE || shape.rank < 1 || shape.rank > 2) refuse(name + " has no shape that a result has");
+  if (kind != H5S_SIMPLE || shape.rank < 1 || shape.rank > 2)
+    refuse(name + " does not have the shape of an item of a result");
   std::array<hsize_t, 2> sizes{1, 1}, most{1, 1};
   if (H5Sget_simple_extent_dims(space, sizes.data(), most.data()) < 0) refuse(name + " has no shape");
   for (std::size_t k = 0; k < static_cast<std::size_t>(shape.rank); ++k) {
@@ -122,7 +123,7 @@ class ContentsCopy {
 
   void copy_group(const std::string& path, int depth) {
     if (depth > kDeepest) refuse(path + " lies too deep for a result");
-    const Handle group(H5Gopen2(file_, path.c_str(), H5P_DEFAULT), H5Gclose, path + " is no group");
+    const Handle group(H5Gopen2(file_, path.c_str(), H5P_DEFAULT), H5Gclose, path + " is not a group");
     copy_attributes(group, path);
     const auto list = [&group](void* found) {
       return H5Literate(
@@ -135,7 +136,7 @@ class ContentsCopy {
       if (path == "/" && (name == kSearchGroup) != (wanted_ == Contents::search)) continue;
       H5L_info_t link;
       if (H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT) < 0) refuse(item + " is a damaged link");
-      if (link.type != H5L_TYPE_HARD) refuse(item + " is a link to elsewhere: a result holds all that it is made of");
+      if (link.type != H5L_TYPE_HARD) refuse(item + " is a link to elsewhere; a result holds all of its data");
       H5O_info_t object;
       if (H5Oget_info_by_name2(group, name.c_str(), &object, H5O_INFO_BASIC, H5P_DEFAULT) < 0) refuse(item + " is damaged");
       if (object.type == H5O_TYPE_GROUP) {
@@ -186,9 +187,8 @@ class ContentsCopy {
     const std::string& name = item.name;
     const Handle properties(H5Dget_create_plist(set), H5Pclose, name + " is damaged");
     const H5D_layout_t layout = H5Pget_layout(properties);
-    if (H5Pget_external_count(properties) != 0)
-      refuse(name + " is stored in another file: a result holds all that it is made of");
-    if (layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED) refuse(name + " is stored as no array of a result is");
+    if (H5Pget_external_count(properties) != 0) refuse(name + " is stored in another file; a result holds all of its data");
+    if (layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED) refuse(name + " is not stored like an array of a result");
     const int filters = H5Pget_nfilters(properties);
     for (int k = 0; k < filters; ++k) {
       unsigned flags = 0, settings = 0;

@@ -70,7 +70,7 @@ void Hdf5Reader::fail(const std::string& what) const { throw ResultFileError(pri
 
 const Item& Hdf5Reader::array(const std::string& name) const {
   const auto found = items_.find(at(name));
-  if (found == items_.end()) fail("no corank result: " + at(name) + " is missing");
+  if (found == items_.end()) fail("not a corank result: " + at(name) + " is missing");
   return found->second;
 }
 
@@ -92,7 +92,7 @@ const Item& Hdf5Reader::shaped(const std::string& name, ItemType type, std::size
 
 const Item& Hdf5Reader::attribute(const std::string& object, const std::string& name) const {
   const auto found = items_.find(at(object) + "@" + name);
-  if (found == items_.end()) fail("no corank result: the attribute " + name + " of " + at(object) + " is missing");
+  if (found == items_.end()) fail("not a corank result: the attribute " + name + " of " + at(object) + " is missing");
   if (found->second.elements() != 1) fail("the attribute " + name + " of " + object + " is not one value");
   return found->second;
 }
@@ -141,7 +141,7 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name) const {
 template <class T>
 void Hdf5Reader::read_vector(const std::string& name, ItemType type, std::vector<T>& data) const {
   const Item& item = array(name, type, "numbers of its kind");
-  if (item.rank != 1) fail(name + " is no vector");
+  if (item.rank != 1) fail(name + " is not a vector");
   data = copied<T>(item);
 }
 
@@ -160,7 +160,7 @@ void Hdf5Reader::read(const std::string& name, std::vector<double>& data) const 
 
 std::vector<std::uint8_t> Hdf5Reader::enumeration(const std::string& name, const std::vector<std::string>& words) const {
   const Item& item = array(name, ItemType::word, "enumeration");
-  if (item.rank != 1) fail(name + " is no vector");
+  if (item.rank != 1) fail(name + " is not a vector");
   std::array<int, 256> meaning, place;
   meaning.fill(-1);
   place.fill(-1);
@@ -183,13 +183,13 @@ std::vector<std::uint8_t> Hdf5Reader::enumeration(const std::string& name, const
 
 std::string Hdf5Reader::text(const std::string& name) const {
   const Item& item = array(name, ItemType::text, "text");
-  if (item.elements() != 1) fail(name + " is no text");
+  if (item.elements() != 1) fail(name + " is not a text");
   return unpadded(item.data);
 }
 
 std::vector<std::string> Hdf5Reader::texts(const std::string& name) const {
   const Item& item = array(name, ItemType::text, "texts");
-  if (item.rank != 1) fail(name + " is no list of texts");
+  if (item.rank != 1) fail(name + " is not a list of texts");
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < item.elements(); ++i) texts.push_back(unpadded(item.data.subspan(i * item.width, item.width)));
   return texts;
@@ -203,25 +203,27 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
 
 double Hdf5Reader::double_attribute(const std::string& object, const std::string& name) const {
   const Item& item = attribute(object, name);
-  if (item.type != ItemType::float64) fail("the attribute " + name + " of " + object + " is no floating-point number");
+  if (item.type != ItemType::float64) fail("the attribute " + name + " of " + object + " is not a floating-point number");
   return single<double>(item);
 }
 
 std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) const {
   const Item& item = attribute(object, name);
-  if (item.type != ItemType::int64) fail("the attribute " + name + " of " + object + " is no integer of its kind");
+  if (item.type != ItemType::int64)
+    fail("the attribute " + name + " of " + object + " is not an integer of the expected type");
   return single<std::int64_t>(item);
 }
 
 std::uint64_t Hdf5Reader::unsigned_attribute(const std::string& object, const std::string& name) const {
   const Item& item = attribute(object, name);
-  if (item.type != ItemType::uint64) fail("the attribute " + name + " of " + object + " is no integer of its kind");
+  if (item.type != ItemType::uint64)
+    fail("the attribute " + name + " of " + object + " is not an integer of the expected type");
   return single<std::uint64_t>(item);
 }
 
 std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
   const Item& item = attribute(object, name);
-  if (item.type != ItemType::text) fail("the attribute " + name + " of " + object + " is no text");
+  if (item.type != ItemType::text) fail("the attribute " + name + " of " + object + " is not a text");
   return unpadded(item.data);
 }
 

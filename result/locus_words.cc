@@ -26,24 +26,22 @@ Words words_of(const symbolic::SetDefinition& set) {
 
 std::string cusps_text(const Words& words, std::size_t proven, std::size_t open, bool complete, bool none) {
   if (proven > 0) {
-    return fmt::format("around {} {} can be changed without {} {} singularity: proven",
+    return fmt::format("it is proven that around {} {} can change without {} {} singularity",
                        proven == 1 ? "this cusp" : fmt::format("these {} cusps", proven), words.modes,
                        *words.locus == 'i' ? "an" : "a", words.locus);
   }
   if (open > 0 || !none) return "no cusp is proven";
-  if (!complete) return "no cusp was found in what was searched";
-  return fmt::format(
-      "there is no cusp in the search domain, so none around which {} could be changed without a singularity; other such "
-      "changes are not excluded",
-      words.modes);
+  if (!complete) return "no cusp was found in the part that was searched";
+  return fmt::format("there is no cusp in the search domain; {} may still change without a singularity in another way",
+                     words.modes);
 }
 
 std::string nodes_text(const Words& words, std::size_t proven, std::size_t open, bool complete, bool none) {
   const std::string crossing =
-      fmt::format("two singular configurations with the same {}, whose images cross: proven", words.locked);
+      fmt::format("two singular configurations with the same {}, whose images are proven to cross", words.locked);
   if (proven > 0) return fmt::format("{} node{}: {}", proven, proven == 1 ? "" : "s", crossing);
   if (open > 0 || !none) return "no node is proven";
-  return complete ? "there is no node in the search domain" : "no node was found in what was searched";
+  return complete ? "there is no node in the search domain" : "no node was found in the part that was searched";
 }
 
 // Boxes that are about a point: those on a self-motion, of which there is none in the list of points, are not.
@@ -117,14 +115,13 @@ std::string locus_sentence(const Result& result) {
                  : cusps_text(words, proven, open, cover.complete(), along == 0);
     if (const std::string held = held_and_not_locked(result, set.locked.front()); proven > 0 && !held.empty()) {
       text = fmt::format(
-          "{0} solution{1} of the equations of {2}s where {3} is held; that {4} a {2} is proven only where no coordinate "
-          "but "
-          "{5} is held",
+          "{0} solution{1} of the equations of {2}s, with {3} held; it is proven that {4} a {2} only if no coordinate "
+          "except {5} is held",
           proven, proven == 1 ? "" : "s", noun, held, proven == 1 ? "it is" : "each is", words.locked);
     }
-    if (open > 0) text += fmt::format("; {} {} where that is open", open, open == 1 ? "place is left" : "places are left");
+    if (open > 0) text += fmt::format("; at {} more place{} this is open", open, open == 1 ? "" : "s");
     if (along > 0) {
-      text += fmt::format("; the equations hold, or may hold, along larger sets, in {} box{}, of which nothing is said",
+      text += fmt::format("; in {} box{} the equations hold, or may hold, along larger sets, about which nothing is said",
                           along, along == 1 ? "" : "es");
     }
     if (!cover.complete() && proven + open > 0) text += "; what was not searched may hold more";
@@ -133,8 +130,8 @@ std::string locus_sentence(const Result& result) {
   }
   if (nodes) {
     text += fmt::format(
-        "; pairs of configurations closer than {} (a length counts in its typical size, an angle by its sine and cosine) "
-        "were not looked for",
+        "; pairs of configurations closer than {} were not searched for (a length counts in units of its typical size, an "
+        "angle by its sine and cosine)",
         symbolic::kNodeDistance);
   }
   return text;

@@ -115,8 +115,8 @@ class MapReader {
     family.corank = static_cast<int>(corank);
     const auto over = file_.texts("/over/names"), from = file_.texts("/over/from"), to = file_.texts("/over/to"),
                fixed = file_.texts("/fixed/names"), values = file_.texts("/fixed/values");
-    if (over.size() != 2 || from.size() != 2 || to.size() != 2) refuse("it has not two parameters");
-    if (fixed.size() != values.size()) refuse("its fixed coordinates have not a value each");
+    if (over.size() != 2 || from.size() != 2 || to.size() != 2) refuse("it does not have two parameters");
+    if (fixed.size() != values.size()) refuse("its fixed coordinates do not have a value each");
     for (std::size_t k = 0; k < 2; ++k)
       family.over.push_back(
           {over[k], symbolic::parse_expression(from[k], over[k]), symbolic::parse_expression(to[k], over[k])});
@@ -133,20 +133,20 @@ class MapReader {
     for (std::size_t c = 0; c < counts.size(); ++c) {
       MapCellClaim& cell = data_.claims.cells.emplace_back();
       for (std::size_t k = 2 * c; k < 2 * c + 2; ++k) {
-        if (!(lower[k] <= upper[k])) refuse("a cell is none");
+        if (!(lower[k] <= upper[k])) refuse("a cell has a side that is not an interval");
         cell.sides.emplace_back(lower[k], upper[k]);
       }
       if (counts[c] < 0 || counts[c] > kMostOfOne) refuse("a number is out of range");
       cell.count = static_cast<int>(counts[c]);
       if (sheets[c] < 0 || static_cast<std::uint64_t>(sheets[c]) > cover.boxes.size() - next)
-        refuse("its cells have other sheets than there are");
+        refuse("its cells name sheets that do not exist");
       for (const std::size_t end = next + static_cast<std::size_t>(sheets[c]); next < end; ++next) {
         if (cover.boxes[next].region < 0) refuse("a sheet has no region");
         cell.sheets.push_back(
             {std::move(cover.boxes[next].box), cover.regions[static_cast<std::size_t>(cover.boxes[next].region)]});
       }
     }
-    if (next != cover.boxes.size()) refuse("its cells have other sheets than there are");
+    if (next != cover.boxes.size()) refuse("its cells name sheets that do not exist");
     data_.claims.reduction = std::move(cover.reduction);
   }
 
@@ -184,23 +184,23 @@ std::string to_table(const check::MapReport& report, const MapFile& file) {
   const std::size_t all = report.cells.size();
   std::string text = fmt::format("{}: numbers of solutions over {} and {}\n", printable_line(file.model),
                                  printable_line(file.family.over.at(0).name), printable_line(file.family.over.at(1).name));
-  text += fmt::format("  cells  claimed: {}; confirmed: at least as many in {}, no more in {}; {} sheets\n", all,
+  text += fmt::format("  cells  claimed: {}; confirmed: at least as many in {}, at most as many in {}; {} sheets\n", all,
                       report.at_least(), report.completed(), report.sheets);
   const auto exact = confirmed_shares(report, file, &check::MapCellReport::complete);
   for (const auto& [count, share] : confirmed_shares(report, file, &check::MapCellReport::at_least)) {
     const auto found = exact.find(count);
-    text += fmt::format("  {:<5}  on {:.1f} % of the plane; that there are no more: on {:.1f} %\n", count, 100 * share,
+    text += fmt::format("  {:<5}  on {:.1f} % of the plane; at most as many: on {:.1f} %\n", count, 100 * share,
                         100 * (found == exact.end() ? 0 : found->second));
   }
   text += failure_lines(report.failures);
   if (report.complete()) return text + "verified\n";
   if (report.verified())
     return text +
-           fmt::format("not confirmed: that there are no more solutions than claimed, in {} cells\n",
+           fmt::format("not confirmed in {} cells: that there are at most as many solutions as claimed\n",
                        all - report.completed()) +
-           "verified, but not its completeness\n";
-  return text +
-         (report.failures.empty() ? "interrupted in " + report.stage + "; nothing is said of the rest\n" : "NOT VERIFIED\n");
+           "verified, except for completeness\n";
+  return text + (report.failures.empty() ? "interrupted in " + report.stage + "; nothing is said about the rest\n"
+                                         : "NOT VERIFIED\n");
 }
 
 std::string to_json(const check::MapReport& report, const MapFile& file) {

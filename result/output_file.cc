@@ -81,7 +81,7 @@ void check_target(const fs::path& path, const fs::path& target) {
   if (path.empty()) refuse(path, "; expected the name of a file");
   if (stat(target.c_str(), &info) != 0) return;
   if (S_ISDIR(info.st_mode)) refuse(path, ", it is a folder; expected the name of a file");
-  if (!S_ISREG(info.st_mode)) refuse(path, ", it is no regular file; expected the name of a file");
+  if (!S_ISREG(info.st_mode)) refuse(path, ", it is not a regular file; expected the name of a file");
   if ((info.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0 || access(target.c_str(), W_OK) != 0)
     refuse(path, ": it is read-only");
 }

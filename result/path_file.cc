@@ -37,7 +37,8 @@ std::vector<Box> read_boxes(const Hdf5Reader& file, const std::string& group, st
                             upper = file.doubles(group + "/upper", count, n);
   std::vector<Box> boxes(count);
   for (std::size_t k = 0; k < count * n; ++k) {
-    if (!(lower[k] <= upper[k])) throw ResultFileError(file.path() + ": a box in " + group + " is none");
+    if (!(lower[k] <= upper[k]))
+      throw ResultFileError(file.path() + ": a box in " + group + " has a side that is not an interval");
     boxes[k / n].emplace_back(lower[k], upper[k]);
   }
   return boxes;
@@ -89,7 +90,8 @@ PathFile read_path(const std::filesystem::path& path) {
   PathFile data;
   read_source(file, kPathFormat, kPathVersion, data);
   data.avoid = file.text_attribute("/", "avoid");
-  if (data.avoid != "forward" && data.avoid != "inverse" && data.avoid != "both") refuse("it avoids nothing that is known");
+  if (data.avoid != "forward" && data.avoid != "inverse" && data.avoid != "both")
+    refuse("it does not say which singularities it avoids");
   const std::size_t n = count("variables", 1, kMostVariables), across = count("dimension", 1, static_cast<std::int64_t>(n)),
                     nodes = count("nodes", 2, kMostNodes);
   data.variables = file.texts("/variables");
@@ -126,7 +128,7 @@ check::TubeReport verify(const PathFile& file, const check::Options& options) {
     if (file.avoid == other) continue;
     const auto blocks = symbolic::velocity_blocks(model, set);
     if (!blocks) {
-      report.failures.emplace_back("the model's velocity equation is no matrix of polynomials");
+      report.failures.emplace_back("the model's velocity equation is not a matrix of polynomials");
       return report;
     }
     matrices.push_back(blocks->matrices[static_cast<std::size_t>(block)]);

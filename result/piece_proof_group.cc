@@ -103,7 +103,7 @@ PieceProof read_piece_proof(Hdf5Reader& file, const std::string& group, std::siz
     const std::vector<double> from = boxes.lower.row(k), to = boxes.upper.row(k);
     std::vector<Interval> result;
     for (std::size_t j = 0; j < from.size(); ++j) {
-      if (!(from[j] <= to[j])) refuse("a box is none");
+      if (!(from[j] <= to[j])) refuse("a box has a side that is not an interval");
       result.emplace_back(from[j], to[j]);
     }
     return result;
@@ -111,7 +111,7 @@ PieceProof read_piece_proof(Hdf5Reader& file, const std::string& group, std::siz
   const auto variables = [&](const Rows<std::int32_t>& rows, std::size_t k) {
     const std::vector<std::int32_t> list = rows.row(k);
     for (const std::int32_t j : list)
-      if (j < 0 || static_cast<std::size_t>(j) >= n) refuse("a variable is none");
+      if (j < 0 || static_cast<std::size_t>(j) >= n) refuse("a variable does not exist");
     return std::vector<int>(list.begin(), list.end());
   };
   PieceProof proof;

@@ -101,7 +101,7 @@ PieceClaims read_list(Hdf5Reader& file, const std::string& name, std::size_t n, 
   for (std::size_t k = 0; k < members; ++k) {
     PieceMember& m = claims.members.emplace_back();
     for (std::size_t j = k * n; j < (k + 1) * n; ++j) {
-      if (!(lower[j] <= upper[j])) refuse("a box is none");
+      if (!(lower[j] <= upper[j])) refuse("a box has a side that is not an interval");
       m.box.emplace_back(lower[j], upper[j]);
     }
     for (std::size_t j = 0; j < dimension; ++j) m.free.push_back(number(free[k * dimension + j], 0, kMostPieces));
@@ -184,7 +184,7 @@ std::string open_lines(const check::PiecesReport& report) {
   for (std::size_t k = 0; k < report.lists.size(); ++k) {
     const check::PieceReport& r = report.lists[k];
     if (r.bounded) continue;
-    text += fmt::format("not confirmed: that there are no more {} than claimed{}{}\n", kWords[k],
+    text += fmt::format("not confirmed: that there are at most as many {} as claimed{}{}\n", kWords[k],
                         r.unbounded.empty() ? "" : ": ", r.unbounded);
   }
   return text;
@@ -204,13 +204,13 @@ std::string to_table(const check::PiecesReport& report, const PiecesFile& file) 
   text += failure_lines(failures);
   if (!report.verified())
     return text + (report.interrupted && failures.empty()
-                       ? "interrupted in " + report.stage + "; nothing is said of the rest\n"
+                       ? "interrupted in " + report.stage + "; nothing is said about the rest\n"
                        : "NOT VERIFIED\n");
   if (report.complete()) return text + "verified\n";
   text += open_lines(report);
   if (!report.space.complete())
-    text += "not proven by the file: that its boxes hold all of C-space, on which the counts rest\n";
-  return text + "verified, but not its completeness\n";
+    text += "the file does not prove that its boxes hold all of C-space, on which the counts rest\n";
+  return text + "verified, except for completeness\n";
 }
 
 std::string to_json(const check::PiecesReport& report, const PiecesFile& file) {

@@ -33,7 +33,7 @@ class Parser {
     for (std::uint64_t kind = number(); kind != kEnd; kind = number()) {
       Item item = parse_item(kind);
       std::string name = item.name;
-      if (!items.try_emplace(std::move(name), std::move(item)).second) throw PlainItemsError("a name stands twice");
+      if (!items.try_emplace(std::move(name), std::move(item)).second) throw PlainItemsError("a name occurs twice");
     }
     return items;
   }

@@ -167,7 +167,7 @@ class ResultReader {
  public:
   explicit ResultReader(Hdf5Reader file, Reading reading = {}) : file_(std::move(file)), reading_(std::move(reading)) {
     if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != kFormat) {
-      refuse("this is no corank result");
+      refuse("this is not a corank result");
     }
     format_ = file_.integer_attribute("/", "format_version");
     if (format_ < 1 || format_ > kFormatVersion) {
@@ -200,7 +200,7 @@ class ResultReader {
     file_.enter("");
     for (auto* boxes : {&result.cover.boxes, &result.cover.points})
       for (const CoverBox& box : *boxes)
-        if (box.part < 0 || box.part >= parts) refuse("a box is of a part that is not there");
+        if (box.part < 0 || box.part >= parts) refuse("a box names a part that does not exist");
     return result;
   }
 
@@ -300,7 +300,7 @@ class ResultReader {
     const std::vector<std::int64_t> parts = file_.integers(group + "/part");
     if (parts.size() != boxes.size()) refuse(group + " differ in length");
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      if (parts[i] < -1 || parts[i] > kMostParts) refuse(group + "/part names a part that is not there");
+      if (parts[i] < -1 || parts[i] > kMostParts) refuse(group + "/part names a part that does not exist");
       boxes[i].part = static_cast<int>(parts[i]);
     }
   }

@@ -175,7 +175,7 @@ class ShapeReader {
     for (std::size_t k = 0; k < bridges; ++k) {
       shape.bridges.push_back({part(free, k, dimension), {}});
       for (std::size_t j = k * n_; j < (k + 1) * n_; ++j) {
-        if (!(lower[j] <= upper[j])) refuse("a bridge's box is none");
+        if (!(lower[j] <= upper[j])) refuse("a bridge's box has a side that is not an interval");
         shape.bridges.back().region.emplace_back(lower[j], upper[j]);
       }
     }
@@ -213,10 +213,10 @@ std::string to_table(const check::ShapeReport& report, const ShapeFile& file) {
   text += failure_lines(report.failures);
   if (report.complete()) return text + "verified\n";
   if (report.verified())
-    return text + "the counts are those of the boxes in the file; that these hold the whole set is not proven by it\n" +
-           "verified, but not its completeness\n";
-  return text +
-         (report.failures.empty() ? "interrupted in " + report.stage + "; nothing is said of the rest\n" : "NOT VERIFIED\n");
+    return text + "the counts are those of the boxes in the file, which does not prove that they hold the whole set\n" +
+           "verified, except for completeness\n";
+  return text + (report.failures.empty() ? "interrupted in " + report.stage + "; nothing is said about the rest\n"
+                                         : "NOT VERIFIED\n");
 }
 
 std::string to_json(const check::ShapeReport& report, const ShapeFile& file) {

@@ -33,7 +33,7 @@ void write_source(Hdf5Writer& file, const std::string& format, std::int64_t form
 
 void read_source(const Hdf5Reader& file, const std::string& format, std::int64_t format_version, ModelSource& source) {
   const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": " + what); };
-  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != format) refuse("this is no " + format);
+  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != format) refuse("this is not a " + format);
   if (file.integer_attribute("/", "format_version") != format_version)
     refuse("a format version that this corank cannot read");
   source.version = file.text_attribute("/", "version");
@@ -41,7 +41,7 @@ void read_source(const Hdf5Reader& file, const std::string& format, std::int64_t
   source.model_text = file.text("/model/text");
   const std::vector<std::string> constants = file.texts("/model/constants/names"),
                                  expressions = file.texts("/model/constants/expressions");
-  if (constants.size() != expressions.size()) refuse("its constants have not a value each");
+  if (constants.size() != expressions.size()) refuse("its constants do not have a value each");
   for (std::size_t k = 0; k < constants.size(); ++k) source.constants.push_back({constants[k], expressions[k]});
 }
 

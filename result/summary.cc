@@ -51,10 +51,10 @@ std::string types_text(const Cover& cover) {
     between = ", ";
   }
   if (tally.unproven > 0) text += fmt::format("{}unproven in {}", between, plural(tally.unproven, "box"));
-  if (tally.unproven == 0 && *between == ' ') text += " none of those asked for";
+  if (tally.unproven == 0 && *between == ' ') text += " no box has one of the requested types";
   text += "\n";
   if (cover.types.left_out > 0)
-    text += fmt::format("  {} of the kernel's set left out: no solution in {} is of the set's type\n",
+    text += fmt::format("  {} of the kernel's set left out: no solution in {} has the set's type\n",
                         plural(cover.types.left_out, "box"), cover.types.left_out == 1 ? "it" : "them");
   return text;
 }
@@ -95,8 +95,7 @@ std::string points_table(const Result& result) {
     text += fmt::format("  {}\n", row.back());
   }
   if (const std::size_t shown = rows.size() - 1; shown < result.cover.points.size())
-    text +=
-        fmt::format("  and {} more, which the result file and the JSON summary hold\n", result.cover.points.size() - shown);
+    text += fmt::format("  and {} more: see the result file or the JSON summary\n", result.cover.points.size() - shown);
   return text;
 }
 
@@ -129,11 +128,14 @@ std::string kernel_text(const Result& result) {
   text += "\n";
   const auto points = std::count_if(result.cover.exact_points.begin(), result.cover.exact_points.end(),
                                     [](const ExactPoint& p) { return p.corank > 1; });
-  if (known > 0) text += fmt::format("  a configuration where this is proven lies in {} of them:\n", known);
-  if (explained > 0)
-    text +=
-        fmt::format("  {} of these hold {} where it is proven:\n", explained == larger ? "all" : std::to_string(explained),
-                    points == 1 ? "the point" : fmt::format("one of {} points", points));
+  if (known > 0) text += fmt::format("  in {} of them dimension {} is proven at a point:\n", known, least);
+  if (explained > 0) {
+    const std::string holds = larger == 1           ? "this box holds"
+                              : explained == larger ? fmt::format("each of these {} boxes holds", larger)
+                                                    : fmt::format("{} of these {} boxes hold", explained, larger);
+    text += fmt::format("  {} {} where a larger dimension is proven:\n", holds,
+                        points == 1 ? "the point" : fmt::format("one of {} points", points));
+  }
   int number = 0;
   for (const ExactPoint& point : result.cover.exact_points) {
     if (point.corank < 2) continue;
@@ -148,7 +150,7 @@ std::string kernel_text(const Result& result) {
     text += "\n";
   }
   if (larger > explained)
-    text += fmt::format("  whether it is larger than {} anywhere in {} is not known\n", least,
+    text += fmt::format("  it is not known whether the dimension is larger than {} anywhere in {}\n", least,
                         plural(larger - explained, "other box"));
   return text;
 }
@@ -166,7 +168,7 @@ std::string found_ranges_text(const Result& result) {
 
 // What keeps `boundary` boxes from being regular or isolated.
 std::string boundary_text(const DomainNotes& notes) {
-  std::string text = "  boundary: not shown to be inside";
+  std::string text = "  boundary: may reach beyond";
   for (const DomainNotes::Reason& reason : notes.boundary)
     text += fmt::format("{} {} ({})", &reason == notes.boundary.data() ? "" : ",", reason.text, reason.boxes);
   return text + "\n";
@@ -228,9 +230,9 @@ std::string sigma_text(const Sigma& sigma) {
 std::string along_set_text(const Cover& cover) {
   if (cover.observed_dimension <= cover.dimension) return "along a curve, or a larger set, of degenerate solutions";
   return fmt::format(
-      "along a set of dimension {}, as samples show, larger than expected; not proven: {}", cover.observed_dimension,
-      cover.self_motions.empty() ? "no linear relations were found on it that make its equations dependent; with "
-                                   "--tolerance 1e-6 independent ones among its equations are proven (partial)"
+      "along a set of dimension {}, larger than expected, as samples show; this is not proven: {}", cover.observed_dimension,
+      cover.self_motions.empty() ? "no linear relations were found on it that make its equations dependent; --tolerance "
+                                   "1e-6 proves boxes for independent equations among them (partial)"
                                  : "the linear relations that were found do not prove it there");
 }
 
@@ -240,11 +242,11 @@ std::string in_words(Reason reason, const Cover& cover) {
   using enum Reason;
   switch (reason) {
     case none: break;
-    case degenerate_point: return "next to a degenerate solution, where the Jacobian has not its full rank";
+    case degenerate_point: return "next to a degenerate solution, where the Jacobian does not have full rank";
     case degenerate_set: return along_set_text(cover);
     case tolerance:
       return "the coefficients' tolerance moves the solutions too far, or it is not shown that redundant equations hold";
-    case precision: return "doubles divide them no further";
+    case precision: return "doubles cannot divide them further";
     case limit: return "a limit ended the search before they were divided further";
   }
   return "reason unknown";
@@ -253,7 +255,7 @@ std::string in_words(Reason reason, const Cover& cover) {
 std::string motions_text(const Result& result) {
   std::string text;
   for (std::size_t k = 0; k < result.cover.self_motions.size(); ++k)
-    text += fmt::format("larger than expected, in {}: {}\n", plural(boxes_on(result.cover, k), "box"),
+    text += fmt::format("a set larger than expected, in {}: {}\n", plural(boxes_on(result.cover, k), "box"),
                         motion_sentence(result, k));
   return text;
 }
@@ -281,7 +283,7 @@ std::string to_table(const Result& result) {
   if (!result.stopped.empty()) text += fmt::format("stopped by {}\n", result.stopped);
   for (const std::string& sentence : range_end_sentences(result.domain)) text += sentence + "\n";
   if (cover.boxes.empty()) {
-    text += fmt::format("\nnone: there is no solution in the search domain   ({} processed)\n", cover.statistics.processed);
+    text += fmt::format("\nempty: there is no solution in the search domain   ({} processed)\n", cover.statistics.processed);
     if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += meaning + "\n";
     for (const std::string& sentence : assembly_sentences(result)) text += sentence + "\n";
     return text + seconds_text(cover);
@@ -302,23 +304,22 @@ std::string to_table(const Result& result) {
   if (const std::size_t wide = cover.wider_than_sigma; wide > 0) {
     text += fmt::format("  {} wider than sigma: {}\n", wide,
                         !result.stopped.empty() ? "the search ended before they were cut"
-                        : cover.tolerance > 0
-                            ? "the tolerance keeps proven boxes from narrowing"
-                            : "cutting them makes them no narrower, they are at the end of what doubles resolve");
+                        : cover.tolerance > 0   ? "the tolerance keeps proven boxes from narrowing"
+                                                : "cutting does not make them narrower, since doubles resolve no more");
   }
   if (cover.tolerance > 0) {
     const bool over_determined = static_cast<std::size_t>(result.equations) > result.variables.size();
-    text += fmt::format(
-        "\n{} within a relative tolerance of {:g};\n",
-        over_determined ? "more equations than variables: coefficients that are no integers are taken as they are written\n"
-                          "where the equations then fit each other, else"
-                        : "coefficients that are no integers are taken",
-        cover.tolerance / kPartialTolerance);
+    text += fmt::format("\n{} within a relative tolerance of {:g};\n",
+                        over_determined
+                            ? "more equations than variables: coefficients that are not integers are taken as written\n"
+                              "if the equations then fit each other, else"
+                            : "coefficients that are not integers are taken",
+                        cover.tolerance / kPartialTolerance);
     text += over_determined ? fmt::format(
-                                  "partial: proven for independent equations, on the piece the others hold within {:g} "
+                                  "partial: proven for independent equations; on the piece, the others hold within {:g} "
                                   "(relative to their coefficients)\n",
                                   cover.tolerance)
-                            : "what a verdict says holds for every choice of them\n";
+                            : "each verdict holds for every choice of them\n";
   }
   if (cover.dimension == 0 && !cover.points.empty()) {
     std::array<std::size_t, kVerdicts> points_with{};

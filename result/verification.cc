@@ -60,13 +60,14 @@ std::string completeness(const Report& report, bool complete) {
   const check::ProofTally& proof = report.proof;
   if (!proof.present && (report.interrupted || report.left_out > 0)) return "";
   if (!proof.present) return "completeness: no proof in the file\n";
-  std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched anew\n",
+  std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched again\n",
                                  proof.verified       ? "replayed"
                                  : report.interrupted ? "not shown yet"
                                                       : "NOT SHOWN",
                                  proof.steps, proof.leaves, proof.searched);
-  if (proof.open) text += "  next to a self-motion, where equations say little, it may hold all the same\n";
-  if (proof.verified && !complete) text += "  but for the pending boxes: the search ended early\n";
+  if (proof.open)
+    text += "  it could not be shown next to a self-motion, where the equations say little; it may hold nevertheless\n";
+  if (proof.verified && !complete) text += "  except for the pending boxes: the search ended early\n";
   return text;
 }
 
@@ -99,25 +100,25 @@ std::string conclusion(const Verification& verification, const Result& result) {
   if (report.interrupted) {
     std::size_t checked = 0;
     for (const Tally& t : report.boxes) checked += t.verified + t.failed;
-    return fmt::format("interrupted in {}: {} of {} boxes were checked{}; nothing is said of the rest\n", report.stage,
+    return fmt::format("interrupted in {}: {} of {} boxes were checked{}; nothing is said about the rest\n", report.stage,
                        checked, result.cover.boxes.size(), report.failures.empty() ? "" : ", NOT VERIFIED");
   }
   if (report.left_out > 0) {
     constexpr double kSurely = 3;  // (1 − 3/n)^n < 5 %
     const std::size_t all = result.cover.boxes.size(), n = all - report.left_out;
-    text = fmt::format("a sample: {} of {} boxes, chosen at random, were checked; nothing is said of the others{}\n", n, all,
-                       result.cover.proof ? ", nor of completeness" : "");
+    text = fmt::format("a sample: {} of {} boxes, chosen at random, were checked; nothing is said about the others{}\n", n,
+                       all, result.cover.proof ? " or about completeness" : "");
     if (!verification.contradictions.empty() || !report.confirmed()) return text + "NOT VERIFIED\n";
     if (static_cast<double>(n) > kSurely)
-      text +=
-          fmt::format("were more than {:.2g} % of all boxes wrong, at least 95 % of such samples would hold one of them\n",
-                      100 * kSurely / static_cast<double>(n));
-    return text + "verified, the sample alone\n";
+      text += fmt::format(
+          "if more than {:.2g} % of all boxes were wrong, at least 95 % of such samples would hold one of them\n",
+          100 * kSurely / static_cast<double>(n));
+    return text + "verified, but only the sample\n";
   }
   if (open > 0) text += fmt::format("{} undecided box{} nothing\n", open, open == 1 ? " claims" : "es claim");
   if (pending > 0) text += fmt::format("{} pending box{} not searched\n", pending, pending == 1 ? " was" : "es were");
   return text + (verification.complete()   ? "verified\n"
-                 : verification.verified() ? "verified, but not its completeness\n"
+                 : verification.verified() ? "verified, except for completeness\n"
                                            : "NOT VERIFIED\n");
 }
 
@@ -271,7 +272,7 @@ void verify_assembly(const Result& result, const check::Options& options, Verifi
   if (result.assembly.empty() || !verification.contradictions.empty()) return;
   const Result& cspace = result.assembly.front();
   if (!result.cover.boxes.empty() || !symbolic::definition(cspace.set).is_cspace()) {
-    verification.contradictions.emplace_back("what is said of C-space does not stand beside an empty set");
+    verification.contradictions.emplace_back("it says something about C-space, but its set is not empty");
     return;
   }
   const System system = system_of(model_of(result), cspace);
@@ -370,7 +371,7 @@ std::string to_table(const Verification& verification, const Result& result) {
   text += row("points", report.points) + row("exact points", report.exact_points);
   text += "\n" + completeness(report, result.cover.complete());
   text += assembly_text(verification, result);
-  if (!result.cover.decimals.empty()) text += "decimals: in their boxes, but not proven anew\n";
+  if (!result.cover.decimals.empty()) text += "decimals: they lie in their boxes, but were not proven again\n";
   for (std::size_t i = 0; i < std::min(report.failures.size(), kShownFailures); ++i) {
     const Failure& f = report.failures[i];
     text += f.place == Failure::Place::cover ? fmt::format("cover: {}\n", f.reason)

@@ -303,7 +303,7 @@ std::vector<std::string> Coordinator::take_units(std::size_t wanted, std::size_t
   Search& s = *search_;
   std::vector<std::string> units;
   const auto give = [&](Unit unit, Search::Given given) {
-    if (s.next_id >= kMostUnits) throw ShardError("this search has been cut into more units than can be told apart");
+    if (s.next_id >= kMostUnits) throw ShardError("this search has been cut into more units than can be numbered");
     unit.id = s.next_id++;
     units.push_back(to_bytes(unit));
     s.under_way.emplace(unit.id, std::move(given));
@@ -361,7 +361,7 @@ bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner)
   for (const Received::Part& part : answer.parts) {
     check(part, s.prepared);
     if (part.shard.number / kNumbers != static_cast<int>(answer.id))
-      throw ShardError("an answer with another unit's numbers");
+      throw ShardError("an answer with the numbers of another unit");
   }
   std::int64_t more = 0;
   for (const Received::Part& part : answer.parts) more += s.of(part.shard, part.found);

@@ -231,7 +231,7 @@ SelfMotions SelfMotions::restored(const System& system, Stored stored) {
   result.former_ = stored.former;
   for (SelfMotionRecord& record : stored.motions) {
     auto motion = certify::self_motion(system, std::move(record.relations), record.dimension);
-    if (!motion) throw std::invalid_argument("the relations of a self-motion are none of this system");
+    if (!motion) throw std::invalid_argument("the relations of a self-motion do not belong to this system");
     result.known_.push_back({std::move(*motion), record.dimension});
   }
   return result;

@@ -19,7 +19,7 @@ class Rational {
  public:
   Rational() { fmpq_init(q_); }
   explicit Rational(const ExactNumber& x) : Rational() {
-    if (fmpq_set_str(q_, x.text().c_str(), 10) != 0) throw std::invalid_argument(x.text() + " is no fraction");
+    if (fmpq_set_str(q_, x.text().c_str(), 10) != 0) throw std::invalid_argument(x.text() + " is not a fraction");
   }
   ~Rational() { fmpq_clear(q_); }
   Rational(const Rational&) = delete;

@@ -21,7 +21,8 @@ void check_positive(const char* name, double value) {
 
 void check_at_least(const char* name, const std::optional<double>& sigma, double least) {
   if (sigma && *sigma < least)
-    throw OptionError(name, format(*sigma) + " is below " + format(least) + ", what boxes of doubles resolve here");
+    throw OptionError(
+        name, format(*sigma) + " is below " + format(least) + ", the smallest size that boxes of doubles resolve here");
 }
 
 }  // namespace

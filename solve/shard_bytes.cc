@@ -118,7 +118,7 @@ void read_value(std::string_view kind, std::string_view bytes, Read read) {
   const std::string begin = "corank " + std::string(kind) + ", version ";
   const std::size_t end = bytes.substr(0, 200).find('\n');
   if (end == std::string_view::npos || !bytes.starts_with(begin))
-    throw ShardError("these bytes are no " + std::string(kind) + " of corank");
+    throw ShardError("these bytes are not a " + std::string(kind) + " of corank");
   const std::string_view version = bytes.substr(begin.size(), end - begin.size());
   if (version != engine_version()) {
     std::string named(version);

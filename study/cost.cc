@@ -75,9 +75,9 @@ std::string to_table(const solve::CostEstimate& cost, int threads) {
   text += "memory              " + bytes_text(cost.memory) + "\n";
   text += "result file         " + bytes_text(cost.file) + "\n\n";
   if (cost.whole_tree) {
-    text += "the trial was a whole first pass: its count of processed boxes is exact but for later passes\n";
+    text += "the trial was a complete first pass: its number of processed boxes is exact, except for later passes\n";
   } else {
-    text += "in brackets two standard errors of the trial: likely, no bounds\n";
+    text += "in brackets: two standard errors of the trial; likely ranges, not bounds\n";
   }
   if (cost.postponed > kManyPostponed)
     text += fmt::format(

@@ -30,17 +30,16 @@ std::optional<std::string> paradox(const kinematics::Assembly& assembly) {
   if (!assembly.mobility_by_rank || *assembly.mobility_by_rank <= assembly.mobility) return std::nullopt;
   const int more = *assembly.mobility_by_rank - assembly.mobility;
   return fmt::format(
-      "its equations leave {} degree{} of freedom by their count, but {} at sampled configurations: {} of them follow{} "
-      "from "
-      "the others there (a paradoxical or over-constrained linkage), so boxes are proven for independent equations only "
-      "(partial)",
+      "by their number, its equations leave {} degree{} of freedom, but at sampled configurations they leave {}: {} of them "
+      "follow{} from the others there (a paradoxical or over-constrained linkage), so boxes are proven for independent "
+      "equations only (partial)",
       assembly.mobility, assembly.mobility == 1 ? "" : "s", *assembly.mobility_by_rank, more, more == 1 ? "s" : "");
 }
 
 // Written-out parallelograms close in other ways, too.
 std::string flat_positions(const kinematics::Assembly::WrittenParallelogram& p) {
   const std::string sides = fmt::format("{}", fmt::join(p.sides, ", "));
-  const std::string keep = "the line `keep parallelograms` under [JOINTS] leaves all but the parallelogram out";
+  const std::string keep = "the line `keep parallelograms` under [JOINTS] keeps only the parallelogram";
   if (p.angle.empty())
     return fmt::format(
         "{} are a parallelogram: where it is flat it can also fold crosswise, and boxes about such "
@@ -60,7 +59,7 @@ std::optional<std::string> other_names(const kinematics::Robot& robot) {
     list += (list.empty() ? "" : ", ") + o.name + " is " + robot.joints[o.joint].name;
   }
   if (list.empty()) return std::nullopt;
-  return "outputs that are joints go by the joints' names, here and in results: " + list;
+  return "an output that is a joint has the joint's name, here and in results: " + list;
 }
 
 // Poses in one orientation, of which the position alone is an output (kinematics::assemble).
@@ -101,7 +100,7 @@ std::string describe(const kinematics::Assembly& assembly) {
   std::string text =
       fmt::format("{}, {} links, mobility {}", to_string(assembly.space), assembly.poses.size(), assembly.mobility);
   if (assembly.mobility_by_joints != assembly.mobility)
-    text += fmt::format(" (by its joints alone {})", assembly.mobility_by_joints);
+    text += fmt::format(" ({} by its joints only)", assembly.mobility_by_joints);
   return text;
 }
 

@@ -85,7 +85,7 @@ System system(const Question& question, const symbolic::TrigonometricSystem& equ
     certify::Reduction reduction = certify::reduce(system);
     for (const std::size_t k : solve::add_implied_equations(system.claimed, reduction))
       throw symbolic::ModelError(equations.claimed[k].where,
-                                 "no identity was found by which this follows from the model's equations",
+                                 "corank found no identity that derives this equation from the model's equations",
                                  "a sum of the equations times polynomials, with rational coefficients; or leave it out, "
                                  "since it only serves to shorten the search");
   }

@@ -12,7 +12,7 @@ namespace {
 void check_refinable(const solve::Prepared& prepared, const std::optional<solve::SearchState>& state) {
   if (!solve::refinable(prepared))
     throw result::ResultFileError(
-        "the search itself depends on sigma here, since coefficients carry a tolerance; expected it to be solved anew");
+        "the search itself depends on sigma here, since coefficients have a tolerance; expected a new search");
   bool searched = state && !state->cutting && state->pass.boxes.empty();
   if (searched)
     for (const solve::Shard& shard : state->shards) searched = searched && shard.postponed.empty() && shard.left.empty();

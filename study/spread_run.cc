@@ -15,7 +15,8 @@ namespace {
 Options of_cluster(Options options) {
   solve::Options& o = options.search;
   const auto refuse = [](const char* option) {
-    throw solve::OptionError(option, "a search on a cluster has no such limit; it has those of time, boxes and memory");
+    throw solve::OptionError(option,
+                             "a search on a cluster does not have this limit; expected limits of time, boxes or memory");
   };
   o.validate();
   if (o.max_found > 0) refuse("max_found");
@@ -34,8 +35,7 @@ SpreadRun::SpreadRun(const Question& question, Options options, const std::atomi
     systems_.push_back(system(part));
     options_.search.validate(systems_.back());
     if (options_.search.proof && systems_.back().coefficient_tolerance > 0)
-      throw solve::OptionError("proof",
-                               "there is none for coefficients with a tolerance; a tolerance of 0 takes them as exact");
+      throw solve::OptionError("proof", "expected exact coefficients; a tolerance of 0 takes them as exact");
   }
 }
 

@@ -78,8 +78,7 @@ ConstantRange Algebrizer::range_of(const Coordinate& coordinate) {
   const std::string text = "[" + coordinate.lower.text() + ", " + coordinate.upper.text() + "]";
   try {
     if ((range.upper - range.lower).sign() == -1)
-      throw ModelError(coordinate.where, what + ", " + text + ", is empty",
-                       "a lower bound that is no larger than the upper one");
+      throw ModelError(coordinate.where, what + ", " + text + ", is empty", "a lower bound of at most the upper one");
     if (!range.lower.exact().enclose().is_bounded() || !range.upper.exact().enclose().is_bounded())
       throw ModelError(coordinate.where, what + ", " + text + ", is unbounded", "bounds within double precision's range");
   } catch (const std::domain_error& error) {
@@ -110,7 +109,7 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
   try {
     condition = angle_range(range);
   } catch (const std::domain_error& error) {
-    throw ModelError(coordinate.where, "the range of " + in_quotes(coordinate.name) + " has no use: " + error.what(),
+    throw ModelError(coordinate.where, "the range of " + in_quotes(coordinate.name) + " cannot be used: " + error.what(),
                      "radians");
   }
   Angle angle;
@@ -175,7 +174,7 @@ void Algebrizer::add_equation(const TrigonometricSystem::Equation& equation) {
     // A kernel row that the constants make zero says nothing about xi, and where an angle has one value, or
     // is tied to another, an equation may say nothing there. Any other equation of the model that says nothing is a mistake.
     if (equation.of_kernel || mentions(equation.relation, special_angles_)) return;
-    throw ModelError(equation.where, "the equation " + equation_text(equation) + " holds always",
+    throw ModelError(equation.where, "the equation " + equation_text(equation) + " always holds",
                      "an equation between unknowns");
   }
   if (polynomial.degree() == 0) {

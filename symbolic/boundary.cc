@@ -33,7 +33,7 @@ Outline outline(const Mechanism& mechanism) {
   Outline o{mechanism.without_rates(), {}, {}, 0};
   const SourceLocation where{mechanism.name(), 0, 0};
   if (mechanism.outputs().empty())
-    throw ModelError(where, "the model names no outputs, in whose space the boundary lies",
+    throw ModelError(where, "the model names no outputs, over which the boundary lies",
                      "a line [OUTPUTS], or --outputs NAME,NAME");
   Derivation derivation = derive(o.mechanism);
   o.velocity = std::move(derivation.velocity);
@@ -46,7 +46,7 @@ Outline outline(const Mechanism& mechanism) {
     throw ModelError(where,
                      "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + std::to_string(free) +
                          " free output" + (free == 1 ? "" : "s"),
-                     "from one output to as many as its mobility");
+                     "at least one output, and at most as many as the mobility");
   return o;
 }
 
@@ -56,7 +56,7 @@ void add_choices(const std::vector<Limit>& limits, std::size_t from, std::size_t
   if (size == 0) {
     parts.push_back({chosen});
     if (parts.size() > kMostParts)
-      throw ModelError(limits.front().where, "so many limits make more than " + std::to_string(kMostParts) + " parts",
+      throw ModelError(limits.front().where, "these limits make more than " + std::to_string(kMostParts) + " parts",
                        "fewer limits, or more outputs");
     return;
   }

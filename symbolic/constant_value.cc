@@ -88,7 +88,7 @@ ExactNumber exact_of(const ex& e) {
   if (is_a<numeric>(e)) {
     std::ostringstream text;
     text << e;
-    if (!ex_to<numeric>(e).is_rational()) throw std::domain_error("no real number");
+    if (!ex_to<numeric>(e).is_rational()) throw std::domain_error("not a real number");
     return ExactNumber::rational(text.str());
   }
   if (e.is_equal(GiNaC::Pi)) return ExactNumber::pi();
@@ -105,7 +105,7 @@ ExactNumber exact_of(const ex& e) {
       if (word == name) return ExactNumber::apply(function, exact_of(e.op(0)));
   }
   std::ostringstream text;
-  text << "`" << e << "` is no constant of the model language";
+  text << "`" << e << "` is not a constant of the model language";
   throw std::domain_error(text.str());
 }
 
@@ -126,7 +126,7 @@ ex square_root(numeric q) {
 void require_sign(const ConstantValue& x, bool zero_allowed, const std::string& what) {
   const std::optional<int> s = x.sign();
   const std::string kind = zero_allowed ? "negative" : "not positive";
-  if (!s) throw std::domain_error(what + " a number that cannot be told from one that is " + kind);
+  if (!s) throw std::domain_error(what + " a number that cannot be distinguished from one that is " + kind);
   if (*s < 0 || (*s == 0 && !zero_allowed)) throw std::domain_error(what + " a number that is " + kind);
 }
 
@@ -174,7 +174,7 @@ ConstantValue operator*(const ConstantValue& x, const ConstantValue& y) {
 ConstantValue operator/(const ConstantValue& x, const ConstantValue& y) {
   const std::optional<int> s = y.sign();
   if (!s && !y.without_squared_cosines().is_zero())
-    throw std::domain_error("division by a number that cannot be told from zero");
+    throw std::domain_error("division by a number that cannot be distinguished from zero");
   if (!s || *s == 0) throw std::domain_error("division by zero");
   return ConstantValue(x.value_ / y.value_);
 }

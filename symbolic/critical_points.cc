@@ -73,7 +73,7 @@ const SetDefinition& critical_set() {
                                  .label = "critical points",
                                  .meaning = "where a generic height does not vary to first order",
                                  .of_corank = "",
-                                 .none = "There is none in the search domain.",
+                                 .none = "There are none in the search domain.",
                                  .print = {0.1, 0.5, 0.3},
                                  .on_light = "#2a7d4f",
                                  .on_dark = "#6fd19c"};

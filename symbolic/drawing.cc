@@ -47,10 +47,10 @@ void validate_colour(const DrawingPart& part) {
   const std::string& colour = part.colour;
   const bool is_colour =
       colour.size() == 7 && colour[0] == '#' && colour.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-  if (!is_colour) throw ModelError(part.where, in_quotes(colour) + " is no colour", "#rrggbb, in hexadecimal digits");
+  if (!is_colour) throw ModelError(part.where, in_quotes(colour) + " is not a colour", "#rrggbb, in hexadecimal digits");
   if (may_be_coloured(part.kind)) return;
   throw ModelError(part.where, std::string("a ") + to_string(part.kind) + " has no colour of its own",
-                   "a colour behind a link, platform, sphere or cylinder only");
+                   "a colour after a link, platform, sphere or cylinder only");
 }
 
 std::string count_of(std::size_t n) { return std::to_string(n) + (n == 1 ? " component" : " components"); }
@@ -62,7 +62,7 @@ void validate(const DrawingPart& part, const std::set<std::string>& known) {
   std::set<std::string> seen;
   for (const std::string& name : part.points) {
     if (!known.contains(name)) {
-      throw ModelError(part.where, "the " + kind + " names " + in_quotes(name) + ", which is no point of the drawing",
+      throw ModelError(part.where, "the " + kind + " names " + in_quotes(name) + ", which is not a point of the drawing",
                        "the name of a point, declared as point " + shortened(name) + " = (x, y)");
     }
     if (!seen.insert(name).second) {
@@ -120,7 +120,7 @@ void Drawing::validate() const {
   for (const DrawingPart& part : parts) {
     corank::symbolic::validate(part, known);
     if (part.kind == Kind::hinge && dimension() == 2) {
-      throw ModelError(part.where, "the hinge stands in a drawing whose points have 2 coordinates",
+      throw ModelError(part.where, "the hinge is in a drawing whose points have 2 coordinates",
                        "joint " + shortened(part.points[0]) + ": in the plane every axis is at right angles to it");
     }
   }

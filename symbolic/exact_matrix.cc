@@ -193,7 +193,7 @@ RationalPolynomial ExactMatrix::determinant(const SquareBlock& block, std::size_
   const PolynomialRing& ring = unknowns_->ring();
   if (block.rows.size() > kLargest)
     throw DeterminantTooLarge(
-        where_, "a determinant of " + std::to_string(block.rows.size()) + " rows that is no product of smaller ones",
+        where_, "a determinant of " + std::to_string(block.rows.size()) + " rows that is not a product of smaller ones",
         "at most " + std::to_string(kLargest) + " rows");
   std::map<std::uint32_t, RationalPolynomial> minors;
   minors.emplace(0U, RationalPolynomial::number(ring, "1"));

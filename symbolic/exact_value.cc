@@ -17,7 +17,7 @@ ExactNumber exact_value(const Mechanism& mechanism, const Expression& expression
       expander.add_constant(c.name, expander.constant(c.value, "the constant " + in_quotes(c.name), c.where));
     return expander.constant(expression, "the value of " + in_quotes(what), where).exact();
   } catch (const std::domain_error& error) {
-    throw ModelError(where, "the value of " + in_quotes(what) + " is no real number: " + error.what(), "a real number");
+    throw ModelError(where, "the value of " + in_quotes(what) + " is not a real number: " + error.what(), "a real number");
   }
 }
 

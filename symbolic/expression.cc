@@ -42,10 +42,10 @@ Expression Expression::number(const std::string& decimal, const SourceLocation& 
 
 Expression Expression::symbol(const std::string& name, const SourceLocation& where) {
   if (!is_identifier(name)) {
-    throw ModelError(where, in_quotes(name) + " is no name", "letters, digits and _, beginning with no digit");
+    throw ModelError(where, in_quotes(name) + " is not a name", "letters, digits and _, not beginning with a digit");
   }
   if (is_function_name(name)) {
-    throw ModelError(where, "the function " + in_quotes(name) + " stands without an argument", name + "(…)");
+    throw ModelError(where, "the function " + in_quotes(name) + " has no argument", name + "(…)");
   }
   return make(Kind::symbol, name, {}, where);
 }

@@ -69,7 +69,7 @@ CORANK_EXPRESSION_ACTION(name_token, {
 })
 CORANK_EXPRESSION_ACTION0(symbol_end, {
   if (is_function_name(b.name)) {
-    throw ModelError(b.name_where, "the function " + in_quotes(b.name) + " stands without an argument", b.name + "(…)");
+    throw ModelError(b.name_where, "the function " + in_quotes(b.name) + " has no argument", b.name + "(…)");
   }
   b.expressions.symbol(b.name, b.keep_places ? b.name_where : SourceLocation{});
 })
@@ -80,7 +80,7 @@ CORANK_EXPRESSION_ACTION(group_open, {
 CORANK_EXPRESSION_ACTION(call_open, {
   if (!is_function_name(b.name)) {
     throw ModelError(b.name_where, "unknown function " + in_quotes(b.name),
-                     "an operator behind the name, or one of " + function_names());
+                     "an operator after the name, or one of " + function_names());
   }
   b.expressions.open_call(b.name, b.keep_places ? b.name_where : SourceLocation{}, place(in, b));
 })

@@ -61,7 +61,7 @@ std::string normal_decimal(std::string_view text, const SourceLocation& where) {
     well_formed = !exponent.empty();
   }
   if (!well_formed || !rest.empty())
-    throw ModelError(where, in_quotes(text) + " is no number", "a number such as 2, 0.90 or 1e-6");
+    throw ModelError(where, in_quotes(text) + " is not a number", "a number such as 2, 0.90 or 1e-6");
   if (whole.size() + fraction.size() > kMaxDigits) {
     throw ModelError(where,
                      "the number " + in_quotes(text) + " has " + std::to_string(whole.size() + fraction.size()) + " digits",

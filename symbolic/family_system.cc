@@ -12,8 +12,8 @@ TrigonometricSystem equations_of(const Mechanism& mechanism, const FamilyQuestio
   if (!q.set) return plain_system(mechanism);
   const SetDefinition& set = definition(q.set);
   if (set.of_parts || set.type)
-    throw ModelError({mechanism.name(), 0, 0}, std::string("the set ") + set.name + " is not counted",
-                     "a set that is one system's, such as cspace, forward or forward-cusps");
+    throw ModelError({mechanism.name(), 0, 0}, std::string("the set ") + set.name + " cannot be counted",
+                     "a set of one system, such as cspace, forward or forward-cusps");
   // Passive rates stay: by how much their scales bound them depends on the constants.
   return singularity_system(mechanism, *q.set, q.kernel, kernel_scales(mechanism, *q.set, q.kernel), q.corank);
 }

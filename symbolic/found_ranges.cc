@@ -60,7 +60,7 @@ void find_ranges(TrigonometricSystem& system) {
   for (Coordinate& c : system.coordinates) {
     if (c.has_range) continue;
     if (!is_plausible(side(c)))
-      throw ModelError(c.where, "the equations are not seen to bound " + in_quotes(c.name) + ", which has no range",
+      throw ModelError(c.where, "corank finds no bounds in the equations for " + in_quotes(c.name) + ", which has no range",
                        "a range, " + shortened(c.name) + " : [lower, upper]");
     widen(side(c), c);
   }

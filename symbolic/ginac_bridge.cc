@@ -210,7 +210,7 @@ Expression GinacBridge::product(const ex& e) const {
   using Kind = Expression::Kind;
   numeric coefficient = 1;
   const std::vector<Factor> parts = factors(e, coefficient);
-  if (!coefficient.is_real()) throw std::domain_error("it is no real number");
+  if (!coefficient.is_real()) throw std::domain_error("it is not a real number");
   std::vector<Expression> above, below;
   const numeric size = GiNaC::abs(coefficient);
   if (size != 1) above.push_back(positive_rational(size));
@@ -261,7 +261,7 @@ Expression GinacBridge::to_expression(const ex& e) const {
 Expression GinacBridge::translate(const ex& e) const {
   if (is_a<numeric>(e)) {
     const numeric& q = ex_to<numeric>(e);
-    if (!q.is_real() || !q.is_rational()) throw std::domain_error("it is no real number");
+    if (!q.is_real() || !q.is_rational()) throw std::domain_error("it is not a real number");
     if (q.is_zero()) return 0;
     return q.is_negative() ? -positive_rational(-q) : positive_rational(q);
   }

@@ -40,7 +40,8 @@ Expression positive_number(const std::string& text, const std::string& unknown) 
     positive = ExactNumber::rational(text).sign() == 1;
   } catch (const std::exception&) {  // no number
   }
-  if (!positive) throw ModelError({"scale of " + unknown, 0, 0}, "'" + text + "' is no scale", "a positive rational number");
+  if (!positive)
+    throw ModelError({"scale of " + unknown, 0, 0}, "'" + text + "' is not a scale", "a positive rational number");
   return parse_expression(text, "scale of " + unknown);
 }
 

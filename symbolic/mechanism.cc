@@ -33,7 +33,7 @@ void Mechanism::declare(const std::string& name, Declared kind, const SourceLoca
                                   : kind == Declared::rate   ? "another name for the rate"
                                                              : "another name for the variable";
   if (!is_identifier(name)) {
-    throw ModelError(where, in_quotes(name) + " is no name", "letters, digits and _, beginning with no digit");
+    throw ModelError(where, in_quotes(name) + " is not a name", "letters, digits and _, not beginning with a digit");
   }
   if (is_reserved(name)) throw ModelError(where, "the name " + in_quotes(name) + " is reserved", expectation);
   if (const auto found = names_.find(name); found != names_.end()) {
@@ -154,12 +154,12 @@ void Mechanism::choose(const std::string& role, const std::vector<Expression>& s
     const SourceLocation at = symbol.where_or(where);
     const std::string expectation = "a variable of the model";
     if (symbol.kind() != Expression::Kind::symbol) {
-      throw ModelError(at, "the " + role + " " + in_quotes(symbol.text()) + " is no name", expectation);
+      throw ModelError(at, "the " + role + " " + in_quotes(symbol.text()) + " is not a name", expectation);
     }
     if (has_constant(symbol.name()))
       throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is a constant", expectation);
     if (find_rate(symbol.name()) >= 0)
-      throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is a rate, whose role stands in [RATES]",
+      throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is a rate, whose role is given in [RATES]",
                        expectation);
     const Composite* const composite = find_composite(symbol.name());
     if (!composite && find_coordinate(symbol.name()) < 0)
@@ -170,7 +170,7 @@ void Mechanism::choose(const std::string& role, const std::vector<Expression>& s
       }
       if (taken.contains(name)) {
         throw ModelError(at, "the " + role + " " + in_quotes(name) + " is already an " + other_role,
-                         "a variable that is no " + other_role);
+                         "a variable that is not an " + other_role);
       }
       result.push_back(name);
     }
@@ -203,13 +203,14 @@ void Mechanism::limit(const std::string& coordinate, const Expression& lower, co
     throw ModelError(where,
                      "the limit of " + in_quotes(coordinate) +
                          (has_constant(coordinate)     ? ", which is a constant"
-                          : find_composite(coordinate) ? ", which is no single coordinate"
+                          : find_composite(coordinate) ? ", which is not a single coordinate"
                           : find_rate(coordinate) >= 0 ? ", which is a rate"
                                                        : ", which is not declared"),
                      "a variable of the model");
   for (const Limit& other : limits_)
     if (other.coordinate == coordinate)
-      throw ModelError(where, in_quotes(coordinate) + " is limited twice" + declared_at(other.where), "one limit of each");
+      throw ModelError(where, in_quotes(coordinate) + " is limited twice" + declared_at(other.where),
+                       "one limit for each variable");
   limits_.push_back({coordinate, lower, upper, where});
 }
 
@@ -230,7 +231,7 @@ void Mechanism::set_range(const std::string& coordinate, const Expression& lower
   };
   if (index < 0 || std::any_of(composites_.begin(), composites_.end(), holds))
     throw ModelError({name_, 0, 0}, in_quotes(coordinate) + " has no range of its own",
-                     "a coordinate that is no part of a unit vector or rotation matrix");
+                     "a coordinate that is not part of a unit vector or rotation matrix");
   Coordinate& c = coordinates_[static_cast<std::size_t>(index)];
   c.lower = lower, c.upper = upper, c.has_range = true;
 }
@@ -288,7 +289,7 @@ void Mechanism::validate_rates(const ModelValidator& validator) const {
       velocity_equations_[0].where,
       counted(rates_.size(), "rate", velocity_equations_.size(), "velocity equation", by_rates) + ", but " +
           counted(coordinates_.size(), "coordinate", static_cast<std::size_t>(equations), "equation", by_coordinates),
-      "the same mobility by both");
+      "the same mobility from both");
 }
 
 void Mechanism::validate() const {

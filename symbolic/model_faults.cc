@@ -89,16 +89,16 @@ void Fault::no_group_close() const {
 }
 
 void Fault::no_number_end() const {
-  say("found " + describe_start(rest) + " right behind a number",
-      "an operator (a product is written 2*x), or a name that begins with no digit");
+  say("found " + describe_start(rest) + " right after a number",
+      "an operator (a product is written 2*x), or a name that does not begin with a digit");
 }
 
 void Fault::no_range() const {
   if (builder.of_limits)
-    say("found " + describe_start(rest) + " where the limits of " + in_quotes(builder.declared) + " should stand",
+    say("found " + describe_start(rest) + " where the limits of " + in_quotes(builder.declared) + " should be",
         "[lower, upper]");
-  say("found " + describe_start(rest) + " where the range of " + in_quotes(builder.declared) + " should stand",
-      "[lower, upper], or nothing in that line where the equations bound the variable");
+  say("found " + describe_start(rest) + " where the range of " + in_quotes(builder.declared) + " should be",
+      "[lower, upper], or nothing if the equations bound the variable");
 }
 
 void Fault::unknown_section() const {
@@ -107,7 +107,7 @@ void Fault::unknown_section() const {
   title = first == std::string::npos ? "" : title.substr(first, last - first + 1);
   if (title.find(',') != std::string::npos)
     throw ModelError(builder.section_where, "section [" + shortened(title) + "] is unknown",
-                     "a section; the range of a variable stands in the variable's line");
+                     "a section; write the range of a variable in the variable's line");
   const bool known_to_cuik = title == "VELOCITY VARS" || title == "NON DYNAMIC VARS" || title == "NON DYNAMIC EQS";
   const char* const why = known_to_cuik ? "] is not supported" : "] is unknown";
   throw ModelError(builder.section_where, "section [" + shortened(title) + why, kSections);

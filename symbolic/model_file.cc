@@ -78,7 +78,7 @@ CORANK_ACTION0(outputs_header, { b.names_are_inputs = false; })
 CORANK_ACTION(listed_name, {
   const SourceLocation where = place(in, b);
   if (is_reserved(in.string_view()))
-    throw ModelError(where, in_quotes(in.string_view()) + " is no variable", "the name of a variable");
+    throw ModelError(where, in_quotes(in.string_view()) + " is not a variable", "the name of a variable");
   (b.names_are_inputs ? b.inputs : b.outputs).push_back(Expression::symbol(in.string(), where));
 })
 CORANK_ACTION(point_name, { declare(in, b); })

@@ -151,7 +151,7 @@ void ModelValidator::require_angles_inside_functions(const Expression& e, const 
     const auto coordinate = coordinates_.find(e.name());
     if (coordinate == coordinates_.end() || coordinate->second->kind != CoordinateKind::angle) return;
     throw ModelError(e.where_or(context.where),
-                     "the angle " + in_quotes(e.name()) + " in " + context.owner + " stands outside sin, cos and tan",
+                     "the angle " + in_quotes(e.name()) + " in " + context.owner + " is outside sin, cos and tan",
                      "cos(" + shortened(e.name()) + ") or the like");
   }
   for (const Expression& operand : e.operands()) require_angles_inside_functions(operand, context);
@@ -202,16 +202,16 @@ ModelValidator::Size ModelValidator::check_symbol(const Expression& e, const Con
   }
   if (rates_.contains(name)) {
     if (context.rates) return {1, false, 0};
-    throw ModelError(where(), "the rate " + what() + " may not stand there",
+    throw ModelError(where(), "the rate " + what() + " is not allowed here",
                      context.constants_only ? "numbers and constants" : "numbers, constants and variables");
   }
   const bool is_coordinate = coordinates_.contains(name);
   if (is_coordinate && !context.constants_only) return {1, false, 0};
-  if (is_coordinate) throw ModelError(where(), "the variable " + what() + " may not stand there", "numbers and constants");
+  if (is_coordinate) throw ModelError(where(), "the variable " + what() + " is not allowed here", "numbers and constants");
   if (const auto composite = composites_.find(name); composite != composites_.end()) {
     const Composite& c = *composite->second;
     const bool unit = c.kind == Composite::Kind::unit;
-    throw ModelError(where(), std::string(unit ? "the unit vector " : "the rotation matrix ") + what() + " is no number",
+    throw ModelError(where(), std::string(unit ? "the unit vector " : "the rotation matrix ") + what() + " is not a number",
                      "one of its components " + c.components.front() + " … " + c.components.back());
   }
   throw ModelError(where(), "the name " + what() + " is not declared",

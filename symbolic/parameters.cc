@@ -55,10 +55,10 @@ class Family {
       const Expression value = substituted(c.value, values_);
       if (c.sign == 0)
         refuse("the equations leave out " + value.text() + ", which is 0 for the constants' own values",
-               "parameters on which nothing depends that is 0 for one value: " + remedy());
+               "parameters on which this does not depend: " + remedy());
       const std::optional<Interval> range = try_enclose(value);
       if (range && (c.sign > 0 ? range->lo() > 0 : range->hi() < 0)) continue;
-      refuse("the equations are made for " + value.text() + (c.sign > 0 ? " > 0" : " < 0") +
+      refuse("the equations hold for " + value.text() + (c.sign > 0 ? " > 0" : " < 0") +
                  ", which is not proven for all values of the parameters",
              "smaller ranges, or other parameters: " + remedy());
     }
@@ -83,7 +83,7 @@ class Family {
 
  private:
   static std::string remedy() {
-    return "corank derive FILE --format model prints these equations as a model, whose constants may be changed as you like";
+    return "corank derive FILE --format model prints these equations as a model whose constants you may change";
   }
   [[noreturn]] void refuse(const std::string& what, const std::string& expected) const {
     throw ModelError(place_, what, expected);
@@ -94,8 +94,8 @@ class Family {
     const auto check = [&](const std::string& name, bool constant_too) {
       const bool is_coordinate = mechanism_.find_coordinate(name) >= 0;
       if (!is_coordinate && !(constant_too && mechanism_.has_constant(name)))
-        refuse(in_quotes(name) + " is none of the model's", constant_too ? "a constant or a coordinate" : "a coordinate");
-      if (!seen.insert(name).second) refuse(in_quotes(name) + " comes twice", "each name once");
+        refuse(in_quotes(name) + " is not in the model", constant_too ? "a constant or a coordinate" : "a coordinate");
+      if (!seen.insert(name).second) refuse(in_quotes(name) + " occurs twice", "each name once");
       if (is_coordinate && out_.system.coordinates.size() != mechanism_.coordinates().size())
         refuse("in pairs of configurations " + in_quotes(name) + " would have one value", "a constant");
     };
@@ -138,7 +138,7 @@ class Family {
       ranges_[p.name] = Interval::hull(exact_value(mechanism_, p.lower, p.name).enclose(),
                                        exact_value(mechanism_, p.upper, p.name).enclose());
       if (!(ranges_[p.name].width() > 0) || !ranges_[p.name].is_bounded())
-        refuse("the range of " + in_quotes(p.name) + " is no interval", "two numbers, the lower one first");
+        refuse("the range of " + in_quotes(p.name) + " is not an interval", "two numbers, the lower one first");
     }
   }
 

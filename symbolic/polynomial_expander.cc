@@ -51,7 +51,7 @@ bool PolynomialExpander::has_unknown(const Expression& e) const {
 
 ConstantValue PolynomialExpander::value(const Expression& e) {
   if (const auto number = expand(e).constant()) return *number;
-  fail(e, in_quotes(e.text()) + " is no constant", "numbers and constants");
+  fail(e, in_quotes(e.text()) + " is not a constant", "numbers and constants");
 }
 
 ExpandedPolynomial PolynomialExpander::expand(const Expression& e) {
@@ -90,8 +90,7 @@ ExpandedPolynomial PolynomialExpander::expand_symbol(const Expression& e) {
   if (const auto known = constants_.find(e.name()); known != constants_.end()) return known->second;
   if (const auto known = unknowns_.find(e.name()); known != unknowns_.end())
     return ExpandedPolynomial::variable(known->second);
-  if (is_angle(e.name()))
-    fail(e, "the angle " + in_quotes(e.name()) + " stands outside sin and cos", "sin or cos of the angle");
+  if (is_angle(e.name())) fail(e, "the angle " + in_quotes(e.name()) + " is outside sin and cos", "sin or cos of the angle");
   fail(e, "the name " + in_quotes(e.name()) + " is not declared", "a constant or a variable declared before");
 }
 
@@ -115,7 +114,7 @@ ExpandedPolynomial PolynomialExpander::expand_power(const Expression& e) {
   if (power && *power <= kMaxExponent) return guarded(e, [&] { return pow(base, *power); });
   if (power || n->is_rational())
     fail(e, "the exponent of " + in_quotes(e.text()) + " is too large", "at most " + std::to_string(kMaxExponent));
-  fail(e, "the term " + in_quotes(e.text()) + " is a power of an unknown that is no integer", "an integer exponent");
+  fail(e, "the term " + in_quotes(e.text()) + " is a power of an unknown that is not an integer", "an integer exponent");
 }
 
 ExpandedPolynomial PolynomialExpander::expand_function(const Expression& e) {
@@ -167,7 +166,7 @@ PolynomialExpander::LinearForm PolynomialExpander::linear_form(const Expression&
       break;
     default: break;
   }
-  fail(e, in_quotes(e.text()) + " stands inside sin or cos", kArgument);
+  fail(e, in_quotes(e.text()) + " is inside sin or cos", kArgument);
 }
 
 int PolynomialExpander::whole_multiple(const Expression& e, const std::string& angle, const ConstantValue& multiple) const {
@@ -217,7 +216,7 @@ ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e
     }
     if (multiple.is_zero()) continue;
     if (!guarded(e, [&] { return multiple.sign(); }))
-      fail(e, "the multiple of " + in_quotes(name) + " in " + in_quotes(e.text()) + " cannot be told from zero",
+      fail(e, "the multiple of " + in_quotes(name) + " in " + in_quotes(e.text()) + " cannot be distinguished from zero",
            "multiples whose sign is known");
     lengths.emplace(name, multiple);
   }

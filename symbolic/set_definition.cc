@@ -34,7 +34,7 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .label = "forward locus",
      .meaning = "with the actuators locked the mechanism can still move, to first order",
      .of_corank = "with the actuators locked the mechanism can still move, to first order, in at least {} independent ways",
-     .none = "There is none in the search domain.",
+     .none = "There are none in the search domain.",
      .print = {0.80, 0.11, 0.14},
      .on_light = "#d1480a",
      .on_dark = "#ff8552",
@@ -50,7 +50,7 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .label = "inverse locus",
      .meaning = "with the output locked the mechanism can still move, to first order",
      .of_corank = "with the output locked the mechanism can still move, to first order, in at least {} independent ways",
-     .none = "There is none in the search domain.",
+     .none = "There are none in the search domain.",
      .print = {0.09, 0.33, 0.75},
      .on_light = "#0a6fb8",
      .on_dark = "#58b4f5",
@@ -64,12 +64,12 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .member = "C-space singularity",
      .label = "C-space singularities",
      .meaning = "the constraints’ Jacobian loses rank: C-space may cross itself or end in a cusp",
-     .of_corank = "the constraints’ Jacobian loses at least {} of its ranks",
-     .none = "There is none in the search domain, so C-space is smooth there.",
+     .of_corank = "the rank of the constraints’ Jacobian drops by at least {}",
+     .none = "There are none in the search domain, so C-space is smooth there.",
      .given_meaning =
          "the velocity equation loses rank: to first order the mechanism can move in more ways than its mobility says",
-     .given_of_corank = "the velocity equation loses at least {} of its ranks",
-     .given_none = "There is none in the search domain: the velocity equation has full rank there.",
+     .given_of_corank = "the rank of the velocity equation drops by at least {}",
+     .given_none = "There are none in the search domain: the velocity equation has full rank there.",
      .print = {0.52, 0.18, 0.68},
      .on_light = "#7a3fb0",
      .on_dark = "#c39af0",
@@ -85,7 +85,7 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .label = "workspace boundary",
      .meaning = "within its limits the output cannot move in some direction, to first order",
      .of_corank = "within its limits the output cannot move, to first order, in at least {} independent directions",
-     .none = "There is none in the search domain.",
+     .none = "There are none in the search domain.",
      .print = {0.05, 0.42, 0.36},
      .on_light = "#00765f",
      .on_dark = "#35c4a5",
@@ -103,9 +103,10 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .title = "Forward and inverse singularities",
      .member = "Forward and inverse singularity",
      .label = "forward and inverse",
-     .meaning = "singular in both ways: it can move, to first order, with the actuators locked, and with the output locked",
+     .meaning = "singular in both ways: the mechanism can move, to first order, with the actuators locked and with the "
+                "output locked",
      .of_corank = "",
-     .none = "There is none in the search domain: where one of the two happens, the other does not.",
+     .none = "There are none in the search domain: no configuration is singular in both ways.",
      .print = {0.45, 0.20, 0.30},
      .on_light = "#8a4a00",
      .on_dark = "#e0a060",
@@ -121,10 +122,10 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .title = "Redundant output",
      .member = "Redundant output (RO)",
      .label = "redundant output",
-     .meaning = "with the actuators locked the output can still move, to first order; all of these configurations are here, "
-                "others only where a box says that its type is not known",
+     .meaning = "with the actuators locked the output can still move, to first order; the set holds all of these "
+                "configurations, and others only in boxes whose type is not known",
      .of_corank = "the same, in at least {} independent ways",
-     .none = "There is none in the search domain: locked actuators hold the output.",
+     .none = "There are none in the search domain: locked actuators hold the output.",
      .print = {0.80, 0.11, 0.14},
      .on_light = "#d1480a",
      .on_dark = "#ff8552",
@@ -143,7 +144,7 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .meaning = "with the actuators and the output locked passive joints can still move, to first order",
      .of_corank = "with the actuators and the output locked passive joints can still move, to first order, in at least {} "
                   "independent ways",
-     .none = "There is none in the search domain: actuators and output together hold every passive joint.",
+     .none = "There are none in the search domain: actuators and output together hold every passive joint.",
      .print = {0.60, 0.45, 0.05},
      .on_light = "#8a6d00",
      .on_dark = "#e0c040",
@@ -160,10 +161,10 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .member = "Impossible input (II)",
      .label = "impossible input",
      .meaning =
-         "some velocity of the actuators cannot be had; all of these configurations are here, others only where a box "
-         "says that its type is not known",
-     .of_corank = "the same, where the kernel has dimension {} at least",
-     .none = "There is none in the search domain: the actuators can have every velocity.",
+         "the actuators cannot achieve some velocity; the set holds all of these configurations, and others only in boxes "
+         "whose type is not known",
+     .of_corank = "the same, and the kernel has dimension {} or more",
+     .none = "There are none in the search domain: the actuators can achieve every velocity.",
      .print = {0.80, 0.11, 0.14},
      .on_light = "#d1480a",
      .on_dark = "#ff8552",
@@ -179,11 +180,10 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .title = "Redundant input",
      .member = "Redundant input (RI)",
      .label = "redundant input",
-     .meaning =
-         "the actuators can move, to first order, while the output stands still; all of these configurations are here, "
-         "others only where a box says that its type is not known",
+     .meaning = "the actuators can move, to first order, while the output stands still; the set holds all of these "
+                "configurations, and others only in boxes whose type is not known",
      .of_corank = "the same, in at least {} independent ways",
-     .none = "There is none in the search domain: where the output stands still, so do the actuators.",
+     .none = "There are none in the search domain: if the output stands still, so do the actuators.",
      .print = {0.09, 0.33, 0.75},
      .on_light = "#0a6fb8",
      .on_dark = "#58b4f5",
@@ -200,10 +200,10 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .member = "Impossible output (IO)",
      .label = "impossible output",
      .meaning =
-         "some velocity of the output cannot be had; all of these configurations are here, others only where a box says "
-         "that its type is not known",
-     .of_corank = "the same, where the kernel has dimension {} at least",
-     .none = "There is none in the search domain: the output can have every velocity.",
+         "the output cannot achieve some velocity; the set holds all of these configurations, and others only in boxes "
+         "whose type is not known",
+     .of_corank = "the same, and the kernel has dimension {} or more",
+     .none = "There are none in the search domain: the output can achieve every velocity.",
      .print = {0.09, 0.33, 0.75},
      .on_light = "#0a6fb8",
      .on_dark = "#58b4f5",
@@ -220,8 +220,8 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .label = "increased mobility",
      .meaning =
          "the velocity equation loses rank: to first order the mechanism can move in more ways than its mobility says",
-     .of_corank = "the velocity equation loses at least {} of its ranks",
-     .none = "There is none in the search domain: the velocity equation has full rank there.",
+     .of_corank = "the rank of the velocity equation drops by at least {}",
+     .none = "There are none in the search domain: the velocity equation has full rank there.",
      .print = {0.52, 0.18, 0.68},
      .on_light = "#7a3fb0",
      .on_dark = "#c39af0",
@@ -236,11 +236,10 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .title = "Cusps of the forward locus",
      .member = "Cusp of the forward locus",
      .label = "forward cusps",
-     .meaning = "where the locus has a cusp among the inputs: around it assembly modes can be changed without a "
-                "singularity",
+     .meaning = "where the locus has a cusp among the inputs: around it the assembly mode can change without a singularity",
      .of_corank = "",
-     .none = "The locus has no cusp among the inputs in the search domain; that alone excludes no change of "
-             "assembly modes without a singularity.",
+     .none = "The locus has no cusp among the inputs in the search domain. The assembly mode may still change without a "
+             "singularity in another way.",
      .print = {0.52, 0.05, 0.09},
      .on_light = "#8a2b00",
      .on_dark = "#ffb08a",
@@ -255,11 +254,10 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .title = "Cusps of the inverse locus",
      .member = "Cusp of the inverse locus",
      .label = "inverse cusps",
-     .meaning = "where the locus has a cusp among the outputs: around it postures can be changed without a "
-                "singularity",
+     .meaning = "where the locus has a cusp among the outputs: around it the posture can change without a singularity",
      .of_corank = "",
-     .none = "The locus has no cusp among the outputs in the search domain; that alone excludes no change of "
-             "postures without a singularity.",
+     .none = "The locus has no cusp among the outputs in the search domain. The posture may still change without a "
+             "singularity in another way.",
      .print = {0.04, 0.18, 0.48},
      .on_light = "#063f70",
      .on_dark = "#a5d8ff",
@@ -277,8 +275,8 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .meaning = "where the locus crosses itself among the inputs: two singular configurations with the same "
                 "inputs",
      .of_corank = "",
-     .none = "The locus does not cross itself among the inputs in the search domain, but for pairs of "
-             "configurations too close to be told apart.",
+     .none = "The locus does not cross itself among the inputs in the search domain, except perhaps at pairs of "
+             "configurations that are too close to be told apart.",
      .print = {0.62, 0.36, 0.10},
      .on_light = "#7a5200",
      .on_dark = "#e8c07a",
@@ -296,8 +294,8 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .meaning = "where the locus crosses itself among the outputs: two singular configurations with the same "
                 "outputs",
      .of_corank = "",
-     .none = "The locus does not cross itself among the outputs in the search domain, but for pairs of "
-             "configurations too close to be told apart.",
+     .none = "The locus does not cross itself among the outputs in the search domain, except perhaps at pairs of "
+             "configurations that are too close to be told apart.",
      .print = {0.05, 0.42, 0.45},
      .on_light = "#00666b",
      .on_dark = "#7fdde0",
@@ -310,7 +308,7 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .label = "",
      .meaning = "the solutions of the system",
      .of_corank = "",
-     .none = "There is none in the search domain.",
+     .none = "There are none in the search domain.",
      .print = {0.35, 0.45, 0.58},
      .on_light = "#59738f",
      .on_dark = "#9db2c9"},

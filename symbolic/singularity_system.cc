@@ -57,7 +57,7 @@ std::string wanted_text(const Chosen& chosen, std::size_t wanted) {
     return count(wanted + chosen.ties.size(), chosen.noun) + (chosen.ties.empty() ? "" : " with these ties");
   const std::size_t more = chosen.names.size() - chosen.ties.size() - wanted;
   return count(wanted, chosen.noun) + ", or " + count(more, chosen.ties.empty() ? "equation" : "more equation") + " in " +
-         chosen.noun + "s alone that " + (more == 1 ? "ties" : "tie") + " them" + chosen.examples;
+         chosen.noun + "s only that " + (more == 1 ? "ties" : "tie") + " them" + chosen.examples;
 }
 
 // Inputs less their ties are as many as the mobility, or more (redundantly actuated: L_y is tall); outputs as many, or less
@@ -67,9 +67,8 @@ void check_mobility(const Mechanism& mechanism, const VelocityEquation& velocity
   const std::size_t equations = velocity.matrix.rows.size(), columns = velocity.matrix.columns.size();
   const Counted words = counted(velocity);
   if (chosen.names.size() == columns && equations > 0)
-    throw ModelError(
-        where, "every " + words.column + " is an " + chosen.noun + ", so nothing is left to move where they are locked",
-        words.column + "s that are no " + chosen.noun + "s");
+    throw ModelError(where, "every " + words.column + " is an " + chosen.noun + ", so nothing can move when they are locked",
+                     words.column + "s that are not " + chosen.noun + "s");
   const auto mobility = static_cast<long>(columns) - static_cast<long>(equations);
   const long free = static_cast<long>(chosen.names.size()) - static_cast<long>(chosen.ties.size());
   if (mobility >= 0 && (chosen.role == Role::input ? free >= mobility : free <= mobility)) return;
@@ -79,7 +78,7 @@ void check_mobility(const Mechanism& mechanism, const VelocityEquation& velocity
     problem += " tied by " + count(chosen.ties.size(), "equation") + ", so " + std::to_string(free) + " free";
   if (mobility >= 0 && free > mobility) problem += ": they are not independent";
   throw ModelError(where, problem,
-                   mobility < 0 ? "no more " + words.row + "s than " + words.column + "s"
+                   mobility < 0 ? "at most as many " + words.row + "s as " + words.column + "s"
                                 : wanted_text(chosen, static_cast<std::size_t>(mobility)));
 }
 
@@ -107,7 +106,7 @@ void check_whole(const Mechanism& mechanism, const VelocityEquation& velocity, c
     throw ModelError(model_place(mechanism),
                      "the mechanism has " + count(columns, words.column) + " and " + count(equations, words.row) + ", so " +
                          name + " never has full row rank",
-                     "no more " + words.row + "s than " + words.column + "s");
+                     "at most as many " + words.row + "s as " + words.column + "s");
   }
   if (side == KernelSide::right && equations < columns) {
     throw ModelError(model_place(mechanism),
@@ -125,12 +124,12 @@ KernelSide side_of(const Mechanism& mechanism, const KernelQuestion& kernel, std
   if (rows == columns || kernel.set.locked.empty()) {
     if (asked && kernel.set.one_side && *asked != kernel.set.side)
       throw ModelError(model_place(mechanism),
-                       std::string("the set ") + kernel.set.name + " is not that of a " + to_string(*asked) + " kernel",
+                       std::string("the set ") + kernel.set.name + " does not have a " + to_string(*asked) + " kernel",
                        std::string("the ") + to_string(kernel.set.side) + " kernel");
     return asked.value_or(kernel.set.side);
   }
-  const std::string shape = kernel.name + " has " + count(rows, "row") + (ties > 0 ? " less those of ties" : "") + " and " +
-                            count(columns, "column");
+  const std::string shape = kernel.name + " has " + count(rows, "row") + (ties > 0 ? " (without those of ties)" : "") +
+                            " and " + count(columns, "column");
   if (kernel.set.type && kernel.set.side != only) {
     const bool passive = kernel.set.type == SingularityType::rpm;
     throw ModelError(model_place(mechanism),
@@ -356,7 +355,7 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySe
   if (definition(set).has_kernel())
     return singularity_system(mechanism, kernel_question(mechanism, derive(mechanism).velocity, set, side), scales, corank);
   if (corank != 1)
-    throw ModelError(model_place(mechanism), std::string(definition(set).title) + " has no kernel, so no corank",
+    throw ModelError(model_place(mechanism), std::string("the set ") + definition(set).name + " has no kernel, so no corank",
                      names_of_sets(true));
   if (definition(set).part == LocusPart::cusps) return cusp_system(mechanism, set, scales);
   if (definition(set).part == LocusPart::nodes) return node_system(mechanism, set, scales);

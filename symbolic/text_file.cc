@@ -13,7 +13,7 @@ std::string reading_fault(const std::filesystem::path& path) {
     case std::filesystem::file_type::not_found: return "there is no such file";
     case std::filesystem::file_type::directory: return "is a directory";
     case std::filesystem::file_type::none: return "cannot be read (" + error.message() + ")";
-    default: return "is no regular file";
+    default: return "is not a regular file";
   }
 }
 

@@ -181,7 +181,7 @@ Derivation derived(const Mechanism& mechanism) {
       throw ModelError(constraint.where,
                        "the equation `" + constraint.relation.text() + "` " +
                            (!number         ? "is about constants only"
-                            : phi.is_zero() ? "holds always"
+                            : phi.is_zero() ? "always holds"
                                             : "can never hold"),
                        "an equation between coordinates");
     }

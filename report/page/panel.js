@@ -125,7 +125,7 @@ export class Panel {
       ? `${shown} a point in or next to the box, found by Newton’s method (residual ${residual.toExponential(0)}).`
       : `${shown} the middle of the box: Newton’s method found no point in it.`;
     const arrows =
-      drawn && set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, in no scale." : "";
+      drawn && set.columns.length > 0 ? " Arrows: the velocity ξ that the locked joints cannot stop, not to scale." : "";
     const {aspects} = this.model;
     const aspect = aspects?.set === set ? aspects.htmlOf(box) : "";
     const types = [...set.typesOf(box), ...(set.passages ? [passageWords[set.passageOf(box)]] : [])].join(", ");

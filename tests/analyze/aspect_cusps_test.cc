@@ -179,7 +179,7 @@ TEST(AspectCusps, OfPlantedMapsAreKnownAndNoneIsFalse) {
     if (!found.aspects.exact()) {
       EXPECT_TRUE(found.cusps->list.empty());
       EXPECT_EQ(found.cusps->looked_for, (std::array{false, false}));
-      EXPECT_NE(to_text({.model = m}, found).find("cusps           not looked for; the aspects are not exact"),
+      EXPECT_NE(to_text({.model = m}, found).find("cusps           not searched for; the aspects are not exact"),
                 std::string::npos);
       const auto json = nlohmann::json::parse(to_json({.model = m}, found, true));
       EXPECT_TRUE(json["cusps"].is_null());
@@ -251,7 +251,7 @@ TEST(AspectCusps, OfTheOtherParityAreNotSaidToBeAll) {
   check_parity(cspace, 1, control, cusps);
   EXPECT_EQ(cusps.all, (std::array{true, false}));
   ASSERT_EQ(cusps.reasons.size(), 1u);
-  EXPECT_NE(cusps.reasons[0].find("inverse cusps: their number, 3, has not the parity"), std::string::npos);
+  EXPECT_NE(cusps.reasons[0].find("inverse cusps: their number, 3, does not have the parity"), std::string::npos);
 }
 
 TEST(AspectCusps, ThatNobodyAskedForAreNull) {

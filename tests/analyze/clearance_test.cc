@@ -288,8 +288,9 @@ TEST(Clearance, ClaimsNoBallLargerThanWhatWasSearched) {
   EXPECT_EQ(c.free_radius(), 0);
   EXPECT_GT(c.nearest.lower, 0);
   const std::string text = to_table(c), second = text.substr(text.find('\n') + 1);
-  EXPECT_TRUE(
-      second.starts_with("radius 0: there the ball meets the lower end of the range given for J3y; no singularity in it"))
+  EXPECT_TRUE(second.starts_with(
+      "radius 0: there the ball meets the lower end of the range given for J3y; it is proven that the ball holds no "
+      "singularity"))
       << text;
   EXPECT_NE(to_json(c).find("\"ball\": 0"), std::string::npos);
 }

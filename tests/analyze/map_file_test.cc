@@ -133,7 +133,7 @@ void expect_open(const MapFile& file, std::size_t cells) {
   const check::MapReport report = result::verify(file);
   EXPECT_TRUE(report.verified()) << result::to_table(report, file);
   EXPECT_EQ(report.completed() + cells, report.cells.size());
-  EXPECT_THAT(result::to_table(report, file), HasSubstr("verified, but not its completeness"));
+  EXPECT_THAT(result::to_table(report, file), HasSubstr("verified, except for completeness"));
 }
 
 // Nothing speaks against it but the search.
@@ -221,8 +221,8 @@ TEST(MapFile, ThatSomebodyChangedIsRefused) {
       if (j < 1) box[j] = Interval(box[j].lo() + by, box[j].hi() + by);
   };
   const std::vector<Change> changes{
-      {"a solution more", [&](MapFile& f) { ++three(f).count; }, "not as many sheets"},
-      {"a solution fewer", [&](MapFile& f) { --three(f).count; }, "not as many sheets"},
+      {"a solution more", [&](MapFile& f) { ++three(f).count; }, "not have as many sheets"},
+      {"a solution fewer", [&](MapFile& f) { --three(f).count; }, "not have as many sheets"},
       {"a solution twice",
        [&](MapFile& f) {
          MapCellClaim& cell = three(f);
@@ -252,15 +252,16 @@ TEST(MapFile, ThatSomebodyChangedIsRefused) {
       {"a cell beyond the map", [&](MapFile& f) { f.claims.cells[0].sides[0] = Interval(-3, -2); }, "not within the map"},
       {"a cell twice", [&](MapFile& f) { f.claims.cells.push_back(f.claims.cells[0]); }, "it overlaps cell 1"},
       {"a smaller map", [&](MapFile& f) { f.family.over[0].upper = symbolic::Expression("1/2"); }, "not within the map"},
-      {"a cell of one side", [&](MapFile& f) { f.claims.cells[0].sides.pop_back(); }, "not one side for each parameter"},
+      {"a cell of one side", [&](MapFile& f) { f.claims.cells[0].sides.pop_back(); },
+       "not have one side for each parameter"},
       {"a sheet with a side too few", [&](MapFile& f) { three(f).sheets[0].box.pop_back(); },
-       "not one side for each variable"},
+       "not have one side for each variable"},
       {"a negative number",
        [&](MapFile& f) {
          three(f).sheets.clear();
          three(f).count = -1;
        },
-       "not as many sheets"},
+       "not have as many sheets"},
       {"a parameter is eliminated",
        [&](MapFile& f) {
          f.claims.reduction.emplace_back(Elimination{2, 0});
@@ -314,7 +315,7 @@ TEST(MapFile, IsNotCheckedFurtherOnceStopped) {
   const check::MapReport report = result::verify(cubic(), options);
   EXPECT_TRUE(report.interrupted);
   EXPECT_FALSE(report.verified());
-  EXPECT_THAT(result::to_table(report, cubic()), HasSubstr("nothing is said of the rest"));
+  EXPECT_THAT(result::to_table(report, cubic()), HasSubstr("nothing is said about the rest"));
 }
 
 }  // namespace

@@ -87,8 +87,8 @@ TEST(PathFile, ThatSomebodyChangedIsRefused) {
        },
        "about it"},
       {"a size is none", [](auto& f) { f.tube.sizes[0] = 0; }, "a variable's size"},
-      {"a radius is infinite", [](auto& f) { f.tube.radii[0] = HUGE_VAL; }, "no length"},
-      {"a radius is negative", [](auto& f) { f.tube.radii[0] = -1; }, "no length"},
+      {"a radius is infinite", [](auto& f) { f.tube.radii[0] = HUGE_VAL; }, "not a length"},
+      {"a radius is negative", [](auto& f) { f.tube.radii[0] = -1; }, "not a length"},
       {"a piece is removed",
        [](auto& f) {
          f.tube.pieces.erase(f.tube.pieces.begin());

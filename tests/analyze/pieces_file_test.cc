@@ -130,7 +130,7 @@ void expect_open(const PiecesFile& file, const char* words) {
   const check::PiecesReport report = result::verify(file);
   EXPECT_TRUE(report.covered());
   EXPECT_FALSE(report.complete());
-  EXPECT_THAT(result::to_table(report, file), HasSubstr("not confirmed: that there are no more"));
+  EXPECT_THAT(result::to_table(report, file), HasSubstr("not confirmed: that there are at most as many"));
   EXPECT_THAT(result::to_table(report, file), HasSubstr(words));
 }
 
@@ -166,9 +166,9 @@ TEST(PiecesFile, WithAGapInItsProofConfirmsNoUpperBound) {
                 side = Interval(side.lo() - 1, side.hi());
               }),
               "a cell is not within its sheet");
-  expect_open(with([](PieceProof& p) { p.cells[5].sheet = 1'000'000; }), "a cell is of no sheet");
-  expect_open(with([](PieceProof& p) { p.cells[5].sheet = -1; }), "a cell is of no sheet");
-  expect_open(with([](PieceProof& p) { p.cells[5].sides.clear(); }), "not one side for each free variable");
+  expect_open(with([](PieceProof& p) { p.cells[5].sheet = 1'000'000; }), "a cell does not belong to a sheet");
+  expect_open(with([](PieceProof& p) { p.cells[5].sheet = -1; }), "a cell does not belong to a sheet");
+  expect_open(with([](PieceProof& p) { p.cells[5].sides.clear(); }), "not have one side for each free variable");
   expect_open(with([](PieceProof& p) { p.bridges.push_back({slider().space.boxes[0].free, {}}); }), "sheet of its own");
   expect_open(with([](PieceProof& p) {
                 p.bridges.push_back({slider().space.boxes[0].free, slider().space.regions[0]});
@@ -231,7 +231,8 @@ TEST(PiecesFile, ThatSomebodyChangedIsRefused) {
          for (Interval& side : f.lists[0].members[0].box) side = Interval(side.lo() + 0.01, side.hi() + 0.01);
        },
        "not shown to lie in its box"},
-      {"a member with nothing held", [](PiecesFile& f) { f.lists[0].members[0].free.clear(); }, "holds not as many"},
+      {"a member with nothing held", [](PiecesFile& f) { f.lists[0].members[0].free.clear(); },
+       "the number of variables that it holds"},
       {"a box is dropped", [](PiecesFile& f) { f.space.boxes.erase(f.space.boxes.begin() + 1); }, ""},
       {"a set of the outputs' limits", [](PiecesFile& f) { f.space.boxes[0].verdict = Verdict::undecided; },
        "neither regular"}};

@@ -287,11 +287,13 @@ TEST(ShapeFile, ThatSomebodyChangedIsRefused) {
          s.heights[0].cover.points.erase(s.heights[0].cover.points.begin());
          s.heights[0].by_index = {0, 0, 1};
        },
-       "no entry of the list of points"},
-      {"a link that names no sheet", sphere, [](Shape& s) { s.links[0].second = 1'000'000; }, "names a sheet that is none"},
+       "the list of points has no entry"},
+      {"a link that names no sheet", sphere, [](Shape& s) { s.links[0].second = 1'000'000; },
+       "names a sheet that does not exist"},
       {"a link that holds a variable twice", sphere, [](Shape& s) { s.links[0].held[1] = s.links[0].held[0]; },
        "no variable"},
-      {"a link that holds too few", sphere, [](Shape& s) { s.links[0].held.pop_back(); }, "holds not as many"},
+      {"a link that holds too few", sphere, [](Shape& s) { s.links[0].held.pop_back(); },
+       "the number of variables that it holds"},
       {"a link's point is moved away", sphere,
        [](Shape& s) { s.links[0].point[static_cast<std::size_t>(s.links[0].held[0])] += 0.5; }, "link 1"},
       {"a link between the ovals", ovals,
@@ -310,7 +312,7 @@ TEST(ShapeFile, ThatSomebodyChangedIsRefused) {
          s.space.regions[0] = {{-1.5, 1.5}, {-1, 1}};
        },
        "box 1"},
-      {"a bridge that is no sheet", slider,
+      {"a bridge that is not a sheet", slider,
        [](Shape& s) {
          s.bridges[0].region[0] = {-0.9, 0.9};
        },
@@ -337,7 +339,7 @@ TEST(ShapeFile, WithoutAProofOfCompletenessIsNotShownComplete) {
     const check::ShapeReport report = result::verify(file);
     EXPECT_TRUE(report.verified());
     EXPECT_FALSE(report.complete());
-    EXPECT_THAT(result::to_table(report, file), HasSubstr("verified, but not its completeness"));
+    EXPECT_THAT(result::to_table(report, file), HasSubstr("verified, except for completeness"));
   }
 }
 

@@ -55,7 +55,7 @@ TEST(Topology, CountsComponentsWhereNoCriticalPointsCanBeHad) {
   ASSERT_TRUE(t.components.exact()) << t.components.reason;
   EXPECT_EQ(t.components.at_least, 2);
   EXPECT_FALSE(t.euler_characteristic);
-  EXPECT_THAT(t.reason, testing::HasSubstr("the equations of critical points are no polynomials"));
+  EXPECT_THAT(t.reason, testing::HasSubstr("the equations of critical points are not polynomials"));
 }
 
 TEST(Topology, KnowsASurfaceOfGenusTwo) {

@@ -142,7 +142,7 @@ TEST(WithoutEffect, OptionsAreErrorsThatNameThem) {
   const Outcome range =
       run_corank({"clearance", dextar, "--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y", "--orientation-range", "9deg"});
   EXPECT_EQ(range.status, 1);
-  EXPECT_THAT(range.err, HasSubstr("the range of the orientation is without effect"));
+  EXPECT_THAT(range.err, HasSubstr("the range of the orientation has no effect"));
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST(Parts, AnOutputThatIsAJointGoesByTheJointsName) {
   text.replace(text.find("swing : joint"), 5, "angle");
   const Outcome other = run_corank({"derive", folder.write("four_bar.cuik", text), "--format", "model"});
   EXPECT_THAT(other.err,
-              HasSubstr("note: outputs that are joints go by the joints' names, here and in results: angle is swing"));
+              HasSubstr("note: an output that is a joint has the joint's name, here and in results: angle is swing"));
   EXPECT_THAT(other.out, HasSubstr("[OUTPUTS]  swing"));
   EXPECT_EQ(run_corank({"derive", folder.write("four_bar.cuik", kFourBar), "--format", "model"}).err, "");
 }
@@ -282,7 +282,7 @@ TEST(Parts, AMobilityThatIsNotTheCountIsSaid) {
   const Outcome moves = run_corank({"derive", folder.write("bennett.cuik", bennett("2"))});
   EXPECT_EQ(moves.status, 0) << moves.err;
   EXPECT_THAT(moves.out, StartsWith("Robot: spatial, 4 links, mobility -2\n"));
-  EXPECT_THAT(moves.err, HasSubstr("leave -2 degrees of freedom by their count, but 1 at sampled configurations"));
+  EXPECT_THAT(moves.err, HasSubstr("leave -2 degrees of freedom, but at sampled configurations they leave 1"));
   const json result = solved({folder.file("bennett.cuik")});
   EXPECT_EQ(result["system"]["dimension"], 1);
   EXPECT_GT(result["boxes"]["partial"], 0);
@@ -290,7 +290,7 @@ TEST(Parts, AMobilityThatIsNotTheCountIsSaid) {
   // Other lengths, and it only lies flat, in two ways.
   const Outcome stuck = run_corank({"solve", folder.write("stuck.cuik", bennett("3")), "--json"});
   EXPECT_EQ(stuck.status, 0) << stuck.err;
-  EXPECT_THAT(stuck.err, HasSubstr("but 0 at sampled configurations"));
+  EXPECT_THAT(stuck.err, HasSubstr("but at sampled configurations they leave 0"));
   const json boxes = json::parse(stuck.out)["boxes"];
   EXPECT_EQ(boxes["partial"].get<int>() + boxes["isolated"].get<int>(), 2);
   EXPECT_EQ(boxes["undecided"], 0);
@@ -310,7 +310,7 @@ TEST(Parts, AMobilityThatTheJointsDoNotCountIsTold) {
   const Outcome outcome = run_corank({"derive", folder.write("sarrus.cuik", text)});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
-  EXPECT_THAT(outcome.out, StartsWith("Robot: spatial, 6 links, mobility 1 (by its joints alone 0)\n"));
+  EXPECT_THAT(outcome.out, StartsWith("Robot: spatial, 6 links, mobility 1 (0 by its joints only)\n"));
 }
 
 TEST(Parts, FaultsNameTheFileAndTheLine) {

@@ -66,13 +66,13 @@ TEST(Path, WritesAPageOfBothEndsWhereThereIsNoPath) {
   const std::string page = read_text(folder.file("p.html"));
   EXPECT_TRUE(path_on(page)["nodes"].empty());
   EXPECT_EQ(path_on(page)["ends"].size(), 2u);
-  EXPECT_THAT(page, AllOf(HasSubstr("There is no such path, proven."), HasSubstr("class=\"unlike\"")));
+  EXPECT_THAT(page, AllOf(HasSubstr("It is proven that there is no such path."), HasSubstr("class=\"unlike\"")));
 }
 
 TEST(Path, SaysThatNoneExistsAndReturnsZero) {
   const Outcome outcome = run_corank(dextar("2"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("separated: no such path exists, proven"));
+  EXPECT_THAT(outcome.out, HasSubstr("separated: it is proven that no such path exists"));
 }
 
 TEST(Path, ListsTheConfigurationsToChooseFrom) {
@@ -86,7 +86,7 @@ TEST(Path, RefusesWhatMakesNoSense) {
   const auto run = [](const std::string& from) {
     return run_corank({"path", model("dextar"), "--from", from, "--to", "J3x=0,J3y=1"});
   };
-  EXPECT_THAT(run("J3x=0.5").err, HasSubstr("1 value of 2 that are needed"));
+  EXPECT_THAT(run("J3x=0.5").err, HasSubstr("1 of the 2 values that are needed"));
   EXPECT_THAT(run("J3x=0.5,knee=1").err, HasSubstr("there is no coordinate 'knee'"));
   EXPECT_THAT(run("J3x=9,J3y=1").err, HasSubstr("there is no configuration with these values"));
   EXPECT_EQ(run("J3x").status, 2);

@@ -53,7 +53,7 @@ TEST(Report, NamesTheRangesThatCutASet) {
   const std::string file = folder.write("cut.cuik",
                                         "[SYSTEM VARS]\nx : [-1/2, 1/2]\ny :\nt ~\n[SYSTEM EQS]\nx = cos(t);\ny = sin(t);\n"
                                         "[INPUTS] t\n[OUTPUTS] x\n");
-  const std::string sentence = "the ends of the declared range of x: what lies beyond was not searched.";
+  const std::string sentence = "the end of the declared range of x; nothing beyond was searched.";
   const std::string to = folder.file("a"), again = folder.file("b");
   EXPECT_EQ(run_corank({"report", file, "-o", to}).status, 0);
   EXPECT_THAT(read_text(to + "/index.html"), HasSubstr(sentence));
@@ -125,7 +125,7 @@ TEST(Report, OfALimitedSearchSaysSoAndHasStatus3) {
   const Outcome outcome = run_corank({"report", model("dextar"), "--max-boxes", "20", "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.err, HasSubstr("the report is incomplete"));
-  EXPECT_NE(read_text(folder.file("r/index.html")).find("A search ended before its end"), std::string::npos);
+  EXPECT_NE(read_text(folder.file("r/index.html")).find("A search ended early"), std::string::npos);
 }
 
 TEST(Report, HasOneProgressLineOverAllSetsAndEndsWithWhatItHasAfterAnInterrupt) {
@@ -137,7 +137,7 @@ TEST(Report, HasOneProgressLineOverAllSetsAndEndsWithWhatItHasAfterAnInterrupt) 
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.err, HasSubstr("corank: cspace: stopped by an interrupt, in the stage "));
   EXPECT_FALSE(result::read_result(folder.file("r/inverse.h5")).cover.complete());
-  EXPECT_NE(read_text(folder.file("r/index.html")).find("A search ended before its end"), std::string::npos);
+  EXPECT_NE(read_text(folder.file("r/index.html")).find("A search ended early"), std::string::npos);
 }
 
 TEST(Report, RefusesResultsThatDoNotBelongTogether) {

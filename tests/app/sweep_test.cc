@@ -270,7 +270,7 @@ TEST(Sweep, OfALimitedSearchSaysSoAndHasStatus3) {
       run_corank({"sweep", model("dextar"), "-D", "l2=1.6:0.9:2", "--max-boxes", "20", "-o", folder.file("f")});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.err, HasSubstr("forward: stopped by the box limit, in the stage search\ncorank: l2 = 1.6, inverse: "));
-  EXPECT_NE(read_text(folder.file("f/index.html")).find("A search ended before its end"), std::string::npos);
+  EXPECT_NE(read_text(folder.file("f/index.html")).find("A search ended early"), std::string::npos);
 }
 
 TEST(Sweep, HasTheSameResultsForAnyNumberOfThreads) {

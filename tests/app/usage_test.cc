@@ -206,7 +206,7 @@ TEST(BadInput, IsReadFromNoPipeAndNoDevice) {
     SCOPED_TRACE(testing::PrintToString(args));
     const Outcome outcome = run_corank(args);
     EXPECT_EQ(outcome.status, 1) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("is no regular file"));
+    EXPECT_THAT(outcome.err, HasSubstr("is not a regular file"));
     expect_one_line(outcome);
   }
 }

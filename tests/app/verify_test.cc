@@ -61,9 +61,10 @@ TEST_F(Verify, OfASampleSaysThatNothingIsSaidOfTheRest) {
   const Outcome some = run_corank({"verify", path(), "--sample", "5"});
   EXPECT_EQ(some.status, 3) << some.out;
   EXPECT_THAT(some.out, HasSubstr("isolated              5          0              0\n"));
-  EXPECT_THAT(some.out, HasSubstr("a sample: 5 of 8 boxes, chosen at random, were checked; nothing is said of the others"));
-  EXPECT_THAT(some.out, HasSubstr(", nor of completeness\nwere more than 60 % of all boxes wrong"));
-  EXPECT_THAT(some.out, testing::EndsWith("\nverified, the sample alone\n"));
+  EXPECT_THAT(some.out,
+              HasSubstr("a sample: 5 of 8 boxes, chosen at random, were checked; nothing is said about the others"));
+  EXPECT_THAT(some.out, HasSubstr(" or about completeness\nif more than 60 % of all boxes were wrong"));
+  EXPECT_THAT(some.out, testing::EndsWith("\nverified, but only the sample\n"));
   const json summary = json::parse(run_corank({"verify", path(), "--sample", "5", "--json"}).out);
   EXPECT_EQ(summary["not_in_sample"], 3);
   EXPECT_EQ(summary["verified"], false);
@@ -119,7 +120,7 @@ TEST_F(Verify, ReplaysAProofWhereEveryVariableWasEliminated) {
   const Outcome outcome = run_corank({"verify", file});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.out, HasSubstr("completeness: replayed"));
-  EXPECT_THAT(outcome.out, HasSubstr("decimals: in their boxes, but not proven anew\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("decimals: they lie in their boxes, but were not proven again\n"));
 }
 
 TEST_F(Verify, RejectsDecimalsOutsideTheirBox) {
@@ -139,7 +140,7 @@ TEST_F(Verify, SaysWhereCompletenessIsNotProven) {
   const Outcome outcome = run_corank({"verify", path()});
   EXPECT_EQ(outcome.status, 4);
   EXPECT_THAT(outcome.out, HasSubstr("completeness: no proof in the file\n"));
-  EXPECT_THAT(outcome.out, HasSubstr("\nverified, but not its completeness\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nverified, except for completeness\n"));
   EXPECT_EQ(outcome.err, "");
   const Outcome as_json = run_corank({"verify", path(), "--json"});
   EXPECT_EQ(as_json.status, 4);
@@ -163,7 +164,7 @@ TEST_F(Verify, SaysWhereASearchHadEndedEarly) {
   const Outcome outcome = run_corank({"verify", file});
   EXPECT_EQ(outcome.status, 4);
   EXPECT_THAT(outcome.out, HasSubstr("not searched\n"));
-  EXPECT_THAT(outcome.out, HasSubstr("\nverified, but not its completeness\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nverified, except for completeness\n"));
   EXPECT_EQ(run_corank({"verify", file, "--require-proof"}).status, 1);
 }
 
@@ -171,7 +172,7 @@ TEST_F(Verify, EndsAtItsTimeLimitWithAStatement) {
   const Outcome outcome = run_corank({"verify", path(), "--time-limit", "1e-9"});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.out,
-              HasSubstr("interrupted in the reduction: 0 of 8 boxes were checked; nothing is said of the rest\n"));
+              HasSubstr("interrupted in the reduction: 0 of 8 boxes were checked; nothing is said about the rest\n"));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("verified\n")));
   const json summary = json::parse(run_corank({"verify", path(), "--time-limit", "1e-9", "--json"}).out);
   EXPECT_EQ(summary["verified"], false);

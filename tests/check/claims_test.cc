@@ -61,10 +61,10 @@ TEST_F(CircleClaims, HaveAPositiveSigma) {
 TEST_F(CircleClaims, HaveRegionsWithOneBoundedSideForEachVariable) {
   const auto good = cover_.regions;
   cover_.regions[0].pop_back();
-  EXPECT_THAT(faults(), HasSubstr("a region has not one bounded side"));
+  EXPECT_THAT(faults(), HasSubstr("a region does not have one bounded side"));
   cover_.regions = good;
   cover_.regions[0][0] = {-HUGE_VAL, 2};
-  EXPECT_THAT(faults(), HasSubstr("a region has not one bounded side"));
+  EXPECT_THAT(faults(), HasSubstr("a region does not have one bounded side"));
 }
 
 TEST_F(CircleClaims, HaveNoRegionWithoutABox) {
@@ -86,7 +86,7 @@ TEST_F(CircleClaims, HaveTheDimensionOfTheSet) {
 
 TEST_F(CircleClaims, HaveNoPoints) {
   cover_.points.push_back(cover_.boxes[0]);
-  EXPECT_THAT(faults(), HasSubstr("more than points"));
+  EXPECT_THAT(faults(), HasSubstr("does not consist of points"));
 }
 
 TEST_F(CircleClaims, HaveBoxesInOrder) {
@@ -129,7 +129,7 @@ TEST_F(TwoNumbers, AreIsolatedAtTheirExactPoints) {
 TEST_F(TwoNumbers, HaveAFiniteRadius) {
   know(-2);
   cover_.exact_points[0].sole_within = HUGE_VAL;
-  EXPECT_THAT(faults(), HasSubstr("a radius is no number"));
+  EXPECT_THAT(faults(), HasSubstr("a radius is not a number"));
 }
 
 TEST_F(TwoNumbers, AreNotExactByAPointThatIsNone) {
@@ -140,7 +140,7 @@ TEST_F(TwoNumbers, AreNotExactByAPointThatIsNone) {
   cover_.boxes[0].region = cover_.points[0].region = -1;
   const std::string all = faults();
   EXPECT_THAT(all, HasSubstr("does not hold there"));
-  EXPECT_THAT(all, HasSubstr("its exact point is not one"));
+  EXPECT_THAT(all, HasSubstr("its exact point is not confirmed"));
 }
 
 TEST_F(TwoNumbers, AreNoPiecesOfASelfMotion) {
@@ -159,12 +159,12 @@ TEST_F(TwoNumbers, AreNoPiecesOfASelfMotion) {
 
 TEST_F(TwoNumbers, HaveEntriesWithTheirOwnRegions) {
   cover_.points[0].region = cover_.points[1].region;
-  EXPECT_THAT(faults(), HasSubstr("stands for it"));
+  EXPECT_THAT(faults(), HasSubstr("has no entry for it"));
 }
 
 TEST_F(TwoNumbers, HaveAnEntryForEachBox) {
   cover_.boxes.insert(cover_.boxes.begin(), cover_.boxes[0]);
-  EXPECT_THAT(faults(), HasSubstr("no entry of the list of points stands for it"));
+  EXPECT_THAT(faults(), HasSubstr("the list of points has no entry for it"));
 }
 
 TEST_F(TwoNumbers, HaveOpenEntriesThatHoldTheirBoxes) {
@@ -174,12 +174,12 @@ TEST_F(TwoNumbers, HaveOpenEntriesThatHoldTheirBoxes) {
   cover_.points.push_back(open);
   EXPECT_TRUE(check(system_, cover_).verified()) << text(check(system_, cover_));
   cover_.points.back().box[0] = {-0.5, 0.5};
-  EXPECT_THAT(faults(), HasSubstr("no entry of the list of points stands for it"));
+  EXPECT_THAT(faults(), HasSubstr("the list of points has no entry for it"));
 }
 
 TEST_F(TwoNumbers, HaveNoEntryWithoutABox) {
   cover_.points.push_back({{{4, 5}}, Verdict::undecided, {}});
-  EXPECT_THAT(faults(), HasSubstr("no box stands for it"));
+  EXPECT_THAT(faults(), HasSubstr("there is no box for it"));
 }
 
 TEST_F(TwoNumbers, HaveNoEntryThatIsPending) {
@@ -236,7 +236,7 @@ TEST(Claims, AreExplainedByAKernelAsLargeAsTheSetAsksFor) {
   coordinates[0] = {0};
   cover.exact_points = {{{0, 1}, -1, 1, coordinates, 2, 0}};
   system.kernel_vectors = 3;
-  EXPECT_THAT(text(check(system, cover)), HasSubstr("no kernel of dimension 3"));
+  EXPECT_THAT(text(check(system, cover)), HasSubstr("not have a kernel of dimension 3"));
 }
 
 TEST(MeetingPairs, AreThoseWithAPointInCommon) {

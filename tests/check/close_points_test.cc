@@ -94,7 +94,7 @@ TEST(ExactNumberOfAPoint, IsTheOnlyRootInItsInterval) {
   const RationalPolynomial quarter{number("-1/4"), 1}, half{number("-1/2"), 1}, quarters{number("-3/4"), 1},
       no_root{1, 0, 1};  // x² + 1
   const RationalPolynomial three = times(times(quarter, half), times(quarters, no_root));
-  EXPECT_THAT(fault(three, "0", "1"), HasSubstr("not exactly one root"));
+  EXPECT_THAT(fault(three, "0", "1"), HasSubstr("not have exactly one root"));
   EXPECT_EQ(fault(three, "3/8", "5/8"), "");
   EXPECT_EQ(fault(times(half, times(half, half)), "0", "1"), "") << "once, though its slope is 0 there";
   EXPECT_THAT(fault(times(quarter, times(half, half)), "3/8", "1"), HasSubstr("opposite signs"));

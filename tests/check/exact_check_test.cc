@@ -77,7 +77,7 @@ TEST(ExactPoint, IsNoneOfASystemWithSinesOrATolerance) {
   System sine;
   sine.variables.emplace_back("x", VariableKind::length, -2, 2);
   sine.equations = {Polynomial{{Monomial(1, {{0, 1, Function::sine}}), Monomial(-1, {})}, "sin x = 1"}};
-  EXPECT_THAT(holds(sine, rational({{1}})), HasSubstr("no polynomial"));
+  EXPECT_THAT(holds(sine, rational({{1}})), HasSubstr("not a polynomial"));
   System system = plain(kHalf);
   system.coefficient_tolerance = 1e-3;
   EXPECT_THAT(holds(system, root_of_half({{0, 1}})), HasSubstr("tolerance"));
@@ -85,7 +85,7 @@ TEST(ExactPoint, IsNoneOfASystemWithSinesOrATolerance) {
 
 TEST(ExactPoint, HasRationalCoordinates) {
   const ExactNumber root = ExactNumber::apply(ConstantFunction::sqrt, number("1/2"));
-  EXPECT_THAT(holds(plain(kHalf), rational({{root}})), HasSubstr("no rational number"));
+  EXPECT_THAT(holds(plain(kHalf), rational({{root}})), HasSubstr("not a rational number"));
 }
 
 // The number of roots where the slope is 0 at one of them: that takes Sturm's chain.
@@ -97,8 +97,8 @@ TEST(ExactPoint, IsDefinedByTheOnlyRootAlsoWhereItIsAMultipleOne) {
   EXPECT_EQ(fault({0, 0, 0, 1}, "-1", "1"), "") << "t^3";
   EXPECT_EQ(fault({0, 0, 0, 1, 0, 1}, "-1", "1"), "") << "t^3 (t^2 + 1)";
   EXPECT_EQ(fault({0, 0, 0, 2, -1}, "-1", "1"), "") << "t^3 (2 - t)";
-  EXPECT_THAT(fault({0, 0, 0, number("-1/4"), 0, 1}, "-1", "1"), HasSubstr("not exactly one root"));
-  EXPECT_THAT(fault({0, number("1/4"), 0, number("-5/4"), 0, 1}, "-2", "2"), HasSubstr("not exactly one root"));
+  EXPECT_THAT(fault({0, 0, 0, number("-1/4"), 0, 1}, "-1", "1"), HasSubstr("not have exactly one root"));
+  EXPECT_THAT(fault({0, number("1/4"), 0, number("-5/4"), 0, 1}, "-2", "2"), HasSubstr("not have exactly one root"));
 }
 
 // M is the matrix of (a, b).

@@ -57,19 +57,19 @@ TEST_F(LineAndPoint, HasNotOneSolutionWhereThePointIsBesideTheLine) {
 }
 
 TEST_F(LineAndPoint, HasNoSelfMotionOfAnotherDimension) {
-  EXPECT_THAT(fault(system_, {2, {kEqual}}), HasSubstr("no set of dimension"));
+  EXPECT_THAT(fault(system_, {2, {kEqual}}), HasSubstr("not make a set of dimension"));
   for (const int dimension : {0, 2}) {
     EXPECT_NE(fault(system_, {dimension, {kEqual}}), "") << dimension;
     Cover cover = piece({1.7, 2.3});
     cover.self_motions[0].dimension = dimension;
-    EXPECT_THAT(text(check(system_, cover)), HasSubstr("its self-motion is none")) << dimension;
+    EXPECT_THAT(text(check(system_, cover)), HasSubstr("its self-motion is not shown to be one")) << dimension;
   }
 }
 
 // The count of the equations says dimension 0: points are no self-motion, whose pieces are not counted.
 TEST_F(LineAndPoint, HasNoSelfMotionThatIsAPoint) {
   const Polynomial two = relation({{1, {{0, 1}}}, {-2, {}}}), three = relation({{1, {{1, 1}}}, {-3, {}}});
-  EXPECT_THAT(fault(system_, {0, {two, three}}), HasSubstr("no larger than the count"));
+  EXPECT_THAT(fault(system_, {0, {two, three}}), HasSubstr("not larger than the number of equations"));
   const Interval x(1.9, 2.1), y(2.9, 3.1);
   Cover cover;
   cover.sigma = {1, 1};
@@ -78,12 +78,12 @@ TEST_F(LineAndPoint, HasNoSelfMotionThatIsAPoint) {
   CoverBox box{{x, y}, Verdict::isolated, {}, 0};
   box.motion = 0;
   cover.boxes = {box, box};
-  EXPECT_THAT(text(check(system_, cover)), HasSubstr("its self-motion is none"));
+  EXPECT_THAT(text(check(system_, cover)), HasSubstr("its self-motion is not shown to be one"));
 }
 
 TEST_F(LineAndPoint, HasNoSelfMotionOfOtherRelations) {
   const Polynomial other = relation({{1, {{0, 1}}}, {-2, {{1, 1}}}});  // x = 2 y
-  EXPECT_THAT(fault(system_, {1, {other}}), HasSubstr("no set of dimension"));
+  EXPECT_THAT(fault(system_, {1, {other}}), HasSubstr("not make a set of dimension"));
   const Polynomial parabola = relation({{1, {{0, 1}}}, {-1, {{1, 2}}}});
   EXPECT_THAT(fault(system_, {1, {parabola}}), HasSubstr("not linear"));
   EXPECT_THAT(fault(system_, {1, {relation({{1, {{7, 1}}}})}}), HasSubstr("variables that were kept"));

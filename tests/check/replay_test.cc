@@ -225,7 +225,7 @@ TEST_F(TwoPoints, AreNotShownByAMalformedScript) {
   EXPECT_THAT(failures(Script(all).add(Step::split, {2}, {0}).add(Step::empty).add(Step::empty)), HasSubstr("out of range"));
   EXPECT_THAT(failures(Script(all).add(Step::keep, {-1}).add(Step::empty)), HasSubstr("negative"));
   EXPECT_THAT(failures(Script(all).add(Step::keep, {1, 4}, {0}).add(Step::empty)), HasSubstr("out of range"));
-  EXPECT_THAT(failures(Script(all).add(Step::keep, {1, 0}, {NAN}).add(Step::empty)), HasSubstr("a number is none"));
+  EXPECT_THAT(failures(Script(all).add(Step::keep, {1, 0}, {NAN}).add(Step::empty)), HasSubstr("a value is not a number"));
   EXPECT_THAT(failures(Script(all).add(Step::cut, {0, 2}, {1, 0}).add(Step::empty)), HasSubstr("do not ascend"));
   EXPECT_THAT(failures(Script(all).add(Step::cut, {0, 1000000}, {1})), HasSubstr("ends early"));
   EXPECT_THAT(failures(Script(all).add(static_cast<Step>(77))), HasSubstr("unknown step"));

@@ -135,9 +135,9 @@ TEST_F(TubeCheckOnACircle, RefusesWhatHasNotTheSizes) {
   tube_.radii.push_back(0);
   refused("one radius");
   tube_.radii[0] = -1e-300;
-  refused("no length");
+  refused("not a length");
   tube_.radii[0] = HUGE_VAL;
-  refused("no length");
+  refused("not a length");
   tube_.sizes.pop_back();
   refused("one size for each variable");
   tube_.sizes[1] = 0;
@@ -157,11 +157,11 @@ TEST_F(TubeCheckOnACircle, RefusesWhatHasNotTheSizes) {
   tube_.pieces[0][0] = Interval::whole();
   refused("a piece");
   tube_ = {};
-  refused("a tube has two nodes");
+  refused("a tube has at least two nodes");
   tube_.nodes.resize(1);
   tube_.pieces.clear();
   tube_.radii.clear();
-  refused("a tube has two nodes");
+  refused("a tube has at least two nodes");
 }
 
 }  // namespace

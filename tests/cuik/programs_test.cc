@@ -34,7 +34,7 @@ TEST(Cuik, SolvesWithTheParameterFileBesideTheModel) {
   folder.write("circle.param", "SIGMA = 0.05\nRHO = 0.95 % tuning\n");
   const Outcome run = folder.run("cuik circle");
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("circle.param: without effect here: RHO\n"));
+  EXPECT_THAT(run.err, HasSubstr("circle.param: these parameters have no effect here: RHO\n"));
   EXPECT_THAT(run.out, HasSubstr("sigma 0.05"));
   const SolFile file = result::read_sol(folder.file("circle.sol"));
   EXPECT_THAT(file.variables, ElementsAre("c", "s"));  // no dummy variables, as in the suite
@@ -214,7 +214,7 @@ TEST(CorankSolve, TakesTheParametersBesideAWorld) {
   const Outcome beside = run("");
   EXPECT_EQ(beside.status, 0) << beside.err;
   EXPECT_THAT(beside.out, HasSubstr("sigma 0.07\n"));
-  EXPECT_EQ(beside.err, "fourbar.world: note: with the parameters of fourbar.param, where the command line has none\n");
+  EXPECT_EQ(beside.err, "fourbar.world: note: takes the parameters of fourbar.param that the command line does not give\n");
   EXPECT_THAT(run("--sigma 0.08").out, HasSubstr("sigma 0.08\n"));
   const Outcome other = run("--param other.param");
   EXPECT_THAT(other.out, HasSubstr("sigma 0.09\n"));

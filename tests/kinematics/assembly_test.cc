@@ -311,7 +311,7 @@ TEST(Assembly, SlicesTheTurningOfAPlanarLink) {
   EXPECT_EQ(at_limit.mechanism.limits()[0].upper.text(), "pi/2");
   EXPECT_THAT(equations(at_limit).back(), HasSubstr(">= 0"));
   EXPECT_THAT(fault_of(crank("[-pi/4, pi/3]")),
-              HasSubstr("the range of phi of the output 't' leaves that of 't2'; expected a range within"));
+              HasSubstr("the range of phi of the output 't' goes beyond that of 't2'; expected a range within"));
 }
 
 TEST(Assembly, RefusesATurningThatIsNone) {
@@ -329,7 +329,7 @@ TEST(Assembly, RefusesATurningThatIsNone) {
                        "sph_prs_sph m : base (0,2,0) platform (0,1,0) range [1, 2] actuated\n"
                        "sph_prs_sph n : base (0,0,2) platform (0,1,1) range [1, 2] actuated\n"
                        "[OUTPUTS]\no : orientation of platform range phi [0, 1]\n"),
-              HasSubstr("the output 'o' has a range of phi, but turns in space; expected keeps R behind it"));
+              HasSubstr("the output 'o' has a range of phi, but it turns in space; expected `keeps R` after it"));
 }
 
 TEST(Assembly, RefusesAnOutputsComponentThatCannotMove) {

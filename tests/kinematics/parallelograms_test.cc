@@ -51,7 +51,7 @@ TEST(Parallelograms, ThatAreKeptLeaveNoLoop) {
 }
 
 TEST(Parallelograms, AreKeptOnlyWhereThereIsOne) {
-  EXPECT_THAT(fault_of(leg("keep parallelograms\n", "221")), HasSubstr("there is no parallelogram to be kept"));
+  EXPECT_THAT(fault_of(leg("keep parallelograms\n", "221")), HasSubstr("`keep parallelograms` finds no parallelogram"));
 }
 
 // On a turning column, the fourth side a rod between two points.

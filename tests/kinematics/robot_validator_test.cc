@@ -95,7 +95,7 @@ TEST(RobotValidator, TellsRotationsFromOtherMatrices) {
   robot.joints[0].pose.rotation = {{{"sqrt(1/2)", "-sqrt(1/2)", 0}, {"sqrt(1/2)", "sqrt(1/2)", 0}, {0, 0, 1}}};
   EXPECT_EQ(message_of(robot), "accepted");
   robot.joints[0].pose.rotation[0] = {"0.70710678118654752440", "-0.70710678118654752440", 0};
-  EXPECT_THAT(message_of(robot), HasSubstr("is no rotation and translation: row 1 has not the length 1"));
+  EXPECT_THAT(message_of(robot), HasSubstr("is not a rotation and translation: row 1 does not have the length 1"));
   robot.joints[0].pose = Pose{};
   robot.joints[0].pose.rotation[2] = {0, 0, -1};
   EXPECT_THAT(message_of(robot), HasSubstr("the matrix is a reflection"));

@@ -200,7 +200,7 @@ TEST(Urdf, SaysWhatItPassesOver) {
               testing::IsSupersetOf({"meshes are not drawn, 6 times",
                                      "dynamics (damping, friction) of joints passed over, 6 "
                                      "times",
-                                     "limits of a whole turn or more are none, 6 times"}));
+                                     "limits of a whole turn or more do not limit a joint, 6 times"}));
   EXPECT_THAT(parse_urdf("<robot name='r'><link name='a'/><gazebo><joint name='x'/></gazebo></robot>", "r").notices,
               Contains(HasSubstr("a <gazebo> holds a joint")));
 }
@@ -269,7 +269,7 @@ TEST(Urdf, ALinkOfAFloatingJointIsHeldByLoops) {
   const Robot held = parse_urdf(text, "r.urdf", UrdfLoops{"[LOOPS]\nspherical: a (0, 0, 0) b (1, 0, 0)", "r.loops"});
   ASSERT_EQ(held.joints.size(), 1u);
   EXPECT_EQ(held.joints[0].kind, JointKind::spherical);
-  EXPECT_THAT(held.notices, Contains("joint 'j' is floating, so no joint: loops have to hold the link 'b'"));
+  EXPECT_THAT(held.notices, Contains("joint 'j' is floating, so it is left out: loops have to hold the link 'b'"));
   EXPECT_THROW(parse_urdf(text, "r.urdf", UrdfLoops{"", "r.loops"}), ModelError);
 }
 
@@ -418,10 +418,11 @@ TEST(Urdf, SaysWhatIsWrongAndWhere) {
       {robot("<link/>"), "r.urdf:2:2: a link has no name"},
       {robot(two_links + "<link name='a'/>"),
        "r.urdf:4:13: a second link called 'a'; expected each name once; the first "
-       "stands in line 2"},
+       "is in line 2"},
       {robot(two_links + joint_text("j", "a", "b") + "<link name='c'/>" + joint_text("j", "b", "c")),
        "a second joint called 'j'"},
-      {robot(two_links), "r.urdf:3:2: two links are no joint's child, 'a' and 'b'; expected one root, which is the ground"},
+      {robot(two_links),
+       "r.urdf:3:2: two links are not the child of a joint, 'a' and 'b'; expected one root, which is the ground"},
       {robot(two_links + joint_text("j", "a", "c")),
        "r.urdf:4:61: there is no link 'c'; expected the name of a <link> of this file"},
       {robot("<link name='base'/>\n<link name='forearm'/>\n" + joint_text("j", "base", "fore_arm")),
@@ -434,7 +435,7 @@ TEST(Urdf, SaysWhatIsWrongAndWhere) {
       {robot(two_links + "<link name='c'/>" + joint_text("j", "a", "c") + joint_text("k", "b", "c")),
        "r.urdf:5:61: the link 'c' is the child of two joints, 'j' and 'k'; expected URDF is a tree: close loops in a "
        ".loops"},
-      {robot(two_links + joint_text("j", "a", "b") + joint_text("k", "b", "a")), "every link is a joint's child"},
+      {robot(two_links + joint_text("j", "a", "b") + joint_text("k", "b", "a")), "every link is the child of a joint"},
       {robot(two_links + "<link name='c'/>" + joint_text("j", "a", "b") + joint_text("k", "b", "a")),
        "closes a cycle of links"},
       {with_joint("", ""), "r.urdf:4:2: joint 'j' has no type"},
@@ -445,11 +446,11 @@ TEST(Urdf, SaysWhatIsWrongAndWhere) {
       {with_joint("continuous", "<axis xyz='0 0.0 -0'/>"), "r.urdf:5:12: the axis of joint 'j' is 0; expected a direction"},
       {with_joint("continuous", "<axis xyz='0 1'/>"), "the axis of joint 'j' is '0 1', 2 numbers; expected three"},
       {with_joint("continuous", "<axis/>"), "the axis of joint 'j' has no xyz"},
-      {with_joint("fixed", "<origin xyz='0 0 O.5'/>"), "r.urdf:5:14: xyz of joint 'j' is 'O.5', no number"},
-      {with_joint("fixed", "<origin xyz='0 0 nan'/>"), "no number"},
+      {with_joint("fixed", "<origin xyz='0 0 O.5'/>"), "r.urdf:5:14: xyz of joint 'j' is 'O.5', not a number"},
+      {with_joint("fixed", "<origin xyz='0 0 nan'/>"), "not a number"},
       {with_joint("fixed", "<origin xyz='0 0 1e9999'/>"), "out of range"},
       {with_joint("fixed", "<origin xyz='1 2 3 4'/>"), "more than 3 numbers"},
-      {with_joint("fixed", "<origin\n rpy='0 0 90deg'/>"), "r.urdf:6:7: rpy of joint 'j' is '90deg', no number"},
+      {with_joint("fixed", "<origin\n rpy='0 0 90deg'/>"), "r.urdf:6:7: rpy of joint 'j' is '90deg', not a number"},
       {with_joint("fixed", "<origin xyx='1 2 3'/>"), "<origin> has an unknown attribute 'xyx'; expected xyz, rpy"},
       {with_joint("fixed", "<orgin xyz='1 2 3'/>"), "r.urdf:5:2: an unknown element <orgin>; expected <origin>"},
       {with_joint("fixed", "<origin/>\n<origin/>"), "r.urdf:6:2: a second <origin> in one <joint>"},
@@ -459,7 +460,7 @@ TEST(Urdf, SaysWhatIsWrongAndWhere) {
       {with_joint("revolute", "<limit effort='1' velocity='1'/>"), "neither a lower nor an upper limit"},
       {with_joint("revolute", "<limit lower='1.58' upper='1.5708'/>"),
        "r.urdf:5:2: the lower limit of joint 'j' is above the upper one, 1.58 > pi/2"},
-      {with_joint("prismatic", "<limit lower='1' upper='a'/>"), "upper of joint 'j' is 'a', no number"},
+      {with_joint("prismatic", "<limit lower='1' upper='a'/>"), "upper of joint 'j' is 'a', not a number"},
       {with_joint("continuous", "<mimic joint='k'/>"), "r.urdf:5:15: there is no joint 'k'"},
       {with_joint("fixed", "<mimic joint='j'/>"),
        "the fix joint 'j' follows the fix joint 'j'; expected two joints that turn"},

@@ -77,13 +77,13 @@ TEST(SetWords, TellPointsAtTheBorderOfTheDomainApart) {
   result.cover.points = result.cover.boxes;
   const SetWords words = set_words(result, components(result));
   EXPECT_EQ(words.finding, "1 point, 1 at the border of the search domain");
-  EXPECT_THAT(words.unproven, Contains(HasSubstr("inside the search domain is not proven")));
+  EXPECT_THAT(words.unproven, Contains(HasSubstr("It is not proven that the solution")));
 }
 
 TEST(SetWords, OfAnEmptyCompleteCoverSayThatThereIsNone) {
   const SetWords words = set_words(boxes({}), {});
   EXPECT_EQ(words.finding, "None");
-  EXPECT_THAT(words.proven, ElementsAre("There is none in the search domain."));
+  EXPECT_THAT(words.proven, ElementsAre("There are none in the search domain."));
 }
 
 TEST(Percentage, IsAHundredOnlyWhereItIsAll) {

@@ -228,11 +228,11 @@ TEST(Page, HoldsNoMarkupOfAResultsNames) {
 TEST(Page, SaysWhereASearchEndedEarly) {
   const Mechanism mechanism = slider();
   result::Result result = solved(mechanism, SingularitySet::forward);
-  EXPECT_FALSE(holds(report_page(mechanism, {set_view(mechanism, result)}), "ended before its end"));
+  EXPECT_FALSE(holds(report_page(mechanism, {set_view(mechanism, result)}), "A search ended early"));
   result.cover.boxes.front().verdict = Verdict::pending;
   const std::string page = report_page(mechanism, {set_view(mechanism, result)});
-  EXPECT_TRUE(holds(page, "ended before its end"));
-  EXPECT_TRUE(holds(page, "what 1 box may hold was not looked into"));
+  EXPECT_TRUE(holds(page, "A search ended early"));
+  EXPECT_TRUE(holds(page, "left 1 box unsearched, which may hold solutions"));
 }
 
 TEST(Page, RefusesAPlainSystem) {

@@ -87,9 +87,9 @@ TEST(PathWords, SayWhatIsProvenOfAPath) {
   const Asked a = joined();
   const PathWords words = path_words(a.mechanism, a.view);
   EXPECT_EQ(words.kicker, "A path without forward singularities");
-  EXPECT_THAT(words.proven, Contains(HasSubstr("No forward singularity on it")));
+  EXPECT_THAT(words.proven, Contains(HasSubstr("The path meets no forward singularity")));
   EXPECT_THAT(words.proven, Contains(HasSubstr("It keeps to the ranges of <i>J</i><sub>3x</sub>")));
-  EXPECT_THAT(words.unproven, Not(Contains(HasSubstr("asked for"))));
+  EXPECT_THAT(words.unproven, Not(Contains(HasSubstr("requested"))));
 }
 
 TEST(PathWords, SpeakOfBothKindsOfSingularityWhereBothAreAvoided) {
@@ -97,7 +97,7 @@ TEST(PathWords, SpeakOfBothKindsOfSingularityWhereBothAreAvoided) {
   ASSERT_TRUE(a.view.path.tube);
   const PathWords words = path_words(a.mechanism, a.view);
   EXPECT_EQ(words.kicker, "A path without forward and inverse singularities");
-  EXPECT_THAT(words.proven, Contains(HasSubstr("No forward or inverse singularity on it")));
+  EXPECT_THAT(words.proven, Contains(HasSubstr("The path meets no forward or inverse singularity")));
   EXPECT_EQ(a.view.signs[0].size(), a.view.signs[1].size());
   EXPECT_THAT(signs_html(a.view), AllOf(HasSubstr("det <i>L<sub>y</sub></i>"), HasSubstr("det <i>L<sub>z</sub></i>")));
 }
@@ -105,7 +105,8 @@ TEST(PathWords, SpeakOfBothKindsOfSingularityWhereBothAreAvoided) {
 TEST(PathWords, NameTheRadiusThatWasNotReached) {
   Asked a = joined();
   a.view.radius_asked = 100;
-  EXPECT_THAT(path_words(a.mechanism, a.view).unproven, Contains(HasSubstr("The radius 100 that was asked for")));
+  EXPECT_THAT(path_words(a.mechanism, a.view).unproven,
+              Contains(HasSubstr("The path does not have the requested radius, 100")));
 }
 
 TEST(PathWords, NameTheLimitsOfJoints) {
@@ -121,7 +122,7 @@ TEST(PathWords, ShowTheSignsThatSeparateTheEnds) {
   EXPECT_EQ(a.view.signs[0][0].sign, -a.view.signs[1][0].sign);
   EXPECT_THAT(signs_html(a.view), HasSubstr("class=\"unlike\""));
   EXPECT_THAT(signs_html(joined().view), Not(HasSubstr("unlike")));
-  EXPECT_EQ(path_words(a.mechanism, a.view).finding, "There is no such path, proven.");
+  EXPECT_EQ(path_words(a.mechanism, a.view).finding, "It is proven that there is no such path.");
   EXPECT_EQ(waypoints_html(a.view, a.mechanism), "");
 }
 

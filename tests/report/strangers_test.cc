@@ -108,12 +108,12 @@ TEST_F(Stranger, MayNotPutAVirtualOrACompactArray) {
     H5Sclose(space);
   };
   EXPECT_THAT(refusal([&](hid_t f) { replace(f, "/certificates/proof/reals", H5T_NATIVE_DOUBLE, {4}, virtual_layout); }),
-              HasSubstr("stored as no array of a result is"));
+              HasSubstr("not stored like an array of a result"));
   EXPECT_THAT(refusal([&](hid_t f) {
                 replace(f, "/certificates/proof/reals", H5T_NATIVE_DOUBLE, {4},
                         [](hid_t p) { H5Pset_layout(p, H5D_COMPACT); });
               }),
-              HasSubstr("stored as no array of a result is"));
+              HasSubstr("not stored like an array of a result"));
 }
 
 TEST_F(Stranger, MayNotDeclareMoreThanTheFileHolds) {
@@ -151,8 +151,8 @@ TEST_F(Stranger, MayNotPutOtherTypesShapesOrFilters) {
   EXPECT_THAT(refused(H5T_STD_REF_OBJ, {1}), HasSubstr("a type that no result has"));
   EXPECT_THAT(refused(text_type(H5T_VARIABLE), {1}), HasSubstr("a type that no result has"));
   EXPECT_THAT(refused(H5T_NATIVE_FLOAT, {0}), HasSubstr("holds no numbers of its kind"));
-  EXPECT_THAT(refused(H5T_NATIVE_DOUBLE, {1, 1, 1}), HasSubstr("no shape that a result has"));
-  EXPECT_THAT(refused(H5T_NATIVE_DOUBLE, {0, 1}), HasSubstr("is no vector"));
+  EXPECT_THAT(refused(H5T_NATIVE_DOUBLE, {1, 1, 1}), HasSubstr("not have the shape of an item of a result"));
+  EXPECT_THAT(refused(H5T_NATIVE_DOUBLE, {0, 1}), HasSubstr("is not a vector"));
   EXPECT_THAT(refused(H5T_NATIVE_DOUBLE, {0}, {H5S_UNLIMITED}), HasSubstr("can grow"));
   const auto checksummed = [](hid_t p) {
     const hsize_t chunk = 16;
@@ -199,7 +199,7 @@ TEST_F(Stranger, CannotBringMarkupInADecimal) {
   result::Result result = result::sample_result();
   result.cover.decimals = {{"0.5", "<script>", "1", "2"}, {}};
   result::write_result(path(), result);
-  EXPECT_THAT(refusal(), HasSubstr("decimals holds what is no number"));
+  EXPECT_THAT(refusal(), HasSubstr("decimals holds a text that is not a number"));
 }
 
 TEST_F(Stranger, CannotNameMoreCoordinatesThanVariables) {
@@ -211,7 +211,7 @@ TEST_F(Stranger, CannotNameMoreCoordinatesThanVariables) {
 
 TEST_F(Stranger, IsNotWaitedForBehindAPipe) {
   ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
-  EXPECT_THAT(refusal(), HasSubstr("is no regular file"));
+  EXPECT_THAT(refusal(), HasSubstr("is not a regular file"));
 }
 
 }  // namespace

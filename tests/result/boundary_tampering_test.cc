@@ -111,20 +111,20 @@ TEST(BoundaryResult, ComesBackFromItsFileAndIsVerifiedWhole) {
 
 TEST(TamperedBoundary, IsRejectedWhereAPassageIsAnother) {
   EXPECT_THAT(rejection_of([](Result& r) { first(r, Passage::traversable).passage = Passage::barrier; }),
-              testing::HasSubstr("a barrier there, on that side, is not shown"));
+              testing::HasSubstr("it is not shown that the output finds a barrier there, on that side"));
   EXPECT_THAT(rejection_of([](Result& r) { first(r, Passage::barrier).passage = Passage::traversable; }),
-              testing::HasSubstr("a way through there is not shown"));
+              testing::HasSubstr("it is not shown that the output finds a way through there"));
 }
 
 TEST(TamperedBoundary, IsRejectedWhereASideIsTheOther) {
   EXPECT_THAT(rejection_of([](Result& r) {
                 for (double& x : first(r, Passage::barrier).side) x = -x;
               }),
-              testing::HasSubstr("a barrier there, on that side, is not shown"));
+              testing::HasSubstr("it is not shown that the output finds a barrier there, on that side"));
   EXPECT_THAT(rejection_of([](Result& r) {
                 first(r, Passage::barrier).side = {0.6, 0.6};
               }),
-              testing::HasSubstr("its side is no unit vector"));
+              testing::HasSubstr("its side is not a unit vector"));
 }
 
 TEST(TamperedBoundary, IsRejectedWhereAPartIsMissingOrAnother) {

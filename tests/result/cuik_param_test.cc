@@ -62,7 +62,7 @@ TEST(CuikParam, NamesFileAndLineOfAFault) {
   EXPECT_THAT(message_of("DUMIFY = 1"), HasSubstr("did you mean DUMMIFY?"));
   EXPECT_THAT(message_of("\n\nSIGMA 0.1"), HasSubstr("a.param:3: found '0.1'; expected '='"));
   EXPECT_THAT(message_of("SIGMA ="), HasSubstr("found the end of the file; expected a value"));
-  EXPECT_THAT(message_of("SIGMA = 0"), HasSubstr("SIGMA has no use like that; expected a positive number"));
+  EXPECT_THAT(message_of("SIGMA = 0"), HasSubstr("SIGMA cannot be used; expected a positive number"));
   EXPECT_THAT(message_of("SIGMA = 1/0"), HasSubstr("expected a positive number"));
   EXPECT_THAT(message_of("SIGMA = LINKS"), HasSubstr("expected a positive number"));
   EXPECT_THAT(message_of("SIGMA = RHO"), HasSubstr("'RHO' has no value"));

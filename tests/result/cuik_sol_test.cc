@@ -133,8 +133,9 @@ TEST(CuikSol, NamesFileAndLineOfAFault) {
   EXPECT_THAT(fault_of_sol("{ 1 x[0;1] }"), HasSubstr("found ';' in a box; expected ',' between the bounds"));
   EXPECT_THAT(fault_of_sol("{ 1 x[0,1]"), HasSubstr("the file ends inside a box"));
   EXPECT_THAT(fault_of_sol("{ 2 x[0,1] [0,1] }"), HasSubstr("only some sides have a name"));
-  EXPECT_THAT(fault_of_sol("{ 2 x[0,1] x[0,1] }"), HasSubstr("a name stands twice"));
-  EXPECT_THAT(fault_of_sol("{ 1 x[0,1] } % regular, free y"), HasSubstr("the free variable 'y' is none of the box"));
+  EXPECT_THAT(fault_of_sol("{ 2 x[0,1] x[0,1] }"), HasSubstr("a name occurs twice"));
+  EXPECT_THAT(fault_of_sol("{ 1 x[0,1] } % regular, free y"),
+              HasSubstr("the free variable 'y' is not a variable of the box"));
   EXPECT_THAT(fault_of_sol("a text\n"), HasSubstr("holds no boxes"));
   EXPECT_THAT(fault_of_sol(""), HasSubstr("a.sol:1: holds no boxes"));
   std::string text = to_sol(sample_result());

@@ -74,10 +74,10 @@ TEST_F(WrittenFile, WritesThroughASymbolicLink) {
 
 TEST_F(WrittenFile, RefusesWhatIsNoRegularFile) {
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
-  EXPECT_THAT(refusal(path("pipe")), HasSubstr("no regular file"));
-  EXPECT_THAT(refusal("/dev/null"), HasSubstr("no regular file"));
+  EXPECT_THAT(refusal(path("pipe")), HasSubstr("not a regular file"));
+  EXPECT_THAT(refusal("/dev/null"), HasSubstr("not a regular file"));
   fs::create_symlink("/dev/null", path("device"));
-  EXPECT_THAT(refusal(path("device")), HasSubstr("no regular file"));
+  EXPECT_THAT(refusal(path("device")), HasSubstr("not a regular file"));
   EXPECT_THAT(refusal(path("")), HasSubstr("it is a folder"));
   EXPECT_THAT(refusal(""), HasSubstr("expected the name of a file"));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));

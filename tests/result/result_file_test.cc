@@ -239,7 +239,7 @@ TEST_F(ResultFile, RefusesAnHdf5FileThatIsNoResult) {
   Hdf5Writer file(path().string());
   file.texts("/names", {"a", "b"});
   file.close();
-  EXPECT_THAT(refusal(path()), HasSubstr("no corank result"));
+  EXPECT_THAT(refusal(path()), HasSubstr("not a corank result"));
 }
 
 TEST_F(ResultFile, RefusesANewerFormat) {

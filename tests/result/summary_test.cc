@@ -94,7 +94,7 @@ TEST(Summary, SaysWhichCorankWasAskedFor) {
   EXPECT_EQ(ordered_json::parse(to_json(result))["corank"], 2);
   EXPECT_THAT(to_table(result), testing::StartsWith("sample, forward singularities of corank 2: "));
   EXPECT_THAT(to_table(result),
-              HasSubstr("kernel: dimension 2 in 2 boxes\n  a configuration where this is proven lies in 1 of them:\n"));
+              HasSubstr("kernel: dimension 2 in 2 boxes\n  in 1 of them dimension 2 is proven at a point:\n"));
 }
 
 TEST(Summary, LeavesUndecidedBoxesOutOfTheKernelUnlessTheyHoldAKnownPoint) {
@@ -136,8 +136,8 @@ TEST(Table, CountsVerdictsAndListsPointsWithAngles) {
 TEST(Table, SaysWhatATolerancedSystemMeans) {
   Result result = sample_result();
   EXPECT_THAT(to_table(result),
-              HasSubstr("coefficients that are no integers are taken within a relative tolerance of 1e-06"));
-  EXPECT_THAT(to_table(result), HasSubstr("what a verdict says holds for every choice of them"));
+              HasSubstr("coefficients that are not integers are taken within a relative tolerance of 1e-06"));
+  EXPECT_THAT(to_table(result), HasSubstr("each verdict holds for every choice of them"));
   result.equations = 5;
   EXPECT_THAT(to_table(result), HasSubstr("more equations than variables: coefficients"));
   EXPECT_THAT(to_table(result), HasSubstr("the others hold within 1e-05"));
@@ -155,9 +155,9 @@ Result result_at_the_ends() {
 TEST(Table, SaysWhatRangesDo) {
   const std::string table = to_table(result_at_the_ends());
   EXPECT_THAT(table, HasSubstr("ranges found from the equations: x in [-0.11, 1.81]\n"));
-  EXPECT_THAT(table,
-              HasSubstr("\nreaches the ends of x, z: not searched beyond\nmay reach the end of t: not searched beyond\n"));
-  EXPECT_THAT(table, HasSubstr("boundary: not shown to be inside upper end of x (3), m.cuik:9 (1)\n"));
+  EXPECT_THAT(table, HasSubstr("\nthe set reaches the ends of the declared ranges of x, z; nothing beyond was searched\n"
+                               "the set may reach the end of the declared range of t; nothing beyond was searched\n"));
+  EXPECT_THAT(table, HasSubstr("boundary: may reach beyond upper end of x (3), m.cuik:9 (1)\n"));
   const std::string plain = to_table(sample_result());
   for (const char* word : {"found from", "reach", "not shown"}) EXPECT_THAT(plain, Not(HasSubstr(word)));
 }
@@ -177,9 +177,9 @@ TEST(Table, SaysNoneForAnEmptySet) {
   result.cover.points.clear();
   const std::string table = to_table(result);
   EXPECT_THAT(table,
-              HasSubstr("complete: every solution in the search domain is in a box\n\nnone: there is no solution in the "
-                        "search domain   (123 processed)\nwhether the robot can be "
-                        "assembled within its ranges is not known: it was not looked for\n\n1.500 s"));
+              HasSubstr("complete: every solution in the search domain is in a box\n\nempty: there is no solution in the "
+                        "search domain   (123 processed)\nit is not known whether the robot can be assembled within its "
+                        "ranges: corank did not search for a configuration\n\n1.500 s"));
   EXPECT_THAT(table, Not(HasSubstr("verdict")));
 }
 

@@ -278,7 +278,7 @@ const std::vector<Tampering>& tamperings() {
            (*list)[1].box[2] = {0, (*list)[1].box[2].hi() + 1e-9};
          }
        }},
-      {"a point deleted", "stands for it", points, [](Result& r) { r.cover.points.pop_back(); }},
+      {"a point deleted", "has no entry for it", points, [](Result& r) { r.cover.points.pop_back(); }},
       {"an exact point's polynomial changed", "not defined by a polynomial", points,
        [](Result& r) {
          for (ExactPoint& p : r.cover.exact_points) p.polynomial.back() = 0;
@@ -304,7 +304,7 @@ const std::vector<Tampering>& tamperings() {
          CoverBox& box = r.cover.boxes[first(r, Verdict::undecided)];
          box.point = box.point == 0 ? 1 : 0;
        }},
-      {"the radius of a sole solution enlarged", "no other solution is near it is not shown", points,
+      {"the radius of a sole solution enlarged", "it is not shown that no other solution is near it", points,
        [](Result& r) {
          for (ExactPoint& p : r.cover.exact_points) p.sole_within = 2;
        }},
@@ -368,33 +368,33 @@ const std::vector<Tampering>& tamperings() {
          });
          drop_leaves(r, 3);
        }},
-      {"a type that is not so", "that its solutions are RI is not shown", curve,
+      {"a type that is not so", "it is not shown that its solutions are RI", curve,
        [](Result& r) { label(r, r.cover.boxes.size() / 2).proven |= bit(SingularityType::ri); }},
-      {"an output said to be impossible that is not", "that its solutions are IO is not shown", curve,
+      {"an output said to be impossible that is not", "it is not shown that its solutions are IO", curve,
        [](Result& r) { label(r, 5).proven |= bit(SingularityType::io); }},
-      {"an input that is impossible said not to be", "that its solutions are not II is not shown", curve,
+      {"an input that is impossible said not to be", "it is not shown that its solutions are not II", curve,
        [](Result& r) {
          label(r, 9) = {0, bit(SingularityType::ii)};
        }},
-      {"increased mobility where there is none", "that its solutions are IIM is not shown", curve,
+      {"increased mobility where there is none", "it is not shown that its solutions are IIM", curve,
        [](Result& r) { label(r, 13).proven |= bit(SingularityType::iim); }},
-      {"a type that is proven said to be excluded", "that its solutions are not RO is not shown", curve,
+      {"a type that is proven said to be excluded", "it is not shown that its solutions are not RO", curve,
        [](Result& r) {
          label(r, 7) = {0, bit(SingularityType::ro)};
        }},
-      {"a type excluded that boxes near by have", "that its solutions are not RI is not shown", crossing,
+      {"a type excluded that boxes near by have", "it is not shown that its solutions are not RI", crossing,
        [](Result& r) { label(r, 3).excluded |= bit(SingularityType::ri); }},
-      {"passive motion where there is none", "that its solutions are RPM is not shown", curve,
+      {"passive motion where there is none", "it is not shown that its solutions are RPM", curve,
        [](Result& r) { label(r, 11).proven |= bit(SingularityType::rpm); }},
-      {"an exact point of another type", "that its solutions are RPM is not shown", points,
+      {"an exact point of another type", "it is not shown that its solutions are RPM", points,
        [](Result& r) { r.cover.exact_points.at(exact_of(r, Verdict::exact)).types.proven |= bit(SingularityType::rpm); }},
-      {"an exact point of which less is excluded than said", "that its solutions are not II is not shown", points,
+      {"an exact point of which less is excluded than said", "it is not shown that its solutions are not II", points,
        [](Result& r) {
          ExactPoint& point = r.cover.exact_points.at(exact_of(r, Verdict::isolated));
          point.types.proven &= static_cast<TypeSet>(~bit(SingularityType::ii));
          point.types.excluded |= bit(SingularityType::ii);
        }},
-      {"types that were not asked for", "are not those of the mechanism's set", curve,
+      {"types that were not requested", "are not those of the mechanism's set", curve,
        [](Result& r) { r.cover.types.of_set = bit(SingularityType::iim); }},
       {"a proof whose roots prove one another", "an earlier one or itself", points,
        [](Result& r) {

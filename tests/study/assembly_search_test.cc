@@ -202,7 +202,7 @@ TEST(Assembly, ThatWasTamperedWithIsRejected) {
 
 TEST(Assembly, ThatIsImpossibleIsSaidInWords) {
   const result::Result result = answer({four_bar(0.2, 0.3, 0.4, 2), SingularitySet::forward});
-  EXPECT_THAT(result::to_table(result), HasSubstr("the robot cannot be assembled within its ranges: proven"));
+  EXPECT_THAT(result::to_table(result), HasSubstr("the robot cannot be assembled within its ranges: it is proven"));
   EXPECT_THAT(result::to_json(result), HasSubstr("\"assembled\": false"));
 }
 

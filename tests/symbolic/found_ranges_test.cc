@@ -66,7 +66,7 @@ TEST(FoundRange, IsAskedForWhereTheEquationsGiveNone) {
       FAIL() << equations;
     } catch (const ModelError& error) {
       EXPECT_THAT(error.what(),
-                  HasSubstr("m.cuik:5:1: the equations are not seen to bound 'x', which has no range; expected a "
+                  HasSubstr("m.cuik:5:1: corank finds no bounds in the equations for 'x', which has no range; expected a "
                             "range, x : [lower, upper]"));
     }
   }

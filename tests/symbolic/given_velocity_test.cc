@@ -84,10 +84,10 @@ TEST(GivenVelocity, IsAskedForAsManyInputRatesAsTheMobilitySays) {
   EXPECT_EQ(forward(crank("a ~ input\nb ~ input\nc ~ passive\n", "a = b;\nb = c;\n")), "none") << "tied";
   EXPECT_EQ(forward(crank("a ~ input\nb ~ output\nc ~ output\n", "a = b + c;\nb = c + a;\n")),
             "crank.cuik:14:1: the mechanism has 3 rates and 2 velocity equations, so mobility 1, but 2 output rates: "
-            "they are not independent; expected 1 output rate, or 1 equation in output rates alone that ties them");
+            "they are not independent; expected 1 output rate, or 1 equation in output rates only that ties them");
   EXPECT_EQ(forward(crank("a ~ input\nb ~ input\n", "a = b;\n")),
-            "crank.cuik:13:1: every rate is an input rate, so nothing is left to move where they are locked; expected rates "
-            "that are no input rates");
+            "crank.cuik:13:1: every rate is an input rate, so nothing can move when they are locked; expected rates "
+            "that are not input rates");
   const Mechanism m = crank();
   EXPECT_THAT(fault([&] { singularity_system(m, SingularitySet::cspace_singular, KernelSide::right); }),
               HasSubstr("L has 2 rows and 3 columns, so every configuration has a right kernel; expected the left kernel"));

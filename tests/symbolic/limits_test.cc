@@ -79,9 +79,9 @@ TEST(Limits, ReportFaultsWithTheirLine) {
   EXPECT_THAT(fault("x : [1, l/2]\n"), HasSubstr("m.cuik:13:1: the limit of 'x', [1, l/2], is one value"));
   EXPECT_THAT(fault("x : [0, 6]\n"), HasSubstr("m.cuik:13:1: the limit of 'x', [0, 6], reaches beyond the declared range"));
   EXPECT_THAT(fault("s : [0, pi/2]\n"), HasSubstr("m.cuik:13:1: the limit of 's', [0, pi/2], reaches beyond"));
-  EXPECT_THAT(fault("x ~ [0, 1]\n"), HasSubstr("m.cuik:13:3: found '~'; expected ':' behind the variable's name"));
+  EXPECT_THAT(fault("x ~ [0, 1]\n"), HasSubstr("m.cuik:13:3: found '~'; expected ':' after the variable's name"));
   EXPECT_THAT(fault("x : 3\n"),
-              HasSubstr("m.cuik:13:5: found '3' where the limits of 'x' should stand; expected [lower, upper]"));
+              HasSubstr("m.cuik:13:5: found '3' where the limits of 'x' should be; expected [lower, upper]"));
   EXPECT_THAT(fault("3\n"), HasSubstr("m.cuik:13:1: found '3'; expected a limit, name : [lower, upper]"));
 }
 

@@ -74,9 +74,9 @@ TEST(Mechanism, RefusesNamesThatAreTakenReservedOrNone) {
   EXPECT_THAT(message_of([&] { m.length("L1", 0, 1); }), HasSubstr("'L1' is already declared"));
   EXPECT_THAT(message_of([&] { m.angle("pi"); }), HasSubstr("'pi' is reserved"));
   EXPECT_THAT(message_of([&] { m.constant("cos", 1); }), HasSubstr("'cos' is reserved"));
-  EXPECT_THAT(message_of([&] { m.constant("2l", 1); }), HasSubstr("'2l' is no name"));
-  EXPECT_THAT(message_of([&] { m.constant("", 1); }), HasSubstr("'' is no name"));
-  EXPECT_THAT(message_of([&] { m.constant("θ", 1); }), HasSubstr("'θ' is no name"));
+  EXPECT_THAT(message_of([&] { m.constant("2l", 1); }), HasSubstr("'2l' is not a name"));
+  EXPECT_THAT(message_of([&] { m.constant("", 1); }), HasSubstr("'' is not a name"));
+  EXPECT_THAT(message_of([&] { m.constant("θ", 1); }), HasSubstr("'θ' is not a name"));
   EXPECT_EQ(m.constants().size(), 2u);
 }
 
@@ -84,7 +84,7 @@ TEST(Mechanism, RefusesInputsThatAreNoCoordinatesOrChosenTwice) {
   Mechanism m = three_slider();
   EXPECT_THAT(message_of([&] { m.inputs({"L1"}); }), HasSubstr("the input 'L1' is a constant"));
   EXPECT_THAT(message_of([&] { m.inputs({"z"}); }), HasSubstr("the input 'z' is not declared"));
-  EXPECT_THAT(message_of([&] { m.inputs({"x_C + 1"}); }), HasSubstr("the input 'x_C + 1' is no name"));
+  EXPECT_THAT(message_of([&] { m.inputs({"x_C + 1"}); }), HasSubstr("the input 'x_C + 1' is not a name"));
   EXPECT_THAT(message_of([&] { m.inputs({"y_A"}); }), HasSubstr("the input 'y_A' is named twice"));
   EXPECT_THAT(message_of([&] { m.inputs({"y_B"}); }), HasSubstr("the input 'y_B' is already an output"));
   EXPECT_THAT(message_of([&] { m.outputs({"x_C", "x_C"}); }), HasSubstr("the output 'x_C' is named twice"));

@@ -273,7 +273,7 @@ TEST(ModelFile, SaysThatAFileIsMissingOrADirectory) {
   };
   EXPECT_EQ(message("no/such.cuik"), "no/such.cuik: there is no such file; expected a model file");
   EXPECT_THAT(message(CORANK_SOURCE_DIR "/models"), HasSubstr("models: is a directory; expected a model file"));
-  EXPECT_THAT(message("/dev/zero"), HasSubstr("/dev/zero: is no regular file; expected a model file"));
+  EXPECT_THAT(message("/dev/zero"), HasSubstr("/dev/zero: is not a regular file; expected a model file"));
 }
 
 TEST(ModelFile, RefusesTextsLargerThanAnyModel) {

@@ -80,12 +80,12 @@ TEST(Parameters, AreRefusedWithTheReason) {
     }
     return std::string("none");
   };
-  EXPECT_THAT(reason({{"z", "0", "1"}}), HasSubstr("none of the model's"));
+  EXPECT_THAT(reason({{"z", "0", "1"}}), HasSubstr("is not in the model"));
   EXPECT_THAT(reason({{"a", "0", "1"}, {"a", "0", "1"}}), HasSubstr("twice"));
   EXPECT_THAT(reason({{"a", "1", "0"}, {"a", "0", "1"}}), HasSubstr("twice"));
-  EXPECT_THAT(reason({{"a", "1", "1"}}), HasSubstr("no interval"));
+  EXPECT_THAT(reason({{"a", "1", "1"}}), HasSubstr("not an interval"));
   EXPECT_THAT(reason({{"a", "1", "2"}, {"t", "0", "b"}}), HasSubstr("depends on a parameter"));
-  EXPECT_THAT(reason({{"a", "1", "2"}}, {{"b", "1"}}), HasSubstr("none of the model's"));
+  EXPECT_THAT(reason({{"a", "1", "2"}}, {{"b", "1"}}), HasSubstr("is not in the model"));
 }
 
 }  // namespace

@@ -96,9 +96,8 @@ TEST_P(Orthogonal3R, HasTheCuspsOfItsTracedLocus) {
   expect_points(result, expected, 0.01);
   EXPECT_EQ(result::locus_sentence(result),
             expected.empty()
-                ? "there is no cusp in the search domain, so none around which postures could be changed without "
-                  "a singularity; other such changes are not excluded"
-                : "around these 4 cusps postures can be changed without an inverse singularity: proven");
+                ? "there is no cusp in the search domain; postures may still change without a singularity in another way"
+                : "it is proven that around these 4 cusps postures can change without an inverse singularity");
 }
 
 TEST_P(Orthogonal3R, HasTheNodesOfItsTracedLocusOnceEach) {
