@@ -6,7 +6,8 @@
 >>> r.complete
 True
 
-``load`` and ``parse`` read a mechanism, ``Mechanism`` builds one; its ``solve`` returns a ``Result``, ``open`` reads one.
+``load`` and ``parse`` read a mechanism, and ``Mechanism`` builds one. ``Mechanism.solve`` returns a ``Result``, and ``open``
+reads a ``Result`` from a file.
 """
 
 from . import _corank
@@ -27,7 +28,7 @@ from .sweeping import Member, Sweep
 
 __version__: str = _corank.__version__
 
-#: The sets of a mechanism by name: what each is.
+#: The sets of a mechanism: name and meaning.
 SETS = {s[0]: s[2] for s in _corank.sets}
 #: The verdicts, in the order of their codes.
 VERDICTS = tuple(_corank.verdicts)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Bounds(NamedTuple):
-    """A number in proven bounds; at_most None: no upper bound is known."""
+    """Proven bounds of a number; at_most is None where no upper bound is known."""
 
     at_least: int
     at_most: Optional[int]
@@ -45,11 +45,11 @@ def _interval(item: Optional[Dict[str, Any]]) -> Tuple[Optional[float], Optional
 
 
 class Analysis:
-    """What was found. `data` has all of it, as the command line's --json prints it; str() is its table.
+    """The answer of an analysis. str() is the table that the command prints.
 
     Attributes:
-        data: the JSON object, as Python's own values.
-        complete: False where a limit or Ctrl-C ended it; what is said is proven all the same.
+        data: the JSON object that the command's --json prints, as Python's own values.
+        complete: False if a limit or Ctrl-C ended the analysis; what it says is proven nevertheless.
     """
 
     def __init__(self, text: str, table: str) -> None:
@@ -68,9 +68,12 @@ class Topology(Analysis):
     """The shape of a C-space.
 
     Attributes:
-        dimension: of the C-space. smooth: proven to be a manifold without boundary in the search domain.
-        components: how many connected pieces. euler_characteristic: None where it is not known.
-        genus: of each piece of a surface, ascending. reason: what is not known, and why.
+        dimension: the dimension of the C-space.
+        smooth: is it proven to be a manifold without boundary in the search domain?
+        components: the number of connected pieces.
+        euler_characteristic: the Euler characteristic; None if it is not known.
+        genus: the genus of each piece of a surface, ascending.
+        reason: what is not known, and why.
     """
 
     def __init__(self, text: str, table: str) -> None:
@@ -84,13 +87,14 @@ class Topology(Analysis):
 
 
 class Cusp(NamedTuple):
-    """A cusp of a singularity locus' image: next to it three configurations have the same inputs (of the forward locus) or
-    the same outputs (of the inverse one), and a path about it joins two of them, the outer ones, without a singularity.
+    """A cusp of the image of a singularity locus. Next to it, three configurations have the same inputs (forward locus) or
+    the same outputs (inverse locus). A path about the cusp joins the outer two of them without a singularity.
 
     Attributes:
-        locus: "forward" or "inverse". values: the configuration over the cusp, intervals by coordinate.
-        around: the index of the aspect in which the outer two lie, in Aspects.representatives. between: of the third; None:
-            not known.
+        locus: "forward" or "inverse".
+        values: the configuration over the cusp, intervals by coordinate.
+        around: the index, in Aspects.representatives, of the aspect that holds the outer two; None if it is not known.
+        between: the index of the aspect that holds the third; None if it is not known.
     """
 
     locus: str
@@ -107,16 +111,19 @@ class Aspects(Analysis):
     """The pieces into which singularities divide a C-space.
 
     Attributes:
-        aspects, assembly_modes, working_modes: how many pieces without forward and inverse, without forward, without inverse
-            singularities. representatives: of each aspect a configuration, intervals by coordinate, and the signs of the
-            factors of the determinants. reason: what is not known, and why.
-        areas: with areas=True, of each representative the area that its aspect covers in the plane of the outputs, in bounds;
-            else None.
-        cusps: with cusps=True, those of both loci, as far as they were looked for; None where none were. cusps_of:
-            "forward", "inverse": the loci whose cusps were looked for. cusps_not_known: what is not known of them, and why;
-            where it is empty, these are proven to be all in the search domain.
-        euler_characteristic: of C-space, where it is a closed surface and cusps were asked for: the number of cusps of each
-            locus has its parity; else None.
+        aspects: the number of pieces without forward and inverse singularities.
+        assembly_modes: the number of pieces without forward singularities.
+        working_modes: the number of pieces without inverse singularities.
+        representatives: for each aspect, a configuration (intervals by coordinate) and the signs of the factors of the
+            determinants.
+        reason: what is not known, and why.
+        areas: with areas=True, bounds of the area that each aspect covers in the plane of the outputs; else None.
+        cusps: with cusps=True, the cusps that were found; None if none were searched for.
+        cusps_of: the loci whose cusps were searched for: "forward", "inverse".
+        cusps_not_known: what is not known about cusps, and why; if it is empty, `cusps` are proven to be all cusps in the
+            search domain.
+        euler_characteristic: the Euler characteristic of C-space if it is a closed surface and cusps=True, else None. The
+            number of cusps of each locus has the same parity.
     """
 
     def __init__(self, text: str, table: str, file: Optional["_corank.PiecesFile"] = None) -> None:
@@ -146,13 +153,13 @@ class Aspects(Analysis):
         return self._file
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the numbers with what proves them (.h5), which verify() and `corank verify` check. ValueError where
-        certificate=True was not given."""
+        """Writes the numbers with their proofs (.h5), which `corank verify` checks. Raises ValueError if certificate=True
+        was not given."""
         self._need().write(os.fspath(path))
 
     def verify(self, threads: int = 0, *, progress: ProgressOption = None) -> "Verification":
-        """Checks the numbers anew by code that shares nothing with what made them. verified: every lower bound is confirmed;
-        complete: every upper bound, too. ValueError where certificate=True was not given."""
+        """Checks the numbers with code that shares nothing with the code that found them. verified: every lower bound is
+        confirmed; complete: every upper bound, too. Raises ValueError if certificate=True was not given."""
         from .result import Verification
 
         with Shown(progress) as show:
@@ -165,11 +172,11 @@ class Clearance(Analysis):
     """The largest ball about a configuration that holds no singularity.
 
     Attributes:
-        lower, upper: the radius is between these, in the model's unit and radians alike; upper None: no singularity was
-            proven.
-        nearest: a proven singularity no farther than `upper`, intervals by coordinate; None where there is none.
-        empty: proven that there is no singularity at all.
-        free, nearest_result: with claims=True, results whose verify() proves both bounds again; None where that failed.
+        lower, upper: bounds of the radius, in the model's unit; one radian counts like one unit. upper is None if no
+            singularity was proven to exist.
+        nearest: a proven singularity at a distance of at most `upper`, intervals by coordinate; None if there is none.
+        empty: is it proven that there is no singularity?
+        free, nearest_result: with claims=True, results whose verify() proves the two bounds again; None if that failed.
     """
 
     def __init__(self, text: str, table: str, free: Optional["Result"] = None, nearest: Optional["Result"] = None) -> None:
@@ -185,8 +192,9 @@ class BestCenter(Clearance):
     """The centre of the largest free ball in a region.
 
     Attributes:
-        center: its values by coordinate; None where none was found. The ball about it with the radius `lower` is free; no
-            centre in the region has more than `upper`. unassembled: proven that no configuration has its centre there.
+        center: the centre's values by coordinate; None if none was found. The ball about it with the radius `lower` holds no
+            singularity. No centre in the region has a larger radius than `upper`.
+        unassembled: is it proven that the robot has no configuration with a centre in the region?
     """
 
     def __init__(self, text: str, table: str) -> None:
@@ -196,11 +204,12 @@ class BestCenter(Clearance):
 
 
 class ClearanceMap(Analysis):
-    """The clearance over a grid of centres, each cell with bounds that hold all over it.
+    """The clearance over a grid of centres. The bounds of a cell hold for every centre in it.
 
     Attributes:
-        names: the two coordinates. rows: a dict for each cell: its middle by coordinate; "robot": is a configuration proven
-            there; "lo", "hi": the clearance of the middle, "cell_lo", "cell_hi" of all of the cell; None: not known.
+        names: the two coordinates.
+        rows: a dict for each cell: its middle by coordinate; "robot": is a configuration proven there; "lo", "hi": bounds of
+            the clearance at the middle; "cell_lo", "cell_hi": bounds for the whole cell; None: not known.
     """
 
     def __init__(self, text: str, table: str) -> None:
@@ -271,17 +280,18 @@ def clearance(
     max_boxes: int = 0,
     progress: ProgressOption = None,
 ) -> Clearance:
-    """The largest ball about a configuration without a singularity, in proven bounds.
+    """Finds the largest ball about a configuration that holds no singularity, and proves bounds of its radius.
 
     Args:
-        at: values of coordinates: the ball's centre, and what keeps its value. Angles in radians; corank.degrees(15).
-        within: the coordinates in which the ball lies; lengths and radians count alike.
-        set: "forward" where none is given.
-        ranges: coordinates that stay within other ranges than the model's: a mode, an angle that may move.
-        orientation_range, orientation, orientation_of: the angles among the outputs, and a spatial robot's orientation such
-            as "Rz(0.2)*Ry(pi/18)", stay within so much of their values.
-        precision: how close the bounds are to be, relative to the radius.
-        claims: make the results that prove the bounds again.
+        at: the centre of the ball, and other coordinates that keep a value. Angles are in radians: corank.degrees(15).
+        within: the coordinates in which the ball lies; one radian counts like one unit of length.
+        set: the set that the ball avoids; None: "forward".
+        ranges: ranges of coordinates instead of the model's: for a mode, or an angle that may move.
+        orientation_range: how far the outputs' angles that `at` gives, and `orientation`, may vary.
+        orientation: the orientation of a spatial robot, such as "Rz(0.2)*Ry(pi/18)".
+        orientation_of: the link or the rotation matrix that `orientation` is for, if there are several.
+        precision: end when the bounds of the radius are this close, relative to it.
+        claims: also make the results that prove the bounds again.
     """
     about = _ball(at, within, ranges, orientation_range, orientation, orientation_of)
     chosen, options = _search(self, set, threads, time_limit, max_boxes)
@@ -310,8 +320,9 @@ def best_center(
     max_boxes: int = 0,
     progress: ProgressOption = None,
 ) -> BestCenter:
-    """The centre of the largest ball without a singularity in a region of lengths, {"x": (0, 1), "y": (0, 1)}; the ball
-    lies in these coordinates where `within` names no others. The other arguments are those of clearance()."""
+    """Finds the centre of the largest ball that holds no singularity, in a region of lengths such as {"x": (0, 1),
+    "y": (0, 1)}. Unless `within` names others, the ball lies in the region's coordinates. The other arguments are those of
+    clearance()."""
     about = _ball(at or {}, list(within or ()), ranges, orientation_range, orientation, orientation_of)
     chosen, options = _search(self, set, threads, time_limit, max_boxes)
     with Shown(progress) as show:
@@ -337,8 +348,8 @@ def clearance_map(
     max_boxes: int = 0,
     progress: ProgressOption = None,
 ) -> ClearanceMap:
-    """The clearance over a grid of centres in two lengths: ("x", "y"), within their declared ranges, or {"x": (0, 1), …}.
-    `grid`: cells along each side. The other arguments are those of clearance()."""
+    """Computes the clearance over a grid of centres in two lengths: ("x", "y") within their declared ranges, or
+    {"x": (0, 1), …}. `grid` is the number of cells along each side. The other arguments are those of clearance()."""
     about = _ball(at or {}, list(within or ()), ranges, orientation_range, orientation, orientation_of)
     chosen, options = _search(self, set, threads, time_limit, max_boxes)
     sides = _ranges(region) if isinstance(region, Mapping) else _corank.declared_ranges(self._core, chosen, list(region))
@@ -356,12 +367,12 @@ def area(
     time_limit: float = 0,
     progress: ProgressOption = None,
 ) -> Optional[Interval]:
-    """Bounds of the area of the workspace in the plane of two lengths, from its boundary; None where that does not give
-    them.
+    """Bounds the area of the workspace in the plane of two lengths, by its boundary; None if the boundary does not give
+    bounds.
 
     Args:
-        outputs: in place of the model's.
-        anyway: divide the plane itself where the boundary does not give bounds; takes long.
+        outputs: the two lengths, instead of the model's outputs.
+        anyway: if the boundary does not give bounds, divide the plane itself; this takes long.
     """
     with Shown(progress) as show:
         bounds = _corank.area(self._core, list(outputs), threads, time_limit, anyway, show)

@@ -1,5 +1,5 @@
-"""What corank raises. Bad input is a ValueError that says where the fault is; Ctrl-C is a KeyboardInterrupt that brings
-what was proven by then."""
+"""The exceptions of corank. For bad input it is a ValueError that says where the fault is; for Ctrl-C it is a
+KeyboardInterrupt that holds what was proven by then."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ def in_python(text: str) -> str:
 
 
 class ModelError(ValueError):
-    """Something is wrong with a model: its text, or what is asked of it.
+    """A model is wrong, or it does not fit the question.
 
     Attributes:
-        file: the name of the file, or "model" or the text itself for what was built in Python.
-        line, column: from 1; None where unknown.
+        file: the name of the file; for a model that was built in Python, "model" or the text itself.
+        line, column: counted from 1; None if unknown.
     """
 
     def __init__(self, message: str, file: str = "", line: int = 0, column: int = 0) -> None:
@@ -60,10 +60,10 @@ class ModelError(ValueError):
 
 
 class ResultFileError(OSError):
-    """A result file that cannot be written or read, or that holds something else.
+    """A file cannot be written or read, or is not a result file.
 
     Attributes:
-        line: of a text file, from 1; None for others.
+        line: the line of a text file, counted from 1; None for other files.
     """
 
     def __init__(self, message: str, line: int = 0) -> None:
@@ -75,11 +75,11 @@ class ResultFileError(OSError):
 
 
 class OptionError(ValueError):
-    """An option that no search can follow.
+    """An option has a value that it cannot have.
 
     Attributes:
         option: its name, such as "sigma".
-        reason: what is asked of it.
+        reason: what is wrong with the value.
     """
 
     def __init__(self, option: str, reason: str) -> None:
@@ -94,15 +94,15 @@ class OptionError(ValueError):
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C ended a computation early.
 
-    What had been proven by then stands: ``result`` is a valid result that says what is missing (its ``stopped``, and its
-    pending boxes). At a prompt and in a notebook it is ``sys.last_value.result``.
+    What was proven by then holds: ``result`` is a valid result, whose ``stopped`` and pending boxes say what is missing.
+    At a prompt and in a notebook it is ``sys.last_value.result``.
 
     Attributes:
         result: what the function would have returned, as far as it is known.
     """
 
     def __init__(self, result: Any) -> None:
-        super().__init__(f"ended early; what was proven by then is the attribute 'result' of this exception: {result!r}")
+        super().__init__(f"ended early; the attribute 'result' of this exception holds what was proven by then: {result!r}")
         self.result = result
 
     def __reduce__(self) -> Any:

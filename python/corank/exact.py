@@ -24,7 +24,7 @@ def _root(coefficients: List[str], between: Tuple[str, str]) -> Any:
             roots = [(-b + sign * sympy.sqrt(b * b - 4 * a * c)) / (2 * a) for sign in (-1, 1)]
             return next(r for r in roots if low <= r <= high)
         return sympy.CRootOf(factor, factor.count_roots(None, low))
-    raise ValueError("the point's number is no root of its polynomial")
+    raise ValueError("the point's number is not a root of its polynomial")
 
 
 def coordinates(point: Dict[str, Any]) -> Dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Exact expressions: what Python, SymPy and texts say, as the model language has it."""
+"""Exact expressions: from numbers of Python, expressions of SymPy and texts of the model language."""
 
 from __future__ import annotations
 
@@ -11,40 +11,40 @@ from . import _corank
 from ._corank import Expression, Relation
 from .optional import require
 
-#: What stands for an expression: one of corank's or SymPy's, a text of the model language, a number.
+#: What can be given as an expression: one of corank's or SymPy's, a text of the model language, or a number.
 ExpressionLike = Union[Expression, str, int, float, Fraction, Any]
-#: What stands for an equation or an inequality: ``a == b`` of corank's expressions, a text such as "a = b" or "a <= b", one
-#: of SymPy's relations, or an expression that is to be 0.
+#: What can be given as an equation or an inequality: ``a == b`` of corank's expressions, a text such as "a = b" or "a <= b",
+#: a relation of SymPy, or an expression e, which means e = 0.
 RelationLike = Union[Relation, str, Any]
 
 
 def as_expression(value: ExpressionLike) -> Expression:
-    """The value as an exact expression.
+    """Returns the value as an exact expression.
 
-    A float is the shortest decimal that names it, as in a model file: 0.9 is 9/10. Write other exact numbers as texts
-    ("sqrt(2)/3"), Fractions, or SymPy's.
+    A float means its shortest decimal, as in a model file: 0.9 is 9/10. Write other exact numbers as texts ("sqrt(2)/3"),
+    Fractions, or numbers of SymPy.
 
     Raises:
-        ModelError: where a text is none of the model language, or a function of SymPy is not known there.
-        TypeError: for anything else.
+        ModelError: if a text is not in the model language, or a function of SymPy is not known there.
+        TypeError: if the value is of another type.
     """
     if isinstance(value, Expression):
         return value
     if isinstance(value, str):
         return _corank.parse_expression(value)
     if isinstance(value, bool):
-        raise TypeError("an expression is expected, not a truth value")
+        raise TypeError("a truth value is not an expression")
     if isinstance(value, numbers.Integral):
         return _corank.parse_expression(str(int(value)))
     if isinstance(value, Fraction):
         return _corank.fraction(str(value.numerator), str(value.denominator))
     if isinstance(value, numbers.Real) and hasattr(value, "__float__") and not hasattr(value, "free_symbols"):
         if not math.isfinite(float(value)):
-            raise ValueError("a number of a model is finite")
+            raise ValueError("a number of a model has to be finite")
         return _corank.parse_expression(repr(float(value)))
     if hasattr(value, "free_symbols") and hasattr(value, "func"):
         return _from_sympy(value)
-    raise TypeError(f"an expression is expected, not {type(value).__name__}")
+    raise TypeError(f"{type(value).__name__} is not an expression")
 
 
 def _from_sympy(e: Any) -> Expression:
@@ -80,10 +80,10 @@ def _from_sympy(e: Any) -> Expression:
 
 
 def as_relation(value: RelationLike) -> Relation:
-    """The value as an equation or an inequality; an expression is meant to be 0.
+    """Returns the value as an equation or an inequality; an expression e means e = 0.
 
     Raises:
-        ModelError, TypeError: as as_expression does; TypeError for a strict inequality.
+        ModelError, TypeError: as as_expression() does; TypeError also for a strict inequality.
     """
     if isinstance(value, Relation):
         return value
@@ -97,10 +97,10 @@ def as_relation(value: RelationLike) -> Relation:
         signs = {"Equality": "=", "LessThan": "<=", "GreaterThan": ">="}
         known = signs.get(type(value).__name__)
         if known is None:
-            raise TypeError(f"{value}: an equation, <= or >= is expected")
+            raise TypeError(f"{value}: expected an equation, <= or >=")
         return Relation(as_expression(value.lhs), known, as_expression(value.rhs))
     if value is True or value is False:
-        raise TypeError("a truth value is no equation; SymPy's a == b is one of structure, write sympy.Eq(a, b)")
+        raise TypeError("a truth value is not an equation; SymPy's a == b compares structures, so write sympy.Eq(a, b)")
     return Relation(as_expression(value), "=", as_expression(0))
 
 
@@ -129,21 +129,21 @@ pi: Expression = _corank.symbol("pi")
 
 
 def degrees(angle: ExpressionLike) -> Expression:
-    """An angle given in degrees, in radians, exactly: degrees(15) is pi/12."""
+    """Converts an angle from degrees to radians, exactly: degrees(15) is pi/12."""
     return as_expression(angle) * pi / 180
 
 
 def linspace(start: Union[str, int, float, Fraction], stop: Union[str, int, float, Fraction], count: int) -> List[Fraction]:
-    """`count` equally spaced rational numbers from start to stop, both included, exactly.
+    """Returns `count` equally spaced rational numbers from start to stop, both included.
 
-    Floats are the shortest decimals that name them: linspace(0.9, 1.6, 8) are 9/10, 1, 11/10 …
+    A float means its shortest decimal: linspace(0.9, 1.6, 8) is 9/10, 1, 11/10 …
     """
     if count < 2:
-        raise ValueError("a count of 2 or more is expected")
+        raise ValueError(f"count {count}: expected 2 or more")
     first, last = (Fraction(repr(x) if isinstance(x, float) else x) for x in (start, stop))
     return [first + (last - first) * Fraction(k, count - 1) for k in range(count)]
 
 
 def text_of(value: ExpressionLike) -> str:
-    """The value in the model language."""
+    """Returns the value as a text of the model language."""
     return str(as_expression(value))

@@ -26,10 +26,13 @@ class ParameterMap(Analysis):
     """A number over a plane of two parameters, cell by cell.
 
     Attributes:
-        names: of the two parameters. region: (lower, upper) of each. count: what was counted.
-        resolution: the narrowest cells are so many along each side.
-        shares: of the plane's area that is proven to have each number; of centre answers, of the cells.
-        proven_share: of the plane's area, over which the number is known for every value.
+        names: the names of the two parameters.
+        region: (lower, upper) of each parameter.
+        count: what was counted.
+        resolution: the number of the narrowest cells along each side.
+        shares: for each number, the share of the plane's area where it is proven; for answers at centres, the share of the
+            cells.
+        proven_share: the share of the plane's area where the number is known for every value.
         complete: was the whole plane examined?
         boundary_known: do the boxes of boundary() hold all values in undecided cells at which two solutions meet?
     """
@@ -53,13 +56,14 @@ class ParameterMap(Analysis):
         return self._file
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the proven cells with what proves them (.h5), which verify() and `corank verify` check. ValueError where
+        """Writes the proven cells with their proofs (.h5), which `corank verify` checks. Raises ValueError if
         certificate=True was not given."""
         self._need().write(os.fspath(path))
 
     def verify(self, threads: int = 0, *, progress: ProgressOption = None) -> "Verification":
-        """Checks the proven cells anew by code that shares nothing with what made them. verified: in each there are at least
-        as many solutions for every value; complete: and no more. ValueError where certificate=True was not given."""
+        """Checks the proven cells with code that shares nothing with the code that found them. verified: for every value in
+        each cell there are at least as many solutions as claimed; complete: also at most as many. Raises ValueError if
+        certificate=True was not given."""
         from .result import Verification
 
         with Shown(progress) as show:
@@ -68,8 +72,9 @@ class ParameterMap(Analysis):
         return deliver(Verification(report["verified"], report["complete"], report, table), raised)
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """A row for each cell: its lower and upper ends, the kind ("proven": `count` holds for every value in it; "undecided",
-        "centre": `at_centre` is proven for its centre alone; "pending": not examined), both numbers or NA."""
+        """Returns a data frame with a row for each cell: its lower and upper ends, its kind and the numbers `count` and
+        `at_centre`, or NA. Kinds: "proven": `count` holds for every value in the cell; "undecided"; "centre": `at_centre` is
+        proven for the centre only; "pending": not examined."""
         pandas = require("pandas")
 
         x, y = self.names
@@ -78,14 +83,14 @@ class ParameterMap(Analysis):
         return frame.astype({"count": "Int64", "at_centre": "Int64"})
 
     def boundary(self) -> "numpy.ndarray":
-        """An array of shape (n, 5): lower and upper ends in both parameters of boxes where two solutions may meet, and whether
-        a piece of the curve on which they do is proven in it, 1 or 0."""
+        """Returns the boxes where two solutions may meet: an array of shape (n, 5), with the lower and upper ends in both
+        parameters, and 1 if the box is proven to hold a piece of the curve on which they meet, else 0."""
         numpy = require("numpy")
         return numpy.array(self.data["boundary"], dtype=float).reshape(-1, 5)
 
     def grid(self) -> "numpy.ma.MaskedArray":
-        """The numbers as an array of shape (resolution, resolution), the second parameter along the first axis, both
-        ascending; masked where nothing is proven for the whole cell (of centre answers, for its centre)."""
+        """Returns the numbers as an array of shape (resolution, resolution), the second parameter along the first axis, both
+        ascending. It is masked where nothing is proven for the whole cell (for answers at centres: for the centre)."""
         numpy = require("numpy")
         numbers = numpy.ma.masked_all((self.resolution, self.resolution), dtype=int)
         (x0, x1), (y0, y1) = self.region
@@ -99,14 +104,15 @@ class ParameterMap(Analysis):
         return numbers
 
     def at(self, x: float, y: float) -> Optional[int]:
-        """The number that is proven for the cell with these values; None where none is."""
+        """Returns the number that is proven for the cell with these values; None if no number is."""
         for xl, xu, yl, yu, _, count, _ in self.data["cells"]:
             if xl <= x <= xu and yl <= y <= yu and count is not None:
                 return count
         return None
 
     def plot(self, ax: Optional["Axes"] = None) -> "Axes":
-        """Regions in colours by number, what is known of centres alone as dots, the curve on which solutions meet dark."""
+        """Draws regions in a colour for each number, numbers that are known only at centres as dots, and the curve on which
+        solutions meet in a dark colour."""
         plt = require("matplotlib.pyplot")
         from matplotlib.collections import PatchCollection
         from matplotlib.patches import Patch, Rectangle
@@ -162,26 +168,28 @@ def map(
     progress: ProgressOption = None,
     client: Any = None,
 ) -> ParameterMap:
-    """The number of solutions over a plane of two parameters, proven cell by cell.
+    """Counts solutions over a plane of two parameters, and proves the number cell by cell.
 
     Args:
         over: two constants or coordinates with their ranges: {"l2": ("1/2", "3/2"), "theta2": (-corank.pi, corank.pi)}.
-        set: whose solutions, isolated once the parameters have values; None: the configurations, or a plain system's solutions.
+        set: the set whose solutions are counted; they have to be isolated once the parameters have values. None: the
+            configurations, or a plain system's solutions.
         fixed: coordinates that keep one value.
-        count: "solutions"; or "components", "aspects", "assembly-modes", "working-modes" of all configurations, which are
-            proven at the centres of cells alone.
-        resolution: the narrowest cells are so many along each side: a power of two from 8 to 1024.
-        boundary: look for the curve on which two solutions meet.
-        certificate: keep what proves the cells' numbers, for save() and verify(); of "solutions", and without `client`.
-        threads: 0: one for each core. time_limit: seconds, 0: none. The map does not depend on the threads.
-        client: of dask.distributed, whose workers do the map's parts (corank.cluster), each with one thread.
+        count: "solutions"; or "components", "aspects", "assembly-modes" or "working-modes" of all configurations, which are
+            proven only at the centres of cells.
+        resolution: the number of the narrowest cells along each side: a power of two from 8 to 1024.
+        boundary: find the curve on which two solutions meet.
+        certificate: keep the proofs of the cells' numbers, for save() and verify(); only for "solutions" without `client`.
+        threads: the number of threads; 0: one for each core. The map does not depend on it.
+        time_limit: in seconds; 0: no limit.
+        client: a client of dask.distributed whose workers do the map's parts (corank.cluster), each with one thread.
 
     Raises:
-        ModelError: where there is no such number.
-        Interrupted: by Ctrl-C, with what is known by then; the rest is pending.
+        ModelError: if the model does not give such a number.
+        Interrupted: on Ctrl-C, with what is known by then; the rest is pending.
     """
     if certificate and (count != "solutions" or client is not None):
-        raise ValueError('certificate: of count="solutions" alone, and without client')
+        raise ValueError('certificate: expected count="solutions" and no client')
     core = _corank.ParameterMap(
         self._core,
         set,

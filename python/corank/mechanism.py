@@ -1,4 +1,4 @@
-"""Mechanisms: their coordinates, constraints, inputs and outputs; and what can be asked of them."""
+"""Mechanisms: their coordinates, constraints, inputs and outputs, and the questions that corank answers about them."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from .result import PathLike, Result
 
 
 class Coordinate(NamedTuple):
-    """A coordinate q_i: a "length", in the model's unit, or an "angle", in radians; lower and upper end of its range, None
-    where the equations are to give it."""
+    """A coordinate: a "length" in the model's unit, or an "angle" in radians. lower and upper are the ends of its range;
+    None: the equations bound it."""
 
     name: str
     kind: str
@@ -24,7 +24,7 @@ class Coordinate(NamedTuple):
 
 
 class Mechanism:
-    """A mechanism, or without inputs and outputs a plain system of equations.
+    """A mechanism. Without inputs and outputs it is a plain system of equations.
 
     >>> m = Mechanism("three-slider")
     >>> y_A, y_B, x_C = m.length("y_A", -1, 1), m.length("y_B", -1, 1), m.length("x_C", -1, 1)
@@ -44,13 +44,13 @@ class Mechanism:
     # --- building one ---
 
     def constant(self, name: str, value: ExpressionLike) -> Expression:
-        """Declares a constant; a float is the decimal that it is written as. Returns its name as an expression."""
+        """Declares a constant. A float means its shortest decimal: 0.9 is 9/10. Returns the name as an expression."""
         return self._core.constant(name, as_expression(value))
 
     def length(
         self, name: str, lower: Optional[ExpressionLike] = None, upper: Optional[ExpressionLike] = None
     ) -> Expression:
-        """Declares a length with its range, in the model's unit; without one the equations have to bound it."""
+        """Declares a length with its range, in the model's unit. Without a range, the equations have to bound it."""
         return self._core.length(name, *(None if x is None else as_expression(x) for x in (lower, upper)))
 
     def angle(self, name: str, lower: ExpressionLike = -pi, upper: ExpressionLike = pi) -> Expression:
@@ -58,38 +58,39 @@ class Mechanism:
         return self._core.angle(name, as_expression(lower), as_expression(upper))
 
     def unit_vector(self, name: str) -> List[Expression]:
-        """Declares the unit vector NAME_x, NAME_y, NAME_z with its equation."""
+        """Declares the unit vector NAME_x, NAME_y, NAME_z and its equation."""
         return self._core.unit_vector(name)
 
     def rotation(self, name: str) -> List[Expression]:
-        """Declares the rotation matrix NAME_xx, NAME_xy … NAME_zz, row by row, with its six independent equations."""
+        """Declares the rotation matrix NAME_xx, NAME_xy … NAME_zz, row by row, and its six independent equations."""
         return self._core.rotation(name)
 
     def constrain(self, *relations: RelationLike) -> None:
-        """Adds assembly constraints (equations) and inequalities: texts, relations of corank's expressions or of SymPy; an
-        expression is meant to be 0."""
+        """Adds assembly constraints (equations) and inequalities: texts, or relations of corank's expressions or of SymPy.
+        An expression e means e = 0."""
         for relation in relations:
             self._core.constrain(as_relation(relation))
 
-    #: The same.
+    #: Another name of constrain().
     equation = constrain
 
     def imply(self, *relations: RelationLike) -> None:
-        """Adds equations that follow from the constraints, of which a proof is looked for; they make a search faster."""
+        """Adds equations that follow from the constraints, to make searches faster. corank searches for a proof that they
+        follow."""
         for relation in relations:
             self._core.imply(as_relation(relation))
 
     def limit(self, coordinate: Union[str, Expression], lower: ExpressionLike, upper: ExpressionLike) -> None:
-        """Says how far a joint moves: the mechanism ends there, and the set "boundary" asks what that means."""
+        """Limits a joint: the mechanism ends there. The set "boundary" takes such limits into account."""
         self._core.limit(str(coordinate), as_expression(lower), as_expression(upper))
 
     def rate(self, name: str, role: str = "passive", angle: bool = True) -> Expression:
-        """Declares a component of the mechanism's own velocity equation: its role is "input", "output" or "passive"; in
-        radians, or else units of length, per second."""
+        """Declares a rate of the mechanism's own velocity equation. Its role is "input", "output" or "passive". With
+        angle=True it is in radians per second, else in units of length per second."""
         return self._core.rate(name, angle, role)
 
     def velocity(self, *relations: RelationLike) -> None:
-        """Adds rows of that velocity equation: linear in the rates."""
+        """Adds rows of the mechanism's own velocity equation. They are linear in the rates."""
         for relation in relations:
             self._core.velocity(as_relation(relation))
 
@@ -120,7 +121,7 @@ class Mechanism:
 
     @property
     def name(self) -> str:
-        """Its name, that of its file."""
+        """The mechanism's name, by default that of its file."""
         return self._core.name
 
     @property
@@ -130,12 +131,12 @@ class Mechanism:
 
     @property
     def constant_values(self) -> Dict[str, float]:
-        """Their values within rounding errors, to compute with; corank itself takes them exactly."""
+        """The constants as rounded floats, for computations. corank itself takes them exactly."""
         return self._core.constant_values
 
     @property
     def coordinates(self) -> List[Coordinate]:
-        """q, in order."""
+        """The coordinates q, in their order."""
         return [Coordinate(*c) for c in self._core.coordinates]
 
     @property
@@ -145,17 +146,17 @@ class Mechanism:
 
     @property
     def robot(self) -> Optional[str]:
-        """Of a robot from parts, what they make: "planar, 5 links, mobility 2"; else None."""
+        """A robot from parts in words: "planar, 5 links, mobility 2". None for others."""
         return self._core.robot
 
     @property
     def notices(self) -> List[str]:
-        """What of its file was passed over, and what is special about it."""
+        """Notices about the file: what was passed over, and what is special."""
         return self._core.notices
 
     @property
     def text(self) -> str:
-        """The mechanism in the model language: equations, also of a robot from parts."""
+        """The mechanism in the model language, as equations also if it is a robot from parts."""
         self._core.validate()
         return self._core.text()
 
@@ -165,16 +166,16 @@ class Mechanism:
     def with_constants(
         self, constants: Optional[Mapping[str, ExpressionLike]] = None, **more: ExpressionLike
     ) -> "Mechanism":
-        """The same with other values of these constants: m.with_constants(l2="4/5").
+        """Returns the mechanism with other values of constants: m.with_constants(l2="4/5").
 
         Raises:
-            ModelError: where it has no such constant.
+            ModelError: if it does not have such a constant.
         """
         pairs = [(name, text_of(value)) for name, value in {**(constants or {}), **more}.items()]
         return Mechanism._of(self._core.with_constants(pairs))
 
     def copy(self) -> "Mechanism":
-        """Another mechanism, equal to this one."""
+        """Returns a copy."""
         return Mechanism._of(self._core.copy())
 
     # --- asking about one ---
@@ -188,9 +189,10 @@ class Mechanism:
         corank: int = 1,
         outputs: Sequence[str] = (),
     ) -> str:
-        """The constraints, the blocks of the velocity equation and the equations of a set, "cspace" where none is given.
+        """Returns, as text, the constraints, the blocks of the velocity equation and the equations of a set.
 
         Args:
+            set: the name of the set; None: "cspace".
             format: "text", "latex" (a fragment for amsmath) or "cuik" (the polynomial system, a model that can be solved).
         """
         if set is None and not self._core.plain:
@@ -223,30 +225,31 @@ class Mechanism:
         """Encloses a set in boxes, and proves what each box holds.
 
         Args:
-            set: corank.SETS has the names: "cspace", "forward", "inverse" …, or "nodes". Of a plain system None.
+            set: a name of corank.SETS ("cspace", "forward", "inverse" …), or "nodes"; None for a plain system.
             sigma: the largest edge of a box of proven solutions, in lengths and in the sines and cosines of angles; None: a
-                share of the size of the set that is found. sigma_length, sigma_angle: for each kind.
+                share of the size of the set that is found.
+            sigma_length, sigma_angle: the same for lengths, and for sines and cosines.
             kernel: the side of the kernel vector, "right" or "left"; "none": the set is solved in parts, each with an
-                equation of its own and no kernel vector; None: what fits the matrix, or "none" where a set of dimension 2
-                or more is the union of parts.
-            corank: the configurations where the kernel has this dimension at least.
-            outputs: of the set "boundary", in place of the model's.
-            tolerance: of the coefficients that are no integers, relative; 0: exact; None: 1e-6 for a plain system with more
-                equations than variables, else 0.
-            digits: points get so many proven digits after the point (Point.decimals).
-            proof: keep the script of the search, so that verify() can show that no solution is missing.
-            threads: 0: one for each core. The result does not depend on it unless a limit ends the search.
-            max_boxes, max_found, max_solutions, time_limit (seconds), memory_limit (bytes): what ends the search; 0: no
-                limit. memory_limit None: three quarters of the machine's memory.
-            coarser: the default of sigma is multiplied by this.
-            progress: None: shown on a terminal and in a notebook; True, False, or a function (stage, share, text).
-            client: of dask.distributed, whose workers search (corank.cluster). Limits hold there, too; threads are
-                then those of one unit, 0: one.
+                equation of its own and no kernel vector; None: the side that fits the matrix, or "none" if a set of
+                dimension 2 or more is the union of parts.
+            corank: only configurations at which the kernel has at least this dimension.
+            outputs: the outputs for the set "boundary", instead of the model's.
+            tolerance: how far each coefficient that is not an integer may vary, relative to its size; 0: not at all; None:
+                1e-6 for a plain system with more equations than variables, else 0.
+            digits: the number of proven digits after the point that isolated points get (Point.decimals).
+            proof: record the search, so that verify() can show that no solution is missing.
+            threads: the number of threads; 0: one for each core. The result depends on it only if a limit ends the search.
+            max_boxes, max_found, max_solutions, time_limit (seconds), memory_limit (bytes): limits that end the search; 0:
+                no limit. memory_limit=None: three quarters of the machine's memory.
+            coarser: a factor for the default of sigma.
+            progress: None: show it on a terminal and in a notebook; True, False, or a function (stage, share, text).
+            client: a client of dask.distributed whose workers search (corank.cluster). Limits hold there, too. `threads` is
+                then the number for one unit; 0: one.
 
         Raises:
-            ModelError: where the model does not answer such a question.
-            OptionError: for a number out of its range.
-            Interrupted: by Ctrl-C, with the partial result.
+            ModelError: if the model does not fit the question.
+            OptionError: if a number is out of its range.
+            Interrupted: on Ctrl-C, with the partial result.
         """
         options = _options(
             sigma=sigma,
@@ -273,10 +276,12 @@ class Mechanism:
     def topology(
         self, *, threads: int = 0, refinements: int = 6, time_limit: float = 0, progress: ProgressOption = None
     ) -> "analyses.Topology":
-        """The shape of the C-space, or of a plain system's solutions: pieces, Euler characteristic, genus; all proven.
+        """Finds the shape of the C-space, or of a plain system's solutions: pieces, Euler characteristic, genus. All is
+        proven.
 
         Args:
-            refinements: σ is halved so often while something is missing. time_limit: seconds, 0: none.
+            refinements: halve σ at most this often while something is not known.
+            time_limit: in seconds; 0: no limit.
         """
         with Shown(progress) as show:
             json, text, raised = _corank.topology(self._core, threads, refinements, time_limit, show)
@@ -294,13 +299,16 @@ class Mechanism:
         time_limit: float = 0,
         progress: ProgressOption = None,
     ) -> "analyses.Aspects":
-        """The pieces into which singularities divide the C-space: aspects, assembly modes, working modes.
+        """Finds the pieces into which singularities divide the C-space: aspects, assembly modes, working modes.
 
         Args:
-            halvings, rounds: how finely cells are divided, at most. time_limit: seconds, 0: none.
-            cusps: look for the cusps of both loci, and say in which aspect each lets the posture or the assembly mode change.
-            areas: of two outputs that are lengths: the area that each aspect covers, and which share outputs.
-            certificate: keep what it takes to check the numbers: save() and verify() need it.
+            halvings, rounds: limits of how finely cells are divided.
+            cusps: find the cusps of both loci, and the aspect in which each cusp lets the posture or the assembly mode
+                change.
+            areas: if the two outputs are lengths: bound the area that each aspect covers, and say which aspects share
+                outputs.
+            certificate: keep the proofs of the numbers, for save() and verify().
+            time_limit: in seconds; 0: no limit.
         """
         with Shown(progress) as show:
             json, text, file, raised = _corank.aspects(
@@ -318,7 +326,7 @@ class Mechanism:
     sweep = sweeping.sweep
 
     def show(self, **options: Any) -> "pages.Report":
-        """A report inside a notebook; the options are those of report()."""
+        """Shows a report inside a notebook; the options are those of report()."""
         return self.report(None, **options)
 
     # --- inner ---
@@ -351,23 +359,24 @@ def load(path: PathLike, loops: Optional[PathLike] = None, **constants: Expressi
     """Reads a mechanism: equations (.cuik), parts (.world, or .cuik with [LINKS]) or URDF (.urdf).
 
     Args:
-        loops: of a URDF file its companion, with the joints that close loops, inputs and outputs.
+        loops: the companion of a URDF file: the joints that close loops, the inputs and the outputs.
         constants: other values of constants: load("dextar.cuik", l2="4/5").
 
     Raises:
-        ModelError: with file, line and column.
+        ModelError: if the file is wrong; it names file, line and column.
     """
     pairs = [(name, text_of(value)) for name, value in constants.items()]
     return Mechanism._of(_corank.load(os.fspath(path), None if loops is None else os.fspath(loops), pairs))
 
 
 def parse(text: str, name: str = "model.cuik", loops: Optional[str] = None, **constants: ExpressionLike) -> Mechanism:
-    """A mechanism from a text in the model language, the parts language or URDF.
+    """Makes a mechanism from a text in the model language, the parts language or URDF.
 
     Args:
-        name: the file's name in messages, from which the mechanism has its own; its extension (.cuik, .world, .urdf) says
-            what the text is. Without one it is .cuik.
-        loops: of URDF, the text of its companion.
+        name: the name of the file in messages, which also names the mechanism. Its extension (.cuik, .world or .urdf;
+            default: .cuik) says what the text is.
+        loops: the text of the companion of a URDF text.
+        constants: other values of constants.
     """
     if not os.path.splitext(name)[1]:
         name += ".cuik"

@@ -14,12 +14,12 @@ _MOST_POINTS = 20
 
 
 class Page:
-    """One HTML page that needs no other. In a notebook it is shown inside its cell, with its 3-D view.
+    """A self-contained HTML page. A notebook shows it inside the cell, with its 3-D view.
 
     Attributes:
-        html: its text.
-        path: where it was written; None where it was not.
-        height: of the frame in a notebook, in pixels.
+        html: the text of the page.
+        path: where it was written; None if it was not written.
+        height: the height of the frame in a notebook, in pixels.
     """
 
     def __init__(self, text: str, path: Optional[str] = None) -> None:

@@ -1,4 +1,4 @@
-"""Packages that some of corank's functions hand their answers to: they are asked for where they are used."""
+"""Packages that only some of corank's functions need. They are imported when such a function is called."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def _missing(package: str) -> ModuleNotFoundError:
 
 
 def require(module: str) -> Any:
-    """The module. Where its package is not installed: an error that says how it is."""
+    """Returns the module; if its package is not installed, raises an error that says how to install it."""
     try:
         return importlib.import_module(module)
     except ModuleNotFoundError as error:
@@ -35,6 +35,6 @@ numpy = _Numpy()
 
 
 def expect(package: str) -> None:
-    """The same error; a package that is there is not imported yet."""
+    """Raises the same error, but does not import the package if it is installed."""
     if importlib.util.find_spec(package) is None:
         raise _missing(package)

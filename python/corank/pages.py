@@ -16,17 +16,18 @@ if TYPE_CHECKING:
 #: Of isolated points on a page.
 _DIGITS = 12
 
-#: The sets that a report has unless it is told which.
+#: The sets that a report has by default.
 USUAL_SETS: Tuple[str, ...] = tuple(s[0] for s in _corank.sets if s[3])
 _WITH_KERNEL = {s[0] for s in _corank.sets if s[4]}
 
 
 class Report(notebook.Page):
-    """A report and what it is about.
+    """A report and its results.
 
     Attributes:
-        results: of its sets, in their order. path: of its index.html; None where it was not written.
-        complete: is every result?
+        results: the results of its sets, in their order.
+        path: where its index.html was written; None if it was not written.
+        complete: is every result complete?
     """
 
     def __init__(self, text: str, results: Sequence[Result], path: Optional[str]) -> None:
@@ -74,19 +75,19 @@ def report(
     results: Optional[Sequence[Result]] = None,
     progress: ProgressOption = None,
 ) -> Report:
-    """Solves the sets and makes one HTML page about them, which a notebook shows.
+    """Solves several sets and returns one HTML page about them, which a notebook shows.
 
     Args:
-        path: a folder for index.html, the results and the figures; None: the page is only returned.
-        sets: their names; None: corank.USUAL_SETS.
-        sigma, cspace_sigma: the largest edge of a box, of the singularities' sets and of C-space.
-        corank: of the sets with a kernel.
-        max_boxes, max_found, time_limit: what ends each search, 0: no limit. The page says what is incomplete. Aspects, of
-            C-spaces of one or two dimensions, are left out where they take longer than the time limit.
-        results: take these, of one model, instead of solving.
+        path: a folder for index.html, the results and the figures; None: only return the page.
+        sets: the names of the sets; None: corank.USUAL_SETS.
+        sigma, cspace_sigma: the largest edge of a box, in sets of singularities and in C-space.
+        corank: for the sets with a kernel: only configurations at which the kernel has at least this dimension.
+        max_boxes, max_found, time_limit: limits that end each search; 0: no limit. The page says which sets are incomplete.
+            Aspects (of C-spaces with one or two dimensions) are left out if they take longer than the time limit.
+        results: make the page about these results of one model, instead of solving.
 
     Raises:
-        Interrupted: with the results of the sets that were done, and of the one that was on, as a list.
+        Interrupted: on Ctrl-C, with a list of the results of the sets that were done and of the one in progress.
     """
     found: List[Result] = list(results or [])
     for name in () if results else sets or USUAL_SETS:

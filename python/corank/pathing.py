@@ -1,4 +1,4 @@
-"""Ways between two configurations that are proven to meet no singularity."""
+"""Paths between two configurations that are proven to meet no singularity."""
 
 from __future__ import annotations
 
@@ -25,16 +25,20 @@ _TITLES: Dict[str, str] = {s[0]: s[1] for s in _corank.sets}
 
 
 class Path:
-    """A way, or the proof that there is none, or neither.
+    """A path, or the proof that there is none, or neither. In a condition it is True if there is a path. str() is the table
+    that the command prints.
 
     Attributes:
-        status: "path", "separated" (proven: the ends lie in different pieces) or "unknown". True in a condition: a path.
-        waypoints: of a path, values by coordinate, the first and the last at the ends.
-        radius: every configuration of which no sine or cosine of an angle differs by more from a point of the way, and no
-            length by more than length_radius, is proven to be none of the singularities avoided; None without a path, and
-            length_radius where there are no lengths. radii: of the piece after each waypoint, of sines and cosines.
-        length: of the waypoints' polyline, angles in radians, lengths in units of their typical size. reason: what separates the ends, or why nothing is known.
-        data: the JSON object, as the command line's --json prints it; str() is its table.
+        status: "path", "separated" (it is proven that the ends lie in different pieces) or "unknown".
+        waypoints: the path's values by coordinate, from the start to the end.
+        radius, length_radius: a configuration is proven not to be one of the avoided singularities if its sines and cosines
+            of angles differ by at most `radius`, and its lengths by at most `length_radius`, from those of a point of the
+            path. None without a path; length_radius is also None without lengths.
+        radii: the radius, in sines and cosines, of the piece after each waypoint.
+        length: the length of the polyline through the waypoints, with angles in radians and lengths in units of their
+            typical size.
+        reason: what separates the ends, or why nothing is known.
+        data: the JSON object that the command's --json prints.
     """
 
     def __init__(
@@ -74,11 +78,12 @@ class Path:
         return self._file
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the path with its tube (.h5), which verify() and `corank verify` check. ValueError without a path."""
+        """Writes the path with its tube (.h5), which `corank verify` checks. Raises ValueError if there is no path."""
         self._need().write(os.fspath(path))
 
     def verify(self, *, progress: ProgressOption = None) -> bool:
-        """Checks the tube anew by code that shares nothing with what made it. ValueError without a path."""
+        """Checks the tube with code that shares nothing with the code that found it. Raises ValueError if there is no
+        path."""
         with Shown(progress) as show:
             text, _, raised = _corank.verify_path(self._need(), show)
         return bool(deliver(json.loads(text), raised)["verified"])
@@ -92,13 +97,13 @@ class Path:
         time_limit: float = 4,
         progress: ProgressOption = None,
     ) -> Page:
-        """An HTML page on which the mechanism moves along the path, over the loci in the input and output portraits; where
-        there is none, it stands at both ends, and the page says why. A notebook shows it.
+        """Returns an HTML page on which the mechanism moves along the path, with the loci in the input and output portraits.
+        If there is no path, the page shows the mechanism at both ends and says why. A notebook shows the page.
 
         Args:
-            path: a file to write it to; None: the page is only returned.
-            results: of sets of the mechanism, to be drawn; None: C-space, forward and inverse singularities are solved for.
-            time_limit: seconds for each of these; a set that takes longer is not drawn, and the page says so. 0: none.
+            path: a file to write the page to; None: only return it.
+            results: the sets of the mechanism to draw; None: solve for C-space, forward and inverse singularities.
+            time_limit: seconds for each of these sets; the page says which sets took longer and are not drawn. 0: no limit.
         """
         if self._picture is None or self._mechanism is None:
             raise ValueError("this path does not know its mechanism")
@@ -133,7 +138,7 @@ class Path:
         return self._page._repr_html_()
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """A row for each waypoint, a column for each coordinate."""
+        """Returns a data frame with a row for each waypoint and a column for each coordinate."""
         import pandas
 
         return pandas.DataFrame(self.waypoints)
@@ -153,15 +158,16 @@ def path(
     time_limit: float = 0,
     progress: ProgressOption = None,
 ) -> Path:
-    """A way between two configurations without a singularity, proven from end to end, or the proof that there is none.
+    """Finds a path between two configurations that meets no singularity, and proves it, or proves that there is none.
 
     Args:
-        start, end: values of coordinates, as many as the mobility; the rest is solved for. Further ones choose between the
-            solutions, and so does start_mode or end_mode, the number of a solution in the list that the ValueError has
-            where there are several.
-        avoid: "forward", "inverse" or "both". Ranges, limits and inequalities are kept, too.
-        radius: the clearance that the way is to have where possible.
-        max_boxes: of one cover of C-space; 0: corank's own. time_limit: seconds, 0: none.
+        start, end: values of coordinates, as many as the mobility; corank solves for the others. Further values choose among
+            the solutions.
+        start_mode, end_mode: the number of the solution, if there are several; without it, a ValueError lists them.
+        avoid: "forward", "inverse" or "both". The path also keeps to ranges, limits and inequalities.
+        radius: the clearance that the path keeps where possible.
+        max_boxes: the largest number of boxes in a cover of C-space; 0: corank's default.
+        time_limit: in seconds; 0: no limit.
     """
     ends = [[(name, as_expression(v)) for name, v in values.items()] for values in (start, end)]
     with Shown(progress) as show:

@@ -31,16 +31,16 @@ def plot(
     outline: float = 0.8,
     **style: Any,
 ) -> Any:
-    """Draws the boxes of one or several results, all of them, where they are.
+    """Draws all boxes of one or several results.
 
     Args:
-        results: drawn in the order of a report, C-space below its singularities.
-        axes: the names of two coordinates, or of three for 3-D axes. An angle, in radians, goes by its name.
-        ax: matplotlib's axes; new ones where there are none.
-        color: "set", "verdict" or "plain": what the colours tell apart.
-        legend: with one, where there are several colours.
-        outline: the width, in points, of the line about a box, which makes small ones visible.
-        style: more for matplotlib's collections, such as alpha or rasterized.
+        results: the results. They are drawn in the order of a report, C-space below its singularities.
+        axes: the names of two coordinates, or of three for 3-D axes. Angles are in radians.
+        ax: axes of matplotlib; None: new axes.
+        color: what the colours distinguish: "set", "verdict" or "plain".
+        legend: draw a legend if there are several colours.
+        outline: the width, in points, of the line about a box, which makes small boxes visible.
+        style: further options of matplotlib's collections, such as alpha or rasterized.
 
     Returns:
         The axes. Each layer is one collection, whose label is that of the legend.

@@ -25,10 +25,10 @@ class Interval(NamedTuple):
 
 
 class Point:
-    """One solution, or, where it is undecided, a cluster of boxes that may hold any number of them.
+    """One solution; or, if it is undecided, a cluster of boxes that may hold any number of solutions.
 
-    ``point["theta"]`` is the value of a coordinate: an exact number of SymPy where it is known, else an Interval; lengths
-    are in the model's unit, angles in radians.
+    ``point["theta"]`` is the value of a coordinate: an exact number of SymPy if it is known, else an Interval. Lengths are
+    in the model's unit, angles in radians.
     """
 
     def __init__(self, result: "Result", index: int) -> None:
@@ -43,13 +43,12 @@ class Point:
 
     @property
     def box(self) -> np.ndarray:
-        """Its box, float64 of shape (variables, 2): lower and upper ends."""
+        """The point's box: float64 of shape (variables, 2), lower and upper ends."""
         return self._result._point_arrays["bounds"][self._index]
 
     @property
     def enclosures(self) -> Dict[str, Interval]:
-        """Of each coordinate, angles in place of their cosines and sines, then of each kernel unknown: an interval around
-        it."""
+        """An interval around each coordinate (angles instead of their cosines and sines) and each kernel unknown."""
         r = self._result
         at = {name: Interval(*self.box[j].tolist()) for j, name in enumerate(r.variables)}
         hidden = set()
@@ -60,8 +59,8 @@ class Point:
 
     @property
     def exact(self) -> Optional[Dict[str, Any]]:
-        """Of each variable its exact value as a number of SymPy, of each angle in radians; None where the point is not known
-        exactly. Of an undecided point it is the one that explains why nothing more is proven."""
+        """The exact value of each variable, and of each angle in radians, as numbers of SymPy; None if the point is not
+        known exactly. For an undecided point, it is the exact point that explains why nothing more is proven."""
         number = int(self._result._point_arrays["point"][self._index])
         if number < 0:
             return None
@@ -75,7 +74,7 @@ class Point:
 
     @property
     def decimals(self) -> Optional[Dict[str, str]]:
-        """Of each variable a decimal, wrong by less than a unit of its last digit; None where no digits were asked for or
+        """A decimal for each variable, wrong by less than a unit of its last digit; None if no digits were requested or
         nothing is proven."""
         digits: List[List[str]] = self._result._core.decimals
         if not digits or not digits[self._index]:

@@ -1,4 +1,4 @@
-"""How far a computation is: a bar where tqdm is installed, else a line on standard error."""
+"""Progress of a computation: a bar if tqdm is installed, else a line on standard error."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import sys
 import time
 from typing import Any, Callable, Optional, Union
 
-#: A function of the stage ("search" …), the share of it that is done (0 … 1, None where nobody knows) and words about it.
+#: A function of the stage ("search" …), the share of it that is done (0 … 1; None: not known) and a text about it.
 ProgressFunction = Callable[[str, Optional[float], str], None]
-#: None: shown on a terminal and in a notebook; True, False: always, never; or a function of one's own.
+#: None: show progress on a terminal and in a notebook; True: always; False: never; or a function of your own.
 ProgressOption = Union[None, bool, ProgressFunction]
 
 _DELAY = 0.5  # seconds before the first picture: what is done sooner needs none

@@ -1,4 +1,4 @@
-"""Results: the boxes that enclose a set, and what is proven of them."""
+"""Results: the boxes that enclose a set, and what is proven about them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 
 class Angle(NamedTuple):
-    """An angle and the variables that stand for it; its range in radians."""
+    """The two variables that stand for an angle, and its range in radians."""
 
     cosine: str
     sine: str
@@ -43,7 +43,7 @@ class Sigma(NamedTuple):
 class Verification(NamedTuple):
     """What the independent checker found.
 
-    verified: every claim of the result holds. complete: and it is proven that its boxes hold all solutions. report: counts
+    verified: every claim of the result holds. complete: it is also proven that the boxes hold all solutions. report: counts
     and failures, as `corank verify --json` prints them. text: the same as a table.
     """
 
@@ -60,10 +60,10 @@ class Verification(NamedTuple):
 
 
 class Result:
-    """A set as n boxes over named variables. Every solution in the search domain is in a box, where `complete`.
+    """A set, enclosed in n boxes over named variables. If `complete`, every solution in the search domain is in a box.
 
-    Arrays are views of the result's own memory, which they keep alive; they cannot be written to. ``result["x"]`` is the
-    array of shape (n, 2) of a variable, or of an angle in radians.
+    Arrays are read-only views of the result's own memory, which they keep alive. ``result["x"]`` is the array of shape
+    (n, 2) of a variable, or of an angle in radians.
     """
 
     def __init__(self, core: _corank.Result) -> None:
@@ -75,23 +75,23 @@ class Result:
 
     @property
     def boxes(self) -> np.ndarray:
-        """float64 of shape (n, variables, 2): lower and upper end of each side, not copied, read-only. Lengths are in the
-        model's unit; angles are there as cosine and sine."""
+        """The boxes: float64 of shape (n, variables, 2), the lower and upper end of each side; not copied, read-only.
+        Lengths are in the model's unit. Angles are represented by cosine and sine."""
         return self._arrays["bounds"]
 
     @property
     def variables(self) -> List[str]:
-        """The names of the boxes' sides: the configuration's first, then kernel vectors and auxiliary variables."""
+        """The names of the boxes' sides: first the configuration, then kernel vectors and auxiliary variables."""
         return [v[0] for v in self._core.variables]
 
     @property
     def kinds(self) -> Dict[str, str]:
-        """Of each variable what it is: length, cosine, sine, kernel or auxiliary."""
+        """The kind of each variable: length, cosine, sine, kernel or auxiliary."""
         return {v[0]: v[1] for v in self._core.variables}
 
     @property
     def domain(self) -> Dict[str, Interval]:
-        """Of each variable where it was searched."""
+        """The range of each variable that was searched."""
         return {v[0]: Interval(v[2], v[3]) for v in self._core.variables}
 
     @functools.cached_property
@@ -120,50 +120,52 @@ class Result:
 
     @property
     def verdicts(self) -> np.ndarray:
-        """What is proven of each box, as words: an array of n strings; doc/certificates.md says what each means."""
+        """What is proven about each box: an array of n words. doc/certificates.md says what each word means."""
         return np.array(_corank.verdicts)[self._arrays["verdict"]]
 
     @property
     def verdict_codes(self) -> np.ndarray:
-        """The same as uint8 of shape (n,), not copied: indices of corank.VERDICTS."""
+        """The verdicts as uint8 of shape (n,), not copied: indices of corank.VERDICTS."""
         return self._arrays["verdict"]
 
     @property
     def counts(self) -> Dict[str, int]:
-        """How many boxes have each verdict; those that none has are left out."""
+        """The number of boxes with each verdict; verdicts without a box are left out."""
         return {word: k for word, k in zip(_corank.verdicts, self._core.counts) if k}
 
     @property
     def reasons(self) -> np.ndarray:
-        """Why boxes are undecided, as words: an array of n strings, "none" of the others. No claim."""
+        """Why boxes are undecided: an array of n words, "none" for the other boxes. A reason is a hint, not a claim."""
         return np.array(_corank.reasons)[self._arrays["reason"]]
 
     @property
     def free(self) -> np.ndarray:
-        """bool of shape (n, variables), not copied: is the variable free in the box? For every value of the free variables
+        """Is the variable free in the box? bool of shape (n, variables), not copied. For every value of the free variables
         in a `regular` box there is exactly one solution in it."""
         return self._arrays["free"]
 
     @property
     def types(self) -> Dict[str, np.ndarray]:
-        """Of each type of singularity that was asked for, such as "RO": in which boxes every solution has it; bool, (n,)."""
+        """For each requested type of singularity, such as "RO": does every solution in the box have it? bool of shape
+        (n,)."""
         bits = self._arrays["types_proven"]
         return {t: (bits >> k & 1).astype(bool) for k, t in enumerate(_corank.types) if self._core.types_asked >> k & 1}
 
     @property
     def excluded_types(self) -> Dict[str, np.ndarray]:
-        """The same of types that no solution in the box has."""
+        """For each requested type of singularity: is it proven that no solution in the box has it? bool of shape (n,)."""
         bits = self._arrays["types_excluded"]
         return {t: (bits >> k & 1).astype(bool) for k, t in enumerate(_corank.types) if self._core.types_asked >> k & 1}
 
     @property
     def kernel_at_most(self) -> np.ndarray:
-        """The kernel's dimension at every solution in the box, at most; int32, (n,), not copied. −1: not known."""
+        """An upper bound of the kernel's dimension at the solutions in the box: int32 of shape (n,), not copied; −1: not
+        known."""
         return self._arrays["kernel_at_most"]
 
     @property
     def passages(self) -> np.ndarray:
-        """Of a workspace boundary: "barrier", "traversable" or "unproven" for each box, an array of n strings."""
+        """For a workspace boundary: can the output pass? An array of n words: "barrier", "traversable" or "unproven"."""
         return np.array(_corank.passages)[self._arrays["passage"]]
 
     def __getitem__(self, name: str) -> np.ndarray:
@@ -185,8 +187,8 @@ class Result:
 
     @property
     def exact_points(self) -> List[Dict[str, Any]]:
-        """Points of any set that are known exactly, such as those where the kernel's dimension is 2: of each variable its
-        value as a number of SymPy."""
+        """The points of the set that are known exactly, such as those where the kernel has dimension 2: the value of each
+        variable as a number of SymPy."""
         from . import exact
 
         return [exact.coordinates(p) for p in self._core.exact_points]
@@ -212,7 +214,7 @@ class Result:
 
     @property
     def mechanism(self) -> "Mechanism":
-        """The mechanism as the result has it, with its constants put in."""
+        """The mechanism that was solved, with the values of its constants."""
         from .mechanism import Mechanism
 
         text = (self._core.model_text, self._core.model + ".cuik", "")
@@ -230,26 +232,26 @@ class Result:
 
     @property
     def stopped(self) -> Optional[str]:
-        """What ended the run early, and in which stage; None where it ran to its end."""
+        """What ended the run early, and in which stage; None if nothing did."""
         return self._core.stopped or None
 
     @property
     def assembled(self) -> Optional[bool]:
         """Can the robot be assembled within its ranges at all? True: a configuration is proven to exist (`sample`). False: it
-        is proven that there is none, so that every set is empty. None: neither is known, or it is a plain system."""
+        is proven that no configuration exists, so every set is empty. None: this is not known, or it is a plain system."""
         return self._core.assembled
 
     @property
     def sample(self) -> Optional[Dict[str, Interval]]:
-        """A configuration that is proven to exist, as intervals by coordinate, angles in radians; None where none is known.
-        It was looked for where the set itself is empty; else it is in the first of the set's proven boxes."""
+        """A configuration that is proven to exist, as intervals by coordinate, angles in radians; None if none is known. It
+        is in the first proven box of the set; if the set is empty, corank has searched for it."""
         found = self._core.sample
         return None if found is None else {name: Interval(lo, hi) for name, lo, hi in found}
 
     @property
     def nearly_solved(self) -> bool:
-        """A hint, of an empty set: are there solutions once the coefficients that are no integers are taken within 1e-6 of
-        their size? Then `tolerance=1e-6` finds what decimals mean that somebody rounded."""
+        """A hint for an empty set: are there solutions if the coefficients that are not integers may vary by 1e-6 of their
+        size? Then decimals in the model may be rounded, and `tolerance=1e-6` finds the solutions."""
         return self._core.nearly_solved
 
     @property
@@ -259,22 +261,22 @@ class Result:
 
     @property
     def dimension(self) -> int:
-        """Of the set: 0 for points, 1 for curves …"""
+        """The dimension of the set: 0 for points, 1 for curves …"""
         return self._core.dimension
 
     @property
     def has_proof(self) -> bool:
-        """Does it hold the script of the search, with which verify() shows that no solution is missing?"""
+        """Does the result hold a record of the search, with which verify() shows that no solution is missing?"""
         return self._core.has_proof
 
     @property
     def motions(self) -> List[str]:
-        """Self-motions, each in words."""
+        """The self-motions, each in words."""
         return list(self._core.motions)
 
     @property
     def parts(self) -> List["Result"]:
-        """Of a set that is solved in parts (a workspace's boundary, or a union): a result of each, whose name is `part`."""
+        """The results of the parts of a set that is solved in parts (a workspace's boundary, or a union); else empty."""
         return [Result(part) for part in self._core.parts]
 
     @property
@@ -293,18 +295,19 @@ class Result:
         return self._core.system_text
 
     def words(self) -> Dict[str, Any]:
-        """What a report says of the set: its title, meaning, finding, and what is proven and unproven, as HTML sentences."""
+        """What a report says about the set: title, meaning, finding, and what is proven and what is not, as HTML
+        sentences."""
         return self._core.words()
 
     # --- what to do with it ---
 
     def to_pandas(self, angles: bool = False, kernel: bool = False) -> "pandas.DataFrame":
-        """A data frame with a row for each box: its verdict, and of each variable NAME_mid, NAME_lo and NAME_hi: the
-        middle and the ends of its side.
+        """Returns a data frame with a row for each box: its verdict, and for each variable NAME_mid, NAME_lo and NAME_hi,
+        the middle and the ends of its side.
 
         Args:
-            angles: those of each angle, in radians, too.
-            kernel: those of the kernel vectors' components, too.
+            angles: add the columns of each angle, in radians.
+            kernel: add the columns of the kernel vectors' components.
         """
         pandas = require("pandas")
 
@@ -321,37 +324,38 @@ class Result:
         return pandas.DataFrame(columns)
 
     def save(self, path: PathLike) -> None:
-        """Writes a result file: HDF5, every double bit for bit, or the CUIK suite's layout where the name ends in .sol."""
+        """Writes a result file: HDF5, every double bit for bit, or the CUIK suite's format if the name ends in .sol."""
         self._core.save(os.fspath(path))
 
     def verify(self, threads: int = 0, progress: ProgressOption = None) -> Verification:
-        """Checks every box against the model with code that shares nothing with the solver, and, where the result has its
-        proof, that no solution is missing.
+        """Checks every box against the model, with code that shares nothing with the solver. If the result has a proof, also
+        checks that no solution is missing.
 
         Args:
-            threads: 0: one for each core.
+            threads: the number of threads; 0: one for each core.
 
         Raises:
-            Interrupted: with what had been checked.
+            Interrupted: on Ctrl-C, with what was checked by then.
         """
         with Shown(progress) as show:
             report, table, verified, complete, raised = self._core.verify(threads, show)
         return deliver(Verification(verified, complete, json.loads(report), table), raised)
 
     def plot(self, *axes: str, ax: Any = None, color: str = "set", **style: Any) -> Any:
-        """Draws the boxes into matplotlib's axes, over two coordinates, or three of 3-D axes; see corank.plot()."""
+        """Draws the boxes into axes of matplotlib, over two coordinates, or over three in 3-D axes; see corank.plot()."""
         return plotting.plot([self], *axes, ax=ax, color=color, **style)
 
     def portrait(self, path: PathLike, *axes: str, color: str = "set", title: str = "", width_mm: float = 85) -> None:
-        """Writes a picture for a paper, .svg, .pdf or .png: no box is left out, and as few shapes as can be."""
+        """Writes a picture for a paper (.svg, .pdf or .png). It shows every box, with as few shapes as possible."""
         _corank.write_portrait(os.fspath(path), [self._core], list(axes), color, title, width_mm)
 
     def page(self) -> "notebook.Page":
-        """A report of this set alone as one HTML page; a notebook shows it with its 3-D view and its moving mechanism."""
+        """Returns a report about this set only, as one HTML page. A notebook shows it with the 3-D view and the moving
+        mechanism."""
         return notebook.Page(_corank.report_page([self._core], "", [], [], None))
 
     def show(self, height: int = 600) -> "notebook.Page":
-        """The same, for the end of a notebook's cell. `height`: in pixels."""
+        """Shows page() at the end of a notebook's cell. `height` is in pixels."""
         page = self.page()
         page.height = height
         return page
@@ -411,9 +415,10 @@ def _from_bytes(data: bytes) -> Result:
 
 
 def open_result(path: PathLike) -> Result:
-    """Reads a result file (.h5). It may be a stranger's: reading it does no harm; verify() says whether it is true.
+    """Reads a result file (.h5). The file may come from a stranger: reading it does no harm, and verify() says whether its
+    claims are true.
 
     Raises:
-        ResultFileError: where it is missing, damaged, or something else.
+        ResultFileError: if the file is missing, damaged, or not a result.
     """
     return Result(_corank.read_result(os.fspath(path)))

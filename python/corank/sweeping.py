@@ -29,7 +29,8 @@ class Sweep(Sequence[Member]):
     """The members of a family, in the order of the constant's values.
 
     Attributes:
-        constant: its name. asked: how many members there were to be.
+        constant: the name of the constant.
+        asked: the number of members that were requested.
     """
 
     def __init__(self, constant: str, members: List[Member], asked: int, command: str) -> None:
@@ -46,12 +47,13 @@ class Sweep(Sequence[Member]):
 
     @property
     def complete(self) -> bool:
-        """Are all members there, with complete results?"""
+        """Does the family have all members, with complete results?"""
         done = all(r.complete and r.stopped is None for m in self for r in m.results.values())
         return done and len(self) == self.asked
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """A row for each member and set: the value as text and as a number, boxes, points, how many have each verdict."""
+        """Returns a data frame with a row for each member and set: the value as text and as a number, and the numbers of
+        boxes, of points and of boxes with each verdict."""
         import pandas
 
         rows = []
@@ -73,13 +75,13 @@ class Sweep(Sequence[Member]):
         return pandas.DataFrame(rows)
 
     def page(self, figures: Sequence[str] = (), files: Optional[List[List[str]]] = None) -> "notebook.Page":
-        """The family on one HTML page with a slider; a notebook shows it."""
+        """Returns one HTML page about the family, with a slider. A notebook shows it."""
         if not self._members:
             raise ValueError("the family has no member")
         first = self._members[0]
         axes = pages.portrait_axes(first.mechanism, first.mechanism.outputs)
         if len(axes) < 2:
-            raise ValueError(f"{first.mechanism.name} has no two coordinates to draw a portrait over")
+            raise ValueError(f"{first.mechanism.name}: a portrait needs two coordinates that vary")
         members = [
             (m.value, [r._core for r in m.results.values()], files[k] if files else []) for k, m in enumerate(self._members)
         ]
@@ -138,15 +140,15 @@ def sweep(
     """Solves sets of a family of mechanisms that differ in one constant.
 
     Args:
-        constant: its name.
-        values: of it, exact: texts, fractions; corank.linspace(0.9, 1.6, 8).
+        constant: the name of the constant.
+        values: its exact values: texts, fractions, or corank.linspace(0.9, 1.6, 8).
         sets, sigma, cspace_sigma: as for report(); the default of sigma is twice that of solve().
-        max_boxes, max_found, time_limit: what ends each search; 0: no limit.
-        client: of dask.distributed, whose workers do the searches, each of them one at a time with `threads` threads; 0: one.
+        max_boxes, max_found, time_limit: limits that end each search; 0: no limit.
+        client: a client of dask.distributed. Each of its workers does one search at a time, with `threads` threads; 0: one.
 
     Raises:
-        ModelError: where a value makes no mechanism; before the first search.
-        Interrupted: with the members that were done, and the one that was on.
+        ModelError: if a value does not make a mechanism; this is checked before the first search.
+        Interrupted: on Ctrl-C, with the members that were done and the one in progress.
     """
     texts = [text_of(value) for value in values]
     plans = [self.with_constants({constant: text}) for text in texts]
@@ -154,7 +156,8 @@ def sweep(
     for text, plan in zip(texts, plans):
         if [c.name for c in plan.coordinates] != names:
             raise ValueError(
-                f"at {constant} = {text} the mechanism has other coordinates than at {texts[0]}; a sweep needs the same"
+                f"at {constant} = {text} the mechanism has other coordinates than at {texts[0]}; "
+                "expected the same coordinates"
             )
     members: List[Member] = []
     command = f"{pages._command('sweep', self, sets, sigma, cspace_sigma)} over {constant}"

@@ -56,7 +56,7 @@ def test_tables_name_the_arguments():
     x, y = m.length("x", -2, 2), m.length("y", -2, 2)
     m.constrain("x^2 + y^2 = 1", "2*x^2 + 2*y^2 = 2.0000001", "x = y")
     table = str(m.solve(tolerance=0))
-    assert "tolerance=1e-06 finds what is meant" in table and "--" not in table
+    assert "use tolerance=1e-06, or write exact numbers" in table and "--" not in table
 
 
 def test_other_texts_stay_as_they_are():

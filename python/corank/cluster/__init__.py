@@ -1,4 +1,4 @@
-"""Searches on many machines: dask.distributed's workers run the units of a search, and the result is corank solve's.
+"""Searches on many machines: workers of dask.distributed run the units of a search. The result is that of corank solve.
 
     python3 -m corank.cluster solve models/dextar.cuik --set cspace --sigma 0.01 --workers 2 -o cspace.h5
 
@@ -6,7 +6,7 @@
 >>> with local_client(workers=2) as client:  # doctest: +SKIP
 ...     r = corank.load("models/dextar.cuik").solve("cspace", sigma=0.1, client=client)
 
-It needs the package distributed. doc/cluster.md says how workers on other machines are started, and what happens when one dies.
+It needs the package distributed. doc/cluster.md says how to start workers on other machines, and what happens if one dies.
 """
 
 import importlib

@@ -63,9 +63,9 @@ def _question() -> argparse.ArgumentParser:
     """Those of corank solve, which checkpoints keep."""
     p = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     p.add_argument(
-        "file", nargs="?", metavar="MODEL", help="equations (.cuik), parts (.world, or .cuik with [LINKS]) or URDF (.urdf)"
+        "file", nargs="?", metavar="MODEL", help="equations (.cuik), parts (.cuik with [LINKS], or .world) or URDF (.urdf)"
     )
-    p.add_argument("--loops", metavar="FILE.loops", help="of a URDF file: its companion")
+    p.add_argument("--loops", metavar="FILE.loops", help="companion of a URDF file")
     p.add_argument("--set", choices=[s[0] for s in _corank.sets] + ["nodes"])
     p.add_argument("--kernel", choices=["right", "left"])
     p.add_argument("--corank", type=_positive, default=1, metavar="C")
@@ -85,17 +85,24 @@ def _where() -> argparse.ArgumentParser:
     p = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     where = p.add_argument_group("the cluster")
     where.add_argument(
-        "--workers", type=_positive, metavar="N", help="so many processes of this machine; default: one for each core"
+        "--workers",
+        type=_positive,
+        metavar="N",
+        help="number of worker processes on this machine; default: one for each core",
     )
     where.add_argument("--host", default="127.0.0.1", help="where their scheduler listens; default: loopback")
     where.add_argument(
-        "--scheduler", metavar="ADDRESS", help="use this one and its workers instead: tcp://HOST:PORT or tls://HOST:PORT"
+        "--scheduler",
+        metavar="ADDRESS",
+        help="use this scheduler and its workers instead: tcp://HOST:PORT or tls://HOST:PORT",
     )
     where.add_argument("--tls-ca", metavar="FILE.pem", help="encrypt and authenticate by TLS: the authority's certificate")
     where.add_argument("--tls-cert", metavar="FILE.pem")
     where.add_argument("--tls-key", metavar="FILE.pem")
-    where.add_argument("--dashboard", type=int, metavar="PORT", help="dask's, of one's own scheduler; it needs bokeh")
-    where.add_argument("--quiet", action="store_true", help="no progress")
+    where.add_argument(
+        "--dashboard", type=int, metavar="PORT", help="show dask's dashboard at this port; not with --scheduler; needs bokeh"
+    )
+    where.add_argument("--quiet", action="store_true", help="do not show progress")
     return p
 
 
@@ -103,8 +110,8 @@ def _parser() -> argparse.ArgumentParser:
     program = argparse.ArgumentParser(
         prog="python3 -m corank.cluster",
         description=(
-            "Searches on many machines by dask.distributed. Exit statuses are those of corank solve: 0 done and complete, 1 bad input "
-            "or a cluster that cannot do the work, 2 usage, 3 ended early."
+            "Searches on many machines by dask.distributed. Exit status: 0 done and complete, 1 bad input or a cluster that "
+            "cannot do the work, 2 wrong usage, 3 ended early."
         ),
     )
     subcommands = program.add_subparsers(dest="command", required=True)
@@ -114,29 +121,34 @@ def _parser() -> argparse.ArgumentParser:
         "solve",
         parents=[_question(), _where()],
         allow_abbrev=False,
-        help="corank solve by workers: the same boxes",
+        help="corank solve by workers, with the same boxes",
         epilog="Example: python3 -m corank.cluster solve models/dextar.cuik --set cspace --sigma 0.01 --workers 2 -o cspace.h5",
     )
-    sub.add_argument("--json", metavar="FILE", help="write a summary there")
+    sub.add_argument("--json", metavar="FILE", help="write a summary to this file")
     how = sub.add_argument_group("units")
-    how.add_argument("--unit-time", type=_seconds, default=1.0, help="of one unit, at most; default: 1s")
-    how.add_argument("--threads", type=_positive, default=1, help="of one unit; default: 1")
+    how.add_argument("--unit-time", type=_seconds, default=1.0, help="longest time of one unit; default: 1s")
+    how.add_argument("--threads", type=_positive, default=1, help="number of threads of one unit; default: 1")
     how.add_argument(
-        "--hang-time", type=_seconds, help="a unit that was not answered by then is given to another worker, too"
+        "--hang-time", type=_seconds, help="give a unit to another worker, too, if there is no answer after this time"
     )
-    limits = sub.add_argument_group("limits", "of this run; it goes on from its checkpoint, or from a result that is a .h5 file")
-    limits.add_argument("--time-limit", type=_limit, default=0.0, metavar="SECONDS", help="0: none, which is the default")
-    limits.add_argument("--max-boxes", type=_count, default=0, metavar="N", help="processed; 0: no limit, which is the default")
+    limits = sub.add_argument_group("limits", "End this run early; --resume goes on from its checkpoint or .h5 result.")
+    limits.add_argument("--time-limit", type=_limit, default=0.0, metavar="SECONDS", help="0: no limit (default)")
+    limits.add_argument("--max-boxes", type=_count, default=0, metavar="N", help="processed boxes; 0: no limit (default)")
     limits.add_argument(
-        "--memory-limit", type=_bytes, metavar="BYTES", help="of the client's; 0: none; default: three quarters of the machine's"
+        "--memory-limit",
+        type=_bytes,
+        metavar="BYTES",
+        help="memory of the client; 0: no limit; default: three quarters of the machine's memory",
     )
     keep = sub.add_argument_group("checkpoints")
     keep.add_argument(
-        "--checkpoint", metavar="FILE", help="write from where the run goes on now and then; removed once it is complete"
+        "--checkpoint", metavar="FILE", help="store the state of the run from time to time; a complete run removes the file"
     )
-    keep.add_argument("--every", type=_seconds, default=60.0, help="between two checkpoints; default: 60s")
+    keep.add_argument("--every", type=_seconds, default=60.0, help="time between two checkpoints; default: 60s")
     keep.add_argument(
-        "--resume", metavar="FILE", help="go on from a checkpoint, also of corank solve's; without MODEL and its options"
+        "--resume",
+        metavar="FILE",
+        help="go on from a checkpoint, also from one of corank solve; without MODEL and its options",
     )
     return program
 
@@ -174,13 +186,13 @@ def _resumed(args: argparse.Namespace, parser: argparse.ArgumentParser) -> Check
     ]
     if asked or args.constants:
         parser.error(
-            f"--resume: the model and the question are those of the run that goes on; expected no {(asked + ['-D'])[0]}"
+            f"--resume: its file holds the model and the question; expected no {(asked + ['-D'])[0]}"
         )
     known = Checkpoints.read(args.resume, args.every)
     former, unknown = _question().parse_known_args(known.arguments)
     ignored = [u for u in unknown if u.startswith("-") and u != "--threads"]
     if ignored:
-        raise ResultFileError(f"{args.resume}: the former run had options that a cluster has not: {' '.join(ignored)}")
+        raise ResultFileError(f"{args.resume}: the former run had options that a cluster does not have: {' '.join(ignored)}")
     for name, value in vars(former).items():
         if name not in ("output", "digits", "file") or not getattr(args, name):
             setattr(args, name, value)

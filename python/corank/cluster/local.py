@@ -47,7 +47,7 @@ def _settings() -> Iterator[None]:
 
 
 def security(ca: Optional[str] = None, cert: Optional[str] = None, key: Optional[str] = None) -> Optional[Security]:
-    """TLS by dask's own means, from PEM files; None where none is given, and dask's configuration counts."""
+    """Returns dask's TLS settings from PEM files; None if no file is given, so that dask's configuration counts."""
     if ca is None and cert is None and key is None:
         return None
     if ca is None or cert is None:
@@ -67,10 +67,12 @@ def security(ca: Optional[str] = None, cert: Optional[str] = None, key: Optional
 def local_client(
     workers: int = 2, *, host: str = "127.0.0.1", dashboard: Optional[int] = None, tls: Optional[Security] = None
 ) -> Iterator[Client]:
-    """A client with so many worker processes on this machine, each with one thread, which end with it.
+    """Returns a client with worker processes on this machine, each with one thread, which end with it.
 
     Args:
-        host: where the scheduler listens; loopback unless told otherwise. dashboard: dask's, at this port; it needs bokeh.
+        workers: the number of worker processes.
+        host: where the scheduler listens; default: loopback.
+        dashboard: the port of dask's dashboard, which needs bokeh; None: no dashboard.
     """
     if dashboard is not None:
         try:
@@ -93,7 +95,7 @@ def local_client(
 
 @contextlib.contextmanager
 def remote_client(address: str, tls: Optional[Security] = None) -> Iterator[Client]:
-    """A client of the scheduler at an address such as tcp://10.0.0.1:8786, or tls://…"""
+    """Returns a client of the scheduler at an address such as tcp://10.0.0.1:8786, or tls://…"""
     try:
         client = Client(address, security=tls, timeout="20s")
     except (OSError, ValueError) as error:

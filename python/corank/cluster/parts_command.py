@@ -17,8 +17,8 @@ _DONE, _INCOMPLETE = 0, 3
 
 
 def _model(p: argparse.ArgumentParser) -> None:
-    p.add_argument("file", metavar="MODEL", help="equations (.cuik), parts (.world, or .cuik with [LINKS]) or URDF (.urdf)")
-    p.add_argument("--loops", metavar="FILE.loops", help="of a URDF file: its companion")
+    p.add_argument("file", metavar="MODEL", help="equations (.cuik), parts (.cuik with [LINKS], or .world) or URDF (.urdf)")
+    p.add_argument("--loops", metavar="FILE.loops", help="companion of a URDF file")
     p.add_argument("-D", dest="constants", action="append", default=[], metavar="NAME=EXPR", help="may be repeated")
 
 
@@ -58,11 +58,11 @@ def add_map(subcommands: Any, parents: List[argparse.ArgumentParser]) -> None:
         "map",
         parents=parents,
         allow_abbrev=False,
-        help="corank map by workers: the same cells",
+        help="corank map by workers, with the same cells",
         epilog="Example: python3 -m corank.cluster map models/dextar.cuik --over J3x=-1:2 --over J3y=-2:2 --workers 2 -o m.json",
     )
     _model(p)
-    p.add_argument("--over", action="append", default=[], required=True, metavar="NAME=FROM:TO", help="twice")
+    p.add_argument("--over", action="append", default=[], required=True, metavar="NAME=FROM:TO", help="required twice")
     p.add_argument("--fix", action="append", default=[], metavar="NAME=EXPR", help="a coordinate that keeps one value")
     p.add_argument("--set", choices=[s[0] for s in _corank.sets])
     p.add_argument("--count", default="solutions", help="as for corank map, like the other options of this part")
@@ -106,14 +106,14 @@ def add_sweep(subcommands: Any, parents: List[argparse.ArgumentParser]) -> None:
         "sweep",
         parents=parents,
         allow_abbrev=False,
-        help="corank sweep by workers: each search by one of them",
+        help="corank sweep by workers, each search by one worker",
         epilog="Example: python3 -m corank.cluster sweep models/dextar.cuik -D l2=1.6:0.9:8 --workers 2 -o family",
     )
     _model(p)
     p.add_argument("--sets", default="cspace,forward,inverse", help="as for corank sweep, like the other options of this part")
     p.add_argument("--sigma", type=float)
     p.add_argument("--cspace-sigma", type=float)
-    p.add_argument("--threads", type=int, default=1, help="of each search; default: 1")
+    p.add_argument("--threads", type=int, default=1, help="number of threads of each search; default: 1")
     p.add_argument("-o", dest="output", metavar="FOLDER", help="default: MODEL-sweep")
     p.set_defaults(run=_run_sweep)
 

@@ -21,9 +21,11 @@ class ClusterError(RuntimeError):
 class Plan(NamedTuple):
     """How units are given out.
 
-    unit_seconds: a worker returns what is left of a unit after so long, at most. threads: of each unit. hang_seconds: a unit that
-    was not answered by then is submitted again elsewhere, later with twice that patience, and so on; None: 60 s, or 30 times
-    unit_seconds. failures: so often may one unit be lost with its worker.
+    unit_seconds: after this time at most, a worker returns what is left of a unit.
+    threads: the number of threads of a unit.
+    hang_seconds: a unit without an answer after this time is also submitted elsewhere, then again after twice this time, and
+    so on; None: 60 s, or 30 times unit_seconds.
+    failures: how often a unit may be lost with its worker.
     """
 
     unit_seconds: float = 1.0
@@ -70,7 +72,7 @@ class Units:
         return len(self._units)
 
     def submit(self, units: Iterable[bytes], seconds: float) -> None:
-        """Gives them out; each takes so many seconds at most, but for sheets that are cut to the end."""
+        """Gives them out; each takes at most this many seconds, except for sheets that are cut to the end."""
         given = [_Given(unit, seconds, self._plan.patience) for unit in units]
         self._units.update(given)
         if given:
@@ -185,4 +187,4 @@ def check_versions(client: Client) -> None:
         if theirs != own
     ]
     if wrong:
-        raise ClusterError(f"all workers need corank {own}, as this process has; these have not: {'; '.join(wrong)}")
+        raise ClusterError(f"all workers need corank {own}, as this process has; these do not have it: {'; '.join(wrong)}")
