@@ -167,8 +167,8 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   const Cover& cover = result.cover;
   words.finding = fmt::format("{}: {}", shape(cover.dimension), boxes_text(cover.boxes.size()));
   if (found.counted)
-    words.finding += fmt::format(" in {} of touching boxes",
-                                 counted(static_cast<std::size_t>(found.count), "component", "components"));
+    words.finding +=
+        fmt::format(" in {} of touching boxes", counted(static_cast<std::size_t>(found.count), "component", "components"));
   const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
   if (regular > 0) {
     words.proven.push_back(
@@ -186,10 +186,9 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
                                        found.count, found.with_proven_solution,
                                        found.with_proven_solution == 1 ? "is" : "are"));
   }
-  words.unproven.push_back(
-      found.counted
-          ? "It is not proven that the solutions in one component form one piece: components are counted by boxes that touch."
-          : "The components were not counted, because the run was ended.");
+  words.unproven.push_back(found.counted ? "It is not proven that the solutions in one component form one piece: components "
+                                           "are counted by boxes that touch."
+                                         : "The components were not counted, because the run was ended.");
   if (const std::size_t partial = cover.count(Verdict::partial); partial > 0) {
     words.unproven.push_back(
         fmt::format("In {} only independent equations are proven to hold, the others within a tolerance of {:g}.",
