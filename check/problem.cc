@@ -61,14 +61,19 @@ void Problem::add_domain(int variable, const std::optional<Terms>& value, int si
   const ExactNumber& end = sign > 0 ? v.upper : v.lower;
   const Terms difference = (value ? *value : variable_as_terms(variable)) - end;
   bool holds = implied_.holds(variable, end, sign);
+  std::optional<Condition::Image> image;
   if (value && !holds) {
     const auto affine = value->affine();
     const auto direction = affine && value->is_exact() ? affine->a.sign() : std::nullopt;
-    if (direction && affine->a.is_rational() && *direction != 0)
-      holds = implied_.holds(affine->variable, (end - affine->c) / affine->a, sign * *direction);
+    if (direction && affine->a.is_rational() && *direction != 0) {
+      const ExactNumber own = (end - affine->c) / affine->a;
+      const bool is_lower = sign * *direction < 0;
+      holds = implied_.holds(affine->variable, own, sign * *direction);
+      image = {affine->variable, is_lower ? own.enclose().lo() : own.enclose().hi(), is_lower};
+    }
   }
   if (!value) (sign > 0 ? implied_upper_ : implied_lower_)[static_cast<std::size_t>(place(variable))] = holds;
-  conditions_.push_back({Row(without_denominators(sign > 0 ? -difference : difference), place_), holds, variable});
+  conditions_.push_back({Row(without_denominators(sign > 0 ? -difference : difference), place_), holds, variable, image});
 }
 
 bool Problem::clip_to_implied(Sides& x) const {

@@ -2,6 +2,7 @@
 // its domain.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "corank/check/implied.h"
@@ -15,6 +16,13 @@ struct Condition {
   Row row;
   bool implied = false;  ///< it holds at every solution of the equations
   int variable = -1;     ///< whose domain it is; −1: an inequality of the system
+  /// Where the variable is eliminated and a·y + c with exact numbers, the same end of y, rounded outward: y ≥ it, or ≤ it.
+  struct Image {
+    int of;  ///< y
+    double end;
+    bool is_lower;
+  };
+  std::optional<Image> image{};
 };
 
 class Problem {

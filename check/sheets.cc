@@ -218,11 +218,17 @@ class SheetCheck {
     return true;
   }
 
-  // Of a free variable whose side reaches no farther than its domain's ends, rounded outward: the claim is about values in
-  // the domain.
+  // Of a free variable whose side reaches no farther than its domain's ends, rounded outward, or than those of a variable
+  // that is an affine function of it: the claim is about values in the domain.
   bool is_end_of_free(const Condition& condition) const {
-    if (condition.variable < 0 || std::find(box_.free.begin(), box_.free.end(), condition.variable) == box_.free.end())
-      return false;
+    const auto is_free = [&](int variable) {
+      return std::find(box_.free.begin(), box_.free.end(), variable) != box_.free.end();
+    };
+    if (condition.image && is_free(condition.image->of)) {
+      const Interval& side = box_.box[static_cast<std::size_t>(condition.image->of)];
+      return condition.image->is_lower ? side.lo() >= condition.image->end : side.hi() <= condition.image->end;
+    }
+    if (condition.variable < 0 || !is_free(condition.variable)) return false;
     const auto j = static_cast<std::size_t>(condition.variable);
     return problem_.system().variables[j].domain.contains(box_.box[j]);
   }

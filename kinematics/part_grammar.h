@@ -7,12 +7,14 @@
 
 #include <tao/pegtl.hpp>
 
+#include "corank/symbolic/grammar_words.h"
 #include "corank/symbolic/model_grammar.h"
 
 namespace corank::kinematics::grammar {
 
 using namespace tao::pegtl;  // NOLINT: a namespace of grammar rules
 namespace model = symbolic::grammar;
+using model::any_case;
 
 struct hash_comment : seq<one<'#'>, until<at<eolf>>> {};
 struct gap : star<sor<space, model::line_comment, hash_comment, model::block_comment>> {};
@@ -24,18 +26,16 @@ struct word : seq<Letters, not_at<model::name_tail>> {};
 template <typename... Letters>
 struct words : word<sor<Letters...>> {};
 #define CORANK_WORD(name, text) \
-  struct name : word<TAO_PEGTL_ISTRING(text)> {}
+  struct name : word<any_case<text>> {}
 
 // Names. That of a thing in an included file may have its prefix before it: arm::elbow.
 struct simple_name : model::identifier {};
 struct long_name : seq<model::identifier, star<string<':', ':'>, model::identifier>> {};
 
 // Operands of expressions: functions may be written in capitals, and only what is called like a function is a call.
-struct function_word
-    : words<TAO_PEGTL_ISTRING("sin"), TAO_PEGTL_ISTRING("cos"), TAO_PEGTL_ISTRING("tan"), TAO_PEGTL_ISTRING("asin"),
-            TAO_PEGTL_ISTRING("acos"), TAO_PEGTL_ISTRING("atan"), TAO_PEGTL_ISTRING("sqrt"), TAO_PEGTL_ISTRING("exp"),
-            TAO_PEGTL_ISTRING("log"), TAO_PEGTL_ISTRING("abs")> {};
-struct refused_function : words<TAO_PEGTL_ISTRING("atan2"), TAO_PEGTL_ISTRING("cot"), TAO_PEGTL_ISTRING("parameter")> {};
+struct function_word : words<any_case<"sin">, any_case<"cos">, any_case<"tan">, any_case<"asin">, any_case<"acos">,
+                             any_case<"atan">, any_case<"sqrt">, any_case<"exp">, any_case<"log">, any_case<"abs">> {};
+struct refused_function : words<any_case<"atan2">, any_case<"cot">, any_case<"parameter">> {};
 struct function_open : model::call_open {};
 struct constant_token : long_name {};
 struct call;
@@ -78,9 +78,8 @@ struct point_offset : seq<one<'+'>, gap, must<offset_vector>> {};
 struct second_point : sor<point_offset, point> {};
 
 // Colours: 0.5*red + color (r, g, b)
-struct colour_word : words<TAO_PEGTL_ISTRING("red"), TAO_PEGTL_ISTRING("green"), TAO_PEGTL_ISTRING("blue"),
-                           TAO_PEGTL_ISTRING("purple"), TAO_PEGTL_ISTRING("cyan"), TAO_PEGTL_ISTRING("yellow"),
-                           TAO_PEGTL_ISTRING("white"), TAO_PEGTL_ISTRING("black"), TAO_PEGTL_ISTRING("grey")> {};
+struct colour_word : words<any_case<"red">, any_case<"green">, any_case<"blue">, any_case<"purple">, any_case<"cyan">,
+                           any_case<"yellow">, any_case<"white">, any_case<"black">, any_case<"grey">> {};
 CORANK_WORD(rgb_word, "color");
 struct rgb : seq<rgb_word, gap, must<tuple>> {};
 struct colour_factor : model::decimal {};
@@ -92,9 +91,8 @@ struct colour_end : success {};
 struct colour : seq<colour_begin, colour_term, star<gap, one<'+'>, gap, colour_term>, colour_end> {};
 
 // Rigid transformations: Txyz(1, 0, 0)*Rz(pi/2)
-struct transform_word
-    : words<TAO_PEGTL_ISTRING("txyz"), TAO_PEGTL_ISTRING("tx"), TAO_PEGTL_ISTRING("ty"), TAO_PEGTL_ISTRING("tz"),
-            TAO_PEGTL_ISTRING("rx"), TAO_PEGTL_ISTRING("ry"), TAO_PEGTL_ISTRING("rz"), TAO_PEGTL_ISTRING("tr")> {};
+struct transform_word : words<any_case<"txyz">, any_case<"tx">, any_case<"ty">, any_case<"tz">, any_case<"rx">,
+                              any_case<"ry">, any_case<"rz">, any_case<"tr">> {};
 CORANK_WORD(identity_word, "id");
 struct transform_open : one<'('> {};
 struct transform_close : one<')'> {};
@@ -115,16 +113,14 @@ CORANK_WORD(inertial_word, "inertial");
 CORANK_WORD(frame_word, "frame");
 CORANK_WORD(solid_word, "solid");
 struct inertia_shape
-    : words<TAO_PEGTL_ISTRING("rod_x"), TAO_PEGTL_ISTRING("rod_y"), TAO_PEGTL_ISTRING("rod_z"),
-            TAO_PEGTL_ISTRING("cylinder_x"), TAO_PEGTL_ISTRING("cylinder_y"), TAO_PEGTL_ISTRING("cylinder_z"),
-            TAO_PEGTL_ISTRING("sphere"), TAO_PEGTL_ISTRING("box"), TAO_PEGTL_ISTRING("ellipsoid")> {};
+    : words<any_case<"rod_x">, any_case<"rod_y">, any_case<"rod_z">, any_case<"cylinder_x">, any_case<"cylinder_y">,
+            any_case<"cylinder_z">, any_case<"sphere">, any_case<"box">, any_case<"ellipsoid">> {};
 struct inertia : seq<inertia_word, gap, must<matrix_word>, gap, opt<solid_word, gap>, opt<inertia_shape, gap>, number_list,
                      dynamics_end> {};
 struct inertial_frame : seq<inertial_word, gap, must<frame_word>, gap, transforms, dynamics_end> {};
-struct dynamics_word : words<TAO_PEGTL_ISTRING("mass"), TAO_PEGTL_ISTRING("velocity"), TAO_PEGTL_ISTRING("acceleration"),
-                             TAO_PEGTL_ISTRING("effort"), TAO_PEGTL_ISTRING("torque"), TAO_PEGTL_ISTRING("force"),
-                             TAO_PEGTL_ISTRING("cost"), TAO_PEGTL_ISTRING("friction"), TAO_PEGTL_ISTRING("damping"),
-                             TAO_PEGTL_ISTRING("rest"), TAO_PEGTL_ISTRING("stiffness")> {};
+struct dynamics_word : words<any_case<"mass">, any_case<"velocity">, any_case<"acceleration">, any_case<"effort">,
+                             any_case<"torque">, any_case<"force">, any_case<"cost">, any_case<"friction">,
+                             any_case<"damping">, any_case<"rest">, any_case<"stiffness">> {};
 struct dynamics_number : seq<dynamics_word, gap, expression, dynamics_end> {};
 struct dynamics : sor<inertia, inertial_frame, dynamics_number> {};
 
@@ -175,16 +171,16 @@ struct shape : sor<body, box, prism, sphere, cylinder, line, segments> {};
 // Section headers, and what may begin one.
 template <typename... Letters>
 struct header : seq<one<'['>, star<model::blank_character>, Letters..., star<model::blank_character>, one<']'>> {};
-struct constants_header : header<TAO_PEGTL_ISTRING("constants")> {};
-struct links_header : header<TAO_PEGTL_ISTRING("links")> {};
-struct joints_header : sor<header<TAO_PEGTL_ISTRING("joints")>, header<TAO_PEGTL_ISTRING("loops")>> {};
-struct obstacles_header : header<TAO_PEGTL_ISTRING("obstacles")> {};
-struct dh_header : header<TAO_PEGTL_ISTRING("dh")> {};
-struct collisions_header : header<TAO_PEGTL_ISTRING("collisions")> {};
-struct include_header : header<TAO_PEGTL_ISTRING("include")> {};
-struct equations_header : header<TAO_PEGTL_ISTRING("equations")> {};
-struct inputs_header : header<TAO_PEGTL_ISTRING("inputs")> {};
-struct outputs_header : header<TAO_PEGTL_ISTRING("outputs")> {};
+struct constants_header : header<any_case<"constants">> {};
+struct links_header : header<any_case<"links">> {};
+struct joints_header : sor<header<any_case<"joints">>, header<any_case<"loops">>> {};
+struct obstacles_header : header<any_case<"obstacles">> {};
+struct dh_header : header<any_case<"dh">> {};
+struct collisions_header : header<any_case<"collisions">> {};
+struct include_header : header<any_case<"include">> {};
+struct equations_header : header<any_case<"equations">> {};
+struct inputs_header : header<any_case<"inputs">> {};
+struct outputs_header : header<any_case<"outputs">> {};
 struct known_section : failure {};
 struct unknown_section : if_must<one<'['>, model::section_title, model::section_close, known_section> {};
 struct section_or_end : sor<eof, one<'['>> {};
@@ -221,14 +217,13 @@ struct link : seq<must<link_name>, link_begin, opt<gap, link_separator, opt<gap,
 struct links_section : seq<links_header, star<gap, not_at<section_or_end>, link>> {};
 
 // [JOINTS]
-struct axis_kind : words<TAO_PEGTL_ISTRING("revolute"), TAO_PEGTL_ISTRING("crevolute"), TAO_PEGTL_ISTRING("prismatic"),
-                         TAO_PEGTL_ISTRING("universal"), TAO_PEGTL_ISTRING("cylindrical"), TAO_PEGTL_ISTRING("planar"),
-                         TAO_PEGTL_ISTRING("parallelogram")> {};
-struct gear_kind : words<TAO_PEGTL_ISTRING("gear")> {};
-struct point_kind : words<TAO_PEGTL_ISTRING("spherical"), TAO_PEGTL_ISTRING("sph_prs_sph"), TAO_PEGTL_ISTRING("sph_sph")> {};
-struct fixed_kind : words<TAO_PEGTL_ISTRING("fix")> {};
-struct connector_kind : words<TAO_PEGTL_ISTRING("c_spring"), TAO_PEGTL_ISTRING("c_cable"), TAO_PEGTL_ISTRING("c_leg")> {};
-struct refused_kind : words<TAO_PEGTL_ISTRING("in_patch"), TAO_PEGTL_ISTRING("spring"), TAO_PEGTL_ISTRING("xyspring")> {};
+struct axis_kind : words<any_case<"revolute">, any_case<"crevolute">, any_case<"prismatic">, any_case<"universal">,
+                         any_case<"cylindrical">, any_case<"planar">, any_case<"parallelogram">> {};
+struct gear_kind : words<any_case<"gear">> {};
+struct point_kind : words<any_case<"spherical">, any_case<"sph_prs_sph">, any_case<"sph_sph">> {};
+struct fixed_kind : words<any_case<"fix">> {};
+struct connector_kind : words<any_case<"c_spring">, any_case<"c_cable">, any_case<"c_leg">> {};
+struct refused_kind : words<any_case<"in_patch">, any_case<"spring">, any_case<"xyspring">> {};
 struct any_kind : sor<axis_kind, point_kind, fixed_kind, gear_kind, connector_kind, refused_kind> {};
 struct joint_name : simple_name {};
 struct joint_link : long_name {};
@@ -307,11 +302,11 @@ struct joints_section : seq<joints_header, star<gap, not_at<section_or_end>, sor
 
 // [DH]  standard or modified, from which link; the columns' names; rows of four expressions, each in its line. Blanks
 // separate the columns, or commas where one stands behind a row's first.
-struct dh_convention : words<TAO_PEGTL_ISTRING("standard"), TAO_PEGTL_ISTRING("modified")> {};
+struct dh_convention : words<any_case<"standard">, any_case<"modified">> {};
 CORANK_WORD(from_word, "from");
 CORANK_WORD(link_word, "link");
 struct dh_base : long_name {};
-struct dh_column : words<TAO_PEGTL_ISTRING("alpha"), TAO_PEGTL_ISTRING("theta"), one<'a', 'A'>, one<'d', 'D'>> {};
+struct dh_column : words<any_case<"alpha">, any_case<"theta">, one<'a', 'A'>, one<'d', 'D'>> {};
 struct dh_comma : one<','> {};
 struct dh_columns : seq<must<dh_column>, rep<3, line_gap, opt<dh_comma, line_gap>, must<dh_column>>> {};
 struct dh_row_begin : success {};
@@ -340,8 +335,8 @@ struct obstacle_shape : shape {};
 struct obstacle : seq<must<obstacle_name>, gap, must<colon>, gap, must<obstacle_shape>> {};
 struct obstacles_section : seq<obstacles_header, star<gap, not_at<section_or_end>, obstacle>> {};
 struct checked_name : long_name {};
-struct check_word : seq<opt<TAO_PEGTL_ISTRING("do"), plus<space>, TAO_PEGTL_ISTRING("not"), plus<space>>,
-                        TAO_PEGTL_ISTRING("check"), not_at<model::name_tail>> {};
+struct check_word
+    : seq<opt<any_case<"do">, plus<space>, any_case<"not">, plus<space>>, any_case<"check">, not_at<model::name_tail>> {};
 struct collision_check
     : seq<must<check_word>, gap, must<colon>, gap, must<checked_name>, opt<gap, one<','>, gap, must<checked_name>>> {};
 struct collisions_section : seq<collisions_header, star<gap, not_at<section_or_end>, collision_check>> {};
@@ -375,20 +370,20 @@ CORANK_WORD(pose_word, "pose");
 CORANK_WORD(orientation_word, "orientation");
 CORANK_WORD(direction_word, "direction");
 CORANK_WORD(joint_word, "joint");
-struct in_word : seq<word<TAO_PEGTL_ISTRING("in")>, not_at<gap, one<':'>>> {};
+struct in_word : seq<word<any_case<"in">>, not_at<gap, one<':'>>> {};
 struct output_tuple : tuple {};
 struct output_of : seq<must<of_word>, gap, must<output_link>,
                        opt<sor<seq<gap, one<'.'>, gap, must<output_point>>, seq<gap, output_tuple>>>> {};
 struct output_in : opt<gap, in_word, gap, must<output_frame>> {};
 struct output_end : success {};
 CORANK_WORD(keeps_word, "keeps");
-struct output_angle : TAO_PEGTL_ISTRING("phi") {};
+struct output_angle : any_case<"phi"> {};
 struct output_axis : sor<output_angle, one<'x', 'y', 'z', 'X', 'Y', 'Z'>> {};
 struct output_bracket : bracket {};
 struct output_axis_range
     : seq<at<sor<output_angle, one<'x', 'y', 'z', 'X', 'Y', 'Z'>>, gap, one<'['>>, output_axis, gap, output_bracket> {};
 struct output_range : seq<sor<range_word, limits_word>, gap, must<output_axis_range>, star<gap, output_axis_range>> {};
-struct only_word : seq<word<TAO_PEGTL_ISTRING("only")>, not_at<gap, one<':'>>> {};
+struct only_word : seq<word<any_case<"only">>, not_at<gap, one<':'>>> {};
 struct only_axis : seq<one<'x', 'y', 'z', 'X', 'Y', 'Z'>, not_at<model::name_tail>, not_at<gap, one<':'>>> {};
 struct output_only : seq<only_word, gap, must<only_axis>, star<gap, only_axis>> {};
 struct kept_end : success {};

@@ -171,11 +171,11 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
         fmt::format(" in {} of touching boxes", counted(static_cast<std::size_t>(found.count), "component", "components"));
   const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
   if (regular > 0) {
-    words.proven.push_back(
-        fmt::format("In {} of {} boxes ({}) the set is one smooth piece: for every value of {} free coordinate{} there is "
-                    "exactly one solution.",
-                    grouped(regular), grouped(cover.boxes.size()), percentage(regular, cover.boxes.size()), cover.dimension,
-                    cover.dimension == 1 ? "" : "s"));
+    words.proven.push_back(fmt::format(
+        "In {} of {} boxes ({}) the {} is one smooth piece: for every value of {} free coordinate{} there is "
+        "exactly one solution.",
+        grouped(regular), grouped(cover.boxes.size()), percentage(regular, cover.boxes.size()),
+        result.parts.size() > 1 ? "part that it is of" : "set", cover.dimension, cover.dimension == 1 ? "" : "s"));
   }
   if (boundary > 0) {
     words.proven.push_back(

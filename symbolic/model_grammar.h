@@ -8,6 +8,8 @@
 
 #include <tao/pegtl.hpp>
 
+#include "corank/symbolic/grammar_words.h"
+
 namespace corank::symbolic::grammar {
 
 using namespace tao::pegtl;  // NOLINT: a namespace of grammar rules
@@ -76,18 +78,17 @@ struct lone_expression : seq<gap, expression<gap>, gap, must<lone_expression_end
 // Section headers.
 template <typename... Words>
 struct header : seq<one<'['>, star<blank_character>, Words..., star<blank_character>, one<']'>> {};
-struct constants_header : header<TAO_PEGTL_STRING("CONSTANTS")> {};
-struct variables_header : header<sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("SECONDARY"), TAO_PEGTL_STRING("DUMMY"),
-                                     TAO_PEGTL_STRING("CARTESIAN")>,
-                                 plus<blank_character>, TAO_PEGTL_STRING("VARS")> {};
-struct equations_header : header<sor<TAO_PEGTL_STRING("SYSTEM"), TAO_PEGTL_STRING("COORD"), TAO_PEGTL_STRING("DUMMY"),
-                                     TAO_PEGTL_STRING("IMPLIED"), TAO_PEGTL_STRING("VELOCITY")>,
-                                 plus<blank_character>, TAO_PEGTL_STRING("EQS")> {};
-struct rates_header : header<TAO_PEGTL_STRING("RATES")> {};
-struct inputs_header : header<TAO_PEGTL_STRING("INPUTS")> {};
-struct outputs_header : header<TAO_PEGTL_STRING("OUTPUTS")> {};
-struct limits_header : header<TAO_PEGTL_STRING("LIMITS")> {};
-struct drawing_header : header<TAO_PEGTL_STRING("DRAWING")> {};
+struct constants_header : header<exactly<"CONSTANTS">> {};
+struct variables_header : header<sor<exactly<"SYSTEM">, exactly<"SECONDARY">, exactly<"DUMMY">, exactly<"CARTESIAN">>,
+                                 plus<blank_character>, exactly<"VARS">> {};
+struct equations_header
+    : header<sor<exactly<"SYSTEM">, exactly<"COORD">, exactly<"DUMMY">, exactly<"IMPLIED">, exactly<"VELOCITY">>,
+             plus<blank_character>, exactly<"EQS">> {};
+struct rates_header : header<exactly<"RATES">> {};
+struct inputs_header : header<exactly<"INPUTS">> {};
+struct outputs_header : header<exactly<"OUTPUTS">> {};
+struct limits_header : header<exactly<"LIMITS">> {};
+struct drawing_header : header<exactly<"DRAWING">> {};
 struct section_title : star<not_one<']', '[', '\n', '\r'>> {};
 struct section_close : one<']'> {};
 struct known_section : failure {};
@@ -118,7 +119,7 @@ struct range_close : one<']'> {};
 struct variable_end : success {};
 struct range : seq<must<range_open>, gap, expression<gap>, gap, must<range_comma>, gap, expression<gap>, gap,
                    must<range_close>, variable_end> {};
-struct composite_word : sor<word<TAO_PEGTL_STRING("unit")>, word<TAO_PEGTL_STRING("rotation")>> {};
+struct composite_word : sor<word<exactly<"unit">>, word<exactly<"rotation">>> {};
 struct declaration
     : seq<must<variable_name>, line_gap,
           sor<seq<composite_mark, line_gap, must<composite_word>>, seq<must<declarator>, line_gap, sor<no_range, range>>>,
@@ -136,8 +137,7 @@ struct limits_section : seq<limits_header, star<gap, not_at<section_or_end>, lim
 // [RATES]  name ~ role or name : role
 struct rate_name : identifier {};
 struct rate_mark : sor<length_mark, angle_mark> {};
-struct role_word
-    : sor<word<TAO_PEGTL_STRING("input")>, word<TAO_PEGTL_STRING("output")>, word<TAO_PEGTL_STRING("passive")>> {};
+struct role_word : sor<word<exactly<"input">>, word<exactly<"output">>, word<exactly<"passive">>> {};
 struct rate : seq<must<rate_name>, line_gap, must<rate_mark>, line_gap, must<role_word>, opt<line_gap, one<';'>>> {};
 struct rates_section : seq<rates_header, star<gap, not_at<section_or_end>, rate>> {};
 
@@ -158,16 +158,16 @@ struct names_section : seq<sor<inputs_header, outputs_header>, names> {};
 
 // [DRAWING]  point P = (x, y), also with moves (u, v) behind it, or another word and the names of points, a radius, a
 // colour; each ends with its line.
-struct point_word : word<TAO_PEGTL_STRING("point")> {};
-struct unit_word : word<TAO_PEGTL_STRING("unit")> {};
-struct slider_word : word<TAO_PEGTL_STRING("slider")> {};
-struct along_word : word<TAO_PEGTL_STRING("along")> {};
-struct part_word : word<sor<TAO_PEGTL_STRING("link"), TAO_PEGTL_STRING("platform"), TAO_PEGTL_STRING("joint"),
-                            TAO_PEGTL_STRING("ground"), TAO_PEGTL_STRING("effector"), TAO_PEGTL_STRING("ball")>> {};
-struct hinge_word : word<TAO_PEGTL_STRING("hinge")> {};
-struct sphere_word : word<TAO_PEGTL_STRING("sphere")> {};
-struct cylinder_word : word<TAO_PEGTL_STRING("cylinder")> {};
-struct radius_word : word<TAO_PEGTL_STRING("radius")> {};
+struct point_word : word<exactly<"point">> {};
+struct unit_word : word<exactly<"unit">> {};
+struct slider_word : word<exactly<"slider">> {};
+struct along_word : word<exactly<"along">> {};
+struct part_word : word<sor<exactly<"link">, exactly<"platform">, exactly<"joint">, exactly<"ground">, exactly<"effector">,
+                            exactly<"ball">>> {};
+struct hinge_word : word<exactly<"hinge">> {};
+struct sphere_word : word<exactly<"sphere">> {};
+struct cylinder_word : word<exactly<"cylinder">> {};
+struct radius_word : word<exactly<"radius">> {};
 struct point_name : identifier {};
 struct point_equals : one<'='> {};
 struct point_open : one<'('> {};
@@ -181,7 +181,7 @@ struct colour_digits : sor<seq<rep<6, xdigit>, not_at<name_tail>>, failure> {};
 struct colour : seq<line_gap, if_must<one<'#'>, colour_digits>> {};
 struct drawing_line_end : sor<at<eolf>, one<';'>> {};
 struct third_coordinate : seq<one<','>, gap, expression<gap>, gap> {};
-struct moves_word : word<TAO_PEGTL_STRING("moves")> {};
+struct moves_word : word<exactly<"moves">> {};
 struct moves_open : one<'('> {};
 struct moves_comma : one<','> {};
 struct moves_close : one<')'> {};
@@ -205,9 +205,9 @@ struct drawing_section
     : seq<drawing_header, star<gap, not_at<section_or_end>, must<drawing_statement>, line_gap, must<drawing_line_end>>> {};
 
 // [SEARCH]  DEPTH FIRST or BREADTH FIRST: the order in which the CUIK suite visits boxes.
-struct search_header : header<TAO_PEGTL_STRING("SEARCH")> {};
-struct search_order : seq<sor<TAO_PEGTL_STRING("DEPTH"), TAO_PEGTL_STRING("BREADTH")>, not_at<name_tail>, gap,
-                          TAO_PEGTL_STRING("FIRST"), not_at<name_tail>> {};
+struct search_header : header<exactly<"SEARCH">> {};
+struct search_order
+    : seq<sor<exactly<"DEPTH">, exactly<"BREADTH">>, not_at<name_tail>, gap, exactly<"FIRST">, not_at<name_tail>> {};
 struct search_end : at<section_or_end> {};
 struct search_section : seq<search_header, gap, must<search_order>, gap, must<search_end>> {};
 

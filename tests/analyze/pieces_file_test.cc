@@ -139,7 +139,7 @@ TEST(PiecesFile, WithoutAProofOfUpperBoundsIsVerifiedButForThose) {
   for (PieceClaims& claims : file.lists) claims.proof.reset();
   const std::string path = ::testing::TempDir() + "pieces_file_test_old.h5";
   result::write_pieces(path, file);
-  expect_open(result::read_pieces(path), "no more aspects than claimed: the file has no proof of it");
+  expect_open(result::read_pieces(path), "at most as many aspects as claimed: the file has no proof of it");
 }
 
 // Each makes a proof of too few pieces, or one with a gap.

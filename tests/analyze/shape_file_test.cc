@@ -291,7 +291,7 @@ TEST(ShapeFile, ThatSomebodyChangedIsRefused) {
       {"a link that names no sheet", sphere, [](Shape& s) { s.links[0].second = 1'000'000; },
        "names a sheet that does not exist"},
       {"a link that holds a variable twice", sphere, [](Shape& s) { s.links[0].held[1] = s.links[0].held[0]; },
-       "no variable"},
+       "holds a variable that does not exist, or one twice"},
       {"a link that holds too few", sphere, [](Shape& s) { s.links[0].held.pop_back(); },
        "the number of variables that it holds"},
       {"a link's point is moved away", sphere,

@@ -38,7 +38,7 @@ TEST(ImpliedEquationsOfAModel, AreRefusedWhereTheyDoNotFollow) {
   for (const char* command : {"derive", "solve"}) {
     const Outcome outcome = run_corank({command, folder.write("arm.cuik", kTwoLinks + kClosing + wrong)});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("arm.cuik:16:1: no identity was found"));
+    EXPECT_THAT(outcome.err, HasSubstr("arm.cuik:16:1: corank found no identity that derives this equation"));
   }
   const Outcome inequality = run_corank({"derive", folder.write("arm.cuik", kTwoLinks + "[IMPLIED EQS]\nx <= 1;\n")});
   EXPECT_EQ(inequality.status, 1);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "corank/result/result.h"
 #include "corank/tests/app/program.h"
@@ -34,6 +35,23 @@ TEST(Help, OfTheProgramAndOfEverySubcommandHasAnExample) {
     EXPECT_THAT(outcome.out, HasSubstr("Example"));
     EXPECT_THAT(outcome.out, HasSubstr("\n  corank "));
     EXPECT_EQ(outcome.err, "");
+  }
+}
+
+TEST(Help, HasNoLineOver100Columns) {
+  std::string texts = run_corank({"--help"}).out;
+  int subcommands = 0;
+  std::istringstream list(texts.substr(texts.find("Subcommands:\n") + 13));
+  for (std::string line; std::getline(list, line) && !line.empty();)
+    if (line.size() > 2 && line[2] != ' ') {
+      texts += run_corank({line.substr(2, line.find(' ', 2) - 2), "--help"}).out;
+      ++subcommands;
+    }
+  EXPECT_GE(subcommands, 12);
+  std::istringstream lines(texts);
+  for (std::string line; std::getline(lines, line);) {
+    const auto characters = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    EXPECT_LE(characters, 100) << line;
   }
 }
 

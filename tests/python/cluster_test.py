@@ -164,7 +164,7 @@ def test_everything_listens_on_loopback_only(client):
 
 
 def test_limits_of_what_is_found_and_too_many_threads_are_refused(client, dextar):
-    with pytest.raises(corank.OptionError, match="max_found: a search on a cluster has no such limit"):
+    with pytest.raises(corank.OptionError, match="max_found: a search on a cluster does not have this limit"):
         dextar.solve("cspace", sigma=0.2, max_found=5, client=client)
     with pytest.raises(ValueError, match="threads: expected 1 to 31"):
         dextar.solve("cspace", sigma=0.2, threads=32, client=client)

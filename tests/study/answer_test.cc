@@ -26,6 +26,31 @@ TEST(Answer, HoldsThePointsOfASetAndIsVerified) {
   EXPECT_TRUE(result::verify(result, result::system_of(result), {}).verified());
 }
 
+// The platform's position is an affine function of a leg's end, whose sides end where the position's range does, rounded
+// outward.
+TEST(Answer, OfARangeThatAnAffineFunctionHasIsVerifiedUpToItsEnds) {
+  Options coarse;
+  coarse.search.sigma = 3;
+  result::Result result =
+      answer({read_model(CORANK_SOURCE_DIR "/models/platforms/stewart.cuik").mechanism, SingularitySet::cspace}, coarse);
+  EXPECT_TRUE(result.cover.complete());
+  EXPECT_TRUE(result::verify(result).verified());
+  // Farther beyond, it is not.
+  const auto is_at_end = [&](const CoverBox& box) {
+    return box.verdict == Verdict::regular && box.box.back().lo() <= 0.2 && box.box.back().hi() > 0.21;
+  };
+  const auto at_end = std::find_if(result.cover.boxes.begin(), result.cover.boxes.end(), is_at_end);
+  ASSERT_NE(at_end, result.cover.boxes.end());
+  CoverBox wider = *at_end;
+  const auto leg = std::find_if(result.variables.begin(), result.variables.end(),
+                                [](const result::ResultVariable& v) { return v.name == "P_leg1_z"; });
+  ASSERT_NE(leg, result.variables.end());
+  for (Interval* side : {&wider.box[static_cast<std::size_t>(leg - result.variables.begin())], &wider.box.back()})
+    *side = Interval(side->lo() - 1e-3, side->hi());
+  result.cover.boxes = {wider};
+  EXPECT_FALSE(result::verify(result).verified());
+}
+
 TEST(Answer, RemembersTheConstantsThatWerePutIn) {
   Question question{.model = three_slider(), .set = SingularitySet::inverse, .constants = {{"L2", "1"}}};
   result::put_in(question.constants, question.model);
