@@ -1,5 +1,7 @@
 #include "corank/symbolic/decomposition.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "corank/certify/compiled_system.h"
@@ -19,7 +21,8 @@ constexpr std::size_t kLongestName = 60;
 // The configurations, whatever the set.
 class Space {
  public:
-  explicit Space(const Mechanism& mechanism) : mechanism_(mechanism), equations_(plain_system(mechanism)) {}
+  explicit Space(const Mechanism& mechanism)
+      : mechanism_(mechanism), equations_(plain_system(mechanism)), system_(algebrize(equations_)) {}
 
   // Proven, over the whole search domain: no zero.
   bool vanishes_nowhere(const Expression& condition) const {
@@ -29,10 +32,9 @@ class Space {
     } catch (const ModelError&) {  // a sine of a length
       return false;
     }
-    const System system = algebrize(equations_);
-    const certify::CompiledSystem compiled(system, value);
+    const certify::CompiledSystem compiled(system_, value);
     const UpwardRounding rounding;
-    return compiled.evaluate(compiled.value_row(0), system.domain()).mig() > 0;
+    return compiled.evaluate(compiled.value_row(0), system_.domain()).mig() > 0;
   }
 
   bool is_fixed(const std::string& angle) const { return symbolic::is_fixed(coordinate(angle)); }
@@ -54,6 +56,7 @@ class Space {
   const Coordinate& coordinate(const std::string& name) const { return equations_.coordinates[index(name)]; }
   const Mechanism& mechanism_;
   const TrigonometricSystem equations_;
+  const System system_;
 };
 
 // sin and cos of one coordinate each, as they stand in a product of two.
@@ -116,12 +119,6 @@ std::vector<AngleTie> ties_of(const Space& space, const Expression& condition) {
   return both ? ties : std::vector<AngleTie>{};
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 class Decomposer {
  public:
   Decomposer(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended)
@@ -148,7 +145,7 @@ class Decomposer {
   std::string columns_of(const SquareBlock& block) const {
     std::vector<std::string> columns;
     for (const std::size_t j : block.columns) columns.push_back(matrix_.columns()[j]);
-    return list_of(columns);
+    return fmt::format("{}", fmt::join(columns, ", "));
   }
 
   void add(Component component) {

@@ -12,7 +12,8 @@
 
 namespace corank::symbolic {
 
-constexpr std::size_t kLargest = 16;  // rows of a block
+constexpr std::size_t kLargest = 16;       // rows of a block
+constexpr std::size_t kMostTerms = 20000;  // of a determinant; what is longer has no sign that boxes would show
 
 // Expressions as polynomials: coordinates, constants, sines, cosines and irrational numbers are the unknowns.
 class ExactMatrix::Unknowns {
@@ -189,7 +190,7 @@ bool ExactMatrix::eliminate_a_number() {
   return true;
 }
 
-RationalPolynomial ExactMatrix::determinant(const SquareBlock& block, std::size_t most) const {
+RationalPolynomial ExactMatrix::determinant(const SquareBlock& block) const {
   const PolynomialRing& ring = unknowns_->ring();
   if (block.rows.size() > kLargest)
     throw DeterminantTooLarge(
@@ -210,10 +211,10 @@ RationalPolynomial ExactMatrix::determinant(const SquareBlock& block, std::size_
         const std::size_t before = place->second.size();
         place->second = odd ? place->second - entry * minor : place->second + entry * minor;
         terms += place->second.size() - std::min(before, place->second.size());
-        if (terms > most)
+        if (terms > kMostTerms)
           throw DeterminantTooLarge(where_,
                                     "a determinant of " + std::to_string(block.rows.size()) + " rows with many terms",
-                                    "at most " + std::to_string(most) + " terms");
+                                    "at most " + std::to_string(kMostTerms) + " terms");
       }
     minors = std::move(next);
   }
@@ -243,7 +244,7 @@ RationalPolynomial ExactMatrix::modulo_circles(const RationalPolynomial& f) cons
 }
 
 RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f) const {
-  constexpr std::size_t kMostTerms = 5000;  // on the way
+  constexpr std::size_t kMostOnTheWay = 5000;
   RationalPolynomial result = f;
   for (std::size_t i = explicit_.size(); i-- > 0;) {
     const auto& [unknown, value] = explicit_[i];
@@ -253,7 +254,7 @@ RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f)
     for (RationalPolynomial::Term term : terms) {
       const std::uint64_t power = std::exchange(term.powers[unknown], 0);
       sum = sum + RationalPolynomial::term(unknowns_->ring(), term) * value.power(power);
-      if (sum.size() > kMostTerms) return f;
+      if (sum.size() > kMostOnTheWay) return f;
     }
     for (const auto& [cosine, sine] : unknowns_->circles()) sum = without_squares(sum, sine, cosine);
     result = std::move(sum);

@@ -36,8 +36,8 @@ class ExactMatrix {
   /// block_triangular_form() of the pattern.
   std::optional<std::vector<SquareBlock>> blocks() const;
   /// By Laplace's expansion along one row after the other; minors of the same columns are summed once. Throws
-  /// DeterminantTooLarge above 16 rows, or above `most` terms.
-  RationalPolynomial determinant(const SquareBlock& block, std::size_t most = 20000) const;
+  /// DeterminantTooLarge above 16 rows, or above 20,000 terms.
+  RationalPolynomial determinant(const SquareBlock& block) const;
   /// 0 where cos² + sin² = 1 of all angles shows it, else the same polynomial or one with fewer terms.
   RationalPolynomial modulo_circles(const RationalPolynomial& f) const;
 
