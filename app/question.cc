@@ -24,7 +24,7 @@ void QuestionOptions::add_options(CLI::App& command) {
                   "Side of the kernel vector xi of the set's matrix M: right (M xi = 0) or left (M^T xi = 0);\n"
                   "none: solve the set in parts, each with an equation of its own and no kernel vector;\n"
                   "default: right if M is square or tall, else left; none if a set of dimension 2 or more\n"
-                  "is the union of parts")
+                  "is the union of parts, or if xi would have ten unknowns or more and no part needs one")
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(command);
   add_outputs(command);

@@ -94,10 +94,9 @@ Assembly draft(const Robot& robot, Way way) {
   assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())
     assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;
-  if (!assembly.mechanism.constraints().empty()) assembly.mobility_by_rank = sampled_mobility(assembly.mechanism);
-  if (assembly.mobility_by_rank)  // an angle that its range locks has an equation of its own, and would be free
-    for (const symbolic::Coordinate& c : assembly.mechanism.coordinates())
-      *assembly.mobility_by_rank += symbolic::is_fixed(c) && c.kind == symbolic::CoordinateKind::angle ? 1 : 0;
+  if (!assembly.mechanism.constraints().empty())
+    if (const auto redundancy = sampled_redundancy(assembly.mechanism))
+      assembly.mobility_by_rank = assembly.mobility + *redundancy;
   return assembly;
 }
 

@@ -57,9 +57,9 @@ struct Assembly {
 /// coordinates, or more than 500 moving bodies.
 Assembly assemble(const Robot& robot);
 
-/// The mobility of a mechanism at a configuration found by Newton's method from random ones (of fixed seeds): its
-/// coordinates less the rank of Φ_q. Nothing where none of the tries ends in a configuration, or the variables are
-/// hundreds.
-std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism);
+/// How many of the equations that are solved follow from the others, to first order, at configurations found by Newton's
+/// method from random ones (of fixed seeds): their number less their Jacobian's rank. Nothing where none of the tries ends in
+/// a configuration, or the variables are hundreds.
+std::optional<int> sampled_redundancy(const symbolic::Mechanism& mechanism);
 
 }  // namespace corank::kinematics

@@ -60,7 +60,7 @@ class Numeric {
 
 }  // namespace
 
-std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism) {
+std::optional<int> sampled_redundancy(const symbolic::Mechanism& mechanism) {
   constexpr int kTries = 30, kEnough = 4, kSteps = 50;
   constexpr double kZero = 1e-10, kRank = 1e-7, kFar = 1e6;
   constexpr Eigen::Index kMostVariables = 300;  // dense matrices: beyond, decompositions take many seconds
@@ -79,7 +79,7 @@ std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism) {
   for (const Polynomial& f : system.equations) equations.emplace_back(f, units);
   for (const Polynomial& f : system.inequalities) inequalities.emplace_back(f, units);
   std::mt19937 random(1);
-  std::optional<int> mobility;
+  std::optional<int> redundancy;
   for (int attempt = 0, found = 0; attempt < kTries && found < kEnough; ++attempt) {
     VectorXd x(n);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -107,10 +107,10 @@ std::optional<int> sampled_mobility(const symbolic::Mechanism& mechanism) {
       rank = (values.array() > kRank * values.maxCoeff()).count();
     }
     // Special configurations are rarer than others, and have a lower rank.
-    const int here = static_cast<int>(n - rank);
-    mobility = mobility ? std::min(*mobility, here) : here;
+    const int here = static_cast<int>(m - rank);
+    redundancy = redundancy ? std::min(*redundancy, here) : here;
   }
-  return mobility;
+  return redundancy;
 }
 
 }  // namespace corank::kinematics

@@ -33,17 +33,25 @@ void settle_sizes(System& system) {
   }
 }
 
-bool is_solved_in_components(const Question& q) {
+enum class Components { no, if_simple, yes };
+
+Components components_wanted(const Question& q) {
   const symbolic::SetDefinition& set = definition(q.set);
-  if (!set.has_kernel() || set.locked.empty() || set.type || q.kernel || q.corank != 1) return false;
-  if (q.in_parts) return *q.in_parts;
-  if (q.assembly && !q.assembly->parallelograms.empty()) return true;
-  constexpr long kLeastMobility = 3;
+  if (!set.has_kernel() || set.locked.empty() || set.type || q.kernel || q.corank != 1) return Components::no;
+  if (q.in_parts) return *q.in_parts ? Components::yes : Components::no;
+  if (q.assembly && !q.assembly->parallelograms.empty()) return Components::yes;
+  constexpr long kLeastMobility = 3, kLongKernel = 10;
   const symbolic::ExpressionMatrix velocity = derive(q.model).velocity.matrix;
   const std::vector<symbolic::Coordinate>& all = q.model.coordinates();
-  return std::ssize(velocity.columns) - std::ssize(velocity.rows) -
-             std::count_if(all.begin(), all.end(), symbolic::is_fixed) >=
-         kLeastMobility;
+  const long free =
+      std::ssize(velocity.columns) - std::ssize(velocity.rows) - std::count_if(all.begin(), all.end(), symbolic::is_fixed);
+  if (free >= kLeastMobility) return Components::yes;
+  return std::ssize(velocity.rows) >= kLongKernel ? Components::if_simple : Components::no;
+}
+
+bool has_kernel(const Question& q) {
+  const auto* component = std::get_if<symbolic::Component>(&*q.part);
+  return component && component->block;
 }
 
 // The only part of a set, or all of a boundary.
@@ -55,15 +63,19 @@ bool is_better_than_whole(const symbolic::SetPart& part) {
 }  // namespace
 
 std::vector<Question> parts_of(const Question& question, const Ended& ended) {
+  if (!question.set) return {question};
+  const Components wanted = components_wanted(question);
+  if (!definition(question.set).of_parts && wanted == Components::no) return {question};
   std::vector<Question> parts;
-  if (!question.set || !(definition(question.set).of_parts || is_solved_in_components(question))) return {question};
   for (symbolic::SetPart& part : symbolic::set_parts(question.model, *question.set, ended)) {
     parts.push_back(question);
     parts.back().part = std::move(part);
   }
-  if (parts.size() > 1 || (parts.size() == 1 && (question.in_parts.value_or(false) || is_better_than_whole(*parts[0].part))))
-    return parts;
-  return {question};
+  if (parts.empty()) return {question};
+  if (wanted == Components::if_simple)
+    return std::any_of(parts.begin(), parts.end(), has_kernel) ? std::vector{question} : parts;
+  if (parts.size() == 1 && !question.in_parts.value_or(false) && !is_better_than_whole(*parts[0].part)) return {question};
+  return parts;
 }
 
 symbolic::TrigonometricSystem equations(const Question& q) {

@@ -8,6 +8,8 @@
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/exact_matrix.h"
+#include "corank/symbolic/ginac_bridge.h"
+#include "corank/symbolic/ginac_lock.h"
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/passive_rates.h"
 
@@ -17,6 +19,7 @@ namespace {
 constexpr std::size_t kMostRows = 3;     // of a block whose determinant is a condition though it is no product
 constexpr std::size_t kMostTerms = 200;  // of a condition: longer ones make wide enclosures
 constexpr std::size_t kLongestName = 60;
+constexpr std::size_t kMostNames = 6;  // of coordinates in a part's name
 
 // The configurations, whatever the set.
 class Space {
@@ -35,6 +38,13 @@ class Space {
     const certify::CompiledSystem compiled(system_, value);
     const UpwardRounding rounding;
     return compiled.evaluate(compiled.value_row(0), system_.domain()).mig() > 0;
+  }
+
+  std::vector<std::string> coordinates_in(const Expression& e) const {
+    std::vector<std::string> names;
+    for (const Coordinate& c : mechanism_.coordinates())
+      if (e.mentions(c.name)) names.push_back(c.name);
+    return names;
   }
 
   bool is_fixed(const std::string& angle) const { return symbolic::is_fixed(coordinate(angle)); }
@@ -119,10 +129,37 @@ std::vector<AngleTie> ties_of(const Space& space, const Expression& condition) {
   return both ? ties : std::vector<AngleTie>{};
 }
 
+// Angles that have one value are replaced by it where their sines and cosines are 0 or ±1. Of another value cos² + sin² = 1
+// is worth more than its name.
+class RightAngles {
+ public:
+  explicit RightAngles(const Mechanism& mechanism) : bridge_(mechanism) {
+    for (const Coordinate& c : mechanism.coordinates()) {
+      if (c.kind != CoordinateKind::angle || !symbolic::is_fixed(c)) continue;
+      const GiNaC::ex value = bridge_.to_ginac(c.lower, c.where);
+      if (GiNaC::ex(GiNaC::sin(2 * value)).is_zero()) values_[bridge_.symbol(c.name)] = value;
+    }
+  }
+
+  void put_into(std::vector<Expression>& expressions) const {
+    if (values_.empty()) return;
+    for (Expression& e : expressions) {
+      const GiNaC::ex written = bridge_.to_ginac(e, {}), value = written.subs(values_);
+      if (!value.is_equal(written)) e = bridge_.to_expression(value.expand());
+    }
+  }
+
+ private:
+  const GinacLock lock_{};
+  const GinacBridge bridge_;
+  GiNaC::exmap values_;
+};
+
 class Decomposer {
  public:
-  Decomposer(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended)
-      : ended_(ended), space_(mechanism), matrix_(mechanism, matrix, derive(mechanism).phi) {}
+  Decomposer(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi,
+             const Ended& ended)
+      : ended_(ended), space_(mechanism), matrix_(mechanism, matrix, phi) {}
 
   std::vector<Component> run() {
     matrix_.eliminate_numbers();
@@ -130,12 +167,13 @@ class Decomposer {
     if (!blocks) return {};
     for (const SquareBlock& block : *blocks) {
       const auto factors = factors_of(block);
+      if (factors && !factors->in_time) return {};
       if (!factors) {
         add_block(block);
       } else if (factors->vanishes) {
         return {};
       } else {
-        add_conditions(block, factors->conditions);
+        add_conditions(factors->conditions);
       }
     }
     return std::move(components_);
@@ -167,6 +205,7 @@ class Decomposer {
 
   struct Factors {
     bool vanishes = false;  // everywhere
+    bool in_time = true;    // false: not all are known
     std::vector<Expression> conditions{};
   };
 
@@ -176,10 +215,14 @@ class Decomposer {
     try {
       const RationalPolynomial value = matrix_.modulo_circles(matrix_.determinant(block));
       if (value.is_zero()) return Factors{.vanishes = true};
-      for (const RationalPolynomial& factor : value.factors(ended_)) {
+      const auto factors = value.factors(ended_);
+      if (!factors) return Factors{.in_time = false};
+      for (const RationalPolynomial& factor : *factors) {
         const RationalPolynomial on_cspace = matrix_.in_free_coordinates(matrix_.modulo_circles(factor));
         if (on_cspace.is_zero()) return Factors{.vanishes = true};
-        for (const RationalPolynomial& f : on_cspace.factors(ended_)) {
+        const auto simple = on_cspace.factors(ended_);
+        if (!simple) return Factors{.in_time = false};
+        for (const RationalPolynomial& f : *simple) {
           if (f.size() > kMostTerms) return std::nullopt;
           auto condition = matrix_.condition(f);
           if (condition && !space_.vanishes_nowhere(*condition)) result.conditions.push_back(std::move(*condition));
@@ -196,18 +239,26 @@ class Decomposer {
     return result;
   }
 
-  void add_conditions(const SquareBlock& block, const std::vector<Expression>& conditions) {
+  // No other part's.
+  std::string name_of(const Expression& condition) const {
+    if (std::string text = condition.text(); text.size() <= kLongestName) return text + " = 0";
+    std::vector<std::string> mentioned = space_.coordinates_in(condition);
+    if (mentioned.size() > kMostNames) {
+      mentioned.resize(kMostNames);
+      mentioned.emplace_back("...");
+    }
+    const std::string name = fmt::format("condition on {}", fmt::join(mentioned, ", "));
+    const auto is_alike = [&name](const Component& c) { return c.name == name || c.name.rfind(name + " (", 0) == 0; };
+    const auto alike = std::count_if(components_.begin(), components_.end(), is_alike);
+    return alike == 0 ? name : fmt::format("{} ({})", name, alike + 1);
+  }
+
+  void add_conditions(const std::vector<Expression>& conditions) {
     for (const Expression& condition : conditions) {
       const std::vector<AngleTie> ties = ties_of(space_, condition);
       for (const AngleTie& tie : ties) add({tie.text(), tie, {}, matrix_.is_explicit()});
       if (!ties.empty()) continue;
-      const std::string text = condition.text();
-      const std::string number =
-          conditions.size() > 1 ? " (" + std::to_string(&condition - conditions.data() + 1) + ")" : "";
-      add({text.size() <= kLongestName ? text + " = 0" : "condition on " + columns_of(block) + number,
-           {},
-           condition,
-           matrix_.is_explicit()});
+      add({name_of(condition), {}, condition, matrix_.is_explicit()});
     }
   }
 
@@ -227,13 +278,19 @@ KernelQuestion question_of(SingularitySet set, const Component& component, const
 
 std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended) {
   ExpressionMatrix matrix = kernel.matrix;
+  std::vector<Expression> phi = derive(mechanism).phi;
+  {
+    const RightAngles fixed(mechanism);
+    fixed.put_into(phi);
+    for (std::vector<Expression>& row : matrix.rows) fixed.put_into(row);
+  }
   // A row of zeros, which a tie has, says nothing about the kernel.
   std::erase_if(matrix.rows, [](const std::vector<Expression>& row) {
     return std::all_of(row.begin(), row.end(), [](const Expression& e) { return same_tree(e, 0); });
   });
   if (!kernel.also.empty() || matrix.rows.size() != matrix.columns.size()) return {};
   PassiveRates passive = eliminate_passive_rates(mechanism, matrix);
-  return Decomposer(mechanism, passive.eliminated.empty() ? matrix : passive.matrix, ended).run();
+  return Decomposer(mechanism, passive.eliminated.empty() ? matrix : passive.matrix, phi, ended).run();
 }
 
 std::vector<std::string> component_scales(const Mechanism& mechanism, SingularitySet set, const Component& component) {

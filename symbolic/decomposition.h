@@ -37,8 +37,9 @@ struct Component {
 
 /// The parts of the set of a kernel_question(), in the order of M's rows, of a block the shortest condition first. One: the
 /// set is no union. None: M is not square, or vanishes everywhere, or is singular nowhere for a reason that its factors
-/// show. Factors that are proven to have no zero in the search domain are left out. `ended`: then what is not factored yet
-/// stays one factor.
+/// show, or the factors are not found in time (RationalPolynomial::factors) or before `ended`. Factors that are proven to
+/// have no zero in the search domain are left out. Angles fixed at multiples of π/2 are replaced by
+/// their value.
 std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended = {});
 
 /// The scales that component_system() is meant to have (kernel_scale.h); none but of a block.

@@ -20,7 +20,7 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
   for (const SquareBlock& block : *blocks) {
     const RationalPolynomial value = m.determinant(block);
     if (value.is_zero()) throw vanishing();
-    for (RationalPolynomial& factor : value.factors(ended))
+    for (RationalPolynomial& factor : value.factors(ended).value_or(std::vector{value}))
       if (std::find(factors.begin(), factors.end(), factor) == factors.end()) factors.push_back(std::move(factor));
   }
   std::vector<Expression> result;

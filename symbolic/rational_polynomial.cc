@@ -104,7 +104,7 @@ RationalPolynomial RationalPolynomial::parsed(const PolynomialRing& ring, const 
 }
 
 // FLINT cannot be asked to end: what may take long is done by a process that can.
-std::vector<RationalPolynomial> RationalPolynomial::factors(const Ended& ended) const {
+std::optional<std::vector<RationalPolynomial>> RationalPolynomial::factors(const Ended& ended) const {
   constexpr std::size_t kFewTerms = 30;
   constexpr ProcessLimits kLimits{std::uint64_t{4} << 30, 10};
   if (size() <= kFewTerms) return factors_here();
@@ -118,7 +118,7 @@ std::vector<RationalPolynomial> RationalPolynomial::factors(const Ended& ended) 
         ended);
     lines.assign(reinterpret_cast<const char*>(found.bytes().data()), found.bytes().size());
   } catch (const GuardedWorkError&) {
-    return {*this};
+    return std::nullopt;
   }
   std::vector<RationalPolynomial> result;
   std::istringstream stream(lines);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,9 @@ class RationalPolynomial {
   std::vector<Term> terms() const;
   RationalPolynomial power(std::uint64_t exponent) const;
   RationalPolynomial over(const RationalPolynomial& number) const;  ///< divided by a number other than 0
-  /// The irreducible factors over the rationals that are no numbers, each once. Where they are not found within 10 s of
-  /// processor time, or before `ended` says so, the polynomial itself.
-  std::vector<RationalPolynomial> factors(const Ended& ended = {}) const;
+  /// The irreducible factors over the rationals that are no numbers, each once. Nothing where they are not found within 10 s
+  /// of processor time, or before `ended` says so.
+  std::optional<std::vector<RationalPolynomial>> factors(const Ended& ended = {}) const;
 
   friend RationalPolynomial operator+(const RationalPolynomial& a, const RationalPolynomial& b);
   friend RationalPolynomial operator-(const RationalPolynomial& a, const RationalPolynomial& b);

@@ -202,6 +202,51 @@ TEST(SetPartsOf, ArmsAreConditionsOnTheirJoints) {
   EXPECT_THAT(names_of(parts_of(arm)), ElementsAre(testing::StartsWith("condition on ")));
 }
 
+// A 3-UPU platform that keeps its orientation: legs whose lines are dependent, or whose constraint moments are; and legs along
+// their fixed axes, three ways. Nine rates of the platform and the legs would be a long kernel vector.
+TEST(SetPartsOf, PlatformsThatKeepTheirOrientationHaveNoLongKernel) {
+  const auto question = [](const std::string& range) {
+    ModelText file = read_text(CORANK_SOURCE_DIR "/models/platforms/3upu.cuik");
+    const std::string output = "P : position of platform.C";
+    file.text.replace(file.text.find(output), output.size(), "P : pose of platform.C range z " + range + " keeps id");
+    const Model model = parse_model(file);
+    return Question{.model = model.mechanism, .set = SingularitySet::forward, .assembly = model.assembly};
+  };
+  const Question platform = question("[1/2, 3/2]");
+  EXPECT_EQ(platform.assembly->mobility_by_rank, 3) << "no equation that is solved follows from the others";
+  const std::vector<Question> parts = parts_of(platform);
+  ASSERT_EQ(parts.size(), 5u);
+  const Deficiency deficiency(platform.model, *platform.set);
+  std::mt19937_64 random(5);
+  int found = 0;
+  for (const Question& part : parts) {
+    EXPECT_FALSE(std::get<symbolic::Component>(*part.part).block);
+    const System equations = system(part);
+    for (int trial = 0; trial < 50; ++trial) {
+      const auto x = sample(equations, random);
+      if (!x) continue;
+      ++found;
+      EXPECT_LT(deficiency.at(*x), 1e-6) << text(*part.part);
+    }
+  }
+  EXPECT_GE(found, 3);
+  Options options;
+  options.search.sigma = 0.05;
+  Question slice = question("[1, 1]");
+  const result::Result result = answer(slice, options);
+  EXPECT_TRUE(result.cover.complete());
+  EXPECT_GT(result.cover.boxes.size(), 100u);
+  for (const CoverBox& box : result.cover.boxes) EXPECT_NE(box.verdict, Verdict::undecided);
+  slice.kernel = symbolic::KernelSide::right;
+  EXPECT_THAT(names_of(parts_of(slice)), ElementsAre("whole"));
+}
+
+TEST(SetPartsOf, WhatIsNotFactoredInTimeStaysWhole) {
+  const Question arm{.model = model_named("serial/puma_560"), .set = SingularitySet::inverse, .in_parts = true};
+  EXPECT_EQ(parts_of(arm).size(), 3u);
+  EXPECT_THAT(names_of(parts_of(arm, [] { return true; })), ElementsAre("whole"));
+}
+
 std::vector<std::string> names_of(const std::vector<Question>& parts) {
   std::vector<std::string> names;
   for (const Question& part : parts) names.push_back(part.part ? text(*part.part) : "whole");
