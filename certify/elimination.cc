@@ -40,15 +40,17 @@ class Tableau {
         at(k, j) = m.enclosure.mid() * sizes_[j];
         magnitude_[k * n_ + j] = std::fabs(at(k, j));
       }
+    for (std::size_t k = 0; k < members_.size(); ++k) largest_.push_back(largest_entry(k));
   }
 
   // Makes every linear column, or every other, one row's alone where it can.
-  void eliminate(bool linear) {
+  void eliminate(bool linear, const std::function<void()>& check) {
     std::vector<bool> used(members_.size(), false), taken(n_, false);
     if (linear)  // by rows that have nothing else
       for (std::size_t k = 0; k < members_.size(); ++k)
         for (std::size_t j = 0; j < n_; ++j) used[k] = used[k] || (!linear_[j] && counts(k, j));
     for (;;) {
+      check();
       double best = 0;
       std::size_t row = 0, column = 0;
       for (std::size_t k = 0; k < members_.size(); ++k) {
@@ -73,16 +75,21 @@ class Tableau {
       former = weight();
       std::ptrdiff_t best = 0;
       std::size_t row = 0, other = 0, column = 0;
-      for (std::size_t k = 0; k < members_.size(); ++k)
+      std::vector<std::size_t> counted;
+      for (std::size_t k = 0; k < members_.size(); ++k) {
+        counted.clear();
+        for (std::size_t j = 0; j < n_; ++j)
+          if (counts(k, j)) counted.push_back(j);
+        check();
         for (std::size_t i = 0; i < members_.size(); ++i) {
           if (i == k) continue;
-          check();
-          for (std::size_t j = 0; j < n_; ++j) {
-            if (!counts(k, j) || !is_pivot(i, j)) continue;
+          for (const std::size_t j : counted) {
+            if (!is_pivot(i, j)) continue;
             const std::ptrdiff_t saved = saved_by(k, i, j);
             if (saved > best && is_moderate(k, i, j)) best = saved, row = k, other = i, column = j;
           }
         }
+      }
       if (best == 0) return;
       add(row, other, column);
     }
@@ -118,7 +125,8 @@ class Tableau {
 
   double& at(std::size_t k, std::size_t j) { return entries_[k * n_ + j]; }
   double at(std::size_t k, std::size_t j) const { return entries_[k * n_ + j]; }
-  double largest(std::size_t k) const {
+  double largest(std::size_t k) const { return largest_[k]; }
+  double largest_entry(std::size_t k) const {
     double size = 0;
     for (std::size_t j = 0; j < n_; ++j) size = std::max(size, std::fabs(at(k, j)));
     return size;
@@ -154,6 +162,7 @@ class Tableau {
       magnitude_[k * n_ + j] = std::max(magnitude_[k * n_ + j], std::fabs(part));
     }
     at(k, column) = 0;
+    largest_[k] = largest_entry(k);
     sums_.push_back({members_[k], members_[row], ExactNumber::dyadic(factor)});
   }
 
@@ -161,6 +170,7 @@ class Tableau {
   std::size_t n_ = 0;
   std::vector<bool> linear_;
   std::vector<double> sizes_, entries_, magnitude_;  // magnitude_: the largest that ever was added there
+  std::vector<double> largest_;                      // of each row, in absolute value
   std::vector<RowSum> sums_;
 };
 
@@ -200,9 +210,9 @@ std::vector<RowSum> eliminate_products(const std::vector<Polynomial>& rows, cons
     Tableau tableau(rows, std::move(members), sizes);
     Tableau pairs = tableau, products = tableau;
     pairs.shorten(check);
-    products.eliminate(false);
+    products.eliminate(false, check);
     Tableau linear = products;
-    linear.eliminate(true);
+    linear.eliminate(true, check);
     products.shorten(check);
     linear.shorten(check);
     const Tableau* best = &tableau;
