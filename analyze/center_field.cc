@@ -156,12 +156,7 @@ CenterField::Configurations CenterField::configurations(std::span<const Interval
   solve::Options options;
   options.max_solutions = 1;
   options.threads = search_.threads;
-  options.max_boxes = kBoxes;
-  options.time_limit = std::clamp(control_.seconds_left(), 1e-3, kSeconds);
-  options.memory_limit = search_.memory_limit;
-  solve::Control::Limits limits = limits_of(options, control_.limits().stop);
-  limits.clock = control_.limits().clock;
-  solve::Control own(std::move(limits));
+  solve::Control own(control_.rest(kSeconds, kBoxes));
   const Cover cover = solve::solve(solve::prepare(std::move(system), options, own), own);
   result.excluded = cover.complete() && cover.boxes.empty();
   for (const CoverBox& box : cover.boxes) {

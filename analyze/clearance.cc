@@ -23,10 +23,7 @@ Clearance::Center center_of(const study::Question& question, const Ball& ball, c
   solve::Options options;
   options.max_solutions = 64;  // a proven sheet may pass by its box: one of them need not hold a configuration
   options.threads = search.threads;
-  options.time_limit = std::clamp(control.seconds_left(), 1e-3, kCenterSeconds);
-  solve::Control::Limits limits = limits_of(options, control.limits().stop);
-  limits.clock = control.limits().clock;
-  solve::Control own(std::move(limits));
+  solve::Control own(control.rest(kCenterSeconds, 0));
   const Cover cover = solve::solve(solve::prepare(study::system(at), options, own), own);
   if (cover.complete() && cover.boxes.empty()) return Clearance::Center::not_assembled;
   for (const Verdict v : {Verdict::regular, Verdict::isolated, Verdict::exact})

@@ -83,10 +83,13 @@ double Control::seconds_left() const {
   return limits_.time > 0 ? deadline_ - limits_.clock() : std::numeric_limits<double>::infinity();
 }
 
-Control::Limits Control::rest() const {
+Control::Limits Control::rest(double seconds, std::uint64_t boxes) const {
   Limits limits = limits_;
+  limits.leaves_memory = false;  // the run goes on
   if (limits.boxes > 0) limits.boxes = std::max<std::uint64_t>(boxes_left(), 1);
+  if (boxes > 0) limits.boxes = limits.boxes > 0 ? std::min(limits.boxes, boxes) : boxes;
   if (limits.time > 0) limits.time = std::max(seconds_left(), 1e-9);
+  if (seconds > 0) limits.time = limits.time > 0 ? std::min(limits.time, seconds) : seconds;
   return limits;
 }
 

@@ -98,8 +98,9 @@ class Control {
   void count_boxes(std::uint64_t boxes) { boxes_ += boxes; }
   /// So many may be processed still, where there is a limit.
   std::uint64_t boxes_left() const { return limits_.boxes - std::min(limits_.boxes, boxes_.load()); }
-  /// What is left of the limits: for a search under a control of its own, whose end is none of the run's.
-  Limits rest() const;
+  /// What is left of the limits, and no more than so many seconds and boxes, 0: no matter how many. For a search under a
+  /// control of its own, whose end is none of the run's.
+  Limits rest(double seconds, std::uint64_t boxes) const;
   /// So many bytes more, or less, are kept.
   void keep(std::int64_t bytes) { kept_.fetch_add(bytes, std::memory_order_relaxed); }
   std::int64_t kept() const { return kept_; }

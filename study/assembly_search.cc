@@ -16,13 +16,6 @@ constexpr double kUncut = 1e9;                    // a sigma above which no shee
 constexpr double kFine = 0.01;                // of the default sigma: a box that is not proven at this size may be far off
 constexpr std::uint64_t kSheets[] = {1, 64};  // the first one may leave the ranges
 
-// What is left of the run, and no more than so many boxes.
-solve::Control::Limits rest_of(const solve::Control& control, std::uint64_t boxes) {
-  solve::Control::Limits limits = control.rest();
-  limits.boxes = limits.boxes > 0 ? std::min(boxes, limits.boxes) : boxes;
-  return limits;
-}
-
 // By one thread, whose answer is always the same.
 Cover search(const System& system, const solve::Options& options, solve::Control& control) {
   return solve::solve(solve::prepare(system, options, control), control);
@@ -83,7 +76,7 @@ void search_assembly(const Question& question, solve::Control& control, result::
     if (ending && part.ended() && result.stopped.empty()) result.stopped = to_string(*ending);
   };
   if (!symbolic::definition(question.set).is_cspace() && question.set) {
-    solve::Control part(rest_of(control, kMostBoxes));
+    solve::Control part(control.rest(0, kMostBoxes));
     Cover cover = find_configuration(system, part);
     empty = cover.complete() && cover.boxes.empty();
     result.assembly = {
@@ -91,7 +84,7 @@ void search_assembly(const Question& question, solve::Control& control, result::
     note(part);
   }
   if (!empty || control.ended()) return;
-  solve::Control part(rest_of(control, kMostBoxesNear));
+  solve::Control part(control.rest(0, kMostBoxesNear));
   result.nearly_solved = has_nearly_a_solution(system, part);
   note(part);
 }
