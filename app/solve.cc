@@ -109,8 +109,19 @@ std::optional<Interval> area_of(const SolveCommand& command, const study::Questi
   return Interval(bounds.lo, bounds.hi);
 }
 
+// What would take longer to write than the program has, once it has been ended.
+void say_left_out(const SolveCommand& command, std::uint64_t bytes) {
+  if (bytes == 0) return;
+  const std::string size = fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6);
+  if (command.checkpoint_path.empty())
+    fmt::print(stderr, "corank: the state of the search, {}, is not in the result; --checkpoint FILE would store it\n",
+               size);
+  if (command.proof)
+    fmt::print(stderr, "corank: the proof of a search of {} that an interrupt or the time limit ends is not stored\n", size);
+}
+
 ExitStatus say(const SolveCommand& command, const result::Result& result, const std::optional<Interval>& area,
-               const std::string& area_missed) {
+               const std::string& area_missed, std::uint64_t left_out) {
   if (command.json.say([&] { return result::to_json(result, area); })) {
     fmt::print("{}", result::printable(result::to_table(result)));
     constexpr double kRoom = 1e-6;  // more than what the digits round
@@ -128,6 +139,7 @@ ExitStatus say(const SolveCommand& command, const result::Result& result, const 
   fmt::print(stderr, "corank: {}; {}\n", study::stopped_words(result),
              result.cover.complete() ? "the cover is complete, but not all that could be proven about it was"
                                      : "the result is incomplete");
+  say_left_out(command, left_out);
   if (!command.checkpoint_path.empty()) {
     std::error_code error;
     const bool kept = std::filesystem::exists(command.checkpoint_path, error);
@@ -200,14 +212,14 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   line.follow(control);
   stage.reset();
   result::Result& result = kept(study::answer(parts, systems, options, control, &journal));
-  result.search = journal.search();
+  result.search = journal.take_search();
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result, control);
   const std::optional<Interval> area = area_of(command, question, result, control);
   line.clear();
   remove_checkpoint(command, result);
   const bool area_missed = bounds_an_area(question) && control.ended();
-  return say(command, result, area, area_missed ? ending_words(control) : "");
+  return say(command, result, area, area_missed ? ending_words(control) : "", journal.left_out());
 }
 
 ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {

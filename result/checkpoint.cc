@@ -62,6 +62,25 @@ class SummingBuffer : public std::streambuf {
   std::array<char, 1 << 16> block_{};
 };
 
+// Puts what is written at the end of a text.
+class AppendingBuffer : public std::streambuf {
+ public:
+  explicit AppendingBuffer(std::string& to) : to_(to) {}
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (!traits_type::eq_int_type(c, traits_type::eof())) to_.push_back(traits_type::to_char_type(c));
+    return traits_type::not_eof(c);
+  }
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    to_.append(bytes, static_cast<std::size_t>(count));
+    return count;
+  }
+
+ private:
+  std::string& to_;
+};
+
 void put(std::ostream& out, std::uint64_t number, std::size_t bytes) {
   for (std::size_t k = 0; k < bytes; ++k) out.put(static_cast<char>(number >> (8 * k) & 0xff));
 }
@@ -174,10 +193,14 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& vers
   sync_to_disk(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
 }
 
-std::string checkpoint_bytes(const std::string& version, const Checkpoint& checkpoint, const StateWriter& state) {
-  std::ostringstream out(std::ios::binary);
+std::string checkpoint_bytes(const std::string& version, const Checkpoint& checkpoint, const StateWriter& state,
+                             std::uint64_t expected) {
+  std::string bytes;
+  bytes.reserve(expected);
+  AppendingBuffer buffer(bytes);
+  std::ostream out(&buffer);
   write(out, version, checkpoint, state);
-  return std::move(out).str();
+  return bytes;
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& version) {

@@ -6,6 +6,7 @@
 // The states are solve/shard_bytes.h's. In a result file all this is the array /search/state.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
@@ -33,8 +34,9 @@ using StateWriter = std::function<void(std::ostream&)>;
 /// the one before. `checkpoint` is without its state, which `state` writes. Throws ResultFileError.
 void write_checkpoint(const std::filesystem::path& path, const std::string& version, const Checkpoint& checkpoint,
                       const StateWriter& state);
-/// The same as Result::search.
-std::string checkpoint_bytes(const std::string& version, const Checkpoint& checkpoint, const StateWriter& state);
+/// The same as Result::search. Room for `expected` bytes is made at once.
+std::string checkpoint_bytes(const std::string& version, const Checkpoint& checkpoint, const StateWriter& state,
+                             std::uint64_t expected = 0);
 
 /// Of a checkpoint's file, or of a result's. Throws ResultFileError where there is none, where it is damaged, or where
 /// another version has written it.

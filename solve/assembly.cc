@@ -12,6 +12,9 @@
 namespace corank::solve {
 namespace {
 
+// Bytes of a script that is put together and written within a part of a second.
+constexpr std::uint64_t kMostAfterEnd = std::uint64_t{1} << 28;
+
 constexpr double kPointGap = 1e-6;  // of the typical sizes: closer undecided boxes are of one point
 
 // What all shards have found; it stays theirs. Notes each box's leaf.
@@ -42,6 +45,13 @@ std::shared_ptr<const Proof> script_of(const std::vector<Shard*>& shards, const 
     nodes.push_back(root.node);
   }
   return std::make_shared<const Proof>(Recorder::assemble(recorders, std::move(boxes), nodes, place));
+}
+
+std::uint64_t script_bytes(const std::vector<Shard*>& shards) {
+  std::uint64_t sum = 0;
+  for (const Shard* shard : shards)
+    if (shard->script) sum += shard->script->bytes();
+  return sum;
 }
 
 Statistics statistics_of(const std::vector<Shard*>& shards) {
@@ -92,7 +102,8 @@ Cover assemble(const Prepared& prepared, const Problem& problem, const std::vect
   for (const Found* f : found) cover.wider_than_sigma += f->region != nullptr && problem.excess(f->box.box) > 1;
   // A replay would have to find the self-motions again.
   const bool replayable = reduction.consistent && !reduction.tolerant && !some_partial;
-  const bool is_asked = prepared.options.proof && (prepared.options.proof_of_parts || !control.ended());
+  const bool in_time = !control.ended() || (prepared.options.proof_of_parts && script_bytes(shards) < kMostAfterEnd);
+  const bool is_asked = prepared.options.proof && in_time;
   if (is_asked && replayable) cover.proof = script_of(shards, first_pass, found);
   // The reduced equations contradict each other: nothing was searched, and a checker sees it without help.
   if (prepared.options.proof && !reduction.consistent && !reduction.tolerant)

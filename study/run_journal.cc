@@ -21,8 +21,6 @@ void check_refinable(const solve::Prepared& prepared, const std::optional<solve:
         "the search was ended early; expected a complete one: go on with it first (corank solve --resume)");
 }
 
-constexpr std::uint64_t kMostInResult = std::uint64_t{1} << 30;  // it is made in memory: more is a matter for a checkpoint
-
 // Of a state, nearly.
 std::uint64_t bytes_of(const solve::SearchView& state) {
   constexpr std::uint64_t kBeside = 100;
@@ -94,8 +92,10 @@ void RunJournal::keep(const solve::SearchView& state, solve::Moment moment) {
     asked_ = 0;
     plan_next(begun);
   }
-  if ((plan_.keep_end && ended_ && bytes_of(state) < kMostInResult) || (plan_.keep_sheets && moment == Moment::searched))
-    search_ = result::checkpoint_bytes(solve::engine_version(), known_, state_writer);
+  const std::uint64_t bytes = bytes_of(state);
+  left_out_ = plan_.keep_end && ended_ && bytes >= plan_.most_in_result ? bytes : 0;
+  if ((plan_.keep_end && ended_ && left_out_ == 0) || (plan_.keep_sheets && moment == Moment::searched))
+    search_ = result::checkpoint_bytes(solve::engine_version(), known_, state_writer, bytes);
   if (searches_ < expected_ && moment == (plan_.keep_sheets ? Moment::searched : Moment::cut))
     last_ = solve::to_bytes(state);
 }

@@ -15,11 +15,14 @@ namespace corank::study {
 class RunJournal : public solve::Journal {
  public:
   struct Plan {
-    std::filesystem::path path;  ///< of the checkpoint's file; empty: there is none
-    double every = 60;           ///< seconds between two checkpoints, at least
-    bool keep_end = false;       ///< search() is to be what a limit has left
-    bool keep_sheets = false;    ///< search() is to be all sheets, so that they can be cut to another σ
-    bool refine = false;         ///< the former run's sheets are to be cut to another σ
+    std::filesystem::path path = {};  ///< of the checkpoint's file; empty: there is none
+    double every = 60;                ///< seconds between two checkpoints, at least
+    bool keep_end = false;            ///< take_search() is to be what a limit has left
+    /// Bytes, of what a limit has left. It is made in memory and written within a part of a second: more is a matter for a
+    /// checkpoint.
+    std::uint64_t most_in_result = std::uint64_t{1} << 28;
+    bool keep_sheets = false;  ///< take_search() is to be all sheets, so that they can be cut to another σ
+    bool refine = false;       ///< the former run's sheets are to be cut to another σ
   };
   /// Of all seconds, checkpoints take no more than this share: where one takes long, the next comes later.
   static constexpr double kMostShare = 0.02;
@@ -38,7 +41,9 @@ class RunJournal : public solve::Journal {
   /// How many checkpoints have been written.
   int written() const { return written_; }
   /// What of the run is to go into its result (result::Result::search): nothing, unless the plan says so.
-  const std::string& search() const { return search_; }
+  std::string take_search() { return std::move(search_); }
+  /// Bytes of what a limit has left, nearly, where that is too much for a result; else 0.
+  std::uint64_t left_out() const { return left_out_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -53,6 +58,7 @@ class RunJournal : public solve::Journal {
   std::atomic<Clock::duration::rep> asked_{0};
   int written_ = 0;
   std::string search_;
+  std::uint64_t left_out_ = 0;
 };
 
 }  // namespace corank::study

@@ -61,7 +61,7 @@ void SpreadRun::finish() {
 }
 
 void SpreadRun::keep_state(const result::Checkpoint& checkpoint) {
-  constexpr std::size_t kMostInResult = std::size_t{1} << 30;  // more is a matter for a checkpoint
+  constexpr std::size_t kMostInResult = std::size_t{1} << 28;  // more is a matter for a checkpoint
   const std::string state = search().state();
   if (state.size() >= kMostInResult) return;
   kept_ = result::checkpoint_bytes(solve::engine_version(), checkpoint, [&state](std::ostream& out) { out << state; });
