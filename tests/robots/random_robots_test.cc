@@ -3,6 +3,7 @@
 // planted its equations have a solution. CORANK_RANDOM_ROBOTS: how many, CORANK_RANDOM_SEED: from which one on.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cstdlib>
 #include <iostream>
 #include <numbers>
