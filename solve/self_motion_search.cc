@@ -24,24 +24,39 @@ constexpr double kShortStep = 0.03;         // for directions, in typical sizes
 constexpr double kDirectionShare = 0.15;    // of what the set's curvature and the samples' errors make of a direction
 constexpr std::size_t kDirectionsEach = 4;  // tried for each dimension of the kernel
 constexpr std::size_t kDimensionSamples = 3;
-constexpr double kPrecision = 1e-11;              // of rational numbers
-constexpr long kDenominators[] = {100, 100'000};  // at most, in turns: an irrational number is near to one with a large one
+// Of the numbers in a fraction, at most, and how near it has to be, relative. Taken in turns: an irrational number is near to a
+// fraction of long numbers, and samples that lie close together give few digits.
+struct Longest {
+  long number;
+  double precision;
+};
+constexpr Longest kLongest[] = {{100, 1e-9}, {100'000, 1e-11}};
 
-// p/q with a small q near x; nothing where there is none.
-std::optional<ExactNumber> rational_near(double x, long largest_denominator) {
+// p/q near x with p and q of at most longest.number; nothing where there is none. A long p alone would be near to any large x.
+std::optional<ExactNumber> fraction_near(double x, Longest longest) {
   double rest = x;
   long p0 = 1, q0 = 0, p1 = 0, q1 = 1;
   for (int step = 0; step < 20; ++step) {
     if (std::fabs(rest) > 1e9) return std::nullopt;
     const long a = std::lround(std::floor(rest));
     const long p2 = a * p0 + p1, q2 = a * q0 + q1;
-    if (std::labs(q2) > largest_denominator || std::labs(p2) > 1'000'000'000L) return std::nullopt;
+    if (std::max(std::labs(p2), std::labs(q2)) > longest.number) return std::nullopt;
     p1 = p0, q1 = q0, p0 = p2, q0 = q2;
-    if (std::fabs(static_cast<double>(p0) / static_cast<double>(q0) - x) <= kPrecision * std::fabs(x))
+    if (std::fabs(static_cast<double>(p0) / static_cast<double>(q0) - x) <= longest.precision * std::fabs(x))
       return ExactNumber(p0) / ExactNumber(q0);
     rest = 1 / (rest - static_cast<double>(a));
   }
   return std::nullopt;
+}
+
+// Likewise, or such a number times a power of ten: with lengths in another unit the same is found.
+std::optional<ExactNumber> rational_near(double x, Longest longest) {
+  if (auto q = fraction_near(x, longest)) return q;
+  const double power = std::floor(std::log10(std::fabs(x)));
+  if (!(std::fabs(power) < 300)) return std::nullopt;
+  const auto q = fraction_near(power > 0 ? x / std::pow(10, power) : x * std::pow(10, -power), longest);
+  if (!q) return std::nullopt;
+  return *q * pow(ExactNumber(10), static_cast<int>(power));
 }
 
 // Solutions on the set, one after the other.
@@ -174,19 +189,19 @@ Echelon relations_of(const Problem& problem, const std::vector<LocalSolution>& s
 
 // x_p + Σ a_j x_j + b = 0 with rational numbers; nothing where they are none.
 std::optional<Polynomial> rational_relation(const Problem& problem, const Eigen::RowVectorXd& row, Eigen::Index pivot,
-                                            long largest_denominator) {
+                                            Longest longest) {
   const std::vector<double>& scales = problem.compiled.scales();
   const double unit = scales[static_cast<std::size_t>(pivot)];
   const Eigen::Index n = row.size() - 1;
   Polynomial f{{}, "self-motion"};
   for (Eigen::Index j = 0; j < n; ++j) {
     if (std::fabs(row(j)) < kRelationTolerance) continue;
-    const auto a = rational_near(row(j) * unit / scales[static_cast<std::size_t>(j)], largest_denominator);
+    const auto a = rational_near(row(j) * unit / scales[static_cast<std::size_t>(j)], longest);
     if (!a) return std::nullopt;
     if (!a->is_zero()) f.monomials.emplace_back(*a, std::vector<Factor>{{static_cast<int>(j), 1}});
   }
   if (std::fabs(row(n)) >= kRelationTolerance) {
-    const auto b = rational_near(row(n) * unit, largest_denominator);
+    const auto b = rational_near(row(n) * unit, longest);
     if (!b) return std::nullopt;
     f.monomials.emplace_back(*b, std::vector<Factor>{});
   }
@@ -195,7 +210,7 @@ std::optional<Polynomial> rational_relation(const Problem& problem, const Eigen:
 
 // Variables that are constant with irrational values: x_p = (value of p / value of q) x_q where that ratio is rational.
 std::vector<Polynomial> ratios(const Problem& problem, const Echelon& e, const std::vector<Eigen::Index>& constants,
-                               long largest_denominator) {
+                               Longest longest) {
   std::vector<Polynomial> result;
   const Eigen::Index n = e.rows.cols() - 1;
   const auto value = [&](Eigen::Index row) {
@@ -205,7 +220,7 @@ std::vector<Polynomial> ratios(const Problem& problem, const Echelon& e, const s
   for (const Eigen::Index row : constants) {
     bool tied = false;
     for (const Eigen::Index base : bases) {
-      const auto ratio = rational_near(value(row) / value(base), largest_denominator);
+      const auto ratio = rational_near(value(row) / value(base), longest);
       if (!ratio || ratio->is_zero()) continue;
       const int p = static_cast<int>(e.pivots[static_cast<std::size_t>(row)]),
                 q = static_cast<int>(e.pivots[static_cast<std::size_t>(base)]);
@@ -221,12 +236,12 @@ std::vector<Polynomial> ratios(const Problem& problem, const Echelon& e, const s
   return result;
 }
 
-std::vector<Polynomial> rational_relations(const Problem& problem, const Echelon& e, long largest_denominator) {
+std::vector<Polynomial> rational_relations(const Problem& problem, const Echelon& e, Longest longest) {
   std::vector<Polynomial> relations;
   std::vector<Eigen::Index> constants;
   for (Eigen::Index row = 0; row < e.rows.rows(); ++row) {
     const Eigen::Index pivot = e.pivots[static_cast<std::size_t>(row)];
-    if (auto f = rational_relation(problem, e.rows.row(row), pivot, largest_denominator)) {
+    if (auto f = rational_relation(problem, e.rows.row(row), pivot, longest)) {
       relations.push_back(std::move(*f));
       continue;
     }
@@ -234,7 +249,7 @@ std::vector<Polynomial> rational_relations(const Problem& problem, const Echelon
     others(pivot) = 0;
     if (others.cwiseAbs().maxCoeff() < kRelationTolerance) constants.push_back(row);
   }
-  for (Polynomial& f : ratios(problem, e, constants, largest_denominator)) relations.push_back(std::move(f));
+  for (Polynomial& f : ratios(problem, e, constants, longest)) relations.push_back(std::move(f));
   return relations;
 }
 
@@ -255,10 +270,9 @@ MotionCandidate find_self_motion(const Problem& problem, const System& system, c
   if (points.size() < static_cast<std::size_t>(n + 2)) return candidate;
   const Echelon e = relations_of(problem, points);
   const UpwardRounding rounding;
-  for (const long largest_denominator : kDenominators) {
+  for (const Longest& longest : kLongest) {
     if (candidate.motion) break;
-    candidate.motion =
-        certify::self_motion(system, rational_relations(problem, e, largest_denominator), candidate.dimension);
+    candidate.motion = certify::self_motion(system, rational_relations(problem, e, longest), candidate.dimension);
   }
   if (candidate.motion) candidate.motion->compiled.set_scales(problem.compiled.scales());
   return candidate;

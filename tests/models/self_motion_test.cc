@@ -8,6 +8,8 @@
 #include "corank/check/checker.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
+#include "corank/study/model.h"
+#include "corank/study/question.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_file.h"
@@ -70,6 +72,34 @@ TEST(SelfMotion, OfTheRhombusIsProvenWithItsDimensionAndItsRelations) {
     EXPECT_TRUE(report.consistent()) << (report.failures.empty() ? "" : report.failures[0].reason);
     EXPECT_EQ(report.boxes[static_cast<int>(Verdict::regular)].verified, on_it);
   }
+}
+
+System cusps(const char* model, SingularitySet set, const std::vector<result::ConstantOverride>& constants) {
+  const study::Model read = study::read_model(std::string(CORANK_SOURCE_DIR "/models/") + model + ".cuik", constants);
+  return study::system({.model = read.mechanism, .set = set, .assembly = read.assembly});
+}
+
+// A multiple of a length that is rational is so in every unit: as a fraction of short numbers, times a power of ten.
+TEST(SelfMotion, HasTheSameRelationsInAnotherUnit) {
+  const Cover thousandth =
+      solve::solve(cusps("dextar", SingularitySet::forward_cusps, {{"l", "9/10000"}, {"d", "118/100000"}}));
+  EXPECT_GT(thousandth.count(Verdict::regular), 0u);
+  EXPECT_EQ(thousandth.count(Verdict::undecided), 0u);
+  EXPECT_EQ(thousandth.self_motions.size(), 1u);
+}
+
+// Constants with irrational values: the ratio of a large and a small one is near to a fraction of a long and a short number.
+TEST(SelfMotion, HasNoRelationsThatALongNumberMakes) {
+  const System system = cusps("3rrr_fixed_orientation", SingularitySet::inverse_cusps,
+                              {{"b", "2000000"}, {"p", "500000"}, {"l1", "1000000"}, {"l2", "1000000"}});
+  solve::Options options;
+  options.sigma_length = 1e4, options.sigma_angle = 0.1;
+  options.roots = {system.domain()};  // where the third leg is folded: x and y are those of its base, in that orientation
+  options.roots[0][static_cast<std::size_t>(system.find("x"))] = Interval(895'000, 897'000);
+  options.roots[0][static_cast<std::size_t>(system.find("y"))] = Interval(1'242'000, 1'244'000);
+  const Cover cover = solve::solve(system, options);
+  EXPECT_GT(cover.count(Verdict::regular), 0u);
+  EXPECT_EQ(cover.count(Verdict::undecided), 0u);
 }
 
 TEST(SelfMotion, IsNotVerifiedWithARelationThatDoesNotHold) {
