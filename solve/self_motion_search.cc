@@ -24,15 +24,16 @@ constexpr double kShortStep = 0.03;         // for directions, in typical sizes
 constexpr double kDirectionShare = 0.15;    // of what the set's curvature and the samples' errors make of a direction
 constexpr std::size_t kDirectionsEach = 4;  // tried for each dimension of the kernel
 constexpr std::size_t kDimensionSamples = 3;
-// Of the numbers in a fraction, at most, and how near it has to be, relative. Taken in turns: an irrational number is near to a
-// fraction of long numbers, and samples that lie close together give few digits.
+// Of the numbers in a fraction, at most, and how near it has to be, relative. Taken in turns: an irrational number is near
+// to a fraction of long numbers, and samples that lie close together give few digits.
 struct Longest {
   long number;
   double precision;
 };
 constexpr Longest kLongest[] = {{100, 1e-9}, {100'000, 1e-11}};
 
-// p/q near x with p and q of at most longest.number; nothing where there is none. A long p alone would be near to any large x.
+// p/q near x with p and q of at most longest.number; nothing where there is none. A long p alone would be near to any large
+// x.
 std::optional<ExactNumber> fraction_near(double x, Longest longest) {
   double rest = x;
   long p0 = 1, q0 = 0, p1 = 0, q1 = 1;
