@@ -41,8 +41,18 @@ def main():
         name = f"{model} {which} {sigma:g}"
         if args.word not in name:
             continue
-        base = [args.program, "solve", os.path.join(here, "..", "models", model + ".cuik"), "--set", which, "--sigma", str(sigma),
-                "--threads", args.threads, "--json"]
+        base = [
+            args.program,
+            "solve",
+            os.path.join(here, "..", "models", model + ".cuik"),
+            "--set",
+            which,
+            "--sigma",
+            str(sigma),
+            "--threads",
+            args.threads,
+            "--json",
+        ]
         begun = time.monotonic()
         guess = json.loads(subprocess.run(base + ["--estimate"], check=True, capture_output=True).stdout)
         trial = time.monotonic() - begun
@@ -66,9 +76,12 @@ def main():
             likely = guess[key]["likely"]
             return f"{likely / unit:.3g} : {value / unit:.3g} = {likely / value:.2f}" if value else "-"
 
-        print(f"{name:36}{pair('processed', processed):>22}{pair('boxes', boxes):>22}"
-              f"{pair('seconds', real['seconds']['total']):>20}{pair('file_bytes', size, 1e6):>16}"
-              f"{pair('memory_bytes', 1024 * used.ru_maxrss, 1e6):>24}   {trial:.1f} s", flush=True)
+        print(
+            f"{name:36}{pair('processed', processed):>22}{pair('boxes', boxes):>22}"
+            f"{pair('seconds', real['seconds']['total']):>20}{pair('file_bytes', size, 1e6):>16}"
+            f"{pair('memory_bytes', 1024 * used.ru_maxrss, 1e6):>24}   {trial:.1f} s",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

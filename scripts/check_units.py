@@ -128,7 +128,9 @@ def scaled_parts(text, factor):
         if name == "JOINTS":
             lines = []
             for line in body.split("\n"):
-                line = re.sub(r"(\blength\s+)(\S.*?)(?=\s+(?:range|limits|radius|zero|actuated)|$)", rf"\1({factor})*(\2)", line)
+                line = re.sub(
+                    r"(\blength\s+)(\S.*?)(?=\s+(?:range|limits|radius|zero|actuated)|$)", rf"\1({factor})*(\2)", line
+                )
                 if re.match(r"\s*(prismatic|sph_prs_sph)\b", line):
                     line = re.sub(r"((?:range|limits)\s*)\[([^,\]]+),([^\]]+)\]", scaled_range, line)
                 lines.append(line)
@@ -150,8 +152,12 @@ class Units:
         _, found = sections(self.derived)
         variables = "\n".join(body for name, body in found if name == "SYSTEM VARS")
         self.lengths = re.findall(r"^\s*(\w+)\s*:", variables, re.M)
-        self.ranges = {m[1]: (m[2], m[3]) for m in re.finditer(r"^\s*(\w+)\s*[:~]\s*\[([^,\n]+),([^\]\n]+)\]", variables, re.M)}
-        lists = {name: [x.strip() for x in body.split("%")[0].split(",")] for name, body in found if name in ("INPUTS", "OUTPUTS")}
+        self.ranges = {
+            m[1]: (m[2], m[3]) for m in re.finditer(r"^\s*(\w+)\s*[:~]\s*\[([^,\n]+),([^\]\n]+)\]", variables, re.M)
+        }
+        lists = {
+            name: [x.strip() for x in body.split("%")[0].split(",")] for name, body in found if name in ("INPUTS", "OUTPUTS")
+        }
         self.inputs, self.outputs = lists.get("INPUTS", []), lists.get("OUTPUTS", [])
         self.limits = any(name == "LIMITS" for name, _ in found)
         self.plain = not self.inputs and not self.outputs
@@ -236,7 +242,9 @@ class Asker:
         over = next((x for x in (u.inputs, u.outputs) if len(x) == 2 and all(n in u.ranges for n in x)), None)
         if over:
             scaled = lambda f, n, x: f"({f})*({x})" if n in u.lengths else x
-            ends = lambda f: sum([["--over", f"{n}={scaled(f, n, u.ranges[n][0])}:{scaled(f, n, u.ranges[n][1])}"] for n in over], [])
+            ends = lambda f: sum(
+                [["--over", f"{n}={scaled(f, n, u.ranges[n][0])}:{scaled(f, n, u.ranges[n][1])}"] for n in over], []
+            )
             result["map"] = (lambda f: ["map", "--resolution", "16", *ends(f)], self.map)
         return result
 
@@ -379,9 +387,7 @@ def main():
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())
     with tempfile.TemporaryDirectory() as folder:
-        counts = [
-            check(program, path, options.scales, options.time_limit, options.only, folder) for path in options.models
-        ]
+        counts = [check(program, path, options.scales, options.time_limit, options.only, folder) for path in options.models]
     return any(counts)
 
 

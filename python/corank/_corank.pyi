@@ -283,6 +283,7 @@ def declared_ranges(model: Model, set: Optional[str], names: List[str]) -> List[
 def area(
     model: Model, outputs: List[str], threads: int, time_limit: float, anyway: bool, progress: Any
 ) -> Optional[Tuple[float, float]]: ...
+
 class PageAspects: ...
 
 def page_aspects(

@@ -161,7 +161,13 @@ def sweep(
             )
     members: List[Member] = []
     command = f"{pages._command('sweep', self, sets, sigma, cspace_sigma)} over {constant}"
-    options: Dict[str, Any] = {"proof": proof, "threads": threads, "max_boxes": max_boxes, "max_found": max_found, "time_limit": time_limit}
+    options: Dict[str, Any] = {
+        "proof": proof,
+        "threads": threads,
+        "max_boxes": max_boxes,
+        "max_found": max_found,
+        "time_limit": time_limit,
+    }
     options["coarser"] = 2
     sigmas = {name: cspace_sigma if name == "cspace" else sigma for name in sets}
     if client is not None:

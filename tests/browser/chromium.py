@@ -29,10 +29,26 @@ class Browser:
         # Descriptors above 4, so that neither pipe lies where the other has to go.
         command_read, answer_write = (self._above(command_read), self._above(answer_write))
         self.process = subprocess.Popen(
-            [find(), "--headless=new", "--remote-debugging-pipe", "--no-first-run", "--hide-scrollbars", "--mute-audio",
-             "--disable-background-networking", "--disable-component-update", "--enable-unsafe-swiftshader", *flags,
-             f"--user-data-dir={self.folder}", *(["--no-sandbox"] if os.geteuid() == 0 else []), "about:blank"],
-            preexec_fn=pipes, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            [
+                find(),
+                "--headless=new",
+                "--remote-debugging-pipe",
+                "--no-first-run",
+                "--hide-scrollbars",
+                "--mute-audio",
+                "--disable-background-networking",
+                "--disable-component-update",
+                "--enable-unsafe-swiftshader",
+                *flags,
+                f"--user-data-dir={self.folder}",
+                *(["--no-sandbox"] if os.geteuid() == 0 else []),
+                "about:blank",
+            ],
+            preexec_fn=pipes,
+            close_fds=False,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         os.close(command_read)
         os.close(answer_write)
         self.commands = os.fdopen(command_write, "wb", buffering=0)
@@ -45,9 +61,13 @@ class Browser:
         for domain in ("Page", "Network", "Runtime", "Log"):
             self.call(f"{domain}.enable")
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=touch)
-        self.call("Emulation.setEmulatedMedia", features=[
-            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
-            {"name": "prefers-reduced-motion", "value": "reduce" if calm else "no-preference"}])
+        self.call(
+            "Emulation.setEmulatedMedia",
+            features=[
+                {"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
+                {"name": "prefers-reduced-motion", "value": "reduce" if calm else "no-preference"},
+            ],
+        )
         if touch:
             self.call("Emulation.setTouchEmulationEnabled", enabled=True)
 
@@ -142,7 +162,13 @@ class Browser:
     def press(self, key, shift=False):
         text = {"text": key} if len(key) == 1 else {"text": "\r"} if key == "Enter" else {}
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key, modifiers=8 if shift else 0, **(text if kind == "keyDown" else {}))
+            self.call(
+                "Input.dispatchKeyEvent",
+                type=kind,
+                key=key,
+                modifiers=8 if shift else 0,
+                **(text if kind == "keyDown" else {}),
+            )
 
     def screenshot(self, path, whole=False):
         answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
@@ -150,11 +176,17 @@ class Browser:
 
     def photograph(self, selector, path):
         """A picture of one element."""
-        x, y, width, height = self.run(f"""(() => {{
+        x, y, width, height = self.run(
+            f"""(() => {{
           const box = document.querySelector({json.dumps(selector)}).getBoundingClientRect();
           return [box.left + scrollX, box.top + scrollY, box.width, box.height];
-        }})()""")
+        }})()"""
+        )
         self.drawn()
-        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=True,
-                           clip={"x": x, "y": y, "width": width, "height": height, "scale": 1})
+        answer = self.call(
+            "Page.captureScreenshot",
+            format="png",
+            captureBeyondViewport=True,
+            clip={"x": x, "y": y, "width": width, "height": height, "scale": 1},
+        )
         pathlib.Path(path).write_bytes(base64.b64decode(answer["data"]))

@@ -16,26 +16,30 @@ class Family(page_case.PageCase):
 
     def current(self):
         """What every part of the page says is shown; they have to agree."""
-        state = self.run_js("""(() => ({
+        state = self.run_js(
+            """(() => ({
           family: corank.family.current,
           slider: Number(document.getElementById("slider").value),
           small: [...document.querySelectorAll("#small .member")].findIndex((b) => b.ariaPressed === "true"),
           row: [...document.querySelectorAll("#counts tbody tr")].findIndex((r) => r.classList.contains("current")),
           cards: [...document.querySelectorAll("#result .cards")].findIndex((c) => !c.hidden),
-        }))()""")
+        }))()"""
+        )
         self.assertEqual(len(set(state.values())), 1, state)
         return state["family"]
 
     def inked(self, x, y):
         """How many pixels about (x, y) of the large picture are not its paper."""
-        return self.run_js(f"""(() => {{
+        return self.run_js(
+            f"""(() => {{
           const {{canvas, pictures, current}} = corank.family, {{plane, ratio}} = pictures[current];
           const at = [plane.toX({x}) * ratio, plane.toY({y}) * ratio].map(Math.round);
           const {{data}} = canvas.getContext("2d").getImageData(at[0] - 2, at[1] - 2, 5, 5);
           let count = 0;
           for (let i = 0; i < data.length; i += 4) count += Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 40;
           return count;
-        }})()""")
+        }})()"""
+        )
 
     def test_arrow_keys_move_the_slider_and_all_that_belongs_to_it(self):
         self.run_js("document.getElementById('slider').focus()")

@@ -28,12 +28,14 @@ class PageCase(unittest.TestCase):
 
     def middle(self, selector):
         """The middle of an element, which is scrolled into sight."""
-        return self.run_js(f"""(() => {{
+        return self.run_js(
+            f"""(() => {{
           const element = document.querySelector({selector!r});
           element.scrollIntoView({{block: "center"}});
           const box = element.getBoundingClientRect();
           return [box.left + box.width / 2, box.top + box.height / 2];
-        }})()""")
+        }})()"""
+        )
 
     def test_asks_nothing_of_the_network_and_throws_nothing(self):
         own = [url for url in self.browser.requests if url.startswith(self.own)]

@@ -19,23 +19,30 @@ class Dextar(page_case.PageCase):
 
     def place(self, portrait, x, y):
         """The place on the screen of (x, y) in a portrait, which is scrolled into sight."""
-        return self.run_js(f"""(() => {{
+        return self.run_js(
+            f"""(() => {{
           const portrait = corank.portraits[{portrait}];
           portrait.frame.scrollIntoView({{block: "center"}});
           const box = portrait.overlay.getBoundingClientRect();
           return [box.left + portrait.picture.plane.toX({x}), box.top + portrait.picture.plane.toY({y})];
-        }})()""")
+        }})()"""
+        )
 
     def shown(self):
-        return self.run_js("corank.panel.current && {set: corank.panel.current.set.name, box: corank.panel.current.box, "
-                           "x: [...corank.panel.current.x]}")
+        return self.run_js(
+            "corank.panel.current && {set: corank.panel.current.set.name, box: corank.panel.current.box, "
+            "x: [...corank.panel.current.x]}"
+        )
 
     def arrows(self):
         return self.run_js("document.querySelectorAll('#panel svg .velocity').length")
 
     def test_asks_nothing_of_the_network_and_throws_nothing(self):
         super().test_asks_nothing_of_the_network_and_throws_nothing()
-        print(f"\nready {self.run_js('document.documentElement.dataset.ready')} ms after the page was asked for", file=sys.stderr)
+        print(
+            f"\nready {self.run_js('document.documentElement.dataset.ready')} ms after the page was asked for",
+            file=sys.stderr,
+        )
 
     def test_speaks_of_arrows_and_of_drawing_only_where_something_is_drawn(self):
         text = """(points) => {
@@ -53,7 +60,8 @@ class Dextar(page_case.PageCase):
         self.assertNotIn("Drawn", bare)
 
     def test_takes_arrows_from_the_models_own_rates_where_it_has_such(self):
-        arrows = self.run_js("""(() => {
+        arrows = self.run_js(
+            """(() => {
           const panel = corank.panel, model = panel.model, set = model.sets.find((s) => s.name === "inverse");
           panel.pinBox(set, 0);
           const points = model.drawing.points.map((p) => ({...p, moves: p.name === "J3" ? ["v", 0] : [0, "locked"]}));
@@ -66,13 +74,16 @@ class Dextar(page_case.PageCase):
           panel.show(panel.current);
           panel.unpin();
           return arrows;
-        })()""")
+        })()"""
+        )
         self.assertEqual(arrows, 1)
 
     def test_output_portrait_has_boxes_over_the_reach_of_both_arms_and_over_nothing_else(self):
         sigma = self.run_js("corank.model.sets.find((s) => s.name === 'cspace').sigma")
         places = [(0.1 * i + 0.003, 0.1 * k + 0.007) for i in range(-12, 31) for k in range(-20, 21)]
-        over = self.run_js(f"{[list(place) for place in places]}.map(([x, y]) => corank.portraits[0].picture.boxesOver('cspace', x, y))")
+        over = self.run_js(
+            f"{[list(place) for place in places]}.map(([x, y]) => corank.portraits[0].picture.boxesOver('cspace', x, y))"
+        )
         for (x, y), count in zip(places, over):
             inside = REACH - max(math.hypot(x, y), math.hypot(x - BASE, y))
             if inside >= 0:
@@ -149,20 +160,26 @@ class Dextar(page_case.PageCase):
         self.browser.press("n")
         other = self.shown()
         self.assertNotEqual(other["box"], moved["box"])
-        self.assertEqual(self.run_js("[...document.querySelectorAll('#panel .mode')].findIndex((b) => b.ariaPressed === 'true')"), 1)
+        self.assertEqual(
+            self.run_js("[...document.querySelectorAll('#panel .mode')].findIndex((b) => b.ariaPressed === 'true')"), 1
+        )
         self.browser.press("p")
         self.assertEqual(self.shown()["box"], self.run_js("corank.panel.candidates[0].box"))
         self.browser.press("Escape")
         self.assertFalse(self.run_js("corank.panel.pinned"))
 
     def test_other_axes_may_be_chosen(self):
-        self.run_js("""(() => {
+        self.run_js(
+            """(() => {
           const select = corank.portraits[1].selects[0];
           select.value = 0;
           select.dispatchEvent(new Event("change"));
-        })()""")
+        })()"""
+        )
         self.assertEqual(self.run_js("corank.portraits[1].picture.axes.map((axis) => axis.name)"), ["J3x", "theta5"])
-        self.run_js("(() => { const s = corank.portraits[1].selects[0]; s.value = 2; s.dispatchEvent(new Event('change')); })()")
+        self.run_js(
+            "(() => { const s = corank.portraits[1].selects[0]; s.value = 2; s.dispatchEvent(new Event('change')); })()"
+        )
 
     def test_theme_switch_redraws_in_dark(self):
         paper = "getComputedStyle(document.body).backgroundColor"
@@ -185,12 +202,16 @@ class Dextar(page_case.PageCase):
         lines = "[...document.querySelectorAll('#panel svg .link')].map((line) => line.getAttribute('points')).join()"
         drawn = self.run_js(lines)
         self.browser.click(*self.middle(".player .play"))
-        self.run_js("new Promise((done) => { const look = () => corank.panel.player.t > 0.05 ? done() : setTimeout(look, 20); look(); })")
+        self.run_js(
+            "new Promise((done) => { const look = () => corank.panel.player.t > 0.05 ? done() : setTimeout(look, 20); look(); })"
+        )
         self.assertNotEqual(self.run_js(lines), drawn)
         self.assertEqual(self.arrows(), 1)
         # Links 3 and 4 are in one line all the way.
         for share in (0.1, 0.3, 0.5, 0.7, 0.9):
-            self.run_js(f"(() => {{ const s = document.querySelector('.player input'); s.value = {1000 * share}; s.dispatchEvent(new Event('input')); }})()")
+            self.run_js(
+                f"(() => {{ const s = document.querySelector('.player input'); s.value = {1000 * share}; s.dispatchEvent(new Event('input')); }})()"
+            )
             self.assertFalse(self.run_js("corank.panel.player.playing"), "moving the slider stops it")
             now = self.shown()
             self.assertEqual(now["set"], "forward")
@@ -231,8 +252,10 @@ class Dextar(page_case.PageCase):
           return count / (canvas.width * canvas.height);
         })()"""
         self.assertGreater(self.run_js(painted), 0.02)
-        left, top, width, height = self.run_js("(() => { const b = corank.space.orbit.renderer.domElement.getBoundingClientRect(); "
-                                               "return [b.left, b.top, b.width, b.height]; })()")
+        left, top, width, height = self.run_js(
+            "(() => { const b = corank.space.orbit.renderer.domElement.getBoundingClientRect(); "
+            "return [b.left, b.top, b.width, b.height]; })()"
+        )
         eye = self.run_js("corank.space.orbit.camera.position.toArray()")
         self.browser.drag(left + width / 2, top + height / 2, 120, 40)
         self.browser.drawn()
@@ -242,11 +265,13 @@ class Dextar(page_case.PageCase):
         self.browser.drawn()
         self.assertLess(self.run_js("corank.space.orbit.camera.position.length()"), far)
         # Where some box of the forward locus is seen, a click picks a singular configuration.
-        x, y = self.run_js("""(() => {
+        x, y = self.run_js(
+            """(() => {
           const {middles} = corank.space.clouds.find(({set}) => set.name === "forward");
           const at = new THREE.Vector3(middles[0], middles[1], middles[2]).project(corank.space.orbit.camera);
           return [(at.x + 1) / 2, (1 - at.y) / 2];
-        })()""")
+        })()"""
+        )
         self.browser.click(left + x * width, top + y * height)
         self.assertNotEqual(self.shown()["set"], "cspace")
         self.assertTrue(self.run_js("corank.panel.pinned"))

@@ -21,21 +21,26 @@ class SpatialFourBar(page_case.PageCase):
         self.browser.drawn()
 
     def angles(self):
-        return self.run_js("corank.model.coordinates.map((c) => Math.atan2(corank.panel.current.x[c.sine], corank.panel.current.x[c.cosine]))")
+        return self.run_js(
+            "corank.model.coordinates.map((c) => Math.atan2(corank.panel.current.x[c.sine], corank.panel.current.x[c.cosine]))"
+        )
 
     def ends(self):
         """A and B as the angles say, and as they stand in the scene, in the model's lengths."""
         t, p = self.angles()
-        drawn = self.run_js("""(() => {
+        drawn = self.run_js(
+            """(() => {
           const {at, middle, scale} = corank.panel.picture;
           return ["A", "B"].map((end) => at[corank.model.drawing.points.findIndex(({name}) => name === end)])
             .map((v) => v.clone().divideScalar(scale).add(middle).toArray());
-        })()""")
+        })()"""
+        )
         return [(CRANK * math.cos(t), CRANK * math.sin(t), HEIGHT), (1, ROCKER * math.cos(p), ROCKER * math.sin(p))], drawn
 
     def pixels(self):
         """How many pixels of the panel's picture are green (the rocker), brown (the ball about A), orange (the effector)."""
-        return self.run_js("""(() => {
+        return self.run_js(
+            """(() => {
           const from = corank.panel.picture.orbit.renderer.domElement, canvas = document.createElement("canvas");
           [canvas.width, canvas.height] = [from.width, from.height];
           const context = canvas.getContext("2d");
@@ -50,21 +55,27 @@ class SpatialFourBar(page_case.PageCase):
             if (r > 150 && g > 0.5 * r && g < 0.8 * r && b < 0.5 * g) ++counts.orange;
           }
           return counts;
-        })()""")
+        })()"""
+        )
 
     def test_is_drawn_in_space_in_the_colours_of_its_parts(self):
         self.pin("cspace", 500)
         self.assertEqual(self.run_js("document.querySelectorAll('.solid canvas').length"), 2)
         self.assertEqual(self.run_js("document.querySelectorAll('svg .link, svg .platform').length"), 0)
-        self.assertEqual(self.run_js("[...document.querySelectorAll('#panel .point-label')].map((t) => t.textContent).sort().join('')"), "ABCO")
+        self.assertEqual(
+            self.run_js("[...document.querySelectorAll('#panel .point-label')].map((t) => t.textContent).sort().join('')"),
+            "ABCO",
+        )
         counts = self.pixels()
         for colour in ("green", "brown", "orange"):
             self.assertGreater(counts[colour], 40, (colour, counts))
-        meshes = self.run_js("""(() => {
+        meshes = self.run_js(
+            """(() => {
           const kinds = {};
           corank.panel.picture.orbit.scene.traverse((o) => { if (o.isMesh && o.visible) kinds[o.geometry.type] = (kinds[o.geometry.type] || 0) + 1; });
           return kinds;
-        })()""")
+        })()"""
+        )
         # Ends of three links, the sphere, two ball joints, the effector and its halo; links, the cylinder, hinges, pedestals' feet and plates.
         self.assertEqual(meshes["SphereGeometry"], 6 + 1 + 2 + 2)
         self.assertEqual(meshes["CylinderGeometry"], 3 + 1 + 2 * 3 + 2 * 2)
@@ -82,7 +93,9 @@ class SpatialFourBar(page_case.PageCase):
 
     def test_an_arrow_shows_how_the_rocker_moves_with_the_motor_locked(self):
         self.pin("forward", 0)
-        arrows = self.run_js("corank.panel.picture.velocities.map((v, i) => v && {name: corank.model.drawing.points[i].name, v: v.toArray()}).filter(Boolean)")
+        arrows = self.run_js(
+            "corank.panel.picture.velocities.map((v, i) => v && {name: corank.model.drawing.points[i].name, v: v.toArray()}).filter(Boolean)"
+        )
         self.assertEqual([arrow["name"] for arrow in arrows], ["B"])
         a, b = self.ends()[0]
         along = sum(v * (y - x) for v, x, y in zip(arrows[0]["v"], a, b))
@@ -117,16 +130,20 @@ class SpatialFourBar(page_case.PageCase):
         self.pin("cspace", 500)
         self.browser.click(*self.middle(".player .play"))
         start = self.angles()
-        self.run_js("new Promise((done) => { const look = () => corank.panel.player.t > 0.1 ? done() : setTimeout(look, 20); look(); })")
+        self.run_js(
+            "new Promise((done) => { const look = () => corank.panel.player.t > 0.1 ? done() : setTimeout(look, 20); look(); })"
+        )
         self.assertGreater(math.dist(self.angles(), start), 0.01)
         self.pin("cspace", 500)
         self.assertFalse(self.run_js("corank.panel.player.playing"), "a pick stops the motion")
-        curve = self.run_js("""(() => {
+        curve = self.run_js(
+            """(() => {
           const {curve} = corank.panel.player, set = corank.model.sets[0];
           const ways = Array.from({length: 200}, (_, k) => curve.at((k * curve.length) / 199));
           return {closed: curve.closed, boxes: new Set(curve.boxes).size, count: set.count, found: ways.every(({moved}) => moved),
                   steps: ways.slice(1).map(({x}, k) => Math.hypot(...[0, 1, 2, 3].map((j) => x[j] - ways[k].x[j])))};
-        })()""")
+        })()"""
+        )
         self.assertTrue(curve["closed"])
         self.assertEqual(curve["boxes"], curve["count"], "every box is on the way, once")
         self.assertTrue(curve["found"])

@@ -16,19 +16,23 @@ class Spherical(page_case.PageCase):
 
     def places(self):
         """The points of the drawing as they stand in the scene, in the model's lengths."""
-        return self.run_js("""(() => {
+        return self.run_js(
+            """(() => {
           const {at, middle, scale} = corank.panel.picture;
           return Object.fromEntries(corank.model.drawing.points.map(({name}, i) => [name, at[i].clone().divideScalar(scale).add(middle).toArray()]));
-        })()""")
+        })()"""
+        )
 
     def test_platforms_are_translucent_sheets(self):
-        sheets = self.run_js("""(() => {
+        sheets = self.run_js(
+            """(() => {
           const sheets = [];
           corank.panel.picture.orbit.scene.traverse((o) => {
             if (o.isMesh && o.geometry.type === "BufferGeometry") sheets.push([o.geometry.index.count, o.material.opacity, o.visible]);
           });
           return sheets;
-        })()""")
+        })()"""
+        )
         self.assertEqual(len(sheets), 4)
         for corners, opacity, visible in sheets:
             self.assertEqual((corners, visible), (3, True))
@@ -37,7 +41,9 @@ class Spherical(page_case.PageCase):
     def test_moves_along_the_singular_curve_as_a_rigid_linkage(self):
         seen = set()
         for share in (0, 200, 400, 600, 800):
-            self.run_js(f"(() => {{ const s = document.querySelector('.player input'); s.value = {share}; s.dispatchEvent(new Event('input')); }})()")
+            self.run_js(
+                f"(() => {{ const s = document.querySelector('.player input'); s.value = {share}; s.dispatchEvent(new Event('input')); }})()"
+            )
             p = self.places()
             for end in ("E1", "E2"):
                 self.assertAlmostEqual(sum(a * b for a, b in zip(p[end], p["W"])), 5 / 13, delta=1e-5)
@@ -49,7 +55,9 @@ class Spherical(page_case.PageCase):
         self.assertEqual(len(seen), 5)
 
     def test_the_arrow_stands_on_the_last_joint_at_right_angles_to_its_axis(self):
-        arrows = self.run_js("corank.panel.picture.velocities.map((v, i) => v && [corank.model.drawing.points[i].name, v.toArray()]).filter(Boolean)")
+        arrows = self.run_js(
+            "corank.panel.picture.velocities.map((v, i) => v && [corank.model.drawing.points[i].name, v.toArray()]).filter(Boolean)"
+        )
         self.assertEqual([name for name, _ in arrows], ["W"])
         velocity, w = arrows[0][1], self.places()["W"]
         self.assertGreater(math.hypot(*velocity), 0.1)

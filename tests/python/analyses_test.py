@@ -144,10 +144,13 @@ def test_a_path_is_a_page_on_which_the_mechanism_moves(dextar, tmp_path):
 def test_a_page_shows_both_ends_where_no_path_joins_them_and_takes_no_strangers(dextar, three_slider):
     apart = dextar.path({"J3x": 0.3, "J3y": 1}, {"J3x": 0.3, "J3y": 1}, start_mode=1, end_mode=2, avoid="both")
     page = apart.animate(results=[])
-    assert path_data(page)["nodes"] == [] and "It is proven that there is no such path" in page.html and 'class="unlike"' in page.html
+    assert (
+        path_data(page)["nodes"] == []
+        and "It is proven that there is no such path" in page.html
+        and 'class="unlike"' in page.html
+    )
     with pytest.raises(ValueError, match="another model"):
         apart.animate(results=[three_slider.solve("forward")])
-
 
 
 def test_ends_of_unlike_signs_are_separated(dextar):

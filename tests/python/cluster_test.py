@@ -207,7 +207,16 @@ def test_what_a_limit_has_left_goes_on_from_the_result_and_from_the_checkpoint(m
     nothing = run(*question[:-1], str(tmp_path / "none.h5"), "--time-limit", "1e-9", "--checkpoint", str(kept))
     assert nothing.returncode == 3 and "stopped by the time limit" in nothing.stderr
     assert "to go on" not in nothing.stderr and not kept.exists()
-    done = run("--resume", str(tmp_path / "part.h5"), "-o", str(tmp_path / "more.h5"), "--max-boxes", "500", "--checkpoint", str(kept))
+    done = run(
+        "--resume",
+        str(tmp_path / "part.h5"),
+        "-o",
+        str(tmp_path / "more.h5"),
+        "--max-boxes",
+        "500",
+        "--checkpoint",
+        str(kept),
+    )
     assert done.returncode == 3 and kept.exists() and f"--resume {kept}" in done.stderr
     done = run("--resume", str(kept), "-o", str(tmp_path / "whole.h5"))
     assert done.returncode == 0 and not kept.exists(), done.stderr
@@ -356,7 +365,16 @@ def test_by_tls_only_who_has_a_certificate_of_the_authority_is_served(models, cs
         address = json.loads(known.read_text())["address"]
         assert address.startswith("tls://127.0.0.1:")
         result = tmp_path / "r.h5"
-        program = [sys.executable, "-m", "corank.cluster", "solve", str(models / "dextar.cuik"), "--set", "cspace", "--quiet"]
+        program = [
+            sys.executable,
+            "-m",
+            "corank.cluster",
+            "solve",
+            str(models / "dextar.cuik"),
+            "--set",
+            "cspace",
+            "--quiet",
+        ]
         program += ["--sigma", str(SIGMA), "-o", str(result), "--scheduler", address]
         for refused in ([], ["--tls-ca", authority, *others]):
             done = subprocess.run(program + refused, capture_output=True, text=True, check=False)

@@ -103,7 +103,9 @@ def test_a_checker_of_types_finds_the_users_fault_and_no_other(tmp_path):
     assert "user.py:4: error: Incompatible types" in faults[0] and len(faults) == 2, done.stdout
 
 
-@pytest.mark.parametrize("package, use", [("sympy", "expression"), ("distributed", "cluster"), ("numpy", "boxes"), ("numpy", "cluster")])
+@pytest.mark.parametrize(
+    "package, use", [("sympy", "expression"), ("distributed", "cluster"), ("numpy", "boxes"), ("numpy", "cluster")]
+)
 def test_what_is_not_installed_is_named_with_its_package(package, use):
     program = {
         "expression": "r = corank.load('models/dextar.cuik').solve('inverse', sigma=0.1); r.exact_points",
@@ -112,7 +114,13 @@ def test_what_is_not_installed_is_named_with_its_package(package, use):
     }[use]
     done = subprocess.run(
         [sys.executable, "-c", f"import sys; sys.modules['{package}'] = None; import corank; {program}"],
-        cwd=os.environ["CORANK_SOURCE_DIR"], capture_output=True, text=True, check=False,
+        cwd=os.environ["CORANK_SOURCE_DIR"],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode != 0
-    assert f"ModuleNotFoundError: this needs the Python package {package}: apt-get install python3-{package}, or pip install {package}" in done.stderr
+    assert (
+        f"ModuleNotFoundError: this needs the Python package {package}: apt-get install python3-{package}, or pip install {package}"
+        in done.stderr
+    )

@@ -185,9 +185,7 @@ def _resumed(args: argparse.Namespace, parser: argparse.ArgumentParser) -> Check
         if getattr(args, a) is not None
     ]
     if asked or args.constants:
-        parser.error(
-            f"--resume: its file holds the model and the question; expected no {(asked + ['-D'])[0]}"
-        )
+        parser.error(f"--resume: its file holds the model and the question; expected no {(asked + ['-D'])[0]}")
     known = Checkpoints.read(args.resume, args.every)
     former, unknown = _question().parse_known_args(known.arguments)
     ignored = [u for u in unknown if u.startswith("-") and u != "--threads"]

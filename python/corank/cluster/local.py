@@ -24,7 +24,9 @@ _SETTINGS = {
     **{f"distributed.nanny.pre-spawn-environ.{name}": value for name, value in forks.MEMORY.items()},
     # What looks at processes that do nothing takes a tenth of a core: dask's profiler 100 times a second, health checks 50 times.
     "distributed.worker.profile.enabled": False,
-    "distributed.diagnostics.computations.ignore-modules": ["."],  # the source code of who gives work out is read for each unit
+    "distributed.diagnostics.computations.ignore-modules": [
+        "."
+    ],  # the source code of who gives work out is read for each unit
     "distributed.admin.tick.interval": "500ms",
     "distributed.admin.system-monitor.interval": "2s",
     "distributed.worker.memory.monitor-interval": "1s",
@@ -51,9 +53,7 @@ def security(ca: Optional[str] = None, cert: Optional[str] = None, key: Optional
     if ca is None and cert is None and key is None:
         return None
     if ca is None or cert is None:
-        raise ClusterError(
-            "TLS needs the files of the authority and of the certificate: ca and cert (and key)"
-        )
+        raise ClusterError("TLS needs the files of the authority and of the certificate: ca and cert (and key)")
     files = {
         f"tls_{role}_{kind}": name
         for role in ("client", "scheduler", "worker")

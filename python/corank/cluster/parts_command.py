@@ -110,7 +110,9 @@ def add_sweep(subcommands: Any, parents: List[argparse.ArgumentParser]) -> None:
         epilog="Example: python3 -m corank.cluster sweep models/dextar.cuik -D l2=1.6:0.9:8 --workers 2 -o family",
     )
     _model(p)
-    p.add_argument("--sets", default="cspace,forward,inverse", help="as for corank sweep, like the other options of this part")
+    p.add_argument(
+        "--sets", default="cspace,forward,inverse", help="as for corank sweep, like the other options of this part"
+    )
     p.add_argument("--sigma", type=float)
     p.add_argument("--cspace-sigma", type=float)
     p.add_argument("--threads", type=int, default=1, help="number of threads of each search; default: 1")
