@@ -143,12 +143,13 @@ void add_path(CLI::App& program, Action& action) {
   const auto add_end = [&](const std::string& name, std::vector<std::string>& values, int& mode) {
     sub->add_option(name, values,
                     std::string(name == "--from" ? "The start" : "The goal") +
-                        ": values of coordinates, as many as the mobility; corank solves for the others, and further values "
-                        "choose among the solutions; 15deg is an angle in degrees")
+                        ": values of as many coordinates as the mobility says; corank solves for the others. If there are "
+                        "several solutions, further values choose among them. 15deg is an angle in degrees")
         ->type_name("NAME=VALUE,...")
         ->allow_extra_args(false)
         ->required();
-    sub->add_option(name + "-mode", mode, "The number of the solution, if there are several; without it, corank lists them")
+    sub->add_option(name + "-mode", mode,
+                    "Which solution to take, by its number, if there are several; without it, corank lists them")
         ->check(CLI::PositiveNumber);
   };
   add_end("--from", command->from, command->from_mode);
@@ -177,8 +178,8 @@ void add_path(CLI::App& program, Action& action) {
       ->type_name("FILE.html");
   command->json.add(*sub);
   sub->footer(
-      "The path keeps to the ranges, limits and inequalities of the model. No configuration within the radius about it, in\n"
-      "sines and cosines of angles and in lengths, is one of the avoided singularities: this is proven. If no path can\n"
+      "The path keeps to the ranges, limits and inequalities of the model. It is proven that none of the avoided\n"
+      "singularities lies within the radius of the path, in sines and cosines of angles and in lengths. If no path can\n"
       "exist, because the two configurations lie in different pieces, that is proven instead.\n\n"
       "Exit status: 0 a path, or the proof that there is none; 1 bad input; 2 wrong usage; 3 neither.\n\n"
       "Examples:\n  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=1 --to-mode 1\\\n"

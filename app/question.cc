@@ -17,14 +17,15 @@ void QuestionOptions::add_options(CLI::App& command) {
       .add_option("--set", set,
                   "Which configurations of a mechanism: all (cspace), its forward, inverse or C-space singularities, the "
                   "boundary of its workspace, the singularities of one type (ro to iim), or the cusps or nodes of a locus.\n"
-                  "nodes: forward-nodes or inverse-nodes, if only one of these loci can have nodes")
+                  "nodes stands for forward-nodes or inverse-nodes, if only one of the two loci can have nodes")
       ->check(CLI::IsMember(sets));
   command
       .add_option("--kernel", kernel,
                   "Side of the kernel vector xi of the set's matrix M: right (M xi = 0) or left (M^T xi = 0);\n"
                   "none: solve the set in parts, each with an equation of its own and no kernel vector;\n"
-                  "default: right if M is square or tall, else left; none if a set of dimension 2 or more\n"
-                  "is the union of parts, or if xi would have ten unknowns or more and no part needs one")
+                  "default: none if the set is a union of parts and has dimension 2 or more, or would need a
+"
+                  "vector of ten unknowns or more; otherwise right if M is square or tall, left if it is wide")
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(command);
   add_outputs(command);

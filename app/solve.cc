@@ -239,9 +239,9 @@ void add_solve(CLI::App& program, Action& action) {
   const auto command = std::make_shared<SolveCommand>();
   add_solve_options(*sub, *command);
   sub->footer(
-      "If the set of a robot is empty, corank solve looks for any configuration: it names one that is proven to exist, or\n"
-      "proves that the robot cannot be assembled within its ranges. If rounded decimals contradict each other, it proposes\n"
-      "--tolerance.\n\n"
+      "If the set of a robot is empty, corank solve asks whether the robot can be assembled within its ranges at all. It\n"
+      "names a configuration that is proven to exist, or proves that there is none. If rounded decimals contradict each\n"
+      "other, it proposes --tolerance.\n\n"
       "Exit status:\n"
       "  0  done and complete\n"
       "  1  bad input\n"

@@ -62,8 +62,9 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
                "Record the search in RESULT.h5, so that corank verify can check that no solution is missing");
   sub.add_flag(
       "--area", command.area,
-      "For --set boundary with two lengths as outputs: bound the workspace's area also if its boundary does not suffice\n"
-      "for that (a range that is not a limit cuts the workspace, or the model has inequalities); this takes long");
+      "For --set boundary with two lengths as outputs: always bound the workspace's area, which may take long.\n"
+      "Without --area it is bounded only where the boundary suffices. The boundary does not suffice if a range that\n"
+      "is not a limit cuts the workspace, or if the model has inequalities");
   sub.add_option("-o", command.result_path,
                  "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's format if its name\n"
                  "ends in .sol")
