@@ -12,11 +12,11 @@
 #include "corank/analyze/aspects.h"
 #include "corank/analyze/fold_system.h"
 #include "corank/analyze/topology.h"
-#include "corank/certify/parametric_reduction.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/core/threads.h"
 #include "corank/solve/cell_search.h"
+#include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/exact_value.h"
 #include "corank/symbolic/family_system.h"
@@ -93,7 +93,7 @@ void ParameterMapper::Parts::make_family() {
       symbolic::family_system(model, {q.set, q.kernel, q.corank, question.over, question.fixed});
   Family& f = family.emplace();
   f.copies = copies;
-  f.reduction = certify::reduce_with_parameters(system, parameters);
+  f.reduction = solve::reduce_with_parameters(system, parameters);
   for (const int p : parameters) {
     const auto kept = std::find(f.reduction.kept.begin(), f.reduction.kept.end(), p);
     CORANK_CHECK(kept != f.reduction.kept.end());

@@ -30,10 +30,10 @@
 
 #include "corank/bench/lu_unit.h"
 #include "corank/certify/newton.h"
-#include "corank/certify/reduction.h"
 #include "corank/core/rounding.h"
 #include "corank/result/cuik_param.h"
 #include "corank/solve/preconditioner.h"
+#include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
 #include "corank/study/question.h"
 #include "corank/symbolic/algebrizer.h"
@@ -126,7 +126,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 // Mean seconds of one certified test, see above; nothing where no box is proven.
 std::optional<double> seconds_per_proof(const System& system, const Cover& cover) {
-  const certify::Reduction reduction = certify::reduce(system);
+  const certify::Reduction reduction = solve::reduce(system);
   constexpr std::size_t kSamples = 500;
   constexpr int kRepeats = 5;
   struct Sample {

@@ -184,6 +184,35 @@ std::optional<ExactNumber> proportional(const Polynomial& f, const Polynomial& g
   return ratio.value_or(1);
 }
 
+Product product_of(const Monomial& m) {
+  Product product;
+  for (const Factor& x : m.factors) product.insert(product.end(), {x.variable, x.power, static_cast<int>(x.function)});
+  return product;
+}
+
+Products products_of(const Polynomial& f) {
+  Products products;
+  for (const Monomial& m : f.monomials) products.push_back(product_of(m));
+  std::sort(products.begin(), products.end());
+  products.erase(std::unique(products.begin(), products.end()), products.end());
+  return products;
+}
+
+std::vector<int> variables_of(const Polynomial& f) {
+  std::vector<int> result;
+  for (const Monomial& m : f.monomials)
+    for (const Factor& x : m.factors) result.push_back(x.variable);
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+bool is_affine(const Polynomial& f) {
+  return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
+    return m.factors.empty() || (m.factors.size() == 1 && m.factors[0].power == 1 && !m.is_trigonometric());
+  });
+}
+
 Interval evaluate(const Polynomial& f, const std::vector<Interval>& x) {
   CORANK_CHECK(UpwardRounding::active());
   Interval sum;

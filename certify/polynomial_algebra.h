@@ -40,6 +40,19 @@ Polynomial product(const Polynomial& f, const std::vector<Factor>& powers);
 /// Does the variable occur in f?
 bool mentions(const Polynomial& f, int variable);
 
+/// The monomial without its coefficient, as a key.
+using Product = std::vector<int>;
+Product product_of(const Monomial& m);
+/// The products that f has, in order; equations that repeat each other have the same.
+using Products = std::vector<Product>;
+Products products_of(const Polynomial& f);
+
+/// The variables that f has, in order.
+std::vector<int> variables_of(const Polynomial& f);
+
+/// Is f = Σ aᵢ·xᵢ + b?
+bool is_affine(const Polynomial& f);
+
 /// Encloses {f(x) : x ∈ X}: the natural interval extension over the enclosures. Requires UpwardRounding::active().
 Interval evaluate(const Polynomial& f, const std::vector<Interval>& x);
 

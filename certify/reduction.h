@@ -1,15 +1,10 @@
-// Exact simplification of a system before it is solved, and the way back.
+// Exact rewriting of a system before it is solved, and the way back. solve/reducer.h chooses the steps.
 //
 // Variables that an equation defines are eliminated, equations that then hold identically or repeat another are dropped:
 //   (a) a·x + b = 0 and a·x + b·y + c = 0 with rational a, b ≠ 0: x is replaced everywhere by its value;
 //       Likewise a variable whose domain is one number;
 //   (b) a·x + g = 0 with a rational a ≠ 0 and x in no other equation or inequality: x is g's image, whatever g is;
-//   (c) f = 0 becomes f + q·g = 0 with a rational q and another equation g = 0, where that has fewer terms: shorter
-//       equations are tighter over boxes. The rows of a kernel condition that speak of the same velocity are such. Before
-//       that, products that several equations share are eliminated in the same way (certify/elimination.h), with any
-//       rational q.
-// Numbers of more than 2,000 bits are left alone: exact arithmetic with them takes minutes, and intervals of doubles gain
-// nothing by it.
+//   (c) f = 0 becomes f + q·g = 0 with any rational q and another equation g = 0.
 // Theorem: let x_e = p_e(x') be the eliminated variables' values as polynomials in the variables x' that are kept. Then
 // x' ↦ (x', p(x')) is a bijection from the reduced system's solutions to the system's, and keeps boxes of values of kept
 // variables. Proof:
@@ -20,9 +15,11 @@
 // variables means exactly one of the system's.
 #pragma once
 
+#include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include "corank/core/ended.h"
 #include "corank/core/reduction_step.h"
 #include "corank/core/system.h"
 
@@ -51,21 +48,75 @@ struct Reduction {
   std::vector<Interval> lift(const std::vector<Interval>& sides) const;
 };
 
-/// Which equations may define a variable.
-enum class Eliminate {
-  none,
-  exact,  ///< all, in exact arithmetic: enclosures carry no tolerance
-  /// those with integer coefficients, which carry no tolerance; the others' enclosures are widened by the tolerance
-  integers
+/// A system to which steps are applied one by one. Every step is checked: the hypotheses of the theorem are on the lines
+/// that do so, and a step that is not legal is a broken invariant. Which steps to take is not decided here
+/// (solve/reducer.h). Every change requires UpwardRounding::active().
+class Rewriting {
+ public:
+  /// `tolerant`: enclosures carry the coefficient tolerance; else all is about the exact coefficients.
+  /// `parameters` are variables for each of whose values the question is asked: they stay, with their domains as they are.
+  /// What a variable that is eliminated says about a parameter becomes an inequality. So for *every* value of the parameters
+  /// there is the bijection of the theorem (read its proof for fixed parameters), and a range of the parameters may be put
+  /// in their places in both systems.
+  /// `poll` is called now and then; it may throw.
+  explicit Rewriting(
+      const System& system, bool tolerant, std::vector<int> parameters = {}, std::function<void()> poll = [] {});
+
+  /// As it is now. Variables that are eliminated are in it, but in no equation and no inequality.
+  const System& system() const { return system_; }
+  int origin(std::size_t row) const { return origins_[row]; }  ///< of an equation: its index in the system as given
+  /// The variables that are eliminated, by their indices in the system as given, with values in the others.
+  const std::vector<std::pair<int, Polynomial>>& definitions() const { return definitions_; }
+  bool consistent() const { return consistent_; }
+
+  /// May the variable be eliminated: is it in no sine or cosine, no parameter, and still there?
+  bool may_go(int variable) const {
+    return !stays_[static_cast<std::size_t>(variable)] && !gone_[static_cast<std::size_t>(variable)];
+  }
+  /// −g/a where that equation is a·x + g = 0 of (a) or (b): a rational a ≠ 0, x not in g, no tolerance.
+  std::optional<Polynomial> value_of(int variable, std::size_t row) const;
+  /// Its value where its domain is one number.
+  std::optional<Polynomial> fixed_value(int variable) const;
+  /// A tolerance is about the equations as given: what `partial` says of one does not hold of a sum.
+  bool may_add() const { return system_.coefficient_tolerance == 0; }
+
+  void apply(const Elimination& step);     ///< (a), (b)
+  void apply(const SumOfEquations& step);  ///< (c)
+  /// Drops what holds identically. False once the system is known to be inconsistent.
+  bool drop_identities();
+  /// Drops what repeats an equation before it; where it does so exactly, the step that makes it 0 = 0 is noted.
+  void drop_repeated();
+
+  Reduction result() const;
+
+ private:
+  // Is |f| within `partial`'s tolerance all over the domain, for an equation of that scale?
+  bool within_tolerance(const Polynomial& f, double scale) const;
+  // Is the equation 0 = 0 but for its tolerance, and that small?
+  bool negligible(std::size_t row) const;
+  std::size_t row_of(int equation) const;
+  void erase_row(std::size_t row);
+  void replace_everywhere(int variable, Polynomial value);
+  // Narrows y's domain to where a·y + c lies in x's; or adds inequalities.
+  void carry_domain(int x, const Polynomial& value);
+  void refresh(Polynomial& f) const;
+
+  System system_;
+  const bool tolerant_;
+  const std::function<void()> poll_;
+  const std::vector<int> parameters_;
+  std::vector<bool> gone_, stays_;
+  std::vector<std::pair<int, Polynomial>> definitions_;
+  std::vector<ReductionStep> steps_;
+  std::vector<int> origins_;
+  int given_ = 0;               // equations
+  std::vector<double> scales_;  // of each equation: the sum of its |coefficients| as given, rounded downward
+  bool subset_ = false;
+  bool consistent_ = true;
 };
 
-/// Throws std::invalid_argument where the system is not valid. Once `ended` is true the reduction is given up: the result is
-/// the system as it is, without any step, which is a reduction, too.
-Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended = {});
-
-/// Eliminate::exact where the system carries no tolerance, or where it is over-determined and that ends consistent and no
-/// longer so: then only `partial` needs the tolerance, every other proof is about the exact system. Else
-/// Eliminate::integers.
-Reduction reduce(const System& system, const Ended& ended = {});
+/// The system after these steps, none of which is an implied equation (certify/implied_equation.h), without what then holds
+/// identically or repeats another. Enclosures carry the tolerance unless equations outnumber variables, as in a checker.
+Reduction apply(const System& system, const std::vector<ReductionStep>& steps);
 
 }  // namespace corank::certify

@@ -59,7 +59,7 @@ struct System {
   std::vector<Polynomial> claimed;       ///< a model says that each = 0 wherever all equations are; nothing rests on that
   std::vector<Polynomial> implied;       ///< of a reduced system: that is so, and they serve to shrink boxes
   std::vector<Angle> angles;
-  /// Relative tolerance τ of the coefficients that are no integers, in [0, kCoefficientToleranceLimit); certify::reduce()
+  /// Relative tolerance τ of the coefficients that are no integers, in [0, kCoefficientToleranceLimit); solve::reduce()
   /// puts it into their enclosures. Every exclusion and every proof then holds for every choice of coefficients within τ,
   /// each on its own. Where there are more equations than variables, it is for decimals that were rounded and are
   /// inconsistent as exact numbers, and used only where that makes a difference. 0 (default): every coefficient is exact.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "corank/solve/implied_equations.h"
+#include "corank/solve/reducer.h"
 
 namespace corank::solve {
 
@@ -11,7 +12,7 @@ Prepared prepare(System system, const Options& options, Control& control) {
   system.validate();
   options.validate(system);
   const Ended ended = [&control] { return control.ended(); };
-  certify::Reduction reduction = certify::reduce(system, ended);
+  certify::Reduction reduction = reduce(system, ended);
   add_implied_equations(system.claimed, reduction, ended);
   return {std::move(system), std::move(reduction), options};
 }

@@ -6,6 +6,7 @@
 #include "corank/core/check.h"
 #include "corank/solve/implied_equations.h"
 #include "corank/solve/propagation.h"
+#include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
@@ -94,7 +95,7 @@ System system(const Question& question) { return system(question, equations(ques
 System system(const Question& question, const symbolic::TrigonometricSystem& equations) {
   System system = symbolic::algebrize(equations);
   if (!system.claimed.empty()) {
-    certify::Reduction reduction = certify::reduce(system);
+    certify::Reduction reduction = solve::reduce(system);
     for (const std::size_t k : solve::add_implied_equations(system.claimed, reduction))
       throw symbolic::ModelError(equations.claimed[k].where,
                                  "corank found no identity that derives this equation from the model's equations",

@@ -431,7 +431,7 @@ TEST(ProveZero, IsTheSolutionOfARegionThatItLiesIn) {
   test::SystemBuilder b = diagonal();
   const int z = b.variable("z", "-4", "4");
   b.equation({{"1", {{z, 1}}}, {"-2", {{0, 1}}}});
-  Reduction reduction = reduce(b.system(), Eliminate::exact);
+  Reduction reduction = certify::apply(b.system(), {Elimination{z, static_cast<int>(b.system().equations.size()) - 1}});
   const std::vector<ExactNumber> start(reduction.kept.size(), ExactNumber::dyadic(0.707));
   const auto zero = prove_zero(reduction.system, start, 30);
   ASSERT_TRUE(zero);

@@ -9,6 +9,8 @@
 namespace corank::certify {
 namespace {
 
+using test::SystemBuilder;
+
 constexpr double kWidening = 1e-3;
 
 class Tolerant : public testing::Test {
@@ -112,6 +114,26 @@ TEST_F(Tolerant, ValuesOfWavesAreTheirs) {
   const Polynomial f = exact({{"2", {{0, 1, Function::sine}}}, {"1", {{0, 1, Function::cosine}}}});
   EXPECT_TRUE(evaluate(f, {0.0}).contains(1.0));
   EXPECT_LT(evaluate(f, {0.0}).width(), 1e-12);
+}
+
+TEST(PolynomialAlgebra, SolvesOnlyForWhatIsLinearWithARationalFactor) {
+  const UpwardRounding rounding;
+  const auto f = SystemBuilder::polynomial({{"2", {{0, 1}}}, {"-4", {{1, 2}}}, {"3", {{1, 1}, {2, 1}}}, {"6", {}}});
+  EXPECT_TRUE(solved_for(f, 0).has_value());
+  const auto value = SystemBuilder::polynomial({{"2", {{1, 2}}}, {"-3/2", {{1, 1}, {2, 1}}}, {"-3", {}}});
+  EXPECT_TRUE(sum(*solved_for(f, 0), -1, value).monomials.empty());
+  EXPECT_FALSE(solved_for(f, 1).has_value());
+  EXPECT_FALSE(solved_for(f, 2).has_value());
+  EXPECT_FALSE(solved_for(f, 3).has_value());
+}
+
+TEST(PolynomialAlgebra, CallsMultiplesProportionalAndNothingElse) {
+  const auto f = SystemBuilder::polynomial({{"1", {{0, 2}}}, {"-2", {{1, 1}}}});
+  const auto g = SystemBuilder::polynomial({{"1", {{1, 1}}}, {"-1/2", {{0, 2}}}});
+  const auto h = SystemBuilder::polynomial({{"1", {{1, 1}}}, {"1/2", {{0, 2}}}});
+  EXPECT_TRUE(proportional(f, g));
+  EXPECT_FALSE(proportional(f, h));
+  EXPECT_FALSE(proportional(f, SystemBuilder::polynomial({{"1", {{0, 2}}}})));
 }
 
 }  // namespace

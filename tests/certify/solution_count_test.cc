@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "corank/certify/parametric_reduction.h"
 #include "corank/certify/preconditioning.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
@@ -102,28 +101,6 @@ TEST_F(SheetsOverAParameter, HoldOverAPartOfTheirValues) {
 }
 
 TEST_F(SheetsOverAParameter, AreNotProvenOverAFold) { EXPECT_FALSE(prove(system_, {-0.5, 0.5}, {-0.1, 0.1}).proven); }
-
-TEST(ReductionWithParameters, KeepsThemAndTheirDomains) {
-  // y = p and x = y + 1 in [0, 1.5]: without care p would be y, and its domain that of x less 1.
-  test::SystemBuilder builder;
-  const int x = builder.variable("x", "0", "1.5"), y = builder.variable("y", "-5", "5"),
-            p = builder.variable("p", "-2", "2");
-  builder.equation({{"1", {{y, 1}}}, {"-1", {{p, 1}}}});
-  builder.equation({{"1", {{x, 1}}}, {"-1", {{y, 1}}}, {"-1", {}}});
-  const Reduction usual = reduce(builder.system());
-  EXPECT_EQ(usual.kept.size(), 1U);
-  const Reduction with = reduce_with_parameters(builder.system(), {p});
-  ASSERT_EQ(with.kept, std::vector<int>{p});
-  EXPECT_TRUE(with.system.variables[0].lower == ExactNumber(-2) && with.system.variables[0].upper == ExactNumber(2));
-  // What the eliminated ones' ranges say of p: 0 ≤ p + 1 ≤ 1.5.
-  EXPECT_EQ(with.system.inequalities.size(), 2U);
-  const CompiledSystem compiled(with.system);
-  const UpwardRounding rounding;
-  const DomainTest domain(with.system);
-  EXPECT_EQ(domain.locate(compiled, std::vector<Interval>{Interval(-1.1)}), Location::outside);
-  EXPECT_EQ(domain.locate(compiled, std::vector<Interval>{Interval(0.4)}), Location::inside);
-  EXPECT_EQ(domain.locate(compiled, std::vector<Interval>{Interval(0.6)}), Location::outside);
-}
 
 }  // namespace
 }  // namespace corank::certify

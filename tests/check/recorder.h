@@ -8,17 +8,17 @@
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/newton.h"
 #include "corank/certify/projection.h"
-#include "corank/certify/reduction.h"
 #include "corank/core/cover.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/preconditioner.h"
+#include "corank/solve/reducer.h"
 
 namespace corank::check {
 
 class Recorder {
  public:
   Recorder(const System& system, const Cover& cover)
-      : reduction_(certify::reduce(system)), compiled_(reduction_.system), factory_(compiled_), cover_(cover) {}
+      : reduction_(solve::reduce(system)), compiled_(reduction_.system), factory_(compiled_), cover_(cover) {}
 
   Proof run() {
     const UpwardRounding rounding;

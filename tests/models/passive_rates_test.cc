@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include <algorithm>
-#include "corank/certify/reduction.h"
 #include "corank/check/checker.h"
+#include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
@@ -56,7 +56,7 @@ TEST_P(EliminatedPassiveRates, LeaveTheSetAsItIs) {
     return symbolic::algebrize(symbolic::singularity_system(model, kernel, symbolic::kernel_scales(model, kernel), 1));
   };
   const System first = system(kept), second = system(without);
-  EXPECT_LT(certify::reduce(second).kept.size(), certify::reduce(first).kept.size());
+  EXPECT_LT(solve::reduce(second).kept.size(), solve::reduce(first).kept.size());
   const Cover a = cover_of(first, GetParam().sigma), b = cover_of(second, GetParam().sigma);
   EXPECT_TRUE(a.complete());
   EXPECT_TRUE(b.complete());

@@ -11,6 +11,7 @@
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/check/checker.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
 #include "corank/tests/solve/cover_questions.h"
 #include "corank/tests/system_builder.h"
@@ -36,7 +37,7 @@ SystemBuilder frame() {
 
 std::vector<Polynomial> implied(const System& system) {
   const UpwardRounding rounding;
-  certify::Reduction r = certify::reduce(system, certify::Eliminate::none);
+  certify::Reduction r = reduce(system, Eliminate::none);
   add_implied_equations({}, r);
   return r.system.implied;
 }
@@ -224,7 +225,7 @@ TEST(ImpliedEquations, AreNamedAsTheStepsBeforeHaveLeftTheSystem) {
   system.equations.insert(system.equations.begin(), SystemBuilder::polynomial({{"1", {{0, 1}}}, {"-2", {{1, 1}}}}));
   system.equations.push_back(SystemBuilder::polynomial({{"1", {{7, 1}, {8, 1}}}, {"1/3", {{9, 1}}}, {"-1/5", {}}}));
   const UpwardRounding rounding;
-  certify::Reduction r = certify::reduce(system);
+  certify::Reduction r = reduce(system);
   ASSERT_EQ(r.kept.size(), 9u);
   add_implied_equations(
       {SystemBuilder::polynomial({{"1", {{0, 1}, {7, 1}}}, {"2", {{2, 1}, {8, 1}}}, {"2", {{3, 1}, {9, 1}}}})}, r);

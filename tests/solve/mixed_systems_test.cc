@@ -1,5 +1,5 @@
 // Random systems whose equations share products: sparse equations through a planted rational point, mixed by a dense matrix
-// whose entries are rational, irrational, or rounded to some digits. What certify/elimination.h makes of them loses no
+// whose entries are rational, irrational, or rounded to some digits. What solve/product_elimination.h makes of them loses no
 // planted point, claims nothing false, and is verified by the checker, with the script of the search.
 #include <gtest/gtest.h>
 

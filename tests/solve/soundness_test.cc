@@ -1,6 +1,6 @@
 // Claims about random small systems, held against solutions that double arithmetic finds: planted ones, and Newton's from
 // many starts.
-// The systems have what certify::reduce rewrites: ties, images, repeated equations, irrational coefficients, ranges that
+// The systems have what solve::reduce rewrites: ties, images, repeated equations, irrational coefficients, ranges that
 // cut the set.
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <sstream>
 
-#include "corank/certify/reduction.h"
+#include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
 
 namespace corank::solve {
@@ -358,7 +358,7 @@ void check(unsigned seed, double tolerance, Tally& tally) {
       << text(system);
   // Redundant equations that fit each other exactly are solved as they are written; only `partial` speaks of the tolerance
   // then.
-  const bool tolerant = certify::reduce(system).tolerant;
+  const bool tolerant = reduce(system).tolerant;
   for (int k = 0; k < (tolerant ? 4 : 1); ++k) {
     const Doubles f = choice(system, tolerant ? tolerance : 0, generator.random);
     const std::string fault = refuted(system, cover, f, generator.random);

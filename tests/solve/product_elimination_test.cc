@@ -1,15 +1,17 @@
-#include "corank/certify/elimination.h"
+#include "corank/solve/product_elimination.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "corank/certify/reduction.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/reducer.h"
 #include "corank/tests/system_builder.h"
 
-namespace corank::certify {
+namespace corank::solve {
 namespace {
+
+using namespace certify;
 using test::SystemBuilder;
 
 // How many terms of the equations are no residues, by degree 2 and 1.
@@ -25,7 +27,7 @@ std::pair<int, int> terms(const Reduction& r) {
   return {products, linear};
 }
 
-TEST(Elimination, LeavesSharedProductsInAsManyEquationsAsTheirCombinationsAreMany) {
+TEST(ProductElimination, LeavesSharedProductsInAsManyEquationsAsTheirCombinationsAreMany) {
   // Three equations in xy and yz: of rank 2 in them, so one is linear.
   SystemBuilder b;
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1"), z = b.variable("z", "-1", "1");
@@ -45,12 +47,12 @@ System spheres(const std::string& a, const std::string& c) {
   return b.system();
 }
 
-TEST(Elimination, TakesTheDifferenceOfTwoSpheres) {
+TEST(ProductElimination, TakesTheDifferenceOfTwoSpheres) {
   const UpwardRounding rounding;
   EXPECT_EQ(terms(reduce(spheres("1/2", "3"))), (std::pair{3, 4}));
 }
 
-TEST(Elimination, LeavesNoResidueWhereQuotientsAreRational) {
+TEST(ProductElimination, LeavesNoResidueWhereQuotientsAreRational) {
   const UpwardRounding rounding;
   std::size_t all = 0;
   const Reduction r = reduce(spheres("1/2", "3"));
@@ -59,7 +61,7 @@ TEST(Elimination, LeavesNoResidueWhereQuotientsAreRational) {
   EXPECT_EQ(all, static_cast<std::size_t>(products + linear) + 2) << "and two constants";
 }
 
-TEST(Elimination, TakesIrrationalAndRoundedCoefficientsForWhatTheyAre) {
+TEST(ProductElimination, TakesIrrationalAndRoundedCoefficientsForWhatTheyAre) {
   const UpwardRounding rounding;
   // The same rows, times √2 in exact numbers or rounded to 12 digits each.
   const auto scaled = [](const std::vector<ExactNumber>& c) {
@@ -75,7 +77,7 @@ TEST(Elimination, TakesIrrationalAndRoundedCoefficientsForWhatTheyAre) {
             (std::pair{3, 4}));
 }
 
-TEST(Elimination, LeavesEquationsAloneWhereItGainsNothing) {
+TEST(ProductElimination, LeavesEquationsAloneWhereItGainsNothing) {
   SystemBuilder b;
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
@@ -83,7 +85,7 @@ TEST(Elimination, LeavesEquationsAloneWhereItGainsNothing) {
   EXPECT_TRUE(eliminate_products(b.system().equations, {1, 1}, [] {}).empty());
 }
 
-TEST(Elimination, TakesNoResidueForAPivot) {
+TEST(ProductElimination, TakesNoResidueForAPivot) {
   // xy with 1e-12 is what rounding has left: eliminating it would multiply the other equation by 1e12.
   SystemBuilder b;
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1");
@@ -98,7 +100,7 @@ TEST(Elimination, TakesNoResidueForAPivot) {
     }
 }
 
-TEST(Elimination, ComparesTermsByWhatTheyContribute) {
+TEST(ProductElimination, ComparesTermsByWhatTheyContribute) {
   // In millimetres x² has a small coefficient, and is no residue.
   SystemBuilder b;
   const int x = b.variable("x", "-1e6", "1e6"), y = b.variable("y", "-1", "1");
@@ -108,4 +110,4 @@ TEST(Elimination, ComparesTermsByWhatTheyContribute) {
 }
 
 }  // namespace
-}  // namespace corank::certify
+}  // namespace corank::solve

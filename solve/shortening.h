@@ -7,17 +7,10 @@
 
 #include "corank/core/system.h"
 
-namespace corank::certify {
+namespace corank::solve {
 
 /// Exact arithmetic with such numbers takes minutes, and intervals of doubles gain nothing by it: more than 2,000 bits.
 bool has_long_number(const Polynomial& f);
-
-/// The monomial without its coefficient, as a key.
-using Product = std::vector<int>;
-Product product_of(const Monomial& m);
-/// The products that f has, in order; equations that repeat each other have the same.
-using Products = std::vector<Product>;
-Products products_of(const Polynomial& f);
 
 /// rows[row] + factor · rows[other] has so many terms fewer than rows[row]; saved = 0: there is no such pair.
 struct BestShortening {
@@ -28,4 +21,4 @@ struct BestShortening {
 /// Of all pairs the first that saves most. Rows with long numbers stay out of it. `check` is called for each pair.
 BestShortening best_shortening(const std::vector<Polynomial>& rows, const std::function<void()>& check);
 
-}  // namespace corank::certify
+}  // namespace corank::solve

@@ -1,4 +1,4 @@
-#include "corank/certify/shortening.h"
+#include "corank/solve/shortening.h"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/exact_number_node.h"
 
-namespace corank::certify {
+namespace corank::solve {
 namespace {
 
 // The rational number q that leaves f + q·g with the fewest terms, and how many fewer than f has. Irrational coefficients
@@ -47,8 +47,9 @@ Shortening shortening(const Polynomial& f, const Polynomial& g) {
   Shortening best;
   for (const Candidate& c : candidates) {
     const std::ptrdiff_t saved = c.cancelled + static_cast<std::ptrdiff_t>(irrational.size()) - added;
-    if (saved > best.saved && std::all_of(irrational.begin(), irrational.end(),
-                                          [&](const auto& pair) { return cancels(*pair.first, c.factor, *pair.second); }))
+    if (saved > best.saved && std::all_of(irrational.begin(), irrational.end(), [&](const auto& pair) {
+          return certify::cancels(*pair.first, c.factor, *pair.second);
+        }))
       best = {c.factor, saved};
   }
   return best;
@@ -64,27 +65,13 @@ bool has_long_number(const Polynomial& f) {
   });
 }
 
-Product product_of(const Monomial& m) {
-  Product product;
-  for (const Factor& x : m.factors) product.insert(product.end(), {x.variable, x.power, static_cast<int>(x.function)});
-  return product;
-}
-
-Products products_of(const Polynomial& f) {
-  Products products;
-  for (const Monomial& m : f.monomials) products.push_back(product_of(m));
-  std::sort(products.begin(), products.end());
-  products.erase(std::unique(products.begin(), products.end()), products.end());
-  return products;
-}
-
 BestShortening best_shortening(const std::vector<Polynomial>& rows, const std::function<void()>& check) {
   // Only a row that shares a product with another can shorten it (the constant alone is too little, but for a row that is
   // nothing else).
   std::map<std::vector<int>, std::vector<std::size_t>> with_product;
-  std::vector<Products> products;
+  std::vector<certify::Products> products;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    products.push_back(has_long_number(rows[i]) ? Products{} : products_of(rows[i]));
+    products.push_back(has_long_number(rows[i]) ? certify::Products{} : certify::products_of(rows[i]));
     if (products[i].size() > 1) std::erase(products[i], std::vector<int>{});
     for (const auto& product : products[i]) with_product[product].push_back(i);
   }
@@ -103,4 +90,4 @@ BestShortening best_shortening(const std::vector<Polynomial>& rows, const std::f
   return best;
 }
 
-}  // namespace corank::certify
+}  // namespace corank::solve

@@ -11,7 +11,7 @@
 
 #include "corank/core/system.h"
 
-namespace corank::certify {
+namespace corank::solve {
 
 /// rows[row] += factor · rows[other].
 struct RowSum {
@@ -32,4 +32,4 @@ inline constexpr double kResidue = 1e-9;
 /// The row without its residues.
 Polynomial without_residues(const Polynomial& row, const std::vector<double>& sizes);
 
-}  // namespace corank::certify
+}  // namespace corank::solve

@@ -1,0 +1,255 @@
+#include "corank/solve/reducer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "corank/certify/polynomial_algebra.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/product_elimination.h"
+#include "corank/solve/shortening.h"
+
+namespace corank::solve {
+namespace {
+
+using certify::Reduction;
+
+constexpr std::size_t kMostEliminations = 4;
+
+bool is_short(const ExactNumber& q) {
+  constexpr std::size_t kMostDigits = 100;
+  return q.text().size() <= kMostDigits;
+}
+
+constexpr double kRounding = 1e-12;  // relative, of quotients in doubles
+
+// A rational number with a small denominator that close to x, relatively.
+std::optional<ExactNumber> simple_rational(double x, double tolerance) {
+  constexpr double kLargest = 1000;
+  double p0 = 1, q0 = 0, p1 = std::floor(x), q1 = 1, rest = x;  // convergents of the continued fraction
+  while (q1 <= kLargest && std::fabs(p1) <= kLargest * kLargest) {
+    if (std::fabs(x - p1 / q1) <= tolerance * std::fabs(x)) return ExactNumber::dyadic(p1) / ExactNumber::dyadic(q1);
+    const double fraction = rest - std::floor(rest);
+    if (fraction == 0) break;
+    rest = 1 / fraction;
+    const double digit = std::floor(rest);
+    p0 = std::exchange(p1, digit * p1 + p0);
+    q0 = std::exchange(q1, digit * q1 + q0);
+  }
+  return std::nullopt;
+}
+
+// Thrown and caught here: the reduction is given up.
+struct GivenUp {};
+
+class Reducer {
+ public:
+  Reducer(const System& system, Eliminate eliminate, const Ended& ended, std::vector<int> parameters)
+      : eliminate_(eliminate),
+        poll_([&ended] {
+          if (is_over(ended)) throw GivenUp();
+        }),
+        rewriting_(system, eliminate != Eliminate::exact, std::move(parameters), poll_) {}
+  Reduction run();
+
+ private:
+  // Replaces variables whose domain is one number by it.
+  void eliminate_fixed();
+  // One step of (a), of (b). False: nothing to do.
+  bool eliminate_tied();
+  bool eliminate_image();
+  // Steps of (c) that leave few products. False: nothing to do.
+  bool eliminate_shared();
+  // One step of (c). False: nothing to do.
+  bool shorten();
+  std::vector<double> sizes() const;
+  ExactNumber exact_factor(const RowSum& sum) const;
+  void add(std::size_t row, std::size_t other, const ExactNumber& factor) {
+    rewriting_.apply(SumOfEquations{rewriting_.origin(row), rewriting_.origin(other), factor});
+  }
+  void eliminate(std::size_t row, int variable) { rewriting_.apply(Elimination{variable, rewriting_.origin(row)}); }
+  bool may_add() const { return eliminate_ != Eliminate::none && rewriting_.may_add(); }
+  // Does the value put in for the variable leave polynomials of moderate length, degree and coefficients?
+  bool affordable(int variable, const Polynomial& value) const;
+
+  const Eliminate eliminate_;
+  const std::function<void()> poll_;
+  certify::Rewriting rewriting_;
+};
+
+bool Reducer::affordable(int variable, const Polynomial& value) const {
+  constexpr double kMostTerms = 1000, kLargestCoefficient = 1e100;
+  constexpr int kLargestPower = 100;
+  if (has_long_number(value)) return false;
+  int degree = 0;
+  double size = 1;
+  for (const Monomial& m : value.monomials) degree = std::max(degree, m.degree()), size += m.enclosure.mag();
+  const auto fits = [&](const Polynomial& f) {
+    return std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
+      for (const Factor& x : m.factors) {
+        if (x.variable != variable || x.power == 1) continue;
+        // value^p has at most C(p + t − 1, p) terms, t those of the value.
+        double terms = 1;
+        for (int k = 1; k <= x.power && terms <= kMostTerms; ++k)
+          terms *= (static_cast<double>(value.monomials.size()) + k - 1) / k;
+        return terms <= kMostTerms && degree <= kLargestPower / x.power && std::pow(size, x.power) <= kLargestCoefficient;
+      }
+      return true;
+    });
+  };
+  return std::all_of(rewriting_.system().equations.begin(), rewriting_.system().equations.end(), fits) &&
+         std::all_of(rewriting_.system().inequalities.begin(), rewriting_.system().inequalities.end(), fits) &&
+         std::all_of(rewriting_.definitions().begin(), rewriting_.definitions().end(),
+                     [&](const auto& d) { return fits(d.second); });
+}
+
+void Reducer::eliminate_fixed() {
+  if (eliminate_ == Eliminate::none) return;
+  for (int j = 0; j < rewriting_.system().size(); ++j)
+    if (const auto value = rewriting_.fixed_value(j); value && affordable(j, *value)) rewriting_.apply(Elimination{j, {}});
+}
+
+bool Reducer::eliminate_tied() {
+  poll_();
+  if (eliminate_ == Eliminate::none) return false;
+  for (std::size_t i = 0; i < rewriting_.system().equations.size(); ++i) {
+    const Polynomial& f = rewriting_.system().equations[i];
+    const std::vector<int> variables = certify::variables_of(f);
+    if (variables.empty() || variables.size() > 2 || !certify::is_affine(f)) continue;
+    // The later variable goes: kernel unknowns and auxiliaries stand behind the configuration.
+    for (auto v = variables.rbegin(); v != variables.rend(); ++v)
+      if (const auto value = rewriting_.value_of(*v, i); value && affordable(*v, *value)) {
+        eliminate(i, *v);
+        return true;
+      }
+  }
+  return false;
+}
+
+bool Reducer::eliminate_image() {
+  poll_();
+  if (eliminate_ == Eliminate::none) return false;
+  std::vector<int> uses(rewriting_.system().variables.size(), 0);
+  for (const auto* rows : {&rewriting_.system().equations, &rewriting_.system().inequalities})
+    for (const Polynomial& f : *rows)
+      for (int v : certify::variables_of(f)) ++uses[static_cast<std::size_t>(v)];
+  for (std::size_t i = 0; i < rewriting_.system().equations.size(); ++i) {
+    const Polynomial& f = rewriting_.system().equations[i];
+    for (int v : certify::variables_of(f)) {
+      if (uses[static_cast<std::size_t>(v)] != 1 || certify::variables_of(f).size() < 2) continue;
+      const auto value = rewriting_.value_of(v, i);
+      if (!value || !affordable(v, *value)) continue;
+      // A sine or cosine is no factor: c = cos t stays where another image is r·c.
+      const bool has_function = std::any_of(value->monomials.begin(), value->monomials.end(),
+                                            [](const Monomial& m) { return m.is_trigonometric(); });
+      if (has_function && std::any_of(rewriting_.definitions().begin(), rewriting_.definitions().end(),
+                                      [&](const auto& definition) { return certify::mentions(definition.second, v); }))
+        continue;
+      eliminate(i, v);
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<double> Reducer::sizes() const {
+  std::vector<double> result;
+  for (const Variable& v : rewriting_.system().variables) result.push_back(v.domain.mag());
+  return result;
+}
+
+// The quotient of two coefficients itself, of which the factor is a rounded value, where that is rational and short.
+ExactNumber Reducer::exact_factor(const RowSum& sum) const {
+  const Polynomial &f = rewriting_.system().equations[sum.row], &g = rewriting_.system().equations[sum.other];
+  const auto is_it = [&](const ExactNumber& q) {
+    return (q - sum.factor).enclose().mag() <= kRounding * sum.factor.enclose().mag() && is_short(q);
+  };
+  const std::optional<ExactNumber> simple = simple_rational(sum.factor.enclose().mid(), kRounding);
+  for (const Monomial& b : g.monomials)
+    for (const Monomial& a : f.monomials) {
+      if (a.factors != b.factors || b.coefficient.is_zero()) continue;
+      if (a.coefficient.is_rational() && b.coefficient.is_rational()) {
+        if (ExactNumber q = -(a.coefficient / b.coefficient); is_it(q)) return q;
+      } else if (simple && certify::cancels(a.coefficient, *simple, b.coefficient)) {
+        return *simple;
+      }
+    }
+  return sum.factor;
+}
+
+bool Reducer::eliminate_shared() {
+  if (!may_add()) return false;
+  std::vector<Polynomial> rows = rewriting_.system().equations;
+  for (Polynomial& f : rows)
+    if (has_long_number(f)) f.monomials.clear();
+  const std::vector<RowSum> sums = eliminate_products(rows, sizes(), poll_);
+  for (const RowSum& sum : sums) {
+    poll_();
+    add(sum.row, sum.other, exact_factor(sum));
+  }
+  return !sums.empty();
+}
+
+bool Reducer::shorten() {
+  if (!may_add()) return false;
+  const std::vector<double> of_variables = sizes();
+  std::vector<Polynomial> rows;
+  for (const Polynomial& f : rewriting_.system().equations)
+    rows.push_back(has_long_number(f) ? f : without_residues(f, of_variables));
+  const BestShortening best = best_shortening(rows, poll_);
+  if (best.saved == 0) return false;
+  add(best.row, best.other, best.factor);
+  return true;
+}
+
+Reduction Reducer::run() {
+  const UpwardRounding rounding;
+  eliminate_fixed();
+  // Images first: a shorter equation may have its variable in two.
+  std::size_t eliminated = 0, variables_left = rewriting_.system().variables.size() + 1;
+  const auto go_on = [&] {  // products again where there are fewer variables
+    const std::size_t left = rewriting_.system().variables.size() - rewriting_.definitions().size();
+    if (eliminated < kMostEliminations && left < std::exchange(variables_left, left)) {
+      ++eliminated;
+      if (eliminate_shared()) return true;
+    }
+    return shorten();
+  };
+  do {
+    while (rewriting_.drop_identities() && eliminate_tied()) {
+    }
+    rewriting_.drop_repeated();
+    while (rewriting_.consistent() && eliminate_image()) {
+    }
+  } while (rewriting_.consistent() && go_on());
+  return rewriting_.result();
+}
+
+Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended, const std::vector<int>& parameters) {
+  try {
+    return Reducer(system, eliminate, ended, parameters).run();
+  } catch (const GivenUp&) {
+    return certify::Rewriting(system, true).result();
+  }
+}
+
+}  // namespace
+
+Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended) {
+  return reduce(system, eliminate, ended, {});
+}
+
+Reduction reduce_with_parameters(const System& system, const std::vector<int>& parameters) {
+  return reduce(system, Eliminate::exact, {}, parameters);
+}
+
+Reduction reduce(const System& system, const Ended& ended) {
+  if (system.coefficient_tolerance > 0 && system.equations.size() <= system.variables.size())
+    return reduce(system, Eliminate::integers, ended);
+  Reduction exact = reduce(system, Eliminate::exact, ended);
+  if (system.coefficient_tolerance == 0) return exact;
+  if (exact.consistent && exact.system.equations.size() <= exact.system.variables.size()) return exact;
+  return reduce(system, Eliminate::integers, ended);
+}
+
+}  // namespace corank::solve
