@@ -16,8 +16,8 @@
 namespace corank::analyze {
 namespace {
 
-constexpr double kRoom = 1e-6;   // of the radius: so much of it the claims give away, for their own rounding
-constexpr double kSigma = 1e-3;  // a witness is far narrower
+constexpr double kGivenAway = 1e-6;  // of the radius: so much of it the claims give away, for their own rounding
+constexpr double kSigma = 1e-3;      // a witness is far narrower
 
 // The number as a decimal, which a model's text shows.
 symbolic::Expression decimal(double x) { return symbolic::parse_expression(fmt::format("{:.17g}", x), "radius"); }
@@ -31,7 +31,7 @@ study::Question within(const Clearance& clearance, double radius) {
 }  // namespace
 
 result::Result claim_free(const Clearance& clearance, const solve::Options& search, solve::Control& control) {
-  const study::Question question = within(clearance, clearance.nearest.lower * (1 - kRoom));
+  const study::Question question = within(clearance, clearance.nearest.lower * (1 - kGivenAway));
   study::Options options{search, 0};
   options.search.proof = true;
   return study::answer(question, study::system(question), options, control);
@@ -39,7 +39,7 @@ result::Result claim_free(const Clearance& clearance, const solve::Options& sear
 
 std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::Control& control) {
   if (!clearance.nearest.upper) return std::nullopt;
-  const study::Question question = within(clearance, *clearance.nearest.upper * (1 + kRoom));
+  const study::Question question = within(clearance, *clearance.nearest.upper * (1 + kGivenAway));
   // Narrower ranges would scale the kernel vector otherwise; the point that is known is in the scales of the search.
   const System searched = study::system(clearance.ball.question);
   result::Result result;

@@ -15,7 +15,7 @@ namespace {
 
 bool is_proven(Verdict v) { return v == Verdict::regular || v == Verdict::isolated || v == Verdict::exact; }
 
-bool contains(const Box& outer, const Box& inner) {
+bool encloses(const Box& outer, const Box& inner) {
   for (std::size_t j = 0; j < outer.size(); ++j)
     if (!outer[j].contains(inner[j])) return false;
   return true;
@@ -141,7 +141,7 @@ class Linker {
         const std::optional<certify::Sheet> point = test_.sheet_in(at, at);
         if (!point) continue;
         tree.for_each_overlapping(point->image, 0.0, [&](std::size_t s) {
-          if (contains(*regions_[s], point->image) && sets_.find_set(r) != sets_.find_set(s)) join(r, s, *point);
+          if (encloses(*regions_[s], point->image) && sets_.find_set(r) != sets_.find_set(s)) join(r, s, *point);
         });
       }
   }

@@ -7,7 +7,7 @@
 namespace corank::certify {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kBeyond = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -22,8 +22,8 @@ DomainTest::DomainTest(const System& system) {
     domain_.push_back(v.domain);
     // The exact sides lie in these enclosures; what lies between their inner ends is certainly inside.
     const double least = v.lower.enclose().hi(), greatest = v.upper.enclose().lo();
-    lower_.push_back(implied[j].lower ? -kInfinity : least);
-    upper_.push_back(implied[j].upper ? kInfinity : greatest);
+    lower_.push_back(implied[j].lower ? -kBeyond : least);
+    upper_.push_back(implied[j].upper ? kBeyond : greatest);
   }
 }
 

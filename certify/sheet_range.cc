@@ -10,8 +10,8 @@
 namespace corank::certify {
 namespace {
 
-constexpr int kTightenings = 2;      // of a face
-constexpr double kRoom = 1.0 / 128;  // of a range, left at its ends at least
+constexpr int kTightenings = 2;            // of a face
+constexpr double kRoomAtEnds = 1.0 / 128;  // of a range, left at its ends at least
 
 class FaceRange {
  public:
@@ -121,7 +121,7 @@ class FaceRange {
     if (up == down) return;  // monotone in no variable
     const double lower = over(down)[side].lo(), upper = over(up)[side].hi();
     CORANK_CHECK(lower <= upper);  // the sheet has solutions
-    const double room = std::max(kRoom * (upper - lower), 0.49 * (width - (upper - lower)));
+    const double room = std::max(kRoomAtEnds * (upper - lower), 0.49 * (width - (upper - lower)));
     CORANK_CHECK(piece_[side].intersect(Interval(lower, upper) + Interval(-room, room)));
   }
 

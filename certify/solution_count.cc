@@ -9,7 +9,7 @@
 namespace corank::certify {
 namespace {
 
-constexpr int kSteps = 4;  // of Newton's, until an image over one value is small
+constexpr int kNewtonSteps = 4;  // until an image over one value is small
 
 bool contains(std::span<const Interval> outer, std::span<const Interval> inner) {
   for (std::size_t j = 0; j < outer.size(); ++j)
@@ -43,7 +43,7 @@ std::vector<Interval> image_at_middle(const CompiledSystem& system, const Sheet&
   std::vector<Interval> x = sheet.image;
   for (std::size_t j = 0; j < x.size(); ++j)
     if (!is_dependent(sheet, j)) x[j] = Interval(x[j].mid());
-  for (int step = 0; step < kSteps; ++step) tighten(system, sheet, x, w);
+  for (int step = 0; step < kNewtonSteps; ++step) tighten(system, sheet, x, w);
   return x;
 }
 

@@ -63,7 +63,7 @@ bool SignCellTest::add_segment(const SheetCell& cell, const std::vector<int>& si
 int SignCellTest::part_by_outflow(const SheetCell& cell, const std::vector<int>& signs,
                                   const std::vector<std::vector<double>>& directions) {
   CORANK_CHECK(UpwardRounding::active());
-  constexpr int kHalvings = 10;
+  constexpr int kHalvingsOfArc = 10;
   const std::vector<int>& frees = cell.free;
   if (frees.size() != 2 || cell.mixed.empty() || cell.mixed.size() > 2) return 0;
   Slopes s;
@@ -84,7 +84,7 @@ int SignCellTest::part_by_outflow(const SheetCell& cell, const std::vector<int>&
       side.sides[fixed] = Interval(d[f] > 0 ? cell.sides[fixed].hi() : cell.sides[fixed].lo());
       // The first ends at the arc's corner, the second begins there.
       const bool upwards = (d[1 - f] >= 0) == (f == 0);
-      known = add_segment(side, signs, along, upwards, kHalvings, arc);
+      known = add_segment(side, signs, along, upwards, kHalvingsOfArc, arc);
     }
     if (known && arc.intervals <= 1) return arc.intervals == 1 ? 1 : -1;
     if (--tries == 0) return 0;

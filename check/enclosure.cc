@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -10,8 +9,6 @@
 
 namespace corank::check {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Rational {
  public:

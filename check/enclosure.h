@@ -6,6 +6,7 @@
 
 #include <mpfi.h>
 
+#include <limits>
 #include <optional>
 
 #include "corank/core/exact_number.h"
@@ -13,6 +14,8 @@
 #include "corank/core/nearest_rounding.h"
 
 namespace corank::check {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Enclosure {
  public:

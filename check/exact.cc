@@ -81,7 +81,7 @@ std::optional<int> sign_at(const Enclosures& f, const ExactNumber& x) {
 // (p' < 0), p would have to change its sign once more.
 // False: not shown in a few parts.
 bool is_crossed_once(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper, const StopFlag& stop) {
-  constexpr int kMostParts = 200;
+  constexpr int kMostPartsOfRoot = 200;
   const Enclosures f = enclosures(p), slope = enclosures(derivative(p));
   std::vector<Enclosure> open{Enclosure::hull(Enclosure(lower), Enclosure(upper))};
   int sign = 0;
@@ -98,7 +98,7 @@ bool is_crossed_once(const RationalPolynomial& p, const ExactNumber& lower, cons
       continue;
     }
     const double middle = x.mid();
-    if (parts > kMostParts || !(x.lo() < middle && middle < x.hi())) return false;
+    if (parts > kMostPartsOfRoot || !(x.lo() < middle && middle < x.hi())) return false;
     for (const Enclosure& half : {Enclosure(x.lo(), middle), Enclosure(middle, x.hi())}) {
       Enclosure part = x;
       if (part.intersect(half)) open.push_back(part);

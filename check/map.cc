@@ -21,7 +21,7 @@ namespace {
 constexpr int kMostSteps = 12;  // of Newton's, until two solutions over one value are told apart
 constexpr std::size_t kMostOverlaps = 100;
 // Parts of a search: of a cell by itself; of what a group of cells, each counted so often, leaves to one of them.
-constexpr std::size_t kFewParts = 20, kPartsOfGroup = 20, kMostPartsOfGroup = 40'000, kMostParts = 3000;
+constexpr std::size_t kFewParts = 20, kPartsOfGroup = 20, kMostPartsOfGroup = 40'000, kMostPartsAlone = 3000;
 
 class MapCheck {
  public:
@@ -175,7 +175,7 @@ class MapCheck {
     if (cells.empty() || stopped_) return;
     const NearestRounding nearest;
     if (cells.size() == 1) {
-      report_.cells[cells[0]].complete = has_no_more(claims_.cells[cells[0]], open, kMostParts);
+      report_.cells[cells[0]].complete = has_no_more(claims_.cells[cells[0]], open, kMostPartsAlone);
       return;
     }
     Box hull = claims_.cells[cells[0]].sides;

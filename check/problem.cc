@@ -3,12 +3,9 @@
 #include <gmpxx.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace corank::check {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Terms variable_as_terms(int j) { return Terms(Polynomial{{Monomial(1, {{j, 1}})}, ""}, 0); }
 

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace corank::check {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // (sin x − sin c)/(x − c) = cos((x + c)/2)·sin(h)/h with h = (x − c)/2, and 1 − h²/6 ≤ sin(h)/h ≤ 1; besides, a derivative
 // at a point between x and c.

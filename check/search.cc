@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <iterator>
-#include <limits>
 
 #include "corank/check/krawczyk.h"
 
@@ -14,7 +13,6 @@ namespace {
 constexpr int kPasses = 6;
 constexpr double kGain = 0.2;
 constexpr double kRankTolerance = 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double total_width(const Sides& x) {
   double sum = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "corank/check/kernel.h"
@@ -138,7 +137,6 @@ std::string TubeCheck::piece(std::size_t k) const {
 }
 
 std::string TubeCheck::about(const Box& piece, double radius) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box;
   Sides x;
   for (std::size_t j = 0; j < n_; ++j) {

@@ -10,7 +10,8 @@ add_library(corank_flags INTERFACE)
 target_compile_options(corank_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                               -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(corank_flags INTERFACE -Wno-restrict)  # false positives on std::string, gcc bug 105651
+  # False positives: on std::string (gcc bug 105651), and on vectors where less is optimized.
+  target_compile_options(corank_flags INTERFACE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 if(CORANK_WARNINGS_AS_ERRORS)
   target_compile_options(corank_flags INTERFACE -Werror)
@@ -39,15 +40,34 @@ function(corank_uses target scope folder)
   endforeach()
 endfunction()
 
-# corank_compile_together(<target> <source>…): where CMAKE_UNITY_BUILD is on, sources whose names begin with the same letter are compiled as
-# one, since most of a source's time goes into what it includes. What is in an anonymous namespace must then differ between them.
+# corank_compile_together(<target> [BY_LETTER] <source>…): where CMAKE_UNITY_BUILD is on, sources whose names begin with letters of the same range,
+# or with the same letter, are compiled as one, since most of a source's time goes into what it includes and instantiates. What is in an anonymous
+# namespace must then differ between them.
 function(corank_compile_together target)
+  cmake_parse_arguments(ARG "BY_LETTER" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
-  foreach(source IN LISTS ARGN)
+  foreach(source IN LISTS ARG_UNPARSED_ARGUMENTS)
     cmake_path(GET source FILENAME name)
-    string(SUBSTRING ${name} 0 1 letter)
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${letter})
+    string(SUBSTRING ${name} 0 1 group)
+    if(NOT ARG_BY_LETTER)
+      foreach(range a-d e-o p-r s-z)
+        if(group MATCHES "[${range}]")
+          string(REPLACE - _ group ${range})
+          break()
+        endif()
+      endforeach()
+    endif()
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endforeach()
+endfunction()
+
+# corank_link_fast_first(<target> <folder>…): of several definitions of a template the linker keeps the first. Links the libraries of these
+# folders first, and whole, so that these definitions are their own, not those of libraries that are compiled with less optimization.
+function(corank_link_fast_first target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_FILE:corank_\\1>" OUTPUT_VARIABLE archives)
+    target_link_options(${target} BEFORE PRIVATE LINKER:--whole-archive ${archives} LINKER:--no-whole-archive)
+  endif()
 endfunction()
 
 # corank_choose(<list> <variable> <source> <other source>): leaves in the list the first source where the variable is true, the second where it is

@@ -13,7 +13,7 @@ namespace {
 constexpr double kPointsPerMm = 72 / 25.4, kCell = 72.0 / 1200;
 constexpr int kMostCells = 8192;
 constexpr double kTitleSize = 9, kNameSize = 8.5, kTickSize = 7.5, kLegendSize = 7.5;
-constexpr double kEdge = 3, kGap = 3, kTickLength = 2.5, kLine = 0.5;
+constexpr double kEdge = 3, kGap = 3, kTickLength = 2.5, kLineWidth = 0.5;
 
 // What an axis shows.
 struct View {
@@ -103,15 +103,15 @@ void add_axes(const Picture& picture, const View& x, const View& y, const std::v
                                        {right, top, right, bottom},
                                        {right, bottom, left, bottom},
                                        {left, bottom, left, top}})
-    out.lines.push_back({x0, y0, x1, y1, kLine});
+    out.lines.push_back({x0, y0, x1, y1, kLineWidth});
   for (const Tick& t : x_ticks) {
     const double at = left + (t.at - x.lo) / x.extent() * out.frame_width;
-    out.lines.push_back({at, bottom, at, bottom + kTickLength, kLine});
+    out.lines.push_back({at, bottom, at, bottom + kTickLength, kLineWidth});
     out.texts.push_back({at, bottom + kTickLength + kTickSize, kTickSize, Layout::Anchor::middle, false, {{t.text}}});
   }
   for (const Tick& t : y_ticks) {
     const double at = bottom - (t.at - y.lo) / y.extent() * out.frame_height;
-    out.lines.push_back({left - kTickLength, at, left, at, kLine});
+    out.lines.push_back({left - kTickLength, at, left, at, kLineWidth});
     out.texts.push_back({left - kTickLength - 2, at + 0.36 * kTickSize, kTickSize, Layout::Anchor::end, false, {{t.text}}});
   }
   out.texts.push_back({(left + right) / 2, bottom + kTickLength + kTickSize + kGap + kNameSize, kNameSize,
@@ -134,7 +134,7 @@ void add_hatches(const Picture& picture, const View& x, const View& y, Layout& o
     const auto turn = std::lround(std::atan2(dy, dx) / (2 * std::numbers::pi) * kDirections) % kDirections;
     if (!taken.insert({std::lround(x0 / kApart), std::lround(y0 / kApart), turn}).second) continue;
     const double left = out.frame_x + x0, top = out.frame_y + y0;
-    out.lines.push_back({left, top, left + kLength * dx / size, top + kLength * dy / size, kLine});
+    out.lines.push_back({left, top, left + kLength * dx / size, top + kLength * dy / size, kLineWidth});
   }
 }
 

@@ -12,13 +12,13 @@
 namespace corank::report {
 namespace {
 
-constexpr double kPanel = 150, kGap = 16, kLeft = 46, kTop = 40, kText = 10;
-constexpr int kColumns = 5;
+constexpr double kPanel = 150, kGap = 16, kMapLeft = 46, kMapTop = 40, kMapText = 10;
+constexpr int kMapColumns = 5;
 constexpr const char* kRest = "#e4e6e8";
 constexpr std::array kColors{"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00",
                              "#7f5fb8", "#9aa61c", "#8c564b", "#17909e", "#b03060", "#4d6f39"};
 
-std::string escaped(const std::string& text) {
+std::string text_content(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
   return result;
@@ -28,7 +28,7 @@ std::string runs(const Label& label) {
   std::string result;
   for (const TextRun& run : label)
     result += fmt::format("<tspan{}{}>{}</tspan>", run.italic ? " font-style=\"italic\"" : "",
-                          run.subscript ? " font-size=\"72%\" baseline-shift=\"sub\"" : "", escaped(run.text));
+                          run.subscript ? " font-size=\"72%\" baseline-shift=\"sub\"" : "", text_content(run.text));
   return result;
 }
 
@@ -83,7 +83,7 @@ class Block {
     height_ = kPanel * (alike ? std::clamp(y_.width() / x_.width(), 0.3, 2.0) : 1.0);
   }
 
-  double height() const { return rows() * (height_ + kTop) + 26; }
+  double height() const { return rows() * (height_ + kMapTop) + 26; }
 
   std::string svg() const {
     std::string rest, out;
@@ -93,10 +93,10 @@ class Block {
         "<clipPath id=\"panel{0}\"><rect width=\"{3:.1f}\" height=\"{4:.1f}\"/></clipPath></defs>\n",
         name_, rest, kRest, kPanel, height_);
     for (std::size_t k = 0; k < plane_.regions.size(); ++k) out += panel(k);
-    const double middle = kLeft + (columns() * (kPanel + kGap) - kGap) / 2, bottom = top_ + rows() * (height_ + kTop);
+    const double middle = kMapLeft + (columns() * (kPanel + kGap) - kGap) / 2, bottom = top_ + rows() * (height_ + kMapTop);
     out += text(middle, bottom + 10, "middle", runs(math_label(plane_.x_name)), " font-size=\"12\"");
     out += fmt::format("<g transform=\"translate({:.1f},{:.1f}) rotate(-90)\">{}</g>\n", 12.0,
-                       top_ + rows() * (height_ + kTop) / 2,
+                       top_ + rows() * (height_ + kMapTop) / 2,
                        text(0, 0, "middle", runs(math_label(plane_.y_name)), " font-size=\"12\""));
     return out;
   }
@@ -106,8 +106,8 @@ class Block {
     const double margin = 0.03 * std::max(range.width(), 1e-9);
     return Interval(range.lo() - margin, range.hi() + margin);
   }
-  int columns() const { return std::min(kColumns, std::max(1, static_cast<int>(plane_.regions.size()))); }
-  int rows() const { return (static_cast<int>(plane_.regions.size()) + kColumns - 1) / kColumns; }
+  int columns() const { return std::min(kMapColumns, std::max(1, static_cast<int>(plane_.regions.size()))); }
+  int rows() const { return (static_cast<int>(plane_.regions.size()) + kMapColumns - 1) / kMapColumns; }
   double x_at(double x) const { return (x - x_.lo()) / x_.width() * kPanel; }
   double y_at(double y) const { return (y_.hi() - y) / y_.width() * height_; }
 
@@ -136,11 +136,11 @@ class Block {
   }
 
   std::string panel(std::size_t k) const {
-    const int row = static_cast<int>(k) / kColumns, column = static_cast<int>(k) % kColumns;
-    const double left = kLeft + column * (kPanel + kGap), top = top_ + row * (height_ + kTop);
+    const int row = static_cast<int>(k) / kMapColumns, column = static_cast<int>(k) % kMapColumns;
+    const double left = kMapLeft + column * (kPanel + kGap), top = top_ + row * (height_ + kMapTop);
     const char* color = region_color(k);
     std::string out = fmt::format("<g transform=\"translate({:.1f},{:.1f})\">\n", left, top);
-    out += text(0, -6, "start", escaped(map_.labels[k]), fmt::format(" font-size=\"11\" fill=\"{}\"", color));
+    out += text(0, -6, "start", text_content(map_.labels[k]), fmt::format(" font-size=\"11\" fill=\"{}\"", color));
     out += fmt::format(
         "<g clip-path=\"url(#panel{0})\"><g transform=\"scale({4:g})\" stroke-width=\"{5:g}\" fill-rule=\"evenodd\">"
         "<use href=\"#rest{0}\"/><g fill=\"{3}\" stroke=\"{3}\"><path class=\"region\" id=\"region{0}-{1}\" "
@@ -150,11 +150,11 @@ class Block {
                        kPanel, height_);
     for (const Tick& t : ticks(x_.lo(), x_.hi(), plane_.x_angle, 4)) {
       out += fmt::format("<path d=\"M{0:.1f} {1:.1f}v3\" stroke=\"#333\" stroke-width=\"0.6\"/>\n", x_at(t.at), height_);
-      out += text(x_at(t.at), height_ + 13, "middle", escaped(t.text));
+      out += text(x_at(t.at), height_ + 13, "middle", text_content(t.text));
     }
     for (const Tick& t : ticks(y_.lo(), y_.hi(), plane_.y_angle, 4)) {
       out += fmt::format("<path d=\"M0 {:.1f}h-3\" stroke=\"#333\" stroke-width=\"0.6\"/>\n", y_at(t.at));
-      if (column == 0) out += text(-5, y_at(t.at) + 3, "end", escaped(t.text));
+      if (column == 0) out += text(-5, y_at(t.at) + 3, "end", text_content(t.text));
     }
     return out + "</g>\n";
   }
@@ -172,20 +172,20 @@ const char* region_color(std::size_t k) { return kColors[k % kColors.size()]; }
 
 std::string to_svg(const RegionMap& map) {
   std::string body;
-  double top = kTop + 14;
+  double top = kMapTop + 14;
   for (std::size_t p = 0; p < map.planes.size(); ++p) {
     const Block block(map, p, top);
     body += block.svg();
     top += block.height();
   }
-  const int columns = std::min(kColumns, std::max(1, static_cast<int>(map.labels.size())));
-  const double width = kLeft + columns * (kPanel + kGap), height = top - kTop + 14;
+  const int columns = std::min(kMapColumns, std::max(1, static_cast<int>(map.labels.size())));
+  const double width = kMapLeft + columns * (kPanel + kGap), height = top - kMapTop + 14;
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{2}\">\n<title>{3}</title>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"{4}\" y=\"22\" "
       "font-size=\"14\">{3}</text>\n{5}</svg>\n",
-      width, height, kText, escaped(map.title), kLeft, body);
+      width, height, kMapText, text_content(map.title), kMapLeft, body);
 }
 
 }  // namespace corank::report

@@ -10,14 +10,13 @@
 namespace corank::solve {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kSteps = 40;  // a double solution is approached by halves
 constexpr double kStill = 1e-11;
 
 // The scaled Jacobian and residual.
-void linearize(const Problem& problem, const std::vector<double>& x, Matrix& a, Vector& b) {
+void linearize(const Problem& problem, const std::vector<double>& x, Eigen::MatrixXd& a, Vector& b) {
   const certify::CompiledSystem& system = problem.compiled;
   std::vector<double> sparse(static_cast<std::size_t>(system.entries()));
   system.approximate_jacobian(x.data(), sparse.data());
@@ -41,7 +40,7 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
   const UpwardRounding rounding;
   LocalSolution result{std::move(start), 0};
   Vector way = Vector::Zero(system.variables());  // in scales
-  Matrix a;
+  Eigen::MatrixXd a;
   Vector b;
   for (int step = 0; step < kSteps; ++step) {
     linearize(problem, result.x, a, b);
@@ -84,7 +83,7 @@ bool breaks_inequality(const Problem& problem, const std::vector<double>& x, dou
 
 std::vector<double> kernel_basis(const Problem& problem, const LocalSolution& at, double tolerance) {
   const UpwardRounding rounding;
-  Matrix a;
+  Eigen::MatrixXd a;
   Vector b;
   linearize(problem, at.x, a, b);
   const SingularValueDecomposition svd = decompose(a);

@@ -15,7 +15,7 @@ namespace corank::symbolic {
 namespace {
 
 constexpr int kSweeps = 12;
-constexpr int kLargestExponent = 40;
+constexpr int kLargestPower = 40;
 constexpr double kLeverUnits = 8;   // of the largest lever arm, likewise: of 0.5, 1 … 16 the best for Dextar and the 3-RRR
 constexpr double kLengthUnits = 4;  // of the largest size beside angles; measured, see bench/HISTORY.md
 
@@ -45,7 +45,7 @@ double size_of(const Interval& x) {
 }
 
 int exponent_of(double ratio) {
-  return std::clamp(static_cast<int>(std::lround(std::log2(ratio))), -kLargestExponent, kLargestExponent);
+  return std::clamp(static_cast<int>(std::lround(std::log2(ratio))), -kLargestPower, kLargestPower);
 }
 
 // Two digits and a power of ten; then a power of two. Sizes that differ in a last bit only are the same number.

@@ -18,8 +18,8 @@ const char* const kInvisibleTimes = "&#x2062;";
 constexpr const char* kThinSpace = "<mspace width=\"0.17em\"/>";
 const char* const kApply = "&#x2061;";
 
-std::string in_parentheses(const std::string& inside) { return row(sign("(") + inside + sign(")")); }
-std::string in_parentheses_if(bool needed, const Expression& e) { return needed ? in_parentheses(mathml(e)) : mathml(e); }
+std::string fenced(const std::string& inside) { return row(sign("(") + inside + sign(")")); }
+std::string fenced_if(bool needed, const Expression& e) { return needed ? fenced(mathml(e)) : mathml(e); }
 
 // One letter is slanted, digits and words stand upright.
 std::string base_and_subscript(const DisplayName& shown) {
@@ -27,9 +27,9 @@ std::string base_and_subscript(const DisplayName& shown) {
   return element("mi", html_text(shown.base)) + element(letter ? "mi" : "mn", html_text(shown.subscript));
 }
 
-bool is_named_function(const Expression& e) { return e.kind() == Kind::function && e.name() != "sqrt" && e.name() != "abs"; }
+bool has_upright_name(const Expression& e) { return e.kind() == Kind::function && e.name() != "sqrt" && e.name() != "abs"; }
 
-std::string print_number(const std::string& decimal) {
+std::string mathml_number(const std::string& decimal) {
   const std::size_t e = decimal.find('e');
   if (e == std::string::npos) return element("mn", decimal);
   std::string exponent = decimal.substr(e + 1);
@@ -40,7 +40,7 @@ std::string print_number(const std::string& decimal) {
 }
 
 /// `exponent` stands behind the function's name, as in cos²θ.
-std::string print_function(const Expression& e, const std::string& exponent = "") {
+std::string mathml_function(const Expression& e, const std::string& exponent = "") {
   const Expression& argument = e.operands()[0];
   if (e.name() == "sqrt") return element("msqrt", mathml(argument));
   if (e.name() == "abs") return row(sign("|") + mathml(argument) + sign("|"));
@@ -48,30 +48,30 @@ std::string print_function(const Expression& e, const std::string& exponent = ""
   const std::string name = element("mi", arc ? "arc" + e.name().substr(1) : e.name());
   const std::string head = exponent.empty() ? name : element("msup", name + exponent);
   const bool bare = argument.kind() == Kind::symbol;
-  return row(head + sign(kApply) + (bare ? kThinSpace : "") + in_parentheses_if(!bare, argument));
+  return row(head + sign(kApply) + (bare ? kThinSpace : "") + fenced_if(!bare, argument));
 }
 
-std::string print_power(const Expression& e) {
+std::string mathml_power(const Expression& e) {
   const Expression &base = e.operands()[0], &exponent = e.operands()[1];
   const bool whole = exponent.kind() == Kind::number && exponent.name().find_first_of(".e") == std::string::npos;
-  if (is_named_function(base) && whole) return print_function(base, mathml(exponent));
+  if (has_upright_name(base) && whole) return mathml_function(base, mathml(exponent));
   if (base.kind() == Kind::symbol) {
     const DisplayName shown = display_name(base.name());
     if (!shown.subscript.empty()) return element("msubsup", base_and_subscript(shown) + row(mathml(exponent)));
   }
   const bool bare = base.kind() == Kind::symbol ||
                     (base.kind() == Kind::number && base.name().find('e') == std::string::npos) ||
-                    (base.kind() == Kind::function && !is_named_function(base));
-  return element("msup", in_parentheses_if(!bare, base) + row(mathml(exponent)));
+                    (base.kind() == Kind::function && !has_upright_name(base));
+  return element("msup", fenced_if(!bare, base) + row(mathml(exponent)));
 }
 
-std::string print_sum(const Expression& e) {
+std::string mathml_sum(const Expression& e) {
   std::string text;
   for (const Expression& term : e.operands()) {
     const bool subtracted = !text.empty() && term.kind() == Kind::negation;
     if (!text.empty()) text += sign(subtracted ? "−" : "+");
     const Expression& printed = subtracted ? term.operands()[0] : term;
-    text += in_parentheses_if(printed.kind() == Kind::sum || (subtracted && printed.kind() == Kind::negation), printed);
+    text += fenced_if(printed.kind() == Kind::sum || (subtracted && printed.kind() == Kind::negation), printed);
   }
   return row(text);
 }
@@ -83,18 +83,18 @@ bool begins_with_a_number(const Expression& e) {
 }
 
 bool begins_with_a_function(const Expression& e) {
-  return is_named_function(e) || (e.kind() == Kind::power && is_named_function(e.operands()[0]));
+  return has_upright_name(e) || (e.kind() == Kind::power && has_upright_name(e.operands()[0]));
 }
 
-std::string print_product(const Expression& e) {
+std::string mathml_product(const Expression& e) {
   std::string text;
   const Expression* left = nullptr;
   for (const Expression& factor : e.operands()) {
     // Behind a function the argument would seem to go on, behind a letter a number would seem to be its index.
-    const bool dot = left && (is_named_function(*left) ? !is_named_function(factor) : begins_with_a_number(factor));
+    const bool dot = left && (has_upright_name(*left) ? !has_upright_name(factor) : begins_with_a_number(factor));
     if (left) text += sign(dot ? "·" : kInvisibleTimes);
     if (left && !dot && begins_with_a_function(factor)) text += kThinSpace;  // "rb cos", not "rbcos"
-    text += in_parentheses_if(factor.is_sum_or_negation() || (left && factor.kind() == Kind::product), factor);
+    text += fenced_if(factor.is_sum_or_negation() || (left && factor.kind() == Kind::product), factor);
     left = &factor;
   }
   return row(text);
@@ -109,14 +109,14 @@ std::string mathml_name(const std::string& name) {
 
 std::string mathml(const Expression& e) {
   switch (e.kind()) {
-    case Kind::number: return print_number(e.name());
+    case Kind::number: return mathml_number(e.name());
     case Kind::symbol: return mathml_name(e.name());
-    case Kind::function: return print_function(e);
-    case Kind::sum: return print_sum(e);
-    case Kind::product: return print_product(e);
+    case Kind::function: return mathml_function(e);
+    case Kind::sum: return mathml_sum(e);
+    case Kind::product: return mathml_product(e);
     case Kind::quotient: return element("mfrac", row(mathml(e.operands()[0])) + row(mathml(e.operands()[1])));
-    case Kind::power: return print_power(e);
-    case Kind::negation: return row(sign("−") + in_parentheses_if(e.operands()[0].is_sum_or_negation(), e.operands()[0]));
+    case Kind::power: return mathml_power(e);
+    case Kind::negation: return row(sign("−") + fenced_if(e.operands()[0].is_sum_or_negation(), e.operands()[0]));
   }
   return "";
 }

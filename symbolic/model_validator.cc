@@ -11,6 +11,8 @@
 namespace corank::symbolic {
 namespace {
 
+using Kind = Expression::Kind;
+
 /// Rough: it only decides whether an exponent is absurd.
 long double rough_function(const std::string& name, long double x) {
   if (name == "sqrt") return std::sqrt(x);
@@ -106,7 +108,6 @@ void ModelValidator::require_linear_in_rates(const Expression& e, const Context&
 }
 
 std::optional<int> ModelValidator::rate_degree(const Expression& e, int wanted) const {
-  using Kind = Expression::Kind;
   const auto of = [&](std::size_t i, int degree) { return rate_degree(e.operands()[i], degree); };
   switch (e.kind()) {
     case Kind::number: return same_tree(e, Expression(0)) ? wanted : 0;
@@ -158,7 +159,6 @@ void ModelValidator::require_angles_inside_functions(const Expression& e, const 
 }
 
 ModelValidator::Size ModelValidator::check(const Expression& e, const Context& context) const {
-  using Kind = Expression::Kind;
   if (e.kind() == Kind::number) return {1, true, rough_number(e.name())};
   if (e.kind() == Kind::symbol) return check_symbol(e, context);
   if (e.kind() == Kind::power) return check_power(e, context);
