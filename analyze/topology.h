@@ -5,9 +5,8 @@
 // holds a minimum.
 //   M is smooth: every point of it lies in a `regular` box, where the Jacobian of the equations has full rank.
 //   M is compact and has no boundary in the search domain: no box has contact with an end of it (limits.h).
-// The critical points are all there, and distinct: the points of a complete cover, each `isolated` or `exact`; with two
-// kernel vectors ±ξ told apart by
-//   its half-space, where the points' a·ξ is not 0.
+//   The critical points are all there, and distinct: the points of a complete cover, each `isolated` or `exact`; with two
+//   kernel vectors ±ξ told apart by its half-space, where the points' a·ξ is not 0.
 //   Each is nondegenerate, with that index: certify/inertia.h on the kernel of Φ_q.
 // A closed manifold of odd dimension has χ = 0 (Poincaré duality). M is the regular level set of Φ in a product of circles
 // and lines, so it is orientable, and a closed surface of genus 1 − χ/2 where its dimension is 2 and it is connected.

@@ -262,9 +262,8 @@ class Bound {
     }
   }
 
-  // A connected part that nothing is joined to, such as the finder takes for a passage, is one, too, where it has
-  // a direction
-  // and touches no other.
+  // A connected part that nothing is joined to, such as the finder takes for a passage, is one, too, where it has a
+  // direction and touches no other.
   void pass_through_single_parts() {
     std::vector<std::size_t> size(first_.empty() ? 0 : first_.back() + cells_.back().parts.size(), 0), near = size;
     for (std::size_t k = 0; k < size.size(); ++k) ++size[classes_.of(k)];

@@ -98,9 +98,8 @@ inline __m128d swapped(__m128d a) { return _mm_shuffle_pd(a, a, 1); }
 
 inline Interval operator*(const Interval& x, const Interval& y) {
   // hi is the largest of the four products of endpoints, −lo the largest of the four negated ones. A NaN (0·∞, which stands
-  // for
-  // 0) in p1 or p3 is dropped, since maxpd returns its second operand: by cases, one of the others is then 0, or is the +∞
-  // that stands for a NaN in p2 or p4.
+  // for 0) in p1 or p3 is dropped, since maxpd returns its second operand: by cases, one of the others is then 0, or is the
+  // +∞ that stands for a NaN in p2 or p4.
   const __m128d a = x.data();                                                 // (−a, b)   for x = [a, b]
   const __m128d a_neg = _mm_xor_pd(internal::swapped(a), _mm_set1_pd(-0.0));  // (−b, a)
   const __m128d c = _mm_xor_pd(y.data(), _mm_set_pd(0.0, -0.0));              // (c, d)    for y = [c, d]

@@ -75,7 +75,7 @@ Assembly draft(const Robot& robot, Way way) {
   }
   Draft draft(robot, algebra, std::move(parallelograms), way.in_branches);
   if (way.seek_identities) draft.seek_identities();
-  const auto normals = plane_of(robot, bodies, algebra);
+  const auto normals = plane_of(bodies, algebra);
   Space space = Space::planar;
   if (normals) {
     draft_planar(robot, bodies, *normals, algebra, draft);

@@ -262,7 +262,7 @@ class PlanarRobot {
                          "orientation of the link");
       default: break;
     }
-    if (output.kind != Output::Kind::orientation) add_position(output, body, base);
+    if (output.kind != Output::Kind::orientation) add_position(output, base);
     if (output.kind == Output::Kind::position) return;
     const Turn relative = inverse(*turns_[group(base)]) * *turns_[group(body)];
     const bool is_coordinate =
@@ -273,7 +273,7 @@ class PlanarRobot {
     draft_.output(is_coordinate ? relative.angle : angle_of(relative, name, output.turn, output.where));
   }
 
-  void add_position(const Output& output, std::size_t body, std::size_t base) {
+  void add_position(const Output& output, std::size_t base) {
     const auto at = [&](std::size_t link, const Vec& point) {
       const Placement& p = bodies_.placement[link];
       const std::size_t b = bodies_.of_link[link];
@@ -302,7 +302,6 @@ class PlanarRobot {
     }
     if (moves == std::array<bool, 3>{})
       throw ModelError(output.where, "the output '" + output.name + "' does not move", "a point of a link that moves");
-    static_cast<void>(body);
   }
 
   const Robot& robot_;
@@ -317,7 +316,7 @@ class PlanarRobot {
 
 }  // namespace
 
-std::optional<std::vector<Vec>> plane_of(const Robot& robot, const Bodies& bodies, const Algebra& algebra) {
+std::optional<std::vector<Vec>> plane_of(const Bodies& bodies, const Algebra& algebra) {
   std::vector<std::optional<Vec>> normals(bodies.groups);
   const auto turns_in_plane = [](JointKind kind) {
     return kind == JointKind::revolute || kind == JointKind::planar || kind == JointKind::parallelogram;
@@ -382,7 +381,6 @@ std::optional<std::vector<Vec>> plane_of(const Robot& robot, const Bodies& bodie
       default: return std::nullopt;
     }
   }
-  static_cast<void>(robot);
   return result;
 }
 

@@ -13,7 +13,7 @@
 namespace corank::kinematics {
 
 /// The plane's normal in each group's frame; nothing where the robot does not move in a plane.
-std::optional<std::vector<Vec>> plane_of(const Robot& robot, const Bodies& bodies, const Algebra& algebra);
+std::optional<std::vector<Vec>> plane_of(const Bodies& bodies, const Algebra& algebra);
 
 /// Throws ModelError where the robot can't be assembled, or an output means nothing in a plane.
 void draft_planar(const Robot& robot, const Bodies& bodies, const std::vector<Vec>& normals, Algebra& algebra, Draft& draft);

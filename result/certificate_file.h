@@ -5,8 +5,8 @@
 //   point_region, point_point, point_corank                             of the entries of /points
 //   decimals                            of each of these points and variable; empty texts where nothing is proven
 //   exact_points/polynomial, lower, upper, coordinates (texts; coefficients of 1, t, t² … with commas between), corank,
-//   sole_within proof/…                             the vectors of core/proof.h, compressed; missing where the cover has
-//   no proof
+//   sole_within
+//   proof/…                             the vectors of core/proof.h, compressed; missing where the cover has no proof
 #pragma once
 
 #include "corank/core/cover.h"

@@ -1,16 +1,21 @@
 // Result files, RESULT.h5: a result in HDF5, every double bit for bit:
 //
 //   /                   attributes format = "corank result", format_version, version, model, set, complete, stopped,
-//   sigma_length … /model/text         the model file as read            /model/system       the solved system in the model
-//   language /variables/…        names, kinds, domain (n×2)        /angles/…           names, cosine, sine (indices), range
-//   (k×2) /boxes/…            lower, upper (N×n), verdict, reason (enumerations), free (N×n mask)         /points/… likewise
-//   /boxes/types_proven, types_excluded (N bytes), likewise of /points: bits of the types of singularity, in the order
-//   of the attribute types of /boxes; attributes types_asked, types_of_set, types_left_out. Absent where none were asked for
-//   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes /certificates/…     what
-//   `corank verify` needs, see result/certificate_file.h
+//                       sigma_length …
+//   /model/text         the model file as read
+//   /model/system       the solved system in the model language
+//   /variables/…        names, kinds, domain (n×2)
+//   /angles/…           names, cosine, sine (indices), range (k×2)
+//   /boxes/…            lower, upper (N×n), verdict, reason (enumerations), free (N×n mask)
+//   /points/…           likewise
+//   /boxes/types_proven, types_excluded (N bytes), likewise of /points: bits of the types of singularity, in the order of
+//                       the attribute types of /boxes; attributes types_asked, types_of_set, types_left_out. Absent where
+//                       none were asked for
+//   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes
+//   /certificates/…     what `corank verify` needs, see result/certificate_file.h
 //   /parts/0, /parts/1 …   where the set consists of parts: each as the root, but for model and set, with the attribute
-//   part;
-//   the root's boxes are theirs, and /boxes/part says whose /outputs, /boxes/passage, /boxes/side   of a workspace boundary
+//                       part; the root's boxes are theirs, and /boxes/part says whose
+//   /outputs, /boxes/passage, /boxes/side   of a workspace boundary
 //   /options, /statistics   attributes; /options/constants/… names, expressions
 #pragma once
 
@@ -25,8 +30,8 @@
 namespace corank::result {
 
 /// The layout that write_result writes; read_result refuses a newer one. Version 1 had no certificates and no counts,
-/// version 2 eliminations in place of the reduction, version 3 one
-/// sigma for all variables, kernel vectors of unscaled norm and no reasons.
+/// version 2 eliminations in place of the reduction, version 3 one sigma for all variables, kernel vectors of unscaled norm
+/// and no reasons.
 inline constexpr int kFormatVersion = 4;
 
 /// Throws ResultFileError where no file can be written at `path` (result/output_file.h): to be asked before a long

@@ -67,7 +67,8 @@ class Coordinator {
   Coordinator& operator=(const Coordinator&) = delete;
 
   const std::string& prepared_bytes() const;
-  /// What to ask take_units() for, where the workers have so many threads and a unit is to take so many seconds at most.
+  /// What to ask take_units() for, where the workers have so many threads and a unit is to take so many seconds at most (but
+  /// see Pace::next).
   /// time: of any clock, in seconds.
   Pace::Units next_units(std::size_t threads, double longest, double time);
   /// What can be done now and has not been given out, in up to so many units, each of so many boxes or more; but as long as
@@ -75,9 +76,8 @@ class Coordinator {
   /// added first. At the beginning there is one unit, which ends as soon as there are boxes enough for all.
   std::vector<std::string> take_units(std::size_t wanted, std::size_t fewest_boxes = 1);
   /// What run_unit() has returned. False: nothing is done, since that unit has been added before, or there is no memory for
-  /// it. Throws ShardError where it
-  /// is none of this search's. The boxes in it stay as they are until the search is done: in the bytes that `owner` keeps
-  /// where they are, or else in a copy.
+  /// it. Throws ShardError where it is none of this search's. The boxes in it stay as they are until the search is done: in
+  /// the bytes that `owner` keeps where they are, or else in a copy.
   bool add(std::string_view answer, std::shared_ptr<const void> owner = {});
   bool done() const;
   /// The search is done, and sheets are left to cut.

@@ -25,8 +25,8 @@ Pace::Units Pace::next(std::size_t threads, double longest, const Progress& now)
   }
   const double elapsed = now.time - begun_, done = waited_ - now.waits;
   const double remaining = done > 0 ? elapsed * (now.waits / done) : elapsed;
-  const double least = std::max(kLeastSeconds, kSecondsPerUnit * static_cast<double>(threads));
-  const double seconds = std::min(longest, std::max(least, std::min(kOfElapsed * elapsed, kOfRemaining * remaining)));
+  const double wished = std::max(kLeastSeconds, std::min(kOfElapsed * elapsed, kOfRemaining * remaining));
+  const double seconds = std::max(kSecondsPerUnit * static_cast<double>(threads), std::min(longest, wished));
   if (now.units_under_way == 0) return {threads, kFirstBoxes, seconds};
   return {kAhead * threads, now.units_under_way / kUnitsPerBox, seconds};
 }

@@ -1,5 +1,5 @@
 // Expressions as a model's author writes them: exact numbers, names, + − · / ^ and functions. An immutable tree; a regular
-// value type; nothing is simplified, so a report can show what was written. GiNaC works behind derivation.h on a copy.
+// value type; nothing is simplified, so a report can show what was written. GiNaC works on a copy, behind ginac_bridge.h.
 #pragma once
 
 #include <iosfwd>

@@ -53,7 +53,8 @@ TEST(Pace, AnotherPassBeginsAnewWithWhatWaitsThen) {
 TEST(Pace, TheMoreThreadsTheLongerIsTheShortestUnit) {
   Pace few, many;
   EXPECT_GT(many.next(100, kLongest, {}).seconds, 5 * few.next(2, kLongest, {}).seconds);
-  EXPECT_EQ(many.next(10'000, kLongest, {}).seconds, kLongest);
+  // One thread gives units out, a few hundred a second: 1,000 threads with units of a second would wait for it.
+  EXPECT_GE(many.next(1'000, kLongest, {}).seconds, 2 * kLongest);
 }
 
 TEST(Pace, SheetsAreCutInMorePartsThanThereAreThreads) {
