@@ -90,7 +90,8 @@ class Sampled:
         whole = self.is_angle & (self.upper - self.lower > 2 * np.pi - 1e-9)
         self.lower[whole], self.upper[whole] = -np.inf, np.inf
         ends = np.abs(np.concatenate([self.lower, self.upper])[np.concatenate([~self.is_angle] * 2)])
-        plain = [abs(v) for v in constants.values() if np.isfinite(v)]
+        numbers = re.findall(r"(?<![\w.])\d+(?:\.\d+)?", " ".join(model["constraints"]))
+        plain = [abs(v) for v in [*constants.values(), *map(float, numbers)] if np.isfinite(v)]
         sizes = [s for s in [*ends[np.isfinite(ends)], *plain] if s > 0]
         self.size = max(sizes, default=1.0)  # of lengths without a range
         self.scale = np.where(self.is_angle, 1.0, self.size)
