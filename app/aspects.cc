@@ -72,7 +72,7 @@ ExitStatus aspects(AspectsCommand command) {
                result::printable_line(command.output));
     return kBadInput;
   }
-  result::write_pieces(command.output, to_file(question, result));
+  result::write_pieces(command.output, to_file(question, result), [&control] { return control.ended(); });
   return kDone;
 }
 

@@ -110,7 +110,7 @@ ExitStatus write_map(const CLI::App& sub, MapCommand command) {
   line.clear();
   for (const std::string& name : command.outputs) {
     if (name.ends_with(".h5")) {
-      result::write_map(name, to_file(question, map));
+      result::write_map(name, to_file(question, map), [&control] { return control.ended(); });
     } else if (name.ends_with(".json")) {
       result::write_text(name, to_json(map) + "\n");
     } else if (name.ends_with(".csv")) {

@@ -53,7 +53,7 @@ ExitStatus topology(TopologyCommand command) {
                result::printable_line(command.output));
     return kBadInput;
   }
-  result::write_shape(command.output, to_file(question, result));
+  result::write_shape(command.output, to_file(question, result), [&control] { return control.ended(); });
   return kDone;
 }
 

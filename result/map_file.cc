@@ -42,10 +42,10 @@ Cover cover_of(const MapClaims& claims, const std::vector<int>& parameters) {
 
 }  // namespace
 
-void write_map(const std::filesystem::path& path, const MapFile& data) {
+void write_map(const std::filesystem::path& path, const MapFile& data, const Ended& in_haste) {
   const auto [system, parameters, copies] = family_of(data);
   const OutputFile target(path);
-  Hdf5Writer file(target.part().string());
+  Hdf5Writer file(target.part().string(), 1, in_haste);
   write_source(file, kMapFormat, kMapVersion, data);
   const symbolic::FamilyQuestion& family = data.family;
   file.attribute("/", "set", std::string(family.set ? symbolic::to_string(*family.set) : kPlain));

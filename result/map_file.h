@@ -6,6 +6,7 @@
 #include <string>
 
 #include "corank/check/map.h"
+#include "corank/core/ended.h"
 #include "corank/core/map_claims.h"
 #include "corank/result/model_source.h"
 #include "corank/symbolic/family_system.h"
@@ -21,7 +22,8 @@ struct MapFile : ModelSource {
 inline constexpr const char* kMapFormat = "corank map";
 
 /// Layout: doc/certificates.md. Throw ResultFileError; symbolic::ModelError where the model has no such family.
-void write_map(const std::filesystem::path& path, const MapFile& file);
+/// Once `in_haste` says so, what is left is written as it is.
+void write_map(const std::filesystem::path& path, const MapFile& file, const Ended& in_haste = {});
 MapFile read_map(const std::filesystem::path& path);
 /// Is it a map's file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
 bool is_map_file(const std::filesystem::path& path);

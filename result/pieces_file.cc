@@ -114,11 +114,11 @@ PieceClaims read_list(Hdf5Reader& file, const std::string& name, std::size_t n, 
 
 }  // namespace
 
-void write_pieces(const std::filesystem::path& path, const PiecesFile& data) {
+void write_pieces(const std::filesystem::path& path, const PiecesFile& data, const Ended& in_haste) {
   const System system = symbolic::algebrize(equations_of(model_of(data)));
   const std::size_t n = system.variables.size();
   const OutputFile target(path);
-  Hdf5Writer file(target.part().string());
+  Hdf5Writer file(target.part().string(), 1, in_haste);
   write_source(file, kPiecesFormat, kPiecesVersion, data);
   file.texts("/variables", names(system));
   write_cover(file, "/space", data.space, n);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "corank/check/pieces.h"
+#include "corank/core/ended.h"
 #include "corank/core/pieces.h"
 #include "corank/result/model_source.h"
 
@@ -22,7 +23,8 @@ struct PiecesFile : ModelSource {
 inline constexpr const char* kPiecesFormat = "corank aspects";
 
 /// Layout: doc/certificates.md. Throw ResultFileError; writing, symbolic::ModelError where the model has no such pieces.
-void write_pieces(const std::filesystem::path& path, const PiecesFile& file);
+/// Once `in_haste` says so, what is left is written as it is.
+void write_pieces(const std::filesystem::path& path, const PiecesFile& file, const Ended& in_haste = {});
 PiecesFile read_pieces(const std::filesystem::path& path);
 /// Is it such a file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
 bool is_pieces_file(const std::filesystem::path& path);

@@ -47,12 +47,12 @@ std::string height_group(std::size_t k) { return "/heights/" + std::to_string(k)
 
 }  // namespace
 
-void write_shape(const std::filesystem::path& path, const ShapeFile& data) {
+void write_shape(const std::filesystem::path& path, const ShapeFile& data, const Ended& in_haste) {
   const Shape& shape = data.shape;
   const System space = space_of(model_of(data));
   const std::size_t n = space.variables.size();
   const OutputFile target(path);
-  Hdf5Writer file(target.part().string());
+  Hdf5Writer file(target.part().string(), 1, in_haste);
   write_source(file, kShapeFormat, kShapeVersion, data);
   file.attribute("/", "variables", static_cast<std::int64_t>(n));
   file.attribute("/", "heights", static_cast<std::int64_t>(shape.heights.size()));

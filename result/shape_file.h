@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corank/check/shape.h"
+#include "corank/core/ended.h"
 #include "corank/core/shape.h"
 #include "corank/result/model_source.h"
 
@@ -20,7 +21,8 @@ struct ShapeFile : ModelSource {
 inline constexpr const char* kShapeFormat = "corank topology";
 
 /// Layout: doc/certificates.md. Throw ResultFileError; writing, symbolic::ModelError where the model has no such heights.
-void write_shape(const std::filesystem::path& path, const ShapeFile& file);
+/// Once `in_haste` says so, what is left is written as it is.
+void write_shape(const std::filesystem::path& path, const ShapeFile& file, const Ended& in_haste = {});
 ShapeFile read_shape(const std::filesystem::path& path);
 /// Is it a shape's file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
 bool is_shape_file(const std::filesystem::path& path);
