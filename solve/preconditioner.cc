@@ -16,7 +16,7 @@ constexpr int kGaussNewtonSteps = 8;
 constexpr long kLargeTableau = 20'000;  // entries: a step with it is long enough to ask whether the run has ended
 
 // An m×stride tableau by rows, stride a multiple of kLanes, and what pivots are chosen by.
-struct Elimination {
+struct Pivoting {
   double* tableau;
   std::size_t stride;
   int rows;
@@ -36,13 +36,13 @@ inline double largest(const double* row, const double* weight, std::size_t strid
   return std::max(std::max(best[0], best[1]), std::max(best[2], best[3]));
 }
 
-CORANK_WIDE void find_best(const Elimination& e) {
+CORANK_WIDE void find_best(const Pivoting& e) {
   for (int i = 0; i < e.rows; ++i)
     e.best[i] = e.done[i] ? 0 : largest(e.tableau + i * e.stride, e.allowed, e.stride) * e.row_scale[i];
 }
 
 // Exchange step: afterwards column `column` holds that of the inverse that belongs to equation `row`.
-CORANK_WIDE void exchange(const Elimination& e, int row, int column) {
+CORANK_WIDE void exchange(const Pivoting& e, int row, int column) {
   double* const pivot = e.tableau + row * e.stride;
   const double inverse = 1 / pivot[column];
   for (std::size_t j = 0; j < e.stride; j += kLanes) lanes(pivot + j) *= inverse;
@@ -127,8 +127,8 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
   }
 
   best_size_.resize(m_);
-  const Elimination elimination{tableau_.data(),  stride_,          m_, allowed_.data(), row_scale_.data(),
-                                row_done_.data(), best_size_.data()};
+  const Pivoting elimination{tableau_.data(),  stride_,          m_, allowed_.data(), row_scale_.data(),
+                             row_done_.data(), best_size_.data()};
   find_best(elimination);
 
   result_.equations.clear();
