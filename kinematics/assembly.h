@@ -58,8 +58,8 @@ struct Assembly {
 Assembly assemble(const Robot& robot);
 
 /// How many of the equations that are solved follow from the others, to first order, at configurations found by Newton's
-/// method from random ones (of fixed seeds): their number less their Jacobian's rank. Nothing where none of the tries ends in
-/// a configuration, or the variables are hundreds.
+/// method from random ones (of fixed seeds): their number less their Jacobian's rank. Nothing where none of the tries ends
+/// in a configuration, or the variables are hundreds.
 std::optional<int> sampled_redundancy(const symbolic::Mechanism& mechanism);
 
 }  // namespace corank::kinematics

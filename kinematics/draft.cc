@@ -1,5 +1,7 @@
 #include "corank/kinematics/draft.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -227,7 +229,7 @@ std::array<bool, 3> Draft::moving(const Output& output, const Vec& value) const 
     if (!output.asked[i] || moves[i] || (all_asked && !output.ranges[i])) continue;
     throw ModelError(output.where,
                      std::string("the component ") + "xyz"[i] + " of the output '" + output.name +
-                         "' cannot move: it is always " + std::to_string(algebra_.value(clean)),
+                         "' cannot move: it is always " + fmt::format("{:.9g}", algebra_.value(clean)),
                      "components that the robot can move");
   }
   return moves;

@@ -26,8 +26,8 @@ class Pace {
     double time = 0;
   };
 
-  /// threads: of all workers. longest: of a unit, in seconds; units are longer where threads are too many to be given units as
-  /// fast.
+  /// threads: of all workers. longest: of a unit, in seconds; units are longer where threads are too many to be given units
+  /// as fast.
   Units next(std::size_t threads, double longest, const Progress& now);
 
   /// Where sheets are cut, units are done to their end.

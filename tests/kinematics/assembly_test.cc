@@ -336,7 +336,7 @@ TEST(Assembly, RefusesAnOutputsComponentThatCannotMove) {
   std::string text = kFourBar;
   text.erase(text.find("t : joint t2"));
   EXPECT_THAT(fault_of(text + "p : position of coupler (1, 0, 1/2) only x z\n"),
-              HasSubstr("r.cuik:17:1: the component z of the output 'p' cannot move: it is always 0.5"));
+              HasSubstr("r.cuik:17:1: the component z of the output 'p' cannot move: it is always 0.5;"));
   EXPECT_THAT(fault_of(text + "p : position of coupler (1, 0, 1/2) range z [1, 2]\n"), HasSubstr("the component z"));
   EXPECT_EQ(assembled(text + "p : position of coupler (1, 0, 1/2) only x\n").mechanism.outputs().size(), 1u);
   EXPECT_EQ(assembled(text + "p : position of coupler (1, 0, 1/2)\n").mechanism.outputs().size(), 2u) << "what moves of all";

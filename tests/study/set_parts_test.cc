@@ -202,8 +202,8 @@ TEST(SetPartsOf, ArmsAreConditionsOnTheirJoints) {
   EXPECT_THAT(names_of(parts_of(arm)), ElementsAre(testing::StartsWith("condition on ")));
 }
 
-// A 3-UPU platform that keeps its orientation: legs whose lines are dependent, or whose constraint moments are; and legs along
-// their fixed axes, three ways. Nine rates of the platform and the legs would be a long kernel vector.
+// A 3-UPU platform that keeps its orientation: legs whose lines are dependent, or whose constraint moments are; and legs
+// along their fixed axes, three ways. The eleven rates would be a long kernel vector.
 TEST(SetPartsOf, PlatformsThatKeepTheirOrientationHaveNoLongKernel) {
   const auto question = [](const std::string& range) {
     ModelText file = read_text(CORANK_SOURCE_DIR "/models/platforms/3upu.cuik");
