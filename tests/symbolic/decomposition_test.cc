@@ -181,6 +181,8 @@ class Planted {
 
 TEST(Decomposition, LosesNoPlantedFactorAndNoPartIsFalse) {
   constexpr long double kZero = 1e-9L;
+  // A determinant's zero of order k is found to ε^(1/k), with ε near 1e-19; a factor may be planted six times.
+  constexpr long double kNearZero = 1e-3L;
   const char* const asked = std::getenv("CORANK_SEEDS");
   const unsigned seeds = asked ? static_cast<unsigned>(std::stoul(asked)) : 300;
   int in_parts = 0, on_parts = 0, on_factors = 0, crossings = 0, ties = 0;
@@ -215,7 +217,7 @@ TEST(Decomposition, LosesNoPlantedFactorAndNoPartIsFalse) {
     for (int trial = 0; trial < 10; ++trial)
       if (const auto at = planted.zero(determinant)) {
         ++crossings;
-        EXPECT_LT(nearest(*at), kZero);
+        EXPECT_LT(nearest(*at), kNearZero);
       }
     if (HasFailure()) break;
   }
