@@ -7,6 +7,7 @@
 #include "corank/solve/engine_version.h"
 #include "corank/solve/shard_bytes.h"
 #include "corank/study/assembly_search.h"
+#include "corank/study/run_journal.h"
 
 namespace corank::study {
 namespace {
@@ -61,9 +62,8 @@ void SpreadRun::finish() {
 }
 
 void SpreadRun::keep_state(const result::Checkpoint& checkpoint) {
-  constexpr std::size_t kMostInResult = std::size_t{1} << 28;  // more is a matter for a checkpoint
   const std::string state = search().state();
-  if (state.size() >= kMostInResult) return;
+  if (state.size() >= RunJournal::Plan{}.most_in_result) return;
   kept_ = result::checkpoint_bytes(solve::engine_version(), checkpoint, [&state](std::ostream& out) { out << state; });
 }
 

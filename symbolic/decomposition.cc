@@ -167,10 +167,9 @@ class Decomposer {
     if (!blocks) return {};
     for (const SquareBlock& block : *blocks) {
       const auto factors = factors_of(block);
-      if (factors && !factors->in_time) return {};
       if (!factors) {
         add_block(block);
-      } else if (factors->vanishes) {
+      } else if (factors->fail) {
         return {};
       } else {
         add_conditions(factors->conditions);
@@ -204,8 +203,7 @@ class Decomposer {
   }
 
   struct Factors {
-    bool vanishes = false;  // everywhere
-    bool in_time = true;    // false: not all are known
+    bool fail = false;  // the determinant vanishes everywhere, or they are not all found in time
     std::vector<Expression> conditions{};
   };
 
@@ -214,14 +212,14 @@ class Decomposer {
     Factors result;
     try {
       const RationalPolynomial value = matrix_.modulo_circles(matrix_.determinant(block));
-      if (value.is_zero()) return Factors{.vanishes = true};
+      if (value.is_zero()) return Factors{.fail = true};
       const auto factors = value.factors(ended_);
-      if (!factors) return Factors{.in_time = false};
+      if (!factors) return Factors{.fail = true};
       for (const RationalPolynomial& factor : *factors) {
         const RationalPolynomial on_cspace = matrix_.in_free_coordinates(matrix_.modulo_circles(factor));
-        if (on_cspace.is_zero()) return Factors{.vanishes = true};
+        if (on_cspace.is_zero()) return Factors{.fail = true};
         const auto simple = on_cspace.factors(ended_);
-        if (!simple) return Factors{.in_time = false};
+        if (!simple) return Factors{.fail = true};
         for (const RationalPolynomial& f : *simple) {
           if (f.size() > kMostTerms) return std::nullopt;
           auto condition = matrix_.condition(f);

@@ -18,24 +18,13 @@ namespace {
 using std::numbers::pi_v;
 using Matrix = std::vector<std::vector<Expression>>;
 
-long double determinant_of(const Matrix& m, const Values& at) {
+long double determinant_at(const Matrix& m, const Values& at) {
   std::vector<std::vector<long double>> a;
   for (const auto& row : m) {
     auto& to = a.emplace_back();
     for (const Expression& e : row) to.push_back(evaluate(e, at));
   }
-  long double value = 1;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k; i < a.size(); ++i)
-      if (std::fabs(a[i][k]) > std::fabs(a[pivot][k])) pivot = i;
-    if (a[pivot][k] == 0) return 0;
-    if (pivot != k) std::swap(a[pivot], a[k]);
-    value *= pivot == k ? a[k][k] : -a[k][k];
-    for (std::size_t i = k + 1; i < a.size(); ++i)
-      for (std::size_t j = a.size(); j-- > k;) a[i][j] -= a[i][k] / a[k][k] * a[k][j];
-  }
-  return value;
+  return determinant_of(std::move(a));
 }
 
 // 0 where the part holds; it changes its sign there but at zeros of even order.
@@ -44,7 +33,7 @@ long double value_of(const Component& part, const Values& at) {
     const AngleTie& t = *part.tie;
     return std::sin((at.at(t.angle) - t.sign * at.at(t.other) - t.quarters * pi_v<long double> / 2) / 2);
   }
-  return part.condition ? evaluate(*part.condition, at) : determinant_of(part.block->rows, at);
+  return part.condition ? evaluate(*part.condition, at) : determinant_at(part.block->rows, at);
 }
 
 class Planted {
@@ -191,7 +180,7 @@ TEST(Decomposition, LosesNoPlantedFactorAndNoPartIsFalse) {
     planted.plant();
     SCOPED_TRACE(seed);
     const std::vector<Component> parts = decompose(planted.mechanism, planted.question());
-    const auto determinant = [&](const Values& at) { return determinant_of(planted.rows, at); };
+    const auto determinant = [&](const Values& at) { return determinant_at(planted.rows, at); };
     const auto nearest = [&](const Values& at) {
       long double least = 1;
       for (const Component& part : parts) least = std::min(least, std::fabs(value_of(part, at)));

@@ -16,24 +16,6 @@ namespace {
 
 using Numbers = std::vector<std::vector<double>>;
 
-double determinant_of(Numbers m) {
-  double value = 1;
-  for (std::size_t k = 0; k < m.size(); ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k; i < m.size(); ++i)
-      if (std::abs(m[i][k]) > std::abs(m[pivot][k])) pivot = i;
-    if (m[pivot][k] == 0) return 0;
-    if (pivot != k) {
-      std::swap(m[pivot], m[k]);
-      value = -value;
-    }
-    value *= m[k][k];
-    for (std::size_t i = k + 1; i < m.size(); ++i)
-      for (std::size_t j = m.size(); j-- > k;) m[i][j] -= m[i][k] / m[k][k] * m[k][j];
-  }
-  return value;
-}
-
 class DeterminantFactors : public testing::Test {
  protected:
   DeterminantFactors() {
