@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeastSmear = 1e-6;  // a variable that no equation holds has its turn, too
 
-// Measured on Peaucellier's inversor in Cartesian coordinates, see bench/HISTORY.md.
+// Measured on Peaucellier's inversor in Cartesian coordinates and on a Delta with six rods, see bench/HISTORY.md.
 constexpr int kManyUnknowns = 6;
 constexpr double kLateWeight = 0.01, kLatePatience = 100;
 constexpr double kAloneWeight = 1000;  // before all others, see "Parallelograms in branches" there
@@ -69,12 +69,12 @@ BranchingRule::BranchingRule(const System& system, double kernel_weight, int ker
     : weight_(system.variables.size(), 1.0), patience_(system.variables.size(), 1.0) {
   const auto defined = linearly_defined(system);
   const auto is_kernel = [](const Variable& v) { return v.kind == VariableKind::kernel; };
-  const bool late = kernel_vectors == 1 && system.equations.size() >= system.variables.size() &&
+  const bool late = kernel_vectors == 1 && system.dimension() <= 1 &&
                     std::count_if(system.variables.begin(), system.variables.end(), is_kernel) >= kManyUnknowns;
   for (std::size_t j = 0; j < weight_.size(); ++j) {
     if (is_kernel(system.variables[j])) {
       weight_[j] = late ? kLateWeight * kernel_weight : kernel_weight;
-      if (late) patience_[j] = kLatePatience;
+      if (late && system.dimension() <= 0) patience_[j] = kLatePatience;
     }
     if (defined[j]) weight_[j] = 0;
   }

@@ -29,7 +29,8 @@ class BranchingRule {
   /// relative smear (key Trombettoni2011), where the root favours a variable of many equations. t is the same for the rows
   /// of the box's last Newton step, which a narrower side must make contract; s where there is none. Root and powers are
   /// measured, see bench/HISTORY.md. A variable that a linear equation or a sine or cosine defines waits until all others
-  /// are narrow. One that has an equation of its own, such as c² = 1, goes first: it has few values, each a set apart.
+  /// are narrow. One that has an equation of its own, such as c² = 1, goes first: it has few values, each a set apart. On
+  /// curves and points, six or more unknowns of a kernel vector wait until the configuration is narrow.
   int choose(const certify::CompiledSystem& system, std::span<const Interval> x, const std::vector<double>& limits,
              const certify::NewtonStep* step = nullptr) const;
 

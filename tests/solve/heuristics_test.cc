@@ -62,20 +62,21 @@ TEST(Branching, BeginsWithTheVariableOfAnEquationThatHasNoOther) {
   EXPECT_EQ(rule.choose(compiled, box, std::vector<double>(3, 0.05)), c);
 }
 
-// ξ of six unknowns on a sphere, and as many equations as variables: ξ waits. With a free variable it does not.
-TEST(Branching, LetsManyRatesWaitWhereConfigurationsAreIsolated) {
-  const auto rule = [](bool isolated) {
+// ξ of six unknowns on a sphere: it waits where configurations are isolated or on curves, not on surfaces. Isolated ones let
+// it be wider, too, when a box is put off.
+TEST(Branching, LetsManyRatesWaitForTheirConfigurations) {
+  const auto rule = [](int dimension) {
     SystemBuilder b;
     const int x = b.variable("x", "-1", "1");
     for (int k = 1; k <= 6; ++k) b.variable("xi" + std::to_string(k), "-1", "1", VariableKind::kernel);
-    for (int k = 1; k <= (isolated ? 6 : 5); ++k) b.equation({{"1", {{x, 1}, {k, 1}}}});
+    for (int k = 1; k <= 6 - dimension; ++k) b.equation({{"1", {{x, 1}, {k, 1}}}});
     b.equation({{"1", {{x, 2}}}, {"1", {{1, 1}}}, {"-1/2", {}}});
     return BranchingRule(b.system());
   };
-  EXPECT_LT(rule(true).weights()[1], rule(true).weights()[0]);
-  EXPECT_GT(rule(true).patience(1), rule(true).patience(0));
-  EXPECT_EQ(rule(false).weights()[1], rule(false).weights()[0]);
-  EXPECT_EQ(rule(false).patience(1), 1);
+  for (const int dimension : {0, 1}) EXPECT_LT(rule(dimension).weights()[1], rule(dimension).weights()[0]);
+  EXPECT_EQ(rule(2).weights()[1], rule(2).weights()[0]);
+  EXPECT_GT(rule(0).patience(1), rule(0).patience(0));
+  for (const int dimension : {1, 2}) EXPECT_EQ(rule(dimension).patience(1), 1);
 }
 
 TEST(Preconditioner, InvertsTheDependentColumns) {
