@@ -58,7 +58,7 @@ class BoxProcessor {
   std::vector<double> midpoint(std::span<const Interval> x) const;
   int choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near);
   void add_unproven(std::span<const Interval> x, Verdict verdict, Reason reason = Reason::none);
-  NodeId go_on_later() { return recorder_ ? recorder_->go_on_later() : 0; }
+  NodeId go_on_later() { return recorder_ ? recorder_->go_on_later() : NodeId{}; }
   Box copy_of(std::span<const Interval> x) const { return {x.begin(), x.begin() + problem_.compiled.variables()}; }
 
   const Problem& problem_;

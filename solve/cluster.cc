@@ -18,9 +18,8 @@
 namespace corank::solve {
 namespace {
 
-// Shards of one search differ in their numbers, of which recorders have 24 bits: each unit has so many.
-constexpr int kNumbers = 2 * (kMostUnitThreads + 1);
-constexpr std::uint64_t kMostUnits = (std::uint64_t{1} << 24) / kNumbers - 1;
+// Each unit has so many numbers for its shards.
+constexpr ShardNumber kNumbers = 2 * (kMostUnitThreads + 1);
 
 // So many times the boxes that are to wait may be processed until they do: a thin tree is not for one worker.
 constexpr std::uint64_t kBeginning = 4;
@@ -36,7 +35,8 @@ std::vector<std::vector<T>> dealt(std::vector<T> all, std::size_t parts) {
 // Does σ depend on nothing that is found? Then sheets need not travel to be cut.
 bool sigma_is_known(const Prepared& prepared) { return prepared.options.asked_length() && prepared.options.asked_angle(); }
 
-void cut_at_once(const Prepared& prepared, const Problem& problem, int last_number, std::size_t most, Answer& answer) {
+void cut_at_once(const Prepared& prepared, const Problem& problem, ShardNumber last_number, std::size_t most,
+                 Answer& answer) {
   Control control;
   Tally tally(prepared, control, 0);
   Pool pool(prepared, tally, last_number, &problem);
@@ -86,7 +86,7 @@ std::string UnitRunner::run(std::string_view bytes, const Budget& budget) {
   prepared.options.threads = std::clamp(budget.threads, 1, kMostUnitThreads);
   Control control({.time = unit.cut ? 0 : budget.seconds, .boxes = unit.cut ? 0 : unit.boxes, .clock = budget.clock});
   Tally tally(prepared, control, unit.cut ? 0 : budget.boxes);
-  const int number = static_cast<int>(unit.id) * kNumbers;
+  const ShardNumber number = unit.id * kNumbers;
   Answer answer{unit.id, {}};
   {
     Pool pool(prepared, tally, number, &question_->problem);
@@ -118,7 +118,7 @@ struct Coordinator::Search {
     if (!from) state.first = state.pass = first_pass(prepared);
     if (!prepared.reduction.consistent) finish_without_search();
     for (Shard& shard : state.shards) parts.push_back(std::make_unique<Part>(Part{std::move(shard), {}, {}}));
-    next_id = static_cast<std::uint64_t>(last_number() / kNumbers) + 2;  // the judge has one of its own
+    next_id = last_number() / kNumbers + 2;  // the judge has one of its own
     open = std::exchange(state.pass.boxes, {});
     judge.set_sigma(state.cutting ? state.sigma : sigma_of_search(prepared, judge.problem()));
     if (state.cutting) list_sheets();
@@ -134,8 +134,8 @@ struct Coordinator::Search {
     state.sigma = sigma_of_search(prepared, judge.problem());
   }
 
-  int last_number() const {
-    int last = 0;
+  ShardNumber last_number() const {
+    ShardNumber last = 0;
     for (const Shard& shard : state.shards) last = std::max(last, shard.number);
     return (last / kNumbers + 1) * kNumbers;
   }
@@ -184,7 +184,7 @@ struct Coordinator::Search {
     const auto by = run.ending();
     stop = !by || by->by != Limit::boxes;
     judge.execute([&] { static_cast<void>(judge.ended()); });
-    Shard left(static_cast<int>(next_id++) * kNumbers, prepared.options.proof);
+    Shard left(next_id++ * kNumbers, prepared.options.proof);
     left.left = std::move(open);
     for (auto& [id, given] : under_way) std::move(given.boxes.begin(), given.boxes.end(), std::back_inserter(left.left));
     under_way.clear();
@@ -303,7 +303,6 @@ std::vector<std::string> Coordinator::take_units(std::size_t wanted, std::size_t
   Search& s = *search_;
   std::vector<std::string> units;
   const auto give = [&](Unit unit, Search::Given given) {
-    if (s.next_id >= kMostUnits) throw ShardError("this search has been cut into more units than can be numbered");
     unit.id = s.next_id++;
     units.push_back(to_bytes(unit));
     s.under_way.emplace(unit.id, std::move(given));
@@ -360,8 +359,7 @@ bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner)
   }
   for (const Received::Part& part : answer.parts) {
     check(part, s.prepared);
-    if (part.shard.number / kNumbers != static_cast<int>(answer.id))
-      throw ShardError("an answer with the numbers of another unit");
+    if (part.shard.number / kNumbers != answer.id) throw ShardError("an answer with the numbers of another unit");
   }
   std::int64_t more = 0;
   for (const Received::Part& part : answer.parts) more += s.of(part.shard, part.found);

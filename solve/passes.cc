@@ -51,13 +51,13 @@ int largest_dimension(int dimension, const std::vector<Shard*>& shards) {
 Work first_pass(const Prepared& prepared) {
   const certify::Reduction& reduction = prepared.reduction;
   std::vector<Waiting> roots;
-  if (prepared.options.roots.empty()) roots.push_back({reduction.system.domain(), 1, 0});
+  if (prepared.options.roots.empty()) roots.push_back({reduction.system.domain(), 1, {}});
   for (const Box& given : prepared.options.roots) {
     Box root = reduction.system.domain();
     bool empty = false;
     for (std::size_t j = 0; j < root.size(); ++j)
       empty = empty || !root[j].intersect(given.at(static_cast<std::size_t>(reduction.kept[j])));
-    if (!empty) roots.push_back({std::move(root), 0, roots.size()});
+    if (!empty) roots.push_back({std::move(root), 0, {.place = roots.size()}});
   }
   for (Waiting& root : roots) root.share = 1.0 / static_cast<double>(roots.size());
   return {std::move(roots), kFirstShare};

@@ -19,14 +19,14 @@ namespace corank::solve {
 
 struct Pool::Threads {
   struct Worker {  // one per thread
-    Worker(const Problem& problem, int number, bool recorded) : shard(number, recorded), processor(problem, shard) {}
+    Worker(const Problem& problem, ShardNumber number, bool recorded) : shard(number, recorded), processor(problem, shard) {}
     Shard shard;
     BoxProcessor processor;
     Tally::Counted counted{};
     std::optional<Shard::Mark> finished{};  // before the first sheet that was not cut to its end
   };
 
-  Threads(const Prepared& p, Tally& t, int last_shard, const Problem* like)
+  Threads(const Prepared& p, Tally& t, ShardNumber last_shard, const Problem* like)
       : prepared(p),
         tally(t),
         problem(like ? *like : Problem(p.system, p.reduction, {})),
@@ -83,7 +83,7 @@ struct Pool::Threads {
         const auto j = static_cast<std::size_t>(processor.split_variable());
         const Interval side = x[j];
         const double at = *split_point(side);
-        NodeId lower = 0, upper = 0;
+        NodeId lower, upper;
         if (script) {
           lower = script->new_node();
           upper = script->new_node();
@@ -115,16 +115,17 @@ struct Pool::Threads {
   std::vector<Shard> earlier;
   bool cutting = false, whole = false;
   Problem problem;
-  std::atomic<int> numbers, busy{0};
+  std::atomic<ShardNumber> numbers;
+  std::atomic<int> busy{0};
   tbb::enumerable_thread_specific<Worker> workers;
   ThreadArena arena;
   tbb::task_group group;
 };
 
-Pool::Pool(const Prepared& prepared, Tally& tally, int last_shard, const Problem* like)
+Pool::Pool(const Prepared& prepared, Tally& tally, ShardNumber last_shard, const Problem* like)
     : threads_(std::make_unique<Threads>(prepared, tally, last_shard, like)) {}
 Pool::Pool(const Prepared& prepared, Tally& tally, std::vector<Shard> earlier) {
-  int last = 0;
+  ShardNumber last = 0;
   for (const Shard& shard : earlier) last = std::max(last, shard.number);
   threads_ = std::make_unique<Threads>(prepared, tally, last, nullptr);
   threads_->earlier = std::move(earlier);

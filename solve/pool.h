@@ -16,7 +16,7 @@ class Pool {
  public:
   /// Its shards get numbers above `last_shard`. prepared and tally have to outlive it.
   /// `like`, where given: a problem of the same question, which need not be made again.
-  Pool(const Prepared& prepared, Tally& tally, int last_shard = 0, const Problem* like = nullptr);
+  Pool(const Prepared& prepared, Tally& tally, ShardNumber last_shard = 0, const Problem* like = nullptr);
   /// One that goes on where these shards, which are its own now, were made.
   Pool(const Prepared& prepared, Tally& tally, std::vector<Shard> earlier);
   ~Pool();

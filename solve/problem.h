@@ -13,6 +13,7 @@
 #include "corank/certify/reduction.h"
 #include "corank/core/cover.h"
 #include "corank/solve/branching.h"
+#include "corank/solve/recorder.h"
 #include "corank/solve/sigma.h"
 #include "corank/solve/tuning.h"
 
@@ -69,7 +70,7 @@ struct Found {
   CoverBox box;
   std::unique_ptr<const certify::Sheet> sheet;  ///< of an isolated solution
   std::shared_ptr<const Box> region;  ///< that of the proof, as `box` has its sides; one for all boxes cut from a sheet
-  std::vector<std::uint64_t> leaves;  ///< of a recorded search: those whose solutions are in the box (solve/recorder.h)
+  std::vector<LeafId> leaves;         ///< of a recorded search: those whose solutions are in the box (solve/recorder.h)
   static constexpr std::uint32_t kNowhere = 0xffffffff;
   std::uint32_t place = kNowhere;  ///< in the cover, once the boxes are sorted
 };

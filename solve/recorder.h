@@ -2,6 +2,7 @@
 // put together in preorder. It decides nothing and costs nothing where there is none.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -12,15 +13,26 @@
 
 namespace corank::solve {
 
-/// A box of the search; a leaf `box i` of a script names the place of the box among those that its thread has found.
-using NodeId = std::uint64_t;
-using LeafId = std::uint64_t;
+/// Differs between the shards of one search (solve/shard.h).
+using ShardNumber = std::uint64_t;
+
+/// A box of the search: which of those that a shard has made.
+struct NodeId {
+  ShardNumber shard = 0;
+  std::uint64_t place = 0;
+  auto operator<=>(const NodeId&) const = default;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(shard, place);
+  }
+};
+/// A leaf `box i` of a script: which of the boxes that a shard has found.
+using LeafId = NodeId;
 
 class Recorder {
  public:
   Recorder() = default;
-  /// Each thread's number differs.
-  explicit Recorder(int thread) : prefix_(static_cast<std::uint64_t>(thread) << 40) {}
+  explicit Recorder(ShardNumber shard) : shard_(shard) {}
 
   /// What it keeps, nearly.
   std::uint64_t bytes() const;
@@ -33,8 +45,8 @@ class Recorder {
   /// As it was then, but that no identifier is given out twice.
   void go_back_to(const Mark& mark);
 
-  NodeId new_node() { return prefix_ | next_++; }
-  LeafId leaf(std::size_t found) const { return prefix_ | found; }
+  NodeId new_node() { return {shard_, next_++}; }
+  LeafId leaf(std::size_t found) const { return {shard_, found}; }
 
   /// What follows is done to this box, until it is split or ends in a leaf.
   void begin(NodeId node, std::span<const Interval> x, int variables);
@@ -54,7 +66,7 @@ class Recorder {
   /// What has been recorded, for an archive (solve/shard_bytes.h): it is between two boxes.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(prefix_, next_, script_, combination_bytes_, nodes_);
+    archive(shard_, next_, script_, combination_bytes_, nodes_);
     open_ = nullptr;
   }
 
@@ -72,7 +84,7 @@ class Recorder {
   };
   struct Node {
     Cursor begin, end;
-    NodeId lower = 0, upper = 0;  // where it was split; upper alone: where its script goes on
+    NodeId lower{}, upper{};  // where it was split; upper alone: where its script goes on
     bool is_split = false, goes_on = false;
     std::uint64_t number = 0;  // so many were begun before
     template <class Archive>
@@ -83,7 +95,8 @@ class Recorder {
   void step(Proof::Step s);
   void close();
 
-  std::uint64_t prefix_ = 0, next_ = 1;
+  ShardNumber shard_ = 0;
+  std::uint64_t next_ = 1;
   Proof script_;
   std::uint64_t combination_bytes_ = 0;
   std::map<NodeId, Node> nodes_;

@@ -16,14 +16,14 @@ namespace corank::solve {
 struct Waiting {
   Box x;
   double share = 0;  ///< of the search domain: 1 for all of it
-  NodeId node = 0;   ///< its script begins there, where one is recorded
+  NodeId node{};     ///< its script begins there, where one is recorded
 };
 
 /// A sheet over a box of the search, to be cut when the search is done.
 struct Proven {
   Box x;
   certify::Sheet sheet;
-  NodeId node = 0;   ///< its script goes on there
+  NodeId node{};     ///< its script goes on there
   bool cut = false;  ///< its boxes are among those found
 };
 
@@ -48,12 +48,12 @@ struct Work {
 /// What one thread has made of its boxes. Every box that it was given, or has made of one by bisection, ends in one of the
 /// lists, or holds no solution. Shards of one search differ in their numbers; what is in them depends on the boxes alone.
 struct Shard {
-  Shard(int n, bool recorded) : number(n) {
+  Shard(ShardNumber n, bool recorded) : number(n) {
     if (recorded) script.emplace(n);
   }
   Shard(Shard&&) noexcept = default;  // lists of shards grow
   Shard& operator=(Shard&&) noexcept = default;
-  int number;
+  ShardNumber number;
   std::vector<Proven> sheets{};
   std::vector<Postponed> postponed{};
   FoundList found{};            ///< boxes of the cover: pieces of sheets, and what nothing could be proven of

@@ -234,6 +234,27 @@ TEST(Cluster, EndsAtAnyMomentOfTheClockWithWhatIsProven) {
   }
 }
 
+// Numbers of shards beyond 32 bits, as a search of months would reach: its script is put together all the same.
+TEST(Cluster, HasNoLimitOfUnits) {
+  const Prepared prepared = prepared_with(torus().system(), {.sigma = 0.3, .proof = true});
+  Control free;
+  const Cover whole = solve(prepared, free);
+  Control control({.boxes = 40});
+  const std::string bytes = run_with_limits(prepared, control, 3).state;
+  SearchState state = state_from(bytes, prepared);
+  state.shards.emplace_back(ShardNumber{1} << 45, true);
+  SearchView late{state.first, state.pass, state.motions, state.cutting, state.sigma};
+  for (const Shard& shard : state.shards) late.parts.push_back({&shard});
+  Control rest;
+  const Limited ran = run_with_limits(prepared, rest, 5, to_bytes(late));
+  EXPECT_TRUE(ran.done);
+  ShardNumber last = 0;
+  for (const Shard& shard : state_from(ran.state, prepared).shards) last = std::max(last, shard.number);
+  EXPECT_GT(last, ShardNumber{1} << 45);
+  expect_same(whole, ran.cover);
+  EXPECT_TRUE(check::check(torus().system(), ran.cover).proof.verified);
+}
+
 TEST(Cluster, RefusesWhatIsNotItsOwn) {
   Options options;
   options.sigma = 0.3;

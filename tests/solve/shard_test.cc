@@ -94,7 +94,7 @@ class Pieces {
   Control control_;
   Tally judging_;
   Pool judge_;
-  int number_ = 2000;
+  ShardNumber number_ = 2000;
   std::size_t parts_ = 0;
   std::vector<Shard> shards_;
 };
