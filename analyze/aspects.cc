@@ -10,6 +10,7 @@
 #include "corank/analyze/topology_with_ends.h"
 #include "corank/certify/determinant.h"
 #include "corank/certify/meeting.h"
+#include "corank/core/box.h"
 #include "corank/core/box_tree.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/solve.h"
@@ -20,12 +21,6 @@ namespace corank::analyze {
 namespace {
 
 using Signs = std::vector<int>;
-
-bool contains(const Box& outer, const Box& inner) {
-  for (std::size_t j = 0; j < outer.size(); ++j)
-    if (!outer[j].contains(inner[j])) return false;
-  return true;
-}
 
 // Parts of cells, joined to pieces.
 class PieceCounter {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <queue>
 
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
@@ -19,12 +20,6 @@ struct Cell {
   Box x;
   bool operator<(const Cell& other) const { return bound < other.bound; }
 };
-
-std::vector<double> middle(const Box& x) {
-  std::vector<double> result;
-  for (const Interval& side : x) result.push_back(side.mid());
-  return result;
-}
 
 class Search {
  public:
@@ -80,7 +75,7 @@ class Search {
 
   void examine(Cell& cell) {
     ++best_.cells;
-    const std::vector<double> at = middle(cell.x);
+    const std::vector<double> at = midpoint(cell.x);
     const double h = reach(cell.x, at);
     const Nearest n = distance(at, cell.bound, target() - h);
     if (n.empty) {

@@ -12,6 +12,7 @@
 #include "corank/analyze/distance_system.h"
 #include "corank/analyze/witness.h"
 #include "corank/certify/implied.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/core/threads.h"
 #include "corank/solve/branching.h"
@@ -31,12 +32,6 @@ constexpr double kClose = 1e-9;     // of their typical sizes: what solves the e
 // Measured, see bench/HISTORY.md.
 constexpr double kKernelWeight = 4;
 constexpr std::size_t kBatch = 32;  // boxes that are processed at once, whatever the number of threads
-
-std::vector<double> midpoint(std::span<const Interval> x) {
-  std::vector<double> result;
-  for (const Interval& side : x) result.push_back(side.mid());
-  return result;
-}
 
 double root_below(double square) { return square <= 0 ? 0 : square_root(Interval(square))->lo(); }
 double root_above(double square) { return square <= 0 ? 0 : square_root(Interval(square))->hi(); }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/core/box.h"
+
 namespace corank::analyze {
 
 std::optional<Witness> prove_near(const certify::CompiledSystem& system, const certify::DomainTest& domain,
@@ -13,8 +15,7 @@ std::optional<Witness> prove_near(const certify::CompiledSystem& system, const c
   for (int step = 0; step < kCorrections; ++step) {
     const certify::Preconditioner& p = preconditioners.at_midpoint(x);
     if (p.rank() < system.equations()) return std::nullopt;
-    std::vector<double> now;
-    for (const Interval& side : x) now.push_back(side.mid());
+    std::vector<double> now = midpoint(x);
     for (int a = 0; a < p.rank(); ++a) {
       double shift = 0;
       for (int b = 0; b < p.rank(); ++b)

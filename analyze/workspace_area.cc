@@ -11,6 +11,7 @@
 #include "corank/certify/implied.h"
 #include "corank/certify/newton.h"
 #include "corank/certify/projection.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/cover.h"
 #include "corank/core/dense.h"
@@ -121,8 +122,7 @@ class Measure {
         if (!certify::project(compiled_, row, box, 0.1, changed.data())) return false;
       if (std::find(changed.begin(), changed.end(), 1) == changed.end()) break;
     }
-    std::vector<double> middle;
-    for (const Interval& side : box) middle.push_back(side.mid());
+    std::vector<double> middle = midpoint(box);
     const std::optional<Preconditioner> p = preconditioner(middle, true);
     if (!p) return true;
     const NewtonStep step(compiled_, *p, box, workspace_);
@@ -184,8 +184,7 @@ class Measure {
   }
 
   bool is_in(const Cell& cell, const Box& near) {
-    std::vector<double> at;
-    for (const Interval& side : near) at.push_back(side.mid());
+    std::vector<double> at = midpoint(near);
     at[x_] = cell.x.mid(), at[y_] = cell.y.mid();
     const auto sample = solution(at);
     if (!sample) return false;

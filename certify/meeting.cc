@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "corank/certify/projection.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
@@ -13,12 +14,6 @@ namespace corank::certify {
 namespace {
 
 constexpr double kRadius = 1e-10;  // of the scales
-
-bool contains(const Box& outer, const std::vector<Interval>& inner) {
-  for (std::size_t j = 0; j < outer.size(); ++j)
-    if (!outer[j].contains(inner[j])) return false;
-  return true;
-}
 
 Eigen::MatrixXd jacobian(const CompiledSystem& system, const std::vector<double>& c) {
   std::vector<double> entries(static_cast<std::size_t>(system.entries()));

@@ -5,6 +5,7 @@
 
 #include "corank/certify/inertia.h"
 #include "corank/certify/preconditioning.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/core/signs.h"
@@ -22,8 +23,7 @@ std::vector<int> SignCellTest::dependent_of(const std::vector<int>& free) const 
 }
 
 Preconditioner SignCellTest::preconditioner(const std::vector<int>& free, const Box& sides) const {
-  std::vector<double> c;
-  for (const Interval& side : sides) c.push_back(side.mid());
+  std::vector<double> c = midpoint(sides);
   return midpoint_preconditioner(compiled_, c, dependent_of(free));
 }
 

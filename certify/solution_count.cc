@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "corank/certify/preconditioning.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 
@@ -11,22 +12,10 @@ namespace {
 
 constexpr int kNewtonSteps = 4;  // until an image over one value is small
 
-bool contains(std::span<const Interval> outer, std::span<const Interval> inner) {
-  for (std::size_t j = 0; j < outer.size(); ++j)
-    if (!outer[j].contains(inner[j])) return false;
-  return true;
-}
-
 bool overlap(const std::vector<Interval>& a, const std::vector<Interval>& b) {
   for (std::size_t j = 0; j < a.size(); ++j)
     if (!a[j].overlaps(b[j])) return false;
   return true;
-}
-
-std::vector<double> middle(std::span<const Interval> x) {
-  std::vector<double> point;
-  for (const Interval& side : x) point.push_back(side.mid());
-  return point;
 }
 
 bool is_dependent(const Sheet& sheet, std::size_t j) {
@@ -35,7 +24,7 @@ bool is_dependent(const Sheet& sheet, std::size_t j) {
 
 // Shrinks the dependent sides of x, which hold the sheet's zeros over its free sides.
 NewtonStep tighten(const CompiledSystem& system, const Sheet& sheet, std::span<Interval> x, NewtonWorkspace& w) {
-  return tighten_sheet(system, midpoint_preconditioner(system, middle(x), sheet.dependent), x, w);
+  return tighten_sheet(system, midpoint_preconditioner(system, midpoint(x), sheet.dependent), x, w);
 }
 
 // Encloses the sheet's zero over the middle of its parameters.

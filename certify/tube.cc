@@ -5,6 +5,7 @@
 
 #include "corank/certify/meeting.h"
 #include "corank/certify/preconditioning.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 
@@ -12,12 +13,6 @@ namespace corank::certify {
 namespace {
 
 constexpr int kHalvings = 5;  // of a box in which a matrix is to have its rank
-
-bool contains(const Box& outer, const Box& inner) {
-  for (std::size_t j = 0; j < inner.size(); ++j)
-    if (!outer[j].contains(inner[j])) return false;
-  return true;
-}
 
 System without_inequalities(System system) {
   system.inequalities.clear();

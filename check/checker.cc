@@ -22,6 +22,7 @@
 #include "corank/check/self_motion.h"
 #include "corank/check/sheets.h"
 #include "corank/check/types.h"
+#include "corank/core/box.h"
 #include "corank/core/threads.h"
 
 namespace corank::check {
@@ -31,12 +32,6 @@ using Place = Failure::Place;
 
 bool bounded(const Box& box) {
   return std::all_of(box.begin(), box.end(), [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); });
-}
-
-bool contains(const Box& outer, const Box& inner) {
-  for (std::size_t j = 0; j < outer.size(); ++j)
-    if (!outer[j].contains(inner[j])) return false;
-  return true;
 }
 
 bool same(const CoverBox& a, const CoverBox& b) {

@@ -12,6 +12,7 @@
 #include "corank/check/krawczyk.h"
 #include "corank/check/pieces_bound.h"
 #include "corank/check/solution.h"
+#include "corank/core/box.h"
 
 namespace corank::check {
 namespace {
@@ -120,8 +121,7 @@ class PieceCheck {
   void check_member(std::size_t k) {
     const PieceMember& member = claims_.members[k];
     const std::string name = "member " + std::to_string(k + 1) + ": ";
-    std::vector<double> point;
-    for (const Interval& side : member.box) point.push_back(side.mid());
+    std::vector<double> point = midpoint(member.box);
     std::string fault;
     const Sides x = solution_near(problem_, point, member.free, fault);
     if (!fault.empty()) return fail(name + fault);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "corank/core/hull.h"
+#include "corank/core/box.h"
 #include "corank/core/spread.h"
 
 namespace corank {

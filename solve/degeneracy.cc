@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "corank/certify/polynomial_algebra.h"
-#include "corank/core/hull.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/points.h"
 #include "corank/solve/preconditioner.h"

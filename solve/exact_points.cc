@@ -6,6 +6,7 @@
 #include "corank/certify/blow_up.h"
 #include "corank/certify/exact_verification.h"
 #include "corank/certify/refinement.h"
+#include "corank/core/box.h"
 #include "corank/solve/corank_system.h"
 #include "corank/solve/exact_guess.h"
 #include "corank/solve/polish.h"
@@ -18,12 +19,6 @@ constexpr int kGuessBits = 220;              // that are right in what it finds,
 constexpr int kDegree = 4;                   // of algebraic numbers
 constexpr double kSmallSingularValue = 0.2;  // relative to the largest: worth a try
 constexpr double kNextToHull = 3;            // of its width
-
-std::vector<double> midpoint(const Box& box) {
-  std::vector<double> x;
-  for (const Interval& side : box) x.push_back(side.mid());
-  return x;
-}
 
 std::vector<ExactNumber> dyadic(const std::vector<double>& x) {
   std::vector<ExactNumber> result;

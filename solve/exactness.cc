@@ -12,6 +12,7 @@
 #include "corank/certify/kernel_bound.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/reduction.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/box_hash.h"
 #include "corank/solve/cover_edit.h"
@@ -31,12 +32,6 @@ constexpr int kMostVariables = 150;            // exact points of larger systems
 constexpr int kMostFutile = 16;                // attempts, before a kind of point is no longer sought
 constexpr int kCoreAttempts = 6;
 constexpr std::uint64_t kSearchedAgain = 20'000;  // boxes, or half of the search's: what lies around points is worth no more
-
-bool contains(const Box& outer, const Box& inner) {
-  for (std::size_t j = 0; j < outer.size(); ++j)
-    if (!outer[j].contains(inner[j])) return false;
-  return true;
-}
 
 class Prover {
  public:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "corank/core/hull.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/box_order.h"
 

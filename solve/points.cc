@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "corank/certify/distinct.h"
+#include "corank/core/box.h"
 #include "corank/core/box_tree.h"
-#include "corank/core/hull.h"
 
 namespace corank::solve {
 namespace {

@@ -1,6 +1,6 @@
 #include "corank/solve/region_hulls.h"
 
-#include "corank/core/hull.h"
+#include "corank/core/box.h"
 
 namespace corank::solve {
 

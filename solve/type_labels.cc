@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "corank/certify/type_bounds.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/core/threads.h"
 #include "corank/solve/region_hulls.h"
@@ -18,12 +19,6 @@ constexpr int kDepth = 4;        // halvings of a box in which not all was settl
 constexpr int kRegionDepth = 6;  // of a region's boxes at once, which is wide; less where they are few
 
 constexpr int kSmall = 12;  // rows of L
-
-bool contains(const Box& outer, const Box& inner, int sides) {
-  for (std::size_t j = 0; j < static_cast<std::size_t>(sides); ++j)
-    if (!outer[j].contains(inner[j])) return false;
-  return true;
-}
 
 // Is the box's only solution the exact point that it names?
 bool is_its_point(const CoverBox& box, const Cover& cover) {
@@ -90,7 +85,7 @@ void keep_only(SingularityType type, Cover& cover) {
   std::erase_if(cover.points, [&](const CoverBox& point) {  // clusters of which no box is left
     return point.verdict == Verdict::undecided &&
            std::none_of(cover.boxes.begin(), cover.boxes.end(),
-                        [&](const CoverBox& box) { return contains(point.box, box.box, static_cast<int>(box.box.size())); });
+                        [&](const CoverBox& box) { return contains(point.box, box.box); });
   });
   cover.proof.reset();
   std::vector<int> place(cover.regions.size(), -1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "corank/certify/kernel_bound.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/result/motion_words.h"
 #include "corank/solve/corank_system.h"
@@ -50,8 +51,7 @@ void describe_corank(const System& system, result::Result& result) {
   const std::size_t n = std::min(boxes.size(), kMostLookedAt);
   std::vector<std::size_t> of_corank(matrix.unknowns.size() + 1, 0);
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<double> x;
-    for (const Interval& side : boxes[i * boxes.size() / n]->box) x.push_back(side.mid());
+    std::vector<double> x = midpoint(boxes[i * boxes.size() / n]->box);
     const std::vector<double> s = solve::singular_values(matrix, x);
     for (std::size_t c = 0; c < s.size() && s[s.size() - 1 - c] < kSmall * s[0]; ++c) ++of_corank[c + 1];
   }

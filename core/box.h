@@ -1,0 +1,32 @@
+// What is asked of boxes, side by side.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "corank/core/interval.h"
+
+namespace corank {
+
+/// Makes a box hold another one of as many sides or more: each side becomes the hull of both.
+inline void include(std::span<Interval> hull, std::span<const Interval> box) {
+  for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], box[j]);
+}
+
+/// Of the sides that both have: each of `inner` is in that of `outer`.
+inline bool contains(std::span<const Interval> outer, std::span<const Interval> inner) {
+  const std::size_t sides = std::min(outer.size(), inner.size());
+  return std::equal(outer.begin(), outer.begin() + static_cast<std::ptrdiff_t>(sides), inner.begin(),
+                    [](const Interval& out, const Interval& in) { return out.contains(in); });
+}
+
+/// Interval::mid() of each side.
+inline std::vector<double> midpoint(std::span<const Interval> box) {
+  std::vector<double> middle;
+  for (const Interval& side : box) middle.push_back(side.mid());
+  return middle;
+}
+
+}  // namespace corank
