@@ -17,6 +17,7 @@
 #include "corank/app/set_views.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/path_page.h"
+#include "corank/report/set_look.h"
 #include "corank/result/path_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
@@ -62,7 +63,7 @@ std::vector<report::SetView> portrayed_sets(const PathCommand& command, const st
   for (const char* name : {"cspace", "forward", "inverse"}) {
     const symbolic::SetDefinition& set = symbolic::definition(std::string(name));
     if (control.ended()) {
-      missing.emplace_back(set.title);
+      missing.emplace_back(report::look(set).title);
       continue;
     }
     const SetSearch search{.coarser = set.is_cspace() ? kCoarserBackground : 1,
@@ -75,9 +76,9 @@ std::vector<report::SetView> portrayed_sets(const PathCommand& command, const st
       if (view && view->result.cover.complete())
         views.push_back(std::move(*view));
       else
-        missing.emplace_back(set.title);
+        missing.emplace_back(report::look(set).title);
     } catch (const symbolic::ModelError&) {  // the model does not answer such a question
-      missing.emplace_back(set.title);
+      missing.emplace_back(report::look(set).title);
     }
   }
   return views;

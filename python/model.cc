@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "corank/python/bindings.h"
+#include "corank/report/set_look.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_text.h"
 #include "corank/symbolic/regular_locus.h"
@@ -219,7 +220,8 @@ void bind_model(py::module_& module) {
   module.def("latex_name", &symbolic::latex_name);
   py::list sets;
   for (const symbolic::SetDefinition& set : symbolic::set_definitions())
-    sets.append(py::make_tuple(set.name, set.title, set.meaning, set.is_usual(), set.has_kernel(), set.of_parts));
+    sets.append(py::make_tuple(set.name, report::look(set).title, report::look(set).meaning, set.is_usual(),
+                               set.has_kernel(), set.of_parts));
   module.attr("sets") = sets;
 }
 

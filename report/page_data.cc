@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "corank/report/drawing_tree.h"
+#include "corank/report/set_look.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/singularity_system.h"
@@ -247,11 +248,11 @@ std::string set_description(const SetView& view) {
   if (!outputs.empty())
     passage = {{"of", passages_payload(cover)}, {"outputs", outputs}, {"sides", sides_payload(cover, outputs.size())}};
   return Json{{"name", view.set->name},
-              {"title", view.set->member},
+              {"title", look(*view.set).member},
               {"singular", view.set->is_singular()},
               {"locked", locked},
-              {"layer", view.set->layer},
-              {"dot", view.set->dot},
+              {"layer", look(*view.set).layer},
+              {"dot", look(*view.set).dot},
               {"dimension", cover.dimension},
               {"sigma", cover.sigma.largest()},
               {"types", types_payload(cover)},
@@ -264,8 +265,8 @@ std::string set_description(const SetView& view) {
 std::string set_style() {
   std::string light, dark, classes;
   for (const symbolic::SetDefinition& set : symbolic::set_definitions()) {
-    light += fmt::format("--set-{}: {}; ", set.name, set.on_light);
-    dark += fmt::format("--set-{}: {}; ", set.name, set.on_dark);
+    light += fmt::format("--set-{}: {}; ", set.name, look(set).on_light);
+    dark += fmt::format("--set-{}: {}; ", set.name, look(set).on_dark);
     // C-space is seen through.
     classes +=
         fmt::format(".{0} {{ --set: var(--set-{0}); --swatch: color-mix(in srgb, var(--set-{0}) {1}%, transparent); }}\n",

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "corank/report/drawn_boxes.h"
+#include "corank/report/set_look.h"
 #include "corank/result/assembled.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/locus_words.h"
@@ -25,13 +26,13 @@ std::string counted(std::size_t n, const std::string& one, const std::string& ma
 }
 std::string boxes_text(std::size_t n) { return counted(n, "box", "boxes"); }
 
-std::string meaning(const symbolic::SetDefinition& set, int corank, bool given) {
+std::string meaning(const SetLook& set, int corank, bool given) {
   const char* const one = given && set.given_meaning ? set.given_meaning : set.meaning;
   const char* const more = given && set.given_of_corank ? set.given_of_corank : set.of_corank;
   return corank == 1 ? one : fmt::format(fmt::runtime(more), corank);
 }
 
-std::string title(const symbolic::SetDefinition& set, int corank) {
+std::string title(const SetLook& set, int corank) {
   return set.title + (corank == 1 ? "" : fmt::format(" of corank {}", corank));
 }
 
@@ -298,8 +299,9 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
   const Cover& cover = result.cover;
   SetWords words;
   const symbolic::SetDefinition& set = symbolic::definition(result.set);
-  words.title = title(set, result.options.corank);
-  words.meaning = meaning(set, result.options.corank, given_velocity_equation);
+  const SetLook& called = look(set);
+  words.title = title(called, result.options.corank);
+  words.meaning = meaning(called, result.options.corank, given_velocity_equation);
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
     if (const std::size_t n = cover.count(verdict); n > 0)
@@ -309,8 +311,8 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
     words.meaning += fmt::format("; drawn here: hulls of up to {} neighbouring boxes with the same verdict", in_one);
   if (cover.boxes.empty()) {
     words.finding = "None";
-    const char* const none = given_velocity_equation && set.given_none ? set.given_none : set.none;
-    words.proven.emplace_back(result.options.corank == 1 ? none : symbolic::definition(std::nullopt).none);
+    const char* const none = given_velocity_equation && called.given_none ? called.given_none : called.none;
+    words.proven.emplace_back(result.options.corank == 1 ? none : look(symbolic::definition(std::nullopt)).none);
     for (std::string sentence : result::assembly_sentences(result)) {
       sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
       (result::assembled(result) && sentence.starts_with("The robot") ? words.proven : words.unproven)

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "corank/symbolic/set_definition.h"
+#include "corank/report/set_look.h"
 
 namespace corank::report {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 SetStyle set_style(const PictureSource& source) {
   const symbolic::SetDefinition& set = symbolic::definition(source.set);
   // A surface is seen through; a curve of that colour would be too faint.
-  return {*set.label ? set.label : std::filesystem::path(source.file).stem().string(), set_color(source.set),
+  return {*look(set).label ? look(set).label : std::filesystem::path(source.file).stem().string(), set_color(source.set),
           set.is_cspace() && source.dimension > 1 ? 0.4 : 1.0};
 }
 
@@ -55,7 +55,7 @@ Color verdict_color(std::optional<Verdict> verdict) {
 }
 
 Color set_color(const std::string& set) {
-  const auto& [red, green, blue] = symbolic::definition(set).print;
+  const auto& [red, green, blue] = look(symbolic::definition(set)).print;
   return {red, green, blue};
 }
 

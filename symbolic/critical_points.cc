@@ -64,19 +64,8 @@ std::vector<std::string> multiplier_scales(const Mechanism& mechanism) {
 }
 
 const SetDefinition& critical_set() {
-  static const SetDefinition set{.set = std::nullopt,
-                                 .name = "critical",
-                                 .matrix = "[Phi_q; grad h]",
-                                 .side = KernelSide::left,
-                                 .title = "Critical points",
-                                 .member = "Critical point",
-                                 .label = "critical points",
-                                 .meaning = "where a generic height does not vary to first order",
-                                 .of_corank = "",
-                                 .none = "There are none in the search domain.",
-                                 .print = {0.1, 0.5, 0.3},
-                                 .on_light = "#2a7d4f",
-                                 .on_dark = "#6fd19c"};
+  static const SetDefinition set{
+      .set = std::nullopt, .name = "critical", .matrix = "[Phi_q; grad h]", .side = KernelSide::left};
   return set;
 }
 

@@ -1,5 +1,5 @@
-// The sets of configurations that corank knows of a mechanism, as data: of which matrix a set is the rank deficiency, what
-// it is called in words, and how pictures show it. Whoever needs to know what a set is asks here; nobody compares names.
+// The sets of configurations that corank knows of a mechanism, as data: of which matrix a set is the rank deficiency.
+// Whoever needs to know what a set is asks here; nobody compares names. How it is called and shown: report/set_look.h.
 #pragma once
 
 #include <array>
@@ -55,20 +55,6 @@ struct SetDefinition {
   /// The set is that of a type: of the kernel's configurations those where the type is not excluded.
   std::optional<SingularityType> type{};
   LocusPart part = LocusPart::all;  ///< cusps and nodes: cusp_system.h, node_system.h
-
-  const char* title;      ///< "Forward singularities"
-  const char* member;     ///< one of them, "Forward singularity"
-  const char* label;      ///< in a picture's legend, "forward locus"; empty: the file's name
-  const char* meaning;    ///< one clause
-  const char* of_corank;  ///< the same of a corank {} of 2 or more
-  const char* none;       ///< what it says of the mechanism that there is none
-  /// The last three where the mechanism brings its own velocity equation and that makes a difference; else null.
-  const char *given_meaning = nullptr, *given_of_corank = nullptr, *given_none = nullptr;
-
-  std::array<double, 3> print;     ///< colour on paper: red, green and blue, each from 0 to 1
-  const char *on_light, *on_dark;  ///< on a page, in CSS
-  int layer = 0;                   ///< higher ones are drawn over lower ones
-  double dot = 0;                  ///< radius of an isolated point on a page, in pixels
 
   /// Its result consists of parts, each the solutions of a system of its own (boundary.h).
   bool of_parts = false;

@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
-
 namespace corank::symbolic {
 namespace {
 
@@ -39,11 +37,6 @@ TEST(SetDefinitions, KnowAPlainSystemUnderAnyOtherName) {
   }
   EXPECT_FALSE(definition(std::nullopt).has_kernel());
   EXPECT_FALSE(definition(std::nullopt).is_cspace());
-}
-
-TEST(SetDefinitions, AreDrawnInLayersOfTheirOwn) {
-  std::set<int> layers;
-  for (const SetDefinition& d : set_definitions()) EXPECT_TRUE(layers.insert(d.layer).second) << d.name;
 }
 
 }  // namespace
