@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <memory>
+#include <utility>
 
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/projection.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/ginac_lock.h"
 #include "corank/symbolic/rate_sizes.h"
 
 namespace corank::symbolic {
@@ -25,7 +29,7 @@ struct Configurations {
   std::vector<Interval> box;
 };
 
-Configurations configurations(const System& system) {
+Configurations narrowed(const System& system) {
   const UpwardRounding rounding;
   Configurations result{certify::CompiledSystem(system), {}};
   for (const Variable& v : system.variables) result.box.push_back(v.domain);
@@ -35,6 +39,40 @@ Configurations configurations(const System& system) {
     for (int row = 0; row < result.system.rows(); ++row)
       if (!certify::project(result.system, row, result.box, 1, changed.data())) return {result.system, before};
   }
+  return result;
+}
+
+bool are_alike(const TrigonometricSystem& a, const TrigonometricSystem& b) {
+  const auto same = [](const auto& x, const auto& y, const auto& alike) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(), alike);
+  };
+  const auto constants = [](const Constant& x, const Constant& y) {
+    return x.name == y.name && same_tree(x.value, y.value);
+  };
+  const auto coordinates = [](const Coordinate& x, const Coordinate& y) {
+    return x.name == y.name && x.kind == y.kind && same_tree(x.lower, y.lower) && same_tree(x.upper, y.upper) &&
+           x.auxiliary == y.auxiliary && x.has_range == y.has_range && x.direction == y.direction;
+  };
+  const auto relations = [](const TrigonometricSystem::Equation& x, const TrigonometricSystem::Equation& y) {
+    return x.relation.kind == y.relation.kind && same_tree(x.relation.lhs, y.relation.lhs) &&
+           same_tree(x.relation.rhs, y.relation.rhs);
+  };
+  return same(a.constants, b.constants, constants) && same(a.coordinates, b.coordinates, coordinates) &&
+         same(a.equations, b.equations, relations) && same(a.inequalities, b.inequalities, relations) &&
+         same(a.claimed, b.claimed, relations);
+}
+
+// Hundreds of parts of a boundary ask for the same.
+std::shared_ptr<const Configurations> configurations(const Mechanism& mechanism) {
+  constexpr std::size_t kRemembered = 2;
+  const GinacLock lock;  // of what is remembered, too
+  static std::deque<std::pair<TrigonometricSystem, std::shared_ptr<const Configurations>>> remembered;
+  TrigonometricSystem plain = plain_system(mechanism);
+  for (const auto& [of, found] : remembered)
+    if (are_alike(of, plain)) return found;
+  auto result = std::make_shared<const Configurations>(narrowed(algebrize(plain)));
+  remembered.emplace_front(std::move(plain), result);
+  if (remembered.size() > kRemembered) remembered.pop_back();
   return result;
 }
 
@@ -178,8 +216,7 @@ std::vector<double> equation_sizes(const Mechanism& mechanism, const Configurati
 
 // A length's typical size is its scale times this.
 std::string size_per_scale(const Mechanism& mechanism, const KernelQuestion& kernel) {
-  const Configurations all = configurations(algebrize(plain_system(mechanism)));
-  const Sizes sizes = right_sizes(mechanism, kernel, all.box);
+  const Sizes sizes = right_sizes(mechanism, kernel, configurations(mechanism)->box);
   if (!(sizes.largest > 0)) return "1";
   return sizes.angles ? (ExactNumber(1) / ExactNumber(static_cast<int>(kLengthUnits))).text() : number(sizes.largest, 0);
 }
@@ -187,32 +224,32 @@ std::string size_per_scale(const Mechanism& mechanism, const KernelQuestion& ker
 }  // namespace
 
 std::vector<double> equation_sizes(const Mechanism& mechanism) {
-  return equation_sizes(mechanism, configurations(algebrize(plain_system(mechanism))));
+  return equation_sizes(mechanism, *configurations(mechanism));
 }
 
 std::string typical_length(const Mechanism& mechanism) {
-  const Configurations all = configurations(algebrize(plain_system(mechanism)));
+  const std::shared_ptr<const Configurations> all = configurations(mechanism);
   double largest = 0;
   std::size_t variable = 0;
   for (const Coordinate& coordinate : mechanism.coordinates()) {
     const bool is_angle = coordinate.kind == CoordinateKind::angle;
-    if (!is_angle && !coordinate.direction) largest = std::max(largest, size_of(all.box[variable]));
+    if (!is_angle && !coordinate.direction) largest = std::max(largest, size_of(all->box[variable]));
     variable += is_angle ? 2 : 1;
   }
   return largest > 0 ? number(largest, 0) : "1";
 }
 
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel) {
-  const Configurations all = configurations(algebrize(plain_system(mechanism)));
-  if (mechanism.has_own_velocity_equation()) return scales_of_rates(mechanism, kernel, all.box);
+  const std::shared_ptr<const Configurations> all = configurations(mechanism);
+  if (mechanism.has_own_velocity_equation()) return scales_of_rates(mechanism, kernel, all->box);
   std::vector<double> scales;  // 0: an angle's
   if (kernel.side == KernelSide::left) {
-    const std::vector<double> sizes = equation_sizes(mechanism, all);
+    const std::vector<double> sizes = equation_sizes(mechanism, *all);
     for (std::size_t row = 0; row < sizes.size(); ++row)
       if (!std::binary_search(kernel.dropped.begin(), kernel.dropped.end(), row)) scales.push_back(1 / sizes[row]);
     return texts(scales, 1);
   }
-  const auto [of_columns, largest, angles] = right_sizes(mechanism, kernel, all.box);
+  const auto [of_columns, largest, angles] = right_sizes(mechanism, kernel, all->box);
   std::vector<std::string> result = texts(of_columns, angles && largest > 0 ? kLengthUnits * largest : 1);
   if (!kernel.passive.eliminated.empty()) scale_eliminated(mechanism, kernel, result);
   return result;
