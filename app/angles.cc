@@ -7,6 +7,7 @@
 
 #include "corank/app/box_files.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/whole_run.h"
 #include "corank/certify/angle.h"
 #include "corank/result/result_file.h"
 
@@ -69,14 +70,19 @@ result::SolFile in_angles(const result::SolFile& boxes, const std::vector<Pair>&
   return out;
 }
 
-ExitStatus angles(const std::vector<std::string>& words) {
+ExitStatus angles(const std::vector<std::string>& words, double time_limit) {
   if (words.size() < 4 || words.size() % 2 != 0) {
     throw UsageError("expected RESULT, pairs of a sine and a cosine, and OUTPUT.sol; corank angles --help tells more");
   }
+  WholeRun run(time_limit);
+  run.enter("reading the boxes");
   const result::SolFile boxes = read_boxes(words.front());
   const std::vector<Pair> pairs = pairs_of(words, boxes);
   check_output(words.back());
-  result::write_text(words.back(), result::to_sol(in_angles(boxes, pairs)));
+  run.enter("computing the angles");
+  const std::string text = result::to_sol(in_angles(boxes, pairs));
+  run.enter("writing the boxes");
+  result::write_text(words.back(), text);
   return completeness(boxes, words.front());
 }
 
@@ -90,13 +96,16 @@ void add_angles(CLI::App& program, Action& action) {
                   "The result (.sol or .h5), pairs of variables by name or by number from 1, and the new file (.sol)")
       ->type_name("RESULT SINE COSINE [SINE COSINE ...] OUTPUT.sol")
       ->required();
+  const auto time_limit = std::make_shared<double>(0);
+  add_time_limit(*sub, *time_limit);
   sub->footer(
       "An angle is an interval in radians that encloses all angles of its box. The angles come after the other variables, "
       "in the\n"
       "order of the pairs. An interval that crosses pi goes on beyond it: it does not start again at -pi.\n\n"
-      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 done, but the search of the result had ended early.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by the limit or an interrupt, or done,\n"
+      "but the search of the result had ended early.\n\n"
       "Example:\n  corank angles forward.sol st4 ct4 st2 ct2 forward_angles.sol");
-  sub->callback([words, &action] { action = [words] { return angles(*words); }; });
+  sub->callback([=, &action] { action = [=] { return angles(*words, *time_limit); }; });
 }
 
 }  // namespace corank::app

@@ -7,6 +7,7 @@
 #include "corank/app/json_option.h"
 #include "corank/app/question.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/whole_run.h"
 #include "corank/app/without_effect.h"
 #include "corank/result/derivation_json.h"
 #include "corank/result/printable.h"
@@ -27,6 +28,7 @@ struct DeriveCommand {
   QuestionOptions question;
   std::string format = "text", path;
   JsonOption json;
+  double time_limit = 0;
 };
 
 /// Of what corank derive wrote into a file in the model language, which it may write again.
@@ -57,49 +59,49 @@ std::string left_out(const std::vector<symbolic::Condition>& conditions) {
   return fmt::format("% Left out, being 0 for these values of the constants: {}\n", fmt::join(texts, ", "));
 }
 
-std::string derivation_json(QuestionOptions options) {
-  study::Question question = load(options);
-  std::optional<std::string> robot;
-  if (question.assembly) robot = study::describe(*question.assembly);
-  std::vector<symbolic::TrigonometricSystem> systems;
+bool moves_freely(const study::Question& question) { return question.assembly && question.model.constraints().empty(); }
+
+// The question, with its set, and the systems of that set.
+struct Derived {
+  study::Question question;
+  std::vector<symbolic::TrigonometricSystem> systems{};
+};
+
+Derived derived(const DeriveCommand& command, WholeRun& run) {
+  run.enter("reading the model");
+  Derived result{load(command.question)};
+  study::Question& question = result.question;
+  run.enter("deriving the equations");
+  if (moves_freely(question) || (command.format == "model" && !command.json.given())) return result;
+  QuestionOptions options = command.question;
   if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
   question.set = chosen_set(options, question.model);
-  if (!question.in_parts) question.in_parts = false;
-  const bool moves_freely = question.assembly && question.model.constraints().empty();
-  for (const study::Question& part : moves_freely ? std::vector<study::Question>{} : study::parts_of(question)) {
-    systems.push_back(study::equations(part));
-    if (!systems.back().claimed.empty())
-      static_cast<void>(study::system(part, systems.back()));  // refuses what does not follow
-  }
-  return result::derivation_json(question.model, robot, symbolic::definition(question.set).name, systems);
+  if (command.format == "cuik" && (symbolic::definition(question.set).of_parts || question.in_parts.value_or(false)))
+    throw UsageError("--format cuik: the set consists of several systems; --format text shows them");
+  result.systems = study::equations_of_parts(question, [&run] { return run.ended(); });
+  run.enter("printing the equations");
+  return result;
 }
 
-std::string derivation(QuestionOptions options, const std::string& format) {
-  study::Question question = load(options);
+std::string json_of(const Derived& d) {
+  std::optional<std::string> robot;
+  if (d.question.assembly) robot = study::describe(*d.question.assembly);
+  return result::derivation_json(d.question.model, robot, symbolic::definition(d.question.set).name, d.systems);
+}
+
+std::string text_of(const Derived& d, const std::string& format) {
+  const study::Question& question = d.question;
   std::string head;
   if (question.assembly)
     head = fmt::format("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
-  if (question.assembly && question.model.constraints().empty())
+  if (moves_freely(question))
     return head + "It has no loops and no outputs: every value of its joints is a configuration.\n";
   if (format == "model")
     return head + (question.assembly ? left_out(question.assembly->conditions) : "") +
            symbolic::broken_model(symbolic::to_model(question.model));
-  if (options.set.empty() && !question.model.is_plain_system()) options.set = "cspace";
-  question.set = chosen_set(options, question.model);
-  if (symbolic::definition(question.set).of_parts || question.in_parts) {
-    if (format == "cuik") throw UsageError("--format cuik: the set consists of several systems; --format text shows them");
-    const symbolic::Derivation derivation = symbolic::derive(question.model);
-    for (const study::Question& part : study::parts_of(question)) {
-      const symbolic::TrigonometricSystem system = study::equations(part);
-      head += format == "latex" ? symbolic::to_latex(derivation, system) : symbolic::to_text(derivation, system);
-    }
-    return head;
-  }
-  const symbolic::TrigonometricSystem system = study::equations(question);
-  if (!system.claimed.empty()) static_cast<void>(study::system(question, system));  // refuses what does not follow
-  if (format == "cuik") return head + symbolic::broken_model(symbolic::to_cuik(symbolic::algebrize(system)));
+  if (format == "cuik") return head + symbolic::broken_model(symbolic::to_cuik(symbolic::algebrize(d.systems.front())));
   const symbolic::Derivation derivation = symbolic::derive(question.model);
-  return head + (format == "latex" ? symbolic::to_latex(derivation, system) : symbolic::to_text(derivation, system));
+  return head + (format == "latex" ? symbolic::to_latex(derivation, d.systems) : symbolic::to_text(derivation, d.systems));
 }
 
 ExitStatus derive(const CLI::App& sub, DeriveCommand command) {
@@ -110,9 +112,13 @@ ExitStatus derive(const CLI::App& sub, DeriveCommand command) {
   if (command.json.given() && command.json.path().empty() && command.path.empty())
     refuse_without_effect(sub, {"--format"}, "--json PATH or -o FILE: standard output holds only the JSON");
   check_path(command.path, command.question.file);
-  const bool text_is_asked = command.json.say([&] { return derivation_json(command.question); }) || !command.path.empty();
+  WholeRun run(command.time_limit);
+  const Derived d = derived(command, run);
+  const bool text_is_asked = !command.json.given() || !command.json.path().empty() || !command.path.empty();
+  const std::string json = command.json.given() ? json_of(d) : "", text = text_is_asked ? text_of(d, command.format) : "";
+  run.enter("writing the equations");
+  command.json.say([&json] { return json; });
   if (!text_is_asked) return kDone;
-  const std::string text = derivation(command.question, command.format);
   if (command.path.empty()) {
     fmt::print("{}", result::printable(text));
     return kDone;
@@ -140,11 +146,12 @@ void add_derive(CLI::App& program, Action& action) {
                    "model: the model itself, written out in order")
       ->check(CLI::IsMember({"text", "latex", "cuik", "model"}))
       ->capture_default_str();
+  add_time_limit(*command, options->time_limit);
   command->add_option("-o", options->path, "Write to this file instead of standard output")->type_name("FILE");
   options->json.add(*command, "the constraints, the velocity equation and the systems", "the text");
   command->footer(
       "Without --set, the set is cspace.\n\n"
-      "Exit status: 0 done, 1 bad input, 2 wrong usage.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by the limit or an interrupt.\n\n"
       "Example:\n  corank derive models/dextar.cuik --set inverse --format latex");
   command->callback([=, &action] { action = [=] { return derive(*command, *options); }; });
 }

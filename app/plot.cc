@@ -9,6 +9,7 @@
 
 #include "corank/app/box_files.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/whole_run.h"
 #include "corank/app/without_effect.h"
 #include "corank/report/gcl.h"
 #include "corank/report/portrait.h"
@@ -26,6 +27,7 @@ struct PlotCommand {
   std::string output;
   report::PictureOptions picture;
   report::PortraitOptions portrait;
+  double time_limit = 0;
 };
 
 /// What the axes show: variables, and the cosine and the sine of angles; all where an axis is none of them or a number.
@@ -77,9 +79,14 @@ ExitStatus plot(const CLI::App& sub, const PlotCommand& command) {
   if (!report::is_portrait_format(command.output))
     refuse_without_effect(sub, {"--title", "--legend", "--width"}, "-o with a name that ends in .svg, .pdf or .png");
   if (!command.output.ends_with(".png")) refuse_without_effect(sub, {"--dpi"}, "-o with a name that ends in .png");
+  WholeRun run(command.time_limit);
   std::list<result::Result> results;
   std::vector<report::PictureSource> sources;
-  for (const std::string& path : command.inputs) sources.push_back(read_source(command, path, results));
+  for (const std::string& path : command.inputs) {
+    run.enter("reading the boxes");
+    sources.push_back(read_source(command, path, results));
+  }
+  run.enter("drawing the picture");
   report::Picture picture;
   try {
     picture = report::make_picture(sources, command.picture);
@@ -88,6 +95,7 @@ ExitStatus plot(const CLI::App& sub, const PlotCommand& command) {
   }
   if (is_empty(picture)) throw result::ResultFileError(fmt::format("{}: no boxes to draw", fmt::join(command.inputs, ", ")));
   check_output(command.output);
+  run.enter("writing the picture");
   if (report::is_portrait_format(command.output)) {
     report::write_portrait(command.output, picture, command.portrait);
   } else if (command.output.ends_with(".vtp")) {
@@ -137,12 +145,14 @@ void add_plot(CLI::App& program, Action& action) {
   sub->add_option("--dpi", command->portrait.dots_per_inch, "Dots per inch of a .png")
       ->check(CLI::Range(10.0, 2400.0))
       ->capture_default_str();
+  add_time_limit(*sub, command->time_limit);
   sub->add_option("-o", command->output,
                   "The picture: .svg, .pdf or .png for two axes; .vtp (ParaView) or .gcl (Geomview) for two or three")
       ->type_name("PICTURE")
       ->required();
   sub->footer(
-      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 done, but the search of a result had ended early.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by the limit or an interrupt, or done,\n"
+      "but the search of a result had ended early.\n\n"
       "Examples:\n"
       "  corank plot cspace.h5 forward.h5 inverse.h5 --axes J3x,J3y -o output.pdf\n"
       "  corank plot forward.h5 inverse.h5 --axes theta2,theta5 --width 120 -o input.svg\n"

@@ -12,6 +12,7 @@
 
 #include "corank/app/help_format.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/whole_run.h"
 #include "corank/core/check.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
@@ -97,6 +98,8 @@ int run(const std::string& name, const std::vector<std::string>& args) {
     return say(kUsage, std::string(error.what()) + "; corank --help tells more");
   } catch (const UsageError& error) {
     return say(kUsage, error.what());
+  } catch (const Stopped& stopped) {
+    return say(kIncomplete, stopped.what());
   } catch (const solve::OptionError& error) {
     std::string option = error.option();
     std::replace(option.begin(), option.end(), '_', '-');

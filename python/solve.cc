@@ -49,19 +49,12 @@ py::tuple solve_question(const Model& model, const std::optional<std::string>& s
 }
 
 std::string derivation(study::Question question, const std::string& format) {
-  const auto printed = [&](const symbolic::TrigonometricSystem& system) {
-    const symbolic::Derivation d = symbolic::derive(question.model);
-    return format == "latex" ? symbolic::to_latex(d, system) : symbolic::to_text(d, system);
-  };
-  std::string text;
-  if (symbolic::definition(question.set).of_parts || question.in_parts) {
-    if (format == "cuik") throw std::invalid_argument("format cuik: the set consists of several systems");
-    for (const study::Question& part : study::parts_of(question)) text += printed(study::equations(part));
-    return text;
-  }
-  const symbolic::TrigonometricSystem system = study::equations(question);
-  if (!system.claimed.empty()) static_cast<void>(study::system(question, system));  // refuses what does not follow
-  return format == "cuik" ? symbolic::to_cuik(symbolic::algebrize(system)) : printed(system);
+  if (format == "cuik" && (symbolic::definition(question.set).of_parts || question.in_parts.value_or(false)))
+    throw std::invalid_argument("format cuik: the set consists of several systems");
+  const std::vector<symbolic::TrigonometricSystem> systems = study::equations_of_parts(question);
+  if (format == "cuik") return symbolic::to_cuik(symbolic::algebrize(systems.front()));
+  const symbolic::Derivation d = symbolic::derive(question.model);
+  return format == "latex" ? symbolic::to_latex(d, systems) : symbolic::to_text(d, systems);
 }
 
 std::string derive(const Model& model, const std::optional<std::string>& set, const std::optional<std::string>& kernel,

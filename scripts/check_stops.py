@@ -36,7 +36,6 @@ SETS = [
 SECONDS_OF_A_PAGE = 60
 # Of results that are there before: what is checked is not the search that makes them.
 OF_RESULTS = ["verify", "verify-claims", "plot", "angles", "report-results"]
-WITHOUT_LIMIT = ["derive", "plot", "angles", "report-results"]
 COMMANDS = [
     *["solve", "solve-boundary", "aspects", "cusps", "topology", "path", "clearance", "clearance-best", "clearance-map"],
     *["map", "sweep", "report", "derive", *OF_RESULTS],
@@ -366,8 +365,8 @@ def main():
     for case, (name, model) in enumerate(pairs):
         rng = random.Random(f"{options.seed} {case} {name} {pathlib.Path(model.file).name}")
         moment = moment_of(rng)
-        way = rng.choice((["limit"] if name not in WITHOUT_LIMIT else []) + [signal.SIGTERM, signal.SIGINT])
-        if way == "limit" and name in ("report", "sweep"):
+        way = rng.choice(["limit", signal.SIGTERM, signal.SIGINT])
+        if way == "limit" and name in ("report", "report-results", "sweep"):
             way = signal.SIGTERM  # its limit is of each search
         with tempfile.TemporaryDirectory() as own:
             folder = pathlib.Path(own) / "here"

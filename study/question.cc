@@ -90,6 +90,18 @@ symbolic::TrigonometricSystem equations(const Question& q) {
   return symbolic::singularity_system(q.model, kernel, symbolic::kernel_scales(q.model, kernel), q.corank);
 }
 
+std::vector<symbolic::TrigonometricSystem> equations_of_parts(Question question, const Ended& ended) {
+  question.in_parts = question.in_parts.value_or(false);
+  std::vector<symbolic::TrigonometricSystem> systems;
+  for (const Question& part : parts_of(question, ended)) {
+    if (is_over(ended)) break;
+    systems.push_back(equations(part));
+    if (!systems.back().claimed.empty()) static_cast<void>(system(part, systems.back()));
+    if (part.part && std::holds_alternative<symbolic::Component>(*part.part)) systems.back().name += ": " + text(*part.part);
+  }
+  return systems;
+}
+
 System system(const Question& question) { return system(question, equations(question)); }
 
 System system(const Question& question, const symbolic::TrigonometricSystem& equations) {

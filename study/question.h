@@ -37,7 +37,12 @@ std::vector<Question> parts_of(const Question& question, const Ended& ended = {}
 /// question.part. Throws symbolic::ModelError.
 symbolic::TrigonometricSystem equations(const Question& question);
 
-/// The same as polynomials, the system that is solved, each variable with its
+/// equations() of each of the parts_of() the question, of a union only where `in_parts` asks for its parts, whose names
+/// the systems then have. Throws ModelError also where an implied equation does not follow. Once `ended` is true, those that
+/// are made by then.
+std::vector<symbolic::TrigonometricSystem> equations_of_parts(Question question, const Ended& ended = {});
+
+/// equations() as polynomials, the system that is solved, each variable with its
 /// typical size: 1 of sines, cosines and kernel vectors, the same of all lengths. Throws symbolic::ModelError.
 System system(const Question& question);
 System system(const Question& question, const symbolic::TrigonometricSystem& equations);

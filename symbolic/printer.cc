@@ -106,6 +106,63 @@ std::vector<std::pair<std::string, std::string>> relation_lines(
   return lines;
 }
 
+std::string range_line(const Coordinate& c) {
+  return "  " + c.name + (c.kind == CoordinateKind::angle ? " ~ [" : " : [") + c.lower.text() + ", " + c.upper.text() + "]" +
+         (c.has_range ? "" : "   % found from the equations") + "\n";
+}
+
+std::string unknown_lines(const TrigonometricSystem& system) {
+  std::string lines;
+  for (const auto* names : {&system.kernel_unknowns, &system.second_unknowns})
+    for (const std::string& name : *names) lines += "  " + name + " : [-1, 1]\n";
+  for (const auto& [name, lower, upper] : system.further_unknowns)
+    lines += "  " + name + " : [" + std::to_string(lower) + ", " + std::to_string(upper) + "]\n";
+  return lines;
+}
+
+std::vector<TrigonometricSystem::Equation> relations(const TrigonometricSystem& system) {
+  std::vector<TrigonometricSystem::Equation> all = system.equations;
+  all.insert(all.end(), system.inequalities.begin(), system.inequalities.end());
+  return all;
+}
+
+// What a system has in common with the first one of its set, and what it has for itself.
+struct Comparison {
+  std::vector<std::size_t> common;  // relations of the first one
+  std::vector<TrigonometricSystem::Equation> own;
+};
+
+Comparison compare(const std::vector<TrigonometricSystem::Equation>& first, const TrigonometricSystem& system) {
+  const auto same = [](const Relation& a, const Relation& b) {
+    return a.kind == b.kind && same_tree(a.lhs, b.lhs) && same_tree(a.rhs, b.rhs);
+  };
+  Comparison result;
+  std::size_t next = 0;
+  for (const TrigonometricSystem::Equation& e : relations(system)) {
+    std::size_t k = next;
+    while (k < first.size() && !same(first[k].relation, e.relation)) ++k;
+    if (k == first.size()) {
+      result.own.push_back(e);
+    } else {
+      result.common.push_back(k);
+      next = k + 1;
+    }
+  }
+  return result;
+}
+
+// "(1) to (11), (13)": of which there is one at least.
+std::string ranges_of_numbers(const std::vector<std::size_t>& numbers) {
+  std::string text;
+  for (std::size_t i = 0, last = 0; i < numbers.size(); i = last + 1) {
+    last = i;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    text += (text.empty() ? "" : ", ") + number_label(numbers[i]);
+    if (last > i) text += (last > i + 1 ? " to " : ", ") + number_label(numbers[last]);
+  }
+  return text;
+}
+
 // ---- LaTeX
 // ------------------------------------------------------------------------------------------------------------------------
 
@@ -192,9 +249,35 @@ void print_cuik_polynomials(std::ostream& out, const std::vector<Polynomial>& po
   }
 }
 
+void print_implied(std::ostream& out, const TrigonometricSystem& system) {
+  if (system.claimed.empty()) return;
+  out << "\nImplied: rows that shrink boxes\n";
+  print_numbered(out, relation_lines(system.claimed));
+}
+
+void print_system(std::ostream& out, const TrigonometricSystem& system) {
+  for (const Coordinate& coordinate : system.coordinates) out << range_line(coordinate);
+  out << unknown_lines(system);
+  print_numbered(out, relation_lines(relations(system)));
+  print_implied(out, system);
+}
+
+// Of a part that is not the first one. Parts by limits are hundreds, and most have the same equations.
+void print_difference(std::ostream& out, const TrigonometricSystem& first, const TrigonometricSystem& system) {
+  for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
+    const std::string line = range_line(system.coordinates[i]);
+    if (i >= first.coordinates.size() || line != range_line(first.coordinates[i])) out << line;
+  }
+  if (const std::string unknowns = unknown_lines(system); unknowns != unknown_lines(first)) out << unknowns;
+  const std::vector<TrigonometricSystem::Equation> of_first = relations(first);
+  const Comparison compared = compare(of_first, system);
+  if (!compared.common.empty()) out << broken("  of the first system: " + ranges_of_numbers(compared.common), 0, 4) << "\n";
+  print_numbered(out, relation_lines(compared.own), of_first.size());
+}
+
 }  // namespace
 
-std::string to_text(const Derivation& derivation, const TrigonometricSystem& system) {
+std::string to_text(const Derivation& derivation, std::span<const TrigonometricSystem> systems) {
   std::ostringstream out;
   out << "Φ(q) = 0\n";
   print_numbered(out, phi_lines(derivation));
@@ -206,26 +289,14 @@ std::string to_text(const Derivation& derivation, const TrigonometricSystem& sys
     print_matrix(out, set.matrix, derivation.velocity.without(set.locked));
     print_ties(out, std::string(to_string(set.locked.front())) + "s", derivation.velocity.ties(set.locked));
   }
-  out << "\nSystem " << system.name << "\n";
-  for (const Coordinate& coordinate : system.coordinates)
-    out << "  " << coordinate.name << (coordinate.kind == CoordinateKind::angle ? " ~ [" : " : [") << coordinate.lower.text()
-        << ", " << coordinate.upper.text() << "]" << (coordinate.has_range ? "" : "   % found from the equations") << "\n";
-  for (const auto* names : {&system.kernel_unknowns, &system.second_unknowns})
-    for (const std::string& name : *names) out << "  " << name << " : [-1, 1]\n";
-  for (const auto& [name, lower, upper] : system.further_unknowns)
-    out << "  " << name << " : [" << lower << ", " << upper << "]\n";
-  std::vector<std::pair<std::string, std::string>> lines = relation_lines(system.equations);
-  const auto inequalities = relation_lines(system.inequalities);
-  lines.insert(lines.end(), inequalities.begin(), inequalities.end());
-  print_numbered(out, lines);
-  if (!system.claimed.empty()) {
-    out << "\nImplied: rows that shrink boxes\n";
-    print_numbered(out, relation_lines(system.claimed));
+  for (const TrigonometricSystem& system : systems) {
+    out << "\nSystem " << system.name << "\n";
+    &system == &systems.front() ? print_system(out, system) : print_difference(out, systems.front(), system);
   }
   return out.str();
 }
 
-std::string to_latex(const Derivation& derivation, const TrigonometricSystem& system) {
+std::string to_latex(const Derivation& derivation, std::span<const TrigonometricSystem> systems) {
   std::ostringstream out;
   std::vector<std::string> lines;
   out << "% Assembly constraints\n";
@@ -235,11 +306,17 @@ std::string to_latex(const Derivation& derivation, const TrigonometricSystem& sy
   print_latex_matrix(out, derivation.velocity.given ? "L" : "\\Phi_q", derivation.velocity.matrix);
   for (const SetDefinition& set : set_definitions())
     if (!set.locked.empty() && set.is_usual()) print_latex_matrix(out, set.matrix, derivation.velocity.without(set.locked));
-  out << "% System " << one_line(system.name) << "\n";
-  lines.clear();
-  for (const auto& equation : system.equations) lines.push_back(latex(equation.relation, "&"));
-  for (const auto& inequality : system.inequalities) lines.push_back(latex(inequality.relation, "&"));
-  print_latex_lines(out, lines);
+  std::vector<TrigonometricSystem::Equation> of_first;
+  for (const TrigonometricSystem& system : systems) {
+    out << "% System " << one_line(system.name) << "\n";
+    const Comparison compared = compare(of_first, system);
+    if (!compared.common.empty())
+      out << "% of the first system, counted from 1: " << ranges_of_numbers(compared.common) << "\n";
+    lines.clear();
+    for (const auto& e : compared.own) lines.push_back(latex(e.relation, "&"));
+    if (!lines.empty()) print_latex_lines(out, lines);
+    if (of_first.empty()) of_first = relations(system);
+  }
   return broken_latex(out.str());
 }
 

@@ -1,6 +1,7 @@
 // Derivations and systems as text for people (text, latex) and for programs (cuik).
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "corank/core/system.h"
@@ -8,10 +9,11 @@
 
 namespace corank::symbolic {
 
-/// Φ, Φ_q or the L that the model gives, L_y, L_z and the system, aligned, in trigonometric form.
-std::string to_text(const Derivation& derivation, const TrigonometricSystem& system);
+/// Φ, Φ_q or the L that the model gives, L_y, L_z and the system, aligned, in trigonometric form. Of a set in parts the
+/// first system; of each other one the ranges and equations that the first has not, and the numbers of those that it has.
+std::string to_text(const Derivation& derivation, std::span<const TrigonometricSystem> systems);
 /// The same as a LaTeX fragment (amsmath).
-std::string to_latex(const Derivation& derivation, const TrigonometricSystem& system);
+std::string to_latex(const Derivation& derivation, std::span<const TrigonometricSystem> systems);
 /// A compiled system as a .cuik file of polynomial equations that read_model accepts; every coefficient is exact (a finite
 /// decimal, or a quotient or an expression where there is none).
 std::string to_cuik(const System& system);

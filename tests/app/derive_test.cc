@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -28,6 +29,36 @@ TEST(Derive, PrintsTheSystemOfACorank) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* part : {"row 4 of L_z xi2 = 0", "xi1 orthogonal to xi2", "choice of xi2", "half-space of xi2"})
     EXPECT_THAT(outcome.out, HasSubstr(part));
+}
+
+TEST(Derive, PrintsOfLaterPartsOnlyWhatTheFirstHasNot) {
+  const Outcome boundary = run_corank({"derive", model("planar/arm_2r_limits"), "--set", "boundary"});
+  EXPECT_EQ(boundary.status, 0) << boundary.err;
+  EXPECT_EQ(boundary.out.find("Φ(q) = 0"), boundary.out.rfind("Φ(q) = 0"));
+  EXPECT_THAT(boundary.out, HasSubstr("\nSystem arm_2r_limits boundary: t2 at its upper limit\n  t2 ~ [3*pi/4, 3*pi/4]\n"
+                                      "  of the first system: (1) to (3), (5), (6)\n"));
+  const Outcome parts = run_corank({"derive", model("3rrr"), "--set", "inverse", "--kernel", "none"});
+  EXPECT_EQ(parts.status, 0) << parts.err;
+  EXPECT_THAT(parts.out, HasSubstr("\nSystem 3rrr inverse: psi2 = theta2 + pi\n  of the first system: (1) to (6)\n"
+                                   "  (8)  psi2 = theta2 + pi   % psi2 = theta2 + pi\n"));
+  const Outcome latex = run_corank({"derive", model("3rrr"), "--set", "inverse", "--kernel", "none", "--format", "latex"});
+  EXPECT_THAT(latex.out, HasSubstr("% of the first system, counted from 1: (1) to (6)\n\\begin{align}\n"
+                                   "  \\psi_{2} &= \\theta_{2}\n\\end{align}\n"));
+  // Hundreds of parts, of the same equations.
+  const Outcome stewart = run_corank({"derive", model("platforms/stewart"), "--set", "boundary"});
+  EXPECT_LT(stewart.out.size(), 1'000'000u);
+}
+
+// No part of it is there where it was ended.
+TEST(Derive, EndsAtATimeLimitWithoutOutput) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("d.json");
+  const Outcome outcome =
+      run_corank({"derive", model("platforms/stewart"), "--set", "boundary", "--json", file, "--time-limit", "1e-9"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "corank: stopped by the time limit while reading the model; the output is not complete\n");
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(Derive, PrintsLatex) {

@@ -150,7 +150,7 @@ TEST(GivenVelocity, GivesLinearRatesFarFromAnglesTheSizeOfTheirNeighbours) {
 TEST(GivenVelocity, IsPrintedWithItsRates) {
   const Mechanism m = crank();
   const TrigonometricSystem system = singularity_system(m, SingularitySet::cspace);
-  const std::string text = to_text(derive(m), system), latex = to_latex(derive(m), system);
+  const std::string text = to_text(derive(m), std::vector{system}), latex = to_latex(derive(m), std::vector{system});
   EXPECT_THAT(text, HasSubstr("L (given)   2 x 3\n       v        wt        wp\n"));
   EXPECT_THAT(text, HasSubstr("L_y   2 x 2\n       v        wp\n"));
   EXPECT_THAT(text, Not(HasSubstr("Φ_q")));

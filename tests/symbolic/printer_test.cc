@@ -103,7 +103,7 @@ TEST(CuikPrinter, SaysWhatTheVariablesOfAnAngleMean) {
 
 TEST(TextPrinter, PrintsTheThreeSlider) {
   const Mechanism mechanism = reference("three_slider");
-  EXPECT_EQ(to_text(derive(mechanism), singularity_system(mechanism, SingularitySet::forward)),
+  EXPECT_EQ(to_text(derive(mechanism), std::vector{singularity_system(mechanism, SingularitySet::forward)}),
             "Φ(q) = 0\n"
             "  (1)  y_A^2 + x_C^2 - L1^2 = 0\n"
             "  (2)  y_B^2 + x_C^2 - L2^2 = 0\n"
@@ -140,7 +140,8 @@ TEST(TextPrinter, PrintsTheThreeSlider) {
 TEST(LatexPrinter, BalancesItsBracesAndEnvironments) {
   for (const char* name : {"dextar", "three_slider"}) {
     const Mechanism mechanism = reference(name);
-    const std::string latex = to_latex(derive(mechanism), singularity_system(mechanism, SingularitySet::inverse));
+    const std::string latex =
+        to_latex(derive(mechanism), std::vector{singularity_system(mechanism, SingularitySet::inverse)});
     EXPECT_EQ(std::count(latex.begin(), latex.end(), '{'), std::count(latex.begin(), latex.end(), '}'));
     const auto occurrences = [&](const std::string& word) {
       int n = 0;
@@ -155,7 +156,7 @@ TEST(LatexPrinter, BalancesItsBracesAndEnvironments) {
 
 TEST(LatexPrinter, PrintsTheKernelEquations) {
   const Mechanism mechanism = reference("three_slider");
-  const std::string latex = to_latex(derive(mechanism), singularity_system(mechanism, SingularitySet::forward));
+  const std::string latex = to_latex(derive(mechanism), std::vector{singularity_system(mechanism, SingularitySet::forward)});
   EXPECT_THAT(latex, HasSubstr("\\xi_{1}^{2} + \\xi_{2}^{2} &= 1"));
   EXPECT_THAT(latex, HasSubstr("&\\ge 0"));
   EXPECT_THAT(latex, HasSubstr("2 y_{A} & 2 x_{C} \\\\"));
