@@ -31,7 +31,10 @@ std::optional<std::map<std::size_t, int>> quotient(std::map<std::size_t, int> mo
 
 bool Identities::Before::operator()(const Monomial& a, const Monomial& b) const {
   const int of_a = degree(a), of_b = degree(b);
-  return of_a != of_b ? of_a > of_b : a > b;
+  if (of_a != of_b) return of_a > of_b;
+  for (auto at_a = a.rbegin(), at_b = b.rbegin(); at_a != a.rend() && at_b != b.rend(); ++at_a, ++at_b)
+    if (*at_a != *at_b) return *at_a > *at_b;  // as pairs: a later base, or more of it
+  return false;
 }
 
 void Identities::insert(Polynomial& sum, const Monomial& monomial, const ex& coefficient) const {

@@ -31,7 +31,9 @@ class Identities {
 
  private:
   using Monomial = std::map<std::size_t, int>;  // powers of numbered bases
-  struct Before {                               // by degree, the largest first
+  /// By degree, then lexicographically, the largest first: an order that products keep, so that a division replaces a
+  /// monomial by smaller ones only.
+  struct Before {
     bool operator()(const Monomial& a, const Monomial& b) const;
   };
   using Polynomial = std::map<Monomial, ex, Before>;  // coefficients that are not 0
