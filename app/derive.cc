@@ -48,8 +48,8 @@ void check_path(const std::string& path, const std::string& model) {
   if (kept) throw UsageError(path + ": not overwritten, because corank derive did not make it; remove it first");
 }
 
-/// What equations of parts are not made for: "% Left out, being 0 for these values of the constants: b - 3".
-std::string left_out(const std::vector<symbolic::Condition>& conditions) {
+/// What equations of parts are not made for: "Left out, being 0 for these values of the constants: b - 3".
+std::string left_out_by_constants(const std::vector<symbolic::Condition>& conditions) {
   constexpr std::size_t kMost = 8;
   std::vector<std::string> texts;
   for (const symbolic::Condition& c : conditions)
@@ -57,6 +57,18 @@ std::string left_out(const std::vector<symbolic::Condition>& conditions) {
   if (texts.empty()) return "";
   if (texts.size() > kMost) texts.resize(kMost + 1);
   return fmt::format("% Left out, being 0 for these values of the constants: {}\n", fmt::join(texts, ", "));
+}
+
+/// And what follows from those that are made, each with its reason. `mark`: before each line, that of a comment or nothing.
+std::string left_out(const std::vector<symbolic::LeftOut>& list, const std::string& mark) {
+  if (list.empty()) return "";
+  std::string lines = mark + "Left out, because it follows by an exact identity:\n";
+  for (const symbolic::LeftOut& e : list) {
+    std::string text = mark + "  " + symbolic::broken(e.relation(), mark.size() + 2, 6);
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) text.insert(++at, mark);
+    lines += fmt::format("{}\n{}    % {}: {}\n", text, mark, e.source(), e.reason());
+  }
+  return lines;
 }
 
 bool moves_freely(const study::Question& question) { return question.assembly && question.model.constraints().empty(); }
@@ -84,9 +96,11 @@ Derived derived(const DeriveCommand& command, WholeRun& run) {
 }
 
 std::string json_of(const Derived& d) {
+  const std::optional<kinematics::Assembly>& assembly = d.question.assembly;
   std::optional<std::string> robot;
-  if (d.question.assembly) robot = study::describe(*d.question.assembly);
-  return result::derivation_json(d.question.model, robot, symbolic::definition(d.question.set).name, d.systems);
+  if (assembly) robot = study::describe(*assembly);
+  return result::derivation_json(d.question.model, robot, assembly ? assembly->left_out : std::vector<symbolic::LeftOut>{},
+                                 symbolic::definition(d.question.set).name, d.systems);
 }
 
 std::string text_of(const Derived& d, const std::string& format) {
@@ -96,8 +110,10 @@ std::string text_of(const Derived& d, const std::string& format) {
     head = fmt::format("{}{}\n", format == "text" ? "Robot: " : "% ", study::describe(*question.assembly));
   if (moves_freely(question))
     return head + "It has no loops and no outputs: every value of its joints is a configuration.\n";
+  if (question.assembly && format != "cuik")  // whose equations have other numbers
+    head += left_out(question.assembly->left_out, format == "text" ? "" : "% ");
   if (format == "model")
-    return head + (question.assembly ? left_out(question.assembly->conditions) : "") +
+    return head + (question.assembly ? left_out_by_constants(question.assembly->conditions) : "") +
            symbolic::broken_model(symbolic::to_model(question.model));
   if (format == "cuik") return head + symbolic::broken_model(symbolic::to_cuik(symbolic::algebrize(d.systems.front())));
   const symbolic::Derivation derivation = symbolic::derive(question.model);

@@ -5,7 +5,9 @@
 #include "corank/kinematics/parallelograms.h"
 #include "corank/kinematics/planar.h"
 #include "corank/kinematics/spatial.h"
+#include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/ginac_lock.h"
+#include "corank/symbolic/singularity_system.h"
 
 namespace corank::kinematics {
 namespace {
@@ -95,7 +97,7 @@ Assembly draft(const Robot& robot, Way way) {
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())
     assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;
   if (!assembly.mechanism.constraints().empty())
-    if (const auto redundancy = sampled_redundancy(assembly.mechanism))
+    if (const auto redundancy = sampled_redundancy(symbolic::algebrize(symbolic::plain_system(assembly.mechanism))))
       assembly.mobility_by_rank = assembly.mobility + *redundancy;
   return assembly;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corank/kinematics/robot.h"
+#include "corank/symbolic/left_out.h"
 #include "corank/symbolic/parameters.h"
 
 namespace corank::kinematics {
@@ -51,15 +52,16 @@ struct Assembly {
   /// while they were made, was decided by the sign of one of these expressions, so that the same decisions make the same
   /// equations, in which the constants stand by name.
   std::vector<symbolic::Condition> conditions;
+  std::vector<symbolic::LeftOut> left_out{};  ///< by exact identities (identities.h), or as repetitions
 };
 
 /// The equations of a robot. Throws ModelError where the robot is faulty or can't be assembled; where it has no
 /// coordinates, or more than 500 moving bodies.
 Assembly assemble(const Robot& robot);
 
-/// How many of the equations that are solved follow from the others, to first order, at configurations found by Newton's
-/// method from random ones (of fixed seeds): their number less their Jacobian's rank. Nothing where none of the tries ends
-/// in a configuration, or the variables are hundreds.
-std::optional<int> sampled_redundancy(const symbolic::Mechanism& mechanism);
+/// How many of a system's equations follow from the others, to first order, at solutions found by Newton's method from
+/// random points (of fixed seeds): their number less their Jacobian's rank. Nothing where none of the tries ends in a
+/// solution, or the variables are hundreds.
+std::optional<int> sampled_redundancy(const System& system);
 
 }  // namespace corank::kinematics

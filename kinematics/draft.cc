@@ -163,8 +163,23 @@ Vec Draft::unit_vector(const std::string& name, const SourceLocation& where) {
     coordinates_.push_back({i == 0 ? free : component, CoordinateKind::length, {}, false, i == 0, where});
     v[i] = algebra_.coordinate(component);
   }
-  if (identities_) identities_->add(dot(v, v) - 1);
+  know(dot(v, v) - 1, {Origin::unit_vector, unit_vectors_++});
   return v;
+}
+
+void Draft::know(const ex& e, Numbered number) {
+  if (!identities_) return;
+  identities_->add(e, numbered_.size());
+  numbered_.push_back(number);
+}
+
+bool Draft::leaves_out(const DraftEquation& e) {
+  if (!identities_) return false;
+  const auto sources = identities_->sources(e.value);
+  if (!sources) return false;
+  DraftLeftOut& left = left_out_.emplace_back(DraftLeftOut{e, {}});
+  for (const std::size_t number : *sources) left.from.push_back(numbered_[number]);
+  return true;
 }
 
 bool Draft::equation(const ex& e, const std::string& note, const SourceLocation& where, const std::string& what) {
@@ -174,10 +189,16 @@ bool Draft::equation(const ex& e, const std::string& note, const SourceLocation&
     throw ModelError(where, what + " can never close: it stays open by " + std::to_string(algebra_.value(clean)),
                      "geometry that fits together");
   }
-  if (known_.contains(clean) || known_.contains(-clean) || follows(clean)) return false;
-  known_.insert(clean);
-  if (identities_) identities_->add(clean);
-  equations_.push_back({clean, false, note, where});
+  const DraftEquation own{clean, false, note, where};
+  for (const ex& same : {clean, ex(-clean)})
+    if (const auto other = known_.find(same); other != known_.end()) {
+      left_out_.push_back({own, {{Origin::equation, other->second}}});
+      return false;
+    }
+  if (leaves_out(own)) return false;
+  known_.emplace(clean, equalities_);
+  know(clean, {Origin::equation, equalities_++});
+  equations_.push_back(own);
   return true;
 }
 
@@ -199,6 +220,7 @@ bool Draft::closing(const std::vector<ex>& loop, const std::optional<LoopBranche
       two ? std::vector<ex>{(1 + c) / 2, (1 - c) / 2} : std::vector<ex>{(c * c + c) / 2, s, (c * c - c) / 2};
   const auto add = [&](const ex& e, bool inequality, const std::string& of) {
     equations_.push_back({algebra_.clean(e), inequality, note + of, where, true});
+    if (!inequality) ++equalities_;
   };
   add(two ? s : s * c, false, ", which branch");
   if (!two) add(s + ex(1) / 2, true, ", which branch");
@@ -247,9 +269,10 @@ ex Draft::rate(const std::string& name, CoordinateKind kind, symbolic::Role role
 
 void Draft::velocity(const ex& e, const std::string& note, const SourceLocation& where) {
   const ex clean = algebra_.clean(e);
-  if (clean.is_zero() || follows(clean)) return;
-  if (identities_) identities_->add(clean);
-  velocity_.push_back({clean, false, note, where});
+  const DraftEquation own{clean, false, note, where};
+  if (clean.is_zero() || leaves_out(own)) return;
+  know(clean, {Origin::velocity, velocity_.size()});
+  velocity_.push_back(own);
 }
 
 void Draft::velocity_of_equations() {
@@ -284,6 +307,16 @@ std::string Draft::point(const std::string& wanted, const Vec& at, const std::op
   return name;
 }
 
+// Unit vectors come first in Φ, in the order of the coordinates.
+symbolic::LeftOut Draft::left_out(const DraftLeftOut& e, const Expression& value) const {
+  symbolic::LeftOut result{value, e.equation.note, e.equation.where};
+  for (const Numbered& n : e.from)
+    (n.origin == Origin::velocity ? result.rows : result.equations)
+        .push_back(n.index + (n.origin == Origin::equation ? unit_vectors_ : 0) + 1);
+  for (auto* numbers : {&result.equations, &result.rows}) std::sort(numbers->begin(), numbers->end());
+  return result;
+}
+
 Assembly Draft::assembly() const {
   Mechanism mechanism(robot_.name);
   for (const symbolic::Constant& constant : robot_.constants)
@@ -309,6 +342,7 @@ Assembly Draft::assembly() const {
   std::vector<ex> all;
   for (const DraftEquation& e : equations_) all.push_back(e.value);
   for (const DraftEquation& e : velocity_) all.push_back(e.value);
+  for (const DraftLeftOut& e : left_out_) all.push_back(e.equation.value);
   all.insert(all.end(), inputs_.begin(), inputs_.end());
   all.insert(all.end(), outputs_.begin(), outputs_.end());
   const auto add = [&](const Vec& v, std::size_t n) {
@@ -336,6 +370,8 @@ Assembly Draft::assembly() const {
   for (const DraftRate& r : velocity_.empty() ? std::vector<DraftRate>{} : rates_)
     mechanism.rate(r.name, r.kind, r.role, r.where);
   for (const DraftEquation& e : velocity_) mechanism.velocity(*next++ == Expression(0), e.where);
+  Assembly assembly;
+  for (const DraftLeftOut& e : left_out_) assembly.left_out.push_back(left_out(e, *next++));
   const auto list = [&](std::size_t n) {
     std::vector<Expression> symbols(next, next + static_cast<std::ptrdiff_t>(n));
     next += static_cast<std::ptrdiff_t>(n);
@@ -344,7 +380,6 @@ Assembly Draft::assembly() const {
   if (const auto inputs = list(inputs_.size()); !inputs.empty()) mechanism.inputs(inputs);
   if (const auto outputs = list(outputs_.size()); !outputs.empty()) mechanism.outputs(outputs);
   for (const symbolic::Constraint& equation : robot_.equations) mechanism.constrain(equation.relation, equation.where);
-  Assembly assembly;
   symbolic::Drawing drawing;
   drawing.unit = robot_.unit;
   drawing.parts = parts_;

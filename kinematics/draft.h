@@ -134,12 +134,28 @@ class Draft {
     SourceLocation where;
     bool of_branch = false;
   };
+  /// Of what identities are made of.
+  enum class Origin { unit_vector, equation, velocity };
+  struct Numbered {
+    Origin origin;
+    std::size_t index;  ///< among those of its origin, from 0; inequalities do not count
+  };
+  struct DraftLeftOut {
+    DraftEquation equation;
+    std::vector<Numbered> from;
+  };
   struct DraftRate {
     std::string name;
     symbolic::CoordinateKind kind;
     symbolic::Role role;
     SourceLocation where;
   };
+
+  /// From now on e = 0 is known, where identities are sought.
+  void know(const ex& e, Numbered number);
+  /// Notes it where e = 0 is known to follow; then returns true.
+  bool leaves_out(const DraftEquation& e);
+  symbolic::LeftOut left_out(const DraftLeftOut& e, const Expression& value) const;
 
   JointCoordinate common(std::size_t joint, bool turns);
   std::optional<Range> common_range(const Couplings::Train& train) const;
@@ -154,9 +170,12 @@ class Draft {
   std::vector<DraftEquation> equations_, velocity_;
   /// Of parallelograms whose branches are told apart: the angle's name and the number of branches.
   std::map<std::size_t, std::pair<std::string, std::size_t>> taken_apart_;
-  std::vector<DraftEquation> loops_;       // whose branches took their place
-  std::set<ex, GiNaC::ex_is_less> known_;  // equations, as they are
-  std::optional<Identities> identities_;   // of equations and velocity equations
+  std::vector<DraftEquation> loops_;                    // whose branches took their place
+  std::map<ex, std::size_t, GiNaC::ex_is_less> known_;  // equations, as they are
+  std::size_t equalities_ = 0, unit_vectors_ = 0;
+  std::optional<Identities> identities_;  // of equations and velocity equations
+  std::vector<Numbered> numbered_;        // as they are known to the identities
+  std::vector<DraftLeftOut> left_out_;
   std::vector<DraftRate> rates_;
   std::vector<ex> inputs_, outputs_;
   struct JointValue {

@@ -53,7 +53,7 @@ std::size_t Identities::number(const ex& base) {
   if (!is_sine && name != "cos") return result;
   const ex other = is_sine ? ex(GiNaC::cos(base.op(0))) : ex(GiNaC::sin(base.op(0)));
   const auto [partner, other_is_new] = numbers_.try_emplace(other, numbers_.size());
-  if (other_is_new) add({{{{result, 2}}, 1}, {{{partner->second, 2}}, 1}, {{}, -1}});
+  if (other_is_new) add({{{{{result, 2}}, 1}, {{{partner->second, 2}}, 1}, {{}, -1}}, {}});
   return result;
 }
 
@@ -98,26 +98,28 @@ Identities::Polynomial Identities::polynomial(const ex& e) {
   return result;
 }
 
-std::optional<Identities::Polynomial> Identities::remainder(const ex& e) {
+std::optional<Identities::Known> Identities::remainder(const ex& e) {
   if (operations_left_ == 0) return std::nullopt;
   const auto spend = [&](std::size_t operations) { operations_left_ -= std::min(operations_left_, operations); };
-  Polynomial f = polynomial(e), left;
+  Polynomial f = polynomial(e);
+  Known left;
   spend(f.size());
   while (!f.empty()) {
     if (operations_left_ == 0) return std::nullopt;
     const auto [monomial, coefficient] = *f.begin();
     std::optional<Monomial> factor;
-    const auto divisor = std::find_if(known_.begin(), known_.end(), [&](const Polynomial& p) {
-      factor = quotient(monomial, p.begin()->first);
+    const auto divisor = std::find_if(known_.begin(), known_.end(), [&](const Known& p) {
+      factor = quotient(monomial, p.value.begin()->first);
       return factor.has_value();
     });
     if (divisor == known_.end()) {
       spend(1);
-      left.emplace(monomial, coefficient);
+      left.value.emplace(monomial, coefficient);
       f.erase(f.begin());
       continue;
     }
-    for (const auto& [other, times] : *divisor) {
+    left.of.insert(divisor->of.begin(), divisor->of.end());
+    for (const auto& [other, times] : divisor->value) {
       spend(terms(coefficient) * terms(times));
       Monomial product = *factor;
       for (const auto& [number, power] : other) product[number] += power;
@@ -127,20 +129,24 @@ std::optional<Identities::Polynomial> Identities::remainder(const ex& e) {
   return left;
 }
 
-void Identities::add(const ex& e) {
-  if (std::optional<Polynomial> rest = remainder(e)) add(std::move(*rest));
+void Identities::add(const ex& e, std::size_t equation) {
+  std::optional<Known> rest = remainder(e);
+  if (!rest) return;
+  rest->of.insert(equation);
+  add(std::move(*rest));
 }
 
-bool Identities::imply(const ex& e) {
-  const std::optional<Polynomial> rest = remainder(e);
-  return rest && rest->empty();
+std::optional<Identities::Numbers> Identities::sources(const ex& e) {
+  std::optional<Known> rest = remainder(e);
+  if (!rest || !rest->value.empty()) return std::nullopt;
+  return std::move(rest->of);
 }
 
-void Identities::add(Polynomial rest) {
-  if (rest.empty()) return;
-  const ex first = rest.begin()->second;
-  for (auto& [monomial, coefficient] : rest) coefficient = (coefficient / first).expand();
-  rest.begin()->second = 1;
+void Identities::add(Known rest) {
+  if (rest.value.empty()) return;
+  const ex first = rest.value.begin()->second;
+  for (auto& [monomial, coefficient] : rest.value) coefficient = (coefficient / first).expand();
+  rest.value.begin()->second = 1;
   known_.push_back(std::move(rest));
 }
 

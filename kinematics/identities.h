@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "corank/kinematics/algebra.h"
@@ -24,10 +25,14 @@ class Identities {
   explicit Identities(const Algebra& algebra, std::size_t operations = kOperations)
       : algebra_(algebra), operations_left_(operations) {}
 
-  /// From now on e = 0 is known. e: a polynomial in coordinates, and sines and cosines of them.
-  void add(const ex& e);
-  /// Does e = 0 follow from what is known? True is proven, false says nothing.
-  bool imply(const ex& e);
+  /// Of equations that were added.
+  using Numbers = std::set<std::size_t>;
+
+  /// From now on e = 0 is known, by this number. e: a polynomial in coordinates, and sines and cosines of them.
+  void add(const ex& e, std::size_t equation);
+  /// Equations fᵢ with which e = Σ pᵢ fᵢ, circles aside; that is proven. Nothing where none were found, which says nothing.
+  std::optional<Numbers> sources(const ex& e);
+  bool imply(const ex& e) { return sources(e).has_value(); }
 
  private:
   using Monomial = std::map<std::size_t, int>;  // powers of numbered bases
@@ -37,18 +42,22 @@ class Identities {
     bool operator()(const Monomial& a, const Monomial& b) const;
   };
   using Polynomial = std::map<Monomial, ex, Before>;  // coefficients that are not 0
+  struct Known {
+    Polynomial value;  // whose first coefficient is 1
+    Numbers of;        // the equations that it is a combination of
+  };
 
   void insert(Polynomial& sum, const Monomial& monomial, const ex& coefficient) const;
   std::size_t number(const ex& base);
   Polynomial polynomial(const ex& e);
   /// Of the division; nothing once the operations are used up.
-  std::optional<Polynomial> remainder(const ex& e);
-  void add(Polynomial rest);
+  std::optional<Known> remainder(const ex& e);
+  void add(Known rest);
 
   const Algebra& algebra_;
   std::size_t operations_left_;
   std::map<ex, std::size_t, GiNaC::ex_is_less> numbers_;
-  std::vector<Polynomial> known_;  // whose first coefficients are 1
+  std::vector<Known> known_;
 };
 
 }  // namespace corank::kinematics

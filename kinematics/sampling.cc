@@ -60,11 +60,10 @@ class Numeric {
 
 }  // namespace
 
-std::optional<int> sampled_redundancy(const symbolic::Mechanism& mechanism) {
+std::optional<int> sampled_redundancy(const System& system) {
   constexpr int kTries = 30, kEnough = 4, kSteps = 50;
   constexpr double kZero = 1e-10, kRank = 1e-7, kFar = 1e6;
   constexpr Eigen::Index kMostVariables = 300;  // dense matrices: beyond, decompositions take many seconds
-  const System system = symbolic::algebrize(symbolic::plain_system(mechanism));
   const auto n = static_cast<Eigen::Index>(system.variables.size()), m = static_cast<Eigen::Index>(system.equations.size());
   if (n > kMostVariables) return std::nullopt;
   VectorXd low(n), high(n), units(n);

@@ -47,7 +47,8 @@ Json to_json(const symbolic::VelocityEquation& velocity) {
 }  // namespace
 
 std::string derivation_json(const symbolic::Mechanism& mechanism, const std::optional<std::string>& robot,
-                            const std::string& set, const std::vector<symbolic::TrigonometricSystem>& systems) {
+                            const std::vector<symbolic::LeftOut>& left_out, const std::string& set,
+                            const std::vector<symbolic::TrigonometricSystem>& systems) {
   Json json{{"model", mechanism.name()}};
   json["robot"] = robot ? Json(*robot) : Json();
   json["constants"] = Json::object();
@@ -61,6 +62,11 @@ std::string derivation_json(const symbolic::Mechanism& mechanism, const std::opt
     json["constraints"] = Json::array();
     for (const symbolic::Expression& phi : derivation.phi) json["constraints"].push_back(phi.text());
     json["velocity"] = to_json(derivation.velocity);
+    json["left_out"] = Json::array();
+    for (const symbolic::LeftOut& e : left_out)
+      json["left_out"].push_back({{"relation", e.relation()},
+                                  {"source", e.source()},
+                                  {"follows_from", {{"constraints", e.equations}, {"velocity", e.rows}}}});
   }
   json["set"] = set;
   json["systems"] = Json::array();

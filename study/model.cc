@@ -6,9 +6,12 @@
 
 #include "corank/kinematics/part_file.h"
 #include "corank/kinematics/urdf.h"
+#include "corank/solve/reducer.h"
+#include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/exact_value.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/model_text.h"
+#include "corank/symbolic/singularity_system.h"
 
 namespace corank::study {
 namespace {
@@ -28,7 +31,11 @@ void put_in(const std::vector<result::ConstantOverride>& overrides, kinematics::
 // Joints that leave other freedom than they count for, and whether the equations are as many as the robot's freedom.
 std::optional<std::string> paradox(const kinematics::Assembly& assembly) {
   if (!assembly.mobility_by_rank || *assembly.mobility_by_rank <= assembly.mobility) return std::nullopt;
-  const int more = *assembly.mobility_by_rank - assembly.mobility;
+  // Of which some may be 0 = 0, or repeat others, once variables are replaced exactly: searches go without them, with proof.
+  const System system = symbolic::algebrize(symbolic::plain_system(assembly.mechanism));
+  const int seen = *assembly.mobility_by_rank - assembly.mobility;
+  const int more = std::min(seen, kinematics::sampled_redundancy(solve::reduce(system).system).value_or(seen));
+  if (more == 0) return std::nullopt;
   return fmt::format(
       "by their number, its equations leave {} degree{} of freedom, but at sampled configurations they leave {}: {} of them "
       "follow{} from the others there (a paradoxical or over-constrained linkage), so boxes are proven for independent "

@@ -296,6 +296,57 @@ TEST(Parts, AMobilityThatIsNotTheCountIsSaid) {
   EXPECT_EQ(boxes["undecided"], 0);
 }
 
+// A Delta with both rods of each parallelogram, in one orientation: three equations repeat others, and every search drops
+// them exactly.
+TEST(Parts, ARedundancyThatIsProvenIsNoNote) {
+  std::string text = "[CONSTANTS]\nc := -1/2\ns := sqrt(3)/2\n[LINKS]\nbase : point A1 (4, 0, 0)";
+  const std::array<std::string, 3> along{"(0, 1, 0)", "(-s, c, 0)", "(s, c, 0)"},
+      out{"(1, 0, 0)", "(c, s, 0)", "(c, -s, 0)"};
+  text += " point A2 (4*c, 4*s, 0) point A3 (4*c, -4*s, 0)\n";
+  for (const char* arm : {"1", "2", "3"}) text += std::string("arm") + arm + " : point L (7, 1, 0) point R (7, -1, 0)\n";
+  text +=
+      "plat : point T (0, 0, 0) point L1 (1, 1, 0) point R1 (1, -1, 0) point L2 (c - s, s + c, 0) point R2 (c + s, s - c, 0)"
+      " point L3 (c + s, -s + c, 0) point R3 (c - s, -s - c, 0)\n[JOINTS]\n";
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string k = std::to_string(i + 1);
+    text += "revolute q" + k + " : base A" + k + " + " + along[i] + " arm" + k + " (0, 0, 0) + (0, 1, 0) zero " + out[i] +
+            " (1, 0, 0) range [-pi/4, pi/2] actuated\nsph_sph l" + k + " : arm" + k + " L plat L" + k +
+            " length 16\nsph_sph r" + k + " : arm" + k + " R plat R" + k + " length 16\n";
+  }
+  text += "[OUTPUTS]\nT : pose of plat.T range x [-8, 8] y [0, 0] z [-18, -18] keeps id\n";
+  const TemporaryFolder folder;
+  const Outcome outcome = run_corank({"solve", folder.write("delta.cuik", text), "--set", "cspace", "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, Not(HasSubstr("sampled configurations")));
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result["system"]["dimension"], 1);
+  EXPECT_GT(result["boxes"]["regular"], 0);
+  EXPECT_EQ(result["boxes"]["partial"], 0);
+}
+
+TEST(Parts, EquationsThatFollowFromOthersAreListedWithTheirReasons) {
+  const std::string file = model("platforms/griffis_duffy");
+  const json derived = json::parse(run_corank({"derive", file, "--json"}).out);
+  ASSERT_EQ(derived["left_out"].size(), 1u);
+  const json& left_out = derived["left_out"][0];
+  EXPECT_THAT(left_out["source"].get<std::string>(), testing::ContainsRegex("griffis_duffy.cuik:[0-9]+ \\(rod\\)"));
+  std::string reason = "follows from ";
+  for (const json& number : left_out["follows_from"]["constraints"]) {
+    EXPECT_LE(number.get<std::size_t>(), derived["constraints"].size());
+    reason += (reason.ends_with(' ') ? "(" : ", (") + std::to_string(number.get<int>()) + ")";
+  }
+  EXPECT_TRUE(left_out["follows_from"]["velocity"].empty());
+  for (const char* format : {"text", "latex", "model"}) {
+    const std::string mark = format == std::string("text") ? "" : "% ",
+                      out = run_corank({"derive", file, "--format", format}).out;
+    EXPECT_THAT(out, HasSubstr("\n" + mark + "Left out, because it follows by an exact identity:\n")) << format;
+    EXPECT_THAT(out,
+                HasSubstr("\n" + mark + "    % " + left_out["source"].get<std::string>() + ": " + reason + " of Φ(q) = 0\n"))
+        << format;
+  }
+  EXPECT_TRUE(json::parse(run_corank({"derive", model("dextar"), "--json"}).out)["left_out"].empty());
+}
+
 // Sarrus's linkage: two hinged legs at a right angle lead a plate along a line. One row of each loop is 0 by the constants
 // alone and left out, and the joints' own count is told beside.
 TEST(Parts, AMobilityThatTheJointsDoNotCountIsTold) {

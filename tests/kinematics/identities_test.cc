@@ -22,13 +22,13 @@ class IdentitiesTest : public testing::Test {
 
 TEST_F(IdentitiesTest, ImplyCombinationsWithPolynomialMultipliers) {
   const ex f = x_ * x_ * x_ + y_ - 1, g = y_ * y_ * z_ - 2 * x_;  // a Gröbner basis: the first terms are coprime
-  known_.add(f);
-  known_.add(g);
+  known_.add(f, 0);
+  known_.add(g, 1);
   EXPECT_TRUE(known_.imply((y_ * z_ + 3) * f - (x_ * x_ - z_) * g));
 }
 
 TEST_F(IdentitiesTest, DoNotImplyWhatIsNoCombination) {
-  known_.add(x_ * x_ + y_ * y_ - 1);
+  known_.add(x_ * x_ + y_ * y_ - 1, 0);
   EXPECT_FALSE(known_.imply(x_ * x_ + y_ * y_ - 2));
   EXPECT_FALSE(known_.imply(x_ + y_ - 1));
   EXPECT_FALSE(known_.imply(z_ * (x_ * x_ - y_ * y_ - 1)));
@@ -45,8 +45,8 @@ TEST_F(IdentitiesTest, KnowTheCirclesOfAnglesButNoOtherFunctions) {
 TEST_F(IdentitiesTest, DoNotImplyWhatADivisionOutOfOrderWouldLeave) {
   for (const auto& [a, b] : {std::pair{x_, y_}, std::pair{y_, x_}}) {
     Identities known(algebra_);
-    known.add(a - b);
-    known.add(a * a - b * b - z_);  // so z = 0
+    known.add(a - b, 0);
+    known.add(a * a - b * b - z_, 1);  // so z = 0
     EXPECT_TRUE(known.imply(z_));
     EXPECT_FALSE(known.imply(a * a - z_));
     EXPECT_FALSE(known.imply(b * b - z_));
@@ -54,9 +54,20 @@ TEST_F(IdentitiesTest, DoNotImplyWhatADivisionOutOfOrderWouldLeave) {
   }
 }
 
+TEST_F(IdentitiesTest, NameTheEquationsThatTheyAreMadeOf) {
+  known_.add(x_ - y_, 7);
+  known_.add(x_ - z_, 4);  // kept as y - z, which both make
+  known_.add(GiNaC::exp(z_) - 2, 5);
+  EXPECT_EQ(known_.sources(GiNaC::pow(x_, 2) - GiNaC::pow(y_, 2)), std::optional(Identities::Numbers{7}));
+  EXPECT_EQ(known_.sources(y_ - z_), std::optional(Identities::Numbers{4, 7}));
+  EXPECT_EQ(known_.sources(GiNaC::pow(GiNaC::sin(x_), 2) + GiNaC::pow(GiNaC::cos(x_), 2) - 1),
+            std::optional(Identities::Numbers{}));
+  EXPECT_EQ(known_.sources(y_), std::nullopt);
+}
+
 TEST_F(IdentitiesTest, ImplyNothingOnceTheirOperationsAreUsedUp) {
   Identities few(algebra_, 12);
-  few.add(x_ - y_);
+  few.add(x_ - y_, 0);
   EXPECT_TRUE(few.imply(x_ - y_));
   EXPECT_FALSE(few.imply(GiNaC::pow(x_, 20) - GiNaC::pow(y_, 20)));
   EXPECT_FALSE(few.imply(x_ - y_));
@@ -94,6 +105,14 @@ P : position of plat.C range z [900,900]
   EXPECT_EQ(a.mobility, 3);
   EXPECT_EQ(a.mobility_by_rank, 3);  // so there is no note of redundancy
   EXPECT_EQ(a.mechanism.rates().size() - a.mechanism.velocity_equations().size(), 3U);
+  // Each is left out for what stays.
+  const std::size_t equations = symbolic::derive(a.mechanism).phi.size(), rows = a.mechanism.velocity_equations().size();
+  EXPECT_FALSE(a.left_out.empty());
+  for (const symbolic::LeftOut& e : a.left_out) {
+    EXPECT_FALSE(e.equations.empty() && e.rows.empty()) << e.relation();
+    for (const std::size_t number : e.equations) EXPECT_TRUE(1 <= number && number <= equations) << e.reason();
+    for (const std::size_t number : e.rows) EXPECT_TRUE(1 <= number && number <= rows) << e.reason();
+  }
 }
 
 }  // namespace
