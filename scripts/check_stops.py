@@ -343,6 +343,8 @@ def main():
     parser.add_argument("--large", action="store_true", help="models of thousands of variables and joints, too")
     parser.add_argument("--pages", action="store_true", help="the reports of all models, undisturbed")
     options = parser.parse_args()
+    # Where this runs in the background a shell has it ignore SIGINT, and what it starts would, until it has a handler.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     temporary = tempfile.TemporaryDirectory()
     kept = pathlib.Path(temporary.name)
     (kept / "large").mkdir()
