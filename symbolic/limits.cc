@@ -1,6 +1,9 @@
 #include "corank/symbolic/limits.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/ginac_lock.h"
@@ -13,11 +16,27 @@ std::string range_text(const Expression& lower, const Expression& upper) {
   return "[" + lower.text() + ", " + upper.text() + "]";
 }
 
+// Of the ends of limits and of the ranges of their coordinates. Constants that these do not need may take long.
 class Values {
  public:
   explicit Values(const Mechanism& mechanism) {
-    for (const Constant& c : mechanism.constants())
-      expander_.add_constant(c.name, expander_.constant(c.value, "the constant " + in_quotes(c.name), c.where));
+    std::vector<Expression> asked;
+    for (const Limit& limit : mechanism.limits()) {
+      const Coordinate& c = mechanism.coordinates()[static_cast<std::size_t>(mechanism.find_coordinate(limit.coordinate))];
+      asked.insert(asked.end(), {limit.lower, limit.upper, c.lower, c.upper});
+    }
+    const std::vector<Constant>& constants = mechanism.constants();
+    std::vector<bool> needed(constants.size());
+    for (std::size_t k = constants.size(); k-- > 0;) {  // each needs only those before it
+      const std::string& name = constants[k].name;
+      needed[k] = std::any_of(asked.begin(), asked.end(), [&name](const Expression& e) { return e.mentions(name); });
+      if (needed[k]) asked.push_back(constants[k].value);
+    }
+    for (std::size_t k = 0; k < constants.size(); ++k) {
+      const Constant& c = constants[k];
+      if (needed[k])
+        expander_.add_constant(c.name, expander_.constant(c.value, "the constant " + in_quotes(c.name), c.where));
+    }
   }
 
   ConstantValue operator()(const Expression& e, const std::string& what, const SourceLocation& where) {
