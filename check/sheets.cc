@@ -68,13 +68,14 @@ class SheetCheck {
       pending_reason_ = "the Jacobian is singular";
       return bisect(x, true);
     }
-    const int steps = box_.free.empty() ? kPointTightenings : kTightenings;
+    const bool indivisible = choose(x, false, -1) < 0;  // a point, or free sides that are one: no halves will be narrower
+    const int steps = indivisible ? kPointTightenings : kTightenings;
     for (int step = 0;; ++step) {
       if ((step > 0 || proven) && !shrink(x, newton_.image(x))) return fail("a part of it has no solution");
       if (settled(x)) return true;
       if (!reason_.empty()) return false;
       // The region's one solution, for each value of the free variables.
-      if ((box_.free.empty() || step == steps) && newton_.center_solves(x) && center_in_region()) {
+      if ((indivisible || step == steps) && newton_.center_solves(x) && center_in_region()) {
         for (const int k : dependent_)
           x[static_cast<std::size_t>(k)] = Enclosure(newton_.center()[static_cast<std::size_t>(k)]);
         if (settled(x)) return true;
@@ -87,9 +88,7 @@ class SheetCheck {
         if (settled(x)) return true;
         break;
       }
-      if ((box_.free.empty() || step == 0) &&
-          !newton_.set(dependent_, x, box_.free.empty() ? point_center_ : Center::polished))
-        break;
+      if ((indivisible || step == 0) && !newton_.set(dependent_, x, indivisible ? point_center_ : Center::polished)) break;
     }
     return bisect(x, true);
   }

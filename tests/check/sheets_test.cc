@@ -113,6 +113,23 @@ TEST(Sheet, HasItsPointInTheDomainAsItIsWritten) {
   EXPECT_THAT(fault(plain("[SYSTEM VARS]\nx : [0, 2/5]" + equations), claim), HasSubstr("violates the domain of x"));
 }
 
+// What is left of a piece that meets its part of the search in a corner: dependent sides are known to a few doubles there.
+TEST(Sheet, MayHaveFreeSidesThatAreAPoint) {
+  const System system =
+      plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\nz : [-9, 9]\n[SYSTEM EQS]\nx^2 + z = y;\nz^2 + x = y;\n");
+  const double solution = (std::sqrt(13) - 1) / 2, unit = 0x1p-52;  // of x and z, where y = 3
+  const auto with = [&](double to, double lower, double upper) {
+    const Interval y(3, to), side(solution + lower, solution + upper), region(1, 1.7);
+    return fault(system, {Verdict::regular, {1}, {side, y, side}, {region, y, region}});
+  };
+  for (const double to : {3.0, std::nextafter(3.0, 4.0)}) {
+    EXPECT_EQ(with(to, -2 * unit, 3 * unit), "") << to;
+    EXPECT_NE(with(to, 2 * unit, 3 * unit), "") << to;
+    EXPECT_NE(with(to, 1e-3, 2e-3), "") << to;
+    EXPECT_NE(with(to, -2e-3, -1e-3), "") << to;
+  }
+}
+
 // z = (x − y)² is nearly −10⁻⁸ along a line, so that no end of parts tells it; far from where it begins x + y > 1.99.
 TEST(Sheet, IsNotShownByALimitOfItsParts) {
   const System system = plain(
