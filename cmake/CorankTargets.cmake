@@ -40,23 +40,19 @@ function(corank_uses target scope folder)
   endforeach()
 endfunction()
 
-# corank_compile_together(<target> [BY_LETTER] <source>…): where CMAKE_UNITY_BUILD is on, sources whose names begin with letters of the same range,
-# or with the same letter, are compiled as one, since most of a source's time goes into what it includes and instantiates. What is in an anonymous
-# namespace must then differ between them.
+# corank_compile_together(<target> <source>…): where CMAKE_UNITY_BUILD is on, sources whose names begin with letters of the same range are compiled as
+# one, since most of a source's time goes into what it includes and instantiates. What is in an anonymous namespace must then differ between them.
 function(corank_compile_together target)
-  cmake_parse_arguments(ARG "BY_LETTER" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
-  foreach(source IN LISTS ARG_UNPARSED_ARGUMENTS)
+  foreach(source IN LISTS ARGN)
     cmake_path(GET source FILENAME name)
-    string(SUBSTRING ${name} 0 1 group)
-    if(NOT ARG_BY_LETTER)
-      foreach(range a-d e-o p-r s-z)
-        if(group MATCHES "[${range}]")
-          string(REPLACE - _ group ${range})
-          break()
-        endif()
-      endforeach()
-    endif()
+    string(SUBSTRING ${name} 0 1 letter)
+    foreach(range a-d e-o p-r s-z)
+      if(letter MATCHES "[${range}]")
+        string(REPLACE - _ group ${range})
+        break()
+      endif()
+    endforeach()
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endforeach()
 endfunction()

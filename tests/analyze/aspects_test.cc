@@ -18,19 +18,19 @@
 namespace corank::analyze {
 namespace {
 
-Aspects of(symbolic::Mechanism model) {
+Aspects aspects_of(symbolic::Mechanism model) {
   solve::Control control;
   return aspects({.model = std::move(model)}, {}, control);
 }
 
-Aspects of_model(const std::string& name) {
-  return of(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik").mechanism);
+Aspects aspects_of_model(const std::string& name) {
+  return aspects_of(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik").mechanism);
 }
 
 // |y_A| and |y_B| are √(1 − x_C²) and √(16/25 − x_C²) on two closed curves; det L_y = 0 where x_C y_B = 0, det L_z = 0
 // where x_C y_A = 0, which for y_A is never so. 8 forward singularities on 2 closed curves leave 8 arcs, 4 inverse ones 4.
 TEST(Aspects, OfTheThreeSlidersAreArcs) {
-  const Aspects a = of_model("three_slider");
+  const Aspects a = aspects_of_model("three_slider");
   ASSERT_TRUE(a.aspects.exact() && a.assembly_modes.exact() && a.working_modes.exact());
   EXPECT_EQ(a.aspects.at_least, 8);
   EXPECT_EQ(a.assembly_modes.at_least, 8);
@@ -42,7 +42,7 @@ TEST(Aspects, DoNotDependOnTheUnitOfLength) {
     auto model = study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik").mechanism;
     model.set_constant("l", symbolic::Expression("9/10*" + unit));
     model.set_constant("d", symbolic::Expression("59/50*" + unit));
-    const Aspects a = of(std::move(model));
+    const Aspects a = aspects_of(std::move(model));
     ASSERT_TRUE(a.aspects.exact() && a.assembly_modes.exact() && a.working_modes.exact()) << unit;
     EXPECT_EQ(a.aspects.at_least, 10) << unit;
     EXPECT_EQ(a.assembly_modes.at_least, 2) << unit;
@@ -60,7 +60,7 @@ TEST(Aspects, WithinLimitsOfLengthsDoNotDependOnTheirUnit) {
              "x = a + l1*cos(theta1);\ny = l1*sin(theta1);\nx = b + l2*cos(theta2);\ny = l2*sin(theta2);\n" +
              "[INPUTS] a, b\n[OUTPUTS] x, y\n[LIMITS]\na : [-w, w]\nb : [-w, w]\n",
          "sliders.cuik"});
-    const Aspects a = of(model.mechanism);
+    const Aspects a = aspects_of(model.mechanism);
     ASSERT_TRUE(a.aspects.exact() && a.assembly_modes.exact() && a.working_modes.exact()) << unit;
     EXPECT_EQ(a.aspects.at_least, 8) << unit;
     EXPECT_EQ(a.assembly_modes.at_least, 4) << unit;
@@ -78,7 +78,7 @@ TEST(Aspects, OfFourBarsAreThoseOfTheirGrashofType) {
   for (const auto& [model, count] :
        {Case{"crank_rocker", 4}, Case{"double_crank", 2}, Case{"double_rocker", 8}, Case{"triple_rocker", 4}}) {
     SCOPED_TRACE(model);
-    const Aspects a = of_model(std::string("planar/four_bar_") + model);
+    const Aspects a = aspects_of_model(std::string("planar/four_bar_") + model);
     ASSERT_TRUE(a.aspects.exact());
     EXPECT_EQ(a.aspects.at_least, count);
   }
@@ -86,7 +86,7 @@ TEST(Aspects, OfFourBarsAreThoseOfTheirGrashofType) {
 
 // A five-bar has two sides of J2, J4 on which J3 may be, and each arm two postures.
 TEST(Aspects, OfDextarHaveTheModesOfAFiveBar) {
-  const Aspects a = of_model("dextar");
+  const Aspects a = aspects_of_model("dextar");
   ASSERT_TRUE(a.assembly_modes.exact() && a.working_modes.exact());
   EXPECT_EQ(a.assembly_modes.at_least, 2);
   EXPECT_EQ(a.working_modes.at_least, 4);
@@ -145,14 +145,14 @@ int dextar_pieces(bool limited) {
 TEST(Aspects, OfDextarAreThoseOfAFloodFill) {
   const int pieces = dextar_pieces(false);
   EXPECT_EQ(pieces, 10);
-  const Aspects a = of_model("dextar");
+  const Aspects a = aspects_of_model("dextar");
   ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
   EXPECT_EQ(a.aspects.at_least, pieces);
   EXPECT_TRUE(a.limits.empty());
 }
 
 TEST(Aspects, OfDextarWithLimitsAreThoseOfAFloodFill) {
-  const Aspects a = of_model("dextar_limits");
+  const Aspects a = aspects_of_model("dextar_limits");
   ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
   EXPECT_EQ(a.aspects.at_least, dextar_pieces(true));
   EXPECT_THAT(a.limits, testing::ElementsAre("range of theta2", "range of theta5"));
@@ -167,7 +167,7 @@ TEST(Aspects, OfAnOrthogonalArmAreThoseOfAFloodFill) {
       const double t2 = i * 2 * M_PI / kRows, t3 = j * 2 * M_PI / kRows;
       signs.push_back(sin(t3) + cos(t2) * (2 * sin(t3) - cos(t3)) > 0 ? 1 : -1);
     }
-  const Aspects a = of_model("serial/orthogonal_3r");
+  const Aspects a = aspects_of_model("serial/orthogonal_3r");
   ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
   EXPECT_EQ(a.aspects.at_least, pieces_of_grid(signs, kRows, kRows, 5));
   EXPECT_EQ(a.assembly_modes.at_least, 1);
@@ -202,7 +202,8 @@ int slice_pieces(double leg) {
 }
 
 Aspects slice(const char* held) {
-  return of(study::read_model(CORANK_SOURCE_DIR "/models/planar/3rpr.cuik", {{"lower1", held}, {"upper1", held}}).mechanism);
+  return aspects_of(
+      study::read_model(CORANK_SOURCE_DIR "/models/planar/3rpr.cuik", {{"lower1", held}, {"upper1", held}}).mechanism);
 }
 
 // At 6/5 and 7/5 a limit of the second leg passes through cells where the locus ends.
@@ -235,10 +236,10 @@ TEST(Aspects, OfLinesThatCrossOnATorusAreItsFaces) {
     SCOPED_TRACE(k * 10 + m);
     const auto line = [](int c) { return std::to_string(c) + "*w"; };
     const Aspects a =
-        of(symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\n"
-                                 "[SYSTEM EQS]\nx = sin(v + " +
-                                     line(k) + ");\ny = sin(v - " + line(m) + ");\n[INPUTS] v, w\n[OUTPUTS] x, y\n",
-                                 "lines.cuik"));
+        aspects_of(symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\n"
+                                         "[SYSTEM EQS]\nx = sin(v + " +
+                                             line(k) + ");\ny = sin(v - " + line(m) + ");\n[INPUTS] v, w\n[OUTPUTS] x, y\n",
+                                         "lines.cuik"));
     ASSERT_TRUE(a.aspects.exact()) << a.reason << a.aspects.reason;
     EXPECT_EQ(a.aspects.at_least, 4 * (k + m));
     EXPECT_EQ(a.assembly_modes.at_least, 1);
@@ -246,14 +247,14 @@ TEST(Aspects, OfLinesThatCrossOnATorusAreItsFaces) {
 }
 
 TEST(Aspects, OfTheSphericalFiveBarAreCounted) {
-  const Aspects a = of_model("spherical_five_bar");
+  const Aspects a = aspects_of_model("spherical_five_bar");
   ASSERT_TRUE(a.aspects.exact()) << a.aspects.reason;
   EXPECT_EQ(a.aspects.at_least, 10);
 }
 
 // Each is a configuration, and has the signs that are said of it.
 TEST(Aspects, AreRepresentedByConfigurations) {
-  const Aspects a = of_model("dextar");
+  const Aspects a = aspects_of_model("dextar");
   ASSERT_EQ(a.aspects.representatives.size(), a.aspects.signs.size());
   for (std::size_t k = 0; k < a.aspects.signs.size(); ++k) {
     std::map<std::string, double> q;
@@ -271,7 +272,7 @@ TEST(Aspects, AreRepresentedByConfigurations) {
 
 // det L_y and det L_z are their factors' product, up to one sign for all.
 TEST(Aspects, HaveTheSignsOfTheirDeterminants) {
-  const Aspects a = of_model("dextar");
+  const Aspects a = aspects_of_model("dextar");
   ASSERT_EQ(a.determinant_signs.size(), 10u);
   const auto& [y, z] = a.determinant_signs.front();
   const auto& first = a.aspects.signs.front();
@@ -311,7 +312,7 @@ TEST(Aspects, OfDextarCoverTheLensOncePerWorkingMode) {
 TEST(Aspects, AreNotCountedWhereCSpaceCrossesItself) {
   symbolic::Mechanism equal = symbolic::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik");
   equal.set_constant("L2", 1);
-  const Aspects a = of(equal);
+  const Aspects a = aspects_of(equal);
   EXPECT_FALSE(a.reason.empty());
   EXPECT_EQ(a.aspects.at_least, 0);
 }
@@ -327,7 +328,7 @@ TEST(Aspects, OfPlantedCurvesAreTheirMonotoneArcs) {
         symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nu : [-2, 2]\n[SYSTEM EQS]\nu = sin(" + std::to_string(n) +
                                   "*v + 1/" + std::to_string(k + 2) + ");\n[INPUTS] v\n[OUTPUTS] u\n",
                               "wave.cuik");
-    const Aspects a = of(m);
+    const Aspects a = aspects_of(m);
     ASSERT_TRUE(a.working_modes.exact() && a.assembly_modes.exact()) << n;
     EXPECT_EQ(a.working_modes.at_least, 2 * n);
     EXPECT_EQ(a.assembly_modes.at_least, 1);

@@ -10,6 +10,7 @@
 #include "corank/analyze/clearance_map.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model_file.h"
+#include "corank/tests/analyze/exact.h"
 
 namespace corank::analyze {
 namespace {
@@ -18,7 +19,6 @@ study::Question model(const std::string& name, std::optional<symbolic::Singulari
   study::Model model = study::read_model(std::filesystem::path(CORANK_SOURCE_DIR) / "models" / name);
   return {.model = std::move(model.mechanism), .set = set, .assembly = std::move(model.assembly)};
 }
-symbolic::Expression number(double x) { return symbolic::parse_expression(ExactNumber::dyadic(x).text()); }
 
 Best best_of(const study::Question& question, const std::vector<NamedRange>& region, double precision = 0.01) {
   solve::Control control;

@@ -26,7 +26,7 @@ study::Question robot(const std::filesystem::path& file) {
 }
 study::Question model(const std::string& name) { return robot(std::filesystem::path(CORANK_SOURCE_DIR) / "models" / name); }
 
-Clearance of(const study::Question& question, const BallOptions& ball, double precision = 0.01) {
+Clearance clearance_of(const study::Question& question, const BallOptions& ball, double precision = 0.01) {
   solve::Control control;
   solve::Options search;
   search.threads = 2;
@@ -70,7 +70,7 @@ TEST(Clearance, OfDextarIsThatOfItsClosedForm) {
     const double height = std::sqrt(l * l - d * d / 4);
     for (const double h : {-height, height}) least = std::min(least, std::fabs(std::hypot(x - d / 2, y - h) - l));
     const auto number = [](double v) { return symbolic::parse_expression(ExactNumber::dyadic(v).text()); };
-    const Clearance c = of(dextar, {.at = {{"J3x", number(x)}, {"J3y", number(y)}}, .in = {"J3x", "J3y"}});
+    const Clearance c = clearance_of(dextar, {.at = {{"J3x", number(x)}, {"J3y", number(y)}}, .in = {"J3x", "J3y"}});
     expect_close(c);
     EXPECT_EQ(c.center, Clearance::Center::assembled);
     EXPECT_LE(c.nearest.lower, least);
@@ -90,7 +90,8 @@ TEST(Clearance, DoesNotDependOnTheUnitOfLength) {
     study::Question dextar = model("dextar.cuik");
     dextar.model.set_constant("l", times("9/10"));
     dextar.model.set_constant("d", times("59/50"));
-    const Clearance c = of(dextar, {.at = {{"J3x", times("-7/100")}, {"J3y", times("-3/10")}}, .in = {"J3x", "J3y"}});
+    const Clearance c =
+        clearance_of(dextar, {.at = {{"J3x", times("-7/100")}, {"J3y", times("-3/10")}}, .in = {"J3x", "J3y"}});
     expect_close(c);
     EXPECT_NEAR(c.nearest.lower / unit, 0.03558, 1e-4) << unit;
     EXPECT_NEAR(*c.nearest.upper / unit, 0.03594, 1e-4) << unit;
@@ -156,8 +157,8 @@ double sampled(const Eigen::Vector3d& center, double range, int rays) {
 }
 
 TEST(Clearance, OfAStewartPlatformInOneOrientationIsThatOfManyRays) {
-  const Clearance c =
-      of(model("platforms/stewart.cuik"), {.at = {{"P_x", 0}, {"P_y", 0}, {"P_z", 1}}, .in = {"P_x", "P_y", "P_z"}});
+  const Clearance c = clearance_of(model("platforms/stewart.cuik"),
+                                   {.at = {{"P_x", 0}, {"P_y", 0}, {"P_z", 1}}, .in = {"P_x", "P_y", "P_z"}});
   expect_close(c);
   const double least = sampled({0, 0, 1}, 0, 400);
   EXPECT_GT(least, c.nearest.lower);
@@ -173,12 +174,12 @@ TEST(Clearance, OfAStewartPlatformThatMayTurnIsThatOfManyRays) {
   std::string text{std::istreambuf_iterator<char>(in), {}};
   std::ofstream(file) << std::regex_replace(text, std::regex("keeps [^\n]*"), "");
   const double range = 5 * M_PI / 180;
-  const Clearance c = of(robot(file),
-                         {.at = {{"P_x", 0}, {"P_y", 0}, {"P_z", 1}},
-                          .in = {"P_x", "P_y", "P_z"},
-                          .orientation_range = symbolic::parse_expression("5*pi/180"),
-                          .orientation = parse_rotation("Rz(yaw)*Ry(pitch)*Rx(roll)")},
-                         0.1);
+  const Clearance c = clearance_of(robot(file),
+                                   {.at = {{"P_x", 0}, {"P_y", 0}, {"P_z", 1}},
+                                    .in = {"P_x", "P_y", "P_z"},
+                                    .orientation_range = symbolic::parse_expression("5*pi/180"),
+                                    .orientation = parse_rotation("Rz(yaw)*Ry(pitch)*Rx(roll)")},
+                                   0.1);
   expect_close(c, 0.1);
   const double least = sampled({0, 0, 1}, range, 400);
   EXPECT_GT(least, c.nearest.lower);
@@ -246,7 +247,7 @@ TEST(Clearance, OfAThreeRprIsThatOfManyRays) {
       {"within the ball", {.at = at, .in = {"pose_x", "pose_y", "pose_phi"}}, 0, true},
   };
   for (const auto& [what, ball, range, measured] : cases) {
-    const Clearance c = of(question, ball);
+    const Clearance c = clearance_of(question, ball);
     SCOPED_TRACE(what);
     expect_close(c);
     const double least = sampled_3rpr(0.8, 0.5, 0.1, range, measured);
@@ -263,7 +264,7 @@ TEST(Clearance, OfOneModeIsNoSmaller) {
   const BallOptions all{.at = {{"J3x", "0.5"}, {"J3y", 1}}, .in = {"J3x", "J3y"}};
   BallOptions one = all;
   one.ranges = {{"theta2", 2, 4}};
-  const Clearance c = of(dextar, all), of_mode = of(dextar, one);
+  const Clearance c = clearance_of(dextar, all), of_mode = clearance_of(dextar, one);
   expect_close(of_mode);
   EXPECT_GT(of_mode.nearest.lower, *c.nearest.upper) << "the nearest one has theta2 = 1.3";
   EXPECT_GE(std::cos(value(of_mode, "theta2") - 3), std::cos(1) - 1e-9);
@@ -272,19 +273,19 @@ TEST(Clearance, OfOneModeIsNoSmaller) {
 // The same balls with limits of the angles and without: inside them nothing changes. Radius and limit are both said.
 TEST(Clearance, AcceptsCoordinatesWithLimitsAndSaysWhereItMeetsThem) {
   const BallOptions ball{.at = {{"theta2", "2"}, {"theta5", "1"}}, .in = {"theta2", "theta5"}};
-  const Clearance limited = of(model("dextar_limits.cuik"), ball);
+  const Clearance limited = clearance_of(model("dextar_limits.cuik"), ball);
   expect_close(limited);
   EXPECT_NEAR(limited.ball.room, 1, 1e-12) << "theta5 is in [0, pi]";
   EXPECT_EQ(limited.ball.end, "the lower limit of theta5");
-  EXPECT_NEAR(*limited.nearest.upper, *of(model("dextar.cuik"), ball).nearest.upper, 0.01);
+  EXPECT_NEAR(*limited.nearest.upper, *clearance_of(model("dextar.cuik"), ball).nearest.upper, 0.01);
   EXPECT_EQ(limited.free_radius(), limited.nearest.lower);
   EXPECT_NE(to_table(limited).find("at the radius 1 the ball meets the lower limit of theta5"), std::string::npos);
 }
 
 // The centre is at the end of a range: what lies beyond was not searched, and no ball about it is claimed.
 TEST(Clearance, ClaimsNoBallLargerThanWhatWasSearched) {
-  const Clearance c = of(model("dextar.cuik"),
-                         {.at = {{"J3x", "0.5"}, {"J3y", "1"}}, .in = {"J3x", "J3y"}, .ranges = {{"J3y", "1", "1.5"}}});
+  const Clearance c = clearance_of(
+      model("dextar.cuik"), {.at = {{"J3x", "0.5"}, {"J3y", "1"}}, .in = {"J3x", "J3y"}, .ranges = {{"J3y", "1", "1.5"}}});
   EXPECT_EQ(c.free_radius(), 0);
   EXPECT_GT(c.nearest.lower, 0);
   const std::string text = to_table(c), second = text.substr(text.find('\n') + 1);
@@ -296,7 +297,7 @@ TEST(Clearance, ClaimsNoBallLargerThanWhatWasSearched) {
 }
 
 TEST(Clearance, RefusesACentreWithoutAConfiguration) {
-  EXPECT_THROW(of(model("dextar.cuik"), {.at = {{"J3x", "-1.5"}, {"J3y", "0"}}, .in = {"J3x", "J3y"}}),
+  EXPECT_THROW(clearance_of(model("dextar.cuik"), {.at = {{"J3x", "-1.5"}, {"J3y", "0"}}, .in = {"J3x", "J3y"}}),
                symbolic::ModelError);
 }
 
@@ -317,7 +318,7 @@ TEST(Clearance, IsTheSameForAnyNumberOfThreads) {
 
 TEST(Claims, AreVerifiedAndFailWhereTheyAreFalse) {
   const study::Question dextar = model("dextar.cuik");
-  Clearance c = of(dextar, {.at = {{"J3x", "0.5"}, {"J3y", 1}}, .in = {"J3x", "J3y"}});
+  Clearance c = clearance_of(dextar, {.at = {{"J3x", "0.5"}, {"J3y", 1}}, .in = {"J3x", "J3y"}});
   solve::Control control;
   const result::Result free = claim_free(c, {}, control);
   EXPECT_TRUE(free.cover.boxes.empty());
@@ -329,8 +330,9 @@ TEST(Claims, AreVerifiedAndFailWhereTheyAreFalse) {
   EXPECT_FALSE(result::verify(*nearest).complete());
 
   // Narrower ranges scale a kernel vector otherwise: the claim keeps the scales of the search.
-  const Clearance turning = of(model("planar/3rpr.cuik"), {.at = {{"pose_x", "0.8"}, {"pose_y", "0.5"}, {"pose_phi", "0.1"}},
-                                                           .in = {"pose_x", "pose_y", "pose_phi"}});
+  const Clearance turning = clearance_of(
+      model("planar/3rpr.cuik"),
+      {.at = {{"pose_x", "0.8"}, {"pose_y", "0.5"}, {"pose_phi", "0.1"}}, .in = {"pose_x", "pose_y", "pose_phi"}});
   const auto in_turning = claim_nearest(turning, control);
   ASSERT_TRUE(in_turning);
   EXPECT_TRUE(result::verify(*in_turning).verified());

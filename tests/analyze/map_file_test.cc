@@ -208,7 +208,7 @@ TEST(MapFile, OfACellAcrossTheBoundaryIsNotComplete) {
   }
 }
 
-struct Change {
+struct MapChange {
   const char* name;
   std::function<void(MapFile&)> apply;
   const char* words;
@@ -220,7 +220,7 @@ TEST(MapFile, ThatSomebodyChangedIsRefused) {
     for (std::size_t j = 0; j < box.size(); ++j)
       if (j < 1) box[j] = Interval(box[j].lo() + by, box[j].hi() + by);
   };
-  const std::vector<Change> changes{
+  const std::vector<MapChange> changes{
       {"a solution more", [&](MapFile& f) { ++three(f).count; }, "not have as many sheets"},
       {"a solution fewer", [&](MapFile& f) { --three(f).count; }, "not have as many sheets"},
       {"a solution twice",
@@ -273,7 +273,7 @@ TEST(MapFile, ThatSomebodyChangedIsRefused) {
        },
        "reduction"},
   };
-  for (const Change& change : changes) {
+  for (const MapChange& change : changes) {
     SCOPED_TRACE(change.name);
     MapFile file = cubic();
     change.apply(file);

@@ -9,12 +9,13 @@
 #include "corank/analyze/clearance.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_file.h"
+#include "corank/tests/analyze/exact.h"
 
 namespace corank::analyze {
 namespace {
 
-Clearance of(const std::string& text, const std::vector<NamedValue>& at, double precision = 0.01,
-             const std::vector<NamedRange>& ranges = {}) {
+Clearance nearest_to(const std::string& text, const std::vector<NamedValue>& at, double precision = 0.01,
+                     const std::vector<NamedRange>& ranges = {}) {
   study::Question question{.model = symbolic::parse_model(text, "test.cuik")};
   BallOptions ball;
   ball.at = at;
@@ -24,8 +25,6 @@ Clearance of(const std::string& text, const std::vector<NamedValue>& at, double 
   solve::Control control;
   return clearance(question, ball, {.precision = precision}, search, control);
 }
-
-symbolic::Expression number(double x) { return symbolic::parse_expression(ExactNumber::dyadic(x).text()); }
 
 void expect_radius(const Clearance& c, double truth, double precision = 0.01) {
   ASSERT_TRUE(c.nearest.upper);
@@ -37,44 +36,44 @@ void expect_radius(const Clearance& c, double truth, double precision = 0.01) {
 
 TEST(Nearest, BoundsTheDistanceOfACircle) {
   const std::string circle = "[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\nx^2 + y^2 = 4;\n";
-  expect_radius(of(circle, {{"x", "1/2"}, {"y", "1/3"}}), 2 - std::hypot(0.5, 1.0 / 3));
-  expect_radius(of(circle, {{"x", "2"}, {"y", "2"}}, 1e-4), 2 * std::sqrt(2) - 2, 1e-4);
+  expect_radius(nearest_to(circle, {{"x", "1/2"}, {"y", "1/3"}}), 2 - std::hypot(0.5, 1.0 / 3));
+  expect_radius(nearest_to(circle, {{"x", "2"}, {"y", "2"}}, 1e-4), 2 * std::sqrt(2) - 2, 1e-4);
 }
 
 TEST(Nearest, BoundsTheDistanceOfACircleFromItsCentreWhereAllPointsAreNearest) {
   const std::string circle = "[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\nx^2 + y^2 = 4;\n";
-  expect_radius(of(circle, {{"x", 0}, {"y", 0}}), 2);
+  expect_radius(nearest_to(circle, {{"x", 0}, {"y", 0}}), 2);
 }
 
 TEST(Nearest, LeavesOutWhatTheRangesForbid) {
   const std::string circle = "[SYSTEM VARS]\nx : [-3, 1]\ny : [-3, 3]\n[SYSTEM EQS]\nx^2 + y^2 = 4;\n";
   const double end = std::hypot(0.75, std::sqrt(3));  // the point (1, √3) from (1/4, 0)
-  expect_radius(of(circle, {{"x", "1/4"}, {"y", 0}}), end);
+  expect_radius(nearest_to(circle, {{"x", "1/4"}, {"y", 0}}), end);
 }
 
 TEST(Nearest, MeasuresOnlyTheCoordinatesOfTheBall) {
   // A plane through the z-axis' point 5: in x alone its distance is 0.
   const std::string plane = "[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\nz : [-9, 9]\n[SYSTEM EQS]\nx + y + z = 5;\n";
-  const Clearance flat = of(plane, {{"x", 0}, {"y", 0}});
+  const Clearance flat = nearest_to(plane, {{"x", 0}, {"y", 0}});
   ASSERT_TRUE(flat.nearest.upper);
   EXPECT_EQ(flat.nearest.lower, 0);
   EXPECT_LT(*flat.nearest.upper, 1e-3);
-  expect_radius(of(plane, {{"x", 0}, {"y", 0}, {"z", 0}}), 5 / std::sqrt(3));
+  expect_radius(nearest_to(plane, {{"x", 0}, {"y", 0}, {"z", 0}}), 5 / std::sqrt(3));
 }
 
 TEST(Nearest, CountsAnAngleTheShorterWayRound) {
   // cos θ = cos 3, so θ = ±3: from −2.9 the nearer one is −3, from 3.1 the angle 3 at 0.1 and −3 at 2π − 6.1.
   const std::string angle = "[SYSTEM VARS]\ntheta ~ [-pi, pi]\nx : [-1, 1]\n[SYSTEM EQS]\nx = cos(theta);\nx = cos(3);\n";
-  expect_radius(of(angle, {{"theta", "-2.9"}}), 0.1);
-  expect_radius(of(angle, {{"theta", "3.1"}}), 0.1);
-  expect_radius(of(angle, {{"theta", "pi"}}), M_PI - 3);
+  expect_radius(nearest_to(angle, {{"theta", "-2.9"}}), 0.1);
+  expect_radius(nearest_to(angle, {{"theta", "3.1"}}), 0.1);
+  expect_radius(nearest_to(angle, {{"theta", "pi"}}), M_PI - 3);
   const std::string low = "[SYSTEM VARS]\ntheta ~ [-pi, 0]\nx : [-1, 1]\n[SYSTEM EQS]\nx = cos(theta);\nx = cos(3);\n";
-  expect_radius(of(low, {{"theta", "-0.5"}}), 2.5);
+  expect_radius(nearest_to(low, {{"theta", "-0.5"}}), 2.5);
 }
 
 TEST(Nearest, ProvesThatThereIsNothingAtAll) {
   const Clearance none =
-      of("[SYSTEM VARS]\nx : [-1, 1]\ny : [-1, 1]\n[SYSTEM EQS]\nx^2 + y^2 = 4;\n", {{"x", "1/2"}, {"y", 0}});
+      nearest_to("[SYSTEM VARS]\nx : [-1, 1]\ny : [-1, 1]\n[SYSTEM EQS]\nx^2 + y^2 = 4;\n", {{"x", "1/2"}, {"y", 0}});
   EXPECT_TRUE(none.nearest.empty);
   EXPECT_TRUE(none.nearest.complete);
   EXPECT_FALSE(none.nearest.upper);
@@ -126,7 +125,7 @@ TEST(Nearest, FindsPlantedDistancesOfRandomEllipsoids) {
     double truth = 0;
     for (int i = 0; i < n; ++i) truth += std::pow(p[i] - s[i] * s[i] * p[i] / (s[i] * s[i] + low), 2);
     truth = std::sqrt(truth);
-    const Clearance c = of("[SYSTEM VARS]\n" + variables + "[SYSTEM EQS]\n" + sum + " = 1;\n", at);
+    const Clearance c = nearest_to("[SYSTEM VARS]\n" + variables + "[SYSTEM EQS]\n" + sum + " = 1;\n", at);
     if (!c.nearest.upper || c.nearest.lower > truth * (1 + 1e-9) || *c.nearest.upper < truth * (1 - 1e-9)) ++lost;
     if (!c.nearest.complete) ++imprecise;
   }
@@ -136,8 +135,8 @@ TEST(Nearest, FindsPlantedDistancesOfRandomEllipsoids) {
 
 TEST(Nearest, TellsASetThatResistsProofFromOneThatIsFound) {
   // A double circle: every point is degenerate, so nothing can be proven, and the lower bound holds all the same.
-  const Clearance c =
-      of("[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\n(x^2 + y^2 - 4)^2 = 0;\n", {{"x", 1}, {"y", 0}}, 0.05);
+  const Clearance c = nearest_to("[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\n(x^2 + y^2 - 4)^2 = 0;\n",
+                                 {{"x", 1}, {"y", 0}}, 0.05);
   EXPECT_FALSE(c.nearest.upper);
   EXPECT_FALSE(c.nearest.complete);
   EXPECT_LE(c.nearest.lower, 1);
@@ -146,11 +145,11 @@ TEST(Nearest, TellsASetThatResistsProofFromOneThatIsFound) {
 
 TEST(Ball, RefusesWhatMakesNoSense) {
   const std::string circle = "[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\nx^2 + y^2 = 4;\n";
-  EXPECT_THROW(of(circle, {{"z", 0}}), symbolic::ModelError);
-  EXPECT_THROW(of(circle, {{"x", 4}}), symbolic::ModelError);
-  EXPECT_THROW(of(circle, {}), symbolic::ModelError);
-  EXPECT_THROW(of(circle, {{"x", 0}}, 0.01, {{"y", 2, 1}}), symbolic::ModelError);
-  EXPECT_THROW(of(circle, {{"x", 0}}, 0.01, {{"y", 4, 5}}), symbolic::ModelError);
+  EXPECT_THROW(nearest_to(circle, {{"z", 0}}), symbolic::ModelError);
+  EXPECT_THROW(nearest_to(circle, {{"x", 4}}), symbolic::ModelError);
+  EXPECT_THROW(nearest_to(circle, {}), symbolic::ModelError);
+  EXPECT_THROW(nearest_to(circle, {{"x", 0}}, 0.01, {{"y", 2, 1}}), symbolic::ModelError);
+  EXPECT_THROW(nearest_to(circle, {{"x", 0}}, 0.01, {{"y", 4, 5}}), symbolic::ModelError);
 }
 
 TEST(Rotation, ReadsAProductOfTurns) {

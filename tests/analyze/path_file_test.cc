@@ -60,7 +60,7 @@ TEST(PathFile, OfBothKindsOfSingularitiesIsVerified) {
   EXPECT_TRUE(result::verify(make_file(Avoid::both, "0.3", 1)).verified());
 }
 
-struct Change {
+struct PathChange {
   const char* name;
   std::function<void(result::PathFile&)> apply;
   const char* words;
@@ -69,7 +69,7 @@ struct Change {
 TEST(PathFile, ThatSomebodyChangedIsRefused) {
   const std::size_t last = sample().tube.pieces.size() - 1;
   ASSERT_GT(last, 0U);
-  const std::vector<Change> changes{
+  const std::vector<PathChange> changes{
       {"a waypoint is moved", [](auto& f) { f.tube.nodes[1].values[0] += 1e-6; }, "node 2"},
       {"a direction is turned", [](auto& f) { f.tube.nodes[1].rows[0] += 1e-3; }, "node 2"},
       {"a node's box is moved", [](auto& f) { f.tube.nodes[0].box[0] = Interval(0.4, 0.41); }, "node 1"},
@@ -110,7 +110,7 @@ TEST(PathFile, ThatSomebodyChangedIsRefused) {
       {"other variables", [](auto& f) { f.variables[0] = "x"; }, "variables"},
       {"rows are missing", [](auto& f) { f.tube.nodes[0].rows.pop_back(); }, "sizes"},
   };
-  for (const Change& change : changes) {
+  for (const PathChange& change : changes) {
     SCOPED_TRACE(change.name);
     result::PathFile file = sample();
     change.apply(file);

@@ -18,7 +18,7 @@ namespace {
 using result::PiecesFile;
 using ::testing::HasSubstr;
 
-PiecesFile make_file(symbolic::Mechanism model) {
+PiecesFile make_pieces_file(symbolic::Mechanism model) {
   const study::Question question{.model = std::move(model)};
   solve::Control control;
   AspectsOptions options;
@@ -26,37 +26,38 @@ PiecesFile make_file(symbolic::Mechanism model) {
   return to_file(question, aspects(question, options, control));
 }
 
-PiecesFile make_file(const std::string& name, const std::vector<result::ConstantOverride>& constants = {}) {
-  return make_file(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik", constants).mechanism);
+PiecesFile make_pieces_file(const std::string& name, const std::vector<result::ConstantOverride>& constants = {}) {
+  return make_pieces_file(
+      study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik", constants).mechanism);
 }
 
-const PiecesFile& slider() {
-  static const PiecesFile file = make_file("three_slider");
+const PiecesFile& slider_pieces() {
+  static const PiecesFile file = make_pieces_file("three_slider");
   return file;
 }
 
 const PiecesFile& rocker() {
-  static const PiecesFile file = make_file("planar/four_bar_double_rocker");
+  static const PiecesFile file = make_pieces_file("planar/four_bar_double_rocker");
   return file;
 }
 
 TEST(PiecesFile, IsReadAsItWasWritten) {
   const std::string path = ::testing::TempDir() + "pieces_file_test.h5";
-  result::write_pieces(path, slider());
+  result::write_pieces(path, slider_pieces());
   EXPECT_TRUE(result::is_pieces_file(path));
   const PiecesFile read = result::read_pieces(path);
-  EXPECT_EQ(read.model_text, slider().model_text);
-  EXPECT_EQ(read.space.regions, slider().space.regions);
+  EXPECT_EQ(read.model_text, slider_pieces().model_text);
+  EXPECT_EQ(read.space.regions, slider_pieces().space.regions);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(read.lists[k].at_least, slider().lists[k].at_least);
-    EXPECT_EQ(read.lists[k].at_most, slider().lists[k].at_most);
-    ASSERT_EQ(read.lists[k].members.size(), slider().lists[k].members.size());
-    EXPECT_EQ(read.lists[k].members.back().box, slider().lists[k].members.back().box);
-    EXPECT_EQ(read.lists[k].members.back().signs, slider().lists[k].members.back().signs);
-    EXPECT_EQ(read.lists[k].members.back().determinant_signs, slider().lists[k].members.back().determinant_signs);
+    EXPECT_EQ(read.lists[k].at_least, slider_pieces().lists[k].at_least);
+    EXPECT_EQ(read.lists[k].at_most, slider_pieces().lists[k].at_most);
+    ASSERT_EQ(read.lists[k].members.size(), slider_pieces().lists[k].members.size());
+    EXPECT_EQ(read.lists[k].members.back().box, slider_pieces().lists[k].members.back().box);
+    EXPECT_EQ(read.lists[k].members.back().signs, slider_pieces().lists[k].members.back().signs);
+    EXPECT_EQ(read.lists[k].members.back().determinant_signs, slider_pieces().lists[k].members.back().determinant_signs);
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    const PieceProof &now = read.lists[k].proof.value(), &before = slider().lists[k].proof.value();
+    const PieceProof &now = read.lists[k].proof.value(), &before = slider_pieces().lists[k].proof.value();
     ASSERT_EQ(now.cells.size(), before.cells.size());
     EXPECT_EQ(now.cells.back().sides, before.cells.back().sides);
     EXPECT_EQ(now.cells.back().sheet, before.cells.back().sheet);
@@ -78,7 +79,7 @@ void expect_complete(const PiecesFile& file) {
 }
 
 TEST(PiecesFile, OfKnownAspectsIsVerified) {
-  for (const PiecesFile* file : {&slider(), &rocker()}) {
+  for (const PiecesFile* file : {&slider_pieces(), &rocker()}) {
     EXPECT_EQ(file->lists[0].at_most, 8);
     expect_complete(*file);
     EXPECT_THAT(result::to_table(result::verify(*file), *file), testing::EndsWith("\nverified\n"));
@@ -87,17 +88,17 @@ TEST(PiecesFile, OfKnownAspectsIsVerified) {
 
 // Here 10 aspects have fewer choices of signs: only cells tell them apart.
 TEST(PiecesFile, OfDextarIsVerified) {
-  const PiecesFile file = make_file("dextar");
+  const PiecesFile file = make_pieces_file("dextar");
   EXPECT_EQ(file.lists[0].at_most, 10);
   expect_complete(file);
 }
 
 // Limits end C-space; loci cross on the border of sheets; a parallel robot's slice; a long single-loop's curve.
 TEST(PiecesFile, OfOtherMechanismsIsVerified) {
-  expect_complete(make_file("dextar_limits"));
-  expect_complete(make_file("three_slider", {{"L2", "4/5"}}));
-  expect_complete(make_file("planar/four_bar_crank_rocker"));
-  expect_complete(make_file("planar/3rpr", {{"lower1", "6/5"}, {"upper1", "6/5"}}));
+  expect_complete(make_pieces_file("dextar_limits"));
+  expect_complete(make_pieces_file("three_slider", {{"L2", "4/5"}}));
+  expect_complete(make_pieces_file("planar/four_bar_crank_rocker"));
+  expect_complete(make_pieces_file("planar/3rpr", {{"lower1", "6/5"}, {"upper1", "6/5"}}));
 }
 
 // As in aspects_test.cc: two closed lines v + k w = ±π/2 and two v − m w = ±π/2 on a torus have 4 (k + m) faces;
@@ -107,7 +108,7 @@ TEST(PiecesFile, OfPlantedPiecesConfirmsTheirNumber) {
   std::uniform_int_distribution<int> harmonic(1, 4), shift(2, 9);
   const auto text = [](int c) { return std::to_string(c); };
   for (const auto& [k, m] : {std::pair(1, 0), {1, 1}, {2, 1}}) {
-    const PiecesFile file = make_file(symbolic::parse_model(
+    const PiecesFile file = make_pieces_file(symbolic::parse_model(
         "[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx = sin(v + " + text(k) +
             "*w);\ny = sin(v - " + text(m) + "*w);\n[INPUTS] v, w\n[OUTPUTS] x, y\n",
         "lines.cuik"));
@@ -116,10 +117,10 @@ TEST(PiecesFile, OfPlantedPiecesConfirmsTheirNumber) {
   }
   for (int trial = 0; trial < 6; ++trial) {
     const int n = harmonic(random);
-    const PiecesFile file =
-        make_file(symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nu : [-2, 2]\n[SYSTEM EQS]\nu = sin(" + text(n) +
-                                            "*v + 1/" + text(shift(random)) + ");\n[INPUTS] v\n[OUTPUTS] u\n",
-                                        "wave.cuik"));
+    const PiecesFile file = make_pieces_file(
+        symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nu : [-2, 2]\n[SYSTEM EQS]\nu = sin(" + text(n) + "*v + 1/" +
+                                  text(shift(random)) + ");\n[INPUTS] v\n[OUTPUTS] u\n",
+                              "wave.cuik"));
     EXPECT_EQ(file.lists[2].at_most, 2 * n);
     expect_complete(file);
   }
@@ -135,7 +136,7 @@ void expect_open(const PiecesFile& file, const char* words) {
 }
 
 TEST(PiecesFile, WithoutAProofOfUpperBoundsIsVerifiedButForThose) {
-  PiecesFile file = slider();
+  PiecesFile file = slider_pieces();
   for (PieceClaims& claims : file.lists) claims.proof.reset();
   const std::string path = ::testing::TempDir() + "pieces_file_test_old.h5";
   result::write_pieces(path, file);
@@ -145,7 +146,7 @@ TEST(PiecesFile, WithoutAProofOfUpperBoundsIsVerifiedButForThose) {
 // Each makes a proof of too few pieces, or one with a gap.
 TEST(PiecesFile, WithAGapInItsProofConfirmsNoUpperBound) {
   const auto with = [](const std::function<void(PieceProof&)>& change) {
-    PiecesFile file = slider();
+    PiecesFile file = slider_pieces();
     change(*file.lists[0].proof);
     return file;
   };
@@ -169,13 +170,16 @@ TEST(PiecesFile, WithAGapInItsProofConfirmsNoUpperBound) {
   expect_open(with([](PieceProof& p) { p.cells[5].sheet = 1'000'000; }), "a cell does not belong to a sheet");
   expect_open(with([](PieceProof& p) { p.cells[5].sheet = -1; }), "a cell does not belong to a sheet");
   expect_open(with([](PieceProof& p) { p.cells[5].sides.clear(); }), "not have one side for each free variable");
-  expect_open(with([](PieceProof& p) { p.bridges.push_back({slider().space.boxes[0].free, {}}); }), "sheet of its own");
   expect_open(with([](PieceProof& p) {
-                p.bridges.push_back({slider().space.boxes[0].free, slider().space.regions[0]});
+                p.bridges.push_back({slider_pieces().space.boxes[0].free, {}});
+              }),
+              "sheet of its own");
+  expect_open(with([](PieceProof& p) {
+                p.bridges.push_back({slider_pieces().space.boxes[0].free, slider_pieces().space.regions[0]});
                 for (Interval& side : p.bridges.back().region) side = Interval(side.lo() - 0.5, side.hi() + 0.5);
               }),
               "of its own: a part of it");
-  for (std::size_t link = 0; link < slider().lists[0].proof->links.size(); ++link) {
+  for (std::size_t link = 0; link < slider_pieces().lists[0].proof->links.size(); ++link) {
     const check::PiecesReport report =
         result::verify(with([&](PieceProof& p) { p.links.erase(p.links.begin() + static_cast<std::ptrdiff_t>(link)); }));
     EXPECT_GE(report.lists.at(0).at_most, 8);
@@ -186,7 +190,7 @@ TEST(PiecesFile, WithAGapInItsProofConfirmsNoUpperBound) {
 
 // A piece fewer, everywhere in the claims: nothing speaks against it but the count of classes.
 TEST(PiecesFile, ThatHidesAPieceConfirmsNoUpperBound) {
-  for (const PiecesFile* good : {&slider(), &rocker()})
+  for (const PiecesFile* good : {&slider_pieces(), &rocker()})
     for (std::size_t k = 0; k < 3; ++k) {
       PiecesFile file = *good;
       --file.lists[k].at_least;
@@ -197,14 +201,14 @@ TEST(PiecesFile, ThatHidesAPieceConfirmsNoUpperBound) {
     }
 }
 
-struct Change {
+struct PiecesChange {
   const char* name;
   std::function<void(PiecesFile&)> apply;
   const char* words;
 };
 
 TEST(PiecesFile, ThatSomebodyChangedIsRefused) {
-  const std::vector<Change> changes{
+  const std::vector<PiecesChange> changes{
       {"a piece more",
        [](PiecesFile& f) {
          ++f.lists[0].at_least;
@@ -236,9 +240,9 @@ TEST(PiecesFile, ThatSomebodyChangedIsRefused) {
       {"a box is dropped", [](PiecesFile& f) { f.space.boxes.erase(f.space.boxes.begin() + 1); }, ""},
       {"a set of the outputs' limits", [](PiecesFile& f) { f.space.boxes[0].verdict = Verdict::undecided; },
        "neither regular"}};
-  for (const Change& change : changes) {
+  for (const PiecesChange& change : changes) {
     SCOPED_TRACE(change.name);
-    PiecesFile file = slider();
+    PiecesFile file = slider_pieces();
     change.apply(file);
     const check::PiecesReport report = result::verify(file);
     EXPECT_FALSE(report.covered());
@@ -248,7 +252,7 @@ TEST(PiecesFile, ThatSomebodyChangedIsRefused) {
 
 // Two aspects are in one working mode: both are members, and one piece. Its functions are the first and the last of all.
 TEST(PiecesFile, WithMembersOfOnePieceForThoseOfTwoIsRefused) {
-  PiecesFile file = slider();
+  PiecesFile file = slider_pieces();
   PieceClaims& modes = file.lists[2];
   modes.at_least = modes.at_most.emplace(8);
   modes.members = file.lists[0].members;
@@ -261,7 +265,7 @@ TEST(PiecesFile, WithMembersOfOnePieceForThoseOfTwoIsRefused) {
 
 // Two configurations of one piece: the proof that there are no more ends the search for cells that tell them apart.
 TEST(PiecesFile, WithASecondMemberOfAPieceIsRefusedOnCoarseCells) {
-  PiecesFile file = slider();
+  PiecesFile file = slider_pieces();
   const std::size_t cells = result::verify(file).lists.at(0).cells;
   PieceClaims& aspects = file.lists[0];
   PieceMember second = aspects.members[0];
@@ -281,7 +285,7 @@ TEST(PiecesFile, WithASecondMemberOfAPieceIsRefusedOnCoarseCells) {
 
 // The same members of a model with a limit: one of them is beyond it.
 TEST(PiecesFile, WithAMemberBeyondALimitIsRefused) {
-  PiecesFile file = slider();
+  PiecesFile file = slider_pieces();
   const std::string from = "x_C : [-L1, L1]", to = "x_C : [0, L1]";
   ASSERT_NE(file.model_text.find(from), std::string::npos);
   file.model_text.replace(file.model_text.find(from), from.size(), to);
@@ -342,7 +346,7 @@ std::string damage(unsigned seed, PiecesFile& f) {
 TEST(PiecesFile, ThatIsDamagedAtRandomClaimsNothingFalse) {
   int refused = 0, count = 0, open = 0;
   std::map<std::string, int> refused_of, open_of;
-  for (const PiecesFile* good : {&slider(), &rocker()})
+  for (const PiecesFile* good : {&slider_pieces(), &rocker()})
     for (unsigned seed = 0; seed < 240; ++seed, ++count) {
       PiecesFile file = *good;
       const std::string kind = damage(seed, file);

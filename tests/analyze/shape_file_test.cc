@@ -242,7 +242,7 @@ TEST(ShapeFile, WhoseHeightsDifferIsRefusedThoughNoCharacteristicIsClaimed) {
   expect_contradiction(without_a_critical_point(sphere()), 2);
 }
 
-struct Change {
+struct ShapeChange {
   const char* name;
   const ShapeFile& (*of)();
   std::function<void(Shape&)> apply;
@@ -250,7 +250,7 @@ struct Change {
 };
 
 TEST(ShapeFile, ThatSomebodyChangedIsRefused) {
-  const std::vector<Change> changes{
+  const std::vector<ShapeChange> changes{
       {"a component more", ovals, [](Shape& s) { ++s.at_least; }, "3 components are claimed"},
       {"two components of one, without a link", sphere,
        [](Shape& s) {
@@ -318,7 +318,7 @@ TEST(ShapeFile, ThatSomebodyChangedIsRefused) {
        },
        "sheet 13"},
       {"a box that is not regular", sphere, [](Shape& s) { s.space.boxes[0].verdict = Verdict::boundary; }, "not regular"}};
-  for (const Change& change : changes) {
+  for (const ShapeChange& change : changes) {
     SCOPED_TRACE(change.name);
     ShapeFile file = change.of();
     change.apply(file.shape);

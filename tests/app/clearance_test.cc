@@ -13,18 +13,14 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::vector<std::string> kDextar = {"--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y"};
+const std::vector<std::string> kBallOfDextar = {"--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y"};
 
-std::vector<std::string> with(std::vector<std::string> args, const std::vector<std::string>& more) {
-  args.insert(args.end(), more.begin(), more.end());
-  return args;
-}
 std::vector<std::string> of(const std::string& name, const std::vector<std::string>& more) {
   return with({"clearance", model(name)}, more);
 }
 
 TEST(Clearance, PrintsTheBoundsAndTheNearestSingularityOfTheManual) {
-  const Outcome outcome = run_corank(of("dextar", kDextar));
+  const Outcome outcome = run_corank(of("dextar", kBallOfDextar));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("dextar, forward: ball in J3x, J3y"), HasSubstr("radius in [0.157818, 0.159413]"),
                                  HasSubstr("proven to exist"), HasSubstr("theta3 =")));
@@ -34,7 +30,8 @@ TEST(Clearance, PrintsTheBoundsAndTheNearestSingularityOfTheManual) {
 }
 
 TEST(Clearance, WritesJson) {
-  const Outcome outcome = run_corank(of("dextar", with(kDextar, {"--set", "inverse", "--precision", "0.001", "--json"})));
+  const Outcome outcome =
+      run_corank(of("dextar", with(kBallOfDextar, {"--set", "inverse", "--precision", "0.001", "--json"})));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json c = json::parse(outcome.out);
   EXPECT_EQ(c["model"], "dextar");
@@ -55,7 +52,7 @@ TEST(Clearance, WritesJson) {
 
 TEST(Clearance, WritesWhatVerifyConfirms) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_corank(of("dextar", with(kDextar, {"--proof", folder.file("c")})));
+  const Outcome outcome = run_corank(of("dextar", with(kBallOfDextar, {"--proof", folder.file("c")})));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(run_corank({"verify", folder.file("c-free.h5")}).status, 0);
   const Outcome nearest = run_corank({"verify", folder.file("c-nearest.h5")});
@@ -63,7 +60,8 @@ TEST(Clearance, WritesWhatVerifyConfirms) {
 }
 
 TEST(Clearance, KeepsBoundsThatHoldWhereALimitEndsIt) {
-  const Outcome outcome = run_corank(of("dextar", with(kDextar, {"--max-boxes", "3", "--precision", "1e-5", "--json"})));
+  const Outcome outcome =
+      run_corank(of("dextar", with(kBallOfDextar, {"--max-boxes", "3", "--precision", "1e-5", "--json"})));
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.err, HasSubstr("the bounds hold"));
   const json c = json::parse(outcome.out);

@@ -13,13 +13,13 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-struct Command {
+struct JsonCommand {
   std::vector<std::string> args;  // without the file
   std::string file;
   std::string member;  // of its JSON
 };
 
-std::vector<Command> commands(const TemporaryFolder& folder) {
+std::vector<JsonCommand> commands(const TemporaryFolder& folder) {
   const std::string slider = model("three_slider"), dextar = model("dextar"), result = folder.file("r.h5");
   EXPECT_EQ(run_corank({"solve", slider, "--set", "forward", "-o", result}).status, 0);
   return {
@@ -43,14 +43,9 @@ std::vector<Command> commands(const TemporaryFolder& folder) {
   };
 }
 
-std::vector<std::string> with(std::vector<std::string> args, const std::vector<std::string>& more) {
-  args.insert(args.end(), more.begin(), more.end());
-  return args;
-}
-
 TEST(Json, IsWrittenToAFileBesideTheTable) {
   const TemporaryFolder folder;
-  for (const Command& c : commands(folder)) {
+  for (const JsonCommand& c : commands(folder)) {
     SCOPED_TRACE(c.args[0] + " " + c.member);
     const std::string path = folder.file("out.json");
     std::filesystem::remove(path);
@@ -65,7 +60,7 @@ TEST(Json, IsWrittenToAFileBesideTheTable) {
 
 TEST(Json, TakesThePlaceOfTheTableWhereverTheFileStands) {
   const TemporaryFolder folder;
-  for (const Command& c : commands(folder)) {
+  for (const JsonCommand& c : commands(folder)) {
     SCOPED_TRACE(c.args[0] + " " + c.member);
     for (const auto& last : {std::vector<std::string>{c.file, "--json"}, {"--json", c.file}}) {
       const Outcome outcome = run_corank(with(c.args, last));

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "corank/tests/app/solved.h"
+
 #include "corank/tests/app/program.h"
 
 namespace corank::app {
@@ -60,7 +62,7 @@ constexpr const char* kFourBar =
     "[INPUTS] drive\n[OUTPUTS] swing : joint swing\n";
 
 // The second axis leans by tilt.
-constexpr const char* kArm =
+constexpr const char* kArmOfParts =
     "[CONSTANTS]\ntilt := 0\n[LINKS]\nbase : point S (0, 0, 0)\nupper : point E (2, 0, 0)\nfore : point H (1, 0, 0)\n"
     "[JOINTS]\nrevolute shoulder : base S + (0, 0, 1)  upper (0, 0, 0) + (0, 0, 1)  actuated\n"
     "revolute elbow : upper E + (0, sin(tilt), cos(tilt))  fore (0, 0, 0) + (0, 0, 1)  actuated\n"
@@ -69,7 +71,7 @@ constexpr const char* kArm =
 // Equations are made for the constants' own values: a model of them says of which terms nothing is left.
 TEST(Parts, DeriveSaysWhatIsLeftOutOfAModel) {
   const TemporaryFolder folder;
-  EXPECT_THAT(run_corank({"derive", folder.write("arm.cuik", kArm), "--format", "model"}).out,
+  EXPECT_THAT(run_corank({"derive", folder.write("arm.cuik", kArmOfParts), "--format", "model"}).out,
               HasSubstr("% Left out, being 0 for these values of the constants: tilt\n"));
   EXPECT_THAT(run_corank({"derive", folder.write("four_bar.cuik", kFourBar), "--format", "model"}).out,
               Not(HasSubstr("Left out")));
@@ -77,7 +79,7 @@ TEST(Parts, DeriveSaysWhatIsLeftOutOfAModel) {
 
 TEST(Parts, AMapOverAConstantIsThatOfTheEquationsOrSaysWhatWouldChange) {
   const TemporaryFolder folder;
-  const std::string four_bar = folder.write("four_bar.cuik", kFourBar), arm = folder.write("arm.cuik", kArm);
+  const std::string four_bar = folder.write("four_bar.cuik", kFourBar), arm = folder.write("arm.cuik", kArmOfParts);
   const Outcome map = run_corank(
       {"map", four_bar, "--over", "c=1/2:3", "--over", "drive=-pi:pi", "--resolution", "8", "--no-boundary", "--json"});
   ASSERT_EQ(map.status, 0) << map.err;
@@ -129,15 +131,6 @@ void expect_rotation(const json& link) {
   const Vector3 product{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
   EXPECT_NEAR(distance(product, z), 0, 1e-9);
   EXPECT_NEAR(std::hypot(x[0], x[1], x[2]), 1, 1e-9);
-}
-
-json solved(const std::vector<std::string>& args) {
-  std::vector<std::string> all{"solve"};
-  all.insert(all.end(), args.begin(), args.end());
-  all.emplace_back("--json");
-  const Outcome outcome = run_corank(all);
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  return outcome.status == 0 ? json::parse(outcome.out) : json::object();
 }
 
 const Vector3 kZ{0, 0, 1}, kNone{};
@@ -253,7 +246,7 @@ TEST(Parts, SetsOfAWorldWithInputsAndOutputs) {
 
 TEST(Parts, ConstantsDecideWhereARobotMoves) {
   const TemporaryFolder folder;
-  const std::string file = folder.write("arm.cuik", kArm);
+  const std::string file = folder.write("arm.cuik", kArmOfParts);
   EXPECT_THAT(run_corank({"derive", file}).out, StartsWith("Robot: planar, 3 links, mobility 2\n"));
   EXPECT_THAT(run_corank({"derive", file, "-D", "tilt=pi/6"}).out, StartsWith("Robot: spatial, 3 links, mobility 2\n"));
   EXPECT_THAT(run_corank({"derive", file, "-D", "tilt=pi"}).out, StartsWith("Robot: planar, 3 links, mobility 2\n"));
@@ -391,7 +384,7 @@ TEST(Parts, FaultsNameTheFileAndTheLine) {
 
 TEST(Parts, ExitStatuses) {
   const TemporaryFolder folder;
-  const std::string arm = folder.write("arm.cuik", kArm), bar = folder.write("bar.world", kFourBar);
+  const std::string arm = folder.write("arm.cuik", kArmOfParts), bar = folder.write("bar.world", kFourBar);
   EXPECT_EQ(run_corank({"solve", arm}).status, 2) << "a mechanism has sets";
   EXPECT_EQ(run_corank({"solve", folder.write("triangle.cuik", kTriangle), "--set", "forward"}).status, 2);
   EXPECT_EQ(run_corank({"solve", bar, "--set", "cspace", "--sigma", "0.001", "--max-boxes", "3"}).status, 3);
@@ -423,7 +416,7 @@ TEST(Parts, AreSweptWhereTheirCoordinatesStayTheSame) {
       run_corank({"sweep", bar, "-D", "c=0.5:0.8:2", "--sigma", "0.1", "--cspace-sigma", "0.2", "-o", page});
   EXPECT_EQ(swept.status, 0) << swept.err;
   EXPECT_THAT(swept.out, HasSubstr("c = 0.5, "));
-  const Outcome other = run_corank({"sweep", folder.write("arm.cuik", kArm), "-D", "tilt=0:pi/6:2", "-o", page});
+  const Outcome other = run_corank({"sweep", folder.write("arm.cuik", kArmOfParts), "-D", "tilt=0:pi/6:2", "-o", page});
   EXPECT_EQ(other.status, 2) << other.err;
   EXPECT_THAT(other.err, HasSubstr("(spatial, 3 links, mobility 2) than at 0 (planar, 3 links, mobility 2)"));
   const std::string data = std::string(CORANK_SOURCE_DIR) + "/tests/data/urdf/";

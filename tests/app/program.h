@@ -53,6 +53,9 @@ class CorankOnTerminal {
   std::filesystem::path out_;
 };
 
+/// The words of one command line and then those of another.
+std::vector<std::string> with(std::vector<std::string> args, const std::vector<std::string>& more);
+
 /// A folder that lives as long as the object.
 class TemporaryFolder {
  public:

@@ -25,11 +25,6 @@ namespace {
 using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 void expect_same(const std::string& one, const std::string& other) {
   const result::Result a = result::read_result(one), b = result::read_result(other);
   ASSERT_EQ(a.cover.boxes.size(), b.cover.boxes.size());

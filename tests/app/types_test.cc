@@ -4,21 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "corank/tests/app/solved.h"
+
 #include "corank/tests/app/program.h"
 
 namespace corank::app {
 namespace {
 using nlohmann::json;
 using testing::HasSubstr;
-
-json solved(const std::vector<std::string>& args) {
-  std::vector<std::string> all{"solve"};
-  all.insert(all.end(), args.begin(), args.end());
-  all.emplace_back("--json");
-  const Outcome outcome = run_corank(all);
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  return json::parse(outcome.out);
-}
 
 TEST(TypesOnTheCommandLine, AreCountedInJsonAndListedWithEachPoint) {
   const json forward = solved({model("three_slider"), "--set", "forward"});

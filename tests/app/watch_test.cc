@@ -9,12 +9,12 @@
 namespace corank::app {
 namespace {
 
-const std::atomic<bool> kNever = false;
+const std::atomic<bool> kNotAskedToEnd = false;
 constexpr Watch::Duration kForEver{1e6};
 
 TEST(Watch, AsksForTheEndAtTheTimeLimit) {
   Watch watch(
-      1e-3, kNever, [](const std::string&) { ADD_FAILURE() << "the work ends by itself"; }, kForEver);
+      1e-3, kNotAskedToEnd, [](const std::string&) { ADD_FAILURE() << "the work ends by itself"; }, kForEver);
   watch.stop().wait(false);
   EXPECT_TRUE(watch.stop());
 }
@@ -63,13 +63,13 @@ TEST(Watch, GivesUpOnePieceOfDeafWorkThatGoesOn) {
 
 TEST(Watch, LeavesWorkAloneThatEndsInTime) {
   Watch watch(
-      0, kNever, [](const std::string&) { ADD_FAILURE() << "it has ended"; }, Watch::Duration(0));
+      0, kNotAskedToEnd, [](const std::string&) { ADD_FAILURE() << "it has ended"; }, Watch::Duration(0));
   watch.done();
 }
 
 TEST(Watch, TakesAnyLimit) {
   for (const double seconds : {0.0, 1e300, HUGE_VAL}) {
-    Watch watch(seconds, kNever, [](const std::string&) { ADD_FAILURE() << "no end was asked for"; });
+    Watch watch(seconds, kNotAskedToEnd, [](const std::string&) { ADD_FAILURE() << "no end was asked for"; });
     EXPECT_FALSE(watch.stop());
   }
 }

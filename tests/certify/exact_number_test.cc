@@ -17,7 +17,7 @@
 namespace corank::certify {
 namespace {
 
-constexpr unsigned kSeed = 20170517;
+constexpr unsigned kRationalSeed = 20170517;
 constexpr std::array kModes = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
 class Mode {
@@ -41,7 +41,7 @@ mpq_class random_rational(std::mt19937_64& random) {
 
 TEST(ExactNumber, EnclosesARationalByTheNarrowestInterval) {
   for (const int mode : kModes) {
-    std::mt19937_64 random(kSeed);
+    std::mt19937_64 random(kRationalSeed);
     for (int i = 0; i < 2000; ++i) {
       const mpq_class q = random_rational(random);
       const Mode scope(mode);
@@ -323,7 +323,7 @@ class Generator {
 };
 
 TEST(ExactNumber, EnclosesRandomExpressionsWithinTwoUlp) {
-  Generator generator(kSeed);
+  Generator generator(kRationalSeed);
   int irrational = 0;
   for (int i = 0; i < 3000; ++i) {
     const Sample sample = generator.expression(1 + i % 5);
@@ -341,7 +341,7 @@ TEST(ExactNumber, EnclosesRandomExpressionsWithinTwoUlp) {
 }
 
 TEST(ExactNumber, EnclosesTheSameInEveryRoundingMode) {
-  Generator generator(kSeed + 1);
+  Generator generator(kRationalSeed + 1);
   for (int i = 0; i < 300; ++i) {
     const ExactNumber number = generator.expression(4).number;
     const Interval nearest = number.enclose();

@@ -17,7 +17,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kMax = std::numeric_limits<double>::max();
 constexpr double kTiny = std::numeric_limits<double>::denorm_min();
 constexpr int kSamples = 200000;
-constexpr std::uint64_t kSeed = 20261121;
+constexpr std::uint64_t kIntervalSeed = 20261121;
 
 // An exact real number: every double, and sums and products of a few, fit in these bits.
 class Real {
@@ -79,7 +79,7 @@ class Doubles {
     constexpr double kSpecial[] = {0.0, -0.0, kTiny, -kTiny, kMax, -kMax, 1.0, -1.0, 2.2250738585072014e-308, 0.1, -0.9};
     return kSpecial[engine_() % std::size(kSpecial)];
   }
-  std::mt19937_64 engine_{kSeed};
+  std::mt19937_64 engine_{kIntervalSeed};
 };
 
 class IntervalTest : public testing::Test {

@@ -13,7 +13,7 @@ namespace corank::certify {
 namespace {
 
 // x² + y² = 25.
-System circle() {
+System circle_of_radius_5() {
   test::SystemBuilder b;
   const int x = b.variable("x", "-8", "8"), y = b.variable("y", "-8", "8");
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-25", {}}});
@@ -42,7 +42,7 @@ bool may_meet(const Box& box) {
 TEST(SolutionIn, IsInTheBoxAndOnTheCircle) {
   Boxes boxes(1);
   const UpwardRounding rounding;
-  MeetingTest test(circle());
+  MeetingTest test(circle_of_radius_5());
   int found = 0, there = 0;
   for (int k = 0; k < 2000; ++k) {
     const Box box{boxes.side(), boxes.side()};
@@ -78,7 +78,7 @@ TEST(SolutionIn, IsFoundWhereAVariableHasOneValue) {
 TEST(Meeting, IsProvenOnlyWhereARegionOfBothIsCrossed) {
   Boxes boxes(2);
   const UpwardRounding rounding;
-  MeetingTest test(circle());
+  MeetingTest test(circle_of_radius_5());
   int found = 0, there = 0;
   for (int k = 0; k < 2000; ++k) {
     const Box a{boxes.side(), boxes.side()};
@@ -99,7 +99,7 @@ TEST(Meeting, IsProvenOnlyWhereARegionOfBothIsCrossed) {
 TEST(PieceAbout, HoldsOneSolutionOverEachOfItsValues) {
   Boxes boxes(3);
   const UpwardRounding rounding;
-  MeetingTest test(circle());
+  MeetingTest test(circle_of_radius_5());
   int found = 0;
   for (int k = 0; k < 500; ++k) {
     const double turn = boxes.number(-3.2, 3.2), radius = boxes.number(0.001, 2);

@@ -172,10 +172,10 @@ TEST_F(PanelTest, RefusesWhatIsNotFinite) {
 }
 
 TEST_F(PanelTest, AnEntryThatLeavesTheRangeOfDoublesIsWithoutBounds) {
-  constexpr double kMax = std::numeric_limits<double>::max();
+  constexpr double kLargest = std::numeric_limits<double>::max();
   Panel panel;
   panel.set_matrix({1.0}, 1);
-  for (const Interval& entry : {Interval(-kMax, 1), Interval(-kMax, kMax)}) {
+  for (const Interval& entry : {Interval(-kLargest, 1), Interval(-kLargest, kLargest)}) {
     ASSERT_TRUE(panel.assign_product(full_system(1, 1), {0}, {entry}));
     for (const Interval& offset : {Interval(0, 1), Interval(-1, 0), Interval(0.0), Interval(-1, 1)}) {
       std::vector<Interval> sums{Interval(0.0)};

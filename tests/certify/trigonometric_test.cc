@@ -14,36 +14,36 @@
 namespace corank::certify {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kTiny = std::numeric_limits<double>::denorm_min();
-constexpr std::uint64_t kSeed = 20261122;
+constexpr double kPi = std::numbers::pi, kSubnormal = std::numeric_limits<double>::denorm_min();
+constexpr std::uint64_t kAngleSeed = 20261122;
 
 // A real number to enough bits for 1 − cos of any subnormal double, where that matters, and for the sine of any other
 // double.
-class Real {
+class LongReal {
  public:
-  explicit Real(double x) : Real(mpfr_prec_t{x != 0 && std::fabs(x) < 0x1p-300 ? 4800 : 1400}) {
+  explicit LongReal(double x) : LongReal(mpfr_prec_t{x != 0 && std::fabs(x) < 0x1p-300 ? 4800 : 1400}) {
     mpfr_set_d(value_, x, MPFR_RNDN);
   }
-  Real(const Real& other) : Real(mpfr_get_prec(other.value_)) { mpfr_set(value_, other.value_, MPFR_RNDN); }
-  Real& operator=(const Real&) = delete;
-  ~Real() { mpfr_clear(value_); }
-  friend Real sin(const Real& x) {
-    Real r(mpfr_get_prec(x.value_));
+  LongReal(const LongReal& other) : LongReal(mpfr_get_prec(other.value_)) { mpfr_set(value_, other.value_, MPFR_RNDN); }
+  LongReal& operator=(const LongReal&) = delete;
+  ~LongReal() { mpfr_clear(value_); }
+  friend LongReal sin(const LongReal& x) {
+    LongReal r(mpfr_get_prec(x.value_));
     mpfr_sin(r.value_, x.value_, MPFR_RNDN);
     return r;
   }
-  friend Real cos(const Real& x) {
-    Real r(mpfr_get_prec(x.value_));
+  friend LongReal cos(const LongReal& x) {
+    LongReal r(mpfr_get_prec(x.value_));
     mpfr_cos(r.value_, x.value_, MPFR_RNDN);
     return r;
   }
-  friend Real operator-(const Real& a, const Real& b) {
-    Real r(std::max(mpfr_get_prec(a.value_), mpfr_get_prec(b.value_)));
+  friend LongReal operator-(const LongReal& a, const LongReal& b) {
+    LongReal r(std::max(mpfr_get_prec(a.value_), mpfr_get_prec(b.value_)));
     mpfr_sub(r.value_, a.value_, b.value_, MPFR_RNDN);
     return r;
   }
-  friend Real operator/(const Real& a, const Real& b) {
-    Real r(std::max(mpfr_get_prec(a.value_), mpfr_get_prec(b.value_)));
+  friend LongReal operator/(const LongReal& a, const LongReal& b) {
+    LongReal r(std::max(mpfr_get_prec(a.value_), mpfr_get_prec(b.value_)));
     mpfr_div(r.value_, a.value_, b.value_, MPFR_RNDN);
     return r;
   }
@@ -53,7 +53,7 @@ class Real {
   bool in(const Interval& x) const { return mpfr_cmp_d(value_, x.lo()) >= 0 && mpfr_cmp_d(value_, x.hi()) <= 0; }
 
  private:
-  explicit Real(mpfr_prec_t bits) { mpfr_init2(value_, bits); }
+  explicit LongReal(mpfr_prec_t bits) { mpfr_init2(value_, bits); }
   mpfr_t value_;
 };
 
@@ -77,7 +77,7 @@ class Arguments {
     switch (engine_() % 8) {
       case 0: return sign * near_quarter(static_cast<int>(engine_() % 40));
       case 1: return std::nextafter(near_quarter(static_cast<int>(engine_() % 80'000'000)), sign * HUGE_VAL);
-      case 2: return sign * static_cast<double>(engine_() % 5) * kTiny;
+      case 2: return sign * static_cast<double>(engine_() % 5) * kSubnormal;
       case 3: return sign * std::ldexp(uniform(1, 2), -static_cast<int>(engine_() % 1074));
       case 4: return sign * uniform(0, kMaxArgument);
       case 5: {
@@ -114,7 +114,7 @@ class Arguments {
   std::mt19937_64& engine() { return engine_; }
 
  private:
-  std::mt19937_64 engine_{kSeed};
+  std::mt19937_64 engine_{kAngleSeed};
 };
 
 class Trigonometric : public testing::Test {
@@ -128,8 +128,8 @@ TEST_F(Trigonometric, SinesAndCosinesContainTheExactValues) {
     const Interval x = arguments_.interval(), s = sine(x), c = cosine(x);
     ASSERT_TRUE(Interval(-1, 1).contains(s) && Interval(-1, 1).contains(c)) << x;
     for (const double a : {x.lo(), x.hi(), arguments_.in(x), arguments_.in(x)}) {
-      ASSERT_TRUE(sin(Real(a)).in(s)) << "sin of " << a << " in " << x << " is not in " << s;
-      ASSERT_TRUE(cos(Real(a)).in(c)) << "cos of " << a << " in " << x << " is not in " << c;
+      ASSERT_TRUE(sin(LongReal(a)).in(s)) << "sin of " << a << " in " << x << " is not in " << s;
+      ASSERT_TRUE(cos(LongReal(a)).in(c)) << "cos of " << a << " in " << x << " is not in " << c;
     }
   }
 }
@@ -138,7 +138,7 @@ TEST_F(Trigonometric, TheValueAtAPointIsGoodToAFewUnitsInTheLastPlace) {
   for (int trial = 0; trial < 10'000; ++trial) {
     const double x = arguments_.next();
     if (std::fabs(x) > kMaxArgument) continue;
-    for (const auto& [enclosure, exact] : {std::pair{sine(x), sin(Real(x))}, std::pair{cosine(x), cos(Real(x))}}) {
+    for (const auto& [enclosure, exact] : {std::pair{sine(x), sin(LongReal(x))}, std::pair{cosine(x), cos(LongReal(x))}}) {
       const double unit = std::nextafter(std::fabs(exact.nearest()), 2) - std::fabs(exact.nearest());
       ASSERT_LE(enclosure.width(), 8 * unit) << x;
     }
@@ -171,9 +171,9 @@ TEST_F(Trigonometric, SlopesContainEveryQuotientOfDifferences) {
     const double a = arguments_.in(x);
     const double c = trial % 3 == 0 ? a : trial % 3 == 1 ? x.mid() : a + arguments_.uniform(-3, 3);
     const Interval s = sine_slope(x, c), t = cosine_slope(x, c);
-    const Real ra(a), rc(c);
-    const Real sine_quotient = a == c ? cos(ra) : (sin(ra) - sin(rc)) / (ra - rc);
-    const Real cosine_quotient = a == c ? Real(0.0) - sin(ra) : (cos(ra) - cos(rc)) / (ra - rc);
+    const LongReal ra(a), rc(c);
+    const LongReal sine_quotient = a == c ? cos(ra) : (sin(ra) - sin(rc)) / (ra - rc);
+    const LongReal cosine_quotient = a == c ? LongReal(0.0) - sin(ra) : (cos(ra) - cos(rc)) / (ra - rc);
     ASSERT_TRUE(sine_quotient.in(s)) << x << " at " << a << " about " << c << ": " << s;
     ASSERT_TRUE(cosine_quotient.in(t)) << x << " at " << a << " about " << c << ": " << t;
   }
@@ -189,7 +189,7 @@ TEST_F(Trigonometric, InverseImagesKeepEveryPoint) {
   for (int trial = 0; trial < 10'000; ++trial) {
     const Interval within = arguments_.interval();
     const double a = arguments_.in(within);
-    const Real s = sin(Real(a)), c = cos(Real(a));
+    const LongReal s = sin(LongReal(a)), c = cos(LongReal(a));
     const double slack = trial % 2 == 0 ? 0 : std::ldexp(1.0, -static_cast<int>(arguments_.engine()() % 60));
     const auto sines = inverse_sine({s.down() - slack, s.up() + slack}, within);
     ASSERT_TRUE(sines && sines->contains(a) && within.contains(*sines)) << a << " in " << within;

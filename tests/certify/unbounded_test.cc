@@ -14,7 +14,7 @@ namespace {
 
 using test::SystemBuilder;
 
-constexpr unsigned kSeed = 57721;
+constexpr unsigned kLinkSeed = 57721;
 
 TEST(Unbounded, FollowsALinkFromItsBoundedEnd) {
   SystemBuilder b;
@@ -94,7 +94,7 @@ TEST(Unbounded, LeavesAPartThatMayBeNegative) {
 
 // Systems made to have a given solution, among them sides without end: it must stay.
 TEST(Unbounded, NeverLosesAPlantedSolution) {
-  std::mt19937 engine(kSeed);
+  std::mt19937 engine(kLinkSeed);
   std::uniform_int_distribution<int> small(-8, 8), choice(0, 5), some(2, 5);
   std::size_t bounded = 0;
   for (int trial = 0; trial < 3000; ++trial) {
@@ -140,9 +140,9 @@ TEST(Unbounded, NeverLosesAPlantedSolution) {
                     : kind == 2 ? Interval(x, inf)
                                 : Interval::whole());
     }
-    ASSERT_TRUE(contract_unbounded(system, box)) << "seed " << kSeed << ", trial " << trial;
+    ASSERT_TRUE(contract_unbounded(system, box)) << "seed " << kLinkSeed << ", trial " << trial;
     for (std::size_t j = 0; j < box.size(); ++j) {
-      ASSERT_TRUE(box[j].contains(solution[j])) << "seed " << kSeed << ", trial " << trial << ": " << box[j];
+      ASSERT_TRUE(box[j].contains(solution[j])) << "seed " << kLinkSeed << ", trial " << trial << ": " << box[j];
       bounded += box[j].is_bounded();
     }
   }

@@ -3,10 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "corank/tests/check/enclosed_rows.h"
+
 namespace corank::check {
 namespace {
 
-bool holds(const Enclosure& x, double p) { return Enclosure(p).inside(x); }
 Enclosure fraction(const char* text) { return Enclosure(ExactNumber::rational(text)); }
 
 TEST(Enclosure, HoldsAConstantThatIsNoDouble) {

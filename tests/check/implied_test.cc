@@ -13,7 +13,7 @@ using Term = test::SystemBuilder::Term;
 using Equations = std::vector<std::vector<Term>>;
 
 // Variables 0, 1 … 4 = y, u, v, p, q in [−1, 2].
-constexpr int y = 0, u = 1, v = 2, p = 3, q = 4;
+constexpr int kY = 0, kU = 1, kV = 2, kP = 3, kQ = 4;
 
 System system_of(const Equations& equations, double tolerance = 0) {
   test::SystemBuilder builder;
@@ -38,81 +38,82 @@ std::vector<Term> squares(const char* a, int i, const char* b, int j, const char
 }
 
 TEST(ImpliedBySquares, IsABoundOfEachVariable) {
-  EXPECT_TRUE(implied({squares("1", y, "1", u, "1")}, y, "1", 1));
-  EXPECT_TRUE(implied({squares("1", y, "1", u, "1")}, y, "-1", -1));
-  EXPECT_FALSE(implied({squares("1", y, "1", u, "1")}, y, "99/100", 1));
-  EXPECT_FALSE(implied({squares("1/4", y, "1", u, "1")}, y, "1", 1)) << "up to 2";
+  EXPECT_TRUE(implied({squares("1", kY, "1", kU, "1")}, kY, "1", 1));
+  EXPECT_TRUE(implied({squares("1", kY, "1", kU, "1")}, kY, "-1", -1));
+  EXPECT_FALSE(implied({squares("1", kY, "1", kU, "1")}, kY, "99/100", 1));
+  EXPECT_FALSE(implied({squares("1/4", kY, "1", kU, "1")}, kY, "1", 1)) << "up to 2";
 }
 
 TEST(ImpliedBySquares, IsNothingWhereOneIsSubtracted) {
-  EXPECT_FALSE(implied({squares("1", y, "-1", u, "1")}, y, "1", 1));
-  EXPECT_FALSE(implied({{{"1", {{y, 2}}}, {"1", {{u, 2}}}, {"1", {{v, 1}}}, {"-1", {}}}}, y, "1", 1)) << "v may be negative";
+  EXPECT_FALSE(implied({squares("1", kY, "-1", kU, "1")}, kY, "1", 1));
+  EXPECT_FALSE(implied({{{"1", {{kY, 2}}}, {"1", {{kU, 2}}}, {"1", {{kV, 1}}}, {"-1", {}}}}, kY, "1", 1))
+      << "v may be negative";
 }
 
 TEST(ImpliedBySquares, IsNoBoundOnTheOtherSideOfZero) {
-  EXPECT_FALSE(implied({squares("1", y, "1", u, "1")}, y, "-2", 1));
-  EXPECT_FALSE(implied({squares("1", y, "1", u, "1")}, y, "2", -1));
+  EXPECT_FALSE(implied({squares("1", kY, "1", kU, "1")}, kY, "-2", 1));
+  EXPECT_FALSE(implied({squares("1", kY, "1", kU, "1")}, kY, "2", -1));
 }
 
 TEST(ImpliedBySquares, IsNothingWithinATolerance) {
-  EXPECT_TRUE(implied({squares("1", y, "1", u, "1/4")}, y, "1/2", 1));
-  EXPECT_FALSE(implied({squares("1", y, "1", u, "1/4")}, y, "1/2", 1, 0.01));
+  EXPECT_TRUE(implied({squares("1", kY, "1", kU, "1/4")}, kY, "1/2", 1));
+  EXPECT_FALSE(implied({squares("1", kY, "1", kU, "1/4")}, kY, "1/2", 1, 0.01));
 }
 
 TEST(ImpliedBySums, IsTheExtremeOfWhatIsAdded) {
-  const std::vector<Term> sine{{"1", {{y, 1}}}, {"1", {{u, 1, Function::sine}}}, {"-3", {}}};  // y ∈ [2, 4]
-  EXPECT_TRUE(implied({sine}, y, "4", 1));
-  EXPECT_TRUE(implied({sine}, y, "2", -1));
-  EXPECT_FALSE(implied({sine}, y, "3", 1));
-  EXPECT_FALSE(implied({sine}, y, "3", -1));
+  const std::vector<Term> sine{{"1", {{kY, 1}}}, {"1", {{kU, 1, Function::sine}}}, {"-3", {}}};  // y ∈ [2, 4]
+  EXPECT_TRUE(implied({sine}, kY, "4", 1));
+  EXPECT_TRUE(implied({sine}, kY, "2", -1));
+  EXPECT_FALSE(implied({sine}, kY, "3", 1));
+  EXPECT_FALSE(implied({sine}, kY, "3", -1));
 }
 
 TEST(ImpliedBySums, TakesNoDomainThatIsNotImplied) {
-  const std::vector<Term> equal{{"1", {{y, 1}}}, {"-1", {{u, 1}}}};
-  EXPECT_FALSE(implied({equal}, y, "2", 1)) << "u ≤ 2 is the search domain's";
-  EXPECT_TRUE(implied({equal, squares("1", u, "1", v, "1")}, y, "2", 1));
-  EXPECT_FALSE(implied({equal, squares("1", u, "1", v, "1")}, y, "0", 1));
-  EXPECT_FALSE(implied({equal, squares("1", u, "1", v, "1")}, y, "0", -1));
+  const std::vector<Term> equal{{"1", {{kY, 1}}}, {"-1", {{kU, 1}}}};
+  EXPECT_FALSE(implied({equal}, kY, "2", 1)) << "u ≤ 2 is the search domain's";
+  EXPECT_TRUE(implied({equal, squares("1", kU, "1", kV, "1")}, kY, "2", 1));
+  EXPECT_FALSE(implied({equal, squares("1", kU, "1", kV, "1")}, kY, "0", 1));
+  EXPECT_FALSE(implied({equal, squares("1", kU, "1", kV, "1")}, kY, "0", -1));
 }
 
 TEST(ImpliedBySums, IsNothingWhereATermHasNoBound) {
-  EXPECT_FALSE(implied({{{"1", {{y, 1}}}, {"1", {{u, 2}}}}}, y, "0", -1)) << "y = -u^2";
+  EXPECT_FALSE(implied({{{"1", {{kY, 1}}}, {"1", {{kU, 2}}}}}, kY, "0", -1)) << "y = -u^2";
 }
 
 TEST(ImpliedByProducts, IsTheBoundOfCauchyAndSchwarz) {
-  const std::vector<Term> product{{"1", {{y, 1}}}, {"-1", {{u, 1}, {v, 1}}}};
-  const std::vector<Term> twice{{"1", {{y, 1}}}, {"-2", {{u, 1}, {v, 1}}}};
-  const Equations circles{squares("1", u, "1", p, "1"), squares("1", v, "1", q, "1")};
-  EXPECT_TRUE(implied({product, circles[0], circles[1]}, y, "1", 1));
-  EXPECT_FALSE(implied({product, circles[0], circles[1]}, y, "99/100", 1));
-  EXPECT_FALSE(implied({twice, circles[0], circles[1]}, y, "3/2", 1)) << "2 u v";
+  const std::vector<Term> product{{"1", {{kY, 1}}}, {"-1", {{kU, 1}, {kV, 1}}}};
+  const std::vector<Term> twice{{"1", {{kY, 1}}}, {"-2", {{kU, 1}, {kV, 1}}}};
+  const Equations circles{squares("1", kU, "1", kP, "1"), squares("1", kV, "1", kQ, "1")};
+  EXPECT_TRUE(implied({product, circles[0], circles[1]}, kY, "1", 1));
+  EXPECT_FALSE(implied({product, circles[0], circles[1]}, kY, "99/100", 1));
+  EXPECT_FALSE(implied({twice, circles[0], circles[1]}, kY, "3/2", 1)) << "2 u v";
 }
 
 TEST(ImpliedByProducts, IsNothingWhereSomethingElseIsAdded) {
-  const Equations circles{squares("1", u, "1", p, "1"), squares("1", v, "1", q, "1")};
+  const Equations circles{squares("1", kU, "1", kP, "1"), squares("1", kV, "1", kQ, "1")};
   const auto with = [&](const Term& term) {
-    return Equations{{{"1", {{y, 1}}}, {"-1", {{u, 1}, {v, 1}}}, term}, circles[0], circles[1]};
+    return Equations{{{"1", {{kY, 1}}}, {"-1", {{kU, 1}, {kV, 1}}}, term}, circles[0], circles[1]};
   };
-  EXPECT_FALSE(implied(with({"-5", {{p, 2}}}), y, "1", 1));
-  EXPECT_FALSE(implied(with({"-3", {}}), y, "1", 1)) << "u v + 3";
-  EXPECT_FALSE(implied(with({"-3", {}}), y, "3", 1));
-  EXPECT_TRUE(implied(with({"-3", {}}), y, "4", 1));
+  EXPECT_FALSE(implied(with({"-5", {{kP, 2}}}), kY, "1", 1));
+  EXPECT_FALSE(implied(with({"-3", {}}), kY, "1", 1)) << "u v + 3";
+  EXPECT_FALSE(implied(with({"-3", {}}), kY, "3", 1));
+  EXPECT_TRUE(implied(with({"-3", {}}), kY, "4", 1));
 }
 
 TEST(ImpliedByProducts, NeedsDistinctFactors) {
   // u v + u p, u² + q² = 1, v² + p² = 1: up to √2.
-  EXPECT_FALSE(implied({{{"1", {{y, 1}}}, {"-1", {{u, 1}, {v, 1}}}, {"-1", {{u, 1}, {p, 1}}}},
-                        squares("1", u, "1", q, "1"),
-                        squares("1", v, "1", p, "1")},
-                       y, "6/5", 1));
+  EXPECT_FALSE(implied({{{"1", {{kY, 1}}}, {"-1", {{kU, 1}, {kV, 1}}}, {"-1", {{kU, 1}, {kP, 1}}}},
+                        squares("1", kU, "1", kQ, "1"),
+                        squares("1", kV, "1", kP, "1")},
+                       kY, "6/5", 1));
 }
 
 TEST(ImpliedByProducts, TakesTheLeastWeights) {
   // u v + q p, u²/4 + q² = 1, v² + p² = 1: up to 2.
-  EXPECT_FALSE(implied({{{"1", {{y, 1}}}, {"-1", {{u, 1}, {v, 1}}}, {"-1", {{p, 1}, {q, 1}}}},
-                        squares("1/4", u, "1", q, "1"),
-                        squares("1", v, "1", p, "1")},
-                       y, "3/2", 1));
+  EXPECT_FALSE(implied({{{"1", {{kY, 1}}}, {"-1", {{kU, 1}, {kV, 1}}}, {"-1", {{kP, 1}, {kQ, 1}}}},
+                        squares("1/4", kU, "1", kQ, "1"),
+                        squares("1", kV, "1", kP, "1")},
+                       kY, "3/2", 1));
 }
 
 // --- in a problem ---
@@ -145,12 +146,12 @@ TEST(ImpliedDomains, OfAValueFollowItsDirection) {
 TEST(ImpliedDomains, HoldForEveryChoiceWithinTheTolerance) {
   EXPECT_TRUE(condition_implied(with_value("1/3", "0", "-5", "2/3"), 2, 1));
   EXPECT_FALSE(condition_implied(with_value("1/3", "0", "-5", "2/3", 0.01), 2, 1));
-  System quarter = system_of({squares("1", y, "1", u, "1/4")});
+  System quarter = system_of({squares("1", kY, "1", kU, "1/4")});
   for (Variable& variable : quarter.variables)
     variable = Variable(variable.name, VariableKind::length, -1, ExactNumber::rational("1/2"));
-  EXPECT_TRUE(condition_implied(Problem(quarter, {}), y, 1));
+  EXPECT_TRUE(condition_implied(Problem(quarter, {}), kY, 1));
   quarter.coefficient_tolerance = 0.01;
-  EXPECT_FALSE(condition_implied(Problem(quarter, {}), y, 1));
+  EXPECT_FALSE(condition_implied(Problem(quarter, {}), kY, 1));
 }
 
 TEST(ImpliedDomains, AloneClipABox) {

@@ -9,7 +9,7 @@ namespace corank::check {
 namespace {
 
 // Variables x, y, and the kernel vector (a, b).
-System kernel_system(const std::string& equations) {
+System system_with_kernel(const std::string& equations) {
   System system = plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\na : [-1, 1]\nb : [-1, 1]\n[SYSTEM EQS]\n" + equations +
                         "a^2 + b^2 = 1;\n");
   for (const std::size_t j : {2u, 3u}) system.variables[j].kind = VariableKind::kernel;
@@ -18,7 +18,7 @@ System kernel_system(const std::string& equations) {
 }
 
 bool at_most(const std::string& equations, int most, const Interval& x, const Interval& y, double tolerance = 0) {
-  System system = kernel_system(equations);
+  System system = system_with_kernel(equations);
   system.coefficient_tolerance = tolerance;
   return KernelCheck(system).is_at_most(most, {x, y, {0.5, 1}, {0.5, 1}});
 }

@@ -3,18 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "corank/tests/check/enclosed_rows.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::check {
 namespace {
 
-using Term = test::SystemBuilder::Term;
 using Center = Krawczyk::Center;
-
-Row row(const std::vector<Term>& terms, double tolerance = 0) {
-  return Row(Terms(test::SystemBuilder::polynomial(terms), tolerance), {0, 1, 2});
-}
-bool holds(const Enclosure& x, double p) { return Enclosure(p).inside(x); }
 
 TEST(Contraction, IsStrictInEveryRow) {
   EXPECT_TRUE(is_contraction({0.9}, 1));

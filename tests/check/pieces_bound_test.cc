@@ -196,7 +196,7 @@ TEST(OpenParts, AreWhatBoxesLeave) {
 }
 
 // The plane's square strictly within its sides, divided by quadrics; the cells come from random cuts.
-struct Plane {
+struct CutPlane {
   PieceBound bound(const std::vector<Quadric>& f, const PieceProof& proof) const {
     std::vector<std::string> texts;
     for (const Quadric& q : f) texts.push_back(q.text());
@@ -231,7 +231,7 @@ void cut(std::vector<PieceCell>& cells, const std::vector<Interval>& sides, int 
 }
 
 TEST(PieceBound, OfRandomQuadricsIsNeverTooSmall) {
-  const Plane plane;
+  const CutPlane plane;
   std::mt19937 random(17);
   int bounded = 0, exact = 0;
   constexpr int kTrials = 30;
@@ -255,7 +255,7 @@ TEST(PieceBound, OfRandomQuadricsIsNeverTooSmall) {
 
 // Two sheets that are the same: what the one's cells leave out the other's may hold, but not what both leave out.
 TEST(PieceBound, FindsWhatIsLeftOutInOtherSheets) {
-  Plane plane;
+  CutPlane plane;
   plane.cover.boxes.push_back(plane.cover.boxes.front());
   const Quadric line{{0, 1, 0, 0, 0, 0}};
   std::mt19937 random(4);
@@ -273,7 +273,7 @@ TEST(PieceBound, FindsWhatIsLeftOutInOtherSheets) {
 
 // Both cells have points on both sides of x = 0.
 TEST(PieceBound, IsJoinedByLinksOfLikeSigns) {
-  const Plane plane;
+  const CutPlane plane;
   const Quadric line{{0, 1, 0, 0, 0, 0}};
   PieceProof proof;
   const Interval left(-1, -0.5), middle(-0.5, 0.5), right(0.5, 1);
@@ -294,7 +294,7 @@ TEST(PieceBound, IsJoinedByLinksOfLikeSigns) {
 
 // A disc of radius 1/2 about a cell's corner, and what is outside of it.
 TEST(PieceBound, CountsADiscThatSeveralCellsHideTogether) {
-  const Plane plane;
+  const CutPlane plane;
   const Quadric disc{{1, 0, 0, -4, 0, -4}};
   PieceProof proof;
   for (const double x : {-0.99, 0.01})
@@ -307,7 +307,7 @@ TEST(PieceBound, CountsADiscThatSeveralCellsHideTogether) {
 }
 
 TEST(PieceBound, LooksForEveryCell) {
-  const Plane plane;
+  const CutPlane plane;
   const Quadric line{{0, 1, 0, 0, 0, 0}};
   std::mt19937 random(2);
   PieceProof proof;

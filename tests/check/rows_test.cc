@@ -3,15 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "corank/tests/check/enclosed_rows.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::check {
 namespace {
-
-using Term = test::SystemBuilder::Term;
-
-Row row(const std::vector<Term>& terms) { return Row(Terms(test::SystemBuilder::polynomial(terms), 0), {0, 1, 2}); }
-bool holds(const Enclosure& x, double p) { return Enclosure(p).inside(x); }
 
 // f(x) − f(c) ∈ s·(x − c).
 bool explains(const Row& f, const Sides& s, const Sides& x, const Sides& c) {

@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "corank/tests/check/covers.h"
+#include "corank/tests/check/enclosed_rows.h"
 
 namespace corank::check {
 namespace {
-
-bool holds(const Enclosure& x, double p) { return Enclosure(p).inside(x); }
 
 TEST(NewtonStep, HoldsTheSolutionsInEachVariable) {
   const System system = plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\n[SYSTEM EQS]\nx + 2*y = 1;\n");  // x = 1 − 2 y

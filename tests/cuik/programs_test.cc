@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "corank/result/cuik_sol.h"
 #include "corank/tests/cuik/shell.h"
 #include "corank/tests/cuik/suite_files.h"
@@ -18,7 +20,6 @@ using ::testing::Not;
 constexpr const char* kCircle =
     "[SYSTEM VARS]\nc : [-1, 1]\ns : [-1, 1]\n[DUMMY VARS]\np : [-1, 1]\n[SYSTEM EQS]\nc^2 + s^2 = 1;\n[DUMMY EQS]\nc*s - p "
     "= 0;\n";
-constexpr double kPi = 3.14159265358979323846;
 
 double widest(const SolFile& file) {
   double width = 0;
@@ -41,7 +42,7 @@ TEST(Cuik, SolvesWithTheParameterFileBesideTheModel) {
   EXPECT_GT(file.boxes.size(), 100u);
   EXPECT_LE(widest(file), 0.051);
   for (int degree = 0; degree < 360; ++degree) {
-    const double t = degree * kPi / 180;
+    const double t = degree * std::numbers::pi / 180;
     EXPECT_TRUE(std::any_of(file.boxes.begin(), file.boxes.end(), [&](const result::SolBox& b) {
       return b.box[0].contains(std::cos(t)) && b.box[1].contains(std::sin(t));
     })) << degree;
@@ -154,7 +155,7 @@ TEST(Cuikequations, WritesEquationsThatCuikSolvesAndCuikplot3dDraws) {
   const SolFile file = result::read_sol(folder.file("fourbar.sol"));
   EXPECT_LE(widest(file), 0.0501);
   for (int degree = 0; degree < 360; degree += 5) {
-    const double t = degree * kPi / 180, x = 0.8 * std::cos(t) - 2, y = 0.8 * std::sin(t), q = std::hypot(x, y);
+    const double t = degree * std::numbers::pi / 180, x = 0.8 * std::cos(t) - 2, y = 0.8 * std::sin(t), q = std::hypot(x, y);
     for (const int side : {-1, 1}) {  // the triangle of rocker and coupler over their feet's distance q
       const double rocker = std::atan2(y, x) + side * std::acos((1.5 * 1.5 + q * q - 1.75 * 1.75) / (2 * 1.5 * q));
       const double coupler = std::atan2(1.5 * std::sin(rocker) - y, 1.5 * std::cos(rocker) - x);
@@ -236,10 +237,13 @@ TEST(SuiteTutorial, FourBarsRuns) {
   const SolFile file = result::read_sol(folder.file("FourBars.sol"));
   EXPECT_LE(widest(file), 0.0501);
   for (int degree = 0; degree < 360; degree += 5) {
-    const double t = degree * kPi / 180;
-    EXPECT_TRUE(covers(file, {{"phi_link2", kPi}, {"phi_link3", t + kPi}, {"phi_link4", t}})) << degree;
-    EXPECT_TRUE(covers(file, {{"phi_link2", t}, {"phi_link3", kPi}, {"phi_link4", t + kPi}})) << degree;
-    EXPECT_TRUE(covers(file, {{"phi_link2", t}, {"phi_link3", t + kPi}, {"phi_link4", kPi}})) << degree;
+    const double t = degree * std::numbers::pi / 180;
+    EXPECT_TRUE(covers(file, {{"phi_link2", std::numbers::pi}, {"phi_link3", t + std::numbers::pi}, {"phi_link4", t}}))
+        << degree;
+    EXPECT_TRUE(covers(file, {{"phi_link2", t}, {"phi_link3", std::numbers::pi}, {"phi_link4", t + std::numbers::pi}}))
+        << degree;
+    EXPECT_TRUE(covers(file, {{"phi_link2", t}, {"phi_link3", t + std::numbers::pi}, {"phi_link4", std::numbers::pi}}))
+        << degree;
   }
   const auto undecided = std::count_if(file.boxes.begin(), file.boxes.end(),
                                        [](const result::SolBox& b) { return b.verdict == Verdict::undecided; });
@@ -292,8 +296,8 @@ TEST(Cuikatan2, EnclosesAnglesAcrossMinusPi) {
   EXPECT_THAT(file.variables, ElementsAre("x", "atan2_s_c"));
   const Interval angle = file.boxes.at(0).box.at(1);
   const double half = std::atan(0.1 / 0.9);
-  EXPECT_NEAR(angle.lo(), kPi - half, 1e-12);
-  EXPECT_NEAR(angle.hi(), kPi + half, 1e-12);
+  EXPECT_NEAR(angle.lo(), std::numbers::pi - half, 1e-12);
+  EXPECT_NEAR(angle.hi(), std::numbers::pi + half, 1e-12);
   EXPECT_LE(angle.lo(), 3.0309 + 1e-4);
   EXPECT_GE(angle.hi(), 3.2523 - 1e-4);
   EXPECT_EQ(file.boxes[0].box[0], Interval(5, 6));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <numbers>
 
 #include "corank/result/cuik_param.h"
 #include "corank/result/cuik_sol.h"
@@ -126,24 +127,23 @@ TEST(SuiteFiles, TheCurvesOfSimpleSingAreCovered) {
                             }))
         << point[0] << ' ' << point[1] << ' ' << point[2] << ' ' << point[3];
   };
-  constexpr double kPi = 3.14159265358979323846;
-  const double largest = std::sqrt(32 * kPi);
+  const double largest = std::sqrt(32 * std::numbers::pi);
   for (int i = -400; i <= 400; ++i) {
     const double x = largest * i / 400, t = x * x / 4;
     expect_covered({std::cos(t) / 2, x, 0, t});
   }
   for (int k = 1; k <= 8; ++k)
     for (int i = 0; i < 100; ++i) {
-      const double r = std::sqrt(4 * kPi * k), a = 2 * kPi * i / 100;
-      expect_covered({k % 2 == 0 ? 0.5 : -0.5, r * std::cos(a), r * std::sin(a), kPi * k});
+      const double r = std::sqrt(4 * std::numbers::pi * k), a = 2 * std::numbers::pi * i / 100;
+      expect_covered({k % 2 == 0 ? 0.5 : -0.5, r * std::cos(a), r * std::sin(a), std::numbers::pi * k});
     }
 }
 
 // Solves NAME.cuik with the σ of NAME.param and asks for every box of the suite whether one of ours meets it in the
 // variables of both.
-using Problem = std::pair<std::string, std::string>;  // folder, name
+using SolvedProblem = std::pair<std::string, std::string>;  // folder, name
 
-class Coverage : public ::testing::TestWithParam<Problem> {};
+class Coverage : public ::testing::TestWithParam<SolvedProblem> {};
 
 TEST_P(Coverage, NoBoxOfTheSuiteIsMissed) {
   SKIP_WITHOUT_SUITE_FILES();
@@ -176,10 +176,11 @@ TEST_P(Coverage, NoBoxOfTheSuiteIsMissed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Suite, Coverage,
-                         ::testing::Values(Problem{"solutions", "fwd"}, Problem{"solutions", "inv"},
-                                           Problem{"problems", "3RPR_sing"}, Problem{"problems", "FourBars_extraeq"},
-                                           Problem{"problems", "Serial6RRX60"}, Problem{"problems", "Welding0D"},
-                                           Problem{"problems", "Welding1D"}),
+                         ::testing::Values(SolvedProblem{"solutions", "fwd"}, SolvedProblem{"solutions", "inv"},
+                                           SolvedProblem{"problems", "3RPR_sing"},
+                                           SolvedProblem{"problems", "FourBars_extraeq"},
+                                           SolvedProblem{"problems", "Serial6RRX60"}, SolvedProblem{"problems", "Welding0D"},
+                                           SolvedProblem{"problems", "Welding1D"}),
                          [](const auto& test) {
                            std::string name = test.param.second;
                            return "of" + name;

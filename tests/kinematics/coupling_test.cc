@@ -20,7 +20,7 @@ constexpr const char* kArm =
     "revolute a : base (0,0,0)+(0,0,1) upper (0,0,0)+(0,0,1) actuated\n"
     "revolute b : upper (3,0,0)+(0,0,1) fore (0,0,0)+(0,0,1)\n";
 
-Transform at(double x, double y, double z, const Transform& turned) {
+Transform placed_at(double x, double y, double z, const Transform& turned) {
   Transform result = turned;
   result.p = {x, y, z};
   return result;
@@ -48,7 +48,7 @@ TEST(Gears, OfRationalRatiosShareAPartOfTheAngle) {
   const auto values = completed(a, {{"a_over_2", t}});
   const Transform upper = turn({0, 0, 1}, 2 * t);
   expect_same(pose_of(a, "upper", values), upper, "upper");
-  expect_same(pose_of(a, "fore", values), upper * at(3, 0, 0, turn({0, 0, 1}, 3 * t + M_PI / 6)), "fore");
+  expect_same(pose_of(a, "fore", values), upper * placed_at(3, 0, 0, turn({0, 0, 1}, 3 * t + M_PI / 6)), "fore");
   ASSERT_EQ(a.joint_values.size(), 2u);
   EXPECT_NEAR(symbolic::evaluate(a.joint_values[1].value, values), 3 * t + M_PI / 6, 1e-12);
 }
@@ -141,9 +141,9 @@ TEST(Parallelograms, KeepTheOrientationAndCircle) {
   EXPECT_EQ(a.mobility, 2);
   EXPECT_EQ(a.mobility_by_joints, 2);
   const auto values = completed(a, {{"p", 0.5}, {"q", -1.1}});
-  const Transform coupler = at(1 + 2 * std::cos(0.5), 2 * std::sin(0.5) - 1, 0, {});
+  const Transform coupler = placed_at(1 + 2 * std::cos(0.5), 2 * std::sin(0.5) - 1, 0, {});
   expect_same(pose_of(a, "coupler", values), coupler, "coupler");
-  expect_same(pose_of(a, "hand", values), coupler * at(3, 0, 0, turn({0, 0, 1}, -1.1)), "hand");
+  expect_same(pose_of(a, "hand", values), coupler * placed_at(3, 0, 0, turn({0, 0, 1}, -1.1)), "hand");
 }
 
 // A palletizer: two parallelograms behind each other on a turning column; its hand stays level.
@@ -161,7 +161,7 @@ TEST(Parallelograms, OnATurningColumnAreAPalletizer) {
   const double j1 = 0.3, j2 = 0.4, j3 = -0.2, h = 1e-6;
   const auto truth = [](double q1, double q2, double q3) {  // about y: from z towards x, from x away from z
     return turn({0, 0, 1}, q1) *
-           at(260 + 850 * std::sin(q2) + 950 * std::cos(q3), 0, 565 + 850 * std::cos(q2) - 950 * std::sin(q3), {});
+           placed_at(260 + 850 * std::sin(q2) + 950 * std::cos(q3), 0, 565 + 850 * std::cos(q2) - 950 * std::sin(q3), {});
   };
   auto values = completed(a, {{"j1", j1}, {"j2", j2}, {"j3", j3}});
   expect_same(pose_of(a, "hand", values), truth(j1, j2, j3), "hand");

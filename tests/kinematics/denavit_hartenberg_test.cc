@@ -142,13 +142,13 @@ TEST(DenavitHartenberg, ColumnsStandInAnyOrderAndRowsNameTheirLinks) {
   EXPECT_EQ(robot.outputs.size(), 1u);
 }
 
-struct FaultCase {
+struct RowFault {
   std::string rows, place, problem, expectation;
 };
 
 TEST(DenavitHartenberg, FaultsSayWhereAndWhatWasExpected) {
   const std::string head = "[DH]\nstandard\na alpha d theta\n";
-  const std::vector<FaultCase> cases{
+  const std::vector<RowFault> cases{
       {"[DH]\na alpha d theta\n0 0 0 q", "2:1", "found 'a'", "standard or modified"},
       {"[DH]\nstandard from floor\na alpha d theta\n0 0 0 q", "2:15", "there is no link 'floor'", "is declared before"},
       {"[DH]\nstandard\na alpha a theta\n0 0 0 q", "3:9", "the column 'a' occurs twice here", "once"},
@@ -167,7 +167,7 @@ TEST(DenavitHartenberg, FaultsSayWhereAndWhatWasExpected) {
       {head + "0 0 0 q1 limits [1, 0]\n", "4:17", "the range of the revolute joint 'q1' is empty", "[lower, upper]"},
       {head + "0 0 0 q1 link base\n", "4:15", "the row ends at the link 'base' from which it begins", "another link"},
       {head + "0 0 0 q1 linc tool\n", "4:10", "found 'linc'", "limits [lower, upper], actuated, link"}};
-  for (const FaultCase& c : cases) {
+  for (const RowFault& c : cases) {
     try {
       parse_parts(c.rows, "r.cuik");
       ADD_FAILURE() << c.rows;

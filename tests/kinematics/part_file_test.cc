@@ -29,7 +29,7 @@ Robot with_joint(const std::string& joint, const std::string& file = "r.cuik") {
 }
 
 // A two-link arm in the plane, with all that corank adds to the suite's language.
-const char* const kArm = R"(
+const char* const kWholeArm = R"(
 % An arm with two links.
 [CONSTANTS]
 unit mm
@@ -66,7 +66,7 @@ TEST(PartFile, AnglesMayBeInDegrees) {
 }
 
 TEST(PartFile, ReadsNamedPointsAndJointsInputsAndOutputs) {
-  const Robot robot = parse(kArm);
+  const Robot robot = parse(kWholeArm);
   EXPECT_EQ(robot.unit, "mm");
   EXPECT_EQ(robot.name, "r");
   ASSERT_EQ(robot.links.size(), 4u);
@@ -101,7 +101,7 @@ TEST(PartFile, ReadsNamedPointsAndJointsInputsAndOutputs) {
 }
 
 TEST(PartFile, CountsAnglesBetweenTheXAxesWhereBothAxesAreZ) {
-  const Robot robot = parse(kArm);
+  const Robot robot = parse(kWholeArm);
   for (const Joint& joint : robot.joints) {
     for (const JointEnd& end : joint.ends) {
       ASSERT_TRUE(end.zero);
@@ -111,7 +111,7 @@ TEST(PartFile, CountsAnglesBetweenTheXAxesWhereBothAxesAreZ) {
 }
 
 TEST(PartFile, ReadsShapesWithTheirColours) {
-  const Robot robot = parse(kArm);
+  const Robot robot = parse(kWholeArm);
   ASSERT_EQ(robot.links[0].shapes.size(), 1u);
   EXPECT_EQ(robot.links[0].shapes[0].kind, Shape::Kind::sphere);
   EXPECT_EQ(robot.links[0].shapes[0].colour, "#800000");
@@ -244,7 +244,7 @@ TEST(PartFile, SaysWhatIsMissingAndReadsTheRest) {
 }
 
 TEST(PartFile, ReadsWhatCanBeAssembled) {
-  std::string text = kArm;  // but for what is an input too, twice there, or an output in space only
+  std::string text = kWholeArm;  // but for what is an input too, twice there, or an output in space only
   for (const char* const output : {"turn :", "all  :", "w    :"}) {
     const std::size_t line = text.find(output);
     text.erase(line, text.find('\n', line) - line);
@@ -278,7 +278,7 @@ TEST(PartFile, ReadsLatin1InAWorldFileOnly) {
 }
 
 TEST(PartFile, KnowsATextWithParts) {
-  EXPECT_TRUE(has_parts(kArm));
+  EXPECT_TRUE(has_parts(kWholeArm));
   EXPECT_TRUE(has_parts("% \"\n[ links ]"));
   EXPECT_TRUE(has_parts("[INCLUDE] a : \"b.world\""));
   EXPECT_FALSE(has_parts("% [LINKS]\n/* [LINKS] */ \"[LINKS]\" [SYSTEM VARS]"));

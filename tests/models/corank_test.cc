@@ -19,28 +19,18 @@
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
+#include "corank/tests/models/exactly_solved.h"
 
 namespace corank {
 namespace {
 using symbolic::SingularitySet;
+using test::exactly_solved;
+using test::holds;
 
 System system_of(const std::string& model, SingularitySet set, int corank = 2) {
   const symbolic::Mechanism mechanism = symbolic::parse_model(model, "model.cuik");
   return symbolic::algebrize(
       symbolic::singularity_system(mechanism, set, std::nullopt, symbolic::kernel_scales(mechanism, set), corank));
-}
-
-Cover solved(const System& system) {
-  Cover cover = solve::solve(system);
-  solve::prove_exactly(system, {}, cover);
-  return cover;
-}
-
-// Is the configuration, known to `slack`, in the leading sides of the box?
-bool holds(const CoverBox& box, const std::vector<double>& q, double slack = 1e-12) {
-  for (std::size_t j = 0; j < q.size(); ++j)
-    if (q[j] < box.box[j].lo() - slack || q[j] > box.box[j].hi() + slack) return false;
-  return true;
 }
 
 std::size_t boxes_with(const Cover& cover, const std::vector<double>& q) {
@@ -117,7 +107,7 @@ TEST(CorankTwo, IsolatedConfigurationsOfGenericMatricesAreProven) {
     const System system = system_of(planted.model, SingularitySet::forward);
     ASSERT_EQ(system.equations.size(), system.variables.size())
         << "a mechanism of mobility 4: as many equations as unknowns";
-    const Cover cover = solved(system);
+    const Cover cover = exactly_solved(system);
     EXPECT_TRUE(cover.complete());
     std::vector<std::size_t> y;
     for (int i = 1; i <= 4; ++i) y.push_back(static_cast<std::size_t>(system.find("y" + std::to_string(i))));
@@ -155,7 +145,7 @@ TEST(CorankTwo, ConfigurationsWhereAllDerivativesVanishAreFoundAndNoOthers) {
         number(draw(1, 3)) + "*" + cubic("y1", p) + " + " + cubic("y2", q) + ";\nv2 = " + number(draw(-3, -1)) + "*" +
         cubic("y1", p) + " + " + cubic("y2", q) + ";\n[INPUTS] v1, v2\n[OUTPUTS] y1, y2\n";
     const System system = system_of(model, SingularitySet::forward);
-    const Cover cover = solved(system);
+    const Cover cover = exactly_solved(system);
     EXPECT_TRUE(cover.complete());
     std::vector<std::vector<double>> all;
     for (const int a : p)
@@ -197,7 +187,7 @@ std::vector<std::vector<double>> straight_twice(const std::array<int, 4>& bars) 
 TEST(CorankTwo, OfTwoSliderCranksSideBySideIsTheProductOfTheirSingularities) {
   for (const std::array<int, 4> bars : {std::array{1, 2, 3, 4}, std::array{5, 3, 2, 7}}) {
     const System system = system_of(sliders(bars), SingularitySet::forward);
-    const Cover cover = solved(system);
+    const Cover cover = exactly_solved(system);
     EXPECT_TRUE(cover.complete());
     const auto all = straight_twice(bars);
     for (const auto& q : all) EXPECT_GE(boxes_with(cover, q), 1u);
@@ -214,7 +204,7 @@ TEST(CorankTwo, OfTwoSliderCranksSideBySideIsTheProductOfTheirSingularities) {
 // by side.
 TEST(CorankTwo, OfCSpaceIsWhereTwoPartsCrossThemselvesAtOnce) {
   const System system = system_of(sliders({1, 1, 2, 2}), SingularitySet::cspace_singular);
-  const Cover cover = solved(system);
+  const Cover cover = exactly_solved(system);
   EXPECT_TRUE(cover.complete());
   std::vector<std::vector<double>> all;
   for (const double a : {1.0, -1.0})
@@ -230,7 +220,7 @@ TEST(CorankTwo, OfDextarsInverseKinematicsIsBothArmsStretched) {
   const symbolic::Mechanism dextar = symbolic::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
   const System system =
       symbolic::algebrize(symbolic::singularity_system(dextar, SingularitySet::inverse, std::nullopt, {}, 2));
-  const Cover cover = solved(system);
+  const Cover cover = exactly_solved(system);
   EXPECT_TRUE(cover.complete());
   const double x = 0.59, y = std::sqrt(1.8 * 1.8 - x * x);
   EXPECT_GE(boxes_with(cover, {x, y}), 1u);
@@ -255,7 +245,7 @@ TEST(CorankTwo, OfThreeLegsInOneIsACurveProvenWithItsDimension) {
           equations + "[INPUTS] t1, t2, t3\n[OUTPUTS] x, y, z\n",
       SingularitySet::forward);
   EXPECT_GT(system.equations.size(), system.variables.size());
-  const Cover cover = solved(system);
+  const Cover cover = exactly_solved(system);
   EXPECT_TRUE(cover.complete());
   ASSERT_EQ(cover.self_motions.size(), 1u) << "each is named once";
   EXPECT_EQ(cover.self_motions[0].dimension, 1);
@@ -284,13 +274,13 @@ TEST(CorankTwo, OfThreeLegsInOneIsACurveProvenWithItsDimension) {
 // What corank 1 has at the configurations of corank 2 is a continuum; each of them is met by corank 2, too, and the reverse.
 TEST(CorankTwo, IsInsideTheSetOfCorankOne) {
   const std::array<int, 4> bars{1, 2, 3, 4};
-  const Cover one = solved(system_of(sliders(bars), SingularitySet::forward, 1));
+  const Cover one = exactly_solved(system_of(sliders(bars), SingularitySet::forward, 1));
   for (const auto& q : straight_twice(bars)) EXPECT_GE(boxes_with(one, q), 1u);
 }
 
 TEST(CorankTwo, TamperedBoxesAreRefused) {
   const System system = system_of(sliders({1, 2, 3, 4}), SingularitySet::forward);
-  const Cover cover = solved(system);
+  const Cover cover = exactly_solved(system);
   const auto box = std::find_if(cover.boxes.begin(), cover.boxes.end(),
                                 [](const CoverBox& b) { return b.verdict == Verdict::undecided && b.point >= 0; });
   ASSERT_NE(box, cover.boxes.end());

@@ -8,6 +8,9 @@
 
 namespace corank::test {
 
+/// Samples in closed form carry rounding errors of some ulps, more where two circles nearly touch (√ε).
+inline constexpr double kSampleTolerance = 1e-7;
+
 /// Finds points by the first coordinates of boxes, the boxes sorted by their lower end along the first.
 class CoverLookup {
  public:

@@ -15,8 +15,6 @@ namespace {
 using symbolic::KernelSide;
 using symbolic::SingularitySet;
 
-// Samples carry rounding errors of some ulps, more where two circles nearly touch (√ε).
-constexpr double kSampleTolerance = 1e-7;
 constexpr int kSamples = 2000;
 
 System dextar(SingularitySet set, std::optional<KernelSide> side = std::nullopt) {
@@ -36,7 +34,7 @@ void expect_holds_all(const Cover& cover, const Samples& samples) {
   ASSERT_GT(samples.size(), 1000u);
   const test::CoverLookup lookup(cover);
   std::size_t lost = 0;
-  for (const auto& q : samples) lost += !lookup.holds(q, kSampleTolerance);
+  for (const auto& q : samples) lost += !lookup.holds(q, test::kSampleTolerance);
   EXPECT_EQ(lost, 0u) << "of " << samples.size() << " samples";
 }
 

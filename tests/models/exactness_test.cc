@@ -20,8 +20,8 @@ namespace {
 using symbolic::KernelSide;
 using symbolic::SingularitySet;
 
-System system_of(const std::string& model_file, SingularitySet set, const std::string& constant = "",
-                 const std::string& value = "", std::optional<KernelSide> side = std::nullopt) {
+System system_of_file(const std::string& model_file, SingularitySet set, const std::string& constant = "",
+                      const std::string& value = "", std::optional<KernelSide> side = std::nullopt) {
   auto model = symbolic::read_model(CORANK_SOURCE_DIR "/models/" + model_file);
   if (!constant.empty()) model.set_constant(constant, symbolic::Expression(value.c_str()));
   return symbolic::algebrize(symbolic::singularity_system(model, set, side));
@@ -55,7 +55,7 @@ class ExactThreeSlider : public testing::TestWithParam<std::tuple<SingularitySet
 // Reference answers: DESIGN's, from Bohigas2017.
 TEST_P(ExactThreeSlider, WithEqualRodsHasSixProvenPoints) {
   const auto [set, side] = GetParam();
-  const System system = system_of("three_slider.cuik", set, "L2", "1", side);
+  const System system = system_of_file("three_slider.cuik", set, "L2", "1", side);
   const Cover cover = proven(system);
   EXPECT_EQ(cover.boxes.size(), 6u);
   EXPECT_EQ(cover.count(Verdict::isolated), 4u);
@@ -78,7 +78,7 @@ TEST_P(ExactThreeSlider, WithEqualRodsHasSixProvenPoints) {
 
 TEST_P(ExactThreeSlider, WithDifferentRodsHasItsExactValues) {
   const auto [set, side] = GetParam();
-  const Cover cover = proven(system_of("three_slider.cuik", set, "L2", "4/5", side));
+  const Cover cover = proven(system_of_file("three_slider.cuik", set, "L2", "4/5", side));
   std::multiset<std::string> expected{"-1 -4/5 0", "-1 4/5 0", "1 -4/5 0", "1 4/5 0"};
   if (set == SingularitySet::forward)
     for (const char* point : {"-3/5 0 -4/5", "-3/5 0 4/5", "3/5 0 -4/5", "3/5 0 4/5"}) expected.insert(point);
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(SetsAndKernels, ExactThreeSlider,
                                           testing::Values(KernelSide::right, KernelSide::left)));
 
 TEST(ExactThreeSlider, WithIrrationalPointsHasSquareRoots) {
-  const Cover cover = proven(system_of("three_slider.cuik", SingularitySet::forward, "L2", "7/10"));
+  const Cover cover = proven(system_of_file("three_slider.cuik", SingularitySet::forward, "L2", "7/10"));
   EXPECT_TRUE(exact_configurations(cover).contains("-1/10*sqrt(51) 0 7/10"));
 }
 
@@ -101,7 +101,7 @@ class ExactDextar : public testing::TestWithParam<double> {};
 // Both arms stretched: J3 at distance 1.8 from the ground joints, which are 1.18 apart; so J3x = 0.59, J3y² = 1.8² − 0.59² =
 // 2.8919.
 TEST_P(ExactDextar, HasNoUndecidedBoxThatNoPointExplains) {
-  const System system = system_of("dextar.cuik", SingularitySet::inverse);
+  const System system = system_of_file("dextar.cuik", SingularitySet::inverse);
   const Cover cover = proven(system, GetParam());
   EXPECT_TRUE(cover.complete());
   std::set<std::string> points;
@@ -127,7 +127,7 @@ TEST_P(ExactDextar, HasNoUndecidedBoxThatNoPointExplains) {
 INSTANTIATE_TEST_SUITE_P(Sigmas, ExactDextar, testing::Values(0.1, 0.01));
 
 TEST(ExactDextar, HasAKernelOfDimensionOneOnAllOfItsForwardLocus) {
-  const Cover cover = proven(system_of("dextar.cuik", SingularitySet::forward), 0.1);
+  const Cover cover = proven(system_of_file("dextar.cuik", SingularitySet::forward), 0.1);
   EXPECT_TRUE(cover.exact_points.empty());
   for (const auto& box : cover.boxes) EXPECT_EQ(box.kernel_at_most, 1);
 }

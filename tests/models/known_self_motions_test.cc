@@ -13,40 +13,32 @@
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
+#include "corank/tests/models/exactly_solved.h"
 
 namespace corank {
 namespace {
 using symbolic::SingularitySet;
-using Point = std::vector<double>;
+using test::exactly_solved;
+using test::holds;
 
-constexpr double kPi = std::numbers::pi;
-
-System system_of(const std::string& text, SingularitySet set) {
+System system_of_text(const std::string& text, SingularitySet set) {
   return symbolic::algebrize(symbolic::singularity_system(symbolic::parse_model(text, "model.cuik"), set));
 }
 System plain(const std::string& text) {
   return symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(text, "model.cuik")));
 }
 
-Cover solved(const System& system) {
+Cover solved_with_proof(const System& system) {
   solve::Options options;
   options.proof = system.coefficient_tolerance == 0;
-  Cover cover = solve::solve(system, options);
-  solve::prove_exactly(system, {}, cover);
-  return cover;
-}
-
-bool holds(const CoverBox& box, const Point& q) {
-  for (std::size_t j = 0; j < q.size(); ++j)
-    if (q[j] < box.box[j].lo() - 1e-12 || q[j] > box.box[j].hi() + 1e-12) return false;
-  return true;
+  return exactly_solved(system, options);
 }
 
 template <class Choose>
-bool covered(const Cover& cover, const Point& q, Choose choose) {
+bool covered(const Cover& cover, const std::vector<double>& q, Choose choose) {
   return std::any_of(cover.boxes.begin(), cover.boxes.end(), [&](const CoverBox& b) { return choose(b) && holds(b, q); });
 }
-bool covered(const Cover& cover, const Point& q) {
+bool covered(const Cover& cover, const std::vector<double>& q) {
   return covered(cover, q, [](const CoverBox&) { return true; });
 }
 const auto on_a_motion = [](const CoverBox& b) { return b.motion >= 0; };
@@ -73,8 +65,8 @@ x = r*cos(t1) + r*cos(t2);
 )";
 
 TEST(SliderCrankWithEqualBars, TurnsFreelyWithItsSliderLocked) {
-  const System system = system_of(kSliderCrank, SingularitySet::inverse);
-  const Cover cover = solved(system);
+  const System system = system_of_text(kSliderCrank, SingularitySet::inverse);
+  const Cover cover = solved_with_proof(system);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.count(Verdict::undecided), 0u);
   ASSERT_EQ(cover.self_motions.size(), 1u);
@@ -84,15 +76,15 @@ TEST(SliderCrankWithEqualBars, TurnsFreelyWithItsSliderLocked) {
   for (const double end : {2.0, -2.0}) EXPECT_TRUE(covered(cover, {end / 2, 0, end / 2, 0, end}));
   for (int k = 0; k <= 400;
        ++k) {  // t1 = 0, where the sine is the one that is free, and pi/2, where pieces of C-space cross, included
-    const double t = -kPi + 2 * kPi * k / 400;
+    const double t = -std::numbers::pi + 2 * std::numbers::pi * k / 400;
     EXPECT_TRUE(covered(cover, {std::cos(t), std::sin(t), -std::cos(t), -std::sin(t), 0}, on_a_motion)) << t;
   }
   expect_consistent(system, cover);
 }
 
 TEST(SliderCrankWithEqualBars, IsNotVerifiedWithAChangedRelation) {
-  const System system = system_of(kSliderCrank, SingularitySet::inverse);
-  const Cover good = solved(system);
+  const System system = system_of_text(kSliderCrank, SingularitySet::inverse);
+  const Cover good = solved_with_proof(system);
   ASSERT_EQ(good.self_motions.size(), 1u);
   for (std::size_t k = 0; k < good.self_motions[0].relations.size(); ++k) {
     Cover changed = good;
@@ -106,7 +98,7 @@ TEST(SliderCrankWithEqualBars, IsNotVerifiedWithAChangedRelation) {
 }
 
 TEST(SliderCrankWithEqualBars, HasTwoForwardSingularities) {
-  const Cover cover = solved(system_of(kSliderCrank, SingularitySet::forward));
+  const Cover cover = solved_with_proof(system_of_text(kSliderCrank, SingularitySet::forward));
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.boxes.size(), 2u);
   EXPECT_EQ(cover.count(Verdict::exact), 2u);
@@ -128,12 +120,12 @@ sin(t1) + 2*sin(t2) = sin(t3);
 )";
 
 TEST(ParallelogramFourBar, MovesInBothItsModes) {
-  const System system = system_of(kParallelogram, SingularitySet::cspace);
-  const Cover cover = solved(system);
+  const System system = system_of_text(kParallelogram, SingularitySet::cspace);
+  const Cover cover = solved_with_proof(system);
   EXPECT_TRUE(cover.complete());
   EXPECT_TRUE(cover.self_motions.empty()) << "a curve is what is expected";
   for (int k = 0; k < 400; ++k) {
-    const double t = -kPi + 2 * kPi * k / 400, c = std::cos(t), s = std::sin(t);
+    const double t = -std::numbers::pi + 2 * std::numbers::pi * k / 400, c = std::cos(t), s = std::sin(t);
     EXPECT_TRUE(covered(cover, {c, s, 1, 0, c, s})) << t;
     // B = (c, s), D = (2, 0), C0 = B + (2, 0).
     const double dx = 2 - c, dy = -s, along = 2 * (2 * dx) / (dx * dx + dy * dy);
@@ -149,7 +141,7 @@ TEST(ParallelogramFourBar, MovesInBothItsModes) {
 
 TEST(ParallelogramFourBar, IsSingularWhereItIsFlatAndNowhereElse) {
   for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse}) {
-    const Cover cover = solved(system_of(kParallelogram, set));
+    const Cover cover = solved_with_proof(system_of_text(kParallelogram, set));
     EXPECT_TRUE(cover.complete());
     EXPECT_EQ(cover.boxes.size(), 2u);
     EXPECT_EQ(cover.count(Verdict::exact), 2u);
@@ -174,28 +166,28 @@ x^2 + y^2 = 4;
 
 TEST(PlanarPlatform, MovesOnACircleThoughItsLegsAreLocked) {
   const System system = plain(planar_platform("4", "[SYSTEM EQS]"));
-  const Cover cover = solved(system);
+  const Cover cover = solved_with_proof(system);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.count(Verdict::regular), cover.boxes.size());
   ASSERT_EQ(cover.self_motions.size(), 1u);
   EXPECT_EQ(cover.self_motions[0].relations.size(), 2u) << "cos phi = 1, sin phi = 0";
   for (int k = 0; k < 300; ++k) {
-    const double t = 2 * kPi * k / 300;
+    const double t = 2 * std::numbers::pi * k / 300;
     EXPECT_TRUE(covered(cover, {2 * std::cos(t), 2 * std::sin(t), 1, 0}, on_a_motion)) << t;
   }
   expect_consistent(system, cover);
 }
 
 TEST(PlanarPlatform, NamesEachSelfMotionOnce) {
-  const System system = system_of(planar_platform("rho^2", "rho : [1, 3]\n[SYSTEM EQS]") + "[INPUTS] rho\n[OUTPUTS] phi\n",
-                                  SingularitySet::forward);
-  const Cover cover = solved(system);
+  const System system = system_of_text(
+      planar_platform("rho^2", "rho : [1, 3]\n[SYSTEM EQS]") + "[INPUTS] rho\n[OUTPUTS] phi\n", SingularitySet::forward);
+  const Cover cover = solved_with_proof(system);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.count(Verdict::undecided), 0u);
   EXPECT_THAT(cover.points, testing::IsEmpty());
   EXPECT_EQ(cover.self_motions.size(), 2u) << "one for each sign of the kernel vector";
   for (int k = 0; k < 300; ++k) {
-    const double t = 2 * kPi * k / 300;
+    const double t = 2 * std::numbers::pi * k / 300;
     EXPECT_TRUE(covered(cover, {2 * std::cos(t), 2 * std::sin(t), 1, 0, 2}, on_a_motion)) << t;
   }
   expect_consistent(system, cover);
@@ -243,12 +235,12 @@ W = px^2 + py^2/3 + pz^2;
 TEST(GriffisDuffyPlatform, MovesThoughItsLegsAreLocked) {
   const System system = plain(griffis_duffy());
   EXPECT_EQ(system.equations.size(), system.variables.size());
-  const Cover cover = solved(system);
+  const Cover cover = solved_with_proof(system);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.dimension, 1) << "exact elimination finds that the legs' equations depend on each other";
   EXPECT_EQ(cover.count(Verdict::regular), cover.boxes.size());
   for (int k = 0; k < 300; ++k) {  // along its axis it turns by any angle psi: pz² = 2 + cos psi
-    const double psi = 2 * kPi * k / 300, c = std::cos(psi), s = std::sqrt(3) * std::sin(psi);
+    const double psi = 2 * std::numbers::pi * k / 300, c = std::cos(psi), s = std::sqrt(3) * std::sin(psi);
     EXPECT_TRUE(covered(cover, {0, 0, std::sqrt(2 + c), c, s, 0, -s, c, 0})) << psi;
   }
   expect_consistent(system, cover);
@@ -276,15 +268,15 @@ x3*x4 + y3*y4 + z3*z4 = 3/5;
 -x3*(-4/5 - y4) - y3*x4 = 0;
 )";
 
-Point bennett(double t) {
+std::vector<double> bennett(double t) {
   const double x = 12.0 / 13 * std::cos(t), y = 12.0 / 13 * std::sin(t), z = 5.0 / 13;
   const double dx = -x, dy = -0.8 - y, dz = 0.6 - z, mu = 2 * dz / (dx * dx + dy * dy + dz * dz);
   return {-mu * dx, -mu * dy, 1 - mu * dz, x, y, z};
 }
 
 TEST(BennettLinkage, IsALargerSetOfWhichNothingIsClaimedWhereItsEquationsAreExact) {
-  const System system = system_of(kBennett + "[INPUTS] x4\n[OUTPUTS] x3\n", SingularitySet::cspace);
-  const Cover cover = solved(system);
+  const System system = system_of_text(kBennett + "[INPUTS] x4\n[OUTPUTS] x3\n", SingularitySet::cspace);
+  const Cover cover = solved_with_proof(system);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.dimension, 0);
   EXPECT_EQ(cover.observed_dimension, 1);
@@ -293,7 +285,7 @@ TEST(BennettLinkage, IsALargerSetOfWhichNothingIsClaimedWhereItsEquationsAreExac
   EXPECT_EQ(cover.count(Verdict::undecided), cover.boxes.size());
   EXPECT_LT(cover.statistics.processed, 10'000u);
   for (const CoverBox& box : cover.boxes) EXPECT_EQ(box.reason, Reason::degenerate_set);
-  for (int k = 0; k < 300; ++k) EXPECT_TRUE(covered(cover, bennett(2 * kPi * k / 300))) << k;
+  for (int k = 0; k < 300; ++k) EXPECT_TRUE(covered(cover, bennett(2 * std::numbers::pi * k / 300))) << k;
   expect_consistent(system, cover);
 }
 
@@ -304,7 +296,7 @@ TEST(BennettLinkage, IsProvenAsACurveOfIndependentEquationsWithinATolerance) {
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.dimension, 1);
   EXPECT_EQ(cover.count(Verdict::partial), cover.boxes.size());
-  for (int k = 0; k < 300; ++k) EXPECT_TRUE(covered(cover, bennett(2 * kPi * k / 300))) << k;
+  for (int k = 0; k < 300; ++k) EXPECT_TRUE(covered(cover, bennett(2 * std::numbers::pi * k / 300))) << k;
 }
 
 TEST(BennettLinkage, IsProvenAsACurveByEquationsThatSuffice) {
@@ -314,11 +306,11 @@ TEST(BennettLinkage, IsProvenAsACurveByEquationsThatSuffice) {
     const auto at = text.find(line);
     text.erase(at, text.find('\n', at) + 1 - at);
   }
-  const System system = system_of(text + "[INPUTS] x4\n[OUTPUTS] x3\n", SingularitySet::cspace);
-  const Cover cover = solved(system);
+  const System system = system_of_text(text + "[INPUTS] x4\n[OUTPUTS] x3\n", SingularitySet::cspace);
+  const Cover cover = solved_with_proof(system);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.count(Verdict::regular), cover.boxes.size());
-  for (int k = 0; k < 300; ++k) EXPECT_TRUE(covered(cover, bennett(2 * kPi * k / 300))) << k;
+  for (int k = 0; k < 300; ++k) EXPECT_TRUE(covered(cover, bennett(2 * std::numbers::pi * k / 300))) << k;
 }
 
 }  // namespace

@@ -13,8 +13,6 @@
 namespace corank {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 System system_of(const std::string& model) {
   return symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(model, "m.cuik")));
 }
@@ -41,14 +39,16 @@ TEST(LengthFunctions, CoverCurvesThatCross) {
   }
   for (const int k : {1, 2})
     for (int i = 0; i < 500; ++i) {
-      const double r = std::sqrt(4 * k * kPi), a = 2 * kPi * i / 500;
-      EXPECT_TRUE(lookup.holds(std::array{k == 1 ? -0.5 : 0.5, r * std::cos(a), r * std::sin(a), k * kPi}, 1e-12))
+      const double r = std::sqrt(4 * k * std::numbers::pi), a = 2 * std::numbers::pi * i / 500;
+      EXPECT_TRUE(
+          lookup.holds(std::array{k == 1 ? -0.5 : 0.5, r * std::cos(a), r * std::sin(a), k * std::numbers::pi}, 1e-12))
           << k << ' ' << a;
     }
   for (const auto& b : cover.boxes) {
     if (b.verdict != Verdict::undecided) continue;
     const double x = std::fabs(b.box[1].mid());
-    EXPECT_NEAR(std::min(std::fabs(x - std::sqrt(4 * kPi)), std::fabs(x - std::sqrt(8 * kPi))), 0, 0.1);
+    EXPECT_NEAR(std::min(std::fabs(x - std::sqrt(4 * std::numbers::pi)), std::fabs(x - std::sqrt(8 * std::numbers::pi))), 0,
+                0.1);
     EXPECT_NEAR(b.box[2].mid(), 0, 0.1);
   }
   EXPECT_GE(cover.count(Verdict::undecided), 4u);
@@ -76,7 +76,7 @@ TEST(LengthFunctions, FindEveryZeroOfASineOfASum) {
   const test::CoverLookup lookup(cover);
   for (int k = 0; k <= 7; ++k)
     for (const double sign : {-1.0, 1.0}) {
-      const double x = -1 + sign * std::sqrt(1 + k * kPi);
+      const double x = -1 + sign * std::sqrt(1 + k * std::numbers::pi);
       if (std::fabs(x) > 4) continue;
       ++expected;
       EXPECT_TRUE(lookup.holds(std::array{x, x * x}, 1e-12)) << x;
@@ -114,7 +114,7 @@ TEST(LengthFunctions, FindTheSingularitiesOfAScrew) {
   for (int k = 0; k < 7; ++k) {
     const auto& point = forward.points[static_cast<std::size_t>(k)];
     EXPECT_EQ(point.verdict, Verdict::isolated);
-    EXPECT_NEAR(point.box[0].mid(), k * kPi, 1e-12);
+    EXPECT_NEAR(point.box[0].mid(), k * std::numbers::pi, 1e-12);
     EXPECT_NEAR(point.box[1].mid(), k % 2 == 0 ? 1 : -1, 1e-12);
   }
   const Cover inverse =

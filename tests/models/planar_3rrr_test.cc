@@ -28,8 +28,6 @@ using test::Point;
 
 // As in the model files.
 constexpr double kBase = 2, kPlatform = 0.5, kLink1 = 1, kLink2 = 1;
-// Samples carry rounding errors of some ulps, more where a leg is nearly stretched (√ε).
-constexpr double kSampleTolerance = 1e-7;
 
 const std::array<Point, 3> kBaseJoints{Point{0, 0}, Point{kBase, 0}, Point{kBase / 2, kBase* std::sqrt(3) / 2}};
 
@@ -64,13 +62,13 @@ double determinant(const std::array<std::array<double, 3>, 3>& rows) {
 }
 
 // C_1 and phi given, and for each leg the side of its elbow by a bit of the mode.
-struct Configuration {
+struct Posture {
   double phi;
   std::array<Point, 3> b, c;
 
   /// Nothing out of reach. One leg's elbow may be given, where it is stretched or folded.
-  static std::optional<Configuration> at(Point c1, double phi, int mode, std::size_t leg = 3, Point its_elbow = {}) {
-    Configuration q{phi, {}, platform_joints(c1, test::direction(phi))};
+  static std::optional<Posture> at(Point c1, double phi, int mode, std::size_t leg = 3, Point its_elbow = {}) {
+    Posture q{phi, {}, platform_joints(c1, test::direction(phi))};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto elbow = i == leg ? std::optional(its_elbow)
                                   : test::intersect_circles(kBaseJoints[i], kLink1, q.c[i], kLink2, mode >> i & 1 ? 1 : -1);
@@ -100,7 +98,7 @@ struct Configuration {
 };
 
 // A forward singularity's coordinates and kernel vector, the latter up to its sign.
-Values values(const Configuration& q) {
+Values values(const Posture& q) {
   // The platform's twist does no work along any of the lines: orthogonal to two rows that are independent.
   const auto u = q.directions();
   const auto rows = lines(q.c, u);
@@ -126,7 +124,7 @@ Values values(const Configuration& q) {
 // changes of the determinant between `steps` equidistant points, bisected.
 void add_samples(Point a, Point b, double phi, int steps, std::vector<Values>& samples) {
   for (int mode = 0; mode < 8; ++mode) {
-    const auto at = [&](double t) { return Configuration::at(a + t * (b - a), phi, mode); };
+    const auto at = [&](double t) { return Posture::at(a + t * (b - a), phi, mode); };
     auto before = at(0);
     for (int k = 1; k <= steps; ++k) {
       double from = (k - 1.0) / steps, to = static_cast<double>(k) / steps;
@@ -149,9 +147,9 @@ void add_samples(Point a, Point b, double phi, int steps, std::vector<Values>& s
 }
 
 bool holds(const test::CoverLookup& cover, Values x) {
-  if (cover.holds(x, kSampleTolerance)) return true;
+  if (cover.holds(x, test::kSampleTolerance)) return true;
   for (std::size_t i = kConfigurationSize; i < kVariables; ++i) x[i] = -x[i];
-  return cover.holds(x, kSampleTolerance);
+  return cover.holds(x, test::kSampleTolerance);
 }
 
 void expect_holds_all(const Cover& cover, const std::vector<Values>& samples) {
@@ -167,7 +165,7 @@ System forward(const char* model, const char* phi0 = nullptr) {
   return symbolic::algebrize(symbolic::singularity_system(mechanism, SingularitySet::forward));
 }
 
-Cover solve_at(const System& system, double sigma, std::uint64_t max_boxes = 0) {
+Cover solve_3rrr_at(const System& system, double sigma, std::uint64_t max_boxes = 0) {
   solve::Options options;
   options.sigma = sigma;
   options.threads = max_boxes > 0 ? 1 : 0;
@@ -200,7 +198,7 @@ class FixedOrientation : public testing::TestWithParam<std::tuple<Orientation, d
 
 TEST_P(FixedOrientation, HasItsForwardSingularitiesWhereThreeLinesMeet) {
   const auto [orientation, sigma] = GetParam();
-  const Cover cover = solve_at(forward("3rrr_fixed_orientation", orientation.text), sigma);
+  const Cover cover = solve_3rrr_at(forward("3rrr_fixed_orientation", orientation.text), sigma);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.dimension, 1);
   EXPECT_LE(test::widest_edge(cover, 12), sigma);
@@ -240,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(Planar3Rrr, FixedOrientation,
 TEST(Planar3Rrr, HasTheSameSingularitiesByTheScrewsOfItsLegs) {
   constexpr double kSigma = 0.05;
   const auto m = test::with_rates("3rrr_fixed_orientation", test::kLegScrews);
-  const Cover cover = solve_at(test::study_system(m, SingularitySet::forward), kSigma);
+  const Cover cover = solve_3rrr_at(test::study_system(m, SingularitySet::forward), kSigma);
   EXPECT_TRUE(cover.complete());
   std::vector<Values> samples;
   constexpr int kLines = 200, kSteps = 200;
@@ -255,7 +253,7 @@ TEST(Planar3Rrr, HasTheSameSingularitiesByTheScrewsOfItsLegs) {
   for (const Values& x : samples) {
     std::array<double, kConfigurationSize> q{};
     std::copy_n(x.begin(), q.size(), q.begin());
-    lost += !lookup.holds(q, kSampleTolerance);
+    lost += !lookup.holds(q, test::kSampleTolerance);
   }
   EXPECT_EQ(lost, 0u) << "of " << samples.size() << " samples";
   const double most = 3 * std::pow(1.25, 1.5) * std::sqrt(0.5) * kSigma * (1 + kSigma);
@@ -266,11 +264,11 @@ TEST(Planar3Rrr, HasTheSameSingularitiesByTheScrewsOfItsLegs) {
     ASSERT_LE(std::fabs(determinant(lines(c, u))), most);
   }
 
-  const Cover inverse = solve_at(test::study_system(m, SingularitySet::inverse), kSigma),
-              derived =
-                  solve_at(test::study_system(symbolic::read_model(CORANK_SOURCE_DIR "/models/3rrr_fixed_orientation.cuik"),
-                                              SingularitySet::inverse),
-                           kSigma);
+  const Cover inverse = solve_3rrr_at(test::study_system(m, SingularitySet::inverse), kSigma),
+              derived = solve_3rrr_at(
+                  test::study_system(symbolic::read_model(CORANK_SOURCE_DIR "/models/3rrr_fixed_orientation.cuik"),
+                                     SingularitySet::inverse),
+                  kSigma);
   EXPECT_TRUE(inverse.complete());
   for (const auto& [from, to] : {std::pair(&inverse, &derived), std::pair(&derived, &inverse)}) {
     const test::CoverLookup other(*to);
@@ -287,7 +285,7 @@ TEST(Planar3Rrr, WithAFixedOrientationHasItsInverseSingularitiesWhereALegIsStret
   constexpr double kSigma = 0.2;
   const auto mechanism = symbolic::read_model(CORANK_SOURCE_DIR "/models/3rrr_fixed_orientation.cuik");
   const Cover cover =
-      solve_at(symbolic::algebrize(symbolic::singularity_system(mechanism, SingularitySet::inverse)), kSigma);
+      solve_3rrr_at(symbolic::algebrize(symbolic::singularity_system(mechanism, SingularitySet::inverse)), kSigma);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.dimension, 1);
   for (const auto& b : cover.boxes) {
@@ -308,10 +306,10 @@ TEST(Planar3Rrr, WithAFixedOrientationHasItsInverseSingularitiesWhereALegIsStret
       for (const double reach : {kLink1 + kLink2, kLink1 - kLink2})
         for (int mode = 0; mode < 8; ++mode) {
           const Point e = test::direction(0.01 + 2 * M_PI * k / kSteps), c1 = kBaseJoints[leg] + reach * e - offsets[leg];
-          const auto q = Configuration::at(c1, M_PI / 10, mode, leg, kBaseJoints[leg] + kLink1 * e);
+          const auto q = Posture::at(c1, M_PI / 10, mode, leg, kBaseJoints[leg] + kLink1 * e);
           if (!q) continue;
           ++samples;
-          lost += !lookup.holds(q->coordinates(), kSampleTolerance);
+          lost += !lookup.holds(q->coordinates(), test::kSampleTolerance);
         }
   EXPECT_GT(samples, 5000u);
   EXPECT_EQ(lost, 0u) << "of " << samples << " samples";
@@ -322,7 +320,7 @@ TEST(Planar3Rrr, WithAFixedOrientationGivesTheSameBoxesFromItsAlgebrizedFile) {
   auto again = symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(symbolic::to_cuik(system), "derived.cuik")));
   // Of a plain system sigma concerns every variable.
   for (std::size_t v = 0; v < system.variables.size(); ++v) again.variables[v].kind = system.variables[v].kind;
-  const Cover direct = solve_at(system, 0.2), derived = solve_at(again, 0.2);
+  const Cover direct = solve_3rrr_at(system, 0.2), derived = solve_3rrr_at(again, 0.2);
   ASSERT_EQ(direct.boxes.size(), derived.boxes.size());
   for (std::size_t k = 0; k < direct.boxes.size(); ++k) {
     ASSERT_EQ(direct.boxes[k].box, derived.boxes[k].box);
@@ -331,7 +329,7 @@ TEST(Planar3Rrr, WithAFixedOrientationGivesTheSameBoxesFromItsAlgebrizedFile) {
 }
 
 TEST(Planar3Rrr, LosesNoForwardSingularityWhenALimitEndsTheSearch) {
-  const Cover cover = solve_at(forward("3rrr"), 0.4, 5000);
+  const Cover cover = solve_3rrr_at(forward("3rrr"), 0.4, 5000);
   EXPECT_FALSE(cover.complete());
   EXPECT_EQ(cover.dimension, 2);
   EXPECT_GT(cover.count(Verdict::regular), 20u);

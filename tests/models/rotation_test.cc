@@ -19,7 +19,7 @@ namespace {
 using symbolic::SingularitySet;
 template <class T>
 using Vector = std::array<T, 3>;
-using Configuration = std::array<double, 13>;  // R row by row, c1, s1, c2, s2
+using RotationConfiguration = std::array<double, 13>;  // R row by row, c1, s1, c2, s2
 
 constexpr const char* kModel = R"(
 [SYSTEM VARS]
@@ -77,15 +77,15 @@ struct Platform {
     p1 = {std::cos(t1), 0, std::sin(t1)};
     p2 = {0, std::cos(t2), std::sin(t2)};
   }
-  Configuration configuration() const {
+  RotationConfiguration configuration() const {
     const Vector<double> c = cross(a, b);
     return {a[0], b[0], c[0], a[1], b[1], c[1], a[2], b[2], c[2], p1[0], p1[2], p2[1], p2[2]};
   }
   double determinant() const { return forward_determinant(a, b, p1, p2); }
 };
 
-std::vector<Configuration> inverse_samples() {
-  std::vector<Configuration> samples;
+std::vector<RotationConfiguration> inverse_samples() {
+  std::vector<RotationConfiguration> samples;
   for (int i = 0; i < 500; ++i)
     for (const double side : {-1.0, 1.0})
       for (const double sign : {-1.0, 1.0})
@@ -101,8 +101,8 @@ std::vector<Configuration> inverse_samples() {
 }
 
 // Zeros of the determinant along lines of constant φ, by bisection.
-std::vector<Configuration> forward_samples() {
-  std::vector<Configuration> samples;
+std::vector<RotationConfiguration> forward_samples() {
+  std::vector<RotationConfiguration> samples;
   constexpr int kSteps = 400;
   for (int i = 0; i < 200; ++i)
     for (int k = 0; k < kSteps; ++k)
@@ -122,11 +122,11 @@ std::vector<Configuration> forward_samples() {
   return samples;
 }
 
-void expect_holds_all(const Cover& cover, const std::vector<Configuration>& samples) {
+void expect_holds_all(const Cover& cover, const std::vector<RotationConfiguration>& samples) {
   ASSERT_GT(samples.size(), 500u);
   const test::CoverLookup lookup(cover);
   std::size_t lost = 0;
-  for (const Configuration& q : samples) lost += !lookup.holds(q, 1e-7);
+  for (const RotationConfiguration& q : samples) lost += !lookup.holds(q, 1e-7);
   EXPECT_EQ(lost, 0u) << "of " << samples.size() << " samples";
 }
 

@@ -30,14 +30,12 @@ symbolic::Mechanism linkage(const std::string& more, const char* unit = "1") {
   return m;
 }
 
-using Point = std::vector<double>;
-
 // Middles of the configurations of isolated points, lengths in u.
-std::vector<Point> points(const Cover& cover, const System& system, double unit) {
-  std::vector<Point> list;
+std::vector<std::vector<double>> points(const Cover& cover, const System& system, double unit) {
+  std::vector<std::vector<double>> list;
   for (const CoverBox& p : cover.points) {
     EXPECT_EQ(p.verdict, Verdict::isolated);
-    Point q;
+    std::vector<double> q;
     for (std::size_t j = 0; j < static_cast<std::size_t>(system.configuration_size); ++j)
       q.push_back(p.box[j].mid() / (system.variables[j].kind == VariableKind::length ? unit : 1));
     list.push_back(q);
@@ -46,7 +44,7 @@ std::vector<Point> points(const Cover& cover, const System& system, double unit)
   return list;
 }
 
-double size_of_work(const Point& q, SingularitySet set) {  // c_t, s_t, c_f, s_f, dx, dy, dz
+double size_of_work(const std::vector<double>& q, SingularitySet set) {  // c_t, s_t, c_f, s_f, dx, dy, dz
   return std::fabs(set == SingularitySet::forward ? -1.5 * q[3] * q[5] + 1.5 * q[2] * q[6]
                                                   : 1.5 * (-q[1] * q[4] + q[0] * q[5]));
 }
@@ -57,7 +55,7 @@ TEST(Rssr, HasTheSameSingularitiesByTheTwistOfItsCoupler) {
     const System by_equations = test::study_system(linkage("[INPUTS] t\n[OUTPUTS] f\n"), set);
     const Cover derived = solve::solve(by_equations);
     ASSERT_TRUE(derived.complete());
-    const std::vector<Point> expected = points(derived, by_equations, 1);
+    const std::vector<std::vector<double>> expected = points(derived, by_equations, 1);
     EXPECT_GE(expected.size(), 2u);
     for (const KernelSide side : {KernelSide::right, KernelSide::left})
       for (const auto& [text, unit] : {std::pair("1", 1.0), std::pair("1/1000", 1e-3), std::pair("1000", 1e3)}) {
@@ -65,7 +63,7 @@ TEST(Rssr, HasTheSameSingularitiesByTheTwistOfItsCoupler) {
         const Cover given = solve::solve(system);
         EXPECT_TRUE(given.complete());
         EXPECT_EQ(given.count(Verdict::undecided), 0u);
-        const std::vector<Point> found = points(given, system, unit);
+        const std::vector<std::vector<double>> found = points(given, system, unit);
         ASSERT_EQ(found.size(), expected.size()) << text;
         for (std::size_t k = 0; k < found.size(); ++k) {
           EXPECT_LT(size_of_work(found[k], set), 1e-9);

@@ -14,10 +14,13 @@
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
+#include "corank/tests/models/exactly_solved.h"
 
 namespace corank {
 namespace {
 using symbolic::SingularitySet;
+using test::exactly_solved;
+using test::holds;
 
 // All four bars of one length, in the given unit: r cos t1 + r cos t2 = r + r cos t3, r sin t1 + r sin t2 = r sin t3.
 System rhombus(SingularitySet set, const std::string& length) {
@@ -30,23 +33,11 @@ System rhombus(SingularitySet set, const std::string& length) {
   return symbolic::algebrize(symbolic::singularity_system(model, set));
 }
 
-Cover solved(const System& system) {
-  Cover cover = solve::solve(system);
-  solve::prove_exactly(system, {}, cover);
-  return cover;
-}
-
-bool holds(const CoverBox& box, const std::vector<double>& q) {
-  for (std::size_t j = 0; j < q.size(); ++j)
-    if (q[j] < box.box[j].lo() - 1e-12 || q[j] > box.box[j].hi() + 1e-12) return false;
-  return true;
-}
-
 // Closed form: with t1 = 0 locked, t3 = t2 and t2 is any angle; else t1 = ±pi, t2 = 0, t3 = ±pi.
 TEST(SelfMotion, OfTheRhombusIsProvenWithItsDimensionAndItsRelations) {
   for (const char* length : {"1", "1000", "1/1000"}) {
     const System system = rhombus(SingularitySet::forward, length);
-    const Cover cover = solved(system);
+    const Cover cover = exactly_solved(system);
     EXPECT_TRUE(cover.complete());
     EXPECT_EQ(cover.dimension, 0);
     EXPECT_EQ(cover.count(Verdict::undecided), 0u) << length;
@@ -104,7 +95,7 @@ TEST(SelfMotion, HasNoRelationsThatALongNumberMakes) {
 
 TEST(SelfMotion, IsNotVerifiedWithARelationThatDoesNotHold) {
   const System system = rhombus(SingularitySet::inverse, "1");
-  const Cover good = solved(system);
+  const Cover good = exactly_solved(system);
   ASSERT_EQ(good.self_motions.size(), 1u);
   EXPECT_TRUE(check::check(system, good).consistent());
   for (std::size_t k = 0; k < good.self_motions[0].relations.size(); ++k) {

@@ -22,10 +22,9 @@ using symbolic::SingularitySet;
 
 template <class T>
 using Vector = std::array<T, 3>;
-using Configuration = std::array<double, 7>;  // c1, s1, c2, s2, w
+using SphericalConfiguration = std::array<double, 7>;  // c1, s1, c2, s2, w
 
-constexpr double kSampleTolerance = 1e-7;
-constexpr int kSamples = 2000;
+constexpr int kSphericalSamples = 2000;
 
 template <class T>
 T determinant(const Vector<T>& a, const Vector<T>& b, const Vector<T>& c) {
@@ -67,16 +66,16 @@ struct Robot {
   }
 
   /// In the order of the model's variables.
-  Configuration in_order(const Vector<double>& e1, const Vector<double>& e2, const Vector<double>& w) const {
+  SphericalConfiguration in_order(const Vector<double>& e1, const Vector<double>& e2, const Vector<double>& w) const {
     const double s = std::sin(alpha);
-    const Configuration q = {e1[0] / s, e1[1] / s, e2[1] / s, e2[2] / s, w[0], w[1], w[2]};
-    Configuration result{};
+    const SphericalConfiguration q = {e1[0] / s, e1[1] / s, e2[1] / s, e2[2] / s, w[0], w[1], w[2]};
+    SphericalConfiguration result{};
     for (std::size_t i = 0; i < q.size(); ++i) result[static_cast<std::size_t>(columns[i])] = q[i];
     return result;
   }
 
-  std::vector<Configuration> inverse_samples() const;
-  std::vector<Configuration> forward_samples() const;
+  std::vector<SphericalConfiguration> inverse_samples() const;
+  std::vector<SphericalConfiguration> forward_samples() const;
 };
 
 Vector<double> unit(const Vector<double>& a) { return (1 / std::sqrt(dot(a, a))) * a; }
@@ -92,11 +91,11 @@ std::vector<Vector<double>> meeting(const Vector<double>& a, double p, const Vec
   return {base + n, base + (-1.0) * n};
 }
 
-std::vector<Configuration> Robot::inverse_samples() const {
-  std::vector<Configuration> result;
+std::vector<SphericalConfiguration> Robot::inverse_samples() const {
+  std::vector<SphericalConfiguration> result;
   const double k = std::cos(delta), c = std::cos(alpha), s = std::sin(alpha);
-  for (int i = 0; i < kSamples; ++i) {
-    const double t = 0.01 + 2 * M_PI * i / kSamples;
+  for (int i = 0; i < kSphericalSamples; ++i) {
+    const double t = 0.01 + 2 * M_PI * i / kSphericalSamples;
     for (const double reach : {alpha + delta, alpha - delta}) {
       const Vector<double> e1 = {s * std::cos(t), s * std::sin(t), c}, e2 = {c, s * std::cos(t), s * std::sin(t)},
                            w1 = {std::sin(reach) * std::cos(t), std::sin(reach) * std::sin(t), std::cos(reach)},
@@ -108,20 +107,20 @@ std::vector<Configuration> Robot::inverse_samples() const {
   return result;
 }
 
-std::vector<Configuration> Robot::forward_samples() const {
-  std::vector<Configuration> result;
+std::vector<SphericalConfiguration> Robot::forward_samples() const {
+  std::vector<SphericalConfiguration> result;
   const double c = std::cos(alpha), s = std::sin(alpha);
   // The ends are 2 delta apart, and w is between them.
-  for (int i = 0; i < kSamples; ++i) {
-    const double t = 0.01 + 2 * M_PI * i / kSamples;
+  for (int i = 0; i < kSphericalSamples; ++i) {
+    const double t = 0.01 + 2 * M_PI * i / kSphericalSamples;
     const Vector<double> e1 = {s * std::cos(t), s * std::sin(t), c};
     for (const auto& e2 : meeting(e1, std::cos(2 * delta), kAxis2, c)) result.push_back(in_order(e1, e2, unit(e1 + e2)));
   }
   // Or they meet, and w is anywhere about them.
   for (const auto& e : meeting(kAxis1, c, kAxis2, c)) {
     const Vector<double> u = unit(cross(e, kAxis1)), v = cross(e, u);
-    for (int i = 0; i < kSamples; ++i) {
-      const double t = 2 * M_PI * i / kSamples;
+    for (int i = 0; i < kSphericalSamples; ++i) {
+      const double t = 2 * M_PI * i / kSphericalSamples;
       const Vector<double> w = std::cos(delta) * e + std::sin(delta) * (std::cos(t) * u + std::sin(t) * v);
       result.push_back(in_order(e, e, w));
     }
@@ -152,7 +151,7 @@ void expect_closed_forms(const Robot& robot, std::optional<KernelSide> side) {
     ASSERT_GT(samples.size(), 1000u);
     const test::CoverLookup lookup(cover);
     std::size_t lost = 0;
-    for (const Configuration& q : samples) lost += !lookup.holds(q, kSampleTolerance);
+    for (const SphericalConfiguration& q : samples) lost += !lookup.holds(q, test::kSampleTolerance);
     EXPECT_EQ(lost, 0u) << "of " << samples.size() << " samples of " << to_string(set);
     const UpwardRounding rounding;
     for (const auto& b : cover.boxes) {

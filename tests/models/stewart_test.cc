@@ -24,7 +24,7 @@ namespace corank {
 namespace {
 using symbolic::SingularitySet;
 
-constexpr std::array<int, 6> kBase{1, 7, 9, 15, 17, 23}, kPlatform{3, 5, 11, 13, 19, 21};  // in π/12
+constexpr std::array<int, 6> kBaseAngles{1, 7, 9, 15, 17, 23}, kPlatformAngles{3, 5, 11, 13, 19, 21};  // in π/12
 constexpr double kRadius = 0.6;
 // The first two columns of a rotation with rational entries.
 constexpr std::array<const char*, 3> kU{"399/409", "84/409", "-32/409"}, kV{"-76/409", "393/409", "84/409"};
@@ -46,10 +46,10 @@ std::string model_text(bool exact) {
   equations = "ux^2+uy^2+uz^2=1;\nvx^2+vy^2+vz^2=1;\nux*vx+uy*vy+uz*vz=0;\n";
   for (std::size_t i = 0; i < 6; ++i) {
     const std::size_t n = i + 1;
-    constants +=
-        fmt::format("ax{} := {}\nay{} := {}\nbx{} := {}\nby{} := {}\n", n, coordinate("1", 1, "cos", kBase[i], exact), n,
-                    coordinate("1", 1, "sin", kBase[i], exact), n, coordinate("3/5", kRadius, "cos", kPlatform[i], exact), n,
-                    coordinate("3/5", kRadius, "sin", kPlatform[i], exact));
+    constants += fmt::format(
+        "ax{} := {}\nay{} := {}\nbx{} := {}\nby{} := {}\n", n, coordinate("1", 1, "cos", kBaseAngles[i], exact), n,
+        coordinate("1", 1, "sin", kBaseAngles[i], exact), n, coordinate("3/5", kRadius, "cos", kPlatformAngles[i], exact), n,
+        coordinate("3/5", kRadius, "sin", kPlatformAngles[i], exact));
     variables += fmt::format("r{} : [1/10,4]\n", n);
     equations +=
         fmt::format("(x+bx{0}*ux+by{0}*vx-ax{0})^2+(y+bx{0}*uy+by{0}*vy-ay{0})^2+(z+bx{0}*uz+by{0}*vz)^2=r{0}^2;\n", n);
@@ -62,8 +62,8 @@ std::string model_text(bool exact) {
 double determinant(const Eigen::Vector3d& p) {
   Eigen::Matrix<double, 6, 6> lines;
   for (int i = 0; i < 6; ++i) {
-    const double a = kBase[static_cast<std::size_t>(i)] * std::numbers::pi / 12;
-    const double b = kPlatform[static_cast<std::size_t>(i)] * std::numbers::pi / 12;
+    const double a = kBaseAngles[static_cast<std::size_t>(i)] * std::numbers::pi / 12;
+    const double b = kPlatformAngles[static_cast<std::size_t>(i)] * std::numbers::pi / 12;
     const Eigen::Vector3d c = kRadius * (std::cos(b) * kUValue + std::sin(b) * kVValue);
     const Eigen::Vector3d d = p + c - Eigen::Vector3d(std::cos(a), std::sin(a), 0);
     lines.row(i) << d.transpose(), c.cross(d).transpose();

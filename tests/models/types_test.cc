@@ -25,7 +25,6 @@ using symbolic::SingularitySet;
 using testing::HasSubstr;
 using enum SingularityType;
 
-constexpr double kPi = std::numbers::pi;
 const std::string kModels = CORANK_SOURCE_DIR "/models/";
 
 result::Result solved(const symbolic::Mechanism& model, SingularitySet set, std::optional<double> sigma = {},
@@ -42,7 +41,8 @@ result::Result three_slider(SingularitySet set, const std::string& l2) {
   return study::answer(question);
 }
 
-result::Result dextar(SingularitySet set, std::optional<double> sigma = {}, std::optional<symbolic::KernelSide> side = {}) {
+result::Result dextar_result(SingularitySet set, std::optional<double> sigma = {},
+                             std::optional<symbolic::KernelSide> side = {}) {
   return solved(symbolic::read_model(kModels + "dextar.cuik"), set, sigma, side);
 }
 
@@ -84,7 +84,7 @@ TEST(Types, OfDextarAreInTheDocument) {
   const std::string text = document();
   for (const auto set : {SingularitySet::forward, SingularitySet::inverse, SingularitySet::cspace_singular,
                          SingularitySet::forward_inverse}) {
-    const result::Result r = dextar(set, 0.1);
+    const result::Result r = dextar_result(set, 0.1);
     EXPECT_THAT(text, HasSubstr(row("Dextar, sigma 0.1", r)));
     EXPECT_TRUE(verified(r));
   }
@@ -114,7 +114,7 @@ TEST(Types, OfTheThreeSliderArePointByPointThoseOfItsMatrix) {
 
 // Where J5, J4, J3, J2 are on one line, or J1, J2, J3, J4: 0.9 (±1 ± 1 ± 1) = ±0.9 in three ways for each of two J2.
 TEST(Types, OfDextarsTwelveForwardAndInversePointsAreAllFour) {
-  const result::Result r = dextar(SingularitySet::forward_inverse);
+  const result::Result r = dextar_result(SingularitySet::forward_inverse);
   EXPECT_TRUE(r.cover.complete());
   EXPECT_EQ(r.cover.dimension, 0);
   EXPECT_EQ(r.cover.points.size(), 12u);
@@ -126,11 +126,12 @@ TEST(Types, OfDextarsTwelveForwardAndInversePointsAreAllFour) {
 }
 
 TEST(TypeSets, OfDextarAreItsLociSinceItHasNoPassiveMotionAndNoIncreasedMobility) {
-  EXPECT_TRUE(dextar(SingularitySet::rpm).cover.boxes.empty());
-  EXPECT_TRUE(dextar(SingularitySet::iim).cover.boxes.empty());
-  EXPECT_EQ(dextar(SingularitySet::ro, 0.2).cover.boxes.size(), dextar(SingularitySet::forward, 0.2).cover.boxes.size());
-  EXPECT_EQ(dextar(SingularitySet::io, 0.2).cover.boxes.size(),
-            dextar(SingularitySet::inverse, 0.2, symbolic::KernelSide::left).cover.boxes.size());
+  EXPECT_TRUE(dextar_result(SingularitySet::rpm).cover.boxes.empty());
+  EXPECT_TRUE(dextar_result(SingularitySet::iim).cover.boxes.empty());
+  EXPECT_EQ(dextar_result(SingularitySet::ro, 0.2).cover.boxes.size(),
+            dextar_result(SingularitySet::forward, 0.2).cover.boxes.size());
+  EXPECT_EQ(dextar_result(SingularitySet::io, 0.2).cover.boxes.size(),
+            dextar_result(SingularitySet::inverse, 0.2, symbolic::KernelSide::left).cover.boxes.size());
 }
 
 TEST(TypeSets, OfTheThreeSliderLeaveOutWhatIsNotOfTheirType) {
@@ -212,7 +213,7 @@ std::vector<Eigen::Vector3d> parallel_rods() {
   const std::array<Eigen::Vector2d, 3> base{Eigen::Vector2d(0, 0), Eigen::Vector2d(1.25, 0.2), Eigen::Vector2d(0.5, 1.2)};
   const std::array<double, 3> crank{0.8, 0.7, 0.75}, rod{0.9, 1, 0.85};
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> place(-2, 3), angle(0, kPi);
+  std::uniform_real_distribution<double> place(-2, 3), angle(0, std::numbers::pi);
   std::vector<Eigen::Vector3d> found;
   for (int pattern = 0; pattern < 8; ++pattern)
     for (int start = 0; start < 1500; ++start) {
@@ -229,8 +230,8 @@ std::vector<Eigen::Vector3d> parallel_rods() {
         x -= j.fullPivLu().solve(f);
       }
       if (!(f.norm() < 1e-12) || !x.allFinite()) continue;
-      x[2] = std::fmod(std::fmod(x[2], 2 * kPi) + 2 * kPi, 2 * kPi);
-      if (x[2] >= kPi) continue;  // that of the opposite pattern
+      x[2] = std::fmod(std::fmod(x[2], 2 * std::numbers::pi) + 2 * std::numbers::pi, 2 * std::numbers::pi);
+      if (x[2] >= std::numbers::pi) continue;  // that of the opposite pattern
       if (std::none_of(found.begin(), found.end(), [&](const Eigen::Vector3d& y) { return (x - y).norm() < 1e-6; }))
         found.push_back(x);
     }

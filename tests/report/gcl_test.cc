@@ -24,43 +24,43 @@ result::SolFile two_boxes() {
 std::string gcl(const result::SolFile& file, const PictureOptions& options, const GclOptions& names = {}) {
   return to_gcl(make_picture({picture_source(file, "boxes.sol")}, options), names);
 }
-PictureOptions axes(std::vector<std::string> names, ColorScheme color = ColorScheme::plain) {
+PictureOptions plain_axes(std::vector<std::string> names, ColorScheme color = ColorScheme::plain) {
   return {std::move(names), color, 0};
 }
 
 TEST(Gcl, DrawsABoxByItsEightCornersAndSixFaces) {
   result::SolFile file = two_boxes();
   file.boxes.pop_back();
-  const std::string text = gcl(file, axes({"1", "2", "4"}));
+  const std::string text = gcl(file, plain_axes({"1", "2", "4"}));
   EXPECT_THAT(text, HasSubstr("OFF 8 6 1\n0 2 7\n0 3 7\n1 3 7\n1 2 7\n0 2 8\n0 3 8\n1 3 8\n1 2 8\n4 3 2 1 0\n"));
   EXPECT_THAT(text, HasSubstr("diffuse 0.000000 0.000000 1.000000"));
 }
 
 TEST(Gcl, DrawsManyBoxesAsOneMesh) {
-  const std::string text = gcl(two_boxes(), axes({"x", "y", "z"}));
+  const std::string text = gcl(two_boxes(), plain_axes({"x", "y", "z"}));
   EXPECT_THAT(text, HasSubstr("OFF 16 12 1\n"));
   EXPECT_THAT(text, HasSubstr("\n4 11 10 9 8\n"));
 }
 
 TEST(Gcl, DrawsCubesOfTheSizeAskedForAboutTheCentres) {
-  PictureOptions options = axes({"x", "y", "z"});
+  PictureOptions options = plain_axes({"x", "y", "z"});
   options.size = 0.5;
   EXPECT_THAT(gcl(two_boxes(), options), HasSubstr("\n0.25 2.25 4.75\n0.25 2.75 4.75\n0.75 2.75 4.75\n"));
 }
 
 TEST(Gcl, DrawsSquaresInThePlane) {
-  EXPECT_THAT(gcl(two_boxes(), axes({"y", "x"})), HasSubstr("OFF 8 2 1\n2 0 0\n2 1 0\n3 1 0\n3 0 0\n"));
+  EXPECT_THAT(gcl(two_boxes(), plain_axes({"y", "x"})), HasSubstr("OFF 8 2 1\n2 0 0\n2 1 0\n3 1 0\n3 0 0\n"));
 }
 
 TEST(Gcl, GivesEachVerdictItsColour) {
-  const std::string text = gcl(two_boxes(), axes({"x", "y", "z"}, ColorScheme::verdict));
+  const std::string text = gcl(two_boxes(), plain_axes({"x", "y", "z"}, ColorScheme::verdict));
   EXPECT_THAT(text, HasSubstr("diffuse 0.000000 0.000000 1.000000"));
   EXPECT_THAT(text, HasSubstr("diffuse 1.000000 0.000000 0.000000"));
   EXPECT_THAT(text, HasSubstr("OFF 8 6 1\n"));
 }
 
 TEST(Gcl, KeepsStrangeNamesOutOfGeomviewsLanguage) {
-  const std::string text = gcl(two_boxes(), axes({"x", "y", "z"}), {"a (b) {c}", "line\n(exit)"});
+  const std::string text = gcl(two_boxes(), plain_axes({"x", "y", "z"}), {"a (b) {c}", "line\n(exit)"});
   EXPECT_THAT(text, HasSubstr("(geometry a__b___c_ { LIST"));
   EXPECT_THAT(text, Not(HasSubstr("\n(exit)")));
 }
@@ -109,7 +109,7 @@ TEST(Gcl, GeomviewShowsTheBoxesInTheirColours) {
   }
   // A window exists before the file is loaded, and is photographed and closed behind it.
   std::ofstream(folder / "scene.gcl") << "(new-camera c0)\n"
-                                      << gcl(file, axes({"1", "2", "3"}, ColorScheme::verdict), {"roof", ""})
+                                      << gcl(file, plain_axes({"1", "2", "3"}, ColorScheme::verdict), {"roof", ""})
                                       << "(look World c0)\n(redraw c0)\n(snapshot c0 " << (folder / "shot.ppm").string()
                                       << " ppm)\n(exit)\n";
   const std::string at = "'" + folder.string() + "'";

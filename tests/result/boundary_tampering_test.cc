@@ -13,6 +13,7 @@
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
 #include "corank/symbolic/set_parts.h"
+#include "corank/tests/result/rejection.h"
 
 namespace corank::result {
 namespace {
@@ -50,25 +51,6 @@ const Result& arm() {
     return whole;
   }();
   return result;
-}
-
-// Through a file: why the result is rejected, nothing where it is accepted.
-std::string rejection(const Result& result, bool* complete = nullptr) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("corank-boundary-" + std::to_string(getpid()) + ".h5");
-  std::string reasons;
-  try {
-    write_result(path, result);
-    const Verification verification = verify(read_result(path));
-    for (const std::string& c : verification.contradictions) reasons += c + "\n";
-    for (const auto& failure : verification.report.failures) reasons += failure.reason + "\n";
-    EXPECT_EQ(verification.verified(), reasons.empty());
-    if (complete) *complete = verification.complete();
-  } catch (const ResultFileError& error) {
-    reasons = error.what();
-  }
-  std::filesystem::remove(path);
-  return reasons;
 }
 
 // With the whole made of the changed parts: all that the list of all boxes can tell is in order.

@@ -42,11 +42,11 @@ std::string sample() {
          the_end();
 }
 
-std::map<std::string, Item> parsed(const std::string& bytes) { return parse_items(std::as_bytes(std::span(bytes))); }
+std::map<std::string, Item> parsed_items(const std::string& bytes) { return parse_items(std::as_bytes(std::span(bytes))); }
 
 TEST(PlainItems, AreReadBack) {
   const std::string bytes = sample();
-  const auto items = parsed(bytes);
+  const auto items = parsed_items(bytes);
   ASSERT_EQ(items.size(), 3u);
   const Item& words = items.at("/boxes/verdict");
   EXPECT_EQ(words.type, ItemType::word);
@@ -60,19 +60,19 @@ TEST(PlainItems, AreReadBack) {
 TEST(PlainItems, AreRefusedWhereTheyEndEarly) {
   const std::string bytes = sample();
   for (std::size_t length = 0; length < bytes.size(); ++length)
-    EXPECT_THROW(parsed(bytes.substr(0, length)), PlainItemsError) << length;
+    EXPECT_THROW(parsed_items(bytes.substr(0, length)), PlainItemsError) << length;
 }
 
 TEST(PlainItems, AreRefusedWhereANameStandsTwice) {
   const std::string item = bytes_of(text_item("/names", 2, 2), "abcd");
-  EXPECT_THROW(parsed(item + item + the_end()), PlainItemsError);
+  EXPECT_THROW(parsed_items(item + item + the_end()), PlainItemsError);
 }
 
 TEST(PlainItems, AreRefusedWhereShapeAndDataContradictEachOther) {
-  EXPECT_THROW(parsed(bytes_of(text_item("/names", 2, 3), "abcd") + the_end()), PlainItemsError);
-  EXPECT_THROW(parsed(bytes_of(text_item("/names", std::uint64_t{1} << 63, 2), "") + the_end()), PlainItemsError)
+  EXPECT_THROW(parsed_items(bytes_of(text_item("/names", 2, 3), "abcd") + the_end()), PlainItemsError);
+  EXPECT_THROW(parsed_items(bytes_of(text_item("/names", std::uint64_t{1} << 63, 2), "") + the_end()), PlainItemsError)
       << "overflow";
-  EXPECT_THROW(parsed(bytes_of(text_item("/names", 0, 2), "") + the_end()), PlainItemsError);
+  EXPECT_THROW(parsed_items(bytes_of(text_item("/names", 0, 2), "") + the_end()), PlainItemsError);
 }
 
 TEST(PlainItems, AreReadOrRefusedWhateverTheirBytes) {
@@ -83,7 +83,7 @@ TEST(PlainItems, AreReadOrRefusedWhateverTheirBytes) {
     std::string changed = bytes;
     for (int c = 0; c < 3; ++c) changed[random() % changed.size()] = static_cast<char>(random());
     try {
-      for (const auto& [name, item] : parsed(changed)) ASSERT_EQ(item.data.size(), item.elements() * item.width);
+      for (const auto& [name, item] : parsed_items(changed)) ASSERT_EQ(item.data.size(), item.elements() * item.width);
     } catch (const PlainItemsError&) {
       ++refused;
     }

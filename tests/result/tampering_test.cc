@@ -18,6 +18,7 @@
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
 #include "corank/symbolic/velocity_blocks.h"
+#include "corank/tests/result/rejection.h"
 
 namespace corank::result {
 namespace {
@@ -72,24 +73,6 @@ const Result& crossing() {
     return all;
   }();
   return result;
-}
-
-// Through a file, as the command does it: why the result is rejected, nothing where it is accepted.
-std::string rejection(const Result& result) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("corank-tampered-" + std::to_string(getpid()) + ".h5");
-  std::string reasons;
-  try {
-    write_result(path, result);
-    const Verification verification = verify(read_result(path));
-    for (const std::string& c : verification.contradictions) reasons += c + "\n";
-    for (const auto& failure : verification.report.failures) reasons += failure.reason + "\n";
-    EXPECT_EQ(verification.verified(), reasons.empty());
-  } catch (const ResultFileError& error) {
-    reasons = error.what();
-  }
-  std::filesystem::remove(path);
-  return reasons;
 }
 
 std::size_t first(const Result& r, Verdict verdict) {

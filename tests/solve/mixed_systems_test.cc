@@ -17,9 +17,9 @@ namespace {
 
 enum class Entries { rational, irrational, digits6, digits12, digits15 };
 
-class Generator {
+class MixedGenerator {
  public:
-  explicit Generator(unsigned seed) : random_(seed) {}
+  explicit MixedGenerator(unsigned seed) : random_(seed) {}
 
   // n variables in [−2, 2], m ≤ n equations that vanish at point().
   System system() {
@@ -127,7 +127,7 @@ TEST(MixedSystems, KeepTheirPlantedPointsAndTheirClaimsAreVerified) {
     if (seed > first && (seed - first) % 1000 == 0)
       std::cout << seed - first << " systems, " << proven << " with a proven box, " << proofs << " proofs of completeness, "
                 << rejected << " rejected" << std::endl;
-    Generator generator(seed);
+    MixedGenerator generator(seed);
     const System system = generator.system();
     Options options;
     options.max_boxes = 2000;

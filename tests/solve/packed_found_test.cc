@@ -67,7 +67,7 @@ FoundList random_list(std::mt19937& random, std::size_t count) {
   return list;
 }
 
-void expect_same(const Box& a, const Box& b) {
+void expect_same_packed(const Box& a, const Box& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t j = 0; j < a.size(); ++j) {
     EXPECT_EQ(std::signbit(a[j].neg_lo()), std::signbit(b[j].neg_lo()));  // zeros, too
@@ -84,17 +84,17 @@ TEST(PackedFound, IsTheSameListAgainAndSharesWhatWasShared) {
     ASSERT_EQ(again.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
       const Found &a = list[i], &b = again[i];
-      expect_same(a.box.box, b.box.box);
+      expect_same_packed(a.box.box, b.box.box);
       EXPECT_EQ(a.box.verdict, b.box.verdict);
       EXPECT_EQ(a.box.free, b.box.free);
       EXPECT_EQ(a.box.reason, b.box.reason);
       EXPECT_EQ(a.box.motion, b.box.motion);
       ASSERT_EQ(a.region == nullptr, b.region == nullptr);
-      if (a.region) expect_same(*a.region, *b.region);
+      if (a.region) expect_same_packed(*a.region, *b.region);
       ASSERT_EQ(a.sheet == nullptr, b.sheet == nullptr);
       if (a.sheet) {
         EXPECT_EQ(a.sheet->dependent, b.sheet->dependent);
-        expect_same(a.sheet->image, b.sheet->image);
+        expect_same_packed(a.sheet->image, b.sheet->image);
       }
       if (i > 0) {
         EXPECT_EQ(a.region == list[i - 1].region, b.region == again[i - 1].region) << i;

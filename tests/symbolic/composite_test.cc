@@ -18,13 +18,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Matrix = std::array<std::array<long double, 3>, 3>;
 
-constexpr unsigned kSeed = 314159;
+constexpr unsigned kRotationSeed = 314159;
 
-Mechanism model(const std::string& variables, const std::string& equations = "R_xx = 0;", const std::string& rest = "") {
+Mechanism model_with(const std::string& variables, const std::string& equations = "R_xx = 0;",
+                     const std::string& rest = "") {
   return parse_model("[SYSTEM VARS]\n" + variables + "\n[SYSTEM EQS]\n" + equations + "\n" + rest, "m.cuik");
 }
 
-std::vector<std::string> names(const Mechanism& m) {
+std::vector<std::string> coordinate_names(const Mechanism& m) {
   std::vector<std::string> list;
   for (const Coordinate& c : m.coordinates()) list.push_back(c.name);
   return list;
@@ -57,8 +58,8 @@ long double largest_residual(const Mechanism& m, const Values& at) {
 }
 
 TEST(UnitVector, DeclaresThreeLengthsAndTheirNorm) {
-  const Mechanism m = model("x : [0, 1]\nw @ unit   % an axis\n", "w_x = x;");
-  EXPECT_THAT(names(m), ElementsAre("x", "w_x", "w_y", "w_z"));
+  const Mechanism m = model_with("x : [0, 1]\nw @ unit   % an axis\n", "w_x = x;");
+  EXPECT_THAT(coordinate_names(m), ElementsAre("x", "w_x", "w_y", "w_z"));
   EXPECT_EQ(m.coordinates()[1].where.text(), "m.cuik:3:1");
   ASSERT_EQ(m.constraints().size(), 2u);
   EXPECT_EQ(m.constraints()[0].relation.text(), "w_x^2 + w_y^2 + w_z^2 = 1");
@@ -66,24 +67,24 @@ TEST(UnitVector, DeclaresThreeLengthsAndTheirNorm) {
 }
 
 TEST(UnitVector, MayStandAloneInALineWithASemicolonAndInDummyVariables) {
-  EXPECT_THAT(names(model("w @ unit; x : [0, 1]", "w_x = x;")), ElementsAre("w_x", "w_y", "w_z", "x"));
+  EXPECT_THAT(coordinate_names(model_with("w @ unit; x : [0, 1]", "w_x = x;")), ElementsAre("w_x", "w_y", "w_z", "x"));
   const Mechanism m = parse_model("[DUMMY VARS]\nw@unit\n[SYSTEM VARS]\nx : [0, 1]\n[SYSTEM EQS]\nx = w_x;\n", "m.cuik");
   for (const Coordinate& c : m.coordinates()) EXPECT_EQ(c.auxiliary, c.name != "x");
 }
 
 TEST(Composite, IsNamedAsAWholeAmongOutputsOrInputs) {
-  const Mechanism m = model("R @ rotation\nw @ unit", "R_xx = w_x;", "[OUTPUTS] R\n[INPUTS] w_y, w_z");
+  const Mechanism m = model_with("R @ rotation\nw @ unit", "R_xx = w_x;", "[OUTPUTS] R\n[INPUTS] w_y, w_z");
   EXPECT_EQ(m.outputs().size(), 9u);
   EXPECT_THAT(m.inputs(), ElementsAre("w_y", "w_z"));
-  EXPECT_THAT([] { model("w @ unit", "w_x = 0;", "[OUTPUTS] w_x, w"); },
+  EXPECT_THAT([] { model_with("w @ unit", "w_x = 0;", "[OUTPUTS] w_x, w"); },
               testing::ThrowsMessage<ModelError>(HasSubstr("the output 'w_x' is named twice")));
 }
 
 TEST(RotationMatrix, HasTheRotationsAsItsSolutionsAndNoReflection) {
-  const Mechanism m = model("R @ rotation");
-  EXPECT_THAT(names(m), ElementsAre("R_xx", "R_xy", "R_xz", "R_yx", "R_yy", "R_yz", "R_zx", "R_zy", "R_zz"));
+  const Mechanism m = model_with("R @ rotation");
+  EXPECT_THAT(coordinate_names(m), ElementsAre("R_xx", "R_xy", "R_xz", "R_yx", "R_yy", "R_yz", "R_zx", "R_zy", "R_zz"));
   EXPECT_EQ(m.constraints().size(), 7u);
-  std::mt19937 engine(kSeed);
+  std::mt19937 engine(kRotationSeed);
   std::normal_distribution<double> normal;
   for (int k = 0; k < 200; ++k) {
     const Matrix r = rotation_of({normal(engine), normal(engine), normal(engine), normal(engine)});
@@ -95,8 +96,8 @@ TEST(RotationMatrix, HasTheRotationsAsItsSolutionsAndNoReflection) {
 }
 
 TEST(RotationMatrix, HasSixEquationsThatAreIndependentAtEveryRotation) {
-  const Derivation d = derive(model("R @ rotation"));
-  std::mt19937 engine(kSeed);
+  const Derivation d = derive(model_with("R @ rotation"));
+  std::mt19937 engine(kRotationSeed);
   std::normal_distribution<double> normal;
   for (int k = 0; k < 50; ++k) {
     const Values at = values_of(rotation_of({normal(engine), normal(engine), normal(engine), normal(engine)}));
@@ -130,7 +131,7 @@ TEST(RotationMatrix, CanBeBuiltInCpp) {
 }
 
 TEST(Composite, PrintsAsAFileThatReadsBack) {
-  const System s = algebrize(plain_system(model("R @ rotation\nw @ unit", "R_xx + R_yy = w_x;")));
+  const System s = algebrize(plain_system(model_with("R @ rotation\nw @ unit", "R_xx + R_yy = w_x;")));
   const std::string text = to_cuik(s);
   EXPECT_THAT(text, HasSubstr("% m.cuik:2 (R @ rotation)\n"));
   const System again = algebrize(plain_system(parse_model(text, "m.cuik")));

@@ -16,9 +16,9 @@ namespace corank::symbolic {
 namespace {
 
 using std::numbers::pi_v;
-using Matrix = std::vector<std::vector<Expression>>;
+using MatrixOfExpressions = std::vector<std::vector<Expression>>;
 
-long double determinant_at(const Matrix& m, const Values& at) {
+long double determinant_at(const MatrixOfExpressions& m, const Values& at) {
   std::vector<std::vector<long double>> a;
   for (const auto& row : m) {
     auto& to = a.emplace_back();
@@ -116,7 +116,7 @@ class Planted {
   }
 
   Mechanism mechanism{"planted"};
-  Matrix rows;
+  MatrixOfExpressions rows;
   std::vector<Expression> factors;  // of the determinant
 
  private:

@@ -197,12 +197,12 @@ class RandomTree {
 };
 
 TEST(Expression, EveryTreePrintsToATextThatParsesBackToIt) {
-  constexpr unsigned kSeed = 20170613;
-  RecordProperty("seed", static_cast<int>(kSeed));
-  RandomTree tree(kSeed);
+  constexpr unsigned kTreeSeed = 20170613;
+  RecordProperty("seed", static_cast<int>(kTreeSeed));
+  RandomTree tree(kTreeSeed);
   for (int i = 0; i < 5'000; ++i) {
     const Expression e = tree(1 + i % 6);
-    ASSERT_TRUE(same_tree(parse_expression(e.text()), e)) << "seed " << kSeed << ", tree " << i << ": " << e;
+    ASSERT_TRUE(same_tree(parse_expression(e.text()), e)) << "seed " << kTreeSeed << ", tree " << i << ": " << e;
     ASSERT_FALSE(e.latex().empty());
   }
 }

@@ -131,9 +131,9 @@ TEST(ModelText, KeepsTheOrderOfConstraintsAroundDeclarationsThatImplySome) {
   EXPECT_THAT(to_model(m), HasSubstr("[INPUTS]   w, x\n[OUTPUTS]  R\n"));
 }
 
-class RandomMechanism {
+class RandomModel {
  public:
-  explicit RandomMechanism(unsigned seed) : random_(seed) {}
+  explicit RandomModel(unsigned seed) : random_(seed) {}
 
   Mechanism make() {
     Mechanism m("random");
@@ -247,7 +247,7 @@ TEST(ModelText, OfRandomMechanismsReadsBack) {
   int valid = 0, with_rates = 0;
   for (unsigned seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
-    const Mechanism m = RandomMechanism(seed).make();
+    const Mechanism m = RandomModel(seed).make();
     try {
       m.validate();
     } catch (const ModelError&) {  // an angle outside sin and cos, a drawing's

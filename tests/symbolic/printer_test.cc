@@ -15,7 +15,7 @@ namespace corank::symbolic {
 namespace {
 using ::testing::HasSubstr;
 
-constexpr unsigned kSeed = 161803;
+constexpr unsigned kPrinterSeed = 161803;
 
 Mechanism reference(const std::string& name) {
   return read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik");
@@ -48,7 +48,7 @@ TEST(CuikPrinter, ReadsBackForEverySetAndKernelOfTheModels) {
 }
 
 TEST(CuikPrinter, ReadsBackForRandomMechanisms) {
-  RandomMechanism generator(kSeed);
+  RandomMechanism generator(kPrinterSeed);
   for (int i = 0; i < 15; ++i) expect_round_trip(algebrize(plain_system(generator.make(2))));
 }
 

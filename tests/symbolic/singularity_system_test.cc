@@ -16,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr unsigned kSeed = 271828;
+constexpr unsigned kVelocitySeed = 271828;
 using Rows = std::vector<std::vector<std::string>>;
 
 Mechanism reference(const std::string& name) {
@@ -110,7 +110,7 @@ TEST(Derivation, OrdersTermsAndFactorsByDeclaration) {
 }
 
 TEST(Derivation, AgreesWithCentralDifferencesOnRandomMechanisms) {
-  RandomMechanism generator(kSeed);
+  RandomMechanism generator(kVelocitySeed);
   constexpr long double kStep = 1e-5L;
   std::vector<Mechanism> mechanisms = {reference("dextar"), reference("three_slider")};
   for (int i = 0; i < 40; ++i) mechanisms.push_back(generator.make(3));
@@ -129,7 +129,7 @@ TEST(Derivation, AgreesWithCentralDifferencesOnRandomMechanisms) {
           // Error: h²/6·f''' plus rounding 1e-19/h; derivatives reach 10^4 here.
           ASSERT_NEAR(static_cast<double>(difference), static_cast<double>(exact),
                       1e-5 + 1e-7 * std::fabs(static_cast<double>(exact)))
-              << "seed " << kSeed << ": " << relation << " by " << d.velocity.matrix.columns[j];
+              << "seed " << kVelocitySeed << ": " << relation << " by " << d.velocity.matrix.columns[j];
         }
       }
     }
@@ -138,7 +138,7 @@ TEST(Derivation, AgreesWithCentralDifferencesOnRandomMechanisms) {
 
 TEST(Derivation, IsTheSameWheneverItIsMade) {
   const Rows first = texts(derive(reference("dextar")).velocity.matrix);
-  RandomMechanism generator(kSeed);
+  RandomMechanism generator(kVelocitySeed);
   const Mechanism random = generator.make(3);
   const Rows random_first = texts(derive(random).velocity.matrix);
   for (int i = 0; i < 5; ++i) {

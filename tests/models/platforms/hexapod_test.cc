@@ -12,17 +12,13 @@
 #include "corank/solve/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
+#include "corank/tests/models/platforms/solved.h"
 
 namespace corank {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kPi = std::numbers::pi, kHeight = 800, kShortest = 700, kLongest = 1700;
-
-struct Solved {
-  System system;
-  Cover cover;
-};
+constexpr double kHeight = 800, kShortest = 700, kLongest = 1700;
 
 Solved solved(symbolic::SingularitySet set, const std::vector<result::ConstantOverride>& constants) {
   const study::Model model = study::read_model(CORANK_SOURCE_DIR "/models/platforms/hexapod.cuik", constants);
@@ -34,14 +30,14 @@ Solved solved(symbolic::SingularitySet set, const std::vector<result::ConstantOv
 // Of the legs' lines, moments in metres; nothing out of the legs' reach.
 std::optional<double> determinant(double x, double y, double yaw) {
   const Eigen::Matrix3d rotation =
-      (Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(kPi / 18, Vector3d::UnitY()) *
-       Eigen::AngleAxisd(kPi / 12, Vector3d::UnitX()))
+      (Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(std::numbers::pi / 18, Vector3d::UnitY()) *
+       Eigen::AngleAxisd(std::numbers::pi / 12, Vector3d::UnitX()))
           .toRotationMatrix();
   Eigen::Matrix<double, 6, 6> lines;
   for (int i = 0; i < 6; ++i) {
     // Base joints 8 degrees beside 0, 120, 240; platform joints 12 degrees beside 60, 180, 300.
-    const double at = ((i + 1) / 2 * 120 + (i % 2 == 0 ? 8 : -8)) * kPi / 180;
-    const double on = (60 + i / 2 * 120 + (i % 2 == 0 ? -12 : 12)) * kPi / 180;
+    const double at = ((i + 1) / 2 * 120 + (i % 2 == 0 ? 8 : -8)) * std::numbers::pi / 180;
+    const double on = (60 + i / 2 * 120 + (i % 2 == 0 ? -12 : 12)) * std::numbers::pi / 180;
     const Vector3d a = 900 * Vector3d(std::cos(at), std::sin(at), 0), b = 600 * Vector3d(std::cos(on), std::sin(on), 0);
     const Vector3d d = Vector3d(x, y, kHeight) + rotation * b - a;
     if (d.norm() < kShortest || d.norm() > kLongest) return std::nullopt;
@@ -61,12 +57,12 @@ TEST(Hexapod, TurnedByAQuarterHasACurveOfSingularitiesThatIsProven) {
   std::size_t found = 0, lost = 0;
   while (found < 100) {
     double p[2] = {place(random), place(random)}, q[2] = {place(random), place(random)};
-    auto at_p = determinant(p[0], p[1], kPi / 2), at_q = determinant(q[0], q[1], kPi / 2);
+    auto at_p = determinant(p[0], p[1], std::numbers::pi / 2), at_q = determinant(q[0], q[1], std::numbers::pi / 2);
     if (!at_p || !at_q || (*at_p > 0) == (*at_q > 0)) continue;
     bool within = true;
     for (int step = 0; step < 60 && within; ++step) {
       const double middle[2] = {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2};
-      const auto value = determinant(middle[0], middle[1], kPi / 2);
+      const auto value = determinant(middle[0], middle[1], std::numbers::pi / 2);
       within = value.has_value();
       if (within) std::copy_n(middle, 2, (*value > 0) == (*at_p > 0) ? p : q);
     }

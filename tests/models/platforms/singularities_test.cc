@@ -18,18 +18,13 @@
 #include "corank/solve/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
+#include "corank/tests/models/platforms/solved.h"
 
 namespace corank {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-constexpr double kPi = std::numbers::pi;
-
-struct Solved {
-  System system;
-  Cover cover;
-};
 
 Solved solved(const std::string& name) {
   study::Question question;
@@ -109,7 +104,7 @@ TEST(PlatformSingularities, OfAStewartPlatformInOneOrientationAreEnclosedAndProv
   const auto determinant = [&](const Vector3d& p) -> std::optional<double> {
     Eigen::Matrix<double, 6, 6> lines;
     for (std::size_t i = 0; i < 6; ++i) {
-      const double a = base[i] * kPi / 12, b = platform[i] * kPi / 12;
+      const double a = base[i] * std::numbers::pi / 12, b = platform[i] * std::numbers::pi / 12;
       const Vector3d c = rotation * (0.6 * Vector3d(std::cos(b), std::sin(b), 0));
       const Vector3d d = p + c - Vector3d(std::cos(a), std::sin(a), 0);
       if (d.norm() < 0.1) return std::nullopt;
@@ -136,14 +131,15 @@ TEST(PlatformSingularities, OfADeltaInOnePlaneAreEnclosedAndProven) {
     const auto determinant = [&](const Vector3d& p) -> std::optional<double> {
       Matrix3d rods;
       for (int i = 0; i < 3; ++i) {
-        const double t = 2 * kPi * i / 3;
+        const double t = 2 * std::numbers::pi * i / 3;
         const Vector3d out(std::cos(t), std::sin(t), 0);
         // |p + (rp - rb) out - (cos a out - sin a z)|² = rod².
         const Vector3d q = p - 0.5 * out;
         const double x = q.dot(out), z = -q.z(), along = (q.squaredNorm() + 1 - 1.44) / 2, reach = std::hypot(x, z);
         if (std::fabs(along) >= reach) return std::nullopt;
-        const double a = std::remainder(std::atan2(z, x) + (mode >> i & 1 ? 1 : -1) * std::acos(along / reach), 2 * kPi);
-        if (a < -kPi / 3 || a > kPi / 2) return std::nullopt;
+        const double a =
+            std::remainder(std::atan2(z, x) + (mode >> i & 1 ? 1 : -1) * std::acos(along / reach), 2 * std::numbers::pi);
+        if (a < -std::numbers::pi / 3 || a > std::numbers::pi / 2) return std::nullopt;
         angles[static_cast<std::size_t>(i)] = a;
         rods.row(i) = (q - std::cos(a) * out + std::sin(a) * Vector3d::UnitZ()).transpose();
       }
@@ -182,7 +178,7 @@ TEST(PlatformSingularities, OfA3RpsAtOneHeightAreEnclosedAndProven) {
     Matrix3d m;
     Vector3d right;
     for (int i = 0; i < 3; ++i) {
-      const double t = 2 * kPi * i / 3;
+      const double t = 2 * std::numbers::pi * i / 3;
       const Vector3d tangent(-std::sin(t), std::cos(t), 0);
       m.row(i) << tangent.x(), tangent.y(), 1;
       right[i] = -tangent.dot(p.rotation * (0.6 * Vector3d(std::cos(t), std::sin(t), 0)));
@@ -194,28 +190,29 @@ TEST(PlatformSingularities, OfA3RpsAtOneHeightAreEnclosedAndProven) {
   };
   const auto determinant = [&](const Vector3d& q) -> std::optional<double> {
     const Pose p = pose(q.x(), q.y());
-    if (std::fabs(p.at.x()) > 0.5 || std::fabs(p.at.y()) > 0.5 || std::cos(q.x()) < std::cos(0.8 * kPi)) return std::nullopt;
+    if (std::fabs(p.at.x()) > 0.5 || std::fabs(p.at.y()) > 0.5 || std::cos(q.x()) < std::cos(0.8 * std::numbers::pi))
+      return std::nullopt;
     Eigen::Matrix<double, 6, 6> lines;
     for (int i = 0; i < 3; ++i) {
-      const double t = 2 * kPi * i / 3;
+      const double t = 2 * std::numbers::pi * i / 3;
       const Vector3d out(std::cos(t), std::sin(t), 0), tangent(-std::sin(t), std::cos(t), 0);
       const Vector3d b = p.at + p.rotation * (0.6 * out), leg = b - out;
       if (leg.norm() < 0.5 || leg.norm() > 2) return std::nullopt;
       // The slide points along the leg, its angle about the tangent counts from the z axis.
-      if (std::fabs(std::atan2(leg.dot(out), leg.z())) > kPi / 3) return std::nullopt;
+      if (std::fabs(std::atan2(leg.dot(out), leg.z())) > std::numbers::pi / 3) return std::nullopt;
       lines.row(2 * i) << leg.transpose(), b.cross(leg).transpose();
       lines.row(2 * i + 1) << tangent.transpose(), b.cross(tangent).transpose();
     }
     return lines.determinant();
   };
-  const auto samples = zeros({0, -kPi, 0}, {kPi, kPi, 0}, determinant, 2000);
+  const auto samples = zeros({0, -std::numbers::pi, 0}, {std::numbers::pi, std::numbers::pi, 0}, determinant, 2000);
   EXPECT_GE(samples.size(), 2000u);
   std::vector<std::vector<double>> points;
   for (const Vector3d& q : samples) {
     const Pose p = pose(q.x(), q.y());
     points.push_back({p.at.x(), p.at.y()});
     for (int i = 0; i < 3; ++i) {
-      const double t = 2 * kPi * i / 3;
+      const double t = 2 * std::numbers::pi * i / 3;
       const Vector3d out(std::cos(t), std::sin(t), 0);
       points.back().push_back((p.at + p.rotation * (0.6 * out) - out).norm());
     }
