@@ -26,12 +26,12 @@ class PageCase(unittest.TestCase):
     def run_js(self, script):
         return self.browser.run(script)
 
-    def middle(self, selector):
-        """The middle of an element, which is scrolled into sight."""
+    def middle(self, selector, block="center"):
+        """The middle of an element, which is scrolled into sight: to the middle of the window or, "nearest", only if need be."""
         return self.run_js(
             f"""(() => {{
           const element = document.querySelector({selector!r});
-          element.scrollIntoView({{block: "center"}});
+          element.scrollIntoView({{block: "{block}"}});
           const box = element.getBoundingClientRect();
           return [box.left + box.width / 2, box.top + box.height / 2];
         }})()"""
