@@ -21,14 +21,9 @@ constexpr int kSeconds = 20;
 constexpr int kSeconds = 2;  // of processor time
 #endif
 
-Words joined(Words first, const Words& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
 void expect_refused(const Words& words, int status, const std::string& expected) {
   SCOPED_TRACE(testing::PrintToString(words));
-  const Outcome outcome = run_corank(words, {.cpu_seconds = kSeconds});
+  const Outcome outcome = run_corank_in_a_copy(words, {.cpu_seconds = kSeconds});
   EXPECT_EQ(outcome.status, status) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(expected));
   EXPECT_THAT(outcome.err, StartsWith("corank: "));
@@ -56,7 +51,7 @@ std::vector<Subcommand> subcommands() {
       {{"verify", nowhere}, {}, {"--time-limit"}, {"--threads", "--sample"}},
       {{"topology", slider, "-o", nowhere + "/x.h5"}, {}, {"--time-limit"}, {"--threads"}},
       {{"aspects", slider, "-o", nowhere + "/x.h5"}, {}, {"--time-limit"}, {"--threads"}},
-      {joined({"path", dextar, "-o", nowhere}, ends),
+      {with({"path", dextar, "-o", nowhere}, ends),
        {"--radius"},
        {"--time-limit"},
        {"--threads", "--max-boxes", "--from-mode", "--to-mode"}},
@@ -89,16 +84,16 @@ TEST(BadCommandLines, ThatGiveNoNumberWhereOneIsExpectedAreRefused) {
   for (const Subcommand& sub : subcommands()) {
     const auto refuse = [&](const std::string& option, const Words& values) {
       for (const std::string& value : values) {
-        expect_refused(joined(sub.base, {option, value}), 2, option);
+        expect_refused(with(sub.base, {option, value}), 2, option);
         ++count;
       }
-      expect_refused(joined(sub.base, {option}), 2, option);
+      expect_refused(with(sub.base, {option}), 2, option);
       ++count;
     };
     const Words never{"nan", "-nan", "", "x", "1x", "-1", "inf", "1e999", "--", "1,2"};
     for (const std::string& option : sub.reals) refuse(option, never);
     for (const std::string& option : sub.times) refuse(option, never);
-    for (const std::string& option : sub.integers) refuse(option, joined(never, {"1.5", "1e2", "99999999999999999999999"}));
+    for (const std::string& option : sub.integers) refuse(option, with(never, {"1.5", "1e2", "99999999999999999999999"}));
   }
   EXPECT_GT(count, 500);
 }
@@ -107,14 +102,13 @@ TEST(BadCommandLines, ThatNameNothingOrTooMuchAreRefused) {
   for (const Subcommand& sub : subcommands()) {
     const std::string& name = sub.base[0];
     expect_refused({name, "--no-such-option"}, 2, "corank --help tells more");
-    expect_refused(joined(sub.base, {"--no-such-option"}), 2, "--no-such-option");
-    expect_refused(joined(sub.base, {"-D"}), 2, "-D");
+    expect_refused(with(sub.base, {"--no-such-option"}), 2, "--no-such-option");
+    expect_refused(with(sub.base, {"-D"}), 2, "-D");
     if (name == "verify") continue;
     Words without = sub.base;
     if (const auto at = std::find(without.begin(), without.end(), "-o"); at != without.end()) without.erase(at, at + 2);
-    expect_refused(joined(without, {"-o"}), 2, "-o");
-    if (name != "clearance")
-      expect_refused(joined(without, {"-o", ""}), 2, "-o: no name given; expected the name of a file");
+    expect_refused(with(without, {"-o"}), 2, "-o");
+    if (name != "clearance") expect_refused(with(without, {"-o", ""}), 2, "-o: no name given; expected the name of a file");
   }
 }
 
@@ -173,13 +167,13 @@ TEST(BadCommandLines, ThatContradictThemselvesAreRefused) {
       {{"verify", "a", "--sample", "2", "--require-proof"}, 2, "--sample"},
       {{"topology", slider, "-o", "x.txt"}, 2, ".h5"},
       {{"aspects", slider, "-o", "x.txt"}, 2, ".h5"},
-      {joined(at, {"--range", "J3x"}), 2, "--range"},
-      {joined(at, {"--range", "J3x=[0]"}), 2, "--range"},
-      {joined(at, {"--range", "J3x=[0,1"}), 2, "--range"},
-      {joined(at, {"--range", "J3x=[1/0,1]"}), 1, "'1/0' has no value"},
-      {joined(at, {"--map", "J3x,J3y"}), 2, "--map"},
-      {joined(at, {"--grid", "3"}), 2, "--grid"},
-      {joined(at, {"-o", "x.svg"}), 2, "-o"},
+      {with(at, {"--range", "J3x"}), 2, "--range"},
+      {with(at, {"--range", "J3x=[0]"}), 2, "--range"},
+      {with(at, {"--range", "J3x=[0,1"}), 2, "--range"},
+      {with(at, {"--range", "J3x=[1/0,1]"}), 1, "'1/0' has no value"},
+      {with(at, {"--map", "J3x,J3y"}), 2, "--map"},
+      {with(at, {"--grid", "3"}), 2, "--grid"},
+      {with(at, {"-o", "x.svg"}), 2, "-o"},
       {{"clearance", dextar}, 2, "--at"},
       {{"clearance", dextar, "--at", "J3x=0.5,J3y=1"}, 2, "--in"},
       {{"clearance", dextar, "--at", "J3x=1/0,J3y=1", "--in", "J3x,J3y"}, 1, "'1/0' has no value"},
@@ -203,19 +197,19 @@ TEST(BadCommandLines, ThatContradictThemselvesAreRefused) {
       {{"map", dextar, "--over", "J3x=0:1/0", "--over", "J3y=0:1"}, 1, "J3x"},
       {{"map", dextar, "--over", "J3x=1:0", "--over", "J3y=0:1"}, 1, "J3x"},
       {{"map", dextar, "--over", "J3x=0:1", "--over", "J3x=0:1"}, 1, "J3x"},
-      {joined(map, {"--resolution", "63"}), 2, "power of two"},
-      {joined(map, {"--count", "apples"}), 2, "--count"},
-      {joined(map, {"--fix", "theta2"}), 2, "--fix"},
-      {joined(map, {"-o", "x.txt"}), 2, "x.txt"},
-      {joined(map, {"-o", "x.h5", "--count", "aspects"}), 2, "x.h5"},
+      {with(map, {"--resolution", "63"}), 2, "power of two"},
+      {with(map, {"--count", "apples"}), 2, "--count"},
+      {with(map, {"--fix", "theta2"}), 2, "--fix"},
+      {with(map, {"-o", "x.txt"}), 2, "x.txt"},
+      {with(map, {"-o", "x.h5", "--count", "aspects"}), 2, "x.h5"},
       {{"path", dextar}, 2, "--from"},
       {{"path", dextar, "--from", "J3x=0.5,J3y=1"}, 2, "--to"},
       {{"path", dextar, "--from", "J3x", "--to", "J3x=0.7,J3y=1"}, 2, "NAME=VALUE"},
       {{"path", dextar, "--from", "no=1,J3y=1", "--to", "J3x=0.7,J3y=1"}, 1, "no"},
       {{"path", dextar, "--from", "J3x=1/0,J3y=1", "--to", "J3x=0.7,J3y=1"}, 1, "J3x"},
-      {joined(path, {"--avoid", "rain"}), 2, "--avoid"},
-      {joined(path, {"--csv", ""}), 2, "--csv"},
-      {joined(path, {"--report", ""}), 2, "--report"},
+      {with(path, {"--avoid", "rain"}), 2, "--avoid"},
+      {with(path, {"--csv", ""}), 2, "--csv"},
+      {with(path, {"--report", ""}), 2, "--report"},
       {{"report"}, 2, "FILE"},
       {{"report", slider, "--sets", "sideways"}, 2, "--sets"},
       {{"report", slider, "--results", "/nowhere"}, 2, "--results"},

@@ -9,9 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
+
+#include "corank/app/run.h"
 
 namespace corank::app {
 namespace {
@@ -45,8 +49,11 @@ void limit(int resource, rlim_t most) {
   if (setrlimit(resource, &limits) != 0) _exit(125);
 }
 
-int run(const char* program, const std::vector<std::string>& args, const std::filesystem::path& out,
-        const std::filesystem::path& err, const Allowed& allowed = {}) {
+// A child runs `work`, which ends it.
+template <class Work>
+int run_in_child(const Work& work, const std::filesystem::path& out, const std::filesystem::path& err,
+                 const Allowed& allowed) {
+  std::fflush(nullptr);
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {
@@ -54,30 +61,47 @@ int run(const char* program, const std::vector<std::string>& args, const std::fi
     redirect(STDERR_FILENO, err);
     if (allowed.file_bytes) limit(RLIMIT_FSIZE, *allowed.file_bytes);
     if (allowed.cpu_seconds) limit(RLIMIT_CPU, static_cast<rlim_t>(*allowed.cpu_seconds));
-    execute(program, args);
+    work();
   }
   return wait_for_end(child);
 }
 
-Outcome run(const char* program, const std::vector<std::string>& args, const Allowed& allowed = {}) {
+template <class Work>
+Outcome outcome_of(const Work& work, const Allowed& allowed) {
   const TemporaryFolder folder;
   const std::string out = folder.file("out"), err = folder.file("err");
-  const int status = run(program, args, out, err, allowed);
+  const int status = run_in_child(work, out, err, allowed);
   return {status, read_text(out), read_text(err)};
+}
+
+Outcome run_program(const char* program, const std::vector<std::string>& args, const Allowed& allowed = {}) {
+  return outcome_of([&] { execute(program, args); }, allowed);
 }
 
 }  // namespace
 
-Outcome run_corank(const std::vector<std::string>& args) { return run(CORANK_PROGRAM, args); }
+Outcome run_corank(const std::vector<std::string>& args) { return run_program(CORANK_PROGRAM, args); }
 
 Outcome run_corank(const std::vector<std::string>& args, const Allowed& allowed) {
-  return run(CORANK_PROGRAM, args, allowed);
+  return run_program(CORANK_PROGRAM, args, allowed);
 }
 
-Outcome run_corank_without_options(const std::vector<std::string>& args) { return run(CORANK_WITHOUT_OPTIONS, args); }
+Outcome run_corank_in_a_copy(const std::vector<std::string>& args, const Allowed& allowed) {
+  const auto work = [&] {
+    const int status = run("corank", args);
+    std::cout.flush();
+    std::fflush(nullptr);
+    _exit(status);
+  };
+  return outcome_of(work, allowed);
+}
+
+Outcome run_corank_without_options(const std::vector<std::string>& args) {
+  return run_program(CORANK_WITHOUT_OPTIONS, args);
+}
 
 int run_corank_into(const std::string& file, const std::vector<std::string>& args) {
-  return run(CORANK_PROGRAM, args, file, "/dev/null");
+  return run_in_child([&] { execute(CORANK_PROGRAM, args); }, file, "/dev/null", {});
 }
 
 CorankOnTerminal::CorankOnTerminal(const std::vector<std::string>& args) {

@@ -25,7 +25,11 @@ struct Allowed {
 };
 Outcome run_corank(const std::vector<std::string>& args, const Allowed& allowed);
 
-/// The same by a program that was linked without OMPL and Cairo.
+/// The same without starting the program: a copy of this process runs the command line. For many short runs, whose time
+/// would go into the loading of libraries.
+Outcome run_corank_in_a_copy(const std::vector<std::string>& args, const Allowed& allowed);
+
+/// run_corank by a program that was linked without OMPL and Cairo.
 Outcome run_corank_without_options(const std::vector<std::string>& args);
 
 /// run_corank with standard output sent to a file of the system, such as /dev/full.
