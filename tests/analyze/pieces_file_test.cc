@@ -11,6 +11,7 @@
 #include "corank/analyze/aspects.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model_file.h"
+#include "corank/tests/seeds.h"
 
 namespace corank::analyze {
 namespace {
@@ -347,7 +348,7 @@ TEST(PiecesFile, ThatIsDamagedAtRandomClaimsNothingFalse) {
   int refused = 0, count = 0, open = 0;
   std::map<std::string, int> refused_of, open_of;
   for (const PiecesFile* good : {&slider_pieces(), &rocker()})
-    for (unsigned seed = 0; seed < 240; ++seed, ++count) {
+    for (unsigned seed = 0; seed < test::seeds(80); ++seed, ++count) {
       PiecesFile file = *good;
       const std::string kind = damage(seed, file);
       SCOPED_TRACE(kind + ", " + std::to_string(seed));

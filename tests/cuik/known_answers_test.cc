@@ -12,10 +12,10 @@
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/symbolic/model_file.h"
+#include "corank/tests/cover_lookup.h"
 #include "corank/tests/cuik/shell.h"
 #include "corank/tests/cuik/suite_files.h"
 #include "corank/tests/models/closed_forms.h"
-#include "corank/tests/models/cover_lookup.h"
 
 namespace corank::cuik {
 namespace {

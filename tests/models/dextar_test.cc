@@ -6,8 +6,8 @@
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
+#include "corank/tests/cover_lookup.h"
 #include "corank/tests/models/closed_forms.h"
-#include "corank/tests/models/cover_lookup.h"
 #include "corank/tests/models/given_rates.h"
 
 namespace corank {

@@ -18,7 +18,7 @@
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
-#include "corank/tests/models/cover_lookup.h"
+#include "corank/tests/cover_lookup.h"
 
 namespace corank::test {
 

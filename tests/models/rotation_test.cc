@@ -12,7 +12,7 @@
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/tests/models/cover_lookup.h"
+#include "corank/tests/cover_lookup.h"
 
 namespace corank {
 namespace {

@@ -18,7 +18,7 @@
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/tests/models/cover_lookup.h"
+#include "corank/tests/cover_lookup.h"
 
 namespace corank {
 namespace {

@@ -17,7 +17,7 @@
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/tests/models/cover_lookup.h"
+#include "corank/tests/cover_lookup.h"
 
 namespace corank {
 namespace {

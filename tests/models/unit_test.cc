@@ -10,7 +10,7 @@
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/singularity_system.h"
-#include "corank/tests/models/cover_lookup.h"
+#include "corank/tests/cover_lookup.h"
 #include "corank/tests/models/given_rates.h"
 
 namespace corank {

@@ -3,6 +3,8 @@
 
 #include <iostream>
 
+#include "corank/tests/seeds.h"
+
 #include "corank/tests/robots/planted_robot.h"
 
 namespace corank {
@@ -19,9 +21,9 @@ const std::array<JointKind, 5> kKinds{JointKind::revolute, JointKind::prismatic,
                                       JointKind::cylindrical};
 
 TEST(PlantedRobots, SatisfyTheirEquationsWhereTheyWerePlanted) {
-  constexpr unsigned kSeeds = 60;
+  const unsigned seeds = test::seeds(60);
   int checked = 0;
-  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+  for (unsigned seed = 0; seed < seeds; ++seed) {
     std::mt19937 random(seed);
     std::vector<JointKind> kinds(std::uniform_int_distribution<std::size_t>(5, 7)(random));
     for (JointKind& kind : kinds)  // half of them revolute

@@ -11,6 +11,7 @@
 #include "corank/study/question.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/tests/robots/planted_robot.h"
+#include "corank/tests/seeds.h"
 
 namespace corank {
 namespace {
@@ -150,8 +151,7 @@ class PlantedSolutions : public testing::Test {
  protected:
   static void check_many(const std::function<Planted(unsigned)>& plant, unsigned count) {
     // CORANK_SEEDS=1000 ./robots_test --gtest_filter='PlantedSolutions.*' looks further.
-    const char* text = std::getenv("CORANK_SEEDS");
-    const unsigned seeds = text ? static_cast<unsigned>(std::atoi(text)) : count;
+    const unsigned seeds = test::seeds(count);
     Tally tally;
     for (unsigned seed = 1; seed <= seeds; ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));

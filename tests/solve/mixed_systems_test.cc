@@ -10,6 +10,7 @@
 
 #include "corank/check/checker.h"
 #include "corank/solve/solve.h"
+#include "corank/tests/seeds.h"
 #include "corank/tests/solve/cover_questions.h"
 
 namespace corank::solve {
@@ -113,15 +114,15 @@ class MixedGenerator {
 };
 
 // CORANK_FIRST_SEED=300 CORANK_SEEDS=100000 ./solve_test --gtest_filter='MixedSystems.*' looks further.
-unsigned number(const char* name, unsigned otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? static_cast<unsigned>(std::atoi(text)) : otherwise;
+unsigned first_seed() {
+  const char* text = std::getenv("CORANK_FIRST_SEED");
+  return text != nullptr ? static_cast<unsigned>(std::atoi(text)) : 0;
 }
 
 // The checker may fail to see what is true, next to a range's end or where a coordinate is constant along the set: that is
 // counted, and rare.
 TEST(MixedSystems, KeepTheirPlantedPointsAndTheirClaimsAreVerified) {
-  const unsigned first = number("CORANK_FIRST_SEED", 0), count = number("CORANK_SEEDS", 300);
+  const unsigned first = first_seed(), count = test::seeds(300);
   unsigned rejected = 0, proven = 0, proofs = 0;
   for (unsigned seed = first; seed < first + count; ++seed) {
     if (seed > first && (seed - first) % 1000 == 0)

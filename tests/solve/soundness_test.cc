@@ -13,6 +13,7 @@
 
 #include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
+#include "corank/tests/seeds.h"
 
 namespace corank::solve {
 namespace {
@@ -371,8 +372,7 @@ void check(unsigned seed, double tolerance, Tally& tally) {
 
 void check_many(double tolerance, unsigned count) {
   // CORANK_SEEDS=20000 ./solve_test --gtest_filter='Soundness.*' looks further.
-  const char* text = std::getenv("CORANK_SEEDS");
-  const unsigned seeds = text ? static_cast<unsigned>(std::atoi(text)) : count;
+  const unsigned seeds = test::seeds(count);
   Tally tally;
   for (unsigned seed = 1; seed <= seeds; ++seed) check(seed, tolerance, tally);
   EXPECT_GT(tally.complete, static_cast<int>(seeds) * 9 / 10);
