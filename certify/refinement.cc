@@ -1,47 +1,21 @@
 #include "corank/certify/refinement.h"
 
 #include <algorithm>
-#include <boost/multiprecision/eigen.hpp>
-#include <boost/multiprecision/mpfi.hpp>
-#include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 #include <limits>
 
 #include <Eigen/QR>
 
+#include "corank/certify/multiprecision.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/exact_number_node.h"
-#include "corank/core/nearest_rounding.h"
 
 namespace corank::certify {
 namespace {
 
-using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<0>, boost::multiprecision::et_off>;
-using Range = boost::multiprecision::number<boost::multiprecision::mpfi_float_backend<0>, boost::multiprecision::et_off>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-
-// Default precision of new numbers, in bits.
-class Precision {
- public:
-  explicit Precision(int bits) : real_(Real::default_precision()), range_(Range::default_precision()) {
-    // Decimal digits, of which the backends make at least as many bits.
-    const unsigned digits = static_cast<unsigned>(std::ceil(bits * 0.30103)) + 1;
-    Real::default_precision(digits);
-    Range::default_precision(digits);
-  }
-  ~Precision() {
-    Real::default_precision(real_);
-    Range::default_precision(range_);
-  }
-  Precision(const Precision&) = delete;
-  Precision& operator=(const Precision&) = delete;
-
- private:
-  unsigned real_, range_;
-  NearestRounding nearest_;
-};
 
 const mpq_class& rational(const ExactNumber& x) {
   CORANK_CHECK(x.is_rational());
@@ -50,7 +24,7 @@ const mpq_class& rational(const ExactNumber& x) {
 
 Real to_real(const ExactNumber& x) {
   Real result;
-  mpfr_set_q(result.backend().data(), rational(x).get_mpq_t(), MPFR_RNDN);
+  mpfr_set_q(result.data(), rational(x).get_mpq_t(), MPFR_RNDN);
   return result;
 }
 
@@ -62,23 +36,10 @@ ExactNumber from_mpfr(mpfr_srcptr x) {
 
 Range to_range(const std::pair<ExactNumber, ExactNumber>& bounds) {
   Range lower, upper;
-  mpfi_set_q(lower.backend().data(), rational(bounds.first).get_mpq_t());
-  mpfi_set_q(upper.backend().data(), rational(bounds.second).get_mpq_t());
-  mpfi_union(lower.backend().data(), lower.backend().data(), upper.backend().data());
+  mpfi_set_q(lower.data(), rational(bounds.first).get_mpq_t());
+  mpfi_set_q(upper.data(), rational(bounds.second).get_mpq_t());
+  mpfi_union(lower.data(), lower.data(), upper.data());
   return lower;
-}
-
-mpfr_srcptr lower_end(const Range& x) { return &x.backend().data()->left; }
-mpfr_srcptr upper_end(const Range& x) { return &x.backend().data()->right; }
-Real to_real(mpfr_srcptr x) {
-  Real result;
-  mpfr_set(result.backend().data(), x, MPFR_RNDN);
-  return result;
-}
-Range to_range(const Real& x) {
-  Range result;
-  mpfi_set_fr(result.backend().data(), x.backend().data());
-  return result;
 }
 
 // The equations with coefficients of type T, and their values and derivatives.
@@ -141,7 +102,7 @@ class Equations {
 Equations<Real> real_equations(const System& system, int bits) {
   return {system, [bits](const ExactNumber& c) {
             const auto bounds = c.bounds(bits);
-            return Real((to_real(bounds.first) + to_real(bounds.second)) / 2);
+            return (to_real(bounds.first) + to_real(bounds.second)) / 2;
           }};
 }
 
@@ -159,7 +120,7 @@ Matrix jacobian(const Equations<Real>& f, const std::vector<Real>& x) {
 bool iterate(const Equations<Real>& f, std::vector<Real>& x, int bits, const Ended& ended) {
   const Real enough = ldexp(Real(1), -bits / 2 + 8), most_sizes = 1e6;
   Real far = 1;  // from lengths of any unit
-  for (const Real& c : x) far = std::max(far, Real(abs(c)));
+  for (const Real& c : x) far = std::max(far, abs(c));
   far *= most_sizes;
   const int most = 2 * bits;
   constexpr int kSlowest = 64;  // steps for a bit: at a zero of multiplicity k it takes about 0.7 k
@@ -172,14 +133,14 @@ bool iterate(const Equations<Real>& f, std::vector<Real>& x, int bits, const End
     Real length = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
       x[k] -= shift(static_cast<int>(k));
-      length = std::max(length, Real(abs(shift(static_cast<int>(k)))));
+      length = std::max(length, abs(shift(static_cast<int>(k))));
     }
     if (!(length < far)) return false;
     if (2 * length < shortest) shortest = length, since = step;
     if (step - since > kSlowest) return false;
     if (length < enough) {
       Real residual = 0;
-      for (int row = 0; row < f.rows(); ++row) residual = std::max(residual, Real(abs(f.value(row, x))));
+      for (int row = 0; row < f.rows(); ++row) residual = std::max(residual, abs(f.value(row, x)));
       return residual < enough;
     }
   }
@@ -264,33 +225,33 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
       next[i] -= shift;
       length = std::max(length, step[i]);
     }
-    if (!boost::multiprecision::isfinite(length)) return std::nullopt;
+    if (!isfinite(length)) return std::nullopt;
     if (shortest >= 0 && length >= shortest) break;
     shortest = length;
     c = std::move(next);
   }
   const Equations<Range> f(system, [bits](const ExactNumber& x) { return to_range(x.bounds(bits)); });
   std::vector<Range> center;
-  for (const Real& x : c) center.push_back(to_range(x));
+  for (const Real& x : c) center.emplace_back(x);
   std::vector<Range> value(n), newton(n);  // F(c), Y·F(c)
   for (std::size_t i = 0; i < n; ++i) value[i] = f.value(static_cast<int>(i), center);
   for (std::size_t i = 0; i < n; ++i) {
     newton[i] = Range(0);
-    for (std::size_t j = 0; j < n; ++j) newton[i] += to_range(y(static_cast<int>(i), static_cast<int>(j))) * value[j];
+    for (std::size_t j = 0; j < n; ++j) newton[i] += Range(y(static_cast<int>(i), static_cast<int>(j))) * value[j];
   }
   // X = c + a symmetric range: twice the Newton correction, widened until the image fits.
   const Real tiny = ldexp(Real(1), -bits + 4);
   std::vector<Real> radius(n);
   for (std::size_t i = 0; i < n; ++i)
-    radius[i] = 2 * std::max(Real(abs(to_real(lower_end(newton[i])))), Real(abs(to_real(upper_end(newton[i]))))) +
-                tiny * std::max(Real(1), Real(abs(c[i])));
+    radius[i] =
+        2 * std::max(abs(Real(newton[i].lower())), abs(Real(newton[i].upper()))) + tiny * std::max(Real(1), abs(c[i]));
   constexpr int kInflations = 6;
   std::vector<Range> offset(n), box(n), image(n), gradient(n);
   for (int k = 0; k < kInflations && !is_over(ended); ++k) {
     for (std::size_t i = 0; i < n; ++i) {
-      Range r = to_range(radius[i]);
-      mpfi_neg(offset[i].backend().data(), r.backend().data());
-      mpfi_union(offset[i].backend().data(), offset[i].backend().data(), r.backend().data());
+      const Range r(radius[i]);
+      mpfi_neg(offset[i].data(), r.data());
+      mpfi_union(offset[i].data(), offset[i].data(), r.data());
       box[i] = center[i] + offset[i];
     }
     std::vector<std::vector<Range>> rows;
@@ -303,11 +264,11 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
       image[i] = -newton[i];
       for (std::size_t j = 0; j < n; ++j) {
         Range entry(i == j ? 1 : 0);
-        for (std::size_t b = 0; b < n; ++b) entry -= to_range(y(static_cast<int>(i), static_cast<int>(b))) * rows[b][j];
+        for (std::size_t b = 0; b < n; ++b) entry -= Range(y(static_cast<int>(i), static_cast<int>(b))) * rows[b][j];
         image[i] += entry * offset[j];
       }
       image[i] += center[i];
-      inside = inside && mpfi_is_strictly_inside(image[i].backend().data(), box[i].backend().data()) > 0;
+      inside = inside && mpfi_is_strictly_inside(image[i].data(), box[i].data()) > 0;
     }
     if (inside) return image;
     for (std::size_t i = 0; i < n; ++i) radius[i] *= 2;
@@ -328,7 +289,7 @@ std::optional<std::vector<ExactNumber>> approximate_zero(const System& system, c
   std::vector<Real> x(closer->begin(), closer->end());
   if (!iterate(real_equations(system, bits), x, bits, ended)) return std::nullopt;
   std::vector<ExactNumber> result;
-  for (const Real& c : x) result.push_back(from_mpfr(c.backend().data()));
+  for (const Real& c : x) result.push_back(from_mpfr(c.data()));
   return result;
 }
 
@@ -342,12 +303,12 @@ std::optional<ProvenZero> prove_zero(const System& system, const std::vector<Exa
     if (!image) continue;
     const Real width = pow(Real(10), -digits);
     const bool narrow = std::all_of(image->begin(), image->end(), [&](const Range& x) {
-      const Real lo = to_real(lower_end(x)), hi = to_real(upper_end(x));
-      return hi - lo <= width * std::max(Real(1), Real(abs(lo)));
+      const Real lo(x.lower()), hi(x.upper());
+      return hi - lo <= width * std::max(Real(1), abs(lo));
     });
     if (!narrow) continue;
     ProvenZero zero{{}, bits};
-    for (const Range& x : *image) zero.sides.emplace_back(from_mpfr(lower_end(x)), from_mpfr(upper_end(x)));
+    for (const Range& x : *image) zero.sides.emplace_back(from_mpfr(x.lower()), from_mpfr(x.upper()));
     return zero;
   }
   return std::nullopt;
@@ -361,7 +322,7 @@ std::pair<ExactNumber, ExactNumber> bounds(const Polynomial& f,
   std::vector<Range> x;
   for (const auto& side : sides) x.push_back(to_range(side));
   const Range value = Equations<Range>(one, [bits](const ExactNumber& c) { return to_range(c.bounds(bits)); }).value(0, x);
-  return {from_mpfr(lower_end(value)), from_mpfr(upper_end(value))};
+  return {from_mpfr(value.lower()), from_mpfr(value.upper())};
 }
 
 std::string proven_decimal(const ExactNumber& lower, const ExactNumber& upper, int digits) {

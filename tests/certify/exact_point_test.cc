@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <future>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 #include "corank/certify/algebraic_number.h"
 #include "corank/certify/blow_up.h"
@@ -416,6 +419,31 @@ TEST(ApproximateZero, IsNotWhereEquationsContradictOneAnother) {
   EXPECT_FALSE(approximate_zero(b.system(), {ExactNumber::dyadic(0.25)}, 256));
   b.equation({{"1", {{x, 1}}}, {"-1/2", {}}});
   EXPECT_FALSE(approximate_zero(b.system(), {ExactNumber::dyadic(0.25)}, 256));
+}
+
+TEST(ApproximateZero, HasItsBitsWhateverAnotherThreadDoesMeanwhile) {
+  const System system = diagonal().system();
+  const std::vector<ExactNumber> start(2, ExactNumber::dyadic(0.707));
+  const auto alone = approximate_zero(system, start, 512);
+  ASSERT_TRUE(alone);
+  // The other thread is amid its own Newton steps, of fewer bits, as long as this one goes on.
+  std::promise<void> amid, over;
+  std::thread other;
+  const auto beside = approximate_zero(system, start, 512, [&] {
+    if (other.joinable()) return false;
+    other = std::thread([&, first = true]() mutable {
+      EXPECT_TRUE(approximate_zero(system, start, 64, [&] {
+        if (std::exchange(first, false)) amid.set_value(), over.get_future().wait();
+        return false;
+      }));
+    });
+    amid.get_future().wait();
+    return false;
+  });
+  over.set_value();
+  other.join();
+  ASSERT_TRUE(beside);
+  for (std::size_t j = 0; j < start.size(); ++j) EXPECT_EQ(((*beside)[j] - (*alone)[j]).sign(), 0) << j;
 }
 
 TEST(ProveZero, GivesFiftyProvenDigits) {
