@@ -137,8 +137,9 @@ class SheetCheck {
   }
 
   // The box may fill its region so nearly that K about another centre than the solver's leaves it. Then: existence in a Z
-  // that ε-inflation of the box's sides finds, wherever it leads; at most one solution in the hull of Z and x. That one is
-  // all that the region may hold, and x becomes what holds it: whether it lies in the box is still to be shown.
+  // that ε-inflation of the box's sides finds, wherever it leads; at most one solution in the hull of Z and x, where the
+  // box is in a corner of its region with a Y of the hull's own (corollary of doc/theory.md). That one is all that the
+  // region may hold, and x becomes what holds it: whether it lies in the box is still to be shown.
   bool prove_near_box(Sides& x) {
     constexpr int kInflations = 10;
     Sides z = x;
@@ -156,7 +157,7 @@ class SheetCheck {
       if (inside) {
         Sides both = z;
         for (std::size_t a = 0; a < image.size(); ++a) both[place(a)] = Enclosure::hull(z[place(a)], x[place(a)]);
-        if (!newton_.is_injective(both)) return false;
+        if (!newton_.is_injective(both) && !(newton_.is_injective(z) && is_injective_about_middle(both))) return false;
         for (std::size_t a = 0; a < image.size(); ++a) x[place(a)] = image[a];
         return true;
       }
@@ -166,6 +167,11 @@ class SheetCheck {
       }
     }
     return false;
+  }
+
+  bool is_injective_about_middle(const Sides& x) const {
+    Krawczyk newton(equations_, problem_.size());
+    return newton.set(dependent_, x, Center::middle) && newton.is_injective(x);
   }
 
   bool center_in_region() const {

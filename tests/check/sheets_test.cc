@@ -130,6 +130,48 @@ TEST(Sheet, MayHaveFreeSidesThatAreAPoint) {
   }
 }
 
+// Two legs of a 3-RRR platform. No step about a middle shows that there is a solution near the corner, and the Y of the
+// corner not that there is only one.
+TEST(Sheet, MayBeInACornerOfItsRegion) {
+  const System system = plain(
+      "[SYSTEM VARS]\nc1 : [-1, 1]\ns1 : [-1, 1]\ne1 : [-1, 1]\nf1 : [-1, 1]\nc2 : [-1, 1]\ns2 : [-1, 1]\ne2 : [-1, 1]\n"
+      "f2 : [-1, 1]\nx : [-400, 400]\ny : [-400, 400]\n[SYSTEM EQS]\n41 + 200*c1 + 180*e1 = x;\n207.2 + 200*s1 + 180*f1 = "
+      "y;\n"
+      "c1^2 + s1^2 = 1;\ne1^2 + f1^2 = 1;\n200*c2 + 180*e2 - 200 = x;\n200*s2 + 180*f2 - 68.1 = y;\nc2^2 + s2^2 = 1;\n"
+      "e2^2 + f2^2 = 1;\n");
+  const Claim claim{Verdict::regular,
+                    {1, 3},
+                    {{0.999, 1},
+                     {-0.029, -0.015},
+                     {-0.654, -0.633},
+                     {-0.773, -0.757},
+                     {0.999, 1.001},
+                     {0.009, 0.029},
+                     {0.684, 0.707},
+                     {0.707, 0.73},
+                     {123.2, 127.1},
+                     {61.9, 68.2}},
+                    {{0.994, 1.006},
+                     {-0.093, 0.088},
+                     {-0.903, -0.557},
+                     {-0.799, -0.564},
+                     {0.926, 1.052},
+                     {-0.255, 0.37},
+                     {0.374, 0.869},
+                     {0.477, 1.085},
+                     {77.6, 141.8},
+                     {37.2, 130.8}}};
+  EXPECT_EQ(fault(system, claim), "");
+  for (const Interval& side : {Interval(-0.6524, -0.633), Interval(-0.654, -0.6355)}) {  // e1 = −√(1 − f1²), within 10⁻³
+    Claim cut = claim;
+    cut.box[2] = side;
+    EXPECT_THAT(fault(system, cut), HasSubstr("(e1)")) << side.lo();
+  }
+  Claim two = claim;  // with the other elbow of the second leg
+  two.region[4] = {0.7, 1.06}, two.region[5] = {-0.26, 0.75}, two.region[6] = {0.37, 1.05}, two.region[7] = {-0.1, 1.09};
+  EXPECT_NE(fault(system, two), "");
+}
+
 // z = (x − y)² is nearly −10⁻⁸ along a line, so that no end of parts tells it; far from where it begins x + y > 1.99.
 TEST(Sheet, IsNotShownByALimitOfItsParts) {
   const System system = plain(
