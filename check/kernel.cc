@@ -9,6 +9,21 @@
 namespace corank::check {
 namespace {
 
+// Rows and columns in turn divided by the roots of their largest entries.
+std::vector<double> balanced(std::vector<double> a, std::size_t m, std::size_t k) {
+  constexpr int kTurns = 8;
+  const auto divide = [&](std::size_t first, std::size_t step, std::size_t count) {
+    double largest = 0;
+    for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, std::fabs(a[first + i * step]));
+    for (std::size_t i = 0; largest > 0 && i < count; ++i) a[first + i * step] /= std::sqrt(largest);
+  };
+  for (int turn = 0; turn < kTurns; ++turn) {
+    for (std::size_t i = 0; i < m; ++i) divide(i * k, 1, k);
+    for (std::size_t j = 0; j < k; ++j) divide(j, k, m);
+  }
+  return a;
+}
+
 constexpr int kMostParts = 2000;
 
 }  // namespace
@@ -73,8 +88,8 @@ bool KernelCheck::has_rank(std::size_t s, const Sides& x) const {
   std::vector<double> matrix(m * k);
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t j = 0; j < k; ++j) matrix[i * k + j] = rows_[i][j].approximate(middle);
-  // Complete pivoting picks the submatrix.
-  std::vector<double> t = matrix;
+  // Complete pivoting picks the submatrix, whatever the units of its entries.
+  std::vector<double> t = balanced(matrix, m, k);
   std::vector<std::size_t> rows, columns;
   for (std::size_t step = 0; step < s; ++step) {
     std::size_t row = m, column = k;

@@ -26,6 +26,17 @@ TEST(Answer, HoldsThePointsOfASetAndIsVerified) {
   EXPECT_TRUE(result::verify(result, result::system_of(result), {}).verified());
 }
 
+// Lengths of hundreds beside directions: what counts as a large entry of L must not depend on the unit.
+TEST(Answer, OfAPlatformInMillimetresHasItsKernelsVerified) {
+  result::Result result =
+      answer({read_model(CORANK_SOURCE_DIR "/models/platforms/hexapod.cuik").mechanism, SingularitySet::forward});
+  const auto is_one = [](const CoverBox& box) { return box.kernel_at_most == 1; };
+  EXPECT_TRUE(std::all_of(result.cover.boxes.begin(), result.cover.boxes.end(), is_one));
+  EXPECT_TRUE(result::verify(result).verified());
+  result.cover.boxes.front().kernel_at_most = 0;
+  EXPECT_FALSE(result::verify(result).verified());
+}
+
 // The platform's position is an affine function of a leg's end, whose sides end where the position's range does, rounded
 // outward.
 TEST(Answer, OfARangeThatAnAffineFunctionHasIsVerifiedUpToItsEnds) {
