@@ -13,6 +13,19 @@ using symbolic::CoordinateKind;
 using symbolic::Mechanism;
 using symbolic::ModelError;
 
+namespace {
+
+// Lengths of irrational directions make equations of millions of terms, and printing them would take longer than all else.
+bool can_be_read(const ex& e) {
+  constexpr std::ptrdiff_t kMostTerms = 1000;
+  std::ptrdiff_t terms = 0;
+  for (auto at = e.preorder_begin(); at != e.preorder_end(); ++at)
+    if (++terms > kMostTerms) return false;
+  return true;
+}
+
+}  // namespace
+
 std::string Draft::free_name(const std::string& wanted) {
   std::string name;
   for (const char c : wanted) name += std::isalnum(static_cast<unsigned char>(c)) || c == '_' ? c : '_';
@@ -308,8 +321,8 @@ std::string Draft::point(const std::string& wanted, const Vec& at, const std::op
 }
 
 // Unit vectors come first in Φ, in the order of the coordinates.
-symbolic::LeftOut Draft::left_out(const DraftLeftOut& e, const Expression& value) const {
-  symbolic::LeftOut result{value, e.equation.note, e.equation.where};
+symbolic::LeftOut Draft::left_out(const DraftLeftOut& e, std::optional<Expression> value) const {
+  symbolic::LeftOut result{std::move(value), e.equation.note, e.equation.where};
   for (const Numbered& n : e.from)
     (n.origin == Origin::velocity ? result.rows : result.equations)
         .push_back(n.index + (n.origin == Origin::equation ? unit_vectors_ : 0) + 1);
@@ -342,7 +355,8 @@ Assembly Draft::assembly() const {
   std::vector<ex> all;
   for (const DraftEquation& e : equations_) all.push_back(e.value);
   for (const DraftEquation& e : velocity_) all.push_back(e.value);
-  for (const DraftLeftOut& e : left_out_) all.push_back(e.equation.value);
+  for (const DraftLeftOut& e : left_out_)
+    if (can_be_read(e.equation.value)) all.push_back(e.equation.value);
   all.insert(all.end(), inputs_.begin(), inputs_.end());
   all.insert(all.end(), outputs_.begin(), outputs_.end());
   const auto add = [&](const Vec& v, std::size_t n) {
@@ -371,7 +385,8 @@ Assembly Draft::assembly() const {
     mechanism.rate(r.name, r.kind, r.role, r.where);
   for (const DraftEquation& e : velocity_) mechanism.velocity(*next++ == Expression(0), e.where);
   Assembly assembly;
-  for (const DraftLeftOut& e : left_out_) assembly.left_out.push_back(left_out(e, *next++));
+  for (const DraftLeftOut& e : left_out_)
+    assembly.left_out.push_back(left_out(e, can_be_read(e.equation.value) ? std::optional(*next++) : std::nullopt));
   const auto list = [&](std::size_t n) {
     std::vector<Expression> symbols(next, next + static_cast<std::ptrdiff_t>(n));
     next += static_cast<std::ptrdiff_t>(n);

@@ -155,7 +155,7 @@ class Draft {
   void know(const ex& e, Numbered number);
   /// Notes it where e = 0 is known to follow; then returns true.
   bool leaves_out(const DraftEquation& e);
-  symbolic::LeftOut left_out(const DraftLeftOut& e, const Expression& value) const;
+  symbolic::LeftOut left_out(const DraftLeftOut& e, std::optional<Expression> value) const;
 
   JointCoordinate common(std::size_t joint, bool turns);
   std::optional<Range> common_range(const Couplings::Train& train) const;

@@ -32,8 +32,10 @@ std::optional<std::map<std::size_t, int>> quotient(std::map<std::size_t, int> mo
 bool Identities::Before::operator()(const Monomial& a, const Monomial& b) const {
   const int of_a = degree(a), of_b = degree(b);
   if (of_a != of_b) return of_a > of_b;
-  for (auto at_a = a.rbegin(), at_b = b.rbegin(); at_a != a.rend() && at_b != b.rend(); ++at_a, ++at_b)
-    if (*at_a != *at_b) return *at_a > *at_b;  // as pairs: a later base, or more of it
+  for (auto at_a = a.begin(), at_b = b.begin(); at_a != a.end() && at_b != b.end(); ++at_a, ++at_b) {
+    if (at_a->first != at_b->first) return at_a->first > at_b->first;
+    if (at_a->second != at_b->second) return at_a->second < at_b->second;  // less of the earliest base
+  }
   return false;
 }
 

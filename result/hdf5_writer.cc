@@ -55,7 +55,10 @@ hid_t create_dataset(hid_t file, const std::string& path, const std::string& nam
                      hid_t properties = H5P_DEFAULT) {
   const OwnHandle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path, "cannot write " + name);
   H5Pset_create_intermediate_group(links, 1);
-  return H5Dcreate2(file, name.c_str(), type, space, links, properties, H5P_DEFAULT);
+  const OwnHandle timeless(properties == H5P_DEFAULT ? H5Pcreate(H5P_DATASET_CREATE) : H5Pcopy(properties), H5Pclose, path,
+                           "cannot write " + name);
+  H5Pset_obj_track_times(timeless, false);  // the same contents are the same bytes
+  return H5Dcreate2(file, name.c_str(), type, space, links, timeless, H5P_DEFAULT);
 }
 
 void write_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space, const void* data) {
