@@ -36,8 +36,8 @@ class Identities {
 
  private:
   using Monomial = std::map<std::size_t, int>;  // powers of numbered bases
-  /// By degree, then reverse lexicographically, the largest first: an order that products keep, so that a division replaces a
-  /// monomial by smaller ones only. (Lexicographically, coefficients grow: 44 s for 60 random robots in place of 12.)
+  /// By degree, then reverse lexicographically, the largest first: an order that products keep, so that a division replaces
+  /// a monomial by smaller ones only. (Lexicographically, coefficients grow: 44 s for 60 random robots in place of 12.)
   struct Before {
     bool operator()(const Monomial& a, const Monomial& b) const;
   };
