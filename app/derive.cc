@@ -125,12 +125,12 @@ ExitStatus derive(const CLI::App& sub, DeriveCommand command) {
   command.json.check();
   if (command.format == "model" && !command.json.given())
     refuse_without_effect(sub, {"--set", "--kernel", "--corank"}, "another --format: the model is the same for all sets");
-  if (command.json.given() && command.json.path().empty() && command.path.empty())
+  const bool text_is_asked = !command.json.takes_standard_output() || !command.path.empty();
+  if (!text_is_asked)
     refuse_without_effect(sub, {"--format"}, "--json PATH or -o FILE: standard output holds only the JSON");
   check_path(command.path, command.question.file);
   WholeRun run(command.time_limit);
   const Derived d = derived(command, run);
-  const bool text_is_asked = !command.json.given() || !command.json.path().empty() || !command.path.empty();
   const std::string json = command.json.given() ? json_of(d) : "", text = text_is_asked ? text_of(d, command.format) : "";
   run.enter("writing the equations");
   command.json.say([&json] { return json; });

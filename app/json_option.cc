@@ -26,13 +26,11 @@ void JsonOption::check() const {
 }
 
 bool JsonOption::say(const std::function<std::string()>& text) const {
-  if (!given()) return true;
-  if (path().empty()) {
+  if (takes_standard_output())
     fmt::print("{}\n", text());
-    return false;
-  }
-  result::write_text(path(), text() + "\n");
-  return true;
+  else if (given())
+    result::write_text(path(), text() + "\n");
+  return !takes_standard_output();
 }
 
 }  // namespace corank::app

@@ -14,6 +14,8 @@ class JsonOption {
   void add(CLI::App& sub, const std::string& what = "the result", const std::string& table = "the table");
 
   bool given() const { return option_ && option_->count() > 0; }
+  /// Standard output holds the JSON, and nothing else.
+  bool takes_standard_output() const { return given() && path().empty(); }
   /// Of the file, "" for standard output. Requires that it is given.
   std::string path() const { return path_.value_or(""); }
 

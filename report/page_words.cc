@@ -50,12 +50,6 @@ std::size_t count_points(const Cover& cover, Verdict verdict) {
       std::count_if(cover.points.begin(), cover.points.end(), [=](const CoverBox& p) { return p.verdict == verdict; }));
 }
 
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return html;
-}
-
 /// Sets of larger dimension than expected, proven or not.
 void say_larger_sets(const result::Result& result, SetWords& words) {
   const Cover& cover = result.cover;
@@ -67,7 +61,7 @@ void say_larger_sets(const result::Result& result, SetWords& words) {
     const std::string sentence = motion_sentence(result, k);
     const std::size_t colon = sentence.find(':');
     words.proven.push_back(fmt::format("In {} there is a set of larger dimension than expected, {}.", boxes_text(boxes),
-                                       escaped(sentence.substr(0, colon) + with_minus(sentence.substr(colon)))));
+                                       symbolic::html_text(sentence.substr(0, colon) + with_minus(sentence.substr(colon)))));
   }
   const std::size_t along =
       count([](const auto& b) { return b.verdict == Verdict::undecided && b.reason == Reason::degenerate_set; });

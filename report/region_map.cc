@@ -8,6 +8,7 @@
 
 #include "corank/report/layout.h"
 #include "corank/report/polygon_union.h"
+#include "corank/symbolic/display_name.h"
 
 namespace corank::report {
 namespace {
@@ -18,17 +19,11 @@ constexpr const char* kRest = "#e4e6e8";
 constexpr std::array kColors{"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00",
                              "#7f5fb8", "#9aa61c", "#8c564b", "#17909e", "#b03060", "#4d6f39"};
 
-std::string text_content(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return result;
-}
-
 std::string runs(const Label& label) {
   std::string result;
   for (const TextRun& run : label)
     result += fmt::format("<tspan{}{}>{}</tspan>", run.italic ? " font-style=\"italic\"" : "",
-                          run.subscript ? " font-size=\"72%\" baseline-shift=\"sub\"" : "", text_content(run.text));
+                          run.subscript ? " font-size=\"72%\" baseline-shift=\"sub\"" : "", symbolic::html_text(run.text));
   return result;
 }
 
@@ -140,7 +135,7 @@ class Block {
     const double left = kMapLeft + column * (kPanel + kGap), top = top_ + row * (height_ + kMapTop);
     const char* color = region_color(k);
     std::string out = fmt::format("<g transform=\"translate({:.1f},{:.1f})\">\n", left, top);
-    out += text(0, -6, "start", text_content(map_.labels[k]), fmt::format(" font-size=\"11\" fill=\"{}\"", color));
+    out += text(0, -6, "start", symbolic::html_text(map_.labels[k]), fmt::format(" font-size=\"11\" fill=\"{}\"", color));
     out += fmt::format(
         "<g clip-path=\"url(#panel{0})\"><g transform=\"scale({4:g})\" stroke-width=\"{5:g}\" fill-rule=\"evenodd\">"
         "<use href=\"#rest{0}\"/><g fill=\"{3}\" stroke=\"{3}\"><path class=\"region\" id=\"region{0}-{1}\" "
@@ -150,11 +145,11 @@ class Block {
                        kPanel, height_);
     for (const Tick& t : ticks(x_.lo(), x_.hi(), plane_.x_angle, 4)) {
       out += fmt::format("<path d=\"M{0:.1f} {1:.1f}v3\" stroke=\"#333\" stroke-width=\"0.6\"/>\n", x_at(t.at), height_);
-      out += text(x_at(t.at), height_ + 13, "middle", text_content(t.text));
+      out += text(x_at(t.at), height_ + 13, "middle", symbolic::html_text(t.text));
     }
     for (const Tick& t : ticks(y_.lo(), y_.hi(), plane_.y_angle, 4)) {
       out += fmt::format("<path d=\"M0 {:.1f}h-3\" stroke=\"#333\" stroke-width=\"0.6\"/>\n", y_at(t.at));
-      if (column == 0) out += text(-5, y_at(t.at) + 3, "end", text_content(t.text));
+      if (column == 0) out += text(-5, y_at(t.at) + 3, "end", symbolic::html_text(t.text));
     }
     return out + "</g>\n";
   }
@@ -185,7 +180,7 @@ std::string to_svg(const RegionMap& map) {
       "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{2}\">\n<title>{3}</title>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"{4}\" y=\"22\" "
       "font-size=\"14\">{3}</text>\n{5}</svg>\n",
-      width, height, kMapText, text_content(map.title), kMapLeft, body);
+      width, height, kMapText, symbolic::html_text(map.title), kMapLeft, body);
 }
 
 }  // namespace corank::report
