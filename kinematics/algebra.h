@@ -64,6 +64,7 @@ class Algebra {
 
   /// Expanded, like terms collected, terms that are worth 0 left out; cos² + sin² is 1 where that makes it shorter.
   ex clean(const ex& e) const;
+  Vec clean(const Vec& v) const { return {clean(v[0]), clean(v[1]), clean(v[2])}; }
   /// A constant, under a name of its own where it is no short expression, so that what is made of it stays short.
   ex named(const ex& constant);
   Vec named(const Vec& v) { return {named(v[0]), named(v[1]), named(v[2])}; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corank/kinematics/legs.h"
 #include "corank/kinematics/parallelograms.h"
 #include "corank/kinematics/planar.h"
 #include "corank/kinematics/spatial.h"
@@ -24,7 +25,8 @@ int freedom(JointKind kind) {
     case JointKind::universal: return 2;
     case JointKind::spherical:
     case JointKind::planar: return 3;
-    case JointKind::distance: return 5;
+    case JointKind::distance:
+    case JointKind::universal_rod: return 5;
     case JointKind::distance_variable: return 6;
     case JointKind::fixed: return 0;
   }
@@ -38,23 +40,6 @@ int count_mobility(const Bodies& bodies, Space space) {
     mobility -= is_rod(j.kind) ? 6 - freedom(j.kind) : std::max(0, full - freedom(j.kind));
   }
   return mobility;
-}
-
-/// What decided how the equations are made, with what the reader of the parts decided of axes.
-std::vector<symbolic::Condition> conditions(const Robot& robot, const Bodies& bodies, const Algebra& algebra) {
-  for (const BodyJoint& j : bodies.joints) {
-    const Joint& joint = robot.joints[j.index];
-    if (!keeps_orientation(joint.kind)) continue;
-    const Vec a = algebra.vector(joint.ends[0].axis, joint.where), b = algebra.vector(joint.ends[1].axis, joint.where);
-    for (const ex& across : cross(a, b)) static_cast<void>(algebra.sign(across.expand()));
-    static_cast<void>(algebra.sign(dot(a, b).expand()));
-  }
-  std::vector<ex> values;
-  const std::vector<std::pair<ex, int>> decisions = algebra.decisions();
-  for (const auto& [value, sign] : decisions) values.push_back(value);
-  std::vector<symbolic::Condition> list;
-  for (const Expression& value : algebra.translated(values)) list.push_back({value, decisions[list.size()].second});
-  return list;
 }
 
 /// How a robot's loops are written.
@@ -91,7 +76,7 @@ Assembly draft(const Robot& robot, Way way) {
   }
   Assembly assembly = draft.assembly();
   assembly.space = space;
-  assembly.conditions = conditions(robot, bodies, algebra);
+  assembly.conditions = conditions_of(robot, bodies, algebra);
   assembly.mobility_by_joints = count_mobility(bodies, space) - static_cast<int>(robot.couplings.size());
   assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())
@@ -138,6 +123,17 @@ Assembly as_asked(const Robot& robot) {
   return best;
 }
 
+/// Of a robot with fewer freedoms than a pose has, its position is asked for, in the orientation that is kept.
+Assembly in_positions_or_poses(const Robot& robot) {
+  Assembly whole = as_asked(robot);
+  if (output_rates(whole.mechanism) <= whole.mobility) return whole;
+  Robot in_positions = robot;
+  for (Output& output : in_positions.outputs)
+    if (output.kind == Output::Kind::pose && output.kept) output.kind = Output::Kind::position;
+  Assembly positions = as_asked(in_positions);
+  return output_rates(positions.mechanism) <= positions.mobility ? std::move(positions) : std::move(whole);
+}
+
 }  // namespace
 
 const char* to_string(Space space) {
@@ -159,14 +155,11 @@ Assembly assemble(const Robot& robot) {
   }
   robot.validate();
   const symbolic::GinacLock lock;
-  Assembly whole = as_asked(robot);
-  // Of a robot with fewer freedoms than a pose has, its position is asked for, in the orientation that is kept.
-  Robot in_positions = robot;
-  for (Output& output : in_positions.outputs)
-    if (output.kind == Output::Kind::pose && output.kept) output.kind = Output::Kind::position;
-  if (output_rates(whole.mechanism) <= whole.mobility) return whole;
-  Assembly positions = as_asked(in_positions);
-  return output_rates(positions.mechanism) <= positions.mobility ? std::move(positions) : std::move(whole);
+  const LegsInOnePiece legs = legs_in_one_piece(robot);
+  Assembly assembly = in_positions_or_poses(legs.robot);
+  assembly.links = robot.links.size();
+  assembly.conditions.insert(assembly.conditions.end(), legs.conditions.begin(), legs.conditions.end());
+  return assembly;
 }
 
 }  // namespace corank::kinematics

@@ -269,4 +269,20 @@ Bodies bodies_of(const Robot& robot, Algebra& algebra) {
   return Builder(robot, algebra, std::move(kept)).run();
 }
 
+std::vector<symbolic::Condition> conditions_of(const Robot& robot, const Bodies& bodies, const Algebra& algebra) {
+  for (const BodyJoint& j : bodies.joints) {
+    const Joint& joint = robot.joints[j.index];
+    if (!keeps_orientation(joint.kind)) continue;
+    const Vec a = algebra.vector(joint.ends[0].axis, joint.where), b = algebra.vector(joint.ends[1].axis, joint.where);
+    for (const ex& across : cross(a, b)) static_cast<void>(algebra.sign(across.expand()));
+    static_cast<void>(algebra.sign(dot(a, b).expand()));
+  }
+  std::vector<ex> values;
+  const std::vector<std::pair<ex, int>> decisions = algebra.decisions();
+  for (const auto& [value, sign] : decisions) values.push_back(value);
+  std::vector<symbolic::Condition> list;
+  for (const Expression& value : algebra.translated(values)) list.push_back({value, decisions[list.size()].second});
+  return list;
+}
+
 }  // namespace corank::kinematics

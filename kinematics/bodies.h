@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corank/kinematics/algebra.h"
+#include "corank/symbolic/parameters.h"
 
 namespace corank::kinematics {
 
@@ -46,5 +47,8 @@ struct Bodies {
 /// for two orientations, or joints keep a rod's ends at another distance than its length; where the robot keeps
 /// parallelograms and has no such loop.
 Bodies bodies_of(const Robot& robot, Algebra& algebra);
+
+/// What decided so far how the equations are made: what the algebra did, and what the reader of the parts did of axes.
+std::vector<symbolic::Condition> conditions_of(const Robot& robot, const Bodies& bodies, const Algebra& algebra);
 
 }  // namespace corank::kinematics

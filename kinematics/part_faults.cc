@@ -12,10 +12,11 @@ using symbolic::in_quotes;
 const char* const kColours = "red, green, blue, purple, cyan, yellow, white, black, grey or color (r, g, b)";
 const std::vector<std::string> kColourWords{"red",    "green", "blue",  "purple", "cyan",
                                             "yellow", "white", "black", "grey",   "color"};
-const std::vector<std::string> kKinds{"revolute",      "prismatic", "cylindrical", "universal",   "spherical", "planar",
-                                      "parallelogram", "fix",       "sph_sph",     "sph_prs_sph", "gear"};
+const std::vector<std::string> kKinds{"revolute",      "prismatic", "cylindrical", "universal",   "spherical",   "planar",
+                                      "parallelogram", "fix",       "sph_sph",     "sph_prs_sph", "uni_prs_uni", "gear"};
 const char* const kKindList =
-    "revolute, prismatic, cylindrical, universal, spherical, planar, parallelogram, fix, sph_sph, sph_prs_sph or gear";
+    "revolute, prismatic, cylindrical, universal, spherical, planar, parallelogram, fix, sph_sph, sph_prs_sph, uni_prs_uni "
+    "or gear";
 const std::vector<std::string> kOptions{"range",  "limits",   "reference", "zero",        "length", "radius",
                                         "avoid",  "actuated", "velocity",  "torque",      "force",  "effort",
                                         "hidden", "damping",  "friction",  "granularity", "mimic"};

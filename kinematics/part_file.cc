@@ -194,9 +194,9 @@ CORANK_ACTION(fixed_kind, { begin_joint(in, b); })
 CORANK_ACTION(gear_kind, { begin_joint(in, b); })
 CORANK_ACTION(connector_kind, { begin_joint(in, b); })
 CORANK_ACTION(refused_kind, {
-  throw ModelError(
-      place(in, b), "joints of the kind " + in_quotes(small_letters(in.string_view())) + " are not supported",
-      "revolute, prismatic, cylindrical, universal, spherical, planar, parallelogram, fix, sph_sph or sph_prs_sph");
+  throw ModelError(place(in, b), "joints of the kind " + in_quotes(small_letters(in.string_view())) + " are not supported",
+                   "revolute, prismatic, cylindrical, universal, spherical, planar, parallelogram, fix, sph_sph, "
+                   "sph_prs_sph or uni_prs_uni");
 })
 CORANK_ACTION(joint_name, {
   b.draft.name = in.string();

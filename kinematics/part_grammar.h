@@ -218,7 +218,7 @@ struct links_section : seq<links_header, star<gap, not_at<section_or_end>, link>
 
 // [JOINTS]
 struct axis_kind : words<any_case<"revolute">, any_case<"crevolute">, any_case<"prismatic">, any_case<"universal">,
-                         any_case<"cylindrical">, any_case<"planar">, any_case<"parallelogram">> {};
+                         any_case<"cylindrical">, any_case<"planar">, any_case<"parallelogram">, any_case<"uni_prs_uni">> {};
 struct gear_kind : words<any_case<"gear">> {};
 struct point_kind : words<any_case<"spherical">, any_case<"sph_prs_sph">, any_case<"sph_sph">> {};
 struct fixed_kind : words<any_case<"fix">> {};

@@ -12,9 +12,9 @@ using symbolic::ModelError;
 namespace {
 
 JointKind kind_of(const std::string& word) {
-  for (const JointKind kind :
-       {JointKind::revolute, JointKind::prismatic, JointKind::cylindrical, JointKind::universal, JointKind::spherical,
-        JointKind::planar, JointKind::parallelogram, JointKind::fixed, JointKind::distance, JointKind::distance_variable}) {
+  for (const JointKind kind : {JointKind::revolute, JointKind::prismatic, JointKind::cylindrical, JointKind::universal,
+                               JointKind::spherical, JointKind::planar, JointKind::parallelogram, JointKind::fixed,
+                               JointKind::distance, JointKind::distance_variable, JointKind::universal_rod}) {
     if (word == to_string(kind)) return kind;
   }
   return word == "crevolute" ? JointKind::revolute : JointKind::fixed;
@@ -118,7 +118,8 @@ void PartBuilder::set_ranges(Joint& joint) {
     case JointKind::revolute: require_brackets(0, 1, "at most one, range [lower, upper]"); break;
     case JointKind::prismatic:
     case JointKind::parallelogram:
-    case JointKind::distance_variable: require_brackets(0, 1, "at most one, range [lower, upper]"); break;
+    case JointKind::distance_variable:
+    case JointKind::universal_rod: require_brackets(0, 1, "at most one, range [lower, upper]"); break;
     case JointKind::cylindrical: require_brackets(0, 2, "range [of the angle] [of the way]"); break;
     case JointKind::universal:
       if (!draft.brackets.empty()) require_brackets(2, 2, "range [lower, upper] R [lower, upper] R, one for each angle");
@@ -213,7 +214,7 @@ void PartBuilder::finish_joint() {
     joint.length = *draft.length;
   } else if (draft.length) {
     throw ModelError(draft.where, draft.described() + " has a length",
-                     "none: only sph_sph and parallelogram have one, and sph_prs_sph a range of lengths");
+                     "none: only sph_sph and parallelogram have one, sph_prs_sph and uni_prs_uni a range of lengths");
   }
   if (draft.kind == "crevolute") couple(joint);
   if (!draft.driver.empty()) {

@@ -242,6 +242,7 @@ class Portrayal {
       case JointKind::parallelogram:
       case JointKind::distance:
       case JointKind::distance_variable:
+      case JointKind::universal_rod:
         draft_.part(Part::link, {at, far});
         for (const BodyEnd& end : j.ends)
           draft_.part(end.body == 0 ? Part::ground : Part::joint, {corner(end.body, local(end))});

@@ -25,6 +25,7 @@ const char* to_string(JointKind kind) {
     case JointKind::fixed: return "fix";
     case JointKind::distance: return "sph_sph";
     case JointKind::distance_variable: return "sph_prs_sph";
+    case JointKind::universal_rod: return "uni_prs_uni";
   }
   return "?";
 }

@@ -43,26 +43,31 @@ struct Link {
 };
 
 enum class JointKind {
-  revolute,          ///< points coincide, axes coincide; turns about the axis
-  prismatic,         ///< axes coincide, orientation kept; slides along the axis
-  cylindrical,       ///< axes coincide; turns and slides
-  universal,         ///< points coincide, the ends' axes stay perpendicular
-  spherical,         ///< points coincide
-  planar,            ///< normals coincide and the points stay in one plane: turns about the normal, slides in the plane
-  parallelogram,     ///< orientation kept; the second point goes round the first on a circle about the axis
-  fixed,             ///< the second link's frame has a constant pose in the first's
-  distance,          ///< spherical–spherical: a rod of constant length between the points
-  distance_variable  ///< spherical–prismatic–spherical: a rod of variable length
+  revolute,           ///< points coincide, axes coincide; turns about the axis
+  prismatic,          ///< axes coincide, orientation kept; slides along the axis
+  cylindrical,        ///< axes coincide; turns and slides
+  universal,          ///< points coincide, the ends' axes stay perpendicular
+  spherical,          ///< points coincide
+  planar,             ///< normals coincide and the points stay in one plane: turns about the normal, slides in the plane
+  parallelogram,      ///< orientation kept; the second point goes round the first on a circle about the axis
+  fixed,              ///< the second link's frame has a constant pose in the first's
+  distance,           ///< spherical–spherical: a rod of constant length between the points
+  distance_variable,  ///< spherical–prismatic–spherical: a rod of variable length
+  universal_rod  ///< universal–prismatic–universal, inner axes parallel: such a rod in one plane with the ends' axes
 };
 
+/// A rod whose length is a coordinate.
+inline bool is_extensible(JointKind kind) {
+  return kind == JointKind::distance_variable || kind == JointKind::universal_rod;
+}
 /// A rod between two points.
-inline bool is_rod(JointKind kind) { return kind == JointKind::distance || kind == JointKind::distance_variable; }
+inline bool is_rod(JointKind kind) { return kind == JointKind::distance || is_extensible(kind); }
 /// Do the frames of a moving joint's two links stay as they are turned to each other?
 inline bool keeps_orientation(JointKind kind) { return kind == JointKind::prismatic || kind == JointKind::parallelogram; }
 /// Is the joint's one coordinate an angle, or a way along its axis, that other joints may follow?
 inline bool may_be_coupled(JointKind kind) { return kind == JointKind::revolute || keeps_orientation(kind); }
 
-const char* to_string(JointKind kind);  ///< "revolute" …, "sph_sph", "sph_prs_sph"
+const char* to_string(JointKind kind);  ///< "revolute" …, "sph_sph", "sph_prs_sph", "uni_prs_uni"
 
 /// Of a joint on one of its two links.
 struct JointEnd {
@@ -86,7 +91,7 @@ struct Joint {
   /// end 0's axis that turns end 0's zero to end 1's axis, then of the angle about end 1's axis that turns end 0's axis to
   /// end 1's zero; prismatic: of the way of end 1's point from end 0's along the axis; cylindrical: of the
   /// angle, then of the way; parallelogram: of the angle of the way from end 0's point to end 1's, from end 0's zero;
-  /// spherical: of the angle between the ends' axes (a cone), as [0, half angle]; distance_variable: of the length.
+  /// spherical: of the angle between the ends' axes (a cone), as [0, half angle]; extensible rods: of the length.
   std::vector<std::optional<Range>> ranges;
   Pose pose;          ///< fixed: end 1's link in end 0's
   Expression length;  ///< distance, and the circle's radius of a parallelogram

@@ -20,7 +20,8 @@ std::size_t most_ranges(JointKind kind) {
     case JointKind::prismatic:
     case JointKind::parallelogram:
     case JointKind::spherical:
-    case JointKind::distance_variable: return 1;
+    case JointKind::distance_variable:
+    case JointKind::universal_rod: return 1;
     case JointKind::cylindrical:
     case JointKind::universal: return 2;
     default: return 0;
@@ -34,7 +35,8 @@ bool has_axis(const Joint& joint) {
     case JointKind::cylindrical:
     case JointKind::universal:
     case JointKind::parallelogram:
-    case JointKind::planar: return true;
+    case JointKind::planar:
+    case JointKind::universal_rod: return true;
     case JointKind::spherical: return !joint.ranges.empty() && joint.ranges[0];  // of the cone
     default: return false;
   }
@@ -93,9 +95,9 @@ class RobotValidator {
     const bool cannot_be_driven = joint.kind == JointKind::fixed || joint.kind == JointKind::distance ||
                                   joint.kind == JointKind::spherical || joint.kind == JointKind::planar;
     if (joint.actuated && cannot_be_driven) {
-      throw ModelError(
-          where, what + " cannot be actuated: it has no angle or displacement of its own",
-          "an actuated joint of the kind revolute, prismatic, parallelogram, cylindrical, universal or sph_prs_sph");
+      throw ModelError(where, what + " cannot be actuated: it has no angle or displacement of its own",
+                       "an actuated joint of the kind revolute, prismatic, parallelogram, cylindrical, universal, "
+                       "sph_prs_sph or uni_prs_uni");
     }
   }
 
@@ -153,7 +155,7 @@ class RobotValidator {
       const Joint& joint = robot_.joints[output.joint];
       if (most_ranges(joint.kind) == 0 || joint.kind == JointKind::spherical) {
         throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or displacement of its own",
-                         "a revolute, prismatic, parallelogram, cylindrical, universal or sph_prs_sph joint");
+                         "a revolute, prismatic, parallelogram, cylindrical, universal, sph_prs_sph or uni_prs_uni joint");
       }
       if (joint.actuated) {
         throw ModelError(where, what + " is of " + described(joint) + ", which is actuated: its coordinate is an input",
@@ -290,7 +292,7 @@ class RobotValidator {
       if (!range) continue;
       const std::string of = "the range of " + what;
       check_range(*range, of, where);
-      const bool is_size = joint.kind == JointKind::spherical || joint.kind == JointKind::distance_variable;
+      const bool is_size = joint.kind == JointKind::spherical || is_extensible(joint.kind);
       if (is_size && scope_.sign(range->lower, of, where) == -1) {
         throw ModelError(where, of + " begins with " + in_quotes(range->lower.text()) + ", which is negative",
                          joint.kind == JointKind::spherical ? "[half angle]" : "the range of a length");

@@ -151,7 +151,9 @@ class SpatialRobot {
     const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
     Vec at = place(parent);
     if (is_rod(j.kind)) {
-      at = at + hang(j, edge, child.body);
+      const Vec p = hang(j, edge, child.body);
+      keep_in_plane(j, p);
+      at = at + p;
     } else {
       at = edge.from == 0 ? at + way(j) : at - way(j);
     }
@@ -217,8 +219,16 @@ class SpatialRobot {
     return hung.square + dot(b, b) + dot(a, a) + 2 * along - 2 * dot(hung.p, a) - 2 * dot(a, frames_.image(g, b));
   }
 
+  /// The axes at a leg's universal joints and the leg, along p, are perpendicular to its inner axes: det(a, p, b) = 0.
+  void keep_in_plane(const BodyJoint& j, const Vec& p) {
+    if (j.kind != JointKind::universal_rod) return;
+    const auto axis = [&](std::size_t end) { return frames_.image(group(j.ends[end].body), j.ends[end].axis); };
+    draft_.equation(dot(p, cross(axis(1), axis(0))), "universal joints", joint(j).where, "the leg '" + joint(j).name + "'");
+  }
+
   void close_rod(const BodyJoint& j) {
     const Joint& of = joint(j);
+    keep_in_plane(j, cleaned(algebra_, place(j.ends[1]) - place(j.ends[0])));
     const ex length = length_of(j);
     for (Hung& hung : hung_) {
       const BodyJoint& first = bodies_.joints[hung.joint];

@@ -260,8 +260,15 @@ void Twists::close(const BodyJoint& j) {
     const Vec p0 = place(j.ends[0]), p1 = place(j.ends[1]);
     const Vec way = cleaned(p1 - p0);
     ex work = dot(way, velocity(b1, p1) - velocity(b0, p0));
-    if (j.kind == JointKind::distance_variable) work -= *positions_.coordinate[j.index] * linear(j);
+    if (is_extensible(j.kind)) work -= *positions_.coordinate[j.index] * linear(j);
     row(work, of);
+    if (j.kind == JointKind::universal_rod) {
+      // det(a, p, b) = 0 along a motion, where a turns with one body, b with the other, and p goes from one to the other.
+      const Vec a = axis(j, 0), b = axis(j, 1);
+      row(dot(cross(b, a), velocity(b1, p1) - velocity(b0, p0)) + dot(cross(a, cross(way, b)), turning(b0)) +
+              dot(cross(b, cross(a, way)), turning(b1)),
+          of);
+    }
     return;
   }
   const Vec c = place(j.ends[0]);

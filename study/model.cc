@@ -105,7 +105,7 @@ Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOver
 
 std::string describe(const kinematics::Assembly& assembly) {
   std::string text =
-      fmt::format("{}, {} links, mobility {}", to_string(assembly.space), assembly.poses.size(), assembly.mobility);
+      fmt::format("{}, {} links, mobility {}", to_string(assembly.space), assembly.links, assembly.mobility);
   if (assembly.mobility_by_joints != assembly.mobility)
     text += fmt::format(" ({} by its joints only)", assembly.mobility_by_joints);
   return text;

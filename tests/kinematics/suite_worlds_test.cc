@@ -106,6 +106,7 @@ int mobility(const Robot& robot) {
       case JointKind::spherical:
       case JointKind::planar: result -= 3; break;
       case JointKind::fixed: result -= 6; break;
+      case JointKind::universal_rod:
       case JointKind::distance: result -= 1; break;
       case JointKind::distance_variable: break;
     }

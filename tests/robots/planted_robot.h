@@ -179,10 +179,11 @@ class Planted {
     using enum JointKind;
     static constexpr JointKind kFlat[] = {revolute,  revolute, revolute, revolute,          prismatic,
                                           prismatic, fixed,    distance, distance_variable, parallelogram};
-    static constexpr JointKind kInSpace[] = {revolute,  revolute,  revolute,  prismatic, cylindrical,       universal,
-                                             spherical, spherical, planar,    fixed,     distance,          distance,
-                                             revolute,  revolute,  prismatic, fixed,     distance_variable, parallelogram};
-    return flat ? kFlat[number(0, 9)] : kInSpace[number(0, 17)];
+    static constexpr JointKind kInSpace[] = {revolute,  revolute,          revolute,      prismatic,    cylindrical,
+                                             universal, spherical,         spherical,     planar,       fixed,
+                                             distance,  distance,          revolute,      revolute,     prismatic,
+                                             fixed,     distance_variable, parallelogram, universal_rod};
+    return flat ? kFlat[number(0, 9)] : kInSpace[number(0, 18)];
   }
   /// A joint of this kind between two links where they are, or of one that does not keep their frames parallel where they
   /// are not.
@@ -239,6 +240,14 @@ class Planted {
                                         Rational(static_cast<int>(200 * length) + 1, 100).exact()}};
           j.actuated = sometimes();
         }
+        break;
+      }
+      case JointKind::universal_rod: {
+        // The axes in a plane with the rod.
+        const Point far = at + way * across;
+        j.ends = {end(from, at, third + across, {}), end(to, far, third - Rational(number(0, 3)) * across, {})};
+        j.ranges = {kinematics::Range{"1/100", 20}};
+        j.actuated = sometimes();
         break;
       }
       case JointKind::spherical: j.ends = {end(from, at, {}, {}), end(to, at, {}, {})}; break;

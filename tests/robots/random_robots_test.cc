@@ -120,6 +120,9 @@ double misfit(const Joint& joint, const std::vector<NumericPose>& poses) {
     }
     case JointKind::distance: return std::fabs(gap.norm() - symbolic::evaluate(joint.length, {}));
     case JointKind::distance_variable: return outside(gap.norm(), range());
+    case JointKind::universal_rod:
+      return outside(gap.norm(), range()) +
+             std::fabs(gap.dot(direction(1, joint.ends[1].axis).cross(direction(0, joint.ends[0].axis))));
   }
   return 1;
 }
