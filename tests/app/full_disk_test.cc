@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
         Words{"clearance", model("dextar"), "--map", "J3x=[0,1],J3y=[0.5,1]", "--grid", "3", "-o", "@m.svg"},
         Words{"clearance", model("dextar"), "--map", "J3x=[0,1],J3y=[0.5,1]", "--grid", "3", "-o", "@m.csv"},
         Words{"topology", model("three_slider"), "-o", "@t.h5"}, Words{"aspects", model("three_slider"), "-o", "@a.h5"},
-        Words{"aspects", model("dextar"), "-o", "@a.svg"},
+        Words{"aspects", model("planar/arm_2r_limits"), "-o", "@a.svg"},
         Words{"path", model("dextar"), "--from", "J3x=0.5,J3y=1", "--from-mode", "1", "--to", "J3x=0.7,J3y=1", "--to-mode",
               "1", "-o", "@p.h5", "--csv", "@p.csv", "--report", "@p.html"},
         Words{"map", model("dextar"), "--over", "J3x=0:1", "--over", "J3y=0.5:1", "--resolution", "16", "-o", "@m.h5", "-o",
