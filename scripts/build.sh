@@ -24,7 +24,8 @@ show_progress() { # what is built
   [[ ! -t 1 ]] || printf '\r\033[K'
 }
 
-# build_release "GROUP…" TARGET…: the groups are those of packages.txt; "" means all.
+# build_release "GROUP…" TARGET…: the groups are those of packages.txt; "" means all. The groups of the variable `meanwhile`, which no build
+# asks for, are installed while the compiler works.
 build_release() {
   local groups
   read -ra groups <<<"$1"
@@ -38,9 +39,21 @@ build_release() {
   local log
   log=$(mktemp)
   (cd "$root" && cmake --preset release >"$log" 2>&1) || { cat "$log" >&2; rm -f "$log"; exit 1; }
-  rm -f "$log"
+  local installing=
+  if [[ -n ${meanwhile:-} ]]; then
+    local later
+    read -ra later <<<"$meanwhile"
+    "$root/scripts/install_packages.sh" "${later[@]}" >"$log" 2>&1 &
+    installing=$!
+    trap wait EXIT  # an installation is never cut off
+  fi
   echo "== Building $* (minutes the first time, seconds after that)"
   local begin=$SECONDS
   NINJA_STATUS='@%p@ ' cmake --build "$build" --target "$@" 2>&1 | show_progress "$*"
   echo "== Built $* in $((SECONDS - begin)) s"
+  if [[ -n $installing ]]; then
+    wait "$installing" || { cat "$log" >&2; rm -f "$log"; exit 1; }
+    cat "$log"
+  fi
+  rm -f "$log"
 }

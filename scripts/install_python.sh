@@ -18,7 +18,7 @@ case "${1:-}" in
 esac
 [[ $# -le 1 ]] || usage
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
-build_release "program options python" corank_python
+build_release "program options python pythonoptions" corank_python
 place=$("$python" -c "$path")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
