@@ -45,6 +45,6 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 quietly() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }; }
 # Lists of the last hour are new enough.
-[[ -n $(find /var/lib/apt/lists -maxdepth 1 -name '*_Packages*' -cmin -60 2>/dev/null) ]] || quietly apt-get update -q
+[[ -n $(find /var/lib/apt/lists -maxdepth 1 -name '*InRelease' -cmin -60 2>/dev/null) ]] || quietly apt-get update -q
 quietly apt-get install -q -y --no-install-recommends "${missing[@]}"
 echo "== Installed in $SECONDS s"

@@ -85,10 +85,10 @@ Words in_folder(Words args, const TemporaryFolder& folder) {
   return args;
 }
 
-// 1, 3, 9, … and as many before the end.
+// 1, 4, 16, … and as many before the end.
 std::set<long> moments(long questions) {
   std::set<long> all;
-  for (long k = 1; k <= questions; k *= 3) all.insert({k, questions + 1 - k});
+  for (long k = 1; k <= questions; k *= 4) all.insert({k, questions + 1 - k});
   return all;
 }
 

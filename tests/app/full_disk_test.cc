@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <map>
@@ -56,9 +57,16 @@ TEST_P(FullDisk, IsSaidAndLeavesNoBrokenFile) {
     words.insert(words.end(), more.begin(), more.end());
     return run_corank(words).status;
   };
-  ASSERT_EQ(solved(result, {}), 0);
-  ASSERT_EQ(solved(boxes, {}), 0);
-  ASSERT_EQ(solved(kept, {"--keep-sheets"}), 0);
+  const auto is_asked_for = [](const char* word) { return std::ranges::count(GetParam(), word) > 0; };
+  if (is_asked_for("RESULT")) {
+    ASSERT_EQ(solved(result, {}), 0);
+  }
+  if (is_asked_for("BOXES")) {
+    ASSERT_EQ(solved(boxes, {}), 0);
+  }
+  if (is_asked_for("KEPT")) {
+    ASSERT_EQ(solved(kept, {"--keep-sheets"}), 0);
+  }
   const auto command = [&](const TemporaryFolder& folder) {
     Words words = placed(GetParam(), folder);
     for (std::string& word : words)

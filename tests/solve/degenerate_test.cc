@@ -210,7 +210,7 @@ TEST(Degenerate, WhitneysUmbrellaIsProvenAwayFromItsHandle) {
   SystemBuilder b;
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1"), z = b.variable("z", "-1", "1");
   b.equation({{"1", {{x, 2}}}, {"-1", {{y, 2}, {z, 1}}}});
-  const Cover cover = solve_with(b.system(), 0.1);
+  const Cover cover = solve_with(b.system(), 0.2);
   EXPECT_TRUE(cover.complete());
   const test::CoverLookup lookup(cover);
   for (int i = -20; i <= 20; ++i)

@@ -10,16 +10,13 @@
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/tests/symbolic/evaluate.h"
+#include "corank/tests/symbolic/reference.h"
 
 namespace corank::symbolic {
 namespace {
 using ::testing::HasSubstr;
 
 constexpr unsigned kPrinterSeed = 161803;
-
-Mechanism reference(const std::string& name) {
-  return read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik");
-}
 
 void expect_round_trip(const System& system) {
   const std::string text = to_cuik(system);

@@ -9,6 +9,7 @@
 
 #include "corank/symbolic/model_file.h"
 #include "corank/tests/symbolic/evaluate.h"
+#include "corank/tests/symbolic/reference.h"
 
 namespace corank::symbolic {
 namespace {
@@ -18,10 +19,6 @@ using ::testing::HasSubstr;
 
 constexpr unsigned kVelocitySeed = 271828;
 using Rows = std::vector<std::vector<std::string>>;
-
-Mechanism reference(const std::string& name) {
-  return read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik");
-}
 
 Rows texts(const ExpressionMatrix& matrix) {
   Rows rows;
