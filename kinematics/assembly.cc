@@ -157,6 +157,8 @@ Assembly assemble(const Robot& robot) {
   const symbolic::GinacLock lock;
   const LegsInOnePiece legs = legs_in_one_piece(robot);
   Assembly assembly = in_positions_or_poses(legs.robot);
+  assembly.has_universal_rods =
+      std::ranges::any_of(legs.robot.joints, [](const Joint& joint) { return joint.kind == JointKind::universal_rod; });
   assembly.links = robot.links.size();
   assembly.conditions.insert(assembly.conditions.end(), legs.conditions.begin(), legs.conditions.end());
   return assembly;

@@ -46,6 +46,7 @@ struct Assembly {
     bool is_rhombus = false;         ///< 0: a parallelogram, pi: crosswise; of a rhombus pi/2 and pi
   };
   std::vector<WrittenParallelogram> parallelograms;
+  bool has_universal_rods = false;       ///< of one equation and a length each (legs.h)
   std::size_t links = 0;                 ///< of the robot
   std::vector<LinkPose> poses;           ///< of every link, except those of legs in one piece (legs.h)
   std::vector<JointValue> joint_values;  ///< of every joint that has one value

@@ -104,8 +104,7 @@ Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOver
 }  // namespace
 
 std::string describe(const kinematics::Assembly& assembly) {
-  std::string text =
-      fmt::format("{}, {} links, mobility {}", to_string(assembly.space), assembly.links, assembly.mobility);
+  std::string text = fmt::format("{}, {} links, mobility {}", to_string(assembly.space), assembly.links, assembly.mobility);
   if (assembly.mobility_by_joints != assembly.mobility)
     text += fmt::format(" ({} by its joints only)", assembly.mobility_by_joints);
   return text;

@@ -40,7 +40,8 @@ Components components_wanted(const Question& q) {
   const symbolic::SetDefinition& set = definition(q.set);
   if (!set.has_kernel() || set.locked.empty() || set.type || q.kernel || q.corank != 1) return Components::no;
   if (q.in_parts) return *q.in_parts ? Components::yes : Components::no;
-  if (q.assembly && !q.assembly->parallelograms.empty()) return Components::yes;
+  // These can be assembled in several ways, which meet at configurations whose kernels have larger dimensions.
+  if (q.assembly && (!q.assembly->parallelograms.empty() || q.assembly->has_universal_rods)) return Components::yes;
   constexpr long kLeastMobility = 3, kLongKernel = 10;
   const symbolic::ExpressionMatrix velocity = derive(q.model).velocity.matrix;
   const std::vector<symbolic::Coordinate>& all = q.model.coordinates();
@@ -55,10 +56,11 @@ bool has_kernel(const Question& q) {
   return component && component->block;
 }
 
-// The only part of a set, or all of a boundary.
-bool is_better_than_whole(const symbolic::SetPart& part) {
-  const auto* component = std::get_if<symbolic::Component>(&part);
-  return !component || component->is_free;
+// Is the only part of a set, or all of a boundary, found sooner than the set as a whole? A block of a platform on universal
+// rods is: its kernel has the platform's rates only (HISTORY, "Legs in one piece").
+bool is_better_than_whole(const Question& part) {
+  const auto* component = std::get_if<symbolic::Component>(&*part.part);
+  return !component || component->is_free || (component->block && part.assembly && part.assembly->has_universal_rods);
 }
 
 }  // namespace
@@ -75,7 +77,7 @@ std::vector<Question> parts_of(const Question& question, const Ended& ended) {
   if (parts.empty()) return {question};
   if (wanted == Components::if_simple)
     return std::any_of(parts.begin(), parts.end(), has_kernel) ? std::vector{question} : parts;
-  if (parts.size() == 1 && !question.in_parts.value_or(false) && !is_better_than_whole(*parts[0].part)) return {question};
+  if (parts.size() == 1 && !question.in_parts.value_or(false) && !is_better_than_whole(parts[0])) return {question};
   return parts;
 }
 

@@ -40,13 +40,13 @@ const Joint& joint(const Robot& robot, const std::string& name) { return robot.j
 std::vector<std::string> texts(const Vector& v) { return {v[0].text(), v[1].text(), v[2].text()}; }
 
 // A joint between two links; `inside` stands in line 5 and after.
-std::string with_joint(const std::string& type, const std::string& inside) {
+std::string urdf_with_joint(const std::string& type, const std::string& inside) {
   return "<robot name='r'>\n<link name='a'/>\n<link name='b'/>\n<joint name='j' type='" + type +
          "'><parent link='a'/><child link='b'/>\n" + inside + "\n</joint>\n</robot>\n";
 }
 
 Joint read_joint(const std::string& type, const std::string& inside) {
-  return parse_urdf(with_joint(type, inside), "r.urdf").joints.at(0);
+  return parse_urdf(urdf_with_joint(type, inside), "r.urdf").joints.at(0);
 }
 
 std::string fault(const std::string& text) {
@@ -215,7 +215,7 @@ TEST(Urdf, NamesBecomeIdentifiersEachOnce) {
 }
 
 TEST(Urdf, AFloatingJointIsNoneWhereLoopsHoldItsLink) {
-  EXPECT_THAT(fault(with_joint("floating", "")),
+  EXPECT_THAT(fault(urdf_with_joint("floating", "")),
               HasSubstr("r.urdf:4:23: joint 'j' is floating: nothing holds the link 'b'"));
 }
 
@@ -265,7 +265,7 @@ TEST(Urdf, AFaultOfACompanionHasItsOwnPlace) {
 }
 
 TEST(Urdf, ALinkOfAFloatingJointIsHeldByLoops) {
-  const std::string text = with_joint("floating", "");
+  const std::string text = urdf_with_joint("floating", "");
   const Robot held = parse_urdf(text, "r.urdf", UrdfLoops{"[LOOPS]\nspherical: a (0, 0, 0) b (1, 0, 0)", "r.loops"});
   ASSERT_EQ(held.joints.size(), 1u);
   EXPECT_EQ(held.joints[0].kind, JointKind::spherical);
@@ -438,31 +438,32 @@ TEST(Urdf, SaysWhatIsWrongAndWhere) {
       {robot(two_links + joint_text("j", "a", "b") + joint_text("k", "b", "a")), "every link is the child of a joint"},
       {robot(two_links + "<link name='c'/>" + joint_text("j", "a", "b") + joint_text("k", "b", "a")),
        "closes a cycle of links"},
-      {with_joint("", ""), "r.urdf:4:2: joint 'j' has no type"},
-      {with_joint("revolut", "<limit upper='1'/>"),
+      {urdf_with_joint("", ""), "r.urdf:4:2: joint 'j' has no type"},
+      {urdf_with_joint("revolut", "<limit upper='1'/>"),
        "a joint's type is 'revolut'; expected revolute, continuous, prismatic, fixed, planar or floating; did you mean "
        "'revolute'?"},
-      {with_joint("ball", ""), "a joint's type is 'ball'; expected revolute, continuous"},
-      {with_joint("continuous", "<axis xyz='0 0.0 -0'/>"), "r.urdf:5:12: the axis of joint 'j' is 0; expected a direction"},
-      {with_joint("continuous", "<axis xyz='0 1'/>"), "the axis of joint 'j' is '0 1', 2 numbers; expected three"},
-      {with_joint("continuous", "<axis/>"), "the axis of joint 'j' has no xyz"},
-      {with_joint("fixed", "<origin xyz='0 0 O.5'/>"), "r.urdf:5:14: xyz of joint 'j' is 'O.5', not a number"},
-      {with_joint("fixed", "<origin xyz='0 0 nan'/>"), "not a number"},
-      {with_joint("fixed", "<origin xyz='0 0 1e9999'/>"), "out of range"},
-      {with_joint("fixed", "<origin xyz='1 2 3 4'/>"), "more than 3 numbers"},
-      {with_joint("fixed", "<origin\n rpy='0 0 90deg'/>"), "r.urdf:6:7: rpy of joint 'j' is '90deg', not a number"},
-      {with_joint("fixed", "<origin xyx='1 2 3'/>"), "<origin> has an unknown attribute 'xyx'; expected xyz, rpy"},
-      {with_joint("fixed", "<orgin xyz='1 2 3'/>"), "r.urdf:5:2: an unknown element <orgin>; expected <origin>"},
-      {with_joint("fixed", "<origin/>\n<origin/>"), "r.urdf:6:2: a second <origin> in one <joint>"},
-      {with_joint("fixed", "<origin xyz='0 0 1' xyz='0 0 2'/>"), "the attribute 'xyz' is written twice"},
-      {with_joint("revolute", ""),
+      {urdf_with_joint("ball", ""), "a joint's type is 'ball'; expected revolute, continuous"},
+      {urdf_with_joint("continuous", "<axis xyz='0 0.0 -0'/>"),
+       "r.urdf:5:12: the axis of joint 'j' is 0; expected a direction"},
+      {urdf_with_joint("continuous", "<axis xyz='0 1'/>"), "the axis of joint 'j' is '0 1', 2 numbers; expected three"},
+      {urdf_with_joint("continuous", "<axis/>"), "the axis of joint 'j' has no xyz"},
+      {urdf_with_joint("fixed", "<origin xyz='0 0 O.5'/>"), "r.urdf:5:14: xyz of joint 'j' is 'O.5', not a number"},
+      {urdf_with_joint("fixed", "<origin xyz='0 0 nan'/>"), "not a number"},
+      {urdf_with_joint("fixed", "<origin xyz='0 0 1e9999'/>"), "out of range"},
+      {urdf_with_joint("fixed", "<origin xyz='1 2 3 4'/>"), "more than 3 numbers"},
+      {urdf_with_joint("fixed", "<origin\n rpy='0 0 90deg'/>"), "r.urdf:6:7: rpy of joint 'j' is '90deg', not a number"},
+      {urdf_with_joint("fixed", "<origin xyx='1 2 3'/>"), "<origin> has an unknown attribute 'xyx'; expected xyz, rpy"},
+      {urdf_with_joint("fixed", "<orgin xyz='1 2 3'/>"), "r.urdf:5:2: an unknown element <orgin>; expected <origin>"},
+      {urdf_with_joint("fixed", "<origin/>\n<origin/>"), "r.urdf:6:2: a second <origin> in one <joint>"},
+      {urdf_with_joint("fixed", "<origin xyz='0 0 1' xyz='0 0 2'/>"), "the attribute 'xyz' is written twice"},
+      {urdf_with_joint("revolute", ""),
        "joint 'j' has no limits; expected <limit lower=\"…\" upper=\"…\">, or the type continuous"},
-      {with_joint("revolute", "<limit effort='1' velocity='1'/>"), "neither a lower nor an upper limit"},
-      {with_joint("revolute", "<limit lower='1.58' upper='1.5708'/>"),
+      {urdf_with_joint("revolute", "<limit effort='1' velocity='1'/>"), "neither a lower nor an upper limit"},
+      {urdf_with_joint("revolute", "<limit lower='1.58' upper='1.5708'/>"),
        "r.urdf:5:2: the lower limit of joint 'j' is above the upper one, 1.58 > pi/2"},
-      {with_joint("prismatic", "<limit lower='1' upper='a'/>"), "upper of joint 'j' is 'a', not a number"},
-      {with_joint("continuous", "<mimic joint='k'/>"), "r.urdf:5:15: there is no joint 'k'"},
-      {with_joint("fixed", "<mimic joint='j'/>"),
+      {urdf_with_joint("prismatic", "<limit lower='1' upper='a'/>"), "upper of joint 'j' is 'a', not a number"},
+      {urdf_with_joint("continuous", "<mimic joint='k'/>"), "r.urdf:5:15: there is no joint 'k'"},
+      {urdf_with_joint("fixed", "<mimic joint='j'/>"),
        "the fix joint 'j' follows the fix joint 'j'; expected two joints that turn"},
       {robot(two_links + joint_text("j", "a", "b") + "<transmission><joint name='jj'/></transmission>"),
        "r.urdf:5:28: there is no joint 'jj'; expected the name of a <joint> of this file"},
@@ -478,7 +479,7 @@ TEST(Urdf, SaysWhatIsWrongAndWhere) {
       {robot("<xacro:property name='l' value='1'/>\n<link name='a'/>"),
        "r.urdf:2:2: <xacro:property> is xacro; expected "
        "plain URDF: run xacro first"},
-      {with_joint("fixed", "<origin xyz='${l} 0 0'/>"), "r.urdf:5:14: '${l} 0 0' is xacro"},
+      {urdf_with_joint("fixed", "<origin xyz='${l} 0 0'/>"), "r.urdf:5:14: '${l} 0 0' is xacro"},
       {"<!DOCTYPE robot [<!ENTITY l '0.5'>]>\n" + robot("<link name='a'/>"), "r.urdf:1:"},
       {robot("<link name='a&l;'/>"), "r.urdf:2:14: the entity 'l' is unknown"},
       {robot("<link name='a&#10;b'/>"), "r.urdf:2:13: a control character"},

@@ -1,4 +1,4 @@
-// Legs in one piece against their links: random platforms on universal–prismatic–universal legs, looked at through screws that
+// Legs in one piece against their links: random platforms on universal–prismatic–universal legs, by screws that
 // know nothing of corank's equations.
 #include <gtest/gtest.h>
 
@@ -89,8 +89,8 @@ Pose pose_of(const kinematics::Assembly& assembly, const std::map<std::string, d
   return result;
 }
 
-// Screws (ω, v at the origin) of the two universal joints of a leg, whose inner axes are perpendicular to both outer ones and
-// to the leg. `misfit`: how far such an axis is from being there.
+// Screws (ω, v at the origin) of the two universal joints of a leg, whose inner axes are perpendicular to both outer ones
+// and to the leg. `misfit`: how far such an axis is from being there.
 Eigen::Matrix<double, 6, 4> screws(const Leg& leg, const Pose& pose, double& misfit) {
   const Vector3d a = leg.base_axis.normalized(), b = (pose.rotation * leg.platform_axis).normalized();
   const Vector3d from = leg.base, to = pose.origin + pose.rotation * leg.platform, p = (to - from).normalized();
@@ -104,7 +104,7 @@ Eigen::Matrix<double, 6, 4> screws(const Leg& leg, const Pose& pose, double& mis
   return result;
 }
 
-// Is the platform held, with all lengths locked, as the legs' screws tell? The least singular value of [1 −S₁; 1 −S₂; …].
+// Is the platform held, with all lengths locked, by the legs' screws? The least singular value of [1 −S₁; 1 −S₂; …].
 double held(const Platform& platform, const Pose& pose, double& misfit) {
   MatrixXd m = MatrixXd::Zero(6 * kLegs, 6 + 4 * kLegs);
   for (int i = 0; i < kLegs; ++i) {
