@@ -18,7 +18,7 @@
 #include "corank/solve/cell_search.h"
 #include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
-#include "corank/symbolic/exact_value.h"
+#include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/family_system.h"
 
 namespace corank::analyze {

@@ -10,7 +10,7 @@
 #include "corank/core/rounding.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
-#include "corank/symbolic/exact_value.h"
+#include "corank/symbolic/evaluate.h"
 
 namespace corank::analyze {
 namespace {

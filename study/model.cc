@@ -8,7 +8,7 @@
 #include "corank/kinematics/urdf.h"
 #include "corank/solve/reducer.h"
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/exact_value.h"
+#include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/model_text.h"
 #include "corank/symbolic/singularity_system.h"

@@ -100,7 +100,7 @@ std::string Algebrizer::fresh_name(std::string name) {
 void Algebrizer::add_length(const Coordinate& coordinate) {
   const int variable = add_variable(coordinate.name, VariableKind::length, range_of(coordinate));
   expander_.add_unknown(coordinate.name, variable);
-  out_.variables[static_cast<std::size_t>(variable)].direction = coordinate.direction;
+  out_.variables[variable].direction = coordinate.direction;
 }
 
 void Algebrizer::add_angle(const Coordinate& coordinate) {

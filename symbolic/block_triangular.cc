@@ -7,17 +7,35 @@
 
 namespace corank::symbolic {
 
-std::optional<std::vector<SquareBlock>> block_triangular_form(const std::vector<std::vector<std::size_t>>& filled) {
+namespace {
+
+using Bipartite = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
+using Vertex = boost::graph_traits<Bipartite>::vertex_descriptor;
+
+// Of each vertex its partner in a matching that is as large as possible: row i is vertex i, column j vertex n + j, n rows.
+std::vector<Vertex> matching(const std::vector<std::vector<std::size_t>>& filled, std::size_t columns) {
   const std::size_t n = filled.size();
-  // Row i is vertex i, column j vertex n + j.
-  using Bipartite = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
-  Bipartite pattern(2 * n);
+  Bipartite pattern(n + columns);
   for (std::size_t i = 0; i < n; ++i)
     for (const std::size_t j : filled[i]) boost::add_edge(i, n + j, pattern);
-  std::vector<boost::graph_traits<Bipartite>::vertex_descriptor> partner(2 * n);
+  std::vector<Vertex> partner(n + columns);
   boost::edmonds_maximum_cardinality_matching(pattern, partner.data());
-  for (std::size_t i = 0; i < n; ++i)
-    if (partner[i] == boost::graph_traits<Bipartite>::null_vertex()) return std::nullopt;
+  return partner;
+}
+
+bool is_alone(Vertex partner) { return partner == boost::graph_traits<Bipartite>::null_vertex(); }
+
+}  // namespace
+
+std::size_t term_rank(const std::vector<std::vector<std::size_t>>& filled, std::size_t columns) {
+  const std::vector<Vertex> partner = matching(filled, columns);
+  return filled.size() - std::count_if(partner.begin(), partner.begin() + filled.size(), is_alone);
+}
+
+std::optional<std::vector<SquareBlock>> block_triangular_form(const std::vector<std::vector<std::size_t>>& filled) {
+  const std::size_t n = filled.size();
+  const std::vector<Vertex> partner = matching(filled, n);
+  if (std::any_of(partner.begin(), partner.end(), is_alone)) return std::nullopt;
 
   // An arrow from row i to the row whose partner is a column that i fills: rows of one block reach each other.
   using Directed = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;

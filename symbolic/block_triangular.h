@@ -14,6 +14,10 @@ struct SquareBlock {
   friend bool operator==(const SquareBlock&, const SquareBlock&) = default;
 };
 
+/// The most entries, no two of a row or a column, that are filled: no matrix of that pattern has a higher rank. `filled[i]`:
+/// the columns in which row i is not identically zero.
+std::size_t term_rank(const std::vector<std::vector<std::size_t>>& filled, std::size_t columns);
+
 /// `filled[i]`: the columns in which row i of an n×n matrix is not identically zero. The irreducible blocks in the order of
 /// their first rows. Nothing where no n entries stand in n rows and n columns: every determinant of that pattern vanishes.
 std::optional<std::vector<SquareBlock>> block_triangular_form(const std::vector<std::vector<std::size_t>>& filled);

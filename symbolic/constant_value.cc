@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -86,27 +85,16 @@ ExactNumber exact_power(const ex& base, const ex& exponent) {
 
 ExactNumber exact_of(const ex& e) {
   if (is_a<numeric>(e)) {
-    std::ostringstream text;
-    text << e;
     if (!ex_to<numeric>(e).is_rational()) throw std::domain_error("not a real number");
-    return ExactNumber::rational(text.str());
+    return ExactNumber::rational(text_of(e));
   }
   if (e.is_equal(GiNaC::Pi)) return ExactNumber::pi();
   if (is_a<GiNaC::add>(e)) return combine(e, 0, [](const auto& a, const auto& b) { return a + b; });
   if (is_a<GiNaC::mul>(e)) return combine(e, 1, [](const auto& a, const auto& b) { return a * b; });
   if (is_a<GiNaC::power>(e)) return exact_power(e.op(0), e.op(1));
-  if (is_a<GiNaC::function>(e) && e.nops() == 1) {
-    static const std::vector<std::pair<std::string, ConstantFunction>> kFunctions = {
-        {"sin", ConstantFunction::sin},   {"cos", ConstantFunction::cos},   {"tan", ConstantFunction::tan},
-        {"asin", ConstantFunction::asin}, {"acos", ConstantFunction::acos}, {"atan", ConstantFunction::atan},
-        {"exp", ConstantFunction::exp},   {"log", ConstantFunction::log},   {"abs", ConstantFunction::abs}};
-    const std::string name = ex_to<GiNaC::function>(e).get_name();
-    for (const auto& [word, function] : kFunctions)
-      if (word == name) return ExactNumber::apply(function, exact_of(e.op(0)));
-  }
-  std::ostringstream text;
-  text << "`" << e << "` is not a constant of the model language";
-  throw std::domain_error(text.str());
+  if (is_a<GiNaC::function>(e) && e.nops() == 1)
+    if (const auto function = constant_function(e)) return ExactNumber::apply(*function, exact_of(e.op(0)));
+  throw std::domain_error("`" + text_of(e) + "` is not a constant of the model language");
 }
 
 // √q for a rational q > 0 as r·√s with the small square factors in r, so that √12 and 2√3 are the same expression.

@@ -47,7 +47,7 @@ Expression height_function(const Mechanism& mechanism, int height) {
       terms.push_back(coefficient(height, 2 * i) * Expression::function("cos", x));
       terms.push_back(coefficient(height, 2 * i + 1) * Expression::function("sin", x));
     } else {
-      const int exponent = exponents[static_cast<std::size_t>(system.find(coordinate.name))];
+      const int exponent = exponents[system.find(coordinate.name)];
       terms.push_back(coefficient(height, 2 * i) * power_of_two(-exponent) * x);
     }
   }

@@ -18,12 +18,6 @@ std::vector<Expression> second_order(const std::vector<std::vector<Expression>>&
   return terms;
 }
 
-std::vector<Expression> symbols(const std::vector<std::string>& names) {
-  std::vector<Expression> list;
-  for (const std::string& name : names) list.push_back(Expression::symbol(name));
-  return list;
-}
-
 struct Unknowns {
   std::vector<std::string> xi, eta;
   std::string tau;
@@ -34,7 +28,7 @@ Unknowns unknowns(const Mechanism& mechanism, std::size_t n) {
                   kernel_names(mechanism, 1, 1, "tau")[0]};
   std::string& tau = result.tau;
   tau.pop_back();  // the 1, where nothing is called tau either
-  if (mechanism.has_constant(tau) || mechanism.find_coordinate(tau) >= 0 || mechanism.find_rate(tau) >= 0) tau += "1";
+  if (mechanism.has(tau)) tau += "1";
   return result;
 }
 
@@ -64,27 +58,21 @@ TrigonometricSystem cusp_system(const Mechanism& mechanism, SingularitySet set, 
   for (std::size_t i = 0; i < m.rows.size(); ++i)
     if (const auto lhs = kernel_row(m.rows[i], rates))
       add(*lhs == Expression(0), "row " + std::to_string(i + 1) + " of " + name + " xi = 0", locus.kernel.where[i]);
-  const auto second = second_derivatives(locus.mechanism, m.columns);
+  const std::vector<Derivatives> of_phi = derivatives(locus.mechanism, m.columns);
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
     const auto lhs = kernel_row(m.rows[i], accelerations);
     if (!lhs) continue;  // a tie: it holds no coordinate that is not locked
     std::vector<Expression> terms = lhs->kind() == Expression::Kind::sum ? lhs->operands() : std::vector{*lhs};
-    for (const Expression& term : second_order(second[i], rates)) terms.push_back(factor * term);
+    for (const Expression& term : second_order(of_phi[i].second, rates)) terms.push_back(factor * term);
     add(sum_of(terms) == Expression(0), "row " + std::to_string(i + 1) + " of " + name + " eta + tau D^2 Phi(xi, xi) = 0",
         locus.kernel.where[i]);
   }
-  std::vector<Expression> squares, products, lengths, generic;
-  for (std::size_t j = 0; j < n; ++j) {
-    squares.push_back(pow(xi[j], 2));
-    products.push_back(xi[j] * eta[j]);
-    lengths.push_back(pow(eta[j], 2));
-    generic.push_back(generic_component(j) * xi[j]);
-  }
-  lengths.push_back(pow(tau, 2));
-  add(sum_of(squares) == Expression(1), "norm of xi", where);
-  add(sum_of(products) == Expression(0), "eta orthogonal to xi", where);
-  add(sum_of(lengths) == Expression(1), "norm of eta and tau", where);
-  system.inequalities.push_back({sum_of(generic) >= Expression(0), "half-space of xi", where, true});
+  std::vector<Expression> eta_and_tau = eta;
+  eta_and_tau.push_back(tau);
+  add(square_of(xi) == Expression(1), "norm of xi", where);
+  add(dot(xi, eta) == Expression(0), "eta orthogonal to xi", where);
+  add(square_of(eta_and_tau) == Expression(1), "norm of eta and tau", where);
+  system.inequalities.push_back({generic_form(xi) >= Expression(0), "half-space of xi", where, true});
   return system;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <string_view>
 
 namespace corank::symbolic {
 namespace {
@@ -21,8 +20,10 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 
 }  // namespace
 
+bool is_greek_letter(std::string_view word) { return greek_letters().contains(word); }
+
 DisplayName display_name(const std::string& name) {
-  const auto n = static_cast<std::size_t>(std::find_if_not(name.begin(), name.end(), is_letter) - name.begin());
+  const std::size_t n = std::find_if_not(name.begin(), name.end(), is_letter) - name.begin();
   if (n == 0) return {name, ""};  // a name that begins with _ is no word of mathematics
   DisplayName shown;
   const auto letter = greek_letters().find(std::string_view(name).substr(0, n));

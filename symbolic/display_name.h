@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace corank::symbolic {
 
@@ -11,6 +12,9 @@ struct DisplayName {
 };
 
 DisplayName display_name(const std::string& name);
+
+/// "theta": does the word spell one?
+bool is_greek_letter(std::string_view word);
 
 /// & < > " as HTML entities.
 std::string html_text(const std::string& text);

@@ -1,8 +1,8 @@
 #include "corank/symbolic/drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
-#include <stdexcept>
 
 #include "corank/symbolic/expression_words.h"
 
@@ -11,35 +11,27 @@ namespace {
 
 using Kind = DrawingPart::Kind;
 
-std::size_t fewest_points(Kind kind) {
-  switch (kind) {
-    case Kind::link:
-    case Kind::hinge:
-    case Kind::cylinder: return 2;
-    case Kind::platform:
-    case Kind::slider: return 3;
-    case Kind::joint:
-    case Kind::ground:
-    case Kind::effector:
-    case Kind::ball:
-    case Kind::sphere: return 1;
-  }
-  throw std::logic_error("no such part of a drawing");
-}
+struct KindOfPart {
+  Kind kind;
+  const char* word;
+  std::size_t fewest;  // points
+  bool may_be_coloured = false;
+  const char* form = nullptr;  // the statement, of a part that has exactly as many points
+};
 
-/// The statement of a part that has exactly as many points as fewest_points says; null where it may have more.
-const char* fixed_form(Kind kind) {
-  switch (kind) {
-    case Kind::slider: return "slider P along A B";
-    case Kind::hinge: return "hinge A B";
-    case Kind::sphere: return "sphere A radius r";
-    case Kind::cylinder: return "cylinder A B radius r";
-    default: return nullptr;
-  }
-}
+constexpr std::array<KindOfPart, 10> kKinds{{{Kind::link, "link", 2, true},
+                                             {Kind::platform, "platform", 3, true},
+                                             {Kind::joint, "joint", 1},
+                                             {Kind::slider, "slider", 3, false, "slider P along A B"},
+                                             {Kind::ground, "ground", 1},
+                                             {Kind::effector, "effector", 1},
+                                             {Kind::hinge, "hinge", 2, false, "hinge A B"},
+                                             {Kind::ball, "ball", 1},
+                                             {Kind::sphere, "sphere", 1, true, "sphere A radius r"},
+                                             {Kind::cylinder, "cylinder", 2, true, "cylinder A B radius r"}}};
 
-bool may_be_coloured(Kind kind) {
-  return kind == Kind::link || kind == Kind::platform || kind == Kind::sphere || kind == Kind::cylinder;
+const KindOfPart& row_of(Kind kind) {
+  return *std::find_if(kKinds.begin(), kKinds.end(), [kind](const KindOfPart& k) { return k.kind == kind; });
 }
 
 void validate_colour(const DrawingPart& part) {
@@ -48,14 +40,10 @@ void validate_colour(const DrawingPart& part) {
   const bool is_colour =
       colour.size() == 7 && colour[0] == '#' && colour.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   if (!is_colour) throw ModelError(part.where, in_quotes(colour) + " is not a colour", "#rrggbb, in hexadecimal digits");
-  if (may_be_coloured(part.kind)) return;
+  if (row_of(part.kind).may_be_coloured) return;
   throw ModelError(part.where, std::string("a ") + to_string(part.kind) + " has no colour of its own",
                    "a colour after a link, platform, sphere or cylinder only");
 }
-
-std::string count_of(std::size_t n) { return std::to_string(n) + (n == 1 ? " component" : " components"); }
-
-std::string count(std::size_t n) { return std::to_string(n) + (n == 1 ? " point" : " points"); }
 
 void validate(const DrawingPart& part, const std::set<std::string>& known) {
   const std::string kind = to_string(part.kind);
@@ -69,31 +57,19 @@ void validate(const DrawingPart& part, const std::set<std::string>& known) {
       throw ModelError(part.where, "the " + kind + " names the point " + in_quotes(name) + " twice", "each point once");
     }
   }
-  const std::size_t fewest = fewest_points(part.kind);
-  const char* const form = fixed_form(part.kind);
-  if (part.points.size() < fewest || (form && part.points.size() > fewest)) {
-    throw ModelError(part.where, "the " + kind + " has " + count(part.points.size()),
-                     form ? form : count(fewest) + " or more");
-  }
+  const KindOfPart& row = row_of(part.kind);
+  if (part.points.size() < row.fewest || (row.form && part.points.size() > row.fewest))
+    throw ModelError(part.where, "the " + kind + " has " + counted(part.points.size(), "point"),
+                     row.form ? row.form : counted(row.fewest, "point") + " or more");
   validate_colour(part);
 }
 
 }  // namespace
 
-const char* to_string(Kind kind) {
-  switch (kind) {
-    case Kind::link: return "link";
-    case Kind::platform: return "platform";
-    case Kind::joint: return "joint";
-    case Kind::slider: return "slider";
-    case Kind::ground: return "ground";
-    case Kind::effector: return "effector";
-    case Kind::hinge: return "hinge";
-    case Kind::ball: return "ball";
-    case Kind::sphere: return "sphere";
-    case Kind::cylinder: return "cylinder";
-  }
-  throw std::logic_error("no such part of a drawing");
+const char* to_string(Kind kind) { return row_of(kind).word; }
+
+Kind drawing_part_of(std::string_view word) {
+  return std::find_if(kKinds.begin(), kKinds.end(), [word](const KindOfPart& k) { return k.word == word; })->kind;
 }
 
 int Drawing::find(const std::string& point) const {
@@ -113,9 +89,10 @@ void Drawing::validate() const {
                        point.name == points.front().name ? "2 or 3" : std::to_string(dimension()) + ", as the first point");
     }
     if (!point.velocity.empty() && point.velocity.size() != n)
-      throw ModelError(point.where,
-                       "the velocity of the point " + in_quotes(point.name) + " has " + count_of(point.velocity.size()),
-                       std::to_string(n) + ", as the point itself");
+      throw ModelError(
+          point.where,
+          "the velocity of the point " + in_quotes(point.name) + " has " + counted(point.velocity.size(), "component"),
+          std::to_string(n) + ", as the point itself");
   }
   for (const DrawingPart& part : parts) {
     corank::symbolic::validate(part, known);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corank/symbolic/expression.h"
@@ -42,7 +43,8 @@ struct DrawingPart {
   bool has_radius() const { return kind == Kind::sphere || kind == Kind::cylinder; }
 };
 
-const char* to_string(DrawingPart::Kind kind);  ///< "link", "platform" …
+const char* to_string(DrawingPart::Kind kind);             ///< "link", "platform" …
+DrawingPart::Kind drawing_part_of(std::string_view word);  ///< for one of these words
 
 struct Drawing {
   std::vector<DrawingPoint> points;

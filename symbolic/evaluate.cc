@@ -4,11 +4,17 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+
+#include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/ginac_lock.h"
+#include "corank/symbolic/polynomial_expander.h"
 
 namespace corank::symbolic {
 namespace {
 
-double apply(const std::string& name, double x) {
+template <typename Real>
+Real value_of(const std::string& name, Real x) {
   if (name == "sin") return std::sin(x);
   if (name == "cos") return std::cos(x);
   if (name == "tan") return std::tan(x);
@@ -19,10 +25,13 @@ double apply(const std::string& name, double x) {
   if (name == "exp") return std::exp(x);
   if (name == "log") return std::log(x);
   if (name == "abs") return std::fabs(x);
-  return std::numeric_limits<double>::quiet_NaN();
+  return std::numeric_limits<Real>::quiet_NaN();
 }
 
 }  // namespace
+
+long double function_value(const std::string& name, long double x) { return value_of(name, x); }
+double function_value(const std::string& name, double x) { return value_of(name, x); }
 
 double evaluate(const Expression& e, const std::map<std::string, double>& values) {
   const auto operand = [&](std::size_t i) { return evaluate(e.operands()[i], values); };
@@ -46,9 +55,22 @@ double evaluate(const Expression& e, const std::map<std::string, double>& values
     }
     case Expression::Kind::quotient: return operand(0) / operand(1);
     case Expression::Kind::power: return std::pow(operand(0), operand(1));
-    case Expression::Kind::function: return apply(e.name(), operand(0));
+    case Expression::Kind::function: return function_value(e.name(), operand(0));
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+ExactNumber exact_value(const Mechanism& mechanism, const Expression& expression, const std::string& what) {
+  const GinacLock lock;
+  const SourceLocation where{mechanism.name(), 0, 0};
+  try {
+    PolynomialExpander expander;
+    for (const Constant& c : mechanism.constants())
+      expander.add_constant(c.name, expander.constant(c.value, "the constant " + in_quotes(c.name), c.where));
+    return expander.constant(expression, "the value of " + in_quotes(what), where).exact();
+  } catch (const std::domain_error& error) {
+    throw ModelError(where, "the value of " + in_quotes(what) + " is not a real number: " + error.what(), "a real number");
+  }
 }
 
 }  // namespace corank::symbolic

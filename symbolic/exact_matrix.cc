@@ -4,7 +4,6 @@
 #include <bit>
 #include <map>
 #include <numeric>
-#include <sstream>
 #include <utility>
 
 #include "corank/symbolic/ginac_bridge.h"
@@ -57,11 +56,7 @@ class ExactMatrix::Unknowns {
 
   RationalPolynomial polynomial(const GiNaC::ex& e) const {
     if (const auto atom = index_.find(e); atom != index_.end()) return RationalPolynomial::unknown(*ring_, atom->second);
-    if (GiNaC::is_a<GiNaC::numeric>(e)) {
-      std::ostringstream text;
-      text << e;
-      return RationalPolynomial::number(*ring_, text.str());
-    }
+    if (GiNaC::is_a<GiNaC::numeric>(e)) return RationalPolynomial::number(*ring_, text_of(e));
     if (is_power(e))
       return polynomial(e.op(0)).power(static_cast<std::uint64_t>(GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_long()));
     RationalPolynomial result = RationalPolynomial::number(*ring_, GiNaC::is_a<GiNaC::add>(e) ? "0" : "1");
@@ -184,9 +179,9 @@ bool ExactMatrix::eliminate_a_number() {
     for (const std::size_t j : entries[row])
       if (j != column) rows_[i][j] = rows_[i][j] - multiple * rows_[row][j];
   }
-  rows_.erase(rows_.begin() + static_cast<std::ptrdiff_t>(row));
-  for (auto& rest : rows_) rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(column));
-  columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(column));
+  rows_.erase(rows_.begin() + row);
+  for (auto& rest : rows_) rest.erase(rest.begin() + column);
+  columns_.erase(columns_.begin() + column);
   return true;
 }
 

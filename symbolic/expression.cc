@@ -1,6 +1,7 @@
 #include "corank/symbolic/expression.h"
 
 #include <algorithm>
+#include <numeric>
 #include <ostream>
 
 #include "corank/symbolic/expression_words.h"
@@ -79,6 +80,17 @@ bool Expression::mentions(const std::string& symbol_name) const {
   return std::any_of(operands().begin(), operands().end(), [&](const Expression& e) { return e.mentions(symbol_name); });
 }
 
+Expression Expression::substituted(const std::map<std::string, Expression>& values) const {
+  if (kind() == Kind::number) return *this;
+  if (kind() == Kind::symbol) {
+    const auto found = values.find(name());
+    return found == values.end() ? *this : found->second;
+  }
+  std::vector<Expression> parts;
+  for (const Expression& operand : operands()) parts.push_back(operand.substituted(values));
+  return kind() == Kind::function ? function(name(), parts[0], where()) : node(kind(), std::move(parts), where());
+}
+
 bool same_tree(const Expression& a, const Expression& b) {
   if (a.node_ == b.node_) return true;
   return a.kind() == b.kind() && a.name() == b.name() &&
@@ -113,6 +125,36 @@ Expression sin(const Expression& x) { return Expression::function("sin", x, x.wh
 Expression cos(const Expression& x) { return Expression::function("cos", x, x.where()); }
 Expression tan(const Expression& x) { return Expression::function("tan", x, x.where()); }
 Expression pi() { return Expression::symbol("pi"); }
+
+Expression degrees(const std::string& decimal, const SourceLocation& where) {
+  constexpr std::size_t kFewDigits = 10;  // whose fraction is reduced by machine numbers
+  const Expression circle = Expression::symbol("pi", where);
+  if (decimal.size() > kFewDigits || decimal.find('e') != std::string::npos) {
+    return Expression::node(
+        Expression::Kind::quotient,
+        {Expression::node(Expression::Kind::product, {Expression::number(decimal, where), circle}, where), Expression(180)},
+        where);
+  }
+  long long numerator = 0, denominator = 180;
+  bool behind_point = false;
+  for (const char c : decimal) {
+    if (c == '.') {
+      behind_point = true;
+      continue;
+    }
+    numerator = 10 * numerator + (c - '0');
+    if (behind_point) denominator *= 10;
+  }
+  const long long common = std::gcd(numerator, denominator);
+  numerator /= common, denominator /= common;
+  if (numerator == 0) return Expression::number("0", where);
+  const Expression top = numerator == 1
+                             ? circle
+                             : Expression::node(Expression::Kind::product,
+                                                {Expression::number(std::to_string(numerator), where), circle}, where);
+  if (denominator == 1) return top;
+  return Expression::node(Expression::Kind::quotient, {top, Expression::number(std::to_string(denominator), where)}, where);
+}
 
 Relation operator==(const Expression& lhs, const Expression& rhs) { return {lhs, Relation::Kind::equal, rhs}; }
 Relation operator<=(const Expression& lhs, const Expression& rhs) { return {lhs, Relation::Kind::less_equal, rhs}; }

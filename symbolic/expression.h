@@ -3,6 +3,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ class Expression {
 
   /// Does the name occur?
   bool mentions(const std::string& symbol_name) const;
+  /// With values in place of names.
+  Expression substituted(const std::map<std::string, Expression>& values) const;
   /// In the model language, with the fewest parentheses; parses back to the same tree.
   std::string text() const;
   /// In LaTeX: theta2 → \theta_{2}, J3x → J_{3x}, quotients as \frac.
@@ -74,6 +77,8 @@ Expression cos(const Expression& x);
 Expression tan(const Expression& x);
 /// The circle constant, as in the model language.
 Expression pi();
+/// So many degrees, exactly: of "15" pi/12, of "22.5" pi/8, of "1" pi/180.
+Expression degrees(const std::string& decimal, const SourceLocation& where = {});
 
 /// LaTeX for a name: theta2 → \theta_{2}, J3x → J_{3x}, y_A → y_{A}.
 std::string latex_name(const std::string& name);
@@ -85,6 +90,9 @@ struct Relation {
   Kind kind = Kind::equal;
   Expression rhs;
   std::string text() const;
+  Relation substituted(const std::map<std::string, Expression>& values) const {
+    return {lhs.substituted(values), kind, rhs.substituted(values)};
+  }
 };
 Relation operator==(const Expression& lhs, const Expression& rhs);
 Relation operator<=(const Expression& lhs, const Expression& rhs);

@@ -35,17 +35,20 @@ void end_operand(const ActionInput& in, ModelBuilder& b) {
 template <typename Rule>
 struct ExpressionAction : tao::pegtl::nothing<Rule> {};
 
-#define CORANK_EXPRESSION_ACTION(rule, ...)                               \
-  template <>                                                             \
-  struct ExpressionAction<grammar::rule> {                                \
-    template <typename ActionInput>                                       \
-    static void apply(const ActionInput& in, ModelBuilder& b) __VA_ARGS__ \
+/// Specializes the template of actions of a grammar, whose actions fill a builder: with the input, and without.
+#define CORANK_ACTION_OF(Actions, Builder, rule, ...)                \
+  template <>                                                        \
+  struct Actions<grammar::rule> {                                    \
+    template <typename ActionInput>                                  \
+    static void apply(const ActionInput& in, Builder& b) __VA_ARGS__ \
   };
-#define CORANK_EXPRESSION_ACTION0(rule, ...)        \
-  template <>                                       \
-  struct ExpressionAction<grammar::rule> {          \
-    static void apply0(ModelBuilder& b) __VA_ARGS__ \
+#define CORANK_ACTION0_OF(Actions, Builder, rule, ...) \
+  template <>                                          \
+  struct Actions<grammar::rule> {                      \
+    static void apply0(Builder& b) __VA_ARGS__         \
   };
+#define CORANK_EXPRESSION_ACTION(rule, ...) CORANK_ACTION_OF(ExpressionAction, ModelBuilder, rule, __VA_ARGS__)
+#define CORANK_EXPRESSION_ACTION0(rule, ...) CORANK_ACTION0_OF(ExpressionAction, ModelBuilder, rule, __VA_ARGS__)
 
 CORANK_EXPRESSION_ACTION(block_comment_open, { b.comment_where = place(in, b); })
 
@@ -54,12 +57,12 @@ CORANK_EXPRESSION_ACTION0(expression_end, { b.values.push_back(b.expressions.end
 CORANK_EXPRESSION_ACTION(number_token, {
   const std::string decimal =
       normal_decimal(in.string_view(), place(in, b));  // a fault has a place even where nodes have none
-  b.expressions.number(decimal, expression_place(in, b));
+  b.expressions.operand(Expression::number(decimal, expression_place(in, b)));
   end_operand(in, b);
 })
 CORANK_EXPRESSION_ACTION(degrees_token, {
   const std::string_view number = in.string_view().substr(0, in.size() - std::string_view("deg").size());
-  b.expressions.degrees(normal_decimal(number, place(in, b)), expression_place(in, b));
+  b.expressions.operand(degrees(normal_decimal(number, place(in, b)), expression_place(in, b)));
   end_operand(in, b);
 })
 CORANK_EXPRESSION_ACTION(name_token, {
@@ -74,7 +77,7 @@ CORANK_EXPRESSION_ACTION0(symbol_end, {
   b.expressions.symbol(b.name, b.keep_places ? b.name_where : SourceLocation{});
 })
 CORANK_EXPRESSION_ACTION(group_open, {
-  b.expressions.open_group(place(in, b));
+  b.expressions.open(place(in, b));
   b.equation_is_empty = false;
 })
 CORANK_EXPRESSION_ACTION(call_open, {
@@ -82,10 +85,10 @@ CORANK_EXPRESSION_ACTION(call_open, {
     throw ModelError(b.name_where, "unknown function " + in_quotes(b.name),
                      "an operator after the name, or one of " + function_names());
   }
-  b.expressions.open_call(b.name, b.keep_places ? b.name_where : SourceLocation{}, place(in, b));
+  b.expressions.open(place(in, b), b.name, b.keep_places ? b.name_where : SourceLocation{});
 })
 CORANK_EXPRESSION_ACTION(group_close, {
-  b.expressions.close_group();
+  b.expressions.close();
   end_operand(in, b);
 })
 CORANK_EXPRESSION_ACTION0(exponent_sign, { b.expressions.sign(ExpressionBuilder::SignOf::exponent); })

@@ -1,8 +1,8 @@
 // Expressions in LaTeX, as a paper sets them: d + l_{2}\cos\theta_{2} - l_{5}\cos\theta_{5}.
 #include <algorithm>
-#include <array>
 #include <string_view>
 
+#include "corank/symbolic/display_name.h"
 #include "corank/symbolic/expression.h"
 
 namespace corank::symbolic {
@@ -10,16 +10,11 @@ namespace {
 
 using Kind = Expression::Kind;
 
-constexpr std::array<std::string_view, 34> kGreek = {
-    "alpha", "beta",  "gamma",  "delta", "epsilon", "zeta",  "eta",     "theta", "iota", "kappa", "lambda", "mu",
-    "nu",    "xi",    "pi",     "rho",   "sigma",   "tau",   "upsilon", "phi",   "chi",  "psi",   "omega",  "Gamma",
-    "Delta", "Theta", "Lambda", "Xi",    "Pi",      "Sigma", "Upsilon", "Phi",   "Psi",  "Omega"};
-
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 /// Letters as one symbol: l → l, theta → \theta, ct → \mathit{ct}.
 std::string latex_word(std::string_view word, const char* font) {
-  if (std::find(kGreek.begin(), kGreek.end(), word) != kGreek.end()) return "\\" + std::string(word);
+  if (is_greek_letter(word)) return "\\" + std::string(word);
   if (word.size() == 1) return std::string(word);
   return std::string(font) + "{" + std::string(word) + "}";
 }
@@ -145,7 +140,7 @@ std::string print(const Expression& e) {
 std::string Expression::latex() const { return print(*this); }
 
 std::string latex_name(const std::string& name) {
-  const std::size_t n = static_cast<std::size_t>(std::find_if_not(name.begin(), name.end(), is_letter) - name.begin());
+  const std::size_t n = std::find_if_not(name.begin(), name.end(), is_letter) - name.begin();
   if (n == 0) {  // a name that begins with _ is no word of mathematics
     std::string escaped;
     for (char c : name) escaped += c == '_' ? "\\_" : std::string(1, c);

@@ -16,7 +16,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter_of_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 std::string_view take_digits(std::string_view& text) {
-  const std::size_t n = static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
+  const std::size_t n = std::find_if_not(text.begin(), text.end(), is_digit) - text.begin();
   const std::string_view digits = text.substr(0, n);
   text.remove_prefix(n);
   return digits;
@@ -89,5 +89,7 @@ std::string shortened(std::string_view text) {
 }
 
 std::string in_quotes(std::string_view text) { return "'" + shortened(text) + "'"; }
+
+std::string counted(std::size_t n, const std::string& noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
 
 }  // namespace corank::symbolic

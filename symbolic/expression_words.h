@@ -24,5 +24,7 @@ std::string normal_decimal(std::string_view text, const SourceLocation& where);
 /// At most 40 bytes of a text, "…" behind them where it is longer; and the same in quotes. For messages.
 std::string shortened(std::string_view text);
 std::string in_quotes(std::string_view text);
+/// "1 point", "2 points".
+std::string counted(std::size_t n, const std::string& noun);
 
 }  // namespace corank::symbolic

@@ -22,8 +22,8 @@ Expression decimal(double units, int exponent) {
       exponent >= 0 ? digits + std::string(static_cast<std::size_t>(exponent), '0')
                     : fmt::format("{:0>{}}", digits, static_cast<std::size_t>(1 - exponent));  // a digit before the point
   const auto point = static_cast<std::ptrdiff_t>(text.size()) + std::min(exponent, 0);
-  std::string number = text.substr(0, static_cast<std::size_t>(point));
-  if (exponent < 0) number += "." + text.substr(static_cast<std::size_t>(point));
+  std::string number = text.substr(0, point);
+  if (exponent < 0) number += "." + text.substr(point);
   return units < 0 ? -Expression::number(number) : Expression::number(number);
 }
 
@@ -53,7 +53,7 @@ void find_ranges(TrigonometricSystem& system) {
   std::vector<Interval> x;
   for (const Variable& v : polynomials.variables)
     x.push_back(v.kind == VariableKind::auxiliary ? Interval::whole() : v.domain);
-  const auto side = [&](const Coordinate& c) -> Interval& { return x[static_cast<std::size_t>(polynomials.find(c.name))]; };
+  const auto side = [&](const Coordinate& c) -> Interval& { return x[polynomials.find(c.name)]; };
   for (const Coordinate& c : system.coordinates)
     if (!c.has_range) side(c) = Interval::whole();
   if (!certify::contract_unbounded(polynomials, x)) return;  // no solution anywhere

@@ -5,8 +5,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "corank/core/exact_number.h"
-
 namespace corank::symbolic {
 namespace {
 
@@ -17,23 +15,23 @@ using GiNaC::numeric;
 
 constexpr double kMaxBits = 100'000;
 
-std::string to_string(const numeric& q) {
-  std::ostringstream out;
-  out << q;
-  return out.str();
-}
-
-Expression integer_text(const numeric& n) { return Expression::number(to_string(n)); }
+Expression integer_text(const numeric& n) { return Expression::number(text_of(n)); }
 
 // |q| for q ≠ 0: a decimal where it is short, else p/q.
 Expression positive_rational(const numeric& q) {
-  const auto decimal = ExactNumber::rational(to_string(q)).decimal();
+  const auto decimal = ExactNumber::rational(text_of(q)).decimal();
   if (decimal && decimal->size() <= 8 && decimal->find('e') == std::string::npos) return Expression::number(*decimal);
   if (q.is_integer()) return integer_text(q);
   return Expression::node(Expression::Kind::quotient, {integer_text(q.numer()), integer_text(q.denom())});
 }
 
 }  // namespace
+
+std::string text_of(const ex& e) {
+  std::ostringstream out;
+  out << e;
+  return out.str();
+}
 
 double numeric_bits(const ex& e) {
   if (is_a<numeric>(e)) {
@@ -60,6 +58,15 @@ ex guarded_power(const ex& base, const ex& exponent) {
 }
 
 numeric exact_decimal(const std::string& decimal) { return numeric(ExactNumber::rational(decimal).text().c_str()); }
+
+std::optional<ConstantFunction> constant_function(const ex& function) {
+  static const std::map<std::string, ConstantFunction> kFunctions = {
+      {"sin", ConstantFunction::sin},   {"cos", ConstantFunction::cos},   {"tan", ConstantFunction::tan},
+      {"asin", ConstantFunction::asin}, {"acos", ConstantFunction::acos}, {"atan", ConstantFunction::atan},
+      {"exp", ConstantFunction::exp},   {"log", ConstantFunction::log},   {"abs", ConstantFunction::abs}};
+  const auto known = kFunctions.find(ex_to<GiNaC::function>(function).get_name());
+  return known == kFunctions.end() ? std::nullopt : std::optional(known->second);
+}
 
 ex apply_function(const std::string& name, const ex& x) {
   if (name == "sin") return GiNaC::sin(x);
@@ -272,15 +279,9 @@ Expression GinacBridge::translate(const ex& e) const {
   }
   if (is_a<GiNaC::add>(e)) return sum(e);
   if (is_a<GiNaC::mul>(e) || is_a<GiNaC::power>(e)) return product(e);
-  if (is_a<GiNaC::function>(e)) {
-    static const std::vector<std::string> kKnown = {"sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "abs"};
-    const std::string name = ex_to<GiNaC::function>(e).get_name();
-    if (e.nops() == 1 && std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end())
-      return Expression::function(name, to_expression(e.op(0)));
-  }
-  std::ostringstream text;
-  text << e;
-  throw std::domain_error("`" + text.str() + "` is not in the model language");
+  if (is_a<GiNaC::function>(e) && e.nops() == 1 && constant_function(e))
+    return Expression::function(ex_to<GiNaC::function>(e).get_name(), to_expression(e.op(0)));
+  throw std::domain_error("`" + text_of(e) + "` is not in the model language");
 }
 
 }  // namespace corank::symbolic

@@ -7,22 +7,28 @@
 #include <ginac/ginac.h>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "corank/core/exact_number.h"
 #include "corank/symbolic/expression.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::symbolic {
 
+/// As GiNaC prints it.
+std::string text_of(const GiNaC::ex& e);
 /// log2 of the largest numerator or denominator in an expression, an upper bound.
 double numeric_bits(const GiNaC::ex& e);
 /// Raises only where the numbers of the result stay below about 10^5 bits; throws std::domain_error otherwise.
 GiNaC::ex guarded_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
 /// A decimal of the model language as an exact rational number. Throws std::domain_error where it is absurdly long.
 GiNaC::numeric exact_decimal(const std::string& decimal);
+/// Which of the language's functions a GiNaC function is; nothing where it is none.
+std::optional<ConstantFunction> constant_function(const GiNaC::ex& function);
 /// One of the language's functions, symbolically. Throws std::domain_error for another name.
 GiNaC::ex apply_function(const std::string& name, const GiNaC::ex& argument);
 

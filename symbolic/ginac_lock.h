@@ -10,36 +10,23 @@ namespace corank::symbolic {
 
 class GinacLock {
  public:
-  GinacLock() : lock_(mutex()) {
-    if (depth()++ == 0) current() = ++number();
+  GinacLock() : lock_(mutex_) {
+    if (depth_++ == 0) current_ = ++number_;
   }
   ~GinacLock() {
-    if (--depth() == 0) current() = 0;
+    if (--depth_ == 0) current_ = 0;
   }
   GinacLock(const GinacLock&) = delete;
   GinacLock& operator=(const GinacLock&) = delete;
 
   /// The number of the outermost lock that is held, by any thread; 0: there is none.
-  static std::uint64_t holder() { return current(); }
+  static std::uint64_t holder() { return current_; }
 
  private:
-  // Recursive: singularity_system calls derive.
-  static std::recursive_mutex& mutex() {
-    static std::recursive_mutex the_mutex;
-    return the_mutex;
-  }
-  static int& depth() {  // of the thread that holds the mutex
-    static int the_depth = 0;
-    return the_depth;
-  }
-  static std::uint64_t& number() {
-    static std::uint64_t the_number = 0;
-    return the_number;
-  }
-  static std::atomic<std::uint64_t>& current() {
-    static std::atomic<std::uint64_t> the_current = 0;
-    return the_current;
-  }
+  static inline std::recursive_mutex mutex_;  // recursive: singularity_system calls derive
+  static inline int depth_ = 0;               // of the thread that holds the mutex
+  static inline std::uint64_t number_ = 0;
+  static inline std::atomic<std::uint64_t> current_ = 0;
   std::lock_guard<std::recursive_mutex> lock_;
 };
 

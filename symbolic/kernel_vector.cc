@@ -21,10 +21,7 @@ std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n,
     for (std::size_t v = 0; v < vectors; ++v)
       for (std::size_t i = 0; i < n; ++i)
         names.push_back(prefix + (vectors > 1 ? std::to_string(v + 1) + "_" : "") + std::to_string(i + 1));
-    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
-          return mechanism.has_constant(name) || mechanism.find_coordinate(name) >= 0 || mechanism.find_rate(name) >= 0;
-        }))
-      return names;
+    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return mechanism.has(name); })) return names;
   }
 }
 
@@ -43,6 +40,12 @@ Expression positive_number(const std::string& text, const std::string& unknown) 
   if (!positive)
     throw ModelError({"scale of " + unknown, 0, 0}, "'" + text + "' is not a scale", "a positive rational number");
   return parse_expression(text, "scale of " + unknown);
+}
+
+std::vector<Expression> symbols(const std::vector<std::string>& names) {
+  std::vector<Expression> list;
+  for (const std::string& name : names) list.push_back(Expression::symbol(name));
+  return list;
 }
 
 std::vector<Expression> scaled(const std::vector<std::string>& unknowns, const std::vector<std::string>& scales) {
@@ -70,5 +73,23 @@ Expression generic_component(std::size_t i) {
 }
 
 Expression sum_of(const std::vector<Expression>& terms) { return Expression::node(Kind::sum, terms); }
+
+Expression square_of(const std::vector<Expression>& x) {
+  std::vector<Expression> terms;
+  for (const Expression& component : x) terms.push_back(pow(component, 2));
+  return sum_of(terms);
+}
+
+Expression dot(const std::vector<Expression>& x, const std::vector<Expression>& y) {
+  std::vector<Expression> terms;
+  for (std::size_t k = 0; k < x.size(); ++k) terms.push_back(x[k] * y[k]);
+  return sum_of(terms);
+}
+
+Expression generic_form(const std::vector<Expression>& x) {
+  std::vector<Expression> terms;
+  for (const Expression& component : x) terms.push_back(generic_component(terms.size()) * component);
+  return sum_of(terms);
+}
 
 }  // namespace corank::symbolic

@@ -22,7 +22,7 @@ class Values {
   explicit Values(const Mechanism& mechanism) {
     std::vector<Expression> asked;
     for (const Limit& limit : mechanism.limits()) {
-      const Coordinate& c = mechanism.coordinates()[static_cast<std::size_t>(mechanism.find_coordinate(limit.coordinate))];
+      const Coordinate& c = mechanism.coordinates()[mechanism.find_coordinate(limit.coordinate)];
       asked.insert(asked.end(), {limit.lower, limit.upper, c.lower, c.upper});
     }
     const std::vector<Constant>& constants = mechanism.constants();
@@ -83,7 +83,7 @@ std::vector<Limit> effective_limits(const Mechanism& mechanism) {
   std::vector<Limit> result;
   for (const Limit& limit : mechanism.limits()) {
     try {
-      const auto index = static_cast<std::size_t>(mechanism.find_coordinate(limit.coordinate));
+      const int index = mechanism.find_coordinate(limit.coordinate);
       if (is_effective(limit, mechanism.coordinates()[index], values)) result.push_back(limit);
     } catch (const std::domain_error& error) {
       throw ModelError(limit.where, "the limit of " + in_quotes(limit.coordinate) + " has no real ends: " + error.what(),
@@ -101,7 +101,7 @@ Mechanism limits_as_ranges(Mechanism mechanism) {
 
 void keep_limits(const Mechanism& mechanism, std::vector<Coordinate>& coordinates) {
   for (const Limit& limit : effective_limits(mechanism)) {
-    Coordinate& c = coordinates[static_cast<std::size_t>(mechanism.find_coordinate(limit.coordinate))];
+    Coordinate& c = coordinates[mechanism.find_coordinate(limit.coordinate)];
     c.lower = limit.lower;
     c.upper = limit.upper;
     c.has_range = true;

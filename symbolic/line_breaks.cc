@@ -1,5 +1,6 @@
 #include "corank/symbolic/line_breaks.h"
 
+#include <algorithm>
 #include <functional>
 #include <sstream>
 #include <string_view>
@@ -58,6 +59,17 @@ std::string for_each_line(const std::string& text, const std::function<std::stri
 }
 
 }  // namespace
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
 
 std::string broken(const std::string& formula, std::size_t first, std::size_t indent) {
   return broken_at(formula, breaks(formula), first, indent);

@@ -10,6 +10,11 @@ namespace corank::symbolic {
 
 inline constexpr std::size_t kLineWidth = 100;  ///< columns; a single term may be longer
 
+/// With blanks behind it, in bytes.
+std::string padded(std::string text, std::size_t width);
+/// A comment must stay on its line: line ends become blanks.
+std::string one_line(std::string text);
+
 /// A formula whose first line begins behind `first` columns. Lines that do not fit end before " + ", " - ", " & " or a
 /// relation, or behind a comma; those that follow are indented by `indent`.
 std::string broken(const std::string& formula, std::size_t first, std::size_t indent);

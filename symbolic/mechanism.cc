@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <unordered_set>
 
-#include "corank/symbolic/degrees.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/model_validator.h"
 
@@ -36,23 +36,14 @@ void Mechanism::declare(const std::string& name, Declared kind, const SourceLoca
     throw ModelError(where, in_quotes(name) + " is not a name", "letters, digits and _, not beginning with a digit");
   }
   if (is_reserved(name)) throw ModelError(where, "the name " + in_quotes(name) + " is reserved", expectation);
-  if (const auto found = names_.find(name); found != names_.end()) {
-    const auto [old_kind, index] = found->second;
-    throw ModelError(where,
-                     "the name " + in_quotes(name) + " is already declared" + declared_at(declared_where(old_kind, index)),
+  if (const auto found = names_.find(name); found != names_.end())
+    throw ModelError(where, "the name " + in_quotes(name) + " is already declared" + declared_at(found->second.where),
                      expectation);
-  }
-  names_.emplace(name, Declaration{kind, kind == Declared::constant     ? constants_.size()
-                                         : kind == Declared::coordinate ? coordinates_.size()
-                                         : kind == Declared::composite  ? composites_.size()
-                                                                        : rates_.size()});
-}
-
-const SourceLocation& Mechanism::declared_where(Declared kind, std::size_t index) const {
-  return kind == Declared::constant     ? constants_[index].where
-         : kind == Declared::coordinate ? coordinates_[index].where
-         : kind == Declared::composite  ? composites_[index].where
-                                        : rates_[index].where;
+  const std::size_t index = kind == Declared::constant     ? constants_.size()
+                            : kind == Declared::coordinate ? coordinates_.size()
+                            : kind == Declared::composite  ? composites_.size()
+                                                           : rates_.size();
+  names_.emplace(name, Declaration{kind, index, where});
 }
 
 Expression Mechanism::constant(const std::string& name, const Expression& value, const SourceLocation& where) {
@@ -62,25 +53,24 @@ Expression Mechanism::constant(const std::string& name, const Expression& value,
   return Expression::symbol(name);
 }
 
+Expression Mechanism::coordinate(const Coordinate& c) {
+  declare(c.name, Declared::coordinate, c.where);
+  coordinates_.push_back(c);
+  return Expression::symbol(c.name);
+}
+
 Expression Mechanism::length(const std::string& name, const Expression& lower, const Expression& upper,
                              const SourceLocation& where) {
-  declare(name, Declared::coordinate, where);
-  coordinates_.push_back({name, CoordinateKind::length, lower, upper, where});
-  return Expression::symbol(name);
+  return coordinate({name, CoordinateKind::length, lower, upper, where});
 }
 
 Expression Mechanism::angle(const std::string& name, const Expression& lower, const Expression& upper,
                             const SourceLocation& where) {
-  declare(name, Declared::coordinate, where);
-  coordinates_.push_back({name, CoordinateKind::angle, lower, upper, where});
-  return Expression::symbol(name);
+  return coordinate({name, CoordinateKind::angle, lower, upper, where});
 }
 
 Expression Mechanism::length_without_range(const std::string& name, const SourceLocation& where) {
-  declare(name, Declared::coordinate, where);
-  coordinates_.push_back({name, CoordinateKind::length, 0, 0, where});
-  coordinates_.back().has_range = false;
-  return Expression::symbol(name);
+  return coordinate({name, CoordinateKind::length, 0, 0, where, false, false});
 }
 
 std::vector<Expression> Mechanism::compose(Composite::Kind kind, const std::string& name,
@@ -226,39 +216,33 @@ void Mechanism::set_constant(const std::string& name, const Expression& value) {
 
 void Mechanism::set_range(const std::string& coordinate, const Expression& lower, const Expression& upper) {
   const int index = find_coordinate(coordinate);
-  const auto holds = [&](const Composite& c) {
-    return std::find(c.components.begin(), c.components.end(), coordinate) != c.components.end();
-  };
-  if (index < 0 || std::any_of(composites_.begin(), composites_.end(), holds))
+  if (index < 0 || coordinates_[index].direction)
     throw ModelError({name_, 0, 0}, in_quotes(coordinate) + " has no range of its own",
                      "a coordinate that is not part of a unit vector or rotation matrix");
-  Coordinate& c = coordinates_[static_cast<std::size_t>(index)];
+  Coordinate& c = coordinates_[index];
   c.lower = lower, c.upper = upper, c.has_range = true;
 }
 
 void Mechanism::unroll(const std::string& angle, const Expression& lower, const Expression& upper) {
   set_range(angle, lower, upper);
-  coordinates_[static_cast<std::size_t>(find_coordinate(angle))].kind = CoordinateKind::length;
+  coordinates_[find_coordinate(angle)].kind = CoordinateKind::length;
 }
 
-int Mechanism::find_coordinate(const std::string& name) const {
+int Mechanism::find(const std::string& name, Declared kind) const {
   const auto found = names_.find(name);
-  return found == names_.end() || found->second.kind != Declared::coordinate ? -1 : static_cast<int>(found->second.index);
-}
-
-bool Mechanism::has_constant(const std::string& name) const {
-  const auto found = names_.find(name);
-  return found != names_.end() && found->second.kind == Declared::constant;
+  return found == names_.end() || found->second.kind != kind ? -1 : static_cast<int>(found->second.index);
 }
 
 const Composite* Mechanism::find_composite(const std::string& name) const {
-  const auto found = names_.find(name);
-  return found == names_.end() || found->second.kind != Declared::composite ? nullptr : &composites_[found->second.index];
+  const int index = find(name, Declared::composite);
+  return index < 0 ? nullptr : &composites_[index];
 }
 
-int Mechanism::find_rate(const std::string& name) const {
-  const auto found = names_.find(name);
-  return found == names_.end() || found->second.kind != Declared::rate ? -1 : static_cast<int>(found->second.index);
+std::vector<Constraint> Mechanism::equations() const {
+  std::vector<Constraint> result;
+  std::copy_if(constraints_.begin(), constraints_.end(), std::back_inserter(result),
+               [](const Constraint& c) { return c.relation.kind == Relation::Kind::equal; });
+  return result;
 }
 
 bool Mechanism::is_plain_system() const {
@@ -274,22 +258,19 @@ void Mechanism::validate_rates(const ModelValidator& validator) const {
   if (velocity_equations_.empty())
     throw ModelError(rates_[0].where, "the model has rates but no velocity equations", "at least one, in [VELOCITY EQS]");
   for (const Constraint& c : velocity_equations_) validator.check_velocity_equation(c);
-  const auto equations = std::count_if(constraints_.begin(), constraints_.end(),
-                                       [](const Constraint& c) { return c.relation.kind == Relation::Kind::equal; });
+  const std::size_t equation_count = equations().size();
   const auto difference = [](std::size_t a, std::size_t b) { return static_cast<long>(a) - static_cast<long>(b); };
   const long by_rates = difference(rates_.size(), velocity_equations_.size()),
-             by_coordinates = difference(coordinates_.size(), static_cast<std::size_t>(equations));
+             by_coordinates = difference(coordinates_.size(), equation_count);
   if (by_rates == by_coordinates) return;
-  const auto counted = [](std::size_t n, const std::string& what, std::size_t m, const std::string& equation,
-                          long mobility) {
-    return std::to_string(n) + " " + what + (n == 1 ? "" : "s") + " and " + std::to_string(m) + " " + equation +
-           (m == 1 ? "" : "s") + " give mobility " + std::to_string(mobility);
+  const auto give = [](const std::string& unknowns, const std::string& conditions, long mobility) {
+    return unknowns + " and " + conditions + " give mobility " + std::to_string(mobility);
   };
-  throw ModelError(
-      velocity_equations_[0].where,
-      counted(rates_.size(), "rate", velocity_equations_.size(), "velocity equation", by_rates) + ", but " +
-          counted(coordinates_.size(), "coordinate", static_cast<std::size_t>(equations), "equation", by_coordinates),
-      "the same mobility from both");
+  throw ModelError(velocity_equations_[0].where,
+                   give(counted(rates_.size(), "rate"), counted(velocity_equations_.size(), "velocity equation"), by_rates) +
+                       ", but " +
+                       give(counted(coordinates_.size(), "coordinate"), counted(equation_count, "equation"), by_coordinates),
+                   "the same mobility from both");
 }
 
 void Mechanism::validate() const {

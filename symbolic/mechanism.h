@@ -138,6 +138,8 @@ class Mechanism {
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   const std::vector<Composite>& composites() const { return composites_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }
+  /// Those with =: Φ.
+  std::vector<Constraint> equations() const;
   const std::vector<Constraint>& implied() const { return implied_; }
   const std::vector<std::string>& inputs() const { return inputs_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
@@ -157,12 +159,14 @@ class Mechanism {
   /// No inputs and no outputs, neither coordinates nor rates.
   bool is_plain_system() const;
   /// Index of a coordinate, −1 where there is none.
-  int find_coordinate(const std::string& name) const;
-  bool has_constant(const std::string& name) const;
+  int find_coordinate(const std::string& name) const { return find(name, Declared::coordinate); }
+  bool has_constant(const std::string& name) const { return find(name, Declared::constant) >= 0; }
   /// Null where no unit vector or rotation matrix has that name.
   const Composite* find_composite(const std::string& name) const;
   /// Index of a rate, −1 where there is none.
-  int find_rate(const std::string& name) const;
+  int find_rate(const std::string& name) const { return find(name, Declared::rate); }
+  /// Is it the name of anything?
+  bool has(const std::string& name) const { return names_.contains(name); }
 
   /// Throws ModelError, with the place, for: a name in a constant, range, constraint that is not declared (before, for
   /// constants); a coordinate in a constant, range or radius; an absurd power (9^9^9^9); no coordinates; no constraints; a
@@ -175,7 +179,8 @@ class Mechanism {
   enum class Declared { constant, coordinate, composite, rate };
   /// Registers the name of the next constant, coordinate, composite or rate, where it is free and no reserved word.
   void declare(const std::string& name, Declared kind, const SourceLocation& where);
-  const SourceLocation& declared_where(Declared kind, std::size_t index) const;
+  int find(const std::string& name, Declared kind) const;
+  Expression coordinate(const Coordinate& c);
   void validate_rates(const ModelValidator& validator) const;
   /// Declares a composite and its coordinates name_suffix.
   std::vector<Expression> compose(Composite::Kind kind, const std::string& name, const std::vector<std::string>& suffixes,
@@ -197,6 +202,7 @@ class Mechanism {
   struct Declaration {
     Declared kind;
     std::size_t index;
+    SourceLocation where;
   };
   std::unordered_map<std::string, Declaration> names_;
 };

@@ -1,7 +1,5 @@
 #include "corank/symbolic/model_builder.h"
 
-#include "corank/symbolic/degrees.h"
-
 namespace corank::symbolic {
 namespace {
 
@@ -21,62 +19,38 @@ Expression node_of(Kind kind, std::vector<Expression>& operands) {
 
 }  // namespace
 
-void ExpressionBuilder::begin() { frames_.emplace_back(); }
-
 void ExpressionBuilder::operand(Expression e) {
   Frame& frame = frames_.back();
   frame.chain.push_back({std::move(e), frame.exponent_signs});
   frame.exponent_signs = 0;
 }
 
-void ExpressionBuilder::number(std::string_view decimal, const SourceLocation& where) {
-  operand(Expression::number(std::string(decimal), where));
-}
-
-void ExpressionBuilder::degrees(const std::string& decimal, const SourceLocation& where) {
-  operand(symbolic::degrees(decimal, where));
-}
-
 void ExpressionBuilder::symbol(const std::string& name, const SourceLocation& where) {
-  operand(name == "deg" ? symbolic::degrees("1", where) : Expression::symbol(name, where));
+  operand(name == "deg" ? degrees("1", where) : Expression::symbol(name, where));
 }
 
-void ExpressionBuilder::open(Frame frame, const SourceLocation& where) {
-  if (frames_.size() > kMaxNesting) {
+void ExpressionBuilder::open(const SourceLocation& where, const std::string& function,
+                             const SourceLocation& function_where) {
+  if (frames_.size() > kMaxNesting)
     throw ModelError(where, "the parentheses are nested too deeply",
                      "at most " + std::to_string(kMaxNesting) + " inside one another");
-  }
-  frames_.push_back(std::move(frame));
-}
-
-void ExpressionBuilder::open_group(const SourceLocation& where) {
-  Frame frame;
-  frame.parenthesis = where;
-  open(std::move(frame), where);
-}
-
-void ExpressionBuilder::open_call(const std::string& function, const SourceLocation& name_where,
-                                  const SourceLocation& where) {
-  Frame frame;
+  Frame& frame = frames_.emplace_back();
   frame.parenthesis = where;
   frame.function = function;
-  frame.function_where = name_where;
-  open(std::move(frame), where);
+  frame.function_where = function_where;
 }
 
-void ExpressionBuilder::close_group() {
-  Frame frame = std::move(frames_.back());
-  frames_.pop_back();
-  Expression inside = sum_of(frame);
-  operand(frame.function.empty() ? inside : Expression::function(frame.function, inside, frame.function_where));
+void ExpressionBuilder::close() {
+  const std::string function = frames_.back().function;
+  const SourceLocation where = frames_.back().function_where;
+  const Expression inside = end();
+  operand(function.empty() ? inside : Expression::function(function, inside, where));
 }
 
 void ExpressionBuilder::sign(SignOf what) {
   Frame& frame = frames_.back();
   ++(what == SignOf::exponent ? frame.exponent_signs : what == SignOf::factor ? frame.factor_signs : frame.term_signs);
 }
-
-void ExpressionBuilder::division() { frames_.back().divides = true; }
 
 void ExpressionBuilder::end_power() {
   Frame& frame = frames_.back();
@@ -98,22 +72,15 @@ void ExpressionBuilder::end_term() {
   frame.term_signs = 0;
 }
 
-Expression ExpressionBuilder::sum_of(Frame& frame) { return node_of(Kind::sum, frame.terms); }
-
 Expression ExpressionBuilder::end() {
-  Frame frame = std::move(frames_.back());
+  Expression sum = node_of(Kind::sum, frames_.back().terms);
   frames_.pop_back();
-  return sum_of(frame);
+  return sum;
 }
 
 std::optional<SourceLocation> ExpressionBuilder::open_parenthesis() const {
   if (frames_.size() < 2) return std::nullopt;
   return frames_.back().parenthesis;
-}
-
-void ModelBuilder::finish_constant() {
-  mechanism.constant(declared, values.at(0), declared_where);
-  values.clear();
 }
 
 void ModelBuilder::finish_variable() {
@@ -130,20 +97,10 @@ void ModelBuilder::finish_variable() {
   values.clear();
 }
 
-void ModelBuilder::finish_limit() {
-  limits.push_back({declared, values.at(0), values.at(1), declared_where});
-  values.clear();
-}
-
 void ModelBuilder::finish_composite(Composite::Kind composite) {
   const bool unit = composite == Composite::Kind::unit;
   unit ? mechanism.unit_vector(declared, declared_where) : mechanism.rotation(declared, declared_where);
   if (auxiliary) mechanism.mark_auxiliary(unit ? 3 : 9);
-}
-
-void ModelBuilder::finish_rate(std::string_view role) {
-  for (const Role r : {Role::input, Role::output, Role::passive})
-    if (role == to_string(r)) mechanism.rate(declared, kind, r, declared_where);
 }
 
 void ModelBuilder::finish_equation() {
@@ -164,15 +121,6 @@ void ModelBuilder::finish_point() {
   drawing.points.push_back({declared, std::move(values), declared_where, std::move(velocity)});
   values.clear();
   point_coordinates = 0;
-}
-
-void ModelBuilder::begin_part(DrawingPart::Kind part, const SourceLocation& where) {
-  drawing.parts.push_back({part, {}, where});
-}
-
-void ModelBuilder::finish_radius() {
-  drawing.parts.back().radius = values.at(0);
-  values.clear();
 }
 
 void ModelBuilder::finish(const SourceLocation& end) {

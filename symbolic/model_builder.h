@@ -18,15 +18,14 @@ class ExpressionBuilder {
 
   enum class SignOf { exponent, factor, term };
 
-  void begin();
-  void number(std::string_view decimal, const SourceLocation& where);
-  void degrees(const std::string& decimal, const SourceLocation& where);
+  void begin() { frames_.emplace_back(); }
+  void operand(Expression e);
   void symbol(const std::string& name, const SourceLocation& where);  ///< pi/180 where it is deg
-  void open_group(const SourceLocation& where);
-  void open_call(const std::string& function, const SourceLocation& name_where, const SourceLocation& where);
-  void close_group();
+  /// A parenthesis; that of a function, or, without a name, of a group.
+  void open(const SourceLocation& where, const std::string& function = "", const SourceLocation& function_where = {});
+  void close();
   void sign(SignOf what);
-  void division();
+  void division() { frames_.back().divides = true; }
   void end_power();
   void end_term();
   /// The expression begun last.
@@ -50,10 +49,6 @@ class ExpressionBuilder {
     int exponent_signs = 0, factor_signs = 0, term_signs = 0;
     bool divides = false;
   };
-
-  void operand(Expression e);
-  void open(Frame frame, const SourceLocation& where);
-  static Expression sum_of(Frame& frame);
 
   std::vector<Frame> frames_;
 };
@@ -93,15 +88,10 @@ struct ModelBuilder {
   std::vector<Limit> limits;                ///< likewise
   Drawing drawing;
 
-  void finish_constant();
   void finish_variable();  ///< with its range where `values` has one
-  void finish_limit();
-  void finish_rate(std::string_view role);
   void finish_composite(Composite::Kind composite);
   void finish_equation();
   void finish_point();
-  void begin_part(DrawingPart::Kind part, const SourceLocation& where);
-  void finish_radius();  ///< of the part begun last
   /// After the whole text: inputs, outputs, and the checks of Mechanism::validate().
   void finish(const SourceLocation& end);
 };

@@ -16,17 +16,8 @@ namespace peg = tao::pegtl;
 template <typename Rule>
 struct Action : ExpressionAction<Rule> {};
 
-#define CORANK_ACTION(rule, ...)                                          \
-  template <>                                                             \
-  struct Action<grammar::rule> {                                          \
-    template <typename ActionInput>                                       \
-    static void apply(const ActionInput& in, ModelBuilder& b) __VA_ARGS__ \
-  };
-#define CORANK_ACTION0(rule, ...)                   \
-  template <>                                       \
-  struct Action<grammar::rule> {                    \
-    static void apply0(ModelBuilder& b) __VA_ARGS__ \
-  };
+#define CORANK_ACTION(rule, ...) CORANK_ACTION_OF(Action, ModelBuilder, rule, __VA_ARGS__)
+#define CORANK_ACTION0(rule, ...) CORANK_ACTION0_OF(Action, ModelBuilder, rule, __VA_ARGS__)
 
 template <typename ActionInput>
 void declare(const ActionInput& in, ModelBuilder& b) {
@@ -40,7 +31,10 @@ CORANK_ACTION(section_title, {
   b.section_where.column -= 1;  // the bracket
 })
 CORANK_ACTION(constant_name, { declare(in, b); })
-CORANK_ACTION0(constant_end, { b.finish_constant(); })
+CORANK_ACTION0(constant_end, {
+  b.mechanism.constant(b.declared, b.values.at(0), b.declared_where);
+  b.values.clear();
+})
 CORANK_ACTION(variables_header, {
   const std::string_view title = in.string_view();
   b.of_limits = false;
@@ -48,7 +42,10 @@ CORANK_ACTION(variables_header, {
 })
 CORANK_ACTION0(limits_header, { b.of_limits = true; })
 CORANK_ACTION(limit_name, { declare(in, b); })
-CORANK_ACTION0(limit_end, { b.finish_limit(); })
+CORANK_ACTION0(limit_end, {
+  b.limits.push_back({b.declared, b.values.at(0), b.values.at(1), b.declared_where});
+  b.values.clear();
+})
 CORANK_ACTION(variable_name, { declare(in, b); })
 CORANK_ACTION0(length_mark, { b.kind = CoordinateKind::length; })
 CORANK_ACTION0(angle_mark, { b.kind = CoordinateKind::angle; })
@@ -61,7 +58,10 @@ CORANK_ACTION(equations_header, {
   b.of_rates = in.string_view().find("VELOCITY") != std::string_view::npos;
 })
 CORANK_ACTION(rate_name, { declare(in, b); })
-CORANK_ACTION(role_word, { b.finish_rate(in.string_view()); })
+CORANK_ACTION(role_word, {
+  for (const Role role : {Role::input, Role::output, Role::passive})
+    if (in.string_view() == to_string(role)) b.mechanism.rate(b.declared, b.kind, role, b.declared_where);
+})
 CORANK_ACTION(equation_begin, {
   b.equation_where = place(in, b);
   b.equation_is_empty = true;
@@ -85,18 +85,20 @@ CORANK_ACTION(point_name, { declare(in, b); })
 CORANK_ACTION0(moves_word, { b.point_coordinates = b.values.size(); })
 CORANK_ACTION0(point_end, { b.finish_point(); })
 CORANK_ACTION(unit_name, { b.drawing.unit = in.string(); })
-CORANK_ACTION(slider_word, { b.begin_part(DrawingPart::Kind::slider, place(in, b)); })
-CORANK_ACTION(hinge_word, { b.begin_part(DrawingPart::Kind::hinge, place(in, b)); })
-CORANK_ACTION(sphere_word, { b.begin_part(DrawingPart::Kind::sphere, place(in, b)); })
-CORANK_ACTION(cylinder_word, { b.begin_part(DrawingPart::Kind::cylinder, place(in, b)); })
-CORANK_ACTION(part_word, {
-  for (const auto part : {DrawingPart::Kind::link, DrawingPart::Kind::platform, DrawingPart::Kind::joint,
-                          DrawingPart::Kind::ground, DrawingPart::Kind::effector, DrawingPart::Kind::ball}) {
-    if (in.string_view() == to_string(part)) b.begin_part(part, place(in, b));
-  }
-})
+template <typename ActionInput>
+void begin_part(const ActionInput& in, ModelBuilder& b) {
+  b.drawing.parts.push_back({drawing_part_of(in.string_view()), {}, place(in, b)});
+}
+CORANK_ACTION(slider_word, { begin_part(in, b); })
+CORANK_ACTION(hinge_word, { begin_part(in, b); })
+CORANK_ACTION(sphere_word, { begin_part(in, b); })
+CORANK_ACTION(cylinder_word, { begin_part(in, b); })
+CORANK_ACTION(part_word, { begin_part(in, b); })
 CORANK_ACTION(part_point, { b.drawing.parts.back().points.push_back(in.string()); })
-CORANK_ACTION0(part_radius, { b.finish_radius(); })
+CORANK_ACTION0(part_radius, {
+  b.drawing.parts.back().radius = b.values.at(0);
+  b.values.clear();
+})
 CORANK_ACTION(colour_digits, { b.drawing.parts.back().colour = "#" + in.string(); })
 #undef CORANK_ACTION
 #undef CORANK_ACTION0

@@ -6,26 +6,15 @@
 
 #include "corank/core/check.h"
 #include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/line_breaks.h"
 
 namespace corank::symbolic {
 namespace {
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
-}
 
 std::size_t widest(const auto& named) {
   std::size_t width = 0;
   for (const auto& n : named) width = std::max(width, n.name.size());
   return width;
-}
-
-// A comment must stay on its line.
-std::string comment(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return "% " + text;
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
@@ -46,7 +35,7 @@ bool begins_with(std::span<const std::string> names, const std::vector<std::stri
 
 class Writer {
  public:
-  explicit Writer(const Mechanism& mechanism) : mechanism_(mechanism), out_(comment(mechanism.name()) + "\n") {
+  explicit Writer(const Mechanism& mechanism) : mechanism_(mechanism), out_("% " + one_line(mechanism.name()) + "\n") {
     for (const Composite& c : mechanism.composites()) composites_[c.components.front()] = &c;
   }
 
@@ -78,7 +67,7 @@ class Writer {
   }
 
   static std::string equation(const Constraint& c) {
-    return c.relation.text() + ";" + (c.note.empty() ? "" : "   " + comment(c.note));
+    return c.relation.text() + ";" + (c.note.empty() ? "" : "   % " + one_line(c.note));
   }
 
   std::size_t widest_limit() const {

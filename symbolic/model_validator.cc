@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/expression_words.h"
 
 namespace corank::symbolic {
@@ -14,19 +15,6 @@ namespace {
 using Kind = Expression::Kind;
 
 /// Rough: it only decides whether an exponent is absurd.
-long double rough_function(const std::string& name, long double x) {
-  if (name == "sqrt") return std::sqrt(x);
-  if (name == "exp") return std::exp(x);
-  if (name == "log") return std::log(x);
-  if (name == "abs") return std::abs(x);
-  if (name == "sin") return std::sin(x);
-  if (name == "cos") return std::cos(x);
-  if (name == "tan") return std::tan(x);
-  if (name == "asin") return std::asin(x);
-  if (name == "acos") return std::acos(x);
-  return std::atan(x);
-}
-
 long double rough_number(const std::string& decimal) {
   long double value = 0;
   const auto parsed = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
@@ -173,7 +161,7 @@ ModelValidator::Size ModelValidator::check(const Expression& e, const Context& c
       case Kind::product: size.value *= part.value; break;
       case Kind::quotient: size.value = first ? part.value : size.value / part.value; break;
       case Kind::negation: size.value = -part.value; break;
-      case Kind::function: size.value = rough_function(e.name(), part.value); break;
+      case Kind::function: size.value = function_value(e.name(), part.value); break;
       default: size.value += part.value;
     }
     first = false;

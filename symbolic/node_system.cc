@@ -10,27 +10,8 @@
 namespace corank::symbolic {
 namespace {
 
-using Kind = Expression::Kind;
-using Names = std::map<std::string, std::string>;
+using Names = std::map<std::string, Expression>;
 using Equations = std::vector<TrigonometricSystem::Equation>;
-
-Expression renamed(const Expression& e, const Names& names) {
-  switch (e.kind()) {
-    case Kind::number: return e;
-    case Kind::symbol: {
-      const auto found = names.find(e.name());
-      return found == names.end() ? e : Expression::symbol(found->second, e.where());
-    }
-    case Kind::function: return Expression::function(e.name(), renamed(e.operands()[0], names), e.where());
-    default: {
-      std::vector<Expression> operands;
-      for (const Expression& operand : e.operands()) operands.push_back(renamed(operand, names));
-      return Expression::node(e.kind(), std::move(operands), e.where());
-    }
-  }
-}
-
-Relation renamed(const Relation& r, const Names& names) { return {renamed(r.lhs, names), r.kind, renamed(r.rhs, names)}; }
 
 // Those that are about y, for y′.
 void add_second(Equations& list, const Names& names) {
@@ -41,7 +22,7 @@ void add_second(Equations& list, const Names& names) {
     };
     if (!std::any_of(names.begin(), names.end(), in)) continue;
     TrigonometricSystem::Equation copy = list[i];
-    copy.relation = renamed(copy.relation, names);
+    copy.relation = copy.relation.substituted(names);
     copy.source += ", second configuration";
     list.push_back(std::move(copy));
   }
@@ -54,29 +35,22 @@ void add_kernel(TrigonometricSystem& system, const LocusByCoordinates& locus, co
   const std::vector<Expression> rates = scaled(unknowns, locus.scales);
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
     std::vector<Expression> row;
-    for (const Expression& entry : m.rows[i]) row.push_back(renamed(entry, names));
+    for (const Expression& entry : m.rows[i]) row.push_back(entry.substituted(names));
     if (const auto lhs = kernel_row(row, rates))
       system.equations.push_back({*lhs == Expression(0),
                                   "row " + std::to_string(i + 1) + " of " + locus.kernel.name + " " + vector + " = 0",
                                   locus.kernel.where[i], true});
   }
-  std::vector<Expression> squares, generic;
-  for (std::size_t j = 0; j < unknowns.size(); ++j) {
-    const Expression xi = Expression::symbol(unknowns[j]);
-    squares.push_back(pow(xi, 2));
-    generic.push_back(generic_component(j) * xi);
-  }
-  system.equations.push_back({sum_of(squares) == Expression(1), "norm of " + vector, where, true});
-  system.inequalities.push_back({sum_of(generic) >= Expression(0), "half-space of " + vector, where, true});
+  const std::vector<Expression> xi = symbols(unknowns);
+  system.equations.push_back({square_of(xi) == Expression(1), "norm of " + vector, where, true});
+  system.inequalities.push_back({generic_form(xi) >= Expression(0), "half-space of " + vector, where, true});
 }
 
 }  // namespace
 
 std::string second_name(const Mechanism& mechanism, const std::string& coordinate) {
   std::string name = coordinate + "_2";
-  while (mechanism.has_constant(name) || mechanism.find_coordinate(name) >= 0 || mechanism.find_rate(name) >= 0 ||
-         mechanism.find_composite(name))
-    name.insert(coordinate.size(), "_");
+  while (mechanism.has(name)) name.insert(coordinate.size(), "_");
   return name;
 }
 
@@ -93,7 +67,9 @@ TrigonometricSystem node_system(const Mechanism& mechanism, SingularitySet set, 
   for (std::size_t c = 0; c < n_q; ++c) {
     Coordinate copy = system.coordinates[c];
     if (std::find(columns.begin(), columns.end(), copy.name) == columns.end()) continue;
-    copy.name = names[copy.name] = second_name(mechanism, copy.name);
+    const std::string second = second_name(mechanism, copy.name);
+    names[copy.name] = Expression::symbol(second);
+    copy.name = second;
     system.coordinates.push_back(std::move(copy));
   }
   for (Equations* list : {&system.equations, &system.inequalities, &system.claimed}) add_second(*list, names);
@@ -104,27 +80,23 @@ TrigonometricSystem node_system(const Mechanism& mechanism, SingularitySet set, 
   add_kernel(system, locus, {}, {unknowns.begin(), half}, "xi1", where);
   add_kernel(system, locus, names, {half, unknowns.end()}, "xi2", where);
 
-  std::vector<Expression> distance, order;
+  std::vector<Expression> difference;
   for (std::size_t c = 0; c < n_q; ++c) {
     const Coordinate& coordinate = system.coordinates[c];
     const auto column = std::find(columns.begin(), columns.end(), coordinate.name);
     if (column == columns.end()) continue;
-    const Expression y = Expression::symbol(coordinate.name), other = Expression::symbol(names.at(coordinate.name));
-    const auto add = [&](const Expression& difference) {
-      order.push_back(generic_component(order.size()) * difference);
-      distance.push_back(pow(difference, 2));
-    };
+    const Expression y = Expression::symbol(coordinate.name), other = names.at(coordinate.name);
     if (coordinate.kind == CoordinateKind::angle) {
-      add(cos(y) - cos(other));
-      add(sin(y) - sin(other));
+      difference.insert(difference.end(), {cos(y) - cos(other), sin(y) - sin(other)});
     } else {
-      const std::string& scale = locus.scales[static_cast<std::size_t>(column - columns.begin())];
-      add((y - other) / (positive_number(scale, y.name()) * positive_number(locus.size_per_scale, "a size")));
+      const std::string& scale = locus.scales[column - columns.begin()];
+      difference.push_back((y - other) /
+                           (positive_number(scale, y.name()) * positive_number(locus.size_per_scale, "a size")));
     }
   }
-  const Expression least = parse_expression(kNodeDistance, "");
-  system.inequalities.push_back({sum_of(distance) >= pow(least, 2), "distance of the two configurations", where, true});
-  system.inequalities.push_back({sum_of(order) >= Expression(0), "order of the two configurations", where, true});
+  system.inequalities.push_back({square_of(difference) >= pow(parse_expression(kNodeDistance, ""), 2),
+                                 "distance of the two configurations", where, true});
+  system.inequalities.push_back({generic_form(difference) >= Expression(0), "order of the two configurations", where, true});
   return system;
 }
 

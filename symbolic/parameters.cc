@@ -8,7 +8,7 @@
 
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
-#include "corank/symbolic/exact_value.h"
+#include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/found_ranges.h"
 #include "corank/symbolic/node_system.h"
@@ -20,22 +20,6 @@ using Kind = Expression::Kind;
 using Values = std::map<std::string, Expression>;
 
 constexpr double kMargin = 0.02;  // of a range that depends on a parameter
-
-Expression substituted(const Expression& e, const Values& values) {
-  switch (e.kind()) {
-    case Kind::number: return e;
-    case Kind::symbol: {
-      const auto found = values.find(e.name());
-      return found == values.end() ? e : found->second;
-    }
-    case Kind::function: return Expression::function(e.name(), substituted(e.operands()[0], values), e.where());
-    default: {
-      std::vector<Expression> operands;
-      for (const Expression& operand : e.operands()) operands.push_back(substituted(operand, values));
-      return Expression::node(e.kind(), std::move(operands), e.where());
-    }
-  }
-}
 
 class Family {
  public:
@@ -52,7 +36,7 @@ class Family {
     const UpwardRounding rounding;
     for (const Condition& c : conditions) {
       if (is_free(c.value)) continue;
-      const Expression value = substituted(c.value, values_);
+      const Expression value = c.value.substituted(values_);
       if (c.sign == 0)
         refuse("the equations leave out " + value.text() + ", which is 0 for the constants' own values",
                "parameters on which this does not depend: " + remedy());
@@ -69,8 +53,7 @@ class Family {
     split_constants();
     take_coordinates();
     for (auto* list : {&out_.system.equations, &out_.system.inequalities})
-      for (TrigonometricSystem::Equation& e : *list)
-        e.relation = {substituted(e.relation.lhs, values_), e.relation.kind, substituted(e.relation.rhs, values_)};
+      for (TrigonometricSystem::Equation& e : *list) e.relation = e.relation.substituted(values_);
     out_.system.claimed.clear();  // they serve searches over all variables
     std::erase_if(out_.system.inequalities, [&](const TrigonometricSystem::Equation& e) {
       const bool drops_negatives = e.of_kernel && e.source.starts_with("half-space of ");
@@ -127,10 +110,10 @@ class Family {
       if (is_free(c.value)) {
         kept.push_back(c);
       } else {
-        values_[c.name] = substituted(c.value, values_);
+        values_[c.name] = c.value.substituted(values_);
       }
     }
-    for (const FixedCoordinate& f : fixed_) values_[f.name] = substituted(f.value, values_);
+    for (const FixedCoordinate& f : fixed_) values_[f.name] = f.value.substituted(values_);
     out_.system.constants = std::move(kept);
     for (const Parameter& p : parameters_) {
       if (!is_free(p.lower) || !is_free(p.upper))
@@ -164,7 +147,7 @@ class Family {
   void widen(Coordinate& c) const {
     const UpwardRounding rounding;
     const Interval range =
-        Interval::hull(enclosed(substituted(c.lower, values_), c), enclosed(substituted(c.upper, values_), c));
+        Interval::hull(enclosed(c.lower.substituted(values_), c), enclosed(c.upper.substituted(values_), c));
     const double margin = kMargin * range.width();
     if (!range.is_bounded()) refuse("the range of " + in_quotes(c.name) + " is unbounded", "a bounded one");
     c.lower = Expression(ExactNumber::dyadic(range.lo() - margin).text());
@@ -237,7 +220,7 @@ std::vector<int> mark_parameters(const ParametricSystem& system, System& polynom
   for (const std::string& name : system.names) {
     indices.push_back(polynomials.find(name));
     CORANK_CHECK(indices.back() >= 0);
-    Variable& v = polynomials.variables[static_cast<std::size_t>(indices.back())];
+    Variable& v = polynomials.variables[indices.back()];
     v.lower_implied = v.upper_implied = true;
   }
   return indices;

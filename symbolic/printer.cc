@@ -12,11 +12,6 @@ namespace corank::symbolic {
 namespace {
 
 // ---- text
-// -------------------------------------------------------------------------------------------------------------------------
-
-std::string padded(const std::string& text, std::size_t width) {
-  return text.size() >= width ? text : text + std::string(width - text.size(), ' ');
-}
 
 std::string right_aligned(const std::string& text, std::size_t width) {
   return text.size() >= width ? text : std::string(width - text.size(), ' ') + text;
@@ -93,12 +88,6 @@ void print_numbered(std::ostream& out, const std::vector<std::pair<std::string, 
   }
 }
 
-std::vector<std::pair<std::string, std::string>> phi_lines(const Derivation& derivation) {
-  std::vector<std::pair<std::string, std::string>> lines;
-  for (const Expression& phi : derivation.phi) lines.emplace_back(phi.text() + " = 0", "");
-  return lines;
-}
-
 std::vector<std::pair<std::string, std::string>> relation_lines(
     const std::vector<TrigonometricSystem::Equation>& relations) {
   std::vector<std::pair<std::string, std::string>> lines;
@@ -164,7 +153,6 @@ std::string ranges_of_numbers(const std::vector<std::size_t>& numbers) {
 }
 
 // ---- LaTeX
-// ------------------------------------------------------------------------------------------------------------------------
 
 std::string latex(const Relation& relation, const std::string& align) {
   const char* const sign = relation.kind == Relation::Kind::equal        ? "="
@@ -192,7 +180,6 @@ void print_latex_lines(std::ostream& out, const std::vector<std::string>& lines)
 }
 
 // ---- cuik
-// -------------------------------------------------------------------------------------------------------------------------
 
 std::string constant_text(const ExactNumber& x) { return x.decimal().value_or(x.text()); }
 
@@ -207,7 +194,7 @@ std::string monomial_text(const Monomial& monomial, const System& system, bool f
   }
   std::string factors;
   for (const Factor& factor : monomial.factors) {
-    const std::string& name = system.variables[static_cast<std::size_t>(factor.variable)].name;
+    const std::string& name = system.variables[factor.variable].name;
     if (!factors.empty()) factors += "*";
     switch (factor.function) {
       case Function::identity: factors += name; break;
@@ -216,29 +203,15 @@ std::string monomial_text(const Monomial& monomial, const System& system, bool f
     }
     if (factor.power > 1) factors += "^" + std::to_string(factor.power);
   }
-  std::string body;
-  if (factors.empty()) {
-    body = sum ? "(" + coefficient + ")" : coefficient;
-  } else if (coefficient == "1") {
-    body = factors;
-  } else {
-    body = (sum ? "(" + coefficient + ")" : coefficient) + "*" + factors;
-  }
-  if (first) return (negative ? "-" : "") + body;
-  return (negative ? " - " : " + ") + body;
+  if (sum) coefficient = "(" + coefficient + ")";
+  const std::string body = factors.empty() ? coefficient : coefficient == "1" ? factors : coefficient + "*" + factors;
+  return (first ? (negative ? "-" : "") : negative ? " - " : " + ") + body;
 }
 
 std::string polynomial_text(const Polynomial& polynomial, const System& system) {
   std::string out;
   for (const Monomial& monomial : polynomial.monomials) out += monomial_text(monomial, system, out.empty());
   return out.empty() ? "0" : out;
-}
-
-// A comment must stay on its line.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return text;
 }
 
 void print_cuik_polynomials(std::ostream& out, const std::vector<Polynomial>& polynomials, const char* relation,
@@ -249,17 +222,13 @@ void print_cuik_polynomials(std::ostream& out, const std::vector<Polynomial>& po
   }
 }
 
-void print_implied(std::ostream& out, const TrigonometricSystem& system) {
-  if (system.claimed.empty()) return;
-  out << "\nImplied: rows that shrink boxes\n";
-  print_numbered(out, relation_lines(system.claimed));
-}
-
 void print_system(std::ostream& out, const TrigonometricSystem& system) {
   for (const Coordinate& coordinate : system.coordinates) out << range_line(coordinate);
   out << unknown_lines(system);
   print_numbered(out, relation_lines(relations(system)));
-  print_implied(out, system);
+  if (system.claimed.empty()) return;
+  out << "\nImplied: rows that shrink boxes\n";
+  print_numbered(out, relation_lines(system.claimed));
 }
 
 // Of a part that is not the first one. Parts by limits are hundreds, and most have the same equations.
@@ -280,7 +249,9 @@ void print_difference(std::ostream& out, const TrigonometricSystem& first, const
 std::string to_text(const Derivation& derivation, std::span<const TrigonometricSystem> systems) {
   std::ostringstream out;
   out << "Φ(q) = 0\n";
-  print_numbered(out, phi_lines(derivation));
+  std::vector<std::pair<std::string, std::string>> phi_lines;
+  for (const Expression& phi : derivation.phi) phi_lines.emplace_back(phi.text() + " = 0", "");
+  print_numbered(out, phi_lines);
   out << "\n";
   print_matrix(out, derivation.velocity.given ? "L (given)" : "Φ_q", derivation.velocity.matrix);
   for (const SetDefinition& set : set_definitions()) {
@@ -324,9 +295,9 @@ std::string to_cuik(const System& system) {
   std::ostringstream out;
   out << "% " << one_line(system.name) << ": polynomial equations\n";
   for (const Angle& angle : system.angles) {
-    out << "% " << system.variables[static_cast<std::size_t>(angle.cosine)].name << " = cos(" << angle.name << "), "
-        << system.variables[static_cast<std::size_t>(angle.sine)].name << " = sin(" << angle.name << "), " << angle.name
-        << " in [" << angle.range.lo() << ", " << angle.range.hi() << "] rad\n";
+    out << "% " << system.variables[angle.cosine].name << " = cos(" << angle.name << "), "
+        << system.variables[angle.sine].name << " = sin(" << angle.name << "), " << angle.name << " in [" << angle.range.lo()
+        << ", " << angle.range.hi() << "] rad\n";
   }
   out << "\n[SYSTEM VARS]\n";
   std::size_t width = 0;

@@ -8,13 +8,29 @@
 #include "corank/core/guarded_process.h"
 
 namespace corank::symbolic {
+namespace {
+
+struct Rational {
+  Rational() { fmpq_init(q); }
+  ~Rational() { fmpq_clear(q); }
+  Rational(const Rational&) = delete;
+  Rational& operator=(const Rational&) = delete;
+  fmpq_t q;
+};
+
+std::string taken(char* flint_text) {
+  const std::unique_ptr<char, void (*)(void*)> text(flint_text, flint_free);
+  return text.get();
+}
+
+}  // namespace
 
 PolynomialRing::PolynomialRing(std::size_t unknowns)
     : context_(new fmpq_mpoly_ctx_struct, [](fmpq_mpoly_ctx_struct* context) {
         fmpq_mpoly_ctx_clear(context);
         delete context;
       }) {
-  fmpq_mpoly_ctx_init(context_.get(), static_cast<slong>(unknowns), ORD_LEX);
+  fmpq_mpoly_ctx_init(context_.get(), unknowns, ORD_LEX);
 }
 
 RationalPolynomial::RationalPolynomial(const PolynomialRing& ring) : ring_(ring) {
@@ -23,18 +39,15 @@ RationalPolynomial::RationalPolynomial(const PolynomialRing& ring) : ring_(ring)
 
 RationalPolynomial RationalPolynomial::number(const PolynomialRing& ring, const std::string& value) {
   RationalPolynomial result(ring);
-  fmpq_t q;
-  fmpq_init(q);
-  const bool read = fmpq_set_str(q, value.c_str(), 10) == 0;
-  if (read) fmpq_mpoly_set_fmpq(result.value_, q, ring.context());
-  fmpq_clear(q);
-  CORANK_CHECK(read);
+  Rational number;
+  CORANK_CHECK(fmpq_set_str(number.q, value.c_str(), 10) == 0);
+  fmpq_mpoly_set_fmpq(result.value_, number.q, ring.context());
   return result;
 }
 
 RationalPolynomial RationalPolynomial::unknown(const PolynomialRing& ring, std::size_t index) {
   RationalPolynomial result(ring);
-  fmpq_mpoly_gen(result.value_, static_cast<slong>(index), ring.context());
+  fmpq_mpoly_gen(result.value_, index, ring.context());
   return result;
 }
 
@@ -59,20 +72,17 @@ RationalPolynomial& RationalPolynomial::operator=(RationalPolynomial other) noex
 RationalPolynomial::~RationalPolynomial() { fmpq_mpoly_clear(value_, ring_.context()); }
 
 bool RationalPolynomial::is_number() const { return fmpq_mpoly_is_fmpq(value_, ring_.context()) != 0; }
-std::size_t RationalPolynomial::size() const { return static_cast<std::size_t>(fmpq_mpoly_length(value_, ring_.context())); }
+std::size_t RationalPolynomial::size() const { return fmpq_mpoly_length(value_, ring_.context()); }
 
 std::vector<RationalPolynomial::Term> RationalPolynomial::terms() const {
   std::vector<Term> result(size());
   std::vector<ulong> powers(ring_.unknowns());
-  fmpq_t q;
-  fmpq_init(q);
+  Rational coefficient;
   for (std::size_t k = 0; k < result.size(); ++k) {
-    fmpq_mpoly_get_term_coeff_fmpq(q, value_, static_cast<slong>(k), ring_.context());
-    const std::unique_ptr<char, void (*)(void*)> text(fmpq_get_str(nullptr, 10, q), flint_free);
-    fmpq_mpoly_get_term_exp_ui(powers.data(), value_, static_cast<slong>(k), ring_.context());
-    result[k] = {text.get(), {powers.begin(), powers.end()}};
+    fmpq_mpoly_get_term_coeff_fmpq(coefficient.q, value_, k, ring_.context());
+    fmpq_mpoly_get_term_exp_ui(powers.data(), value_, k, ring_.context());
+    result[k] = {taken(fmpq_get_str(nullptr, 10, coefficient.q)), {powers.begin(), powers.end()}};
   }
-  fmpq_clear(q);
   return result;
 }
 
@@ -84,18 +94,13 @@ RationalPolynomial RationalPolynomial::power(std::uint64_t exponent) const {
 
 RationalPolynomial RationalPolynomial::over(const RationalPolynomial& number) const {
   RationalPolynomial result(ring_);
-  fmpq_t q;
-  fmpq_init(q);
-  fmpq_mpoly_get_fmpq(q, number.value_, ring_.context());
-  fmpq_mpoly_scalar_div_fmpq(result.value_, value_, q, ring_.context());
-  fmpq_clear(q);
+  Rational divisor;
+  fmpq_mpoly_get_fmpq(divisor.q, number.value_, ring_.context());
+  fmpq_mpoly_scalar_div_fmpq(result.value_, value_, divisor.q, ring_.context());
   return result;
 }
 
-std::string RationalPolynomial::text() const {
-  const std::unique_ptr<char, void (*)(void*)> text(fmpq_mpoly_get_str_pretty(value_, nullptr, ring_.context()), flint_free);
-  return text.get();
-}
+std::string RationalPolynomial::text() const { return taken(fmpq_mpoly_get_str_pretty(value_, nullptr, ring_.context())); }
 
 RationalPolynomial RationalPolynomial::parsed(const PolynomialRing& ring, const std::string& text) {
   RationalPolynomial result(ring);
@@ -144,20 +149,20 @@ std::vector<RationalPolynomial> RationalPolynomial::factors_here() const {
   return result;
 }
 
-RationalPolynomial operator+(const RationalPolynomial& a, const RationalPolynomial& b) {
+template <auto flint>
+RationalPolynomial RationalPolynomial::made_of(const RationalPolynomial& a, const RationalPolynomial& b) {
   RationalPolynomial result(a.ring_);
-  fmpq_mpoly_add(result.value_, a.value_, b.value_, a.ring_.context());
+  flint(result.value_, a.value_, b.value_, a.ring_.context());
   return result;
+}
+RationalPolynomial operator+(const RationalPolynomial& a, const RationalPolynomial& b) {
+  return RationalPolynomial::made_of<fmpq_mpoly_add>(a, b);
 }
 RationalPolynomial operator-(const RationalPolynomial& a, const RationalPolynomial& b) {
-  RationalPolynomial result(a.ring_);
-  fmpq_mpoly_sub(result.value_, a.value_, b.value_, a.ring_.context());
-  return result;
+  return RationalPolynomial::made_of<fmpq_mpoly_sub>(a, b);
 }
 RationalPolynomial operator*(const RationalPolynomial& a, const RationalPolynomial& b) {
-  RationalPolynomial result(a.ring_);
-  fmpq_mpoly_mul(result.value_, a.value_, b.value_, a.ring_.context());
-  return result;
+  return RationalPolynomial::made_of<fmpq_mpoly_mul>(a, b);
 }
 bool operator==(const RationalPolynomial& a, const RationalPolynomial& b) {
   return fmpq_mpoly_equal(a.value_, b.value_, a.ring_.context()) != 0;

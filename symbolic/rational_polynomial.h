@@ -18,7 +18,7 @@ namespace corank::symbolic {
 class PolynomialRing {
  public:
   explicit PolynomialRing(std::size_t unknowns);
-  std::size_t unknowns() const { return static_cast<std::size_t>(context_->zctx->minfo->nvars); }
+  std::size_t unknowns() const { return context_->zctx->minfo->nvars; }
   fmpq_mpoly_ctx_struct* context() const { return context_.get(); }
 
  private:
@@ -58,6 +58,8 @@ class RationalPolynomial {
   friend bool operator==(const RationalPolynomial& a, const RationalPolynomial& b);
 
  private:
+  template <auto flint>
+  static RationalPolynomial made_of(const RationalPolynomial& a, const RationalPolynomial& b);
   std::string text() const;
   static RationalPolynomial parsed(const PolynomialRing& ring, const std::string& text);
   std::vector<RationalPolynomial> factors_here() const;

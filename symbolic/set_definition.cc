@@ -9,11 +9,29 @@ namespace {
 constexpr std::array kInput{Role::input}, kOutput{Role::output};
 constexpr std::array kBoth{Role::input, Role::output};
 
+constexpr SetDefinition kForward{.set = SingularitySet::forward, .name = "forward", .matrix = "L_y", .locked = kInput};
+constexpr SetDefinition kInverse{.set = SingularitySet::inverse, .name = "inverse", .matrix = "L_z", .locked = kOutput};
+constexpr SetDefinition kCspaceSingular{
+    .set = SingularitySet::cspace_singular, .name = "cspace-singular", .matrix = "Phi_q", .side = KernelSide::left};
+
+/// Of the configurations of another set's kernel, on that side alone, those of a type.
+constexpr SetDefinition of_type(SetDefinition of, SingularitySet set, const char* name, KernelSide side,
+                                SingularityType type) {
+  of.set = set, of.name = name, of.side = side, of.type = type;
+  of.one_side = true;
+  return of;
+}
+
+constexpr SetDefinition part_of(SetDefinition locus, SingularitySet set, const char* name, LocusPart part) {
+  locus.set = set, locus.name = name, locus.part = part;
+  return locus;
+}
+
 constexpr std::array<SetDefinition, 17> kSets{{
     {.set = SingularitySet::cspace, .name = "cspace"},
-    {.set = SingularitySet::forward, .name = "forward", .matrix = "L_y", .locked = kInput, .side = KernelSide::right},
-    {.set = SingularitySet::inverse, .name = "inverse", .matrix = "L_z", .locked = kOutput, .side = KernelSide::right},
-    {.set = SingularitySet::cspace_singular, .name = "cspace-singular", .matrix = "Phi_q", .side = KernelSide::left},
+    kForward,
+    kInverse,
+    kCspaceSingular,
     {.set = SingularitySet::boundary,
      .name = "boundary",
      .matrix = "Phi_z",
@@ -24,75 +42,20 @@ constexpr std::array<SetDefinition, 17> kSets{{
      .name = "forward-inverse",
      .matrix = "L_y",
      .locked = kInput,
-     .side = KernelSide::right,
      .one_side = true,
      .also_locked = kOutput,
      .also_matrix = "L_z"},
-    {.set = SingularitySet::ro,
-     .name = "ro",
-     .matrix = "L_y",
-     .locked = kInput,
-     .side = KernelSide::right,
-     .one_side = true,
-     .type = SingularityType::ro},
-    {.set = SingularitySet::rpm,
-     .name = "rpm",
-     .matrix = "L_p",
-     .locked = kBoth,
-     .side = KernelSide::right,
-     .one_side = true,
-     .type = SingularityType::rpm},
-    {.set = SingularitySet::ii,
-     .name = "ii",
-     .matrix = "L_y",
-     .locked = kInput,
-     .side = KernelSide::left,
-     .one_side = true,
-     .type = SingularityType::ii},
-    {.set = SingularitySet::ri,
-     .name = "ri",
-     .matrix = "L_z",
-     .locked = kOutput,
-     .side = KernelSide::right,
-     .one_side = true,
-     .type = SingularityType::ri},
-    {.set = SingularitySet::io,
-     .name = "io",
-     .matrix = "L_z",
-     .locked = kOutput,
-     .side = KernelSide::left,
-     .one_side = true,
-     .type = SingularityType::io},
-    {.set = SingularitySet::iim,
-     .name = "iim",
-     .matrix = "Phi_q",
-     .side = KernelSide::left,
-     .one_side = true,
-     .type = SingularityType::iim},
-    {.set = SingularitySet::forward_cusps,
-     .name = "forward-cusps",
-     .matrix = "L_y",
-     .locked = kInput,
-     .side = KernelSide::right,
-     .part = LocusPart::cusps},
-    {.set = SingularitySet::inverse_cusps,
-     .name = "inverse-cusps",
-     .matrix = "L_z",
-     .locked = kOutput,
-     .side = KernelSide::right,
-     .part = LocusPart::cusps},
-    {.set = SingularitySet::forward_nodes,
-     .name = "forward-nodes",
-     .matrix = "L_y",
-     .locked = kInput,
-     .side = KernelSide::right,
-     .part = LocusPart::nodes},
-    {.set = SingularitySet::inverse_nodes,
-     .name = "inverse-nodes",
-     .matrix = "L_z",
-     .locked = kOutput,
-     .side = KernelSide::right,
-     .part = LocusPart::nodes},
+    of_type(kForward, SingularitySet::ro, "ro", KernelSide::right, SingularityType::ro),
+    of_type({.set = {}, .name = "", .matrix = "L_p", .locked = kBoth}, SingularitySet::rpm, "rpm", KernelSide::right,
+            SingularityType::rpm),
+    of_type(kForward, SingularitySet::ii, "ii", KernelSide::left, SingularityType::ii),
+    of_type(kInverse, SingularitySet::ri, "ri", KernelSide::right, SingularityType::ri),
+    of_type(kInverse, SingularitySet::io, "io", KernelSide::left, SingularityType::io),
+    of_type(kCspaceSingular, SingularitySet::iim, "iim", KernelSide::left, SingularityType::iim),
+    part_of(kForward, SingularitySet::forward_cusps, "forward-cusps", LocusPart::cusps),
+    part_of(kInverse, SingularitySet::inverse_cusps, "inverse-cusps", LocusPart::cusps),
+    part_of(kForward, SingularitySet::forward_nodes, "forward-nodes", LocusPart::nodes),
+    part_of(kInverse, SingularitySet::inverse_nodes, "inverse-nodes", LocusPart::nodes),
     {.set = std::nullopt, .name = "system"},
 }};
 

@@ -136,10 +136,6 @@ void add_given_rows(const Mechanism& mechanism, VelocityEquation& velocity) {
   for (const Constraint& c : mechanism.velocity_equations()) add_row(bridge, difference(bridge, c), c, velocity);
 }
 
-}  // namespace
-
-namespace {
-
 // Do both mechanisms have the same derivation? It knows the constants by their names.
 bool derives_alike(const Mechanism& a, const Mechanism& b) {
   const auto same = [](const auto& x, const auto& y, auto&& alike) {
@@ -161,7 +157,7 @@ bool derives_alike(const Mechanism& a, const Mechanism& b) {
 Derivation derived(const Mechanism& mechanism) {
   const GinacBridge bridge(mechanism);
 
-  Derivation result;
+  Derivation result{residuals(mechanism), {}};
   VelocityEquation& velocity = result.velocity;
   const bool given = mechanism.has_own_velocity_equation();
   if (given) {
@@ -171,10 +167,9 @@ Derivation derived(const Mechanism& mechanism) {
       velocity.matrix.columns.push_back(coordinate.name);
       velocity.matrix.roles.push_back(role_of(mechanism, coordinate.name));
     }
+    check_size(mechanism.constraints().size(), velocity.matrix.columns.size(), mechanism);
   }
-  if (!given) check_size(mechanism.constraints().size(), velocity.matrix.columns.size(), mechanism);
-  for (const Constraint& constraint : mechanism.constraints()) {
-    if (constraint.relation.kind != Relation::Kind::equal) continue;
+  for (const Constraint& constraint : mechanism.equations()) {
     const GiNaC::ex phi = difference(bridge, constraint);
     if (!bridge.mentions_coordinate(phi)) {
       const bool number = GiNaC::is_a<GiNaC::numeric>(phi);
@@ -185,7 +180,6 @@ Derivation derived(const Mechanism& mechanism) {
                                             : "can never hold"),
                        "an equation between coordinates");
     }
-    result.phi.push_back(residual(constraint.relation));
     if (!given) add_row(bridge, phi, constraint, velocity);
   }
   return result;
@@ -207,25 +201,39 @@ Derivation derive(const Mechanism& mechanism) {
   return result;
 }
 
-std::vector<std::vector<std::vector<Expression>>> second_derivatives(const Mechanism& mechanism,
-                                                                     const std::vector<std::string>& coordinates) {
+namespace {
+
+Derivatives derivatives_of(const GinacBridge& bridge, const GiNaC::ex& f, const std::vector<std::string>& coordinates) {
+  Derivatives d;
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    const GiNaC::ex first = f.diff(bridge.symbol(coordinates[j]));
+    d.first.push_back(bridge.to_expression(first));
+    std::vector<Expression>& row = d.second.emplace_back();
+    for (std::size_t k = j; k < coordinates.size(); ++k)
+      row.push_back(bridge.to_expression(first.diff(bridge.symbol(coordinates[k]))));
+  }
+  return d;
+}
+
+}  // namespace
+
+std::vector<Expression> residuals(const Mechanism& mechanism) {
+  std::vector<Expression> phi;
+  for (const Constraint& equation : mechanism.equations()) phi.push_back(residual(equation.relation));
+  return phi;
+}
+
+std::vector<Derivatives> derivatives(const Mechanism& mechanism, const std::vector<std::string>& coordinates) {
   const GinacLock lock;
   const GinacBridge bridge(mechanism);
-  std::vector<std::vector<std::vector<Expression>>> result;
-  for (const Constraint& constraint : mechanism.constraints()) {
-    if (constraint.relation.kind != Relation::Kind::equal) continue;
-    const GiNaC::ex phi = difference(bridge, constraint);
-    auto& rows = result.emplace_back();
+  std::vector<Derivatives> result;
+  for (const Constraint& equation : mechanism.equations()) {
+    const GiNaC::ex phi = difference(bridge, equation);
     try {
-      for (std::size_t j = 0; j < coordinates.size(); ++j) {
-        const GiNaC::ex first = phi.diff(bridge.symbol(coordinates[j]));
-        std::vector<Expression>& row = rows.emplace_back();
-        for (std::size_t k = j; k < coordinates.size(); ++k)
-          row.push_back(bridge.to_expression(first.diff(bridge.symbol(coordinates[k]))));
-      }
+      result.push_back(derivatives_of(bridge, phi, coordinates));
     } catch (const std::exception& error) {
-      throw ModelError(constraint.where,
-                       "the equation `" + constraint.relation.text() + "` cannot be differentiated twice: " + error.what());
+      throw ModelError(equation.where,
+                       "the equation `" + equation.relation.text() + "` cannot be differentiated twice: " + error.what());
     }
   }
   return result;
@@ -236,17 +244,8 @@ std::vector<Derivatives> derivatives(const Mechanism& mechanism, const std::vect
   const GinacLock lock;
   const GinacBridge bridge(mechanism);
   std::vector<Derivatives> result;
-  for (const Expression& function : functions) {
-    const GiNaC::ex f = bridge.to_ginac(function, function.where());
-    Derivatives& d = result.emplace_back();
-    for (std::size_t j = 0; j < coordinates.size(); ++j) {
-      const GiNaC::ex first = f.diff(bridge.symbol(coordinates[j]));
-      d.first.push_back(bridge.to_expression(first));
-      std::vector<Expression>& row = d.second.emplace_back();
-      for (std::size_t k = j; k < coordinates.size(); ++k)
-        row.push_back(bridge.to_expression(first.diff(bridge.symbol(coordinates[k]))));
-    }
-  }
+  for (const Expression& function : functions)
+    result.push_back(derivatives_of(bridge, bridge.to_ginac(function, function.where()), coordinates));
   return result;
 }
 

@@ -46,19 +46,19 @@ struct Derivation {
   VelocityEquation velocity;
 };
 
+/// Φ.
+std::vector<Expression> residuals(const Mechanism& mechanism);
+
 /// Throws ModelError where the mechanism is not valid (Mechanism::validate).
 Derivation derive(const Mechanism& mechanism);
 
-/// Of each equation Φ_i, in the order of Derivation::phi, ∂²Φ_i/∂q_j∂q_k for j ≤ k of these coordinates: [i][j][k − j].
-/// Throws ModelError where an equation cannot be differentiated.
-std::vector<std::vector<std::vector<Expression>>> second_derivatives(const Mechanism& mechanism,
-                                                                     const std::vector<std::string>& coordinates);
-
-/// Of a function of coordinates its first and second derivatives by these, the second as above.
+/// Of a function of coordinates its first and second derivatives by these.
 struct Derivatives {
   std::vector<Expression> first;
-  std::vector<std::vector<Expression>> second;
+  std::vector<std::vector<Expression>> second;  ///< by j and k, j ≤ k: [j][k − j]
 };
+/// Of Φ, in the order of Derivation::phi. Throws ModelError where an equation cannot be differentiated.
+std::vector<Derivatives> derivatives(const Mechanism& mechanism, const std::vector<std::string>& coordinates);
 std::vector<Derivatives> derivatives(const Mechanism& mechanism, const std::vector<std::string>& coordinates,
                                      const std::vector<Expression>& functions);
 
