@@ -367,8 +367,7 @@ class PieceCounter {
 };
 
 symbolic::ExpressionMatrix block(const study::Question& question, symbolic::SingularitySet set) {
-  const symbolic::Derivation derivation = symbolic::derive(question.model);
-  return symbolic::kernel_question(question.model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
+  return symbolic::kernel_question(question.model, set, symbolic::KernelSide::left).matrix;
 }
 
 // Of the determinant of a square matrix at each of the boxes.

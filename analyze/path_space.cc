@@ -117,9 +117,8 @@ void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
   filled_rows_.push_back(std::move(filled));
   if (!square || !with_factors || !is_small(m)) return;
   try {
-    const symbolic::Derivation derivation = symbolic::derive(question_.model);
     const symbolic::ExpressionMatrix matrix =
-        symbolic::kernel_question(question_.model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
+        symbolic::kernel_question(question_.model, set, symbolic::KernelSide::left).matrix;
     const std::vector<symbolic::Expression> factors = symbolic::determinant_factors(question_.model, matrix);
     for (Polynomial& f : symbolic::polynomials(equations_, factors)) factors_.push_back(std::move(f));
     for (const symbolic::Expression& f : factors) factor_names_.push_back({block_of(set), f.text()});

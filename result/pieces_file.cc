@@ -33,12 +33,10 @@ symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model) {
 
 std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model, const PiecesFile& file) {
   const symbolic::TrigonometricSystem equations = equations_of(model);
-  const symbolic::Derivation derivation = symbolic::derive(model);
   std::array<PolynomialMatrix, 2> matrices;
   std::array<std::vector<symbolic::Expression>, 2> factors;
   for (const auto& [k, set] : {std::pair(0U, symbolic::SingularitySet::forward), {1U, symbolic::SingularitySet::inverse}}) {
-    const symbolic::ExpressionMatrix m =
-        symbolic::kernel_question(model, derivation.velocity, set, symbolic::KernelSide::left).matrix;
+    const symbolic::ExpressionMatrix m = symbolic::kernel_question(model, set, symbolic::KernelSide::left).matrix;
     factors[k] = symbolic::determinant_factors(model, m);
     matrices[k].rows = matrices[k].columns = static_cast<int>(m.rows.size());
     for (const auto& row : m.rows)

@@ -128,16 +128,11 @@ Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.fa
 
 symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
                                            const RunOptions& options) {
-  const auto side = symbolic::kernel_side_from_string(options.kernel);
   if (symbolic::definition(set).of_parts)
-    return part_system(mechanism, set, symbolic::set_parts(mechanism, set).front(), options.kernel_scales);
-  if (!symbolic::definition(set).has_kernel() || !options.passive_rates_eliminated)
-    return symbolic::singularity_system(mechanism, set, side, options.kernel_scales, options.corank);
-  return symbolic::singularity_system(
-      mechanism,
-      symbolic::without_passive_rates(mechanism,
-                                      symbolic::kernel_question(mechanism, symbolic::derive(mechanism).velocity, set, side)),
-      options.kernel_scales, options.corank);
+    return symbolic::SetEquations(mechanism, set, symbolic::set_parts(mechanism, set).front()).system(options.kernel_scales);
+  symbolic::SetEquations equations(mechanism, set, symbolic::kernel_side_from_string(options.kernel));
+  if (options.passive_rates_eliminated) equations.eliminate_passive_rates();
+  return equations.system(options.kernel_scales, options.corank);
 }
 
 namespace {
@@ -151,7 +146,7 @@ System system_of_part(const symbolic::Mechanism& mechanism, symbolic::Singularit
   }
   for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, set)) {
     if (text(part) != result.part) continue;
-    System system = symbolic::compiled_part(mechanism, set, part, result.options.kernel_scales);
+    System system = symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
     system.coefficient_tolerance = result.options.tolerance;
     return system;
   }

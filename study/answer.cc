@@ -25,7 +25,7 @@ bool is_component(const Question& q) { return q.part && std::holds_alternative<s
 // The side that was taken where none was asked for.
 std::string kernel_of(const Question& q) {
   if (!symbolic::definition(q.set).has_kernel() || is_component(q)) return "";
-  return to_string(symbolic::kernel_question(q.model, derive(q.model).velocity, *q.set, q.kernel).side);
+  return to_string(symbolic::kernel_question(q.model, *q.set, q.kernel).side);
 }
 
 result::Result answer_one(const Question& question, const System& system, const Options& options, solve::Control& control,

@@ -9,7 +9,6 @@
 #include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/kernel_scale.h"
 
 namespace corank::study {
 
@@ -43,12 +42,12 @@ Components components_wanted(const Question& q) {
   // These can be assembled in several ways, which meet at configurations whose kernels have larger dimensions.
   if (q.assembly && (!q.assembly->parallelograms.empty() || q.assembly->has_universal_rods)) return Components::yes;
   constexpr long kLeastMobility = 3, kLongKernel = 10;
-  const symbolic::ExpressionMatrix velocity = derive(q.model).velocity.matrix;
   const std::vector<symbolic::Coordinate>& all = q.model.coordinates();
-  const long free =
-      std::ssize(velocity.columns) - std::ssize(velocity.rows) - std::count_if(all.begin(), all.end(), symbolic::is_fixed);
-  if (free >= kLeastMobility) return Components::yes;
-  return std::ssize(velocity.rows) >= kLongKernel ? Components::if_simple : Components::no;
+  const bool own = q.model.has_own_velocity_equation();
+  const long columns = own ? std::ssize(q.model.rates()) : std::ssize(all),
+             rows = own ? std::ssize(q.model.velocity_equations()) : std::ssize(q.model.equations());
+  if (columns - rows - std::count_if(all.begin(), all.end(), symbolic::is_fixed) >= kLeastMobility) return Components::yes;
+  return rows >= kLongKernel ? Components::if_simple : Components::no;
 }
 
 bool has_kernel(const Question& q) {
@@ -84,12 +83,10 @@ std::vector<Question> parts_of(const Question& question, const Ended& ended) {
 symbolic::TrigonometricSystem equations(const Question& q) {
   if (!q.set) return symbolic::plain_system(q.model);
   CORANK_CHECK(q.part || !definition(q.set).of_parts);
-  if (q.part) return symbolic::part_system(q.model, *q.set, *q.part, symbolic::part_scales(q.model, *q.set, *q.part));
-  if (!definition(q.set).has_kernel())
-    return symbolic::singularity_system(q.model, *q.set, q.kernel, symbolic::kernel_scales(q.model, *q.set), q.corank);
-  const auto kernel = symbolic::without_passive_rates(
-      q.model, symbolic::kernel_question(q.model, derive(q.model).velocity, *q.set, q.kernel));
-  return symbolic::singularity_system(q.model, kernel, symbolic::kernel_scales(q.model, kernel), q.corank);
+  symbolic::SetEquations set =
+      q.part ? symbolic::SetEquations(q.model, *q.set, *q.part) : symbolic::SetEquations(q.model, *q.set, q.kernel);
+  if (!q.part) set.eliminate_passive_rates();
+  return set.system(set.scales(), q.part ? 1 : q.corank);
 }
 
 std::vector<symbolic::TrigonometricSystem> equations_of_parts(Question question, const Ended& ended) {

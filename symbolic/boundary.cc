@@ -71,13 +71,8 @@ void add_choices(const std::vector<Limit>& limits, std::size_t from, std::size_t
 KernelQuestion question(const Outline& o, const BoundaryPart& part) {
   const SetDefinition& set = definition(SingularitySet::boundary);
   KernelQuestion kernel{set, set.matrix, o.velocity.without(set.locked), o.velocity.where, KernelSide::left, {}, {}};
-  kernel.dropped = o.velocity.ties(set.locked);
+  kernel.drop(o.velocity.ties(set.locked));
   ExpressionMatrix& m = kernel.matrix;
-  for (std::size_t i = kernel.dropped.size(); i-- > 0;) {
-    const auto row = static_cast<std::ptrdiff_t>(kernel.dropped[i]);
-    m.rows.erase(m.rows.begin() + row);
-    kernel.where.erase(kernel.where.begin() + row);
-  }
   for (const Active& active : part.active) {
     const auto at = std::find(m.columns.begin(), m.columns.end(), active.coordinate) - m.columns.begin();
     m.columns.erase(m.columns.begin() + at);
@@ -85,14 +80,6 @@ KernelQuestion question(const Outline& o, const BoundaryPart& part) {
     for (auto& row : m.rows) row.erase(row.begin() + at);
   }
   return kernel;
-}
-
-void keep_at_limits(const Mechanism& mechanism, const BoundaryPart& part, TrigonometricSystem& system) {
-  for (const Active& active : part.active) {
-    Coordinate& c = system.coordinates[static_cast<std::size_t>(mechanism.find_coordinate(active.coordinate))];
-    c.lower = c.upper = active.value;
-  }
-  system.name += ": " + part.text();
 }
 
 // λᵀΦ and its derivatives.
@@ -130,13 +117,13 @@ void take_out_units(const Mechanism& mechanism, const std::vector<std::string>& 
   const UpwardRounding rounding;
   std::vector<ExactNumber> by;
   for (const std::string& name : columns) {
-    const Coordinate& c = mechanism.coordinates()[static_cast<std::size_t>(mechanism.find_coordinate(name))];
+    const Coordinate& c = mechanism.coordinates()[mechanism.find_coordinate(name)];
     by.push_back(c.kind == CoordinateKind::angle || c.direction ? ExactNumber(1) : length);
   }
   const auto multiply = [](Polynomial& f, const ExactNumber& factor) { f = certify::sum({}, factor, f); };
   std::size_t entry = 0;
   for (int i = 0; i < form.equations; ++i) {
-    const ExactNumber row = scales.empty() ? ExactNumber(1) : ExactNumber::rational(scales[static_cast<std::size_t>(i)]);
+    const ExactNumber row = scales.empty() ? ExactNumber(1) : ExactNumber::rational(scales[i]);
     for (const ExactNumber& column : by) multiply(form.jacobian[entry++], row * column);
   }
   entry = 0;
@@ -171,7 +158,7 @@ std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
   const Outline o = outline(mechanism);
   const Role output = Role::output;
   const std::size_t free = mechanism.outputs().size() - o.velocity.ties(std::span(&output, 1)).size(),
-                    most = static_cast<std::size_t>(o.mobility) - free + 1;
+                    most = o.mobility - free + 1;
   std::vector<Limit> others, of_outputs;
   for (const Limit& limit : effective_limits(mechanism))
     (contains(mechanism.outputs(), limit.coordinate) ? of_outputs : others).push_back(limit);
@@ -184,24 +171,8 @@ std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
   return parts;
 }
 
-TrigonometricSystem boundary_system(const Mechanism& mechanism, const BoundaryPart& part,
-                                    const std::vector<std::string>& scales) {
-  const Outline o = outline(mechanism);
-  TrigonometricSystem system;
-  if (part.of_output) {
-    system = plain_system(o.mechanism);
-    system.name += std::string(" ") + definition(SingularitySet::boundary).name;
-  } else {
-    system = singularity_system(o.mechanism, question(o, part), scales, 1);
-  }
-  keep_at_limits(o.mechanism, part, system);
-  return system;
-}
-
-std::vector<std::string> boundary_scales(const Mechanism& mechanism, const BoundaryPart& part) {
-  if (part.of_output) return {};
-  const Outline o = outline(mechanism);
-  return kernel_scales(o.mechanism, question(o, part));
+KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& part) {
+  return question(outline(mechanism), part);
 }
 
 std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
@@ -244,7 +215,7 @@ std::optional<PassageForm> passage_form(const Mechanism& mechanism, const Bounda
 System configurations(const Mechanism& mechanism) {
   System system = algebrize(plain_system(mechanism));
   const int n = system.configuration_size;
-  system.variables.resize(static_cast<std::size_t>(n));
+  system.variables.resize(n);
   const auto beyond = [n](const Polynomial& f) {
     for (const Monomial& m : f.monomials)
       for (const Factor& x : m.factors)

@@ -40,12 +40,9 @@ struct BoundaryPart {
 /// more of them than its mobility, or there are more than 1000 parts.
 std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism);
 
-/// The system of a part. Its kernel vector is λ, of which component i is scales[i] times the unknown xi; none: all 1.
-/// Rows of Φ_z that are 0 (ties of the outputs) have none. A mechanism's own velocity equation has no say.
-TrigonometricSystem boundary_system(const Mechanism& mechanism, const BoundaryPart& part,
-                                    const std::vector<std::string>& scales);
-/// The scales that boundary_system() is meant to have (kernel_scale.h).
-std::vector<std::string> boundary_scales(const Mechanism& mechanism, const BoundaryPart& part);
+/// What the kernel vector λ of a part that is not of an output is asked of. Rows of Φ_z that are 0 (ties of the outputs) have
+/// none. A mechanism's own velocity equation has no say.
+KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& part);
 
 /// What decides about the passage, over algebrize(system), where `system` is the part's. Nothing where outputs are tied, or
 /// the equations hold sines of lengths.

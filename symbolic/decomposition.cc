@@ -48,7 +48,7 @@ class Space {
   }
 
   bool is_fixed(const std::string& angle) const { return symbolic::is_fixed(coordinate(angle)); }
-  std::size_t index(const std::string& angle) const { return static_cast<std::size_t>(mechanism_.find_coordinate(angle)); }
+  std::size_t index(const std::string& angle) const { return mechanism_.find_coordinate(angle); }
 
   // Else an equation is a contradiction.
   bool has_system(const AngleTie& tie) const {
@@ -266,17 +266,11 @@ class Decomposer {
   std::vector<Component> components_;
 };
 
-KernelQuestion question_of(SingularitySet set, const Component& component, const Mechanism& mechanism) {
-  KernelQuestion kernel{definition(set), "B", *component.block, {}, KernelSide::right, {}};
-  kernel.where.assign(component.block->rows.size(), SourceLocation{mechanism.name(), 0, 0});
-  return kernel;
-}
-
 }  // namespace
 
 std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended) {
   ExpressionMatrix matrix = kernel.matrix;
-  std::vector<Expression> phi = derive(mechanism).phi;
+  std::vector<Expression> phi = residuals(mechanism);
   {
     const RightAngles fixed(mechanism);
     fixed.put_into(phi);
@@ -289,24 +283,6 @@ std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestio
   if (!kernel.also.empty() || matrix.rows.size() != matrix.columns.size()) return {};
   PassiveRates passive = eliminate_passive_rates(mechanism, matrix);
   return Decomposer(mechanism, passive.eliminated.empty() ? matrix : passive.matrix, phi, ended).run();
-}
-
-std::vector<std::string> component_scales(const Mechanism& mechanism, SingularitySet set, const Component& component) {
-  if (!component.block) return {};
-  return kernel_scales(mechanism, question_of(set, component, mechanism));
-}
-
-TrigonometricSystem component_system(const Mechanism& mechanism, SingularitySet set, const Component& component,
-                                     const std::vector<std::string>& scales) {
-  if (component.block) return singularity_system(mechanism, question_of(set, component, mechanism), scales, 1);
-  TrigonometricSystem system = plain_system(mechanism);
-  system.name += std::string(" ") + definition(set).name;
-  system.tie = component.tie;
-  if (component.tie)
-    system.equations.push_back({component.tie->relation(), component.name, {mechanism.name(), 0, 0}, true, true});
-  if (component.condition)
-    system.equations.push_back({*component.condition == Expression(0), component.name, {mechanism.name(), 0, 0}, true});
-  return system;
 }
 
 }  // namespace corank::symbolic

@@ -42,9 +42,4 @@ struct Component {
 /// their value.
 std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended = {});
 
-/// The scales that component_system() is meant to have (kernel_scale.h); none but of a block.
-std::vector<std::string> component_scales(const Mechanism& mechanism, SingularitySet set, const Component& component);
-TrigonometricSystem component_system(const Mechanism& mechanism, SingularitySet set, const Component& component,
-                                     const std::vector<std::string>& scales);
-
 }  // namespace corank::symbolic

@@ -10,10 +10,10 @@
 
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/projection.h"
+#include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/ginac_lock.h"
-#include "corank/symbolic/rate_sizes.h"
 
 namespace corank::symbolic {
 namespace {
@@ -125,7 +125,7 @@ void scale_eliminated(const Mechanism& mechanism, const KernelQuestion& kernel, 
         bool is_own = false;
         for (const Factor& x : m.factors) {
           is_own = is_own || x.variable == unknown;
-          size *= power(domain[static_cast<std::size_t>(x.variable)], x.power);
+          size *= power(domain[x.variable], x.power);
         }
         is_own ? own = m.enclosure.mig() : others += size.mag();  // own: with the scale it has
       }
@@ -137,6 +137,76 @@ void scale_eliminated(const Mechanism& mechanism, const KernelQuestion& kernel, 
       scales[j] = (ExactNumber::rational(scales[j]) * factor).text();
     }
   }
+}
+
+double size_over(const Polynomial& f, const std::vector<Interval>& box) {
+  Interval sum(0);
+  for (const Monomial& m : f.monomials) {
+    Interval term = m.enclosure;
+    for (const Factor& x : m.factors)
+      term *= x.function == Function::identity ? power(box[x.variable], x.power) : Interval(-1, 1);
+    sum += term;
+  }
+  return std::isfinite(sum.mag()) ? sum.mag() : 0;
+}
+
+// max |M_ij(q)| over a box of the model's polynomial system, in doubles, a row for each of M's.
+std::vector<std::vector<double>> entry_sizes(const Mechanism& mechanism, const ExpressionMatrix& matrix,
+                                             const std::vector<Interval>& box) {
+  // An algebrizer makes polynomials of what a model claims, and asks nothing of them.
+  TrigonometricSystem system = plain_system(mechanism);
+  system.claimed.clear();
+  for (const auto& row : matrix.rows)
+    for (const Expression& e : row) system.claimed.push_back({e == Expression(0), "entry", {}, false});
+  const System polynomials = algebrize(system);
+  std::vector<Interval> whole = polynomials.domain();
+  std::copy_n(box.begin(), std::min(box.size(), static_cast<std::size_t>(polynomials.configuration_size)), whole.begin());
+
+  const UpwardRounding rounding;
+  std::vector<std::vector<double>> sizes;
+  std::size_t next = 0;
+  for (const auto& row : matrix.rows) {
+    sizes.emplace_back();
+    for (std::size_t j = 0; j < row.size(); ++j) sizes.back().push_back(size_over(polynomials.claimed[next++], whole));
+  }
+  return sizes;
+}
+
+// Of each column of M: 0 for an angular rate; else how fast the rate is beside angular ones, so that kernel vectors do not
+// depend on the unit of length. A linear rate v_j in a row Σ_k L_ik m_k = 0 with an angular rate ω_k is as fast as |L_ik| /
+// |L_ij| where ω_k is 1: a lever arm. A row with linear rates only passes the size of one on to the others. All lengths times f:
+// a coefficient of dimension length^p becomes f^p times as large, and each of these numbers, of which the largest is taken, f
+// times. Linear rates that no row ties to an angular one get the largest of the others, 1 where there is none.
+std::vector<double> rate_sizes(const Mechanism& mechanism, const ExpressionMatrix& matrix,
+                               const std::vector<std::vector<double>>& entries) {
+  std::vector<bool> angular;
+  for (const std::string& name : matrix.columns) {
+    const int rate = mechanism.find_rate(name);
+    CORANK_CHECK(rate >= 0);
+    angular.push_back(mechanism.rates()[rate].kind == CoordinateKind::angle);
+  }
+  std::vector<double> sizes(angular.begin(), angular.end());  // 0: not known yet
+  for (bool more = true; more;) {
+    more = false;
+    const std::vector<double> before = sizes;
+    for (const std::vector<double>& row : entries) {
+      double known = 0;
+      for (std::size_t j = 0; j < row.size(); ++j) known = std::max(known, row[j] * before[j]);
+      for (std::size_t j = 0; j < row.size(); ++j) {
+        if (before[j] > 0 || !(row[j] > 0) || !(known > 0)) continue;
+        sizes[j] = std::max(sizes[j], known / row[j]);
+        more = true;
+      }
+    }
+  }
+  double largest = 0;
+  for (std::size_t j = 0; j < sizes.size(); ++j) {
+    if (angular[j]) sizes[j] = 0;
+    largest = std::max(largest, sizes[j]);
+  }
+  for (std::size_t j = 0; j < sizes.size(); ++j)
+    if (!angular[j] && sizes[j] == 0) sizes[j] = largest > 0 ? largest : 1;
+  return sizes;
 }
 
 // Of a mechanism's own velocity equation.
@@ -198,17 +268,14 @@ Sizes right_sizes(const Mechanism& mechanism, const KernelQuestion& kernel, cons
 
 std::vector<double> equation_sizes(const Mechanism& mechanism, const Configurations& all) {
   const UpwardRounding rounding;
-  std::vector<Interval> entries(static_cast<std::size_t>(all.system.entries()));
+  std::vector<Interval> entries(all.system.entries());
   all.system.jacobian(all.box, entries);
-  const auto& constraints = mechanism.constraints();
-  const auto equations = std::count_if(constraints.begin(), constraints.end(),
-                                       [](const Constraint& c) { return c.relation.kind == Relation::Kind::equal; });
+  const int equations = static_cast<int>(mechanism.equations().size());
   std::vector<double> sizes;
-  for (int row = 0; row < static_cast<int>(equations); ++row) {
+  for (int row = 0; row < equations; ++row) {
     double largest = 0;
     for (int k = all.system.row_begin(row); k < all.system.row_begin(row + 1); ++k)
-      largest = std::max(largest, entries[static_cast<std::size_t>(k)].mag() *
-                                      size_of(all.box[static_cast<std::size_t>(all.system.column(k))]));
+      largest = std::max(largest, entries[k].mag() * size_of(all.box[all.system.column(k)]));
     sizes.push_back(largest > 0 && std::isfinite(largest) ? largest : 1);
   }
   return sizes;
@@ -256,11 +323,10 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQ
 }
 
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
-  if (definition(set).has_kernel())
-    return kernel_scales(mechanism, kernel_question(mechanism, derive(mechanism).velocity, set, side));
+  if (definition(set).has_kernel()) return kernel_scales(mechanism, kernel_question(mechanism, set, side));
   if (!definition(set).is_singular()) return {};
   const Mechanism plain = mechanism.without_rates();
-  const KernelQuestion kernel = kernel_question(plain, derive(plain).velocity, set);
+  const KernelQuestion kernel = kernel_question(plain, set);
   std::vector<std::string> scales = kernel_scales(plain, kernel);
   scales.resize(kernel.matrix.columns.size(), "1");
   scales.push_back(size_per_scale(plain, kernel));

@@ -22,9 +22,8 @@ namespace corank::symbolic {
 /// [−1, 1] and the coordinates in their ranges, so that its own range is no condition.
 ///
 /// Where the mechanism brings its own L, an angular rate's scale is 1, too, and a linear one's size comes from L over those
-/// ranges (rate_sizes.h); it is rounded as those of lengths above, eight
-/// times the largest in place of four. Of a left kernel: 1/max_j |L_ij| s_j relative to the first
-/// row, in two digits.
+/// ranges, a lever arm; it is rounded as those of lengths above, eight times the largest in place of four. Of a left kernel:
+/// 1/max_j |L_ij| s_j relative to the first row, in two digits.
 ///
 /// Of cusps and nodes: those of the locus by coordinates, without elimination, and one number more, by which the scale of a
 /// length is its typical size: it takes the unit out of second derivatives (cusp_system.h) and distances (node_system.h).

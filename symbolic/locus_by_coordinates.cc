@@ -8,7 +8,7 @@ LocusByCoordinates locus_by_coordinates(const Mechanism& mechanism, SingularityS
                                         const std::vector<std::string>& scales) {
   Mechanism plain = mechanism.without_rates();
   const VelocityEquation velocity = derive(plain).velocity;
-  KernelQuestion kernel = kernel_question(plain, velocity, set, KernelSide::right);
+  KernelQuestion kernel = kernel_question(plain, set, KernelSide::right);
   const std::size_t columns = kernel.matrix.columns.size(), equations = velocity.matrix.rows.size(),
                     rows = equations - velocity.ties(kernel.set.locked).size();
   if (rows != columns) {

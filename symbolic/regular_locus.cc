@@ -38,7 +38,7 @@ std::vector<std::vector<Entry>> entries_of(const Mechanism& mechanism, const Exp
 
 bool is_regular_everywhere(const Mechanism& mechanism, SingularitySet set) {
   const Mechanism plain = mechanism.without_rates();
-  const ExpressionMatrix m = kernel_question(plain, derive(plain).velocity, set, KernelSide::right).matrix;
+  const ExpressionMatrix m = kernel_question(plain, set, KernelSide::right).matrix;
   std::vector<std::vector<Entry>> rows = entries_of(plain, m);
   std::vector<bool> taken(m.columns.size(), false);
   // A row with one entry left, which is 0 nowhere: it and its column go.

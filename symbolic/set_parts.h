@@ -1,7 +1,8 @@
-// Sets that are the union of parts, each the solutions of a system of its own: a workspace's boundary, by the limits that
-// are met (boundary.h), and a set whose matrix decomposes (decomposition.h).
+// Sets and their parts as equations. A set that is the union of parts is solved as these, each by a system of its own: a
+// workspace's boundary, by the limits that are met (boundary.h), and a set whose matrix decomposes (decomposition.h).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,12 +22,30 @@ std::string text(const SetPart& part);
 /// boundary_parts(), or decompose(). Throws ModelError as these do.
 std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended = {});
 
-/// The scales of the part's kernel vector, where it has one.
-std::vector<std::string> part_scales(const Mechanism& mechanism, SingularitySet set, const SetPart& part);
-TrigonometricSystem part_system(const Mechanism& mechanism, SingularitySet set, const SetPart& part,
-                                const std::vector<std::string>& scales);
-/// algebrize() of it, of a boundary's part with its passage form.
-System compiled_part(const Mechanism& mechanism, SingularitySet set, const SetPart& part,
-                     const std::vector<std::string>& scales);
+/// What solves a set, or one of its parts: what its kernel is asked of, made once. Throws ModelError as kernel_question(),
+/// boundary_parts() and singularity_system() do.
+class SetEquations {
+ public:
+  SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side = std::nullopt);
+  SetEquations(const Mechanism& mechanism, SingularitySet set, SetPart part);
+
+  /// Of a right kernel, where it has such.
+  void eliminate_passive_rates();
+  /// Those that system() is meant to have (kernel_scale.h); none where there is no kernel vector.
+  std::vector<std::string> scales() const;
+  TrigonometricSystem system(const std::vector<std::string>& scales, int corank = 1) const;
+  /// algebrize() of system(), of a boundary's part with its passage form.
+  System compiled(const std::vector<std::string>& scales) const;
+
+ private:
+  void set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const;
+  void add_condition(const Component& part, TrigonometricSystem& system) const;
+
+  Mechanism mechanism_;  // of a boundary without a velocity equation of its own
+  SingularitySet set_;
+  std::optional<SetPart> part_;
+  std::optional<KernelQuestion>
+      kernel_;  // nothing: of all configurations, cusps, nodes, or of a part without a kernel vector
+};
 
 }  // namespace corank::symbolic

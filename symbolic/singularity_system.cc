@@ -5,27 +5,24 @@
 #include <filesystem>
 #include <ranges>
 
-#include "corank/core/exact_number.h"
 #include "corank/symbolic/cusp_system.h"
+#include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/found_ranges.h"
 #include "corank/symbolic/kernel_vector.h"
 #include "corank/symbolic/limits.h"
-#include "corank/symbolic/model_file.h"
 #include "corank/symbolic/node_system.h"
 
 namespace corank::symbolic {
 namespace {
 
-std::string count(std::size_t n, const std::string& noun) {
-  return n == 0 ? "no " + noun + "s" : std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
-}
+std::string count(std::size_t n, const std::string& noun) { return n == 0 ? "no " + noun + "s" : counted(n, noun); }
 
 /// What L has of columns and of rows, in words.
 struct Counted {
   std::string column, row;
 };
 
-Counted counted(const VelocityEquation& velocity) {
+Counted words_for(const VelocityEquation& velocity) {
   return velocity.given ? Counted{"rate", "velocity equation"} : Counted{"coordinate", "equation"};
 }
 
@@ -46,7 +43,7 @@ Chosen chosen(const Mechanism& mechanism, const VelocityEquation& velocity, Role
   } else if (!result.names.empty()) {
     result.noun += " rate";
     result.examples.clear();
-    result.where = mechanism.rates()[static_cast<std::size_t>(mechanism.find_rate(result.names[0]))].where;
+    result.where = mechanism.rates()[mechanism.find_rate(result.names[0])].where;
   }
   return result;
 }
@@ -65,7 +62,7 @@ std::string wanted_text(const Chosen& chosen, std::size_t wanted) {
 void check_mobility(const Mechanism& mechanism, const VelocityEquation& velocity, const Chosen& chosen) {
   const SourceLocation where = chosen.where.line > 0 ? chosen.where : model_place(mechanism);
   const std::size_t equations = velocity.matrix.rows.size(), columns = velocity.matrix.columns.size();
-  const Counted words = counted(velocity);
+  const Counted words = words_for(velocity);
   if (chosen.names.size() == columns && equations > 0)
     throw ModelError(where, "every " + words.column + " is an " + chosen.noun + ", so nothing can move when they are locked",
                      words.column + "s that are not " + chosen.noun + "s");
@@ -77,9 +74,9 @@ void check_mobility(const Mechanism& mechanism, const VelocityEquation& velocity
   if (!chosen.ties.empty())
     problem += " tied by " + count(chosen.ties.size(), "equation") + ", so " + std::to_string(free) + " free";
   if (mobility >= 0 && free > mobility) problem += ": they are not independent";
-  throw ModelError(where, problem,
-                   mobility < 0 ? "at most as many " + words.row + "s as " + words.column + "s"
-                                : wanted_text(chosen, static_cast<std::size_t>(mobility)));
+  throw ModelError(
+      where, problem,
+      mobility < 0 ? "at most as many " + words.row + "s as " + words.column + "s" : wanted_text(chosen, mobility));
 }
 
 void check_chosen(const Mechanism& mechanism, const VelocityEquation& velocity, const SetDefinition& set) {
@@ -101,7 +98,7 @@ void check_chosen(const Mechanism& mechanism, const VelocityEquation& velocity, 
 // Whether all of L loses rank is a question only where that is not so everywhere.
 void check_whole(const Mechanism& mechanism, const VelocityEquation& velocity, const std::string& name, KernelSide side) {
   const std::size_t equations = velocity.matrix.rows.size(), columns = velocity.matrix.columns.size();
-  const Counted words = counted(velocity);
+  const Counted words = words_for(velocity);
   if (equations > columns) {
     throw ModelError(model_place(mechanism),
                      "the mechanism has " + count(columns, words.column) + " and " + count(equations, words.row) + ", so " +
@@ -172,16 +169,15 @@ std::vector<std::vector<Expression>> add_unknowns(TrigonometricSystem& system, c
                          count(n, "component"),
                      "a corank from 1 to " + std::to_string(n));
   }
-  const auto vectors = static_cast<std::size_t>(system.corank);
   const bool second = stem != kStem;
   std::vector<std::string>& unknowns = second ? system.second_unknowns : system.kernel_unknowns;
-  unknowns = kernel_names(mechanism, n, vectors, stem);
+  unknowns = kernel_names(mechanism, n, system.corank, stem);
   if (!second && !system.kernel_scales.empty() && system.kernel_scales.size() != n) {
     throw ModelError(model_place(mechanism), std::to_string(system.kernel_scales.size()) + " scales of the kernel vector",
                      std::to_string(n));
   }
-  std::vector<std::vector<Expression>> xi(vectors);
-  for (std::size_t i = 0; i < vectors * n; ++i) xi[i / n].push_back(Expression::symbol(unknowns[i]));
+  std::vector<std::vector<Expression>> xi;
+  for (auto first = unknowns.begin(); first != unknowns.end(); first += n) xi.push_back(symbols({first, first + n}));
   return xi;
 }
 
@@ -191,21 +187,17 @@ void add_normalization(TrigonometricSystem& system, const SourceLocation& where,
                        const std::vector<std::vector<Expression>>& xi, const std::string& stem) {
   const auto name = [&](std::size_t j) { return xi.size() == 1 ? stem : stem + std::to_string(j + 1); };
   const auto dot_generic = [&](std::size_t i, std::size_t j) {  // a_i·ξʲ
-    std::vector<Expression> terms;
-    for (std::size_t k = 0; k < xi[j].size(); ++k)
-      terms.push_back((xi.size() == 1 ? generic_component(k) : generic_component_of(i, k)) * xi[j][k]);
-    return sum_of(terms);
+    if (xi.size() == 1) return generic_form(xi[j]);
+    std::vector<Expression> a;
+    for (std::size_t k = 0; k < xi[j].size(); ++k) a.push_back(generic_component_of(i, k));
+    return dot(a, xi[j]);
   };
   for (std::size_t j = 0; j < xi.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
-      std::vector<Expression> products;
-      for (std::size_t k = 0; k < xi[j].size(); ++k) products.push_back(xi[i][k] * xi[j][k]);
-      system.equations.push_back({sum_of(products) == Expression(0), name(i) + " orthogonal to " + name(j), where, true});
+      system.equations.push_back({dot(xi[i], xi[j]) == Expression(0), name(i) + " orthogonal to " + name(j), where, true});
       system.equations.push_back({dot_generic(i, j) == Expression(0), "choice of " + name(j), where, true});
     }
-    std::vector<Expression> squares;
-    for (const Expression& x : xi[j]) squares.push_back(pow(x, 2));
-    system.equations.push_back({sum_of(squares) == Expression(1), "norm of " + name(j), where, true});
+    system.equations.push_back({square_of(xi[j]) == Expression(1), "norm of " + name(j), where, true});
     system.inequalities.push_back({dot_generic(j, j) >= Expression(0), "half-space of " + name(j), where, true});
   }
 }
@@ -227,10 +219,9 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
   const std::size_t rows = matrix.rows.size(), columns = matrix.columns.size(), n = xi[0].size();
   for (std::size_t v = 0; v < xi.size(); ++v) {
     const bool second = stem != kStem;
-    const auto first =
-        (second ? system.second_unknowns : system.kernel_unknowns).begin() + static_cast<std::ptrdiff_t>(v * n);
+    const auto first = (second ? system.second_unknowns : system.kernel_unknowns).begin() + v * n;
     const std::vector<Expression> rates =
-        scaled({first, first + static_cast<std::ptrdiff_t>(n)}, second ? std::vector<std::string>{} : system.kernel_scales);
+        scaled({first, first + n}, second ? std::vector<std::string>{} : system.kernel_scales);
     const std::string vector = xi.size() == 1 ? stem : stem + std::to_string(v + 1);
     for (std::size_t i = 0; i < (right ? rows : columns); ++i) {
       std::vector<Expression> entries;
@@ -248,7 +239,7 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
   }
   std::vector<std::vector<Expression>> left = xi;  // of which it asks that they are not all 0
   for (auto& v : left)
-    for (const std::size_t j : passive.eliminated | std::views::reverse) v.erase(v.begin() + static_cast<std::ptrdiff_t>(j));
+    for (const std::size_t j : passive.eliminated | std::views::reverse) v.erase(v.begin() + j);
   add_normalization(system, model_place(mechanism), left, stem);
 }
 
@@ -256,8 +247,7 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
 
 Relation AngleTie::relation() const {
   static constexpr std::array<const char*, 4> kOffsets = {"", " + pi/2", " + pi", " - pi/2"};
-  return Expression::symbol(angle) ==
-         Expression((sign < 0 ? "-" : "") + other + kOffsets[static_cast<std::size_t>(quarters)]);
+  return Expression::symbol(angle) == Expression((sign < 0 ? "-" : "") + other + kOffsets[quarters]);
 }
 
 std::vector<Expression> kernel_components(const TrigonometricSystem& system) {
@@ -305,24 +295,28 @@ KernelQuestion question_of(const Mechanism& mechanism, const VelocityEquation& v
   }
   if (kernel.matrix.columns.empty())
     throw ModelError(model_place(mechanism),
-                     "there are no passive " + counted(velocity).column + "s, so " + name + " has no columns",
-                     "passive " + counted(velocity).column + "s");
+                     "there are no passive " + words_for(velocity).column + "s, so " + name + " has no columns",
+                     "passive " + words_for(velocity).column + "s");
   kernel.side = side_of(mechanism, kernel, ties.size(), side);
   // Lemma (doc/theory.md): a matrix and the same without rows of zeros have the same right kernel, which passes them over; a
   // left one would have an unknown that nothing is asked of.
   if (kernel.side == KernelSide::right) return kernel;
-  kernel.dropped = ties;
-  for (const std::size_t row : kernel.dropped | std::views::reverse) {
-    kernel.matrix.rows.erase(kernel.matrix.rows.begin() + static_cast<std::ptrdiff_t>(row));
-    kernel.where.erase(kernel.where.begin() + static_cast<std::ptrdiff_t>(row));
-  }
+  kernel.drop(ties);
   return kernel;
 }
 
 }  // namespace
 
-KernelQuestion kernel_question(const Mechanism& mechanism, const VelocityEquation& velocity, SingularitySet set,
-                               std::optional<KernelSide> side) {
+void KernelQuestion::drop(const std::vector<std::size_t>& rows) {
+  dropped = rows;
+  for (const std::size_t row : rows | std::views::reverse) {
+    matrix.rows.erase(matrix.rows.begin() + row);
+    where.erase(where.begin() + row);
+  }
+}
+
+KernelQuestion kernel_question(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
+  const VelocityEquation velocity = derive(mechanism).velocity;
   const SetDefinition& asked = definition(set);
   KernelQuestion kernel = question_of(mechanism, velocity, asked, asked.locked, matrix_name(asked, velocity), side);
   if (!asked.also_locked.empty())
@@ -353,7 +347,7 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, const KernelQ
 TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side,
                                        const std::vector<std::string>& scales, int corank) {
   if (definition(set).has_kernel())
-    return singularity_system(mechanism, kernel_question(mechanism, derive(mechanism).velocity, set, side), scales, corank);
+    return singularity_system(mechanism, kernel_question(mechanism, set, side), scales, corank);
   if (corank != 1)
     throw ModelError(model_place(mechanism), std::string("the set ") + definition(set).name + " has no kernel, so no corank",
                      names_of_sets(true));

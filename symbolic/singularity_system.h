@@ -66,10 +66,13 @@ struct KernelQuestion {
   std::vector<std::size_t> dropped;    ///< of a left kernel: the rows of L that are ties, and not in M
   PassiveRates passive{};              ///< of M, where they are eliminated
   std::vector<KernelQuestion> also{};  ///< one more, where the set asks for two kernels
+
+  /// Leaves rows out of M, those of ties.
+  void drop(const std::vector<std::size_t>& rows);
 };
 
-/// Of a set that has a kernel. Throws ModelError as singularity_system does.
-KernelQuestion kernel_question(const Mechanism& mechanism, const VelocityEquation& velocity, SingularitySet set,
+/// Of a set that has a kernel, or of a locus whose cusps or nodes it is. Throws ModelError as singularity_system does.
+KernelQuestion kernel_question(const Mechanism& mechanism, SingularitySet set,
                                std::optional<KernelSide> side = std::nullopt);
 
 /// The same question with the passive rates eliminated, where it is about a right kernel and has such.

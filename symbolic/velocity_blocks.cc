@@ -1,17 +1,15 @@
 #include "corank/symbolic/velocity_blocks.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/block_triangular.h"
 
 namespace corank::symbolic {
 namespace {
 
 constexpr std::array kInputs{Role::input}, kOutputs{Role::output};
 constexpr std::array kChosen{Role::input, Role::output};
-
-std::size_t at(Block block) { return static_cast<std::size_t>(block); }
 
 Block block_of(std::span<const Role> locked) {
   if (locked.empty()) return Block::all;
@@ -31,26 +29,12 @@ ExpressionMatrix ties_of(const VelocityEquation& velocity, Role role) {
   return result;
 }
 
-// No matrix has a higher rank than the most entries, no two of a row or a column, that are not 0 always.
-int term_rank(const PolynomialMatrix& m) {
-  std::vector<int> row_of(static_cast<std::size_t>(m.columns), -1);
-  int rank = 0;
-  for (int i = 0; i < m.rows; ++i) {
-    std::vector<unsigned char> seen(static_cast<std::size_t>(m.columns), 0);
-    const std::function<bool(int)> place = [&](int row) {
-      for (int j = 0; j < m.columns; ++j) {
-        const auto c = static_cast<std::size_t>(j);
-        if (seen[c] || m.entries[static_cast<std::size_t>(row * m.columns + j)].monomials.empty()) continue;
-        seen[c] = 1;
-        if (row_of[c] >= 0 && !place(row_of[c])) continue;
-        row_of[c] = row;
-        return true;
-      }
-      return false;
-    };
-    rank += place(i);
-  }
-  return rank;
+int rank_at_most(const PolynomialMatrix& m) {
+  std::vector<std::vector<std::size_t>> filled(m.rows);
+  for (int i = 0; i < m.rows; ++i)
+    for (int j = 0; j < m.columns; ++j)
+      if (!m.entries[i * m.columns + j].monomials.empty()) filled[i].push_back(j);
+  return static_cast<int>(term_rank(filled, m.columns));
 }
 
 // The types that are worth a word: with inputs and outputs that fit the mobility.
@@ -109,18 +93,18 @@ std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, Singul
     const auto size = static_cast<std::ptrdiff_t>(m.rows) * m.columns;
     m.entries.assign(std::make_move_iterator(next), std::make_move_iterator(next + size));
     next += size;
-    blocks.at_most[b] = term_rank(m);
+    blocks.at_most[b] = rank_at_most(m);
   }
   const auto lower = [&](const KernelQuestion& kernel, std::span<const Role> locked) {
     const Block block = block_of(locked);
     const std::size_t unknowns = kernel.side == KernelSide::right ? kernel.matrix.columns.size() : kernel.matrix.rows.size();
-    int& most = blocks.at_most[at(block)];
+    int& most = blocks.at_most[static_cast<std::size_t>(block)];
     most = std::min(most, static_cast<int>(unknowns) - corank);
     ExpressionMatrix square = kernel.matrix;
     if (kernel.side == KernelSide::right) square.rows.resize(square.rows.size() - velocity.ties(locked).size());
     blocks.of_set |= types_of(kernel.set, block, kernel.side, square);
   };
-  const KernelQuestion kernel = kernel_question(mechanism, velocity, set, side);
+  const KernelQuestion kernel = kernel_question(mechanism, set, side);
   lower(kernel, kernel.set.locked);
   for (const KernelQuestion& second : kernel.also) lower(second, second.set.also_locked);
   blocks.of_set &= blocks.asked;

@@ -21,7 +21,7 @@ inline symbolic::Mechanism with_rates(const std::string& model, const std::strin
 inline System study_system(const symbolic::Mechanism& m, symbolic::SingularitySet set,
                            std::optional<symbolic::KernelSide> side = std::nullopt) {
   if (!definition(set).has_kernel()) return algebrize(singularity_system(m, set));
-  const auto kernel = without_passive_rates(m, kernel_question(m, derive(m).velocity, set, side));
+  const auto kernel = without_passive_rates(m, kernel_question(m, set, side));
   return algebrize(singularity_system(m, kernel, kernel_scales(m, kernel), 1));
 }
 

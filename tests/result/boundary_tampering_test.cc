@@ -29,7 +29,7 @@ const Result& arm() {
     describe_system(common, whole);
     whole.system_text = symbolic::to_cuik(common);
     for (const symbolic::BoundaryPart& part : symbolic::boundary_parts(mechanism)) {
-      const System system = symbolic::compiled_part(mechanism, symbolic::SingularitySet::boundary, part, {});
+      const System system = symbolic::SetEquations(mechanism, symbolic::SingularitySet::boundary, part).compiled({});
       Result one;
       one.model = whole.model;
       one.model_text = whole.model_text;

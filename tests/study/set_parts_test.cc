@@ -98,7 +98,7 @@ struct Case {
 class Deficiency {
  public:
   Deficiency(const symbolic::Mechanism& mechanism, SingularitySet set) {
-    const auto kernel = symbolic::kernel_question(mechanism, derive(mechanism).velocity, set);
+    const auto kernel = symbolic::kernel_question(mechanism, set);
     std::vector<symbolic::Expression> entries;
     for (const auto& row : kernel.matrix.rows) entries.insert(entries.end(), row.begin(), row.end());
     entries_ = symbolic::polynomials(symbolic::plain_system(mechanism), entries);
@@ -176,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SetPartsOf, MechanismsWithoutSuchSingularitiesAreNone) {
   const Question legs{.model = model_named("platforms/stewart"), .set = SingularitySet::inverse};
-  const auto kernel = symbolic::kernel_question(legs.model, derive(legs.model).velocity, SingularitySet::inverse);
+  const auto kernel = symbolic::kernel_question(legs.model, SingularitySet::inverse);
   EXPECT_TRUE(symbolic::decompose(legs.model, kernel).empty());  // legs have lengths above 0
 }
 

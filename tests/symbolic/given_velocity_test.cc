@@ -109,7 +109,7 @@ TEST(GivenVelocity, MakesTheRowsOfTheSystem) {
 
 TEST(GivenVelocity, LosesPassiveRatesToReciprocalRows) {
   const Mechanism m = crank();
-  const KernelQuestion kernel = without_passive_rates(m, kernel_question(m, derive(m).velocity, SingularitySet::forward));
+  const KernelQuestion kernel = without_passive_rates(m, kernel_question(m, SingularitySet::forward));
   EXPECT_THAT(kernel.passive.eliminated, ElementsAre(1));
   // The role is the rate's, not that of a coordinate with the same place.
   const Mechanism other = crank("v : output\nwt ~ input\nwp ~ output\nz ~ passive\nu1 ~ input\n",

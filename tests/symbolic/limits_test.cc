@@ -113,7 +113,8 @@ TEST(BoundaryParts, NeedOutputs) {
 TEST(BoundaryParts, AreSystemsOfTheExpectedDimension) {
   const Mechanism m = parse_model(rod("t : [0, pi]\ns : [-1, 1]\nx : [0, 1]\n"), "m.cuik");
   for (const BoundaryPart& part : boundary_parts(m)) {
-    const System system = compiled_part(m, SingularitySet::boundary, part, boundary_scales(m, part));
+    const SetEquations equations(m, SingularitySet::boundary, part);
+    const System system = equations.compiled(equations.scales());
     EXPECT_EQ(system.dimension(), part.of_output ? 2 : 1) << part.text();  // a length at its limit is a domain of one number
     ASSERT_TRUE(system.passage.has_value());
     EXPECT_EQ(system.passage->slack.size(), part.active.size());

@@ -18,7 +18,7 @@ namespace {
 using testing::ElementsAre;
 
 PassiveRates rates(const Mechanism& m, SingularitySet set) {
-  return eliminate_passive_rates(m, kernel_question(m, derive(m).velocity, set).matrix);
+  return eliminate_passive_rates(m, kernel_question(m, set).matrix);
 }
 Mechanism repository_model(const std::string& name) { return read_model(CORANK_SOURCE_DIR "/models/" + name + ".cuik"); }
 
@@ -64,7 +64,7 @@ TEST(PassiveRates, LeaveTheKernelAsItIs) {
   for (const char* name : {"dextar", "3rrr", "spherical_five_bar"})
     for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse}) {
       const Mechanism m = repository_model(name);
-      const ExpressionMatrix before = kernel_question(m, derive(m).velocity, set).matrix;
+      const ExpressionMatrix before = kernel_question(m, set).matrix;
       const PassiveRates after = eliminate_passive_rates(m, before);
       if (after.eliminated.empty()) continue;
       ++compared;
@@ -103,7 +103,7 @@ TEST(PassiveRates, StayWhereTheyCannotBeEliminated) {
 
 TEST(PassiveRates, AreNamedByTheRowsOfTheSystem) {
   const Mechanism m = repository_model("dextar");
-  const KernelQuestion kernel = without_passive_rates(m, kernel_question(m, derive(m).velocity, SingularitySet::forward));
+  const KernelQuestion kernel = without_passive_rates(m, kernel_question(m, SingularitySet::forward));
   const TrigonometricSystem system = singularity_system(m, kernel, {}, 1);
   EXPECT_TRUE(system.passive_rates_eliminated);
   std::vector<std::string> sources;
