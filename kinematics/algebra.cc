@@ -2,46 +2,17 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
+#include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/ginac_bridge.h"
 #include "corank/symbolic/polynomial_expander.h"
 
 namespace corank::kinematics {
-namespace {
 
 using GiNaC::ex_to;
 using GiNaC::is_a;
 using GiNaC::numeric;
-
-ConstantFunction function_of(const ex& e) {
-  static const std::map<std::string, ConstantFunction> kFunctions = {
-      {"sin", ConstantFunction::sin},   {"cos", ConstantFunction::cos},   {"tan", ConstantFunction::tan},
-      {"asin", ConstantFunction::asin}, {"acos", ConstantFunction::acos}, {"atan", ConstantFunction::atan},
-      {"exp", ConstantFunction::exp},   {"log", ConstantFunction::log},   {"abs", ConstantFunction::abs}};
-  const auto known = kFunctions.find(ex_to<GiNaC::function>(e).get_name());
-  if (known == kFunctions.end()) throw std::domain_error("no function of constants");
-  return known->second;
-}
-
-double apply(ConstantFunction f, double x) {
-  switch (f) {
-    case ConstantFunction::sqrt: return std::sqrt(x);
-    case ConstantFunction::sin: return std::sin(x);
-    case ConstantFunction::cos: return std::cos(x);
-    case ConstantFunction::tan: return std::tan(x);
-    case ConstantFunction::asin: return std::asin(x);
-    case ConstantFunction::acos: return std::acos(x);
-    case ConstantFunction::atan: return std::atan(x);
-    case ConstantFunction::exp: return std::exp(x);
-    case ConstantFunction::log: return std::log(x);
-    case ConstantFunction::abs: return std::fabs(x);
-  }
-  return std::nan("");
-}
-
-}  // namespace
 
 Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -120,7 +91,7 @@ double Algebra::value(const ex& e) const {
   if (is_a<GiNaC::symbol>(e)) return plain_.at(ex_to<GiNaC::symbol>(e).get_name());
   if (e.is_equal(GiNaC::Pi)) return std::numbers::pi;
   if (is_a<GiNaC::power>(e)) return std::pow(value(e.op(0)), value(e.op(1)));
-  if (is_a<GiNaC::function>(e)) return apply(function_of(e), value(e.op(0)));
+  if (is_a<GiNaC::function>(e)) return symbolic::function_value(ex_to<GiNaC::function>(e).get_name(), value(e.op(0)));
   double result = is_a<GiNaC::add>(e) ? 0 : 1;
   for (const ex& part : e) is_a<GiNaC::add>(e) ? result += value(part) : result *= value(part);
   return result;
@@ -135,11 +106,7 @@ std::optional<numeric> Algebra::rational(const ex& constant) const {
 }
 
 ExactNumber Algebra::exact(const ex& e) const {
-  if (is_a<numeric>(e)) {
-    std::ostringstream text;
-    text << e;
-    return ExactNumber::rational(text.str());
-  }
+  if (is_a<numeric>(e)) return ExactNumber::rational(symbolic::text_of(e));
   if (is_a<GiNaC::symbol>(e)) return exact_.at(ex_to<GiNaC::symbol>(e).get_name());
   if (e.is_equal(GiNaC::Pi)) return ExactNumber::pi();
   if (is_a<GiNaC::power>(e)) {
@@ -147,7 +114,11 @@ ExactNumber Algebra::exact(const ex& e) const {
     if (n.is_integer()) return pow(exact(e.op(0)), n.to_int());
     return pow(ExactNumber::apply(ConstantFunction::sqrt, exact(e.op(0))), (n * 2).to_int());  // all that geometry makes
   }
-  if (is_a<GiNaC::function>(e)) return ExactNumber::apply(function_of(e), exact(e.op(0)));
+  if (is_a<GiNaC::function>(e)) {
+    const auto function = symbolic::constant_function(e);
+    if (!function) throw std::domain_error("no function of constants");
+    return ExactNumber::apply(*function, exact(e.op(0)));
+  }
   ExactNumber result = is_a<GiNaC::add>(e) ? 0 : 1;
   for (const ex& part : e) result = is_a<GiNaC::add>(e) ? result + exact(part) : result * exact(part);
   return result;

@@ -1,9 +1,7 @@
 #include "corank/kinematics/bodies.h"
 
 #include <cmath>
-#include <deque>
 #include <map>
-#include <optional>
 
 #include "corank/kinematics/parallelograms.h"
 
@@ -16,10 +14,7 @@ std::string name_of(const Joint& joint) { return std::string(to_string(joint.kin
 
 /// The orthonormal frame of an axis and a direction across it, as columns.
 Mat axis_frame(const Algebra& algebra, const Vec& axis, const Vec& zero) {
-  return transpose(
-      {axis,
-       zero,
-       {algebra.clean(cross(axis, zero)[0]), algebra.clean(cross(axis, zero)[1]), algebra.clean(cross(axis, zero)[2])}});
+  return transpose({axis, zero, algebra.clean(cross(axis, zero))});
 }
 
 class Builder {
@@ -40,9 +35,7 @@ class Builder {
   }
 
  private:
-  Vec cleaned(const Vec& v) const {
-    return algebra_.named(Vec{algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])});
-  }
+  Vec cleaned(const Vec& v) const { return algebra_.named(algebra_.clean(v)); }
   Mat cleaned(const Mat& m) const { return {cleaned(m[0]), cleaned(m[1]), cleaned(m[2])}; }
 
   Mat rotation_of(const Pose& pose, const SourceLocation& where) const {
@@ -194,7 +187,6 @@ class Builder {
   /// The joints' point that is `point` in `end.body` is, in each body that carries it as well.
   using Carried = std::map<std::size_t, Vec>;
   Carried carried(const BodyEnd& end) const {
-    const auto plain = [&](const Vec& v) { return Vec{algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])}; };
     Carried places{{end.body, end.point}};
     std::deque<std::size_t> waiting{end.body};
     while (!waiting.empty()) {
@@ -208,10 +200,10 @@ class Builder {
           if (near.body != body || places.contains(far.body) ||
               !(about_axis || j.kind == JointKind::universal || j.kind == JointKind::spherical))
             continue;
-          const Vec away = plain(places.at(body) - near.point);
+          const Vec away = algebra_.clean(places.at(body) - near.point);
           const ex along = about_axis ? algebra_.clean(dot(away, near.axis)) : ex(0);
-          if (!algebra_.is_zero(plain(away - along * near.axis))) continue;
-          places.emplace(far.body, plain(far.point + along * far.axis));
+          if (!algebra_.is_zero(algebra_.clean(away - along * near.axis))) continue;
+          places.emplace(far.body, algebra_.clean(far.point + along * far.axis));
           waiting.push_back(far.body);
         }
     }
@@ -256,6 +248,16 @@ class Builder {
 };
 
 }  // namespace
+
+std::optional<Vec> carried_over(const Vec& known, const BodyEnd& near, const BodyEnd& far, const Algebra& algebra) {
+  if (!algebra.are_parallel(known, near.axis)) return std::nullopt;
+  return ex(algebra.sign(algebra.clean(dot(known, near.axis)))) * far.axis;
+}
+
+Mat basis_of(const Vec& n, const Algebra& algebra) {
+  const Vec e1 = algebra.perpendicular(n);
+  return {e1, algebra.clean(cross(n, e1)), n};
+}
 
 Bodies bodies_of(const Robot& robot, Algebra& algebra) {
   Bodies bodies = Builder(robot, algebra).run();

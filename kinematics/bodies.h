@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <deque>
+#include <optional>
 #include <vector>
 
 #include "corank/kinematics/algebra.h"
@@ -30,6 +32,13 @@ struct BodyJoint {
   std::array<BodyEnd, 2> ends;
 };
 
+/// The direction of the far body that `known` is of the near one, where they turn on each other about it; nothing where they
+/// turn about another.
+std::optional<Vec> carried_over(const Vec& known, const BodyEnd& near, const BodyEnd& far, const Algebra& algebra);
+
+/// e1, e2 and n, for a unit vector n: a plane's two directions and its normal, as rows.
+Mat basis_of(const Vec& n, const Algebra& algebra);
+
 struct Bodies {
   std::vector<std::size_t> of_link;  ///< body of each link; 0 is the ground
   std::vector<Placement> placement;  ///< of each link's frame in its body's
@@ -42,6 +51,19 @@ struct Bodies {
 
   std::size_t size() const { return group.size(); }
 };
+
+/// From body to body: step(j, near, far) for each of these joints (in Bodies::joints) on each body that is reached, near being
+/// its end there. Where it says so, far's body is reached.
+template <typename Step>
+void walk(const Bodies& bodies, const std::vector<std::size_t>& joints, std::size_t start, Step&& step) {
+  std::deque<std::size_t> waiting{start};
+  for (; !waiting.empty(); waiting.pop_front())
+    for (const std::size_t j : joints)
+      for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+        const BodyEnd &near = bodies.joints[j].ends[side], &far = bodies.joints[j].ends[1 - side];
+        if (near.body == waiting.front() && step(j, near, far)) waiting.push_back(far.body);
+      }
+}
 
 /// Throws ModelError where fixed joints contradict one another, sliding joints or parallelograms that are kept ask one link
 /// for two orientations, or joints keep a rod's ends at another distance than its length; where the robot keeps

@@ -1,7 +1,6 @@
 #include "corank/kinematics/concentric.h"
 
 #include <algorithm>
-#include <deque>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -91,36 +90,28 @@ class Block {
     const Vec normal = cross(a.axis, b.axis), way = b.point - a.point;
     if (!is_zero(dot(way, normal))) return std::nullopt;
     const ex along = algebra_.clean(dot(cross(way, b.axis), normal)) / algebra_.clean(dot(normal, normal));
-    return cleaned(a.point + along * a.axis);
+    return algebra_.clean(a.point + along * a.axis);
   }
 
   /// From body to body. Whether all joints agree.
   bool spread() {
-    std::deque<std::size_t> waiting{first_};
-    while (!waiting.empty()) {
-      const std::size_t body = waiting.front();
-      waiting.pop_front();
-      for (const std::size_t j : joints_)
-        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-          const BodyEnd &near = bodies_.joints[j].ends[side], &far = bodies_.joints[j].ends[1 - side];
-          if (near.body != body) continue;
-          const Vec away = *centre_[body] - near.point;
-          const ex along = dot(away, near.axis);  // 0 · away for joints without axis
-          const bool can_move = bodies_.joints[j].kind == JointKind::revolute;
-          if (!is_zero(can_move ? away - along * near.axis : away)) return false;
-          const Vec there = can_move ? cleaned(far.point + along * far.axis) : far.point;
-          if (!centre_[far.body]) {
-            centre_[far.body] = there;
-            waiting.push_back(far.body);
-          } else if (!is_zero(there - *centre_[far.body])) {
-            return false;
-          }
-        }
-    }
-    return true;
+    bool agree = true;
+    walk(bodies_, joints_, first_, [&](std::size_t j, const BodyEnd& near, const BodyEnd& far) {
+      if (!agree) return false;
+      const Vec away = *centre_[near.body] - near.point;
+      const ex along = dot(away, near.axis);  // 0 · away for joints without axis
+      const bool can_move = bodies_.joints[j].kind == JointKind::revolute;
+      agree = is_zero(can_move ? away - along * near.axis : away);
+      if (!agree) return false;
+      const Vec there = can_move ? algebra_.clean(far.point + along * far.axis) : far.point;
+      const bool is_new = !centre_[far.body];
+      if (is_new) centre_[far.body] = there;
+      agree = is_new || is_zero(there - *centre_[far.body]);
+      return is_new;
+    });
+    return agree;
   }
 
-  Vec cleaned(const Vec& v) const { return {algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])}; }
   bool is_zero(const ex& e) const { return algebra_.is_zero(algebra_.clean(e)); }
   bool is_zero(const Vec& v) const { return is_zero(v[0]) && is_zero(v[1]) && is_zero(v[2]); }
 

@@ -126,6 +126,7 @@ class Draft {
     bool auxiliary, unit;  ///< unit: the first of three that are a unit vector
     SourceLocation where;
     std::optional<Range> limit{};  ///< of the joint
+    bool tells_branches = false;
   };
   struct DraftEquation {
     ex value;
@@ -143,12 +144,6 @@ class Draft {
   struct DraftLeftOut {
     DraftEquation equation;
     std::vector<Numbered> from;
-  };
-  struct DraftRate {
-    std::string name;
-    symbolic::CoordinateKind kind;
-    symbolic::Role role;
-    SourceLocation where;
   };
 
   /// From now on e = 0 is known, where identities are sought.
@@ -176,7 +171,7 @@ class Draft {
   std::optional<Identities> identities_;  // of equations and velocity equations
   std::vector<Numbered> numbered_;        // as they are known to the identities
   std::vector<DraftLeftOut> left_out_;
-  std::vector<DraftRate> rates_;
+  std::vector<symbolic::Rate> rates_;
   std::vector<ex> inputs_, outputs_;
   struct JointValue {
     std::string joint;

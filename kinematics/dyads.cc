@@ -48,10 +48,7 @@ std::vector<Dyad> dyads_of(const Robot& robot, const Bodies& bodies, const Algeb
     const bool closes = std::find(tree.chords.begin(), tree.chords.end(), outer) != tree.chords.end();
     if (!closes && !reached) continue;
     const BodyEnd &a = end_on(edge.joint, link), &b = end_on(outer, link);
-    const Vec apart = b.point - a.point;
-    if (algebra.are_parallel(a.axis, b.axis) ||
-        !algebra.is_zero({algebra.clean(apart[0]), algebra.clean(apart[1]), algebra.clean(apart[2])}))
-      continue;
+    if (algebra.are_parallel(a.axis, b.axis) || !algebra.is_zero(algebra.clean(b.point - a.point))) continue;
     taken[edge.joint] = taken[outer] = true;
     list.push_back({link, edge, outer, bodies.joints[edge.joint].ends[edge.from].body, beyond(outer, link)});
   }

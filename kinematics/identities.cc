@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <utility>
+
+#include "corank/symbolic/ginac_bridge.h"
 
 namespace corank::kinematics {
 namespace {
@@ -74,9 +75,7 @@ Identities::Polynomial Identities::polynomial(const ex& e) {
       const ex base = is_power ? f.op(0) : f;
       powers.emplace_back(base, is_power ? GiNaC::ex_to<GiNaC::numeric>(f.op(1)).to_int() : 1);
       if (numbers_.contains(base)) return;
-      std::ostringstream text;
-      text << base;
-      fresh.emplace(text.str(), base);
+      fresh.emplace(symbolic::text_of(base), base);
     };
     if (GiNaC::is_a<GiNaC::mul>(t)) {
       for (const ex& f : t) factor(f);

@@ -99,24 +99,18 @@ class ParallelAxes {
     const BodyEnd& first = bodies_.joints[seed].ends[0];
     normals_[first.body] = first.axis;
     heights_[first.body] = 0;
-    std::deque<std::size_t> waiting{first.body};
-    while (!waiting.empty()) {
-      const std::size_t body = waiting.front();
-      waiting.pop_front();
-      for (const BodyJoint& j : bodies_.joints) {
-        if (j.kind != JointKind::revolute) continue;
-        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-          const BodyEnd &near = j.ends[side], &far = j.ends[1 - side];
-          if (near.body != body || normals_.contains(far.body) || !algebra_.are_parallel(normals_.at(body), near.axis))
-            continue;
-          const int sense = algebra_.sign(algebra_.clean(dot(normals_.at(body), near.axis)));
-          normals_[far.body] = ex(sense) * far.axis;
-          heights_[far.body] =
-              algebra_.clean(dot(normals_.at(body), near.point) + heights_.at(body) - dot(normals_.at(far.body), far.point));
-          waiting.push_back(far.body);
-        }
-      }
-    }
+    std::vector<std::size_t> hinges;
+    for (std::size_t j = 0; j < bodies_.joints.size(); ++j)
+      if (bodies_.joints[j].kind == JointKind::revolute) hinges.push_back(j);
+    walk(bodies_, hinges, first.body, [&](std::size_t, const BodyEnd& near, const BodyEnd& far) {
+      if (normals_.contains(far.body)) return false;
+      const auto normal = carried_over(normals_.at(near.body), near, far, algebra_);
+      if (!normal) return false;
+      normals_[far.body] = *normal;
+      heights_[far.body] =
+          algebra_.clean(dot(normals_.at(near.body), near.point) + heights_.at(near.body) - dot(*normal, far.point));
+      return true;
+    });
   }
 
   bool has(std::size_t body) const { return normals_.contains(body); }
@@ -135,8 +129,7 @@ class ParallelAxes {
   Vec across(std::size_t a, std::size_t b) const {
     const Vec way = marks_[b].point - marks_[a].point;
     const Vec& n = normals_.at(marks_[a].body);
-    const Vec flat = way - dot(way, n) * n;
-    return {algebra_.clean(flat[0]), algebra_.clean(flat[1]), algebra_.clean(flat[2])};
+    return algebra_.clean(way - dot(way, n) * n);
   }
 
   void add_sides() {
@@ -177,8 +170,7 @@ class ParallelAxes {
     return robot_.links[link_of(carrier)].name;
   }
   std::size_t link_of(std::size_t body) const {
-    const auto at = std::find(bodies_.of_link.begin(), bodies_.of_link.end(), body);
-    return static_cast<std::size_t>(at - bodies_.of_link.begin());
+    return std::find(bodies_.of_link.begin(), bodies_.of_link.end(), body) - bodies_.of_link.begin();
   }
 
   std::size_t mark_at(std::size_t body, std::size_t hinge) const {
@@ -195,8 +187,7 @@ class ParallelAxes {
   // The unit vector from hinge p to hinge q in a body's frame, the axes' direction and their cross product, as rows.
   Mat frame(std::size_t body, std::size_t p, std::size_t q) const {
     const Vec along = algebra_.unit(across(mark_at(body, p), mark_at(body, q))), &n = normals_.at(body);
-    const Vec third = cross(n, along);
-    return {n, along, {algebra_.clean(third[0]), algebra_.clean(third[1]), algebra_.clean(third[2])}};
+    return {n, along, algebra_.clean(cross(n, along))};
   }
 
   // Sides a, from p to q, and c, from r to s, point the same way.
@@ -207,8 +198,7 @@ class ParallelAxes {
     const std::size_t i = link_of(first), k = link_of(second);
     const Mat bodies = transpose(frame(first, p, q)) * frame(second, r, s);
     Mat links = transpose(bodies_.placement[i].rotation) * bodies * bodies_.placement[k].rotation;
-    for (Vec& row : links)
-      for (ex& entry : row) entry = algebra_.clean(entry);
+    for (Vec& row : links) row = algebra_.clean(row);
     one.opposite.push_back({i, k, links});
   }
 

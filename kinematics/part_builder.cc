@@ -111,7 +111,7 @@ std::size_t PartBuilder::require_link(const std::string& link, const SourceLocat
   if (found < 0) {
     throw ModelError(where, "there is no link " + in_quotes(link), expectation + suggestion(link, link_names()));
   }
-  return static_cast<std::size_t>(found);
+  return found;
 }
 
 std::size_t PartBuilder::require_joint(const std::string& joint, const SourceLocation& where,
@@ -120,7 +120,7 @@ std::size_t PartBuilder::require_joint(const std::string& joint, const SourceLoc
   if (found < 0) {
     throw ModelError(where, "there is no joint " + in_quotes(joint), expectation + suggestion(joint, joint_names()));
   }
-  return static_cast<std::size_t>(found);
+  return found;
 }
 
 void PartBuilder::add_input(std::string_view name_read, const SourceLocation& where) {

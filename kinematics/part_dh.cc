@@ -39,7 +39,7 @@ void PartBuilder::begin_dh_row(const SourceLocation& where) {
 }
 
 const Expression& PartBuilder::dh_cell(const std::string& column) const {
-  return dh.cells[static_cast<std::size_t>(std::find(dh.columns.begin(), dh.columns.end(), column) - dh.columns.begin())];
+  return dh.cells[std::find(dh.columns.begin(), dh.columns.end(), column) - dh.columns.begin()];
 }
 
 /// What the row's joint is called, as soon as its cells are known.
@@ -110,7 +110,7 @@ void PartBuilder::finish_dh_row() {
   std::size_t far = 0;
   dh.last_has_name = !dh.link.empty();
   if (dh.last_has_name && robot.find_link(resolve(dh.link)) >= 0) {
-    far = static_cast<std::size_t>(robot.find_link(resolve(dh.link)));
+    far = robot.find_link(resolve(dh.link));
     if (far == dh.base)
       throw ModelError(dh.link_where, "the row ends at the link " + in_quotes(dh.link) + " from which it begins",
                        "another link");
@@ -151,13 +151,12 @@ void PartBuilder::finish_dh() {
 void PartBuilder::ask_for_what_dh_leaves_open() {
   if (dh_joints_.empty()) return;
   if (std::none_of(robot.joints.begin(), robot.joints.end(), [](const Joint& j) { return j.actuated; }))
-    for (const std::string& driven : dh_joints_)
-      robot.joints[static_cast<std::size_t>(robot.find_joint(driven))].actuated = true;
+    for (const std::string& driven : dh_joints_) robot.joints[robot.find_joint(driven)].actuated = true;
   if (!robot.outputs.empty() || dh_tools_.size() != 1) return;
   Output tool;
   tool.name = "tool";
   tool.where = dh.where;
-  tool.link = static_cast<std::size_t>(robot.find_link(dh_tools_[0]));
+  tool.link = robot.find_link(dh_tools_[0]);
   tool.kind = dh_joints_.size() >= 6 ? Output::Kind::pose : Output::Kind::position;
   robot.outputs.push_back(std::move(tool));
 }

@@ -92,16 +92,12 @@ void PartFault::no_output_kind() const {
   say(in_quotes(name) + " cannot be an output", expectation + suggestion(name, kOutputs));
 }
 
-void PartFault::no_dh_column() const { found_instead_of("the names of the four columns in their order: a alpha d theta"); }
-
 void PartFault::no_dh_cell() const {
   const std::vector<std::string>& columns = parts.dh.columns;
   const std::size_t read = parts.dh.cells.size();
   say("found " + describe_start(rest) + " where the column " + in_quotes(columns[read]) + " of the row should be",
       "four expressions without blanks, or commas between them: 0, -90deg, 0, q1 - 90deg");
 }
-
-void PartFault::no_link_name() const { found_instead_of("a link, name : shapes and points, or a section"); }
 
 void PartFault::unknown_part_section() const {
   std::string title = parts.section_title;

@@ -21,9 +21,7 @@ struct PartFault : symbolic::Fault {
   [[noreturn]] void no_second_point() const;
   [[noreturn]] void no_colour() const;
   [[noreturn]] void no_output_kind() const;
-  [[noreturn]] void no_dh_column() const;
   [[noreturn]] void no_dh_cell() const;
-  [[noreturn]] void no_link_name() const;
   [[noreturn]] void unknown_part_section() const;
 };
 
@@ -61,7 +59,7 @@ CORANK_FAULT(grammar::segments_close, fault.found_instead_of("an operator, ';' a
 CORANK_FAULT(grammar::known_section, fault.unknown_part_section())
 CORANK_FAULT(grammar::constant_name, fault.found_instead_of("a definition, name := expression, or a section"))
 CORANK_FAULT(grammar::assign, fault.found_instead_of("':=' after the constant's name"))
-CORANK_FAULT(grammar::link_name, fault.no_link_name())
+CORANK_FAULT(grammar::link_name, fault.found_instead_of("a link, name : shapes and points, or a section"))
 CORANK_FAULT(grammar::joint_link, fault.no_joint_link())
 CORANK_FAULT(grammar::joint_colon, fault.no_joint_colon())
 CORANK_FAULT(grammar::limits_word, fault.found_instead_of("limits after avoid"))
@@ -77,7 +75,7 @@ CORANK_FAULT(grammar::gear_ratio, fault.found_instead_of("ratio and a number: th
 CORANK_FAULT(grammar::joint, fault.no_joint())
 CORANK_FAULT(grammar::dh_convention, fault.found_instead_of("standard or modified (Craig), the convention of the rows"))
 CORANK_FAULT(grammar::dh_base, fault.found_instead_of("the name of the link from which the rows begin, after from"))
-CORANK_FAULT(grammar::dh_column, fault.no_dh_column())
+CORANK_FAULT(grammar::dh_column, fault.found_instead_of("the names of the four columns in their order: a alpha d theta"))
 CORANK_FAULT(grammar::dh_comma, fault.found_instead_of("an operator, or ',' and the next column: the row has commas"))
 CORANK_FAULT(grammar::dh_link_name, fault.found_instead_of("the name of the row's link after link"))
 CORANK_FAULT(grammar::dh_row_end, fault.found_instead_of("limits [lower, upper], actuated, link and its name, or the end of "

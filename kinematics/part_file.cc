@@ -20,17 +20,8 @@ using symbolic::TextInput;
 template <typename Rule>
 struct Action : symbolic::ExpressionAction<Rule> {};
 
-#define CORANK_ACTION(rule, ...)                                         \
-  template <>                                                            \
-  struct Action<grammar::rule> {                                         \
-    template <typename ActionInput>                                      \
-    static void apply(const ActionInput& in, PartBuilder& b) __VA_ARGS__ \
-  };
-#define CORANK_ACTION0(rule, ...)                  \
-  template <>                                      \
-  struct Action<grammar::rule> {                   \
-    static void apply0(PartBuilder& b) __VA_ARGS__ \
-  };
+#define CORANK_ACTION(rule, ...) CORANK_ACTION_OF(Action, PartBuilder, rule, __VA_ARGS__)
+#define CORANK_ACTION0(rule, ...) CORANK_ACTION0_OF(Action, PartBuilder, rule, __VA_ARGS__)
 
 template <typename ActionInput>
 void declare(const ActionInput& in, PartBuilder& b) {
@@ -40,7 +31,7 @@ void declare(const ActionInput& in, PartBuilder& b) {
 
 template <typename ActionInput>
 std::string_view text_before(const ActionInput& in, const PartBuilder& b) {
-  return b.text.substr(0, static_cast<std::size_t>(in.begin() - b.text.data()));
+  return b.text.substr(0, in.begin() - b.text.data());
 }
 
 /// Does something other than the end of a comment stand before it in its line?
@@ -55,7 +46,7 @@ bool follows_in_line(const ActionInput& in, const PartBuilder& b) {
 /// The first character behind the token, blanks left out.
 template <typename ActionInput>
 char next_character(const ActionInput& in, const PartBuilder& b) {
-  const std::size_t next = b.text.find_first_not_of(" \t", static_cast<std::size_t>(in.end() - b.text.data()));
+  const std::size_t next = b.text.find_first_not_of(" \t", in.end() - b.text.data());
   return next == std::string_view::npos ? '\n' : b.text[next];
 }
 
@@ -290,11 +281,11 @@ CORANK_ACTION(output_joint, {
 CORANK_ACTION0(output_tuple, { b.output.vector = b.pop_vector(); })
 CORANK_ACTION(output_axis, {
   const char first = small_letters(in.string_view())[0];
-  b.output_axis = first == 'p' ? 3 : static_cast<std::size_t>(first - 'x');
+  b.output_axis = first == 'p' ? 3 : first - 'x';
 })
 CORANK_ACTION(output_bracket, { b.finish_output_range(place(in, b)); })
 CORANK_ACTION(only_word, { b.begin_only(place(in, b)); })
-CORANK_ACTION(only_axis, { b.output.asked[static_cast<std::size_t>(small_letters(in.string_view())[0] - 'x')] = true; })
+CORANK_ACTION(only_axis, { b.output.asked[small_letters(in.string_view())[0] - 'x'] = true; })
 CORANK_ACTION0(keeps_word, { b.draft.pose = {}; })
 CORANK_ACTION0(kept_end, { b.output.kept = b.draft.pose; })
 CORANK_ACTION0(output_end, { b.finish_output(); })

@@ -21,8 +21,8 @@ struct gap : star<sor<space, model::line_comment, hash_comment, model::block_com
 struct line_gap : star<sor<model::blank_character, model::line_comment, hash_comment, model::block_comment>> {};
 struct no_gap : success {};
 
-template <typename Letters>
-struct word : seq<Letters, not_at<model::name_tail>> {};
+using model::header;
+using model::word;
 template <typename... Letters>
 struct words : word<sor<Letters...>> {};
 #define CORANK_WORD(name, text) \
@@ -64,9 +64,8 @@ struct expression : model::expression<gap> {};
 struct tuple_open : one<'('> {};
 struct tuple_comma : one<','> {};
 struct tuple_close : one<')'> {};
-struct tuple_rest : seq<gap, expression, gap, must<tuple_comma>, gap, expression, gap, must<tuple_comma>, gap, expression,
-                        gap, must<tuple_close>> {};
-struct tuple : seq<tuple_open, tuple_rest> {};
+struct tuple : seq<tuple_open, gap, expression, gap, must<tuple_comma>, gap, expression, gap, must<tuple_comma>, gap,
+                   expression, gap, must<tuple_close>> {};
 struct absolute_point : tuple {};
 struct offset_vector : tuple {};
 struct direction : tuple {};
@@ -169,8 +168,6 @@ struct segments : seq<segments_word, gap, must<segments_open>, gap, segment_poin
 struct shape : sor<body, box, prism, sphere, cylinder, line, segments> {};
 
 // Section headers, and what may begin one.
-template <typename... Letters>
-struct header : seq<one<'['>, star<model::blank_character>, Letters..., star<model::blank_character>, one<']'>> {};
 struct constants_header : header<any_case<"constants">> {};
 struct links_header : header<any_case<"links">> {};
 struct joints_header : sor<header<any_case<"joints">>, header<any_case<"loops">>> {};
@@ -380,8 +377,7 @@ CORANK_WORD(keeps_word, "keeps");
 struct output_angle : any_case<"phi"> {};
 struct output_axis : sor<output_angle, one<'x', 'y', 'z', 'X', 'Y', 'Z'>> {};
 struct output_bracket : bracket {};
-struct output_axis_range
-    : seq<at<sor<output_angle, one<'x', 'y', 'z', 'X', 'Y', 'Z'>>, gap, one<'['>>, output_axis, gap, output_bracket> {};
+struct output_axis_range : seq<at<output_axis, gap, one<'['>>, output_axis, gap, output_bracket> {};
 struct output_range : seq<sor<range_word, limits_word>, gap, must<output_axis_range>, star<gap, output_axis_range>> {};
 struct only_word : seq<word<any_case<"only">>, not_at<gap, one<':'>>> {};
 struct only_axis : seq<one<'x', 'y', 'z', 'X', 'Y', 'Z'>, not_at<model::name_tail>, not_at<gap, one<':'>>> {};

@@ -185,7 +185,7 @@ Joint PartBuilder::named_joint() {
   joint.name = resolve(joint.is_named ? draft.name : "J" + std::to_string(robot.joints.size() + 1));
   while (!joint.is_named && robot.find_joint(joint.name) >= 0) joint.name += "_";
   if (const int same = robot.find_joint(joint.name); same >= 0) {
-    Joint& known = robot.joints[static_cast<std::size_t>(same)];
+    Joint& known = robot.joints[same];
     if (known.is_named) {
       throw ModelError(
           draft.name_where,

@@ -145,7 +145,7 @@ void PartBuilder::finish_transform() {
       step.translation[i] = arguments[4 * i + 3];
     }
   } else if (word[0] == 't') {
-    step.translation[static_cast<std::size_t>(axis)] = arguments[0];
+    step.translation[axis] = arguments[0];
   } else {
     step = rotation(axis, arguments[0]);
   }
@@ -190,7 +190,7 @@ void PartBuilder::finish_colour() {
 void PartBuilder::begin_link(const std::string& name_read, const SourceLocation& where) {
   const std::string link = resolve(name_read);
   if (const int same = robot.find_link(link); same >= 0) {
-    const SourceLocation& first = robot.links[static_cast<std::size_t>(same)].where;
+    const SourceLocation& first = robot.links[same].where;
     throw ModelError(where, "the link " + in_quotes(name_read) + " is already there, in line " + std::to_string(first.line),
                      "another name for the link");
   }

@@ -15,10 +15,7 @@ class PlanarRobot {
  public:
   PlanarRobot(const Robot& robot, const Bodies& bodies, const std::vector<Vec>& normals, Algebra& algebra, Draft& draft)
       : robot_(robot), bodies_(bodies), algebra_(algebra), draft_(draft) {
-    for (const Vec& n : normals) {
-      const Vec e1 = algebra.perpendicular(n), e2 = cross(n, e1);
-      basis_.push_back({e1, {algebra.clean(e2[0]), algebra.clean(e2[1]), algebra.clean(e2[2])}, n});
-    }
+    for (const Vec& n : normals) basis_.push_back(basis_of(n, algebra));
     turns_.resize(bodies.groups);
     origins_.resize(bodies.size());
     coordinate_.resize(robot.joints.size());
@@ -32,7 +29,7 @@ class PlanarRobot {
     for (const std::size_t j : tree.chords) close(bodies_.joints[j]);
     for (const BodyJoint& joint : bodies_.joints) limit(joint);
     for (const Joint& joint : robot_.joints)
-      if (joint.actuated) draft_.input(symbol_of(static_cast<std::size_t>(&joint - robot_.joints.data())));
+      if (joint.actuated) draft_.input(symbol_of(&joint - robot_.joints.data()));
     for (const Output& output : robot_.outputs) add(output);
     if (draft_.has_branches()) draft_.velocity_of_equations();
     draw(robot_, bodies_, algebra_, draft_, Space::planar, [this](std::size_t body, const Vec& point) -> Motion {
@@ -215,7 +212,7 @@ class PlanarRobot {
       case JointKind::planar: draft_.equation(gap.height, "height", of.where, "the joint '" + of.name + "'"); break;
       case JointKind::distance: {
         const ex length = algebra_.constant(of.length, of.where);
-        const auto number = static_cast<std::size_t>(&j - bodies_.joints.data());
+        const std::size_t number = &j - bodies_.joints.data();
         draft_.closing({gap.squared() - length * length}, draft_.branches().of_rod(number, gap, seen()), "rod", of.where,
                        "the rod '" + of.name + "'");
         break;
@@ -326,8 +323,7 @@ std::optional<std::vector<Vec>> plane_of(const Bodies& bodies, const Algebra& al
     const std::size_t g = bodies.group[j.ends[0].body];
     if (j.kind == JointKind::prismatic && g == 0 && !normals[0] && sliding &&
         !algebra.are_parallel(*sliding, j.ends[0].axis)) {
-      const Vec n = algebra.unit(cross(*sliding, j.ends[0].axis));
-      normals[0] = n;
+      normals[0] = algebra.unit(cross(*sliding, j.ends[0].axis));
     }
     if (j.kind == JointKind::prismatic && g == 0) sliding = &j.ends[0].axis;
   }
@@ -345,8 +341,8 @@ std::optional<std::vector<Vec>> plane_of(const Bodies& bodies, const Algebra& al
       for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
         auto &known = normals[bodies.group[j.ends[side].body]], &other = normals[bodies.group[j.ends[1 - side].body]];
         if (!known || other) continue;
-        if (!algebra.are_parallel(*known, j.ends[side].axis)) return std::nullopt;
-        other = ex(algebra.sign(dot(*known, j.ends[side].axis))) * j.ends[1 - side].axis;
+        other = carried_over(*known, j.ends[side], j.ends[1 - side], algebra);
+        if (!other) return std::nullopt;
         grew = true;
       }
     }

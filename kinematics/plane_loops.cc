@@ -1,7 +1,6 @@
 #include "corank/kinematics/plane_loops.h"
 
 #include <algorithm>
-#include <deque>
 #include <numeric>
 
 namespace corank::kinematics {
@@ -46,13 +45,11 @@ class Direction {
     if (j.kind == JointKind::prismatic) return algebra_.is_zero(algebra_.clean(dot(normals.at(g0), j.ends[0].axis)));
     if (!turns(j.kind)) return false;
     const std::size_t near = n0 != normals.end() ? 0 : 1;
-    const Vec& known = near == 0 ? n0->second : n1->second;
-    if (!algebra_.are_parallel(known, j.ends[near].axis)) return false;
-    const int sense = algebra_.sign(algebra_.clean(dot(known, j.ends[near].axis)));
-    const Vec other = ex(sense) * j.ends[1 - near].axis;
-    const auto [far, is_new] = normals.emplace(near == 0 ? g1 : g0, other);
+    const auto other = carried_over(near == 0 ? n0->second : n1->second, j.ends[near], j.ends[1 - near], algebra_);
+    if (!other) return false;
+    const auto [far, is_new] = normals.emplace(near == 0 ? g1 : g0, *other);
     return is_new ||
-           (algebra_.are_parallel(far->second, other) && algebra_.sign(algebra_.clean(dot(far->second, other))) > 0);
+           (algebra_.are_parallel(far->second, *other) && algebra_.sign(algebra_.clean(dot(far->second, *other))) > 0);
   }
 
   const Bodies& bodies_;
@@ -65,21 +62,15 @@ std::vector<Joints> loops_of(const Bodies& bodies, const Joints& joints) {
   std::vector<bool> in_tree(bodies.joints.size(), false);
   for (const std::size_t start : joints) {
     if (way[bodies.joints[start].ends[0].body]) continue;
-    std::deque<std::size_t> waiting{bodies.joints[start].ends[0].body};
-    way[waiting.front()] = Joints{};
-    while (!waiting.empty()) {
-      const std::size_t body = waiting.front();
-      waiting.pop_front();
-      for (const std::size_t j : joints)
-        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-          const auto& ends = bodies.joints[j].ends;
-          if (ends[side].body != body || way[ends[1 - side].body]) continue;
-          way[ends[1 - side].body] = way[body];
-          way[ends[1 - side].body]->push_back(j);
-          in_tree[j] = true;
-          waiting.push_back(ends[1 - side].body);
-        }
-    }
+    const std::size_t first = bodies.joints[start].ends[0].body;
+    way[first] = Joints{};
+    walk(bodies, joints, first, [&](std::size_t j, const BodyEnd& near, const BodyEnd& far) {
+      if (way[far.body]) return false;
+      way[far.body] = way[near.body];
+      way[far.body]->push_back(j);
+      in_tree[j] = true;
+      return true;
+    });
   }
   std::vector<bool> in_loop(bodies.joints.size(), false);
   for (const std::size_t chord : joints) {
@@ -137,8 +128,7 @@ PlaneLoops::PlaneLoops(const Bodies& bodies, const Algebra& algebra) : part_of_(
         for (const BodyEnd& end : bodies.joints[j].ends) {
           const std::size_t g = bodies.group[end.body];
           const Vec& n = direction.normals.at(g);
-          const Vec e1 = algebra.perpendicular(n), e2 = cross(n, e1);
-          part.basis.emplace(g, Mat{e1, Vec{algebra.clean(e2[0]), algebra.clean(e2[1]), algebra.clean(e2[2])}, n});
+          part.basis.emplace(g, basis_of(n, algebra));
         }
       }
       parts_.push_back(std::move(part));

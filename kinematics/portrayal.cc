@@ -85,10 +85,8 @@ class Portrayal {
   Vec local(const BodyEnd& end) const { return space_ == Space::spherical ? end.point + end.axis : end.point; }
 
   const Corner* known(std::size_t body, const Vec& local) const {
-    for (const Corner& c : corners_[body]) {
-      const Vec way = c.local - local;
-      if (algebra_.is_zero(Vec{algebra_.clean(way[0]), algebra_.clean(way[1]), algebra_.clean(way[2])})) return &c;
-    }
+    for (const Corner& c : corners_[body])
+      if (algebra_.is_zero(algebra_.clean(c.local - local))) return &c;
     return nullptr;
   }
 

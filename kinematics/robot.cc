@@ -35,7 +35,7 @@ int Robot::find_joint(const std::string& joint) const { return find(joints, join
 
 std::size_t Robot::link(const std::string& link_name) {
   const int index = find_link(link_name);
-  if (index >= 0) return static_cast<std::size_t>(index);
+  if (index >= 0) return index;
   links.push_back({link_name, {}, {}});
   return links.size() - 1;
 }

@@ -132,10 +132,10 @@ class RobotValidator {
       if (!robot_.joints[j].actuated) continue;
       int& known = actuated[first(j)];
       if (known >= 0)
-        throw ModelError(at(robot_.joints[j].where),
-                         described(robot_.joints[j]) + " and " + described(robot_.joints[static_cast<std::size_t>(known)]) +
-                             " are actuated, but turn together",
-                         "one of joints that follow each other");
+        throw ModelError(
+            at(robot_.joints[j].where),
+            described(robot_.joints[j]) + " and " + described(robot_.joints[known]) + " are actuated, but turn together",
+            "one of joints that follow each other");
       known = static_cast<int>(j);
     }
     for (const Output& output : robot_.outputs)

@@ -68,7 +68,7 @@ std::optional<int> sampled_redundancy(const System& system) {
   if (n > kMostVariables) return std::nullopt;
   VectorXd low(n), high(n), units(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Interval& domain = system.variables[static_cast<std::size_t>(i)].domain;
+    const Interval& domain = system.variables[i].domain;
     low[i] = std::max(domain.lo(), -1e3);
     high[i] = std::min(domain.hi(), 1e3);
     units[i] = std::max(std::fabs(low[i]), std::fabs(high[i]));
@@ -90,8 +90,8 @@ std::optional<int> sampled_redundancy(const System& system) {
       VectorXd f(m);
       jacobian = MatrixXd::Zero(m, n);
       for (Eigen::Index i = 0; i < m; ++i) {
-        f[i] = equations[static_cast<std::size_t>(i)].value(x);
-        equations[static_cast<std::size_t>(i)].gradient(x, jacobian, i);
+        f[i] = equations[i].value(x);
+        equations[i].gradient(x, jacobian, i);
       }
       residual = m > 0 ? f.lpNorm<Eigen::Infinity>() : 0;
       if (residual < kZero || m == 0 || !(residual < kFar)) break;

@@ -30,7 +30,7 @@ UrdfDocument::UrdfDocument(std::string_view text, std::string file) : file_(std:
   if (!parsed) {
     if (parsed.status == pugi::status_no_document_element)
       throw ModelError({file_, 0, 0}, "there is no <robot> element", "a URDF file");
-    throw ModelError(place_at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0))),
+    throw ModelError(place_at(std::max<std::ptrdiff_t>(parsed.offset, 0)),
                      std::string("the XML is faulty: ") + parsed.description(), "well-formed XML");
   }
   robot_ = only_element();
@@ -105,7 +105,7 @@ void UrdfDocument::check_attributes(const pugi::xml_node& element) const {
 
 // pugixml leaves a reference to an entity that it does not know as it is.
 void UrdfDocument::check_entities(const pugi::xml_attribute& attribute) const {
-  const std::size_t begin = static_cast<std::size_t>(attribute.value() - buffer_.data());
+  const std::size_t begin = attribute.value() - buffer_.data();
   if (begin == 0 || begin > text_.size()) return;
   const std::string_view written = std::string_view(text_).substr(begin, text_.find(text_[begin - 1], begin) - begin);
   for (std::size_t i = written.find('&'); i != std::string_view::npos; i = written.find('&', i + 1)) {
@@ -119,7 +119,7 @@ void UrdfDocument::check_entities(const pugi::xml_attribute& attribute) const {
 symbolic::SourceLocation UrdfDocument::place(const char* in_buffer) const {
   const std::less<const char*> before;
   if (before(in_buffer, buffer_.data()) || before(buffer_.data() + buffer_.size(), in_buffer)) return {file_, 0, 0};
-  return place_at(static_cast<std::size_t>(in_buffer - buffer_.data()));
+  return place_at(in_buffer - buffer_.data());
 }
 
 symbolic::SourceLocation UrdfDocument::place_at(std::size_t offset) const {

@@ -1,6 +1,7 @@
 #include "corank/kinematics/urdf_reading.h"
 
 #include <algorithm>
+#include <set>
 
 #include "corank/kinematics/nearest_name.h"
 #include "corank/kinematics/vectors.h"
@@ -14,21 +15,13 @@ using symbolic::ModelError;
 
 constexpr std::size_t kMaxNotices = 100;
 
-// By the angle with this cosine and sine, about x, y or z.
-Pose about(std::size_t axis, const Expression& cosine, const Expression& sine) {
-  const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
-  Pose pose;
-  pose.rotation[i][i] = pose.rotation[j][j] = cosine;
-  pose.rotation[j][i] = sine;
-  pose.rotation[i][j] = folded_difference(0, sine);
-  return pose;
-}
-
 std::string listed(std::initializer_list<std::string_view> names) {
   std::string text;
   for (std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
   return text;
 }
+
+bool is_fit(std::string_view name) { return symbolic::is_identifier(name) && !symbolic::is_reserved(name); }
 
 }  // namespace
 
@@ -102,8 +95,8 @@ Pose UrdfReading::origin(const pugi::xml_node& element, const std::string& owner
   const auto angles = urdf_numbers(rpy.value(), where(rpy), "rpy of " + owner, urdf_angle);
   for (const UrdfNumber& angle : angles)
     if (!angle.reading.empty()) notice("rpy " + angle.reading);
-  const auto rotation = [&](std::size_t axis) { return about(axis, exact_cos(angles[axis]), exact_sin(angles[axis])); };
-  pose.rotation = (rotation(2) * rotation(1) * rotation(0)).rotation;
+  const auto about = [&](int axis) { return rotation(axis, exact_cos(angles[axis]), exact_sin(angles[axis])); };
+  pose.rotation = (about(2) * about(1) * about(0)).rotation;
   return pose;
 }
 
@@ -123,6 +116,50 @@ std::vector<std::string> UrdfReading::notices() const {
     sentences.push_back(sentence + (times > 1 ? ", " + std::to_string(times) + " times" : ""));
   }
   return sentences;
+}
+
+std::size_t UrdfNames::add(const pugi::xml_node& element) {
+  const std::string_view name = reading_.required(element, "name", "a " + what_);
+  const auto [at, is_new] = index_.try_emplace(name, list_.size());
+  if (!is_new) {
+    throw ModelError(reading_.where(element.attribute("name")), "a second " + what_ + " called " + in_quotes(name),
+                     "each name once; the first is in line " + std::to_string(lines_[at->second]));
+  }
+  list_.push_back(name);
+  lines_.push_back(reading_.where(element).line);
+  return list_.size() - 1;
+}
+
+std::size_t UrdfNames::find(const pugi::xml_node& element, const char* attribute, const std::string& owner) const {
+  const std::string_view name = reading_.required(element, attribute, owner);
+  const auto found = index_.find(name);
+  if (found != index_.end()) return found->second;
+  throw ModelError(
+      reading_.where(element.attribute(attribute)), "there is no " + what_ + " " + in_quotes(name),
+      "the name of a <" + what_ + "> of this file" + suggestion(std::string(name), {list_.begin(), list_.end()}));
+}
+
+std::vector<std::string> UrdfNames::identifiers() {
+  std::set<std::string, std::less<>> taken;
+  std::map<std::string, int> numbers;
+  for (std::string_view name : list_)
+    if (is_fit(name)) taken.emplace(name);
+  std::vector<std::string> result;
+  for (std::string_view name : list_) {
+    if (is_fit(name)) {
+      result.emplace_back(name);
+      continue;
+    }
+    std::string fit;
+    for (const char c : name) fit += symbolic::is_identifier(std::string("_") + c) ? c : '_';
+    if (!is_fit(fit)) fit = what_ + "_" + fit;
+    const std::string base = fit;
+    int& number = numbers[base];
+    while (!taken.insert(fit).second) fit = base + "_" + std::to_string(++number + 1);
+    reading_.notice("the " + what_ + " " + in_quotes(name) + " is called " + fit);
+    result.push_back(std::move(fit));
+  }
+  return result;
 }
 
 Vector turned(const Pose& pose, const Vector& direction) {

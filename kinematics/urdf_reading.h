@@ -46,6 +46,29 @@ class UrdfReading {
   std::map<std::string, std::size_t, std::less<>> notice_index_;
 };
 
+/// Names as URDF has them, and what they are called in the model: identifiers, each once.
+class UrdfNames {
+ public:
+  /// `what` has the names: "link".
+  UrdfNames(UrdfReading& reading, std::string what) : reading_(reading), what_(std::move(what)) {}
+
+  std::size_t add(const pugi::xml_node& element);
+  /// The one that an attribute names; `owner` has the attribute.
+  std::size_t find(const pugi::xml_node& element, const char* attribute, const std::string& owner) const;
+  /// Once all are there: those that are identifiers keep their names.
+  std::vector<std::string> identifiers();
+
+  std::size_t size() const { return list_.size(); }
+  std::string_view operator[](std::size_t i) const { return list_[i]; }
+
+ private:
+  UrdfReading& reading_;
+  std::string what_;
+  std::vector<std::string_view> list_;
+  std::vector<int> lines_;
+  std::map<std::string_view, std::size_t> index_;
+};
+
 /// The point of a frame whose pose is given: R x + p. The direction: R x.
 Vector moved_point(const Pose& pose, const Vector& point);
 Vector turned(const Pose& pose, const Vector& direction);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "corank/kinematics/nearest_name.h"
 #include "corank/kinematics/urdf_reading.h"
@@ -20,70 +19,6 @@ using symbolic::ModelError;
 constexpr std::size_t kMaxLinks = 10'000;
 constexpr int kWholeTurn = 720;  ///< in half degrees
 constexpr const char* kCloseLoops = "URDF is a tree: close loops in a .loops file";
-
-// Names as URDF has them, and what they are called in the model: identifiers, each once.
-class Names {
- public:
-  Names(UrdfReading& reading, std::string what) : reading_(reading), what_(std::move(what)) {}
-
-  std::size_t add(const pugi::xml_node& element) {
-    const std::string_view name = reading_.required(element, "name", "a " + what_);
-    const auto [at, is_new] = index_.try_emplace(name, list_.size());
-    if (!is_new) {
-      throw ModelError(reading_.where(element.attribute("name")), "a second " + what_ + " called " + in_quotes(name),
-                       "each name once; the first is in line " + std::to_string(lines_[at->second]));
-    }
-    list_.push_back(name);
-    lines_.push_back(reading_.where(element).line);
-    return list_.size() - 1;
-  }
-
-  // The one that an attribute names.
-  std::size_t find(const pugi::xml_node& element, const char* attribute, const std::string& owner) const {
-    const std::string_view name = reading_.required(element, attribute, owner);
-    const auto found = index_.find(name);
-    if (found != index_.end()) return found->second;
-    throw ModelError(
-        reading_.where(element.attribute(attribute)), "there is no " + what_ + " " + in_quotes(name),
-        "the name of a <" + what_ + "> of this file" + suggestion(std::string(name), {list_.begin(), list_.end()}));
-  }
-
-  // Once all are there: those that are identifiers keep their names.
-  std::vector<std::string> identifiers() {
-    std::set<std::string, std::less<>> taken;
-    std::map<std::string, int> numbers;
-    for (std::string_view name : list_)
-      if (is_fit(name)) taken.emplace(name);
-    std::vector<std::string> result;
-    for (std::string_view name : list_) {
-      if (is_fit(name)) {
-        result.emplace_back(name);
-        continue;
-      }
-      std::string fit;
-      for (const char c : name) fit += symbolic::is_identifier(std::string("_") + c) ? c : '_';
-      if (!is_fit(fit)) fit = what_ + "_" + fit;
-      const std::string base = fit;
-      int& number = numbers[base];
-      while (!taken.insert(fit).second) fit = base + "_" + std::to_string(++number + 1);
-      reading_.notice("the " + what_ + " " + in_quotes(name) + " is called " + fit);
-      result.push_back(std::move(fit));
-    }
-    return result;
-  }
-
-  std::size_t size() const { return list_.size(); }
-  std::string_view operator[](std::size_t i) const { return list_[i]; }
-
- private:
-  static bool is_fit(std::string_view name) { return symbolic::is_identifier(name) && !symbolic::is_reserved(name); }
-
-  UrdfReading& reading_;
-  std::string what_;
-  std::vector<std::string_view> list_;
-  std::vector<int> lines_;
-  std::map<std::string_view, std::size_t> index_;
-};
 
 // A <joint> and its place in the tree. Links are counted as in the file.
 struct Edge {
@@ -114,7 +49,7 @@ class TreeReader {
   }
 
  private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kNone = -1;
 
   void read_robot() {
     const std::string name(reading_.required(top_, "name", "the robot"));
@@ -306,8 +241,8 @@ class TreeReader {
                          "two joints that turn, or two that slide");
       Coupling coupling;
       coupling.where = reading_.where(mimic);
-      coupling.driver = static_cast<std::size_t>(edges_[leader].joint);
-      coupling.follower = static_cast<std::size_t>(edges_[index].joint);
+      coupling.driver = edges_[leader].joint;
+      coupling.follower = edges_[index].joint;
       const bool turns = robot_.joints[coupling.follower].kind == JointKind::revolute;
       if (const auto multiplier = reading_.number(mimic, "multiplier", "the multiplier of " + joint_text(index)))
         coupling.ratio = turns ? fraction(*multiplier) : multiplier->value;
@@ -440,7 +375,7 @@ class TreeReader {
   pugi::xml_node top_;
   bool closed_;
   Robot robot_;
-  Names links_{reading_, "link"}, joints_{reading_, "joint"};
+  UrdfNames links_{reading_, "link"}, joints_{reading_, "joint"};
   std::vector<pugi::xml_node> link_elements_;
   std::vector<Edge> edges_;  ///< one for each <joint>, in their order
   std::vector<std::size_t> parent_edge_;

@@ -110,11 +110,15 @@ Pose rotation(int axis, const Expression& angle) {
       s = Expression(*sine);
     }
   }
+  return rotation(axis, c, s);
+}
+
+Pose rotation(int axis, const Expression& cosine, const Expression& sine) {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   Pose result;
-  const auto i = static_cast<std::size_t>((axis + 1) % 3), j = static_cast<std::size_t>((axis + 2) % 3);
-  result.rotation[i][i] = result.rotation[j][j] = c;
-  result.rotation[j][i] = s;
-  result.rotation[i][j] = folded_difference(0, s);
+  result.rotation[i][i] = result.rotation[j][j] = cosine;
+  result.rotation[j][i] = sine;
+  result.rotation[i][j] = folded_difference(0, sine);
   return result;
 }
 

@@ -26,5 +26,7 @@ Pose inverse(const Pose& pose);
 Pose translation(const Vector& by);
 /// About x, y or z (0, 1, 2). Multiples of a quarter turn, written with numbers and pi only, give zeros and ones.
 Pose rotation(int axis, const Expression& angle);
+/// The same by an angle with this cosine and sine.
+Pose rotation(int axis, const Expression& cosine, const Expression& sine);
 
 }  // namespace corank::kinematics
