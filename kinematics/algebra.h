@@ -81,7 +81,6 @@ class Algebra {
   bool is_constant(const Vec& v) const { return is_constant(v[0]) && is_constant(v[1]) && is_constant(v[2]); }
 
   const std::map<std::string, GiNaC::realsymbol>& constants() const { return constants_; }
-  const std::vector<std::string>& coordinate_names() const { return coordinate_names_; }
   /// In the model language.
   std::vector<Expression> translated(const std::vector<ex>& list) const;
 

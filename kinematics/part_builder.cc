@@ -19,6 +19,12 @@ std::string canonical_name(const std::filesystem::path& path) {
   return error ? path.string() : real.string();
 }
 
+std::vector<std::string> names_of(const auto& things) {
+  std::vector<std::string> names;
+  for (const auto& thing : things) names.push_back(thing.name);
+  return names;
+}
+
 }  // namespace
 
 std::string small_letters(std::string_view word) {
@@ -92,24 +98,12 @@ void PartBuilder::define_constant() {
   if (constant.name != "deg") robot.constants.push_back(constant);
 }
 
-std::vector<std::string> PartBuilder::link_names() const {
-  std::vector<std::string> names;
-  for (const Link& link : robot.links) names.push_back(link.name);
-  return names;
-}
-
-std::vector<std::string> PartBuilder::joint_names() const {
-  std::vector<std::string> names;
-  for (const Joint& joint : robot.joints) names.push_back(joint.name);
-  return names;
-}
-
 std::size_t PartBuilder::require_link(const std::string& link, const SourceLocation& where,
                                       const std::string& expectation) const {
   const int found = robot.find_link(link);
   if (found < 0 && goes_on_ && link == "ground") return 0;
   if (found < 0) {
-    throw ModelError(where, "there is no link " + in_quotes(link), expectation + suggestion(link, link_names()));
+    throw ModelError(where, "there is no link " + in_quotes(link), expectation + suggestion(link, names_of(robot.links)));
   }
   return found;
 }
@@ -118,7 +112,8 @@ std::size_t PartBuilder::require_joint(const std::string& joint, const SourceLoc
                                        const std::string& expectation) const {
   const int found = robot.find_joint(joint);
   if (found < 0) {
-    throw ModelError(where, "there is no joint " + in_quotes(joint), expectation + suggestion(joint, joint_names()));
+    throw ModelError(where, "there is no joint " + in_quotes(joint),
+                     expectation + suggestion(joint, names_of(robot.joints)));
   }
   return found;
 }

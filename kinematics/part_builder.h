@@ -44,7 +44,7 @@ struct JointDraft {
   std::vector<Bracket> brackets;
   std::vector<Reference> references;
   std::vector<Vector> zeros;
-  SourceLocation range_where, zero_where;
+  SourceLocation zero_where;
   std::optional<Expression> length;
   Pose pose;
   bool actuated = false;
@@ -184,9 +184,6 @@ class PartBuilder : public symbolic::ModelBuilder {
   /// After the whole text.
   void finish();
 
-  std::vector<std::string> link_names() const;
-  std::vector<std::string> joint_names() const;
-
  private:
   struct Body {
     std::string file;  ///< of a body from a file
@@ -203,7 +200,6 @@ class PartBuilder : public symbolic::ModelBuilder {
   };
 
   void add_body(Body body);
-  const LinkData* current() const;
   const Vector* find_point(std::size_t link, const std::string& point) const;
   [[noreturn]] void refuse_point(std::size_t link, const std::string& point, const SourceLocation& where) const;
   std::size_t require_link(const std::string& link, const SourceLocation& where, const std::string& expectation) const;

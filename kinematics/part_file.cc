@@ -132,30 +132,20 @@ CORANK_ACTION(cylinder_word, { b.shape_where = place(in, b); })
 CORANK_ACTION(line_word, { b.shape_where = place(in, b); })
 CORANK_ACTION(segments_word, { b.shape_where = place(in, b); })
 CORANK_ACTION0(hidden_word, { b.hidden = true; })
-template <void (PartBuilder::*finish)()>
-struct FinishShape {
-  static void apply0(PartBuilder& b) {
-    (b.*finish)();
-    b.points.clear();
-    b.values.clear();
-    b.shape_colour.clear();
-    b.hidden = false;
-  }
-};
-template <>
-struct Action<grammar::body_end> : FinishShape<&PartBuilder::finish_body> {};
-template <>
-struct Action<grammar::box_end> : FinishShape<&PartBuilder::finish_box> {};
-template <>
-struct Action<grammar::prism_end> : FinishShape<&PartBuilder::finish_prism> {};
-template <>
-struct Action<grammar::sphere_end> : FinishShape<&PartBuilder::finish_sphere> {};
-template <>
-struct Action<grammar::cylinder_end> : FinishShape<&PartBuilder::finish_cylinder> {};
-template <>
-struct Action<grammar::line_end> : FinishShape<&PartBuilder::finish_line> {};
-template <>
-struct Action<grammar::segments_end> : FinishShape<&PartBuilder::finish_segments> {};
+void end_shape(PartBuilder& b, void (PartBuilder::*finish)()) {
+  (b.*finish)();
+  b.points.clear();
+  b.values.clear();
+  b.shape_colour.clear();
+  b.hidden = false;
+}
+CORANK_ACTION0(body_end, { end_shape(b, &PartBuilder::finish_body); })
+CORANK_ACTION0(box_end, { end_shape(b, &PartBuilder::finish_box); })
+CORANK_ACTION0(prism_end, { end_shape(b, &PartBuilder::finish_prism); })
+CORANK_ACTION0(sphere_end, { end_shape(b, &PartBuilder::finish_sphere); })
+CORANK_ACTION0(cylinder_end, { end_shape(b, &PartBuilder::finish_cylinder); })
+CORANK_ACTION0(line_end, { end_shape(b, &PartBuilder::finish_line); })
+CORANK_ACTION0(segments_end, { end_shape(b, &PartBuilder::finish_segments); })
 CORANK_ACTION(segment_point_end, { b.points.push_back({b.pop_vector(), {}, place(in, b)}); })
 
 // Links.
@@ -209,16 +199,13 @@ CORANK_ACTION0(weight_end, { b.pop_value(); })
 CORANK_ACTION0(avoid_word, { b.pass_over("limits to be avoided (avoid limits)"); })
 CORANK_ACTION0(actuated_word, { b.draft.actuated = true; })
 template <typename ActionInput>
-void set_driver(const ActionInput& in, PartBuilder& b) {
-  b.draft.driver = b.resolve(in.string_view());
-  b.draft.driver_where = place(in, b);
+void read_name(const ActionInput& in, PartBuilder& b, std::string& name, SourceLocation& where) {
+  name = b.resolve(in.string_view());
+  where = place(in, b);
 }
-CORANK_ACTION(driver_name, { set_driver(in, b); })
-CORANK_ACTION(gear_driver, { set_driver(in, b); })
-CORANK_ACTION(gear_follower, {
-  b.draft.follower = b.resolve(in.string_view());
-  b.draft.follower_where = place(in, b);
-})
+CORANK_ACTION(driver_name, { read_name(in, b, b.draft.driver, b.draft.driver_where); })
+CORANK_ACTION(gear_driver, { read_name(in, b, b.draft.driver, b.draft.driver_where); })
+CORANK_ACTION(gear_follower, { read_name(in, b, b.draft.follower, b.draft.follower_where); })
 CORANK_ACTION0(ratio_end, { b.draft.ratio = b.pop_value(); })
 CORANK_ACTION0(offset_end, { b.draft.offset = b.pop_value(); })
 CORANK_ACTION0(gear_end, { b.finish_gear(); })
@@ -262,22 +249,13 @@ CORANK_ACTION(output_name, {
 })
 CORANK_ACTION(output_kind, { b.output.kind = small_letters(in.string_view()); })
 CORANK_ACTION0(joint_word, { b.output.kind = "joint"; })
-CORANK_ACTION(output_link, {
-  b.output.link = b.resolve(in.string_view());
-  b.output.link_where = place(in, b);
-})
-CORANK_ACTION(output_frame, {
-  b.output.frame = b.resolve(in.string_view());
-  b.output.frame_where = place(in, b);
-})
+CORANK_ACTION(output_link, { read_name(in, b, b.output.link, b.output.link_where); })
+CORANK_ACTION(output_frame, { read_name(in, b, b.output.frame, b.output.frame_where); })
 CORANK_ACTION(output_point, {
   b.output.point = in.string();
   b.output.point_where = place(in, b);
 })
-CORANK_ACTION(output_joint, {
-  b.output.joint = b.resolve(in.string_view());
-  b.output.joint_where = place(in, b);
-})
+CORANK_ACTION(output_joint, { read_name(in, b, b.output.joint, b.output.joint_where); })
 CORANK_ACTION0(output_tuple, { b.output.vector = b.pop_vector(); })
 CORANK_ACTION(output_axis, {
   const char first = small_letters(in.string_view())[0];

@@ -36,7 +36,6 @@ struct long_name : seq<model::identifier, star<string<':', ':'>, model::identifi
 struct function_word : words<any_case<"sin">, any_case<"cos">, any_case<"tan">, any_case<"asin">, any_case<"acos">,
                              any_case<"atan">, any_case<"sqrt">, any_case<"exp">, any_case<"log">, any_case<"abs">> {};
 struct refused_function : words<any_case<"atan2">, any_case<"cot">, any_case<"parameter">> {};
-struct function_open : model::call_open {};
 struct constant_token : long_name {};
 struct call;
 struct parenthesis;
@@ -61,10 +60,9 @@ struct parenthesis : seq<model::group_open, gap, model::terms<gap>, gap, must<mo
 struct expression : model::expression<gap> {};
 
 // Points and directions.
-struct tuple_open : one<'('> {};
 struct tuple_comma : one<','> {};
 struct tuple_close : one<')'> {};
-struct tuple : seq<tuple_open, gap, expression, gap, must<tuple_comma>, gap, expression, gap, must<tuple_comma>, gap,
+struct tuple : seq<one<'('>, gap, expression, gap, must<tuple_comma>, gap, expression, gap, must<tuple_comma>, gap,
                    expression, gap, must<tuple_close>> {};
 struct absolute_point : tuple {};
 struct offset_vector : tuple {};
@@ -191,8 +189,7 @@ struct constant_end : success {};
 CORANK_WORD(print_word, "print");
 CORANK_WORD(unit_word, "unit");
 struct unit_name : simple_name {};
-struct printed_name : simple_name {};
-struct print_statement : seq<seq<print_word, gap, at<simple_name>>, printed_name> {};
+struct print_statement : seq<seq<print_word, gap, at<simple_name>>, simple_name> {};
 struct unit_statement : seq<seq<unit_word, gap, at<simple_name>>, unit_name> {};
 struct definition : seq<must<constant_name>, gap, must<assign>, gap, expression, constant_end, opt<gap, one<';'>>> {};
 struct constants_section
@@ -204,13 +201,11 @@ struct link_separator : one<':', '-'> {};
 struct link_colour : colour {};
 CORANK_WORD(point_word, "point");
 struct point_name : simple_name {};
-struct point_close : success {};
 struct point_end : success {};
 struct point_statement : seq<seq<point_word, gap, at<simple_name, gap, one<'('>>>, point_name, gap, must<tuple>, point_end> {
 };
 struct link_part : sor<shape, point_statement, dynamics> {};
-struct link_begin : success {};
-struct link : seq<must<link_name>, link_begin, opt<gap, link_separator, opt<gap, link_colour>, star<gap, link_part>>> {};
+struct link : seq<must<link_name>, opt<gap, link_separator, opt<gap, link_colour>, star<gap, link_part>>> {};
 struct links_section : seq<links_header, star<gap, not_at<section_or_end>, link>> {};
 
 // [JOINTS]
@@ -241,7 +236,6 @@ CORANK_WORD(offset_word, "offset");
 struct option_word : sor<limits_word, range_word, reference_word, zero_word, length_word, radius_word, avoid_word,
                          actuated_word, mimic_word, dynamics_word, inertia_word, inertial_word, granularity_word,
                          hidden_word, decoration_word, colour_word, rgb_word> {};
-struct bracket_begin : success {};
 struct bracket_open : one<'['> {};
 struct bracket_close : one<']'> {};
 struct bracket_comma : one<','> {};
@@ -374,8 +368,7 @@ struct output_of : seq<must<of_word>, gap, must<output_link>,
 struct output_in : opt<gap, in_word, gap, must<output_frame>> {};
 struct output_end : success {};
 CORANK_WORD(keeps_word, "keeps");
-struct output_angle : any_case<"phi"> {};
-struct output_axis : sor<output_angle, one<'x', 'y', 'z', 'X', 'Y', 'Z'>> {};
+struct output_axis : sor<any_case<"phi">, one<'x', 'y', 'z', 'X', 'Y', 'Z'>> {};
 struct output_bracket : bracket {};
 struct output_axis_range : seq<at<output_axis, gap, one<'['>>, output_axis, gap, output_bracket> {};
 struct output_range : seq<sor<range_word, limits_word>, gap, must<output_axis_range>, star<gap, output_axis_range>> {};

@@ -115,7 +115,7 @@ void PartBuilder::set_axes(Joint& joint) {
 void PartBuilder::set_ranges(Joint& joint) {
   const bool is_size = joint.kind == JointKind::spherical;
   switch (joint.kind) {
-    case JointKind::revolute: require_brackets(0, 1, "at most one, range [lower, upper]"); break;
+    case JointKind::revolute:
     case JointKind::prismatic:
     case JointKind::parallelogram:
     case JointKind::distance_variable:

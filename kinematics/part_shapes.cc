@@ -62,8 +62,6 @@ void PartBuilder::refuse_point(std::size_t link, const std::string& point, const
                    "(x, y, z), or a point named in the link" + (known.empty() ? "" : ":" + known));
 }
 
-const PartBuilder::LinkData* PartBuilder::current() const { return link_ ? &link_data_[*link_] : nullptr; }
-
 void PartBuilder::push_vertex(std::string_view digits, const SourceLocation& where) {
   if (!link_) throw ModelError(where, "found a number where a point should be", "(x, y, z)");
   const std::string& owner = robot.links[*link_].name;
@@ -78,7 +76,7 @@ void PartBuilder::push_vertex(std::string_view digits, const SourceLocation& whe
   };
   number[1] = read(colon == std::string_view::npos ? digits : digits.substr(colon + 1));
   if (colon != std::string_view::npos) number[0] = read(digits.substr(0, colon));
-  const std::vector<Body>& bodies = current()->bodies;
+  const std::vector<Body>& bodies = link_data_[*link_].bodies;
   if (number[0] >= bodies.size()) {
     throw ModelError(where, "the link " + in_quotes(owner) + " has no body " + std::to_string(number[0]),
                      bodies.empty() ? "a point (x, y, z): the link has no bodies"

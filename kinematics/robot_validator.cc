@@ -1,5 +1,6 @@
 // Robot::validate(): every comparison is made in the exact arithmetic of constants. Where enclosures leave a sign open, the
 // number may be 0: an axis or a length is then refused, an equation (of a rotation matrix) accepted.
+#include <algorithm>
 #include <numeric>
 #include <set>
 
@@ -48,22 +49,9 @@ class RobotValidator {
 
   void check_links() const {
     if (robot_.links.empty()) throw ModelError(whole(), "the robot has no links", "at least one, in [LINKS]");
-    std::set<std::string> taken;
-    for (const Link& link : robot_.links) {
-      if (!taken.insert(link.name).second)
-        throw ModelError(at(link.where), "there are two links " + in_quotes(link.name), "another name for one of them");
-    }
-    taken.clear();
-    for (const Joint& joint : robot_.joints) {
-      if (!taken.insert(joint.name).second)
-        throw ModelError(at(joint.where), "there are two joints " + in_quotes(joint.name), "another name for one of them");
-    }
-    taken.clear();
-    for (const Output& output : robot_.outputs) {
-      if (!taken.insert(output.name).second)
-        throw ModelError(at(output.where), "there are two outputs " + in_quotes(output.name),
-                         "another name for one of them");
-    }
+    check_names(robot_.links, "links");
+    check_names(robot_.joints, "joints");
+    check_names(robot_.outputs, "outputs");
   }
 
   void check_shapes() {
@@ -235,6 +223,14 @@ class RobotValidator {
   symbolic::SourceLocation whole() const { return {robot_.file.empty() ? robot_.name : robot_.file, 0, 0}; }
   symbolic::SourceLocation at(const symbolic::SourceLocation& where) const { return where.line > 0 ? where : whole(); }
 
+  void check_names(const auto& things, const std::string& noun) const {
+    std::set<std::string> taken;
+    for (const auto& thing : things)
+      if (!taken.insert(thing.name).second)
+        throw ModelError(at(thing.where), "there are two " + noun + " " + in_quotes(thing.name),
+                         "another name for one of them");
+  }
+
   std::string described(const Joint& joint) const {
     const std::string kind = to_string(joint.kind);
     std::string links;
@@ -252,16 +248,19 @@ class RobotValidator {
                         const symbolic::SourceLocation& where) {
     const std::optional<int> sign = scope_.sign(e, what, where);
     if (sign == 1) return;
-    const std::string problem = sign == 0 ? " is 0" : sign == -1 ? " is negative" : " cannot be distinguished from 0";
-    throw ModelError(where, what + ", " + in_quotes(e.text()) + ", " + problem.substr(1), expectation);
+    const std::string problem = sign == 0 ? "is 0" : sign == -1 ? "is negative" : "cannot be distinguished from 0";
+    throw ModelError(where, what + ", " + in_quotes(e.text()) + ", " + problem, expectation);
+  }
+
+  bool is_surely_not_zero(const Expression& e, const std::string& what, const symbolic::SourceLocation& where) {
+    return scope_.sign(e, what, where).value_or(0) != 0;
+  }
+  bool has_length(const Vector& v, const std::string& what, const symbolic::SourceLocation& where) {
+    return std::any_of(v.begin(), v.end(), [&](const Expression& e) { return is_surely_not_zero(e, what, where); });
   }
 
   void require_direction(const Vector& v, const std::string& what, const symbolic::SourceLocation& where) {
-    for (const Expression& e : v) {
-      const std::optional<int> sign = scope_.sign(e, what, where);
-      if (sign && *sign != 0) return;
-    }
-    throw ModelError(where, what + " has the length 0", "a direction such as (0, 0, 1)");
+    if (!has_length(v, what, where)) throw ModelError(where, what + " has the length 0", "a direction such as (0, 0, 1)");
   }
 
   void check_end(const Joint& joint, const JointEnd& end, const std::string& what, const symbolic::SourceLocation& where) {
@@ -272,21 +271,17 @@ class RobotValidator {
     if (!end.zero) return;
     const std::string zero = "the zero direction" + on;
     require_direction(*end.zero, zero, where);
-    if (!has_axis(joint)) return;
-    for (const Expression& e : cross(end.axis, *end.zero)) {
-      const std::optional<int> sign = scope_.sign(e, zero, where);
-      if (sign && *sign != 0) return;
-    }
-    throw ModelError(where, zero + " lies along the axis", "a direction across the axis");
+    if (has_axis(joint) && !has_length(cross(end.axis, *end.zero), zero, where))
+      throw ModelError(where, zero + " lies along the axis", "a direction across the axis");
   }
 
   void check_ranges(const Joint& joint, const std::string& what, const symbolic::SourceLocation& where) {
     const std::size_t most = most_ranges(joint.kind);
     if (joint.ranges.size() > most) {
       throw ModelError(where, what + " has " + std::to_string(joint.ranges.size()) + " ranges",
-                       most == 0   ? std::string("none for this kind of joint")
-                       : most == 1 ? std::string("at most one")
-                                   : std::string("at most two"));
+                       most == 0   ? "none for this kind of joint"
+                       : most == 1 ? "at most one"
+                                   : "at most two");
     }
     for (const std::optional<Range>& range : joint.ranges) {
       if (!range) continue;
@@ -313,8 +308,7 @@ class RobotValidator {
     const std::string of = "the pose of " + what;
     check(pose.translation, of, where);
     const auto require_equal = [&](const Expression& a, int b, const std::string& problem) {
-      const std::optional<int> sign = scope_.sign(folded_difference(a, b), of, where);
-      if (sign && *sign != 0)
+      if (is_surely_not_zero(folded_difference(a, b), of, where))
         throw ModelError(where, of + " is not a rotation and translation: " + problem, "a rotation matrix");
     };
     const auto& r = pose.rotation;

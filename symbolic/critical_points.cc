@@ -7,7 +7,7 @@
 #include "corank/symbolic/ginac_bridge.h"
 #include "corank/symbolic/ginac_lock.h"
 #include "corank/symbolic/kernel_scale.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/kernel_vector.h"
 
 namespace corank::symbolic {
 namespace {
@@ -44,14 +44,14 @@ Expression height_function(const Mechanism& mechanism, int height) {
     if (coordinate.auxiliary || is_fixed(coordinate)) continue;
     const Expression x = Expression::symbol(coordinate.name);
     if (coordinate.kind == CoordinateKind::angle) {
-      terms.push_back(coefficient(height, 2 * i) * Expression::function("cos", x));
-      terms.push_back(coefficient(height, 2 * i + 1) * Expression::function("sin", x));
+      terms.push_back(coefficient(height, 2 * i) * cos(x));
+      terms.push_back(coefficient(height, 2 * i + 1) * sin(x));
     } else {
       const int exponent = exponents[system.find(coordinate.name)];
       terms.push_back(coefficient(height, 2 * i) * power_of_two(-exponent) * x);
     }
   }
-  return Expression::node(Expression::Kind::sum, terms);
+  return sum_of(terms);
 }
 
 // Of λ, one over the size of its equation; of μ, whose height is of size 1: (λ, μ) has components of one size in every unit.
@@ -74,21 +74,15 @@ const SetDefinition& critical_set() {
 CriticalPoints critical_points(const Mechanism& mechanism, int height) {
   mechanism.validate();
   CriticalPoints result;
-  std::vector<std::string> all;
-  for (const Coordinate& c : mechanism.coordinates()) {
-    all.push_back(c.name);
+  for (const Coordinate& c : mechanism.coordinates())
     if (!is_fixed(c)) result.names.push_back(c.name);
-  }
-  std::vector<std::string> constants;
-  for (const Constant& c : mechanism.constants()) constants.push_back(c.name);
   const Expression h = height_function(mechanism, height);
 
   const GinacLock lock;
-  const GinacBridge bridge(constants, all);
+  const GinacBridge bridge(mechanism);
   std::vector<GiNaC::ex> functions;
   KernelQuestion kernel{critical_set(), critical_set().matrix, {result.names, {}}, {}, KernelSide::left, {}};
-  for (const Constraint& c : mechanism.constraints()) {
-    if (c.relation.kind != Relation::Kind::equal) continue;
+  for (const Constraint& c : mechanism.equations()) {
     functions.push_back(bridge.to_ginac(c.relation.lhs, c.where) - bridge.to_ginac(c.relation.rhs, c.where));
     kernel.where.push_back(c.where);
   }
@@ -102,13 +96,7 @@ CriticalPoints critical_points(const Mechanism& mechanism, int height) {
   result.jacobian.rows.pop_back();
   result.system = singularity_system(mechanism, kernel, multiplier_scales(mechanism), 1);
 
-  const std::vector<std::string>& unknowns = result.system.kernel_unknowns;
-  const std::vector<std::string>& scales = result.system.kernel_scales;
-  std::vector<Expression> multipliers;
-  for (std::size_t k = 0; k < unknowns.size(); ++k) {
-    const Expression unknown = Expression::symbol(unknowns[k]);
-    multipliers.push_back(scales.empty() ? unknown : parse_expression(scales[k], "scale") * unknown);
-  }
+  const std::vector<Expression> multipliers = scaled(result.system.kernel_unknowns, result.system.kernel_scales);
   result.multiplier = multipliers.back();
   result.hessian = {result.names, {}};
   for (const std::string& a : result.names) {
@@ -119,7 +107,7 @@ CriticalPoints critical_points(const Mechanism& mechanism, int height) {
         const GiNaC::ex second = functions[k].diff(bridge.symbol(a)).diff(bridge.symbol(b));
         if (!second.is_zero()) terms.push_back(multipliers[k] * bridge.to_expression(second));
       }
-      row.push_back(terms.empty() ? Expression(0) : Expression::node(Expression::Kind::sum, terms));
+      row.push_back(terms.empty() ? Expression(0) : sum_of(terms));
     }
   }
   return result;
