@@ -215,4 +215,23 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
   return std::nullopt;
 }
 
+bool has_plane_of_lengths(const symbolic::Mechanism& model) {
+  const auto is_length = [&](const std::string& name) {
+    const int k = model.find_coordinate(name);
+    return k >= 0 && model.coordinates()[static_cast<std::size_t>(k)].kind == symbolic::CoordinateKind::length;
+  };
+  return model.outputs().size() == 2 && std::all_of(model.outputs().begin(), model.outputs().end(), is_length);
+}
+
+std::optional<Interval> area(const study::Question& question, int threads, bool anyway, solve::Control& control) {
+  std::optional<AreaBounds> bounds = area_by_boundary(question, {.threads = threads}, control);
+  if (!bounds && anyway && question.model.outputs().size() == 2) {
+    const System system = symbolic::configurations(question.model);
+    const int x = system.find(question.model.outputs()[0]), y = system.find(question.model.outputs()[1]);
+    if (x >= 0 && y >= 0)  // else one is an angle
+      bounds = workspace_area(system, x, y, {.stop = [&control] { return control.ended(); }});
+  }
+  return bounds ? std::optional(Interval(bounds->lo, bounds->hi)) : std::nullopt;
+}
+
 }  // namespace corank::analyze

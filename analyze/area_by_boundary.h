@@ -29,4 +29,10 @@ struct BoundaryAreaOptions {
 std::optional<AreaBounds> area_by_boundary(const study::Question& question, const BoundaryAreaOptions& options,
                                            solve::Control& control);
 
+/// Are the model's outputs two lengths?
+bool has_plane_of_lengths(const symbolic::Mechanism& model);
+
+/// Bounds of the same area; where its boundary does not give them, with `anyway` by dividing the plane, which may take long.
+std::optional<Interval> area(const study::Question& question, int threads, bool anyway, solve::Control& control);
+
 }  // namespace corank::analyze

@@ -6,8 +6,9 @@
 #include <set>
 
 #include "corank/app/box_files.h"
+#include "corank/app/limited_run.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/whole_run.h"
 #include "corank/certify/angle.h"
 #include "corank/result/result_file.h"
 

@@ -3,20 +3,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
+#include "corank/analyze/area_by_boundary.h"
 #include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/aspects_picture.h"
 #include "corank/result/pieces_file.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
-#include "corank/solve/options.h"
 
 namespace corank::app {
 namespace {
@@ -43,12 +43,7 @@ ExitStatus aspects(AspectsCommand command) {
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no aspects", command.question.file));
   if (drawn) command.options.drawn = report::drawn_coordinates(question.model);
-  const auto is_length = [&](const std::string& name) {
-    const int k = question.model.find_coordinate(name);
-    return k >= 0 && question.model.coordinates()[static_cast<std::size_t>(k)].kind == symbolic::CoordinateKind::length;
-  };
-  const std::vector<std::string>& outputs = question.model.outputs();
-  if (command.areas && (outputs.size() != 2 || !std::all_of(outputs.begin(), outputs.end(), is_length)))
+  if (command.areas && !analyze::has_plane_of_lengths(question.model))
     throw UsageError(fmt::format("--areas: without effect; expected two outputs that are lengths, which {} does not have",
                                  command.question.file));
   if (command.areas) command.options.images = question.model.outputs();
@@ -84,13 +79,7 @@ void add_aspects(CLI::App& program, Action& action) {
   const auto command = std::make_shared<AspectsCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
-  sub->add_option("--threads", command->options.threads, "Number of threads; 0: one for each core")
-      ->check(CLI::Range(0, solve::kMostThreads))
-      ->capture_default_str();
-  sub->add_option("--time-limit", command->time_limit,
-                  "End after SECONDS with what is proven by then; 0: no limit (default)")
-      ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
+  add_analysis_limits(*sub, command->options.threads, command->time_limit);
   sub->add_option(
          "-o", command->output,
          "A picture of the aspects over two outputs and over two inputs (.svg), or a certificate for corank verify (.h5)")

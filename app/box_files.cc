@@ -44,4 +44,13 @@ void check_output(const std::string& path) {
   result::check_writable(path);
 }
 
+void check_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path figures = folder / "figures";
+  std::error_code error;
+  std::filesystem::create_directories(figures, error);
+  if (error)
+    throw result::ResultFileError(fmt::format("{}: no folder can be made there: {}", figures.string(), error.message()));
+  result::check_writable(folder / "index.html");
+}
+
 }  // namespace corank::app

@@ -1,6 +1,7 @@
 // Files that hold boxes, for the subcommands that only read them.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "corank/app/exit_status.h"
@@ -21,5 +22,7 @@ ExitStatus completeness(bool complete, const std::string& file);
 /// Throws UsageError where the path looks like an input of ours (.cuik, .param), ResultFileError where no file can be made
 /// there.
 void check_output(const std::string& path);
+/// Makes the folder of a page, and that of its figures. Throws ResultFileError where index.html cannot be written there.
+void check_folder(const std::filesystem::path& folder);
 
 }  // namespace corank::app

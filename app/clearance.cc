@@ -1,14 +1,15 @@
-// corank clearance: the largest ball without a singularity about a configuration.
-#include "corank/analyze/claims.h"
-
+// corank clearance: the largest ball without a singularity about a configuration, about the best centre, over a map.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 
+#include "corank/analyze/best_center.h"
+#include "corank/analyze/claims.h"
+#include "corank/analyze/clearance_map.h"
 #include "corank/app/box_files.h"
-#include "corank/app/clearance_command.h"
+#include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/named_values.h"
 #include "corank/app/output.h"
@@ -16,12 +17,23 @@
 #include "corank/app/question.h"
 #include "corank/app/search_limits.h"
 #include "corank/app/subcommands.h"
+#include "corank/report/heat_map.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
-#include "corank/symbolic/model_file.h"
 
 namespace corank::app {
 namespace {
+
+struct ClearanceCommand {
+  QuestionOptions question;
+  SearchLimits limits{};  // one thread for each core
+  std::vector<std::string> at, in, ranges, best, map;
+  std::string orientation, orientation_range, orientation_of;
+  std::string proof_stem, output;
+  double precision = 0.01;
+  int grid = 24;
+  JsonOption json;
+};
 
 // "±0.2", "+-0.2" about the value, or "[a,b]".
 analyze::NamedRange range_of(const std::string& text, const std::vector<analyze::NamedValue>& at,
@@ -42,8 +54,6 @@ analyze::NamedRange range_of(const std::string& text, const std::vector<analyze:
   throw UsageError(fmt::format("{} {}: expected {}", option, text, expected));
 }
 
-}  // namespace
-
 analyze::BallOptions ball_of(const ClearanceCommand& command) {
   analyze::BallOptions ball;
   ball.at = named_values(command.at, "--at");
@@ -58,6 +68,7 @@ analyze::BallOptions ball_of(const ClearanceCommand& command) {
   return ball;
 }
 
+// Of the set forward where none is said.
 study::Question question_of(const ClearanceCommand& command) {
   QuestionOptions options = command.question;
   study::Question question = load(options);
@@ -66,12 +77,45 @@ study::Question question_of(const ClearanceCommand& command) {
   return question;
 }
 
-solve::Options options_of(const ClearanceCommand& command) {
+solve::Options options_of(const SearchLimits& limits) {
   solve::Options options;
-  command.limits.apply(options);
+  limits.apply(options);
+  options.validate();
   return options;
 }
 
+// What the three questions have in common.
+struct ClearanceRun {
+  explicit ClearanceRun(const ClearanceCommand& command)
+      : search(options_of(command.limits)),
+        run(limits_of(search, nullptr)),
+        ball(ball_of(command)),
+        question(question_of(command)) {}
+
+  solve::Control& control() { return run.control(); }
+
+  const solve::Options search;
+  LimitedRun run;
+  const analyze::BallOptions ball;
+  const study::Question question;
+  ProgressLine line;
+};
+
+// "radius in [0.1, 0.2], 300 boxes".
+auto shown_radius(ProgressLine& line, const char* what) {
+  return [&line, what](double lower, std::optional<double> upper, std::uint64_t count) {
+    line.show(upper ? fmt::format("radius in [{:.5g}, {:.5g}], {} {}", lower, *upper, count, what)
+                    : fmt::format("radius at least {:.5g}, {} {}", lower, count, what));
+  };
+}
+
+ExitStatus not_close(const std::string& stopped) {
+  fmt::print(stderr, "corank: {}the bounds hold, but are not as close as asked for\n",
+             stopped.empty() ? "" : "stopped by " + stopped + "; ");
+  return kIncomplete;
+}
+
+// "x=[a,b]", "y=[c,d]"; for --map "x", "y" as well, the declared ranges.
 std::vector<analyze::NamedRange> region_of(const std::vector<std::string>& texts, const std::string& option,
                                            const study::Question& question) {
   const std::vector<std::string> parts = parts_of(texts);
@@ -82,17 +126,9 @@ std::vector<analyze::NamedRange> region_of(const std::vector<std::string>& texts
   return region;
 }
 
-namespace {
-
 ExitStatus say(const ClearanceCommand& command, const analyze::Clearance& clearance) {
   if (command.json.say([&] { return to_json(clearance); })) fmt::print("{}", result::printable(to_table(clearance)));
-  if (clearance.nearest.complete) return kDone;
-  if (!clearance.stopped.empty()) {
-    fmt::print(stderr, "corank: stopped by {}; the bounds hold, but are not as close as asked for\n", clearance.stopped);
-  } else {
-    fmt::print(stderr, "corank: the bounds hold, but are not as close as asked for\n");
-  }
-  return kIncomplete;
+  return clearance.nearest.complete ? kDone : not_close(clearance.stopped);
 }
 
 std::string free_file(const ClearanceCommand& command) { return command.proof_stem + "-free.h5"; }
@@ -122,29 +158,75 @@ ExitStatus run_clearance(ClearanceCommand command) {
   if (command.at.empty()) throw UsageError("--at is required, except with --best or --map");
   if (command.in.empty()) throw UsageError("--in is required, except with --best or --map");
   command.json.give_back(command.question.file);
-  const solve::Options search = options_of(command);
-  search.validate();
-  LimitedRun run(limits_of(search, nullptr));
-  solve::Control& control = run.control();
-  const analyze::BallOptions ball = ball_of(command);
-  const study::Question question = question_of(command);
+  ClearanceRun run(command);
   command.json.check();
   if (!command.proof_stem.empty()) {
     check_output(free_file(command));
     check_output(nearest_file(command));
   }
-  ProgressLine line;
-  analyze::ClearanceOptions options{.precision = command.precision};
-  options.progress = [&line](double lower, std::optional<double> upper, std::uint64_t processed) {
-    line.show(upper ? fmt::format("radius in [{:.5g}, {:.5g}], {} boxes", lower, *upper, processed)
-                    : fmt::format("radius at least {:.5g}, {} boxes", lower, processed));
-  };
-  const analyze::Clearance clearance = analyze::clearance(question, ball, options, search, control);
-  line.show("writing what corank verify checks");
-  const bool proven = write_claims(command, clearance, search, control);
-  line.clear();
+  const analyze::ClearanceOptions options{.precision = command.precision, .progress = shown_radius(run.line, "boxes")};
+  const analyze::Clearance clearance = analyze::clearance(run.question, run.ball, options, run.search, run.control());
+  run.line.show("writing what corank verify checks");
+  const bool proven = write_claims(command, clearance, run.search, run.control());
+  run.line.clear();
   const ExitStatus status = say(command, clearance);
   return proven ? status : kIncomplete;
+}
+
+// --best: the centre of the largest ball in a region.
+ExitStatus run_best(ClearanceCommand command) {
+  command.json.give_back(command.question.file);
+  ClearanceRun run(command);
+  const std::vector<analyze::NamedRange> region = region_of(command.best, "--best", run.question);
+  command.json.check();
+  const analyze::BestOptions options{.precision = command.precision, .progress = shown_radius(run.line, "cells")};
+  const analyze::Best best = analyze::best_center(run.question, run.ball, region, options, run.search, run.control());
+  run.line.clear();
+  if (command.json.say([&] { return to_json(best); })) fmt::print("{}", result::printable(to_table(best)));
+  return best.complete ? kDone : not_close(best.stopped);
+}
+
+// The lower bounds that hold all over the cells, where the robot has, or may have, configurations.
+report::HeatMap picture(const analyze::ClearanceMap& map) {
+  const analyze::MapCell* best = map.best();
+  report::HeatMap result;
+  result.title = map.ball.question.model.name() + ", " + symbolic::definition(map.ball.question.set).name;
+  result.x_name = map.names[0], result.y_name = map.names[1], result.value_name = "clearance, proven for the whole cell";
+  result.x_range = map.region[0], result.y_range = map.region[1];
+  for (const analyze::MapCell& c : map.cells)
+    if (!map.empty && c.robot != analyze::MapCell::Robot::nowhere)
+      result.cells.push_back({c.sides[0], c.sides[1], c.cell_lower});
+  if (best)
+    result.mark = {best->middle[0], best->middle[1],
+                   fmt::format("centre of the largest ball about a node: ({:.4g}, {:.4g}), radius at least {:.4g}",
+                               best->middle[0], best->middle[1], best->lower)};
+  return result;
+}
+
+// --map: the clearance over a grid of centres, as a table or a picture.
+ExitStatus run_map(ClearanceCommand command) {
+  command.json.give_back(command.question.file);
+  const auto is = [&](const char* end) { return command.output.ends_with(end); };
+  if (!is(".svg") && !is(".csv") && !is(".json"))
+    throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg, .csv or .json", command.output));
+  ClearanceRun run(command);
+  const std::vector<analyze::NamedRange> region = region_of(command.map, "--map", run.question);
+  check_output(command.output);
+  command.json.check();
+  analyze::MapOptions options{.grid = command.grid, .precision = command.precision};
+  options.progress = [&run](std::size_t done, std::size_t all) { run.line.show(fmt::format("{} of {} cells", done, all)); };
+  const analyze::ClearanceMap map =
+      analyze::clearance_map(run.question, run.ball, region, options, run.search, run.control());
+  run.line.clear();
+  result::write_text(command.output, is(".svg") ? to_svg(picture(map)) : is(".csv") ? to_csv(map) : to_json(map) + "\n");
+  if (command.json.say([&] { return to_json(map); })) {
+    if (map.empty) fmt::print("it is proven that there is no singularity in the ranges\n");
+    fmt::print("{} cells, {} boxes processed, {:.3f} s: {}\n", map.cells.size(), map.processed, map.seconds,
+               result::printable(command.output));
+  }
+  if (map.complete) return kDone;
+  fmt::print(stderr, "corank: some cells were not examined{}; the bounds of the others hold\n", ending_words(run.control()));
+  return kIncomplete;
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "corank/app/json_option.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/question.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/whole_run.h"
-#include "corank/app/without_effect.h"
 #include "corank/result/derivation_json.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"

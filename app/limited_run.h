@@ -1,5 +1,10 @@
-// The control of a subcommand that computes, and a watch for what cannot look at it.
+// The run of a subcommand: what ends it is a limit of time or a signal, which all that has a control looks at. GiNaC and
+// FLINT do not: for them there is a watch, which ends the program.
 #pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
 
 #include "corank/app/interrupt.h"
 #include "corank/app/watch.h"
@@ -7,14 +12,51 @@
 
 namespace corank::app {
 
+/// The limits with Interrupt::stop(), with the clock, and the knowledge that the process ends with the command.
+solve::Control::Limits of_command(solve::Control::Limits limits);
+
+/// For its life all controls of commands ask this clock in place of the machine's: tests end a command at any question.
+class ClockOfCommands {
+ public:
+  explicit ClockOfCommands(std::function<double()> clock);
+  ~ClockOfCommands();
+  ClockOfCommands(const ClockOfCommands&) = delete;
+  ClockOfCommands& operator=(const ClockOfCommands&) = delete;
+};
+
+/// Of a command whose answer is valid at any time. Everything that has a control ends soon after the limit of time or the
+/// first signal. Where equations are still being derived Watch::kGrace later, the program ends with a statement, by exit
+/// status kIncomplete: nothing was found by then, and no file is left half written.
 class LimitedRun {
  public:
-  /// Everything that has a control ends soon after the limit of time or the first signal. GiNaC and FLINT do not look at it:
-  /// where equations are still being derived Watch::kGrace later, the program ends with a statement, by exit status
-  /// kIncomplete. Nothing was found by then, and no file is left half written.
   explicit LimitedRun(solve::Control::Limits limits);
 
   solve::Control& control() { return control_; }
+
+ private:
+  Interrupt interrupt_;
+  solve::Control control_;
+  Watch watch_;
+};
+
+/// Says what ended the run: "stopped by the time limit while reading the model; the output is not complete".
+class Stopped : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Of a command that gives the whole of its output or none. Work that does not ask whether it is to end goes on for
+/// Watch::kGrace after the limit or the first signal; then the program ends with Stopped's sentence, by exit status
+/// kIncomplete. No file is left half written.
+class WholeRun {
+ public:
+  /// Seconds, from now on; 0: no limit.
+  explicit WholeRun(double time_limit);
+
+  /// What is done from now on, in words for the sentence: "reading the model". Throws Stopped where the run is to end.
+  void enter(const std::string& work);
+  /// As solve::Control::ended(), for work that asks.
+  bool ended() const { return control_.ended(); }
 
  private:
   Interrupt interrupt_;

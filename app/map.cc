@@ -6,15 +6,15 @@
 #include "corank/analyze/parameter_map.h"
 #include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
+#include "corank/app/named_values.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/without_effect.h"
 #include "corank/report/parameter_picture.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
-#include "corank/solve/options.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::app {
@@ -31,23 +31,19 @@ struct MapCommand {
   JsonOption json;
 };
 
-// "NAME=FROM:TO".
 symbolic::Parameter parameter(const std::string& text) {
-  const std::size_t equals = text.find('='), colon = text.find(':', equals == std::string::npos ? 0 : equals);
-  if (equals == 0 || equals == std::string::npos || colon == std::string::npos || colon == equals + 1 ||
-      colon + 1 == text.size())
-    throw UsageError(fmt::format("--over {}: expected NAME=FROM:TO", text));
-  const std::string name = text.substr(0, equals);
-  const auto end = [&](const std::string& part) { return symbolic::parse_expression(part, "--over " + name); };
-  return {name, end(text.substr(equals + 1, colon - equals - 1)), end(text.substr(colon + 1))};
+  const std::string expected = "NAME=FROM:TO";
+  const auto [name, ends] = split_at_equals(text, "--over", expected);
+  const std::size_t colon = ends.find(':');
+  if (colon == 0 || colon == std::string::npos || colon + 1 == ends.size())
+    throw UsageError(fmt::format("--over {}: expected {}", text, expected));
+  const auto end = [&name = name](const std::string& part) { return symbolic::parse_expression(part, "--over " + name); };
+  return {name, end(ends.substr(0, colon)), end(ends.substr(colon + 1))};
 }
 
 symbolic::FixedCoordinate fixed(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-    throw UsageError(fmt::format("--fix {}: expected NAME=EXPR", text));
-  const std::string name = text.substr(0, equals);
-  return {name, symbolic::parse_expression(text.substr(equals + 1), "--fix " + name)};
+  const auto [name, value] = split_at_equals(text, "--fix", "NAME=EXPR");
+  return {name, symbolic::parse_expression(value, "--fix " + name)};
 }
 
 analyze::MapQuestion question_of(const MapCommand& command) {
@@ -146,13 +142,7 @@ void add_map(CLI::App& program, Action& action) {
                   "Number of the narrowest cells along each side: a power of two")
       ->capture_default_str();
   sub->add_flag("--no-boundary", command->no_boundary, "Do not look for the curve on which two solutions meet");
-  sub->add_option("--threads", command->options.threads, "Number of threads; 0: one for each core")
-      ->check(CLI::Range(0, solve::kMostThreads))
-      ->capture_default_str();
-  sub->add_option("--time-limit", command->time_limit,
-                  "End after SECONDS with what is proven by then; 0: no limit (default)")
-      ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
+  add_analysis_limits(*sub, command->options.threads, command->time_limit);
   sub->add_option(
          "-o", command->outputs,
          "A picture (.svg, .pdf, .png), the cells (.csv, .json), or the proven cells with their proofs for corank verify\n"

@@ -14,7 +14,7 @@
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
-#include "corank/app/set_views.h"
+#include "corank/app/set_search.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/path_page.h"
 #include "corank/report/set_look.h"
@@ -162,15 +162,11 @@ void add_path(CLI::App& program, Action& action) {
                   "The clearance that the path keeps where possible, in sines and cosines of angles; for lengths it is\n"
                   "multiplied by their typical size")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("--threads", command->options.threads, "Number of threads; 0: one for each core")
-      ->check(CLI::Range(0, solve::kMostThreads))
-      ->capture_default_str();
+  add_threads(*sub, command->options.threads);
   sub->add_option("--max-boxes", command->options.max_boxes, "The largest number of boxes in a cover of C-space")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  sub->add_option("--time-limit", command->time_limit, "End after SECONDS; 0: no limit (default)")
-      ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
+  add_time_limit(*sub, command->time_limit, "End after SECONDS");
   sub->add_option("-o,--output", command->output,
                   "Write the path, if there is one, with the tube about it, for corank verify")
       ->type_name("FILE.h5");

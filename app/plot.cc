@@ -8,9 +8,9 @@
 #include <set>
 
 #include "corank/app/box_files.h"
+#include "corank/app/limited_run.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/whole_run.h"
-#include "corank/app/without_effect.h"
 #include "corank/report/gcl.h"
 #include "corank/report/portrait.h"
 #include "corank/report/vtp.h"

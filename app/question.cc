@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "corank/app/exit_status.h"
+#include "corank/app/named_values.h"
 #include "corank/result/printable.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/regular_locus.h"
@@ -62,26 +63,13 @@ void QuestionOptions::add_definitions(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
-namespace {
-
-// "NAME=EXPR" → name and expression.
-std::vector<result::ConstantOverride> overrides(const QuestionOptions& question) {
-  std::vector<result::ConstantOverride> list;
-  for (const std::string& text : question.definitions) {
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
-      throw UsageError(fmt::format("-D {}: expected NAME=EXPR", text));
-    }
-    list.push_back({text.substr(0, equals), text.substr(equals + 1)});
-  }
-  return list;
-}
-
-}  // namespace
-
 study::Question load(const QuestionOptions& options, std::set<std::string>* said) {
   if (options.file.empty()) throw UsageError("FILE is required; corank --help tells more");
-  std::vector<result::ConstantOverride> constants = overrides(options);
+  std::vector<result::ConstantOverride> constants;
+  for (const std::string& text : options.definitions) {
+    auto [name, expression] = split_at_equals(text, "-D", "NAME=EXPR");
+    constants.push_back({std::move(name), std::move(expression)});
+  }
   std::optional<std::filesystem::path> loops;
   if (!options.loops.empty()) loops = options.loops;
   study::Model model = study::read_model(options.file, constants, loops);

@@ -7,19 +7,16 @@
 #include <memory>
 
 #include "corank/app/box_files.h"
-#include "corank/app/command_control.h"
-#include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/set_search.h"
-#include "corank/app/set_views.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/without_effect.h"
-#include "corank/report/aspects_picture.h"
+#include "corank/report/figures.h"
 #include "corank/report/page.h"
 #include "corank/report/page_summary.h"
 #include "corank/result/motion_words.h"
@@ -63,26 +60,16 @@ std::vector<report::SetView> solve_all(const ReportCommand& command, const study
 }
 
 /// Aspects of curves and surfaces, within the time that a search may take.
-void add_aspects(const ReportCommand& command, const study::Question& question, const std::vector<report::SetView>& views,
-                 report::PageOptions& options) {
-  const auto cspace = std::find_if(views.begin(), views.end(), [](const report::SetView& v) { return v.set->is_cspace(); });
-  if (cspace == views.end() || !cspace->result.cover.complete() || cspace->result.cover.dimension > 2) return;
-  solve::Control control(of_command({.time = command.search.limits.time_limit}));
+std::optional<report::PageAspects> aspects_of(const ReportCommand& command, const study::Question& question,
+                                              const std::vector<report::SetView>& views) {
+  const SearchLimits& limits = command.search.limits;
+  solve::Control control(of_command({.time = limits.time_limit}));
   ProgressLine line("aspects");
   line.follow(control);
-  analyze::AspectsOptions wanted{.threads = command.search.limits.threads};
-  wanted.drawn = report::drawn_coordinates(question.model);
-  wanted.placed = &cspace->result.cover;
-  try {
-    const analyze::Aspects found = analyze::aspects(question, wanted, control);
-    if (Interrupt::stop()) return;
-    options.aspects =
-        control.ended() ? report::no_page_aspects(fmt::format("the search did not end within {} s, which --time-limit sets",
-                                                              command.search.limits.time_limit))
-        : found.reason.empty() ? report::page_aspects(question.model.name(), found)
-                               : report::no_page_aspects(found.reason);
-  } catch (const symbolic::ModelError&) {  // of matrices that are not square nothing is said
-  }
+  std::vector<const result::Result*> results;
+  for (const report::SetView& view : views) results.push_back(&view.result);
+  return report::page_aspects(question, results, limits.threads,
+                              fmt::format("{} s, which --time-limit sets", limits.time_limit), control);
 }
 
 /// What a stranger's result says of its variables has to be so before a picture relies on it.
@@ -143,8 +130,7 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   const symbolic::Mechanism& mechanism = question.model;
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
-  make_folder(folder / "figures");
-  result::check_writable(folder / "index.html");
+  check_folder(folder);
 
   LimitedRun run({});
   const solve::InStage stage(run.control(), solve::Stage::page);
@@ -166,11 +152,15 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     options.command = "corank report --results " + fmt::format("{}", fmt::join(command.results, " "));
     for (const std::string& path : command.results) options.files.push_back(std::filesystem::path(path).filename().string());
   }
-  if (command.results.empty()) add_aspects(command, question, views, options);
-  const Figures figures = write_figures(folder / "figures", mechanism, views, Interrupt::stop());
-  for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
+  if (command.results.empty()) options.aspects = aspects_of(command, question, views);
+  report::Figures figures;
   {
     ProgressLine line;
+    std::vector<report::PictureSource> sources;
+    for (const report::SetView& view : views) sources.push_back(report::picture_view(view.result, view.result.set));
+    figures = report::write_figures(folder / "figures", mechanism, std::move(sources),
+                                    {&Interrupt::stop(), [&line](const std::string& text) { line.show(text); }});
+    for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
     line.show("page");
     result::write_text(folder / "index.html", report_page(mechanism, views, options));
   }

@@ -11,8 +11,8 @@
 #include <new>
 
 #include "corank/app/help_format.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/whole_run.h"
 #include "corank/core/check.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "corank/app/exit_status.h"
 #include "corank/solve/machine_memory.h"
 
 namespace corank::app {
@@ -41,6 +42,28 @@ void SearchLimits::apply(solve::Options& options) const {
   options.max_found = max_found;
   options.time_limit = time_limit;
   options.memory_limit = memory_limit.value_or(solve::machine_memory() / 4 * 3);
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Number of threads; 0: one for each core")
+      ->check(CLI::Range(0, solve::kMostThreads))
+      ->capture_default_str();
+}
+
+void add_time_limit(CLI::App& command, double& seconds, const std::string& end) {
+  command.add_option("--time-limit", seconds, end + "; 0: no limit (default)")
+      ->type_name("SECONDS")
+      ->check(CLI::NonNegativeNumber);
+}
+
+void add_analysis_limits(CLI::App& command, int& threads, double& seconds, const std::string& end) {
+  add_threads(command, threads);
+  add_time_limit(command, seconds, end);
+}
+
+void refuse_without_effect(const CLI::App& sub, const std::vector<std::string>& options, const std::string& expected) {
+  for (const std::string& name : options)
+    if (sub.get_option(name)->count() > 0) throw UsageError(fmt::format("{}: without effect; expected {}", name, expected));
 }
 
 }  // namespace corank::app

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "corank/app/command_control.h"
-#include "corank/app/without_effect.h"
+#include "corank/app/limited_run.h"
+#include "corank/app/progress.h"
+#include "corank/app/search_limits.h"
+#include "corank/result/verification.h"
+#include "corank/study/answer.h"
 
 namespace corank::app {
 using symbolic::SingularitySet;
@@ -83,6 +86,28 @@ std::string SetSearch::command_line(const std::string& subcommand, const Questio
   if (question.corank != 1) text += fmt::format(" --corank {}", question.corank);
   for (const std::string& definition : question.definitions) text += " -D '" + definition + "'";
   return text;
+}
+
+std::optional<report::SetView> solve_view(const SetSearch& search, study::Question question, std::size_t index,
+                                          std::uint64_t taken) {
+  constexpr int kDigits = 12;  // of isolated points
+  const std::vector<std::string>& sets = search.sets;
+  question.set = symbolic::singularity_set_from_string(sets[index]);
+  if (!symbolic::definition(question.set).has_kernel()) question.corank = 1;
+  solve::Options limits;
+  search.limits.apply(limits);
+  solve::Control control(search.limits_beside(limits, taken));
+  study::Systems systems =
+      study::systems_of(question, control, [&](const study::Question&, const System&) { return !control.ended(); });
+  if (systems.of_parts.size() < systems.parts.size()) return std::nullopt;
+  const study::Options options{search.options(systems.of_parts.front(), *question.set), kDigits};
+  ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
+  line.follow(control);
+  result::Result result = study::answer(systems, options, control);
+  System system =
+      systems.parts.front().part ? result::system_of(question.model, result) : std::move(systems.of_parts.front());
+  return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation(),
+                          [&control] { return control.overdue(); });
 }
 
 }  // namespace corank::app

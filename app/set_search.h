@@ -1,8 +1,9 @@
-// What corank report and corank sweep share: several sets of a mechanism, each searched with the same options.
+// What corank report, sweep and path share: sets of a mechanism that are searched for a page, with the same options.
 #pragma once
 
 #include "corank/app/question.h"
 #include "corank/app/search_limits.h"
+#include "corank/report/set_view.h"
 #include "corank/solve/solve.h"
 
 namespace corank::app {
@@ -34,5 +35,10 @@ struct SetSearch {
  private:
   solve::Options options_of(symbolic::SingularitySet set) const;
 };
+
+/// Searches set `index` of those that `search` names, showing its progress; others on the page take `taken` bytes. Nothing
+/// where the set has many parts and time ran out, or a signal came, before the equations of all were derived.
+std::optional<report::SetView> solve_view(const SetSearch& search, study::Question question, std::size_t index,
+                                          std::uint64_t taken);
 
 }  // namespace corank::app

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "corank/analyze/area_by_boundary.h"
 #include "corank/app/box_files.h"
@@ -14,9 +15,9 @@
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/resume.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/without_effect.h"
 #include "corank/result/assembled.h"
 #include "corank/result/cuik_param.h"
 #include "corank/result/printable.h"
@@ -73,26 +74,18 @@ void write_file(const std::string& path, const result::Result& result, const sol
   }
 }
 
-// The system of the set, and what else the options have to say about it.
-System system_to_solve(SolveCommand& command, const study::Question& question, bool is_first) {
-  System system = study::system(question);
+// What the options have to say about the system of a set.
+void check_system(SolveCommand& command, const System& system, bool is_first) {
   if (is_first) apply_parameters(command, system);
   options_of(command).validate(system);
   if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
     throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
   if (command.proof && system.coefficient_tolerance > 0)
     throw UsageError("--proof: expected exact coefficients; --tolerance 0 takes them as exact");
-  return system;
 }
 
 bool bounds_an_area(const study::Question& question) {
-  const std::vector<std::string>& outputs = question.model.outputs();
-  const auto is_length = [&](const std::string& name) {
-    const int k = question.model.find_coordinate(name);
-    return k >= 0 && question.model.coordinates()[static_cast<std::size_t>(k)].kind == symbolic::CoordinateKind::length;
-  };
-  return symbolic::definition(question.set).of_parts && outputs.size() == 2 &&
-         std::all_of(outputs.begin(), outputs.end(), is_length);
+  return symbolic::definition(question.set).of_parts && analyze::has_plane_of_lengths(question.model);
 }
 
 // Of a boundary in the plane of two lengths.
@@ -100,13 +93,7 @@ std::optional<Interval> area_of(const SolveCommand& command, const study::Questi
                                 solve::Control& control) {
   if (result.parts.empty() || result.outputs.size() != 2 || result.options.tolerance > 0 || control.ended())
     return std::nullopt;
-  if (const auto bounds = analyze::area_by_boundary(question, {.threads = command.limits.threads}, control))
-    return Interval(bounds->lo, bounds->hi);
-  const System system = symbolic::configurations(question.model);
-  const int x = system.find(result.outputs[0]), y = system.find(result.outputs[1]);
-  if (!command.area || x < 0 || y < 0) return std::nullopt;  // an angle
-  const analyze::AreaBounds bounds = analyze::workspace_area(system, x, y, {.stop = [&control] { return control.ended(); }});
-  return Interval(bounds.lo, bounds.hi);
+  return analyze::area(question, command.limits.threads, command.area, control);
 }
 
 // What would take longer to write than the program has, once it has been ended.
@@ -197,12 +184,14 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   question.tolerance = command.tolerance;
   if (command.checkpoint_path.empty()) refuse_without_effect(sub, {"--every"}, "--checkpoint FILE beside it");
   if (!bounds_an_area(question)) refuse_without_effect(sub, {"--area"}, "--set boundary in the plane of two lengths");
-  const std::vector<study::Question> parts = study::parts_of(question, [&control] { return control.ended(); });
-  std::vector<System> systems;
-  for (const study::Question& part : parts) systems.push_back(system_to_solve(command, part, systems.empty()));
+  bool is_first = true;
+  const study::Systems systems = study::systems_of(question, control, [&](const study::Question&, const System& system) {
+    check_system(command, system, std::exchange(is_first, false));
+    return true;
+  });
   check_output(command.result_path);
   command.json.check();
-  if (command.estimate) return say_estimate(command, systems, control);
+  if (command.estimate) return say_estimate(command, systems.of_parts, control);
   if (!command.checkpoint_path.empty()) result::check_writable(command.checkpoint_path);
   study::RunJournal journal = journal_of(command, former ? *former : checkpoint_of(sub, command));
   control.ended();  // notes the stage
@@ -211,7 +200,7 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   ProgressLine line;
   line.follow(control);
   stage.reset();
-  result::Result& result = kept(study::answer(parts, systems, options, control, &journal));
+  result::Result& result = kept(study::answer(systems, options, control, &journal));
   result.search = journal.take_search();
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result, control);

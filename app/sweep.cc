@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <set>
 
-#include "corank/app/early_searches.h"
+#include "corank/app/box_files.h"
 #include "corank/app/family.h"
-#include "corank/app/figures.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
@@ -17,10 +15,12 @@
 #include "corank/app/set_search.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/family_page.h"
+#include "corank/report/figures.h"
 #include "corank/report/page_summary.h"
 #include "corank/report/page_words.h"
 #include "corank/result/result_file.h"
 #include "corank/study/answer.h"
+#include "corank/study/early_searches.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_error.h"
@@ -88,44 +88,61 @@ study::Options options_of(const SweepCommand& command, const Plan& plan, std::si
   return {command.search.options(plan.systems[set], *symbolic::singularity_set_from_string(command.search.sets[set]))};
 }
 
-/// In the order in which solve_all() comes to them.
-std::vector<EarlyTask> early_tasks(const SweepCommand& command, const std::vector<Plan>& plans) {
-  std::vector<EarlyTask> tasks;
+/// In the order in which solve_all() comes to them; `found` takes how their boxes hang together.
+std::vector<study::EarlyTask> early_tasks(const SweepCommand& command, const std::vector<Plan>& plans,
+                                          std::vector<report::Components>& found) {
+  const std::size_t sets = command.search.sets.size();
+  found.resize(plans.size() * sets);
+  std::vector<study::EarlyTask> tasks;
   for (const Plan& plan : plans) {
-    for (std::size_t s = 0; s < plan.systems.size(); ++s) {
+    for (std::size_t s = 0; s < sets; ++s) {
       const study::Options options = options_of(command, plan, s);
       tasks.push_back({symbolic::singularity_set_from_string(command.search.sets[s]), plan.systems[s], plan.blocks[s],
                        options, command.search.limits_beside(options.search, 0), s});
+      tasks.back().then = [&to = found[tasks.size() - 1],
+                           size = static_cast<std::size_t>(plan.systems[s].configuration_size)](const Cover& cover) {
+        to = report::components(cover.boxes, size);
+      };
     }
   }
   return tasks;
 }
 
-report::SetView solve_one(const SweepCommand& command, const Plan& plan, std::size_t set_index, const std::string& task,
-                          std::uint64_t taken, const std::function<std::optional<EarlyFind>()>& found_early) {
-  study::Question question = plan.question;
-  question.set = symbolic::singularity_set_from_string(command.search.sets[set_index]);
-  const System& system = plan.systems[set_index];
-  const bool given = question.model.has_own_velocity_equation();
-  const study::Options options = options_of(command, plan, set_index);
-  ProgressLine line(task);
-  line.show(task);  // searches may be too short to tell more
-  std::optional<EarlyFind> early = found_early();
-  const solve::Control::Limits limits = command.search.limits_beside(options.search, taken);
-  const bool has_room = limits.memory == 0 || limits.memory > EarlySearches::kBytes;  // or it may have been ended
-  if (early && has_room)
-    return report::set_view(study::describe(question, system, options, std::move(early->cover), {}), system, given,
-                            std::move(early->components));
-  solve::Control control(limits);
-  line.follow(control);
-  return report::set_view(study::answer(question, system, options, control), system, given,
-                          [&control] { return control.overdue(); });
-}
+/// The searches of all members, some ahead of their turn.
+class Searches {
+ public:
+  Searches(const SweepCommand& command, const std::vector<Plan>& plans)
+      : command_(command), plans_(plans), early_(early_tasks(command, plans, components_), command.search.limits.threads) {}
 
-/// "member-03-forward.h5": members from 1, with as many digits as the last one needs.
-std::string file_name(std::size_t member, std::size_t members, const std::string& rest) {
-  return fmt::format("member-{:0{}}{}", member + 1, std::to_string(members).size(), rest);
-}
+  /// `taken`: bytes of those before.
+  report::SetView solve(std::size_t member, std::size_t set, const std::string& task, std::uint64_t taken) {
+    const Plan& plan = plans_[member];
+    study::Question question = plan.question;
+    question.set = symbolic::singularity_set_from_string(command_.search.sets[set]);
+    const System& system = plan.systems[set];
+    const bool given = question.model.has_own_velocity_equation();
+    const study::Options options = options_of(command_, plan, set);
+    ProgressLine line(task);
+    line.show(task);  // searches may be too short to tell more
+    const std::size_t number = member * command_.search.sets.size() + set;
+    std::optional<Cover> early = early_.take(number);
+    const solve::Control::Limits limits = command_.search.limits_beside(options.search, taken);
+    const bool has_room = limits.memory == 0 || limits.memory > study::EarlySearches::kBytes;  // or it may have been ended
+    if (early && has_room)
+      return report::set_view(study::describe(question, system, options, std::move(*early), {}), system, given,
+                              std::move(components_[number]));
+    solve::Control control(limits);
+    line.follow(control);
+    return report::set_view(study::answer(question, system, options, control), system, given,
+                            [&control] { return control.overdue(); });
+  }
+
+ private:
+  const SweepCommand& command_;
+  const std::vector<Plan>& plans_;
+  std::vector<report::Components> components_;  ///< of what is found ahead
+  study::EarlySearches early_;
+};
 
 /// Describes member after member and writes each result at once. An interrupt ends the searches that are on. The one whose
 /// turn it is leaves what is not searched pending; so do the member's sets behind it, and further members are left out. The
@@ -134,24 +151,37 @@ std::vector<report::FamilyMember> solve_all(const SweepCommand& command, const s
                                             const std::string& constant) {
   std::vector<report::FamilyMember> members;
   std::uint64_t taken = 0;
-  EarlySearches early(early_tasks(command, plans), command.search.limits.threads);
-  const std::size_t sets = command.search.sets.size();
+  Searches searches(command, plans);
   for (std::size_t k = 0; k < plans.size() && (k == 0 || !Interrupt::stop()); ++k) {
     report::FamilyMember member{plans[k].value, plans[k].question.model, {}, {}};
-    for (std::size_t s = 0; s < sets; ++s) {
-      member.sets.push_back(solve_one(
-          command, plans[k], s,
-          fmt::format("{} = {} ({} of {}), {}", constant, plans[k].value, k + 1, plans.size(), command.search.sets[s]),
-          taken, [&] { return early.take(k * sets + s); }));
+    for (std::size_t s = 0; s < command.search.sets.size(); ++s) {
+      const std::string task =
+          fmt::format("{} = {} ({} of {}), {}", constant, plans[k].value, k + 1, plans.size(), command.search.sets[s]);
+      member.sets.push_back(searches.solve(k, s, task, taken));
       const result::Result& result = member.sets.back().result;
       taken += solve::bytes_of(result.cover, solve::kPageBytes);
-      member.files.push_back(file_name(k, plans.size(), "-" + command.search.sets[s] + ".h5"));
+      member.files.push_back(report::member_file(k, plans.size(), command.search.sets[s]));
       result::write_result(std::filesystem::path(command.folder) / member.files.back(), result,
                            [] { return Interrupt::stop().load(); });
     }
     members.push_back(std::move(member));
   }
   return members;
+}
+
+report::Figures draw_members(const std::filesystem::path& folder, const std::vector<report::FamilyMember>& members,
+                             const report::FamilyOptions& options) {
+  ProgressLine line;
+  std::vector<std::vector<report::PictureSource>> sources;
+  std::vector<std::string> titles;
+  for (const report::FamilyMember& member : members) {
+    titles.push_back(options.constant + " = " + member.value);
+    sources.emplace_back();
+    for (const report::SetView& view : member.sets)
+      sources.back().push_back(report::picture_view(view.result, view.result.set));
+  }
+  return report::write_family_figures(folder, sources, {options.axes.begin(), options.axes.end()}, titles,
+                                      {&Interrupt::stop(), [&line](const std::string& text) { line.show(text); }});
 }
 
 ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
@@ -162,12 +192,11 @@ ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
   const Family family = family_of(command.question.definitions);
   const std::vector<Plan> plans = plan_all(command, family);
   const symbolic::Mechanism& first = plans.front().question.model;
-  const std::vector<std::string> axes = portrait_axes(first, first.outputs());
+  const std::vector<std::string> axes = report::portrait_axes(first, first.outputs());
   if (axes.size() < 2) throw UsageError(fmt::format("{}: a portrait needs two coordinates that vary", first.name()));
   if (command.folder.empty()) command.folder = first.name() + "-sweep";
   const std::filesystem::path folder = command.folder;
-  make_folder(folder / "figures");
-  result::check_writable(folder / "index.html");
+  check_folder(folder);
 
   LimitedRun run({});
   const solve::InStage stage(run.control(), solve::Stage::page);
@@ -180,7 +209,7 @@ ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
   QuestionOptions first_member = command.question;
   first_member.definitions = definitions_of(family, 0, command.question.definitions);
   options.report_command = command.search.command_line("report", first_member);
-  const Figures figures = write_family_figures(folder / "figures", members, options, Interrupt::stop());
+  const report::Figures figures = draw_members(folder / "figures", members, options);
   for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
   result::write_text(folder / "index.html", family_page(members, options));
 

@@ -10,11 +10,11 @@
 #include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 #include "corank/result/shape_file.h"
-#include "corank/solve/options.h"
 
 namespace corank::app {
 namespace {
@@ -66,13 +66,7 @@ void add_topology(CLI::App& program, Action& action) {
   const auto command = std::make_shared<TopologyCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
-  sub->add_option("--threads", command->options.threads, "Number of threads; 0: one for each core")
-      ->check(CLI::Range(0, solve::kMostThreads))
-      ->capture_default_str();
-  sub->add_option("--time-limit", command->time_limit,
-                  "End after SECONDS with what is proven by then; 0: no limit (default)")
-      ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
+  add_analysis_limits(*sub, command->options.threads, command->time_limit);
   sub->add_option(
          "-o,--output", command->output,
          "Write a certificate that corank verify checks: boxes, links and critical points; only for a set without ends")

@@ -7,10 +7,11 @@
 #include <memory>
 #include <random>
 
-#include "corank/app/command_control.h"
 #include "corank/app/interrupt.h"
 #include "corank/app/json_option.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
+#include "corank/app/search_limits.h"
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
 #include "corank/result/map_file.h"
@@ -156,18 +157,14 @@ void add_verify(CLI::App& program, Action& action) {
   command->json.add(*sub, "what it finds");
   sub->add_flag("--require-proof", command->require_proof,
                 "Fail unless the file proves that its boxes hold all solutions in the search domain");
-  sub->add_option("--threads", command->threads, "Number of threads; 0: one for each core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  add_threads(*sub, command->threads);
   sub->add_option("--sample", command->sample,
                   "Check only N boxes, chosen at random each time, and no proof of completeness; for files that take too\n"
                   "long to check completely; 0: all boxes (default)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->excludes("--require-proof");
-  sub->add_option("--time-limit", command->time_limit, "End the check after SECONDS; 0: no limit (default)")
-      ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
+  add_time_limit(*sub, command->time_limit, "End the check after SECONDS");
   sub->footer(
       "corank verify proves every box again, from the model in the file: a regular, isolated or boundary box with\n"
       "intervals of 160 bits, an exact box or point in exact arithmetic. An undecided box without an exact point and a\n"

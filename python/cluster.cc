@@ -1,6 +1,5 @@
 // Searches whose units dask's workers run: what corank.cluster stands on.
 #include "corank/python/bindings.h"
-#include "corank/python/model.h"
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
 
@@ -41,12 +40,8 @@ result::Checkpoint checkpoint_of(const std::vector<std::string>& arguments, cons
 // The client's side: long work of its own runs where Ctrl-C is heard, what is left alone keeps what it needs alive.
 class Run {
  public:
-  Run(const Model& model, const std::optional<std::string>& set, const std::optional<std::string>& kernel, int corank,
-      const std::vector<std::string>& outputs, const std::optional<double>& tolerance, const solve::Options& options,
-      int digits) {
-    study::Question question = question_of(model, set, kernel, corank, outputs);
-    question.tolerance = tolerance;
-    run_ = run_whole(py::none(), [question = std::move(question), options, digits](Watcher&) {
+  Run(const study::Question& question, const solve::Options& options, int digits) {
+    run_ = run_whole(py::none(), [question, options, digits](Watcher&) {
       return std::make_shared<study::SpreadRun>(question, study::Options{options, digits});
     });
   }
@@ -94,12 +89,7 @@ class Run {
   }
 
  private:
-  static void run_here(std::function<void(Watcher&)> work) {
-    const py::object raised = python::run(py::none(), std::move(work));
-    if (raised.is_none()) return;
-    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(raised.ptr())), raised.ptr());
-    throw py::error_already_set();
-  }
+  static void run_here(std::function<void(Watcher&)> work) { raise_if_any(python::run(py::none(), std::move(work))); }
 
   std::shared_ptr<study::SpreadRun> run_;
 };
@@ -142,8 +132,7 @@ void bind_cluster(py::module_& module) {
   module.attr("engine_version") = solve::engine_version();
   module.attr("most_unit_threads") = solve::kMostUnitThreads;
   py::class_<Run>(module, "SpreadRun")
-      .def(py::init<const Model&, const std::optional<std::string>&, const std::optional<std::string>&, int,
-                    const std::vector<std::string>&, const std::optional<double>&, const solve::Options&, int>())
+      .def(py::init<const study::Question&, const solve::Options&, int>())
       .def_property_readonly("searches", &Run::searches)
       .def_property_readonly("finished", &Run::finished)
       .def("begin", &Run::begin)

@@ -4,7 +4,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "corank/python/bindings.h"
+#include "corank/report/figures.h"
 #include "corank/report/set_look.h"
+#include "corank/study/question.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_text.h"
 #include "corank/symbolic/regular_locus.h"
@@ -142,24 +144,16 @@ void bind_building(py::class_<Model>& type) {
   });
 }
 
-}  // namespace
-
-symbolic::Mechanism& Model::changed() {
-  if (value.assembly)
-    throw ModelError({mechanism().name(), 0, 0}, "its equations come from its links and joints",
-                     "a change of these, in their text");
-  origin.reset();
-  return value.mechanism;
-}
-
-Model make_model(Origin origin, std::vector<result::ConstantOverride> constants) {
-  study::Model value = study::parse_model(origin.model, constants, origin.loops);
-  return {std::move(origin), std::move(value), std::move(constants)};
-}
-
+// A question about the model, validated, whose text is the one that results keep. `set`: a name of a set, "nodes", or
+// nothing for a plain system. Throws std::invalid_argument where the model has no such set.
 study::Question question_of(const Model& model, const std::optional<std::string>& set,
-                            const std::optional<std::string>& kernel, int corank, const std::vector<std::string>& outputs) {
-  study::Question q{.model = model.mechanism(), .corank = corank, .constants = model.constants, .outputs = outputs};
+                            const std::optional<std::string>& kernel, int corank, const std::vector<std::string>& outputs,
+                            const std::optional<double>& tolerance) {
+  study::Question q{.model = model.mechanism(),
+                    .corank = corank,
+                    .constants = model.constants,
+                    .outputs = outputs,
+                    .tolerance = tolerance};
   q.assembly = model.value.assembly;
   q.model.validate();
   if (!model.origin) q.model.set_source_text(symbolic::to_model(q.model));
@@ -186,6 +180,21 @@ study::Question question_of(const Model& model, const std::optional<std::string>
   return q;
 }
 
+}  // namespace
+
+symbolic::Mechanism& Model::changed() {
+  if (value.assembly)
+    throw ModelError({mechanism().name(), 0, 0}, "its equations come from its links and joints",
+                     "a change of these, in their text");
+  origin.reset();
+  return value.mechanism;
+}
+
+Model make_model(Origin origin, std::vector<result::ConstantOverride> constants) {
+  study::Model value = study::parse_model(origin.model, constants, origin.loops);
+  return {std::move(origin), std::move(value), std::move(constants)};
+}
+
 void bind_model(py::module_& module) {
   py::class_<Model> type(module, "Model");
   type.def(py::init([](const std::string& name) { return Model{{}, {Mechanism(name), {}, {}}, {}}; }), py::arg("name"));
@@ -208,6 +217,7 @@ void bind_model(py::module_& module) {
     return study::describe(*m.value.assembly);
   });
   type.def_property_readonly("plain", [](const Model& m) { return m.mechanism().is_plain_system(); });
+  type.def("portrait_axes", [](const Model& m) { return report::portrait_axes(m.mechanism(), m.mechanism().outputs()); });
   type.def("validate", [](const Model& m) { m.mechanism().validate(); });
   type.def("text", [](const Model& m) { return symbolic::to_model(m.mechanism()); });
   type.def("with_constants", &with_constants);
@@ -215,6 +225,9 @@ void bind_model(py::module_& module) {
   type.def(py::pickle(&state, [](const py::tuple& s) {
     return parse(s[0].cast<Text>(), s[1].cast<std::optional<Text>>(), s[2].cast<Constants>());
   }));
+  py::class_<study::Question>(module, "Question")
+      .def(py::init(&question_of), py::arg("model"), py::arg("set") = py::none(), py::arg("kernel") = py::none(),
+           py::arg("corank") = 1, py::arg("outputs") = std::vector<std::string>(), py::arg("tolerance") = py::none());
   module.def("load", &load, py::arg("path"), py::arg("loops"), py::arg("constants"));
   module.def("parse", &parse, py::arg("model"), py::arg("loops"), py::arg("constants"));
   module.def("latex_name", &symbolic::latex_name);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "corank/study/model.h"
-#include "corank/study/question.h"
 
 namespace corank::python {
 
@@ -26,11 +25,5 @@ struct Model {
 };
 
 Model make_model(Origin origin, std::vector<result::ConstantOverride> constants);
-
-/// A question about the model, validated, whose text is the one that results keep. `set`: a name of a set, "nodes", or
-/// nothing for a plain system. Throws std::invalid_argument where the model has no such set.
-study::Question question_of(const Model& model, const std::optional<std::string>& set,
-                            const std::optional<std::string>& kernel = {}, int corank = 1,
-                            const std::vector<std::string>& outputs = {});
 
 }  // namespace corank::python

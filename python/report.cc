@@ -6,12 +6,10 @@
 #include <fmt/format.h>
 
 #include "corank/python/bindings.h"
-#include "corank/python/model.h"
-#include "corank/python/path_picture.h"
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
-#include "corank/report/aspects_picture.h"
 #include "corank/report/family_page.h"
+#include "corank/report/figures.h"
 #include "corank/report/page.h"
 #include "corank/report/path_page.h"
 #include "corank/report/picture.h"
@@ -41,33 +39,16 @@ symbolic::Mechanism mechanism_of(const std::vector<Result>& results) {
 
 using Aspects = std::shared_ptr<report::PageAspects>;
 
-// Of curves and surfaces that are known as a whole, within the time; with what ended it early.
+// Within the time; with what ended it early.
 py::tuple page_aspects(const std::vector<Result>& results, int threads, double time_limit, const py::object& progress) {
-  const auto is_cspace = [](const Result& r) { return symbolic::definition(r->set).is_cspace(); };
-  const auto cspace = std::find_if(results.begin(), results.end(), is_cspace);
-  if (cspace == results.end() || !(*cspace)->cover.complete() || (*cspace)->cover.dimension > 2)
-    return py::make_tuple(Aspects(), py::none());
-  const auto work = [cspace = *cspace, question = study::Question{.model = mechanism_of(results)}, threads,
-                     time_limit](Watcher& watcher) -> Aspects {
-    solve::Control control({.time = time_limit, .stop = &watcher.stop});
-    watcher.follow(control);
-    analyze::AspectsOptions wanted{.threads = threads};
-    wanted.drawn = report::drawn_coordinates(question.model);
-    wanted.placed = &cspace->cover;
-    try {
-      const analyze::Aspects found = analyze::aspects(question, wanted, control);
-      if (watcher.stop) return {};
-      return std::make_shared<report::PageAspects>(
-          control.ended()
-              ? report::no_page_aspects(fmt::format("the search did not end within {} s, the time limit", time_limit))
-          : found.reason.empty() ? report::page_aspects(question.model.name(), found)
-                                 : report::no_page_aspects(found.reason));
-    } catch (const symbolic::ModelError&) {  // of matrices that are not square nothing is said
-      return {};
-    }
+  const auto work = [results, question = study::Question{.model = mechanism_of(results)}, threads,
+                     time_limit](solve::Control& control) {
+    std::vector<const result::Result*> list;
+    for (const Result& r : results) list.push_back(&*r);
+    auto found = report::page_aspects(question, list, threads, fmt::format("{} s, the time limit", time_limit), control);
+    return std::tuple(found ? std::make_shared<report::PageAspects>(std::move(*found)) : Aspects());
   };
-  auto [aspects, raised] = run_for(progress, work);
-  return py::make_tuple(aspects, raised);
+  return said(progress, within(time_limit, work));
 }
 
 std::string page(const std::vector<Result>& results, const std::string& command, const std::vector<std::string>& figures,
@@ -110,6 +91,12 @@ std::string family_page(const Members& members, const std::string& constant, con
   return report::family_page(list, options);
 }
 
+std::vector<report::PictureSource> sources_of(const std::vector<Result>& results) {
+  std::vector<report::PictureSource> sources;
+  for (const Result& r : results) sources.push_back(report::picture_view(*r, r->set));
+  return sources;
+}
+
 report::Picture picture(const std::vector<Result>& results, const std::vector<std::string>& axes, const std::string& color) {
   report::PictureOptions options;
   options.axes = axes;
@@ -118,9 +105,7 @@ report::Picture picture(const std::vector<Result>& results, const std::vector<st
   options.color = color == "set"       ? report::ColorScheme::set
                   : color == "verdict" ? report::ColorScheme::verdict
                                        : report::ColorScheme::plain;
-  std::vector<report::PictureSource> sources;
-  for (const Result& r : results) sources.push_back(report::picture_view(*r, r->set));
-  return report::make_picture(sources, options);
+  return report::make_picture(sources_of(results), options);
 }
 
 py::array_t<double> sides(const report::PictureLayer& layer, std::size_t axes) {
@@ -165,14 +150,21 @@ void write_portrait(const std::filesystem::path& path, const std::vector<Result>
   report::write_portrait(path, picture(results, axes, color), options);
 }
 
-std::vector<std::string> write_small_multiples(const std::filesystem::path& folder,
-                                               const std::vector<std::vector<Result>>& members,
-                                               const std::vector<std::string>& axes,
-                                               const std::vector<std::string>& titles) {
+std::vector<std::string> write_figures(const std::filesystem::path& folder, const std::vector<Result>& results) {
   const py::gil_scoped_release unlocked;
-  std::vector<report::Picture> pictures;
-  for (const std::vector<Result>& results : members) pictures.push_back(picture(results, axes, "set"));
-  return report::write_small_multiples(folder, pictures, titles);
+  std::filesystem::create_directories(folder);
+  if (results.empty()) return {};
+  return report::write_figures(folder, mechanism_of(results), sources_of(results), {}).files;
+}
+
+std::vector<std::string> write_family_figures(const std::filesystem::path& folder,
+                                              const std::vector<std::vector<Result>>& members,
+                                              const std::vector<std::string>& axes, const std::vector<std::string>& titles) {
+  const py::gil_scoped_release unlocked;
+  std::filesystem::create_directories(folder);
+  std::vector<std::vector<report::PictureSource>> sources;
+  for (const std::vector<Result>& results : members) sources.push_back(sources_of(results));
+  return report::write_family_figures(folder, sources, axes, titles, {}).files;
 }
 
 }  // namespace
@@ -186,8 +178,9 @@ void bind_report(py::module_& module) {
   module.def("family_page", &family_page);
   module.def("geometry", &geometry);
   module.def("write_portrait", &write_portrait);
-  module.def("can_write_pdf", &report::can_write_pdf);
-  module.def("write_small_multiples", &write_small_multiples);
+  module.def("write_figures", &write_figures);
+  module.def("write_family_figures", &write_family_figures);
+  module.def("member_file", &report::member_file);
 }
 
 }  // namespace corank::python

@@ -1,9 +1,11 @@
 #include "corank/python/result.h"
 
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "corank/certify/angle.h"
+#include "corank/core/check.h"
 #include "corank/python/bindings.h"
 #include "corank/python/watched.h"
 #include "corank/report/set_view.h"
@@ -17,7 +19,43 @@
 #include "corank/result/verification.h"
 
 namespace corank::python {
+
+BoxArrays::BoxArrays(const std::vector<CoverBox>& boxes, std::size_t n) : size(boxes.size()), variables(n) {
+  bounds.reserve(2 * size * n);
+  free.assign(size * n, 0);
+  for (auto* list : {&verdict, &reason, &types_proven, &types_excluded, &passage}) list->reserve(size);
+  for (auto* list : {&kernel_at_most, &region, &point, &part}) list->reserve(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const CoverBox& b = boxes[i];
+    CORANK_CHECK(b.box.size() == n);
+    for (const Interval& side : b.box) {
+      bounds.push_back(side.lo());
+      bounds.push_back(side.hi());
+    }
+    for (const int j : b.free) free[i * n + static_cast<std::size_t>(j)] = 1;
+    verdict.push_back(static_cast<std::uint8_t>(b.verdict));
+    reason.push_back(static_cast<std::uint8_t>(b.reason));
+    types_proven.push_back(b.types.proven);
+    types_excluded.push_back(b.types.excluded);
+    passage.push_back(static_cast<std::uint8_t>(b.passage));
+    kernel_at_most.push_back(b.kernel_at_most);
+    region.push_back(b.region);
+    point.push_back(b.point);
+    part.push_back(b.part);
+  }
+}
+
 namespace {
+
+// A read-only array over memory that `owner` keeps alive.
+template <class T>
+py::array view(const std::shared_ptr<const BoxArrays>& owner, const std::vector<T>& data, std::vector<py::ssize_t> shape) {
+  const py::capsule base(new std::shared_ptr<const BoxArrays>(owner),
+                         [](void* p) { delete static_cast<std::shared_ptr<const BoxArrays>*>(p); });
+  py::array_t<T> array(std::move(shape), data.data(), base);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
 
 py::dict box_arrays(const std::shared_ptr<const BoxArrays>& a) {
   const auto n = static_cast<py::ssize_t>(a->size), m = static_cast<py::ssize_t>(a->variables);
@@ -107,8 +145,7 @@ void save(const Result& r, const std::filesystem::path& path) {
 }
 
 py::tuple verify(const Result& r, int threads, const py::object& progress) {
-  const std::shared_ptr<const result::Result> shared = r.shared();
-  const auto work = [shared, threads](Watcher& watcher) {
+  return said(progress, [shared = r.shared(), threads](Watcher& watcher) {
     check::Options options;
     options.threads = threads;
     options.ended = [&watcher] { return watcher.stop.load(); };
@@ -119,10 +156,8 @@ py::tuple verify(const Result& r, int threads, const py::object& progress) {
       watcher.show({script ? "the proof" : "the boxes", all > 0 ? done / all : -1, ""});
     };
     const result::Verification v = result::verify(*shared, options);
-    return std::tuple(result::to_json(v), result::to_table(v, *shared), v.verified(), v.complete());
-  };
-  auto [value, raised] = run_for(progress, work);
-  return py::make_tuple(std::get<0>(value), std::get<1>(value), std::get<2>(value), std::get<3>(value), raised);
+    return std::tuple(result::to_json(v), result::to_table(v, *shared));
+  });
 }
 
 // What a report says of a set, in words.

@@ -1,12 +1,28 @@
-// A result as Python holds it: it never changes, and its arrays are made when somebody first asks for them.
+// A result as Python holds it: it never changes, and its arrays are made when somebody first asks for them. And what a page
+// shows of a path, with the model as it was when the path was found.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
-#include "corank/python/box_arrays.h"
+#include "corank/report/path_view.h"
 #include "corank/result/result.h"
 
 namespace corank::python {
+
+/// The boxes of a cover, one row to a box, in the layout that NumPy shows: looked at without copying.
+struct BoxArrays {
+  BoxArrays(const std::vector<CoverBox>& boxes, std::size_t variables);
+
+  std::size_t size = 0, variables = 0;
+  std::vector<double> bounds;                              ///< size × variables × 2: lower and upper ends
+  std::vector<std::uint8_t> free;                          ///< size × variables: 1 where the variable is free in the box
+  std::vector<std::uint8_t> verdict, reason;               ///< indices of Verdict, Reason
+  std::vector<std::uint8_t> types_proven, types_excluded;  ///< bits of SingularityType
+  std::vector<std::uint8_t> passage;                       ///< indices of Passage
+  std::vector<std::int32_t> kernel_at_most, region, point, part;  ///< as in CoverBox
+};
 
 class Result {
  public:
@@ -28,6 +44,11 @@ class Result {
   std::shared_ptr<const result::Result> value_;
   // Under the interpreter's lock.
   mutable std::shared_ptr<const BoxArrays> boxes_, points_;
+};
+
+struct PathPicture {
+  symbolic::Mechanism mechanism;
+  report::PathView view;
 };
 
 }  // namespace corank::python

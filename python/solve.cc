@@ -1,6 +1,5 @@
 // Options, and from a model's question to a result.
 #include "corank/python/bindings.h"
-#include "corank/python/model.h"
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
 
@@ -22,47 +21,36 @@ solve::Options default_options() {
 }
 
 // The result, and what Ctrl-C or the progress function raised.
-py::tuple solve_question(const Model& model, const std::optional<std::string>& set, const std::optional<std::string>& kernel,
-                         int corank, const std::vector<std::string>& outputs, const std::optional<double>& tolerance,
-                         const solve::Options& options, int digits, const py::object& progress) {
+py::tuple solve_question(const study::Question& question, const solve::Options& options, int digits,
+                         const py::object& progress) {
   options.validate();
-  study::Question question = question_of(model, set, kernel, corank, outputs);
-  question.tolerance = tolerance;
-  const auto work = [question = std::move(question), options, digits](Watcher& watcher) {
+  return said(progress, [question, options, digits](Watcher& watcher) {
     solve::Control control(limits_of(options, &watcher.stop));
     watcher.follow(control);
-    std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-    const std::vector<study::Question> parts = study::parts_of(question, [&control] { return control.ended(); });
-    std::vector<System> systems;
-    for (const study::Question& part : parts) {
-      systems.push_back(study::system(part));
-      options.validate(systems.back());
-      if (options.proof && systems.back().coefficient_tolerance > 0)
-        throw std::invalid_argument("proof: expected exact coefficients; tolerance=0 takes them as exact");
-    }
-    control.ended();  // notes the stage
-    stage.reset();
-    return Result(study::answer(parts, systems, {options, digits}, control));
-  };
-  auto [result, raised] = run_for(progress, work);
-  return py::make_tuple(std::move(result), raised);
+    const study::Systems systems =
+        study::systems_of(question, control, [&options](const study::Question&, const System& system) {
+          options.validate(system);
+          if (options.proof && system.coefficient_tolerance > 0)
+            throw std::invalid_argument("proof: expected exact coefficients; tolerance=0 takes them as exact");
+          return true;
+        });
+    return std::tuple(Result(study::answer(systems, {options, digits}, control)));
+  });
 }
 
-std::string derivation(study::Question question, const std::string& format) {
-  if (format == "cuik" && (symbolic::definition(question.set).of_parts || question.in_parts.value_or(false)))
-    throw std::invalid_argument("format cuik: the set consists of several systems");
+std::string derivation(const study::Question& question, const std::string& format) {
   const std::vector<symbolic::TrigonometricSystem> systems = study::equations_of_parts(question);
   if (format == "cuik") return symbolic::to_cuik(symbolic::algebrize(systems.front()));
   const symbolic::Derivation d = symbolic::derive(question.model);
   return format == "latex" ? symbolic::to_latex(d, systems) : symbolic::to_text(d, systems);
 }
 
-std::string derive(const Model& model, const std::optional<std::string>& set, const std::optional<std::string>& kernel,
-                   int corank, const std::vector<std::string>& outputs, const std::string& format) {
+std::string derive(const study::Question& question, const std::string& format) {
   if (format != "text" && format != "latex" && format != "cuik")
     throw std::invalid_argument("the format is text, latex or cuik, not '" + format + "'");
-  study::Question question = question_of(model, set, kernel, corank, outputs);
-  return run_whole(py::none(), [question = std::move(question), format](Watcher&) { return derivation(question, format); });
+  if (format == "cuik" && (symbolic::definition(question.set).of_parts || question.in_parts.value_or(false)))
+    throw std::invalid_argument("format cuik: the set consists of several systems");
+  return run_whole(py::none(), [question, format](Watcher&) { return derivation(question, format); });
 }
 
 }  // namespace

@@ -155,6 +155,12 @@ py::object run(const py::object& progress, std::function<void(Watcher&)> work) {
   return raised;
 }
 
+void raise_if_any(const py::object& raised) {
+  if (raised.is_none()) return;
+  PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(raised.ptr())), raised.ptr());
+  throw py::error_already_set();
+}
+
 void wait_for_the_abandoned() {
   for (const auto& [worker, job] : workers().abandoned)
     while (!wait(*worker, *job))

@@ -50,6 +50,9 @@ class Watcher {
 /// throws. The work may go on after this call, so it owns all that it uses and touches nothing of Python's.
 py::object run(const py::object& progress, std::function<void(Watcher&)> work);
 
+/// Raises what run() has returned, unless it is None.
+void raise_if_any(const py::object& raised);
+
 /// The same of work that has a value: the value and that exception. Where the work was left alone, throws the exception.
 template <class Work>
 auto run_for(const py::object& progress, Work work) {
@@ -60,10 +63,7 @@ auto run_for(const py::object& progress, Work work) {
     *value = work(watcher);
     *finished = true;
   });
-  if (!*finished) {
-    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(raised.ptr())), raised.ptr());
-    throw py::error_already_set();
-  }
+  if (!*finished) raise_if_any(raised);
   return std::pair<Value, py::object>(std::move(**value), raised);
 }
 
@@ -71,11 +71,25 @@ auto run_for(const py::object& progress, Work work) {
 template <class Work>
 auto run_whole(const py::object& progress, Work work) {
   auto [value, raised] = run_for(progress, std::move(work));
-  if (!raised.is_none()) {
-    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(raised.ptr())), raised.ptr());
-    throw py::error_already_set();
-  }
+  raise_if_any(raised);
   return std::move(value);
+}
+
+/// The same of work that has a tuple: its values and that exception, for Python.
+template <class Work>
+py::tuple said(const py::object& progress, Work work) {
+  auto known = run_for(progress, std::move(work));
+  return std::apply([&known](auto&... values) { return py::make_tuple(std::move(values)..., known.second); }, known.first);
+}
+
+/// Work under a control with this limit of time, which shows its progress.
+template <class Work>
+auto within(double seconds, Work work) {
+  return [seconds, work = std::move(work)](Watcher& watcher) {
+    solve::Control control({.time = seconds, .stop = &watcher.stop});
+    watcher.follow(control);
+    return work(control);
+  };
 }
 
 /// At the interpreter's end: waits for work that was left alone.

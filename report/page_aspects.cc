@@ -1,5 +1,6 @@
 #include "corank/report/page_aspects.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "corank/report/aspects_picture.h"
@@ -7,14 +8,32 @@
 
 namespace corank::report {
 
-PageAspects page_aspects(const std::string& model, const analyze::Aspects& aspects) {
-  PageAspects page{.summary = summary(aspects), .picture = {}, .labels = aspect_labels(aspects), .places = aspects.places};
-  if (aspects.drawing && !aspects.drawing->pieces.empty()) page.picture = to_svg(aspects_picture(model, aspects));
-  return page;
-}
+namespace {
 
-PageAspects no_page_aspects(const std::string& why) {
-  return {.summary = "Not known: " + why + ".", .picture = {}, .labels = {}, .places = {}};
+PageAspects not_known(const std::string& why) { return {"Not known: " + why + ".", {}, {}, {}}; }
+
+}  // namespace
+
+std::optional<PageAspects> page_aspects(const study::Question& question, const std::vector<const result::Result*>& results,
+                                        int threads, const std::string& limit, solve::Control& control) {
+  const auto is_cspace = [](const result::Result* r) { return symbolic::definition(r->set).is_cspace(); };
+  const auto cspace = std::find_if(results.begin(), results.end(), is_cspace);
+  if (cspace == results.end() || !(*cspace)->cover.complete() || (*cspace)->cover.dimension > 2) return std::nullopt;
+  analyze::AspectsOptions wanted{.threads = threads};
+  wanted.drawn = drawn_coordinates(question.model);
+  wanted.placed = &(*cspace)->cover;
+  try {
+    const analyze::Aspects aspects = analyze::aspects(question, wanted, control);
+    if (const auto* stop = control.limits().stop; stop && *stop) return std::nullopt;
+    if (control.ended()) return not_known("the search did not end within " + limit);
+    if (!aspects.reason.empty()) return not_known(aspects.reason);
+    PageAspects page{.summary = summary(aspects), .picture = {}, .labels = aspect_labels(aspects), .places = aspects.places};
+    if (aspects.drawing && !aspects.drawing->pieces.empty())
+      page.picture = to_svg(aspects_picture(question.model.name(), aspects));
+    return page;
+  } catch (const symbolic::ModelError&) {  // of matrices that are not square nothing is said
+    return std::nullopt;
+  }
 }
 
 std::string aspects_json(const PageAspects& aspects) {

@@ -1,6 +1,7 @@
 // What a report's page has of a mechanism's aspects.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,10 @@ struct PageAspects {
   std::vector<int> places;          ///< of the boxes of C-space: in which aspect, −1: not known. Empty: of none
 };
 
-/// Requires that something is known.
-PageAspects page_aspects(const std::string& model, const analyze::Aspects& aspects);
-
-/// What the page says where nothing is known.
-PageAspects no_page_aspects(const std::string& why);
+/// Searches for the aspects of curves and surfaces, where the results hold their C-space as a whole. Nothing of others, of
+/// matrices that are not square, and where a signal has ended the search. `limit`: what the page says has ended it else.
+std::optional<PageAspects> page_aspects(const study::Question& question, const std::vector<const result::Result*>& results,
+                                        int threads, const std::string& limit, solve::Control& control);
 
 /// For the page's script: of each aspect its label and its colour, and two bytes for each box of C-space, its aspect's
 /// number from 1; 0: none. "null" without places.

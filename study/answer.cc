@@ -10,8 +10,6 @@
 #include "corank/solve/decimals.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/type_labels.h"
-#include "corank/study/assembly_search.h"
-#include "corank/study/robot_state.h"
 #include "corank/study/run_journal.h"
 #include "corank/study/search_steps.h"
 #include "corank/symbolic/printer.h"
@@ -66,13 +64,7 @@ std::string stopped_words(const result::Result& result) {
 result::Result answer(const Question& question, const Options& options) {
   options.search.validate();
   solve::Control control(solve::limits_of(options.search));
-  std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
-  const std::vector<Question> parts = parts_of(question, [&control] { return control.ended(); });
-  std::vector<System> systems;
-  for (const Question& part : parts) systems.push_back(system(part));
-  control.ended();  // notes the stage
-  stage.reset();
-  return answer(parts, systems, options, control);
+  return answer(systems_of(question, control), options, control);
 }
 
 Asked prepare(const Question& question, const System& system, const Options& options, solve::Control& control) {
@@ -107,13 +99,13 @@ result::Result join(const std::vector<Question>& parts, std::vector<result::Resu
   return whole;
 }
 
-result::Result answer(const std::vector<Question>& parts, const std::vector<System>& systems, const Options& options,
-                      solve::Control& control, RunJournal* journal) {
+result::Result answer(const Systems& systems, const Options& options, solve::Control& control, RunJournal* journal) {
+  const auto& [parts, of_parts] = systems;
   if (journal) journal->expect(parts.size());
-  CORANK_CHECK(!parts.empty() && parts.size() == systems.size());
+  CORANK_CHECK(!parts.empty() && parts.size() == of_parts.size());
   std::vector<result::Result> results;
   for (std::size_t i = 0; i < parts.size(); ++i)
-    results.push_back(answer_one(parts[i], systems[i], options, control, journal));
+    results.push_back(answer_one(parts[i], of_parts[i], options, control, journal));
   result::Result result = join(parts, std::move(results));
   search_assembly(parts.front(), control, result);
   return result;

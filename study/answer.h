@@ -26,9 +26,9 @@ result::Result answer(const Question& question, const Options& options = {});
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control,
                       RunJournal* journal = nullptr);
 
-/// The same of all parts of a question (parts_of) and of their systems, in one run.
-result::Result answer(const std::vector<Question>& parts, const std::vector<System>& systems, const Options& options,
-                      solve::Control& control, RunJournal* journal = nullptr);
+/// The same of all parts of a question (systems_of), in one run.
+result::Result answer(const Systems& systems, const Options& options, solve::Control& control,
+                      RunJournal* journal = nullptr);
 
 /// "stopped by the time limit, in the stage search".
 std::string stopped_words(const result::Result& result);

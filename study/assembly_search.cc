@@ -1,10 +1,9 @@
-#include "corank/study/assembly_search.h"
+#include "corank/study/search_steps.h"
 
 #include <algorithm>
 #include <optional>
 
 #include "corank/solve/solve.h"
-#include "corank/study/search_steps.h"
 #include "corank/symbolic/set_definition.h"
 
 namespace corank::study {

@@ -1,12 +1,14 @@
 // A question about a mechanism as a plain value: which set of which model; and the system whose solutions answer it.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "corank/core/system.h"
 #include "corank/kinematics/assembly.h"
 #include "corank/result/result.h"
+#include "corank/solve/control.h"
 #include "corank/symbolic/set_parts.h"
 #include "corank/symbolic/singularity_system.h"
 
@@ -46,5 +48,16 @@ std::vector<symbolic::TrigonometricSystem> equations_of_parts(Question question,
 /// typical size: 1 of sines, cosines and kernel vectors, the same of all lengths. Throws symbolic::ModelError.
 System system(const Question& question);
 System system(const Question& question, const symbolic::TrigonometricSystem& equations);
+
+/// The parts of a question, each with its system.
+struct Systems {
+  std::vector<Question> parts;
+  std::vector<System> of_parts;  ///< as many, unless `go_on` has ended it
+};
+
+/// parts_of() and system(), in the stage `model` of the control, which notes where it ends. `go_on` is called with each
+/// system that is made; false: the others are not made.
+Systems systems_of(const Question& question, solve::Control& control,
+                   const std::function<bool(const Question& part, const System& system)>& go_on = {});
 
 }  // namespace corank::study

@@ -1,4 +1,4 @@
-#include "corank/study/robot_state.h"
+#include "corank/study/search_steps.h"
 
 #include <cmath>
 #include <map>

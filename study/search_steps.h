@@ -32,6 +32,17 @@ void settle(std::optional<symbolic::SingularitySet> set, const std::optional<Vel
 result::Result describe(const Question& question, const System& system, const Options& options, Cover cover,
                         const std::optional<solve::Ending>& ending);
 
+/// Sets Result::states, what a solution means for a robot, one for each point of a set of dimension 0: values of its joints,
+/// poses of its links.
+void describe_states(const kinematics::Assembly& assembly, result::Result& result);
+
+/// Of an empty set: can the robot be assembled within its ranges at all? A robot without singularities and one that exists
+/// nowhere have the same empty set. Where a result is complete and has no box, fills in Result::assembly: a search of
+/// C-space that ends at the first proven configuration, or proves that there is none; and Result::nearly_solved, a hint.
+/// Does nothing else, so that other questions cost nothing. Ends with the control, and by itself after so many boxes: then
+/// nothing is known.
+void search_assembly(const Question& question, solve::Control& control, result::Result& result);
+
 /// The result of a question from those of its parts (parts_of).
 result::Result join(const std::vector<Question>& parts, std::vector<result::Result> results);
 

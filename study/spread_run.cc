@@ -6,8 +6,8 @@
 #include "corank/core/check.h"
 #include "corank/solve/engine_version.h"
 #include "corank/solve/shard_bytes.h"
-#include "corank/study/assembly_search.h"
 #include "corank/study/run_journal.h"
+#include "corank/study/search_steps.h"
 
 namespace corank::study {
 namespace {
@@ -30,19 +30,17 @@ Options of_cluster(Options options) {
 
 SpreadRun::SpreadRun(const Question& question, Options options, const std::atomic<bool>* stop)
     : options_(of_cluster(options)), control_(limits_of(options_.search, stop)) {
-  const solve::InStage stage(control_, solve::Stage::model);
-  parts_ = parts_of(question, [this] { return control_.ended(); });
-  for (const Question& part : parts_) {
-    systems_.push_back(system(part));
-    options_.search.validate(systems_.back());
-    if (options_.search.proof && systems_.back().coefficient_tolerance > 0)
+  systems_ = systems_of(question, control_, [this](const Question&, const System& system) {
+    options_.search.validate(system);
+    if (options_.search.proof && system.coefficient_tolerance > 0)
       throw solve::OptionError("proof", "expected exact coefficients; a tolerance of 0 takes them as exact");
-  }
+    return true;
+  });
 }
 
 solve::Coordinator& SpreadRun::begin(std::optional<std::string> state) {
   CORANK_CHECK(!search_ && finished() < searches());
-  asked_ = study::prepare(parts_[finished()], systems_[finished()], options_, control_);
+  asked_ = study::prepare(systems_.parts[finished()], systems_.of_parts[finished()], options_, control_);
   search_ = std::make_unique<solve::Coordinator>(solve::to_bytes(asked_->prepared), std::move(state), &control_);
   return *search_;
 }
@@ -57,7 +55,7 @@ void SpreadRun::finish() {
   const std::size_t i = finished();
   Cover cover = search_->assemble(control_);
   search_.reset();  // its memory is not counted any more
-  results_.push_back(study::finish(parts_[i], systems_[i], options_, *asked_, std::move(cover), control_));
+  results_.push_back(study::finish(systems_.parts[i], systems_.of_parts[i], options_, *asked_, std::move(cover), control_));
   asked_.reset();
 }
 
@@ -69,8 +67,8 @@ void SpreadRun::keep_state(const result::Checkpoint& checkpoint) {
 
 result::Result SpreadRun::result() {
   CORANK_CHECK(finished() == searches());
-  result::Result whole = join(parts_, std::exchange(results_, {}));
-  search_assembly(parts_.front(), control_, whole);
+  result::Result whole = join(systems_.parts, std::exchange(results_, {}));
+  search_assembly(systems_.parts.front(), control_, whole);
   whole.search = std::move(kept_);
   return whole;
 }

@@ -31,7 +31,7 @@ class SpreadRun {
 
   /// Until the limit of time; infinite where there is none.
   double seconds_left() const { return control_.seconds_left(); }
-  std::size_t searches() const { return parts_.size(); }
+  std::size_t searches() const { return systems_.parts.size(); }
   std::size_t finished() const { return results_.size(); }
   /// The next search, from a state on where one is given. Throws solve::ShardError where the state is none of it.
   solve::Coordinator& begin(std::optional<std::string> state = {});
@@ -47,8 +47,7 @@ class SpreadRun {
  private:
   const Options options_;
   solve::Control control_;
-  std::vector<Question> parts_;
-  std::vector<System> systems_;
+  Systems systems_;
   std::optional<Asked> asked_;
   std::unique_ptr<solve::Coordinator> search_;
   std::vector<result::Result> results_;

@@ -6,7 +6,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _corank
@@ -14,14 +13,15 @@ from ._corank import Expression
 from .errors import deliver, in_python
 from .expression import ExpressionLike, as_expression
 from .optional import require
+from .options import ask, make_options
 from .point import Interval
 from .progress import ProgressOption, Shown
+from .result import Certified, Result
 
 if TYPE_CHECKING:
     import pandas
 
     from .mechanism import Mechanism
-    from .result import Result, Verification
 
 
 class Bounds(NamedTuple):
@@ -107,7 +107,7 @@ def _values(item: Dict[str, Any]) -> Dict[str, Interval]:
     return {name: Interval(v["lo"], v["hi"]) for name, v in item.items()}
 
 
-class Aspects(Analysis):
+class Aspects(Analysis, Certified):
     """The pieces into which singularities divide a C-space.
 
     Attributes:
@@ -146,26 +146,7 @@ class Aspects(Analysis):
         self.euler_characteristic: Optional[int] = self.data.get("euler_characteristic")
         self.cusps_not_known: List[str] = self.data.get("cusps_not_known", [])
         self.reason: str = self.data["reason"]
-
-    def _need(self) -> "_corank.PiecesFile":
-        if self._file is None:
-            raise ValueError(f"there is no certificate: {self.reason or 'aspects() needs certificate=True'}")
-        return self._file
-
-    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the numbers with their proofs (.h5), which `corank verify` checks. Raises ValueError if certificate=True
-        was not given."""
-        self._need().write(os.fspath(path))
-
-    def verify(self, threads: int = 0, *, progress: ProgressOption = None) -> "Verification":
-        """Checks the numbers with code that shares nothing with the code that found them. verified: every lower bound is
-        confirmed; complete: every upper bound, too. Raises ValueError if certificate=True was not given."""
-        from .result import Verification
-
-        with Shown(progress) as show:
-            text, table, raised = _corank.verify_pieces(self._need(), threads, show)
-        report = json.loads(text)
-        return deliver(Verification(report["verified"], report["complete"], report, table), raised)
+        self._missing = f"there is no certificate: {self.reason or 'aspects() needs certificate=True'}"
 
 
 class Clearance(Analysis):
@@ -179,7 +160,7 @@ class Clearance(Analysis):
         free, nearest_result: with claims=True, results whose verify() proves the two bounds again; None if that failed.
     """
 
-    def __init__(self, text: str, table: str, free: Optional["Result"] = None, nearest: Optional["Result"] = None) -> None:
+    def __init__(self, text: str, table: str, free: Optional[Result] = None, nearest: Optional[Result] = None) -> None:
         super().__init__(text, table)
         self.lower, self.upper = _interval(self.data["radius"])
         near = self.data["nearest"]
@@ -238,29 +219,41 @@ def _ranges(ranges: Mapping[str, RangeLike]) -> List[Tuple[str, Expression, Expr
     return [(name, as_expression(lower), as_expression(upper)) for name, (lower, upper) in ranges.items()]
 
 
-def _ball(
-    at: Mapping[str, ExpressionLike],
-    within: Sequence[str],
-    ranges: Optional[Mapping[str, RangeLike]],
-    orientation_range: Optional[ExpressionLike],
-    orientation: Optional[str],
-    orientation_of: str,
-) -> Any:
-    return _corank.Ball(
-        [(name, as_expression(v)) for name, v in at.items()],
-        list(within),
+class _About(NamedTuple):
+    """What the questions about clearances have in common."""
+
+    question: _corank.Question
+    ball: _corank.Ball
+    precision: float
+    options: _corank.Options
+    progress: ProgressOption
+
+
+def _about(
+    mechanism: "Mechanism",
+    at: Optional[Mapping[str, ExpressionLike]] = None,
+    within: Optional[Sequence[str]] = None,
+    set: Optional[str] = None,
+    ranges: Optional[Mapping[str, RangeLike]] = None,
+    orientation_range: Optional[ExpressionLike] = None,
+    orientation: Optional[str] = None,
+    orientation_of: str = "",
+    precision: float = 0.01,
+    threads: int = 0,
+    time_limit: float = 0,
+    max_boxes: int = 0,
+    progress: ProgressOption = None,
+) -> _About:
+    ball = _corank.Ball(
+        [(name, as_expression(v)) for name, v in (at or {}).items()],
+        list(within or ()),
         _ranges(ranges or {}),
         None if orientation_range is None else as_expression(orientation_range),
         orientation,
         orientation_of,
     )
-
-
-def _search(self: "Mechanism", set: Optional[str], threads: int, time_limit: float, max_boxes: int) -> Any:
-    from .mechanism import _options
-
-    chosen = set if set is not None or self._core.plain else "forward"
-    return chosen, _options(threads=threads, time_limit=time_limit, max_boxes=max_boxes)
+    options = make_options(threads=threads, time_limit=time_limit, max_boxes=max_boxes)
+    return _About(ask(mechanism._core, set, "forward"), ball, precision, options, progress)
 
 
 def clearance(
@@ -293,68 +286,53 @@ def clearance(
         precision: end when the bounds of the radius are this close, relative to it.
         claims: also make the results that prove the bounds again.
     """
-    about = _ball(at, within, ranges, orientation_range, orientation, orientation_of)
-    chosen, options = _search(self, set, threads, time_limit, max_boxes)
+    about = _about(
+        self,
+        at,
+        within,
+        set,
+        ranges,
+        orientation_range,
+        orientation,
+        orientation_of,
+        precision,
+        threads,
+        time_limit,
+        max_boxes,
+        progress,
+    )
     with Shown(progress) as show:
-        text, table, free, nearest, raised = _corank.clearance(self._core, chosen, about, precision, claims, options, show)
-    from .result import Result
-
+        text, table, free, nearest, raised = _corank.clearance(
+            about.question, about.ball, precision, claims, about.options, show
+        )
     proven = [None if core is None else Result(core) for core in (free, nearest)]
     return deliver(Clearance(text, table, *proven), raised)
 
 
-def best_center(
-    self: "Mechanism",
-    region: Mapping[str, RangeLike],
-    *,
-    at: Optional[Mapping[str, ExpressionLike]] = None,
-    within: Optional[Sequence[str]] = None,
-    set: Optional[str] = None,
-    ranges: Optional[Mapping[str, RangeLike]] = None,
-    orientation_range: Optional[ExpressionLike] = None,
-    orientation: Optional[str] = None,
-    orientation_of: str = "",
-    precision: float = 0.01,
-    threads: int = 0,
-    time_limit: float = 0,
-    max_boxes: int = 0,
-    progress: ProgressOption = None,
-) -> BestCenter:
+def best_center(self: "Mechanism", region: Mapping[str, RangeLike], **others: Any) -> BestCenter:
     """Finds the centre of the largest ball that holds no singularity, in a region of lengths such as {"x": (0, 1),
     "y": (0, 1)}. Unless `within` names others, the ball lies in the region's coordinates. The other arguments are those of
-    clearance()."""
-    about = _ball(at or {}, list(within or ()), ranges, orientation_range, orientation, orientation_of)
-    chosen, options = _search(self, set, threads, time_limit, max_boxes)
-    with Shown(progress) as show:
-        text, table, raised = _corank.best_center(self._core, chosen, about, _ranges(region), precision, options, show)
+    clearance(), except claims."""
+    about = _about(self, **others)
+    with Shown(about.progress) as show:
+        text, table, raised = _corank.best_center(
+            about.question, about.ball, _ranges(region), about.precision, about.options, show
+        )
     return deliver(BestCenter(text, table), raised)
 
 
 def clearance_map(
-    self: "Mechanism",
-    region: Union[Sequence[str], Mapping[str, RangeLike]],
-    *,
-    grid: int = 24,
-    at: Optional[Mapping[str, ExpressionLike]] = None,
-    within: Optional[Sequence[str]] = None,
-    set: Optional[str] = None,
-    ranges: Optional[Mapping[str, RangeLike]] = None,
-    orientation_range: Optional[ExpressionLike] = None,
-    orientation: Optional[str] = None,
-    orientation_of: str = "",
-    precision: float = 0.01,
-    threads: int = 0,
-    time_limit: float = 0,
-    max_boxes: int = 0,
-    progress: ProgressOption = None,
+    self: "Mechanism", region: Union[Sequence[str], Mapping[str, RangeLike]], *, grid: int = 24, **others: Any
 ) -> ClearanceMap:
     """Computes the clearance over a grid of centres in two lengths: ("x", "y") within their declared ranges, or
-    {"x": (0, 1), …}. `grid` is the number of cells along each side. The other arguments are those of clearance()."""
-    about = _ball(at or {}, list(within or ()), ranges, orientation_range, orientation, orientation_of)
-    chosen, options = _search(self, set, threads, time_limit, max_boxes)
-    sides = _ranges(region) if isinstance(region, Mapping) else _corank.declared_ranges(self._core, chosen, list(region))
-    with Shown(progress) as show:
-        text, table, raised = _corank.clearance_map(self._core, chosen, about, sides, grid, precision, options, show)
+    {"x": (0, 1), …}. `grid` is the number of cells along each side. The other arguments are those of clearance(), except
+    claims."""
+    about = _about(self, **others)
+    sides = _ranges(region) if isinstance(region, Mapping) else _corank.declared_ranges(about.question, list(region))
+    with Shown(about.progress) as show:
+        text, table, raised = _corank.clearance_map(
+            about.question, about.ball, sides, grid, about.precision, about.options, show
+        )
     return deliver(ClearanceMap(text, table), raised)
 
 
@@ -375,5 +353,6 @@ def area(
         anyway: if the boundary does not give bounds, divide the plane itself; this takes long.
     """
     with Shown(progress) as show:
-        bounds = _corank.area(self._core, list(outputs), threads, time_limit, anyway, show)
+        question = _corank.Question(self._core, "boundary", outputs=list(outputs))
+        bounds = _corank.area(question, threads, time_limit, anyway, show)
     return None if bounds is None else Interval(*bounds)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import json
-import os
-from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Tuple
 
 from . import _corank
 from .analyses import Analysis, RangeLike, _ranges
 from .errors import Interrupted, deliver
 from .expression import ExpressionLike, as_expression
 from .optional import require
+from .options import ask
 from .progress import ProgressOption, Shown
+from .result import Certified
 
 if TYPE_CHECKING:
     import numpy
@@ -19,10 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .mechanism import Mechanism
-    from .result import Verification
 
 
-class ParameterMap(Analysis):
+class ParameterMap(Analysis, Certified):
     """A number over a plane of two parameters, cell by cell.
 
     Attributes:
@@ -37,6 +36,8 @@ class ParameterMap(Analysis):
         boundary_known: do the boxes of boundary() hold all values in undecided cells at which two solutions meet?
     """
 
+    _missing = "there is no certificate: map() needs certificate=True"
+
     def __init__(self, text: str, table: str, file: Optional["_corank.MapFile"] = None) -> None:
         super().__init__(text, table)
         self._file = file
@@ -49,27 +50,6 @@ class ParameterMap(Analysis):
         self.proven_share: float = self.data["proven_share"]
         self.complete: bool = self.data["complete"]
         self.boundary_known: bool = self.data["boundary_known"]
-
-    def _need(self) -> "_corank.MapFile":
-        if self._file is None:
-            raise ValueError("there is no certificate: map() needs certificate=True")
-        return self._file
-
-    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the proven cells with their proofs (.h5), which `corank verify` checks. Raises ValueError if
-        certificate=True was not given."""
-        self._need().write(os.fspath(path))
-
-    def verify(self, threads: int = 0, *, progress: ProgressOption = None) -> "Verification":
-        """Checks the proven cells with code that shares nothing with the code that found them. verified: for every value in
-        each cell there are at least as many solutions as claimed; complete: also at most as many. Raises ValueError if
-        certificate=True was not given."""
-        from .result import Verification
-
-        with Shown(progress) as show:
-            text, table, raised = _corank.verify_map(self._need(), threads, show)
-        report = json.loads(text)
-        return deliver(Verification(report["verified"], report["complete"], report, table), raised)
 
     def to_pandas(self) -> "pandas.DataFrame":
         """Returns a data frame with a row for each cell: its lower and upper ends, its kind and the numbers `count` and
@@ -191,8 +171,7 @@ def map(
     if certificate and (count != "solutions" or client is not None):
         raise ValueError('certificate: expected count="solutions" and no client')
     core = _corank.ParameterMap(
-        self._core,
-        set,
+        ask(self._core, set),
         _ranges(over),
         [(name, as_expression(value)) for name, value in (fixed or {}).items()],
         count,

@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Union
 
-from . import _corank, analyses, mapping, notebook, pages, pathing, sweeping
+from . import _corank, analyses, mapping, notebook, pages, pathing, result, sweeping
 from ._corank import Expression
 from .errors import deliver
 from .expression import ExpressionLike, RelationLike, as_expression, as_relation, pi, text_of
+from .options import ask, make_options
 from .progress import ProgressOption, Shown
 from .result import PathLike, Result
 
@@ -197,7 +198,7 @@ class Mechanism:
         """
         if set is None and not self._core.plain:
             set = "cspace"
-        return _corank.derive(self._core, set, kernel, corank, list(outputs), format)
+        return _corank.derive(_corank.Question(self._core, set, kernel, corank, list(outputs)), format)
 
     def solve(
         self,
@@ -252,7 +253,7 @@ class Mechanism:
             OptionError: if a number is out of its range.
             Interrupted: on Ctrl-C, with the partial result.
         """
-        options = _options(
+        options = make_options(
             sigma=sigma,
             sigma_length=sigma_length,
             sigma_angle=sigma_angle,
@@ -265,13 +266,14 @@ class Mechanism:
             memory_limit=memory_limit,
             coarser=coarser,
         )
+        question = _corank.Question(self._core, set, kernel, corank, list(outputs), tolerance)
         if client is not None:
             from . import cluster  # needs a package that is not always there
 
-            run = _corank.SpreadRun(self._core, set, kernel, corank, list(outputs), tolerance, options, digits)
+            run = _corank.SpreadRun(question, options, digits)
             return cluster.solve_run(run, client, cluster.Plan(threads=threads or 1), progress=progress)
         with Shown(progress) as show:
-            core, raised = _corank.solve(self._core, set, kernel, corank, list(outputs), tolerance, options, digits, show)
+            core, raised = _corank.solve(question, options, digits, show)
         return deliver(Result(core), raised)
 
     def topology(
@@ -285,7 +287,7 @@ class Mechanism:
             time_limit: in seconds; 0: no limit.
         """
         with Shown(progress) as show:
-            json, text, raised = _corank.topology(self._core, threads, refinements, time_limit, show)
+            json, text, raised = _corank.topology(ask(self._core), threads, refinements, time_limit, show)
         return deliver(analyses.Topology(json, text), raised)
 
     def aspects(
@@ -313,7 +315,7 @@ class Mechanism:
         """
         with Shown(progress) as show:
             json, text, file, raised = _corank.aspects(
-                self._core, threads, halvings, rounds, cusps, areas, certificate, time_limit, show
+                ask(self._core), threads, halvings, rounds, cusps, areas, certificate, time_limit, show
             )
         return deliver(analyses.Aspects(json, text, file), raised)
 
@@ -346,14 +348,7 @@ class Mechanism:
         return Mechanism._of, (self._core,)
 
 
-def _options(**values: Any) -> _corank.Options:
-    options = _corank.Options()
-    for name, value in values.items():
-        if name == "memory_limit" and value is None:
-            continue  # the machine's
-        setattr(options, name, value)
-    options.validate()
-    return options
+result._mechanism_of = Mechanism._of
 
 
 def load(path: PathLike, loops: Optional[PathLike] = None, **constants: ExpressionLike) -> Mechanism:

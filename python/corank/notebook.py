@@ -6,6 +6,8 @@ import html
 import os
 from typing import TYPE_CHECKING, Any, List, Optional, Union
 
+from .point import _short
+
 if TYPE_CHECKING:
     from .mechanism import Mechanism
     from .result import Result
@@ -64,17 +66,11 @@ def result_html(result: "Result") -> str:
     points = result.points
     if points:
         names = result.coordinates
-        listed = [[p.verdict, ", ".join(p.types), *(_value(p[n]) for n in names)] for p in points[:_MOST_POINTS]]
+        listed = [[p.verdict, ", ".join(p.types), *(_short(p[n]) for n in names)] for p in points[:_MOST_POINTS]]
         text += _table(listed, ["point", "types", *names])
         if len(points) > _MOST_POINTS:
             text += f"<p>and {len(points) - _MOST_POINTS} more</p>"
     return text
-
-
-def _value(value: Any) -> str:
-    from .point import _short
-
-    return _short(value)
 
 
 def mechanism_html(mechanism: "Mechanism") -> str:

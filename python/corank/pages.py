@@ -36,29 +36,6 @@ class Report(notebook.Page):
         self.complete = all(r.complete and r.stopped is None for r in self.results)
 
 
-def portrait_axes(mechanism: "Mechanism", first: Sequence[str]) -> List[str]:
-    """The two coordinates of a portrait: the first of these, then outputs, inputs and others; none with a range of one
-    value."""
-    movable = [c.name for c in mechanism.coordinates if c.lower is None or str(c.lower) != str(c.upper)]
-    names = [*first, *mechanism.outputs, *mechanism.inputs, *movable]
-    return [n for n in dict.fromkeys(names) if n in movable][:2]
-
-
-def write_figures(folder: str, mechanism: "Mechanism", results: Sequence[Result]) -> List[str]:
-    """output-portrait and input-portrait, each as .svg and, where corank was built with Cairo, .pdf, into figures/; their names."""
-    names: List[str] = []
-    shown = [r._core for r in results if len(r)]
-    os.makedirs(os.path.join(folder, "figures"), exist_ok=True)
-    for name, first in (("output-portrait", mechanism.outputs), ("input-portrait", mechanism.inputs)):
-        axes = portrait_axes(mechanism, first)
-        if len(axes) < 2 or not shown:
-            continue
-        for extension in (".svg", ".pdf") if _corank.can_write_pdf() else (".svg",):
-            names.append(f"figures/{name}{extension}")
-            _corank.write_portrait(os.path.join(folder, names[-1]), shown, axes, "set", "", 85)
-    return names
-
-
 def report(
     self: "Mechanism",
     path: Optional[PathLike] = None,
@@ -119,7 +96,7 @@ def report(
     if path is None:
         return Report(_corank.report_page(cores, command, [], [], aspects), found, None)
     folder = os.fspath(path)
-    figures = write_figures(folder, found[0].mechanism if found else self, found)
+    figures = [f"figures/{name}" for name in _corank.write_figures(os.path.join(folder, "figures"), cores)]
     files = [f"{r.set}.h5" for r in found]
     for r, file in zip(found, files):
         r.save(os.path.join(folder, file))

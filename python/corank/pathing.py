@@ -10,7 +10,9 @@ from . import _corank
 from .errors import ModelError, deliver
 from .expression import ExpressionLike, as_expression
 from .notebook import Page
+from .options import ask
 from .progress import ProgressOption, Shown
+from .result import Certified
 
 if TYPE_CHECKING:
     import pandas
@@ -24,7 +26,7 @@ _MOST_BOXES = 100_000
 _TITLES: Dict[str, str] = {s[0]: s[1] for s in _corank.sets}
 
 
-class Path:
+class Path(Certified):
     """A path, or the proof that there is none, or neither. In a condition it is True if there is a path. str() is the table
     that the command prints.
 
@@ -62,6 +64,7 @@ class Path:
         self.radii: List[float] = self.data.get("radii") or []
         self.length: Optional[float] = self.data["length"]
         self.reason: Optional[str] = self.data["reason"]
+        self._missing = f"there is no path: {self.reason or self.status}"
 
     def __bool__(self) -> bool:
         return self.status == "path"
@@ -72,20 +75,11 @@ class Path:
     def __repr__(self) -> str:
         return f"<path: {' '.join(self._table.split())[:200]}>"
 
-    def _need(self) -> "_corank.PathFile":
-        if self._file is None:
-            raise ValueError(f"there is no path: {self.reason or self.status}")
-        return self._file
-
-    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the path with its tube (.h5), which `corank verify` checks. Raises ValueError if there is no path."""
-        self._need().write(os.fspath(path))
-
-    def verify(self, *, progress: ProgressOption = None) -> bool:
+    def verify(self, *, progress: ProgressOption = None) -> bool:  # type: ignore[override]
         """Checks the tube with code that shares nothing with the code that found it. Raises ValueError if there is no
         path."""
         with Shown(progress) as show:
-            text, _, raised = _corank.verify_path(self._need(), show)
+            text, _, raised = self._need().verify(1, show)
         return bool(deliver(json.loads(text), raised)["verified"])
 
     def animate(
@@ -172,6 +166,6 @@ def path(
     ends = [[(name, as_expression(v)) for name, v in values.items()] for values in (start, end)]
     with Shown(progress) as show:
         text, table, file, picture, raised = _corank.path(
-            self._core, ends[0], start_mode, ends[1], end_mode, avoid, radius, threads, max_boxes, time_limit, show
+            ask(self._core), ends[0], start_mode, ends[1], end_mode, avoid, radius, threads, max_boxes, time_limit, show
         )
     return deliver(Path(text, table, file, picture, self), raised)

@@ -6,9 +6,9 @@ import functools
 import json
 import os
 import tempfile
-from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
-from . import _corank, notebook, plotting
+from . import _corank, exact, notebook, plotting
 from .errors import deliver, in_python
 from .optional import require
 from .point import Interval, Point
@@ -23,6 +23,9 @@ else:
     from .optional import numpy as np
 
 PathLike = Union[str, "os.PathLike[str]"]
+
+#: Makes the mechanism of a result. mechanism.py, which imports this module, sets it.
+_mechanism_of: Callable[[_corank.Model], "Mechanism"]
 
 
 class Angle(NamedTuple):
@@ -57,6 +60,36 @@ class Verification(NamedTuple):
 
     def __bool__(self) -> bool:
         return self.verified
+
+
+def verification(text: str, table: str) -> Verification:
+    """Of the JSON text and the table that the checker gives."""
+    report = json.loads(text)
+    return Verification(report["verified"], report["complete"], report, table)
+
+
+class Certified:
+    """What an analysis has found with its proofs, if they were asked for."""
+
+    _file: Any = None
+    _missing = "there is no certificate: expected certificate=True"
+
+    def _need(self) -> Any:
+        if self._file is None:
+            raise ValueError(self._missing)
+        return self._file
+
+    def save(self, path: PathLike) -> None:
+        """Writes the claims with their proofs (.h5), which `corank verify` checks. Raises ValueError if certificate=True was
+        not given."""
+        self._need().write(os.fspath(path))
+
+    def verify(self, threads: int = 0, *, progress: ProgressOption = None) -> Verification:
+        """Checks the claims with code that shares nothing with the code that found them. verified: every lower bound is
+        confirmed; complete: every upper bound, too. Raises ValueError if certificate=True was not given."""
+        with Shown(progress) as show:
+            text, table, raised = self._need().verify(threads, show)
+        return deliver(verification(text, table), raised)
 
 
 class Result:
@@ -189,8 +222,6 @@ class Result:
     def exact_points(self) -> List[Dict[str, Any]]:
         """The points of the set that are known exactly, such as those where the kernel has dimension 2: the value of each
         variable as a number of SymPy."""
-        from . import exact
-
         return [exact.coordinates(p) for p in self._core.exact_points]
 
     @property
@@ -215,10 +246,8 @@ class Result:
     @property
     def mechanism(self) -> "Mechanism":
         """The mechanism that was solved, with the values of its constants."""
-        from .mechanism import Mechanism
-
         text = (self._core.model_text, self._core.model + ".cuik", "")
-        return Mechanism._of(_corank.parse(text, None, self._core.constants))
+        return _mechanism_of(_corank.parse(text, None, self._core.constants))
 
     @property
     def set(self) -> str:
@@ -338,8 +367,8 @@ class Result:
             Interrupted: on Ctrl-C, with what was checked by then.
         """
         with Shown(progress) as show:
-            report, table, verified, complete, raised = self._core.verify(threads, show)
-        return deliver(Verification(verified, complete, json.loads(report), table), raised)
+            text, table, raised = self._core.verify(threads, show)
+        return deliver(verification(text, table), raised)
 
     def plot(self, *axes: str, ax: Any = None, color: str = "set", **style: Any) -> Any:
         """Draws the boxes into axes of matplotlib, over two coordinates, or over three in 3-D axes; see corank.plot()."""

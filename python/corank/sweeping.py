@@ -79,7 +79,7 @@ class Sweep(Sequence[Member]):
         if not self._members:
             raise ValueError("the family has no member")
         first = self._members[0]
-        axes = pages.portrait_axes(first.mechanism, first.mechanism.outputs)
+        axes = first.mechanism._core.portrait_axes()
         if len(axes) < 2:
             raise ValueError(f"{first.mechanism.name}: a portrait needs two coordinates that vary")
         members = [
@@ -93,19 +93,16 @@ class Sweep(Sequence[Member]):
     def report(self, path: PathLike) -> "notebook.Page":
         """Writes the page, the results and small multiples for a paper into a folder."""
         folder = os.fspath(path)
-        os.makedirs(os.path.join(folder, "figures"), exist_ok=True)
-        digits = len(str(self.asked))
-        files = [[f"member-{k + 1:0{digits}}-{name}.h5" for name in m.results] for k, m in enumerate(self._members)]
+        figures = _corank.write_family_figures(
+            os.path.join(folder, "figures"),
+            [[r._core for r in m.results.values()] for m in self._members],
+            self._members[0].mechanism._core.portrait_axes(),
+            [f"{self.constant} = {m.value}" for m in self._members],
+        )
+        files = [[_corank.member_file(k, self.asked, name) for name in m.results] for k, m in enumerate(self._members)]
         for names, m in zip(files, self._members):
             for file, r in zip(names, m.results.values()):
                 r.save(os.path.join(folder, file))
-        first = self._members[0]
-        figures = _corank.write_small_multiples(
-            os.path.join(folder, "figures"),
-            [[r._core for r in m.results.values()] for m in self._members],
-            pages.portrait_axes(first.mechanism, first.mechanism.outputs),
-            [f"{self.constant} = {m.value}" for m in self._members],
-        )
         page = self.page([f"figures/{name}" for name in figures], files)
         page.path = os.path.join(folder, "index.html")
         page.save(page.path)

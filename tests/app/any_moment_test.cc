@@ -11,7 +11,7 @@
 #include <regex>
 #include <set>
 
-#include "corank/app/command_control.h"
+#include "corank/app/limited_run.h"
 #include "corank/app/run.h"
 #include "corank/tests/app/program.h"
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "corank/app/figures.h"
+#include "corank/report/figures.h"
 #include "corank/result/result_file.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
@@ -85,11 +85,14 @@ TEST(Figures, AreLeftOutAfterAnInterrupt) {
   result::describe_system(algebrize(singularity_system(mechanism, symbolic::SingularitySet::cspace)), result);
   result.cover.boxes.push_back({Box(result.variables.size(), Interval(0, 1)), Verdict::pending, {}});
   std::atomic<bool> stop{false};
-  const Figures all = write_figures(folder.file(""), mechanism, {report::set_view(mechanism, result)}, stop);
+  const auto figures = [&] {
+    return report::write_figures(folder.file(""), mechanism, {report::picture_view(result, result.set)}, {&stop});
+  };
+  const report::Figures all = figures();
   EXPECT_FALSE(all.stopped);
   EXPECT_EQ(all.files.size(), 4u);
   stop = true;
-  const Figures none = write_figures(folder.file(""), mechanism, {report::set_view(mechanism, result)}, stop);
+  const report::Figures none = figures();
   EXPECT_TRUE(none.stopped);
   EXPECT_TRUE(none.files.empty());
 }

@@ -119,8 +119,8 @@ def test_what_a_worker_that_hangs_holds_is_done_by_another(client, dextar, cspac
 
 
 def test_a_unit_that_is_answered_twice_counts_once(dextar, cspace):
-    options = corank.mechanism._options(sigma=SIGMA)
-    run = _corank.SpreadRun(dextar._core, "cspace", None, 1, [], None, options, 0)
+    options = corank.options.make_options(sigma=SIGMA)
+    run = _corank.SpreadRun(_corank.Question(dextar._core, "cspace"), options, 0)
     run.begin(None)
     while not run.done:
         for unit in run.take_units(2):
@@ -231,8 +231,8 @@ def test_what_a_limit_has_left_goes_on_from_the_result_and_from_the_checkpoint(m
 
 
 def test_a_full_disk_leaves_the_last_good_checkpoint(dextar, tmp_path, capfd):
-    options = corank.mechanism._options(sigma=SIGMA)
-    run = _corank.SpreadRun(dextar._core, "cspace", None, 1, [], None, options, 0)
+    options = corank.options.make_options(sigma=SIGMA)
+    run = _corank.SpreadRun(_corank.Question(dextar._core, "cspace"), options, 0)
     run.begin(None)
     kept = cluster.Checkpoints(tmp_path / "kept", 60, [], [])
     kept.keep(run, now=True)
@@ -305,8 +305,8 @@ def test_a_killed_client_resumes_to_the_same_file(models, cspace, tmp_path):
 
 
 def test_a_run_goes_on_from_its_checkpoint_and_another_question_does_not(client, dextar, cspace, tmp_path):
-    options = corank.mechanism._options(sigma=SIGMA)
-    run = _corank.SpreadRun(dextar._core, "cspace", None, 1, [], None, options, 0)
+    options = corank.options.make_options(sigma=SIGMA)
+    run = _corank.SpreadRun(_corank.Question(dextar._core, "cspace"), options, 0)
     run.begin(None)
     run.add(_corank.run_unit(run.prepared, run.take_units(1)[0], 500, 0, 1))
     cluster.Checkpoints(tmp_path / "kept", 60, ["--set", "cspace"], [("FILE", "m.cuik", "text")]).keep(run, now=True)

@@ -36,6 +36,29 @@ def test_the_stubs_name_what_the_module_has():
         assert {n for n in names_in(node.body) if not n.startswith("_")} == has, node.name
 
 
+def imports_of(body, names):
+    """The modules of the package that are imported at some time, by names without the package's; annotations need none."""
+    for node in body:
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
+            yield from imports_of(node.orelse, names)
+            continue
+        if isinstance(node, ast.ImportFrom) and node.level:
+            module = node.module or ""
+            yield from (n for n in [module, *(f"{module}.{a.name}".strip(".") for a in node.names)] if n in names)
+        yield from imports_of(ast.iter_child_nodes(node), names)
+
+
+def test_no_module_imports_itself_by_way_of_others():
+    folder = STUBS.parent
+    names = {".".join(p.relative_to(folder).with_suffix("").parts) for p in folder.glob("*.py")} - {"__init__"}
+    uses = {n: set(imports_of(ast.parse((folder / f"{n}.py").read_text()).body, names)) for n in names}
+    assert uses["mechanism"] >= {"analyses", "result"}
+    while uses:
+        free = {n for n, used in uses.items() if not used & uses.keys()}
+        assert free, f"a circle among {sorted(uses)}"
+        uses = {n: used for n, used in uses.items() if n not in free}
+
+
 def public():
     for name in corank.__all__:
         item = getattr(corank, name)

@@ -1,5 +1,5 @@
 // Whether a robot can be assembled, against triangle inequalities.
-#include "corank/study/assembly_search.h"
+#include "corank/study/search_steps.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -11,6 +11,7 @@ from distributed import Client
 
 from .. import _corank
 from ..errors import ResultFileError
+from ..options import make_options
 from ..progress import ProgressOption, Shown
 from ..result import PathLike, Result
 from .units import ClusterError, Plan, Units, check_versions
@@ -200,9 +201,8 @@ def solve(
     Raises:
         ClusterError: where the cluster cannot do the work.
     """
-    from ..mechanism import _options
-
-    run = _corank.SpreadRun(mechanism._core, set, kernel, corank, list(outputs), tolerance, _options(**options), digits)
+    question = _corank.Question(mechanism._core, set, kernel, corank, list(outputs), tolerance)
+    run = _corank.SpreadRun(question, make_options(**options), digits)
     return solve_run(run, client, plan, checkpoints, progress)
 
 

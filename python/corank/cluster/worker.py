@@ -9,6 +9,7 @@ import numpy as np
 from .. import _corank
 from ..analyses import _ranges
 from ..expression import as_expression
+from ..options import ask
 
 
 def run_unit(prepared: bytes, unit: bytes, seconds: float, threads: int) -> np.ndarray:
@@ -22,7 +23,7 @@ def run_unit(prepared: bytes, unit: bytes, seconds: float, threads: int) -> np.n
 def _parameter_map(question: bytes) -> Any:
     mechanism, set, over, fixed, count, resolution, boundary = pickle.loads(question)
     values = [(name, as_expression(value)) for name, value in fixed.items()]
-    return _corank.ParameterMap(mechanism._core, set, _ranges(over), values, count, resolution, boundary)
+    return _corank.ParameterMap(ask(mechanism._core, set), _ranges(over), values, count, resolution, boundary)
 
 
 def run_tile(question: bytes, unit: bytes, seconds: float, threads: int) -> np.ndarray:

@@ -1,4 +1,4 @@
-#include "corank/app/early_searches.h"
+#include "corank/study/early_searches.h"
 
 #include <algorithm>
 #include <exception>
@@ -7,7 +7,7 @@
 
 #include "corank/symbolic/set_definition.h"
 
-namespace corank::app {
+namespace corank::study {
 namespace {
 
 std::uint64_t lesser(std::uint64_t limit, std::uint64_t most) { return limit > 0 ? std::min(limit, most) : most; }
@@ -22,21 +22,21 @@ std::size_t workers(std::size_t tasks, int threads) {
   return threads > 1 ? std::min(tasks, static_cast<std::size_t>(threads)) : 0;
 }
 
-std::optional<EarlyFind> search(const EarlyTask& task) {
+std::optional<Cover> search(const EarlyTask& task) {
   if (!goes_without_model(task.set)) return std::nullopt;
   solve::Control::Limits limits = task.limits;
   limits.boxes = lesser(limits.boxes, EarlySearches::kBoxes);
   limits.memory = lesser(limits.memory, EarlySearches::kBytes);
   solve::Control control(limits);
-  study::Options options = task.options;
+  Options options = task.options;
   options.search.threads = 1;
-  const study::Asked asked{solve::prepare(task.system, options.search, control)};
+  const Asked asked{solve::prepare(task.system, options.search, control)};
   Cover cover = solve::solve(asked.prepared, control);
   if (control.ending()) return std::nullopt;
-  study::settle(task.set, task.blocks, options, asked, cover, control);
+  settle(task.set, task.blocks, options, asked, cover, control);
   if (control.ending() || !cover.complete()) return std::nullopt;
-  report::Components components = report::components(cover.boxes, static_cast<std::size_t>(task.system.configuration_size));
-  return EarlyFind{std::move(cover), std::move(components)};
+  if (task.then) task.then(cover);
+  return cover;
 }
 
 std::size_t kinds(const std::vector<EarlyTask>& tasks) {
@@ -78,7 +78,7 @@ void EarlySearches::work() {
     const std::size_t i = next_++, kind = tasks_[i].kind;
     if (!not_small_[kind]) {
       lock.unlock();
-      std::optional<EarlyFind> found;
+      std::optional<Cover> found;
       try {
         found = search(tasks_[i]);
       } catch (const std::exception&) {  // it will be thrown again, in its turn
@@ -92,7 +92,7 @@ void EarlySearches::work() {
   }
 }
 
-std::optional<EarlyFind> EarlySearches::take(std::size_t i) {
+std::optional<Cover> EarlySearches::take(std::size_t i) {
   std::unique_lock lock(mutex_);
   asked_ = i;
   changed_.notify_all();
@@ -100,4 +100,4 @@ std::optional<EarlyFind> EarlySearches::take(std::size_t i) {
   return std::exchange(found_[i], std::nullopt);
 }
 
-}  // namespace corank::app
+}  // namespace corank::study

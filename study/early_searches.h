@@ -4,30 +4,25 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
 
-#include "corank/report/components.h"
 #include "corank/study/search_steps.h"
 
-namespace corank::app {
+namespace corank::study {
 
 /// A search to be made early. What it refers to has to outlive it.
 struct EarlyTask {
   std::optional<symbolic::SingularitySet> set;  ///< of the question
-  const System& system;                         ///< study::system(question)
-  std::optional<VelocityBlocks> blocks;         ///< study::type_blocks(question)
-  study::Options options;
+  const System& system;                         ///< system(question)
+  std::optional<VelocityBlocks> blocks;         ///< type_blocks(question)
+  Options options;
   solve::Control::Limits limits;
   std::size_t kind = 0;  ///< of the same kind are alike: where one is not small, the others are not tried any more
-};
-
-/// What study::describe() and report::set_view() take.
-struct EarlyFind {
-  Cover cover;
-  report::Components components;
+  std::function<void(const Cover&)> then{};  ///< called with what is found, by the thread that has found it
 };
 
 class EarlySearches {
@@ -41,9 +36,9 @@ class EarlySearches {
   EarlySearches(const EarlySearches&) = delete;
   EarlySearches& operator=(const EarlySearches&) = delete;
 
-  /// What task i has found, each asked for once and in ascending order; waits for it. Nothing where the search is not small
-  /// or like one that was not, where a limit or an interrupt has ended it, or where it has failed.
-  std::optional<EarlyFind> take(std::size_t i);
+  /// What task i has found, for describe(), each asked for once and in ascending order; waits for it. Nothing where the
+  /// search is not small or like one that was not, where a limit or an interrupt has ended it, or where it has failed.
+  std::optional<Cover> take(std::size_t i);
 
  private:
   void work();
@@ -56,8 +51,8 @@ class EarlySearches {
   std::size_t next_ = 0, asked_ = 0;  // the next task, and the one that is asked for
   bool over_ = false;
   std::vector<bool> done_, not_small_;  // of tasks; of kinds
-  std::vector<std::optional<EarlyFind>> found_;
+  std::vector<std::optional<Cover>> found_;
   std::vector<std::thread> threads_;
 };
 
-}  // namespace corank::app
+}  // namespace corank::study
