@@ -1,6 +1,8 @@
 // corank verify: re-checks a result file against the model that it holds, with the independent checker.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -66,55 +68,43 @@ result::Verification check(const result::Result& result, const System& system, c
   std::_Exit(kIncomplete);
 }
 
-ExitStatus status(const result::Verification& verification, const VerifyCommand& command) {
-  if (verification.complete()) return kDone;
-  if (verification.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
-  const check::Report& report = verification.report;
-  if (report.left_out > 0 && verification.contradictions.empty() && report.confirmed()) return kIncomplete;
-  const bool open = report.interrupted && report.failures.empty();
+// `complete`: nothing is missing either; `open`: the check ended early, and had found nothing wrong.
+ExitStatus status(const VerifyCommand& command, bool complete, bool verified, bool open) {
+  if (complete) return kDone;
+  if (verified) return command.require_proof ? kBadInput : kNotShownComplete;
   return open ? kIncomplete : kBadInput;
 }
 
+ExitStatus status(const result::Verification& verification, const VerifyCommand& command) {
+  const check::Report& report = verification.report;
+  const bool good_sample = report.left_out > 0 && verification.contradictions.empty() && report.confirmed();
+  return status(command, verification.complete(), verification.verified(),
+                good_sample || (report.interrupted && report.failures.empty()));
+}
+
 // Reads a certificate, checks it, and prints what comes of it.
-template <class File>
-auto checked(const VerifyCommand& command, Watch& watch, const Ended& ended, File (*read)(const std::filesystem::path&)) {
-  const File file = read(command.input);
+template <auto kRead>
+ExitStatus verify_certificate(const VerifyCommand& command, Watch& watch, const Ended& ended) {
+  const auto file = kRead(command.input);
   watch.enter("the check");
   check::Options options;
   options.threads = command.threads;
   options.ended = ended;
-  auto report = result::verify(file, options);
+  const auto report = result::verify(file, options);
   watch.done();
   if (command.json.say([&] { return result::to_json(report, file); })) fmt::print("{}", result::to_table(report, file));
-  return report;
+  return status(command, report.complete(), report.verified(), report.interrupted && report.failures.empty());
 }
 
-// A path's claims leave nothing out: its check has no completeness beside it.
-ExitStatus verify_path(const VerifyCommand& command, Watch& watch, const Ended& ended) {
-  const check::TubeReport report = checked(command, watch, ended, &result::read_path);
-  return report.verified() ? kDone : report.failures.empty() ? kIncomplete : kBadInput;
-}
+struct Certificate {
+  const char* format;
+  ExitStatus (*verify)(const VerifyCommand& command, Watch& watch, const Ended& ended);
+};
 
-ExitStatus verify_shape(const VerifyCommand& command, Watch& watch, const Ended& ended) {
-  const check::ShapeReport report = checked(command, watch, ended, &result::read_shape);
-  if (report.complete()) return kDone;
-  if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
-  return report.failures.empty() ? kIncomplete : kBadInput;
-}
-
-ExitStatus verify_pieces(const VerifyCommand& command, Watch& watch, const Ended& ended) {
-  const check::PiecesReport report = checked(command, watch, ended, &result::read_pieces);
-  if (report.complete()) return kDone;
-  if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
-  return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
-}
-
-ExitStatus verify_map(const VerifyCommand& command, Watch& watch, const Ended& ended) {
-  const check::MapReport report = checked(command, watch, ended, &result::read_map);
-  if (report.complete()) return kDone;
-  if (report.verified()) return command.require_proof ? kBadInput : kNotShownComplete;
-  return report.interrupted && report.failures.empty() ? kIncomplete : kBadInput;
-}
+constexpr std::array kCertificates{Certificate{result::kPathKind.format, &verify_certificate<&result::read_path>},
+                                   Certificate{result::kShapeKind.format, &verify_certificate<&result::read_shape>},
+                                   Certificate{result::kPiecesKind.format, &verify_certificate<&result::read_pieces>},
+                                   Certificate{result::kMapKind.format, &verify_certificate<&result::read_map>}};
 
 ExitStatus verify(VerifyCommand command) {
   command.json.give_back(command.input, "RESULT");
@@ -125,14 +115,14 @@ ExitStatus verify(VerifyCommand command) {
   const Ended ended = [&] { return watch.stop() || control.ended(); };
   watch.enter("reading the file");
   const std::string format = result::format_of(command.input);
-  if (command.sample > 0 && (format == result::kPathFormat || format == result::kShapeFormat ||
-                             format == result::kPiecesFormat || format == result::kMapFormat))
-    throw UsageError(
-        fmt::format("--sample: without effect; expected the result of a search, which {} is not", command.input));
-  if (format == result::kPathFormat) return verify_path(command, watch, ended);
-  if (format == result::kShapeFormat) return verify_shape(command, watch, ended);
-  if (format == result::kPiecesFormat) return verify_pieces(command, watch, ended);
-  if (format == result::kMapFormat) return verify_map(command, watch, ended);
+  const auto certificate =
+      std::ranges::find(kCertificates, format, [](const Certificate& c) { return std::string(c.format); });
+  if (certificate != kCertificates.end()) {
+    if (command.sample > 0)
+      throw UsageError(
+          fmt::format("--sample: without effect; expected the result of a search, which {} is not", command.input));
+    return certificate->verify(command, watch, ended);
+  }
   const result::Result result = result::read_result(command.input);
   watch.enter("deriving the equations from the model");
   const System system = result::system_of(result);

@@ -19,6 +19,7 @@ struct TubeReport {
   std::vector<std::string> failures;
   bool interrupted = false;
   bool verified() const { return failures.empty() && !interrupted; }
+  bool complete() const { return verified(); }  ///< its claims leave nothing out
 };
 
 /// A matrix is to have the rank of its columns, or of its rows that are not 0 everywhere, whichever are fewer. Never throws

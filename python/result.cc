@@ -14,6 +14,7 @@
 #include "corank/result/exact_angle.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/result_file.h"
+#include "corank/result/stored_list.h"
 #include "corank/result/summary.h"
 #include "corank/result/tallies.h"
 #include "corank/result/verification.h"
@@ -230,15 +231,10 @@ void bind_result(py::module_& module) {
   module.def("read_result", &read);
   // With the process its memory goes at once: to free ten million boxes one by one takes seconds.
   module.def("keep_to_the_end", [](const py::object& result) { result.inc_ref(); });
-  std::vector<std::string> verdicts, reasons, types, passages;
-  for (int v = 0; v < kVerdicts; ++v) verdicts.emplace_back(to_string(static_cast<Verdict>(v)));
-  for (int r = 0; r < kReasons; ++r) reasons.emplace_back(to_string(static_cast<Reason>(r)));
-  for (const SingularityType t : kSingularityTypes) types.emplace_back(to_string(t));
-  for (int p = 0; p < kPassages; ++p) passages.emplace_back(to_string(static_cast<Passage>(p)));
-  module.attr("verdicts") = py::tuple(py::cast(verdicts));
-  module.attr("reasons") = py::tuple(py::cast(reasons));
-  module.attr("types") = py::tuple(py::cast(types));
-  module.attr("passages") = py::tuple(py::cast(passages));
+  module.attr("verdicts") = py::tuple(py::cast(result::words_of<Verdict>(kVerdicts)));
+  module.attr("reasons") = py::tuple(py::cast(result::words_of<Reason>(kReasons)));
+  module.attr("types") = py::tuple(py::cast(result::type_names(kAllTypes)));
+  module.attr("passages") = py::tuple(py::cast(result::words_of<Passage>(kPassages)));
 }
 
 }  // namespace corank::python

@@ -217,8 +217,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string&
         refuse(path,
                "this result does not hold the state of a search; expected a result that a limit ended, or one made by "
                "corank solve --keep-sheets");
-      std::vector<std::uint8_t> data;
-      file.read(kArray, data);
+      const auto data = file.vector<std::uint8_t>(kArray);
       bytes.assign(data.begin(), data.end());
     } else {
       in.clear();

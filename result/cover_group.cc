@@ -1,15 +1,16 @@
 #include "corank/result/cover_group.h"
 
+#include <algorithm>
+
 #include "corank/core/check.h"
 #include "corank/result/certificate_file.h"
+#include "corank/result/stored_list.h"
 
 namespace corank::result {
 
-std::vector<std::string> verdict_words() {
-  std::vector<std::string> words;
-  for (int i = 0; i < kVerdicts; ++i) words.emplace_back(to_string(static_cast<Verdict>(i)));
-  return words;
-}
+namespace {
+const EnumWords kVerdictWords = words_of<Verdict>(kVerdicts);
+}  // namespace
 
 void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, std::size_t n) {
   std::vector<std::uint8_t> verdict;
@@ -23,7 +24,7 @@ void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<C
   file.doubles(group + "/upper", boxes.size(), n, [&](std::size_t i, std::span<double> to) {
     for (std::size_t j = 0; j < n; ++j) to[j] = boxes[i].box[j].hi();
   });
-  file.enumeration(group + "/verdict", verdict, verdict_words());
+  file.enumeration(group + "/verdict", verdict, kVerdictWords);
   file.bytes(group + "/free", boxes.size(), n, [&](std::size_t i, std::span<std::uint8_t> to) {
     for (const int f : boxes[i].free) {
       CORANK_CHECK(static_cast<std::size_t>(f) < n);
@@ -32,26 +33,28 @@ void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<C
   });
 }
 
-namespace {
-
-std::vector<CoverBox> read_boxes(Hdf5Reader& file, const std::string& group, std::size_t n) {
-  const std::vector<std::uint8_t> verdict = file.enumeration(group + "/verdict", verdict_words());
+std::vector<CoverBox> read_boxes(Hdf5Reader& file, const std::string& group, std::size_t n, const std::vector<int>* sides,
+                                 bool with_free) {
+  const std::vector<std::uint8_t> verdict = file.enumeration(group + "/verdict", kVerdictWords);
   std::vector<CoverBox> boxes(verdict.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].verdict = static_cast<Verdict>(verdict[i]);
   file.take_rows({group + "/lower", group + "/upper"}, group + "/free", boxes.size(), n,
                  [&](std::size_t i, std::span<const std::span<const double>> ends, std::span<const std::uint8_t> free) {
-                   for (std::size_t j = 0; j < n; ++j) {
-                     const double lower = ends[0][j], upper = ends[1][j];
-                     if (!(lower <= upper))
-                       throw ResultFileError(file.path() + ": a box in " + group + " has a side that is not an interval");
-                     boxes[i].box.emplace_back(lower, upper);
-                     if (free[j] != 0) boxes[i].free.push_back(static_cast<int>(j));
-                   }
+                   CoverBox& b = boxes[i];
+                   b.box.reserve(sides ? sides->size() : n);  // no more: there may be many
+                   const auto add = [&](std::size_t j) {
+                     if (!(ends[0][j] <= ends[1][j])) file.fail(group + " holds an empty interval");
+                     b.box.emplace_back(ends[0][j], ends[1][j]);
+                   };
+                   for (std::size_t k = 0; k < (sides ? sides->size() : n); ++k)
+                     add(sides ? static_cast<std::size_t>((*sides)[k]) : k);
+                   if (!with_free) return;
+                   b.free.reserve(n - static_cast<std::size_t>(std::count(free.begin(), free.end(), 0)));
+                   for (std::size_t j = 0; j < n; ++j)
+                     if (free[j] != 0) b.free.push_back(static_cast<int>(j));
                  });
-  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].verdict = static_cast<Verdict>(verdict[i]);
   return boxes;
 }
-
-}  // namespace
 
 void write_cover(Hdf5Writer& file, const std::string& group, const Cover& cover, std::size_t variables) {
   file.enter(group);
@@ -66,11 +69,8 @@ void write_cover(Hdf5Writer& file, const std::string& group, const Cover& cover,
 Cover read_cover(Hdf5Reader& file, const std::string& group, std::size_t variables) {
   file.enter(group);
   Cover cover;
-  const std::int64_t dimension = file.integer_attribute("/", "dimension");
-  if (dimension < 0 || dimension > static_cast<std::int64_t>(variables))
-    throw ResultFileError(file.path() + ": the attribute dimension of " + group + " is out of range");
-  cover.dimension = static_cast<int>(dimension);
-  cover.sigma = {file.double_attribute("/", "sigma_length"), file.double_attribute("/", "sigma_angle")};
+  cover.dimension = file.integer("/", "dimension", 0, static_cast<std::int64_t>(variables));
+  cover.sigma = {file.attribute<double>("/", "sigma_length"), file.attribute<double>("/", "sigma_angle")};
   cover.boxes = read_boxes(file, "/boxes", variables);
   cover.points = read_boxes(file, "/points", variables);
   read_certificates(file, cover, variables);

@@ -4,25 +4,25 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <set>
+#include <sstream>
 
 namespace corank::result {
 namespace {
 
-using Use = CuikParameterUse;
-
 // Values that are words; each has a number there, and none here.
-const std::set<std::string_view>& value_words() {
-  static const std::set<std::string_view> words{
-      "LINKS", "DOF",   "FLINKS",           "QLINKS",          "JOINTS",          "SOLID",       "VCOLLIDE",         "PQP",
-      "FCL",   "C_FCL", "BULLET",           "C_BULLET",        "RIGIDCLL",        "NONE",        "TANGENT_SAMPLING", "EULER",
-      "RK4",   "X",     "AMBIENT_SAMPLING", "KDTREE_SAMPLING", "LOCAL_TRAPEZOID", "LOCAL_EULER", "LOCAL_RK4",        "Y",
-      "Z"};
-  return words;
+const char* const kValueWords =
+    "LINKS DOF FLINKS QLINKS JOINTS SOLID VCOLLIDE PQP FCL C_FCL BULLET C_BULLET RIGIDCLL NONE "
+    "TANGENT_SAMPLING EULER RK4 X AMBIENT_SAMPLING KDTREE_SAMPLING LOCAL_TRAPEZOID LOCAL_EULER LOCAL_RK4 "
+    "Y Z";
+
+std::vector<std::string> words_of_text(const char* text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
 }
 
 // Edits that turn a into b.
@@ -42,16 +42,23 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 std::string upper(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return name;
 }
 
 std::string nearest(std::string name) {
   name = upper(std::move(name));
-  const auto closer = [&](const CuikParameter& a, const CuikParameter& b) {
-    return distance(name, a.name) < distance(name, b.name);
-  };
-  return std::string(std::min_element(cuik_parameters().begin(), cuik_parameters().end(), closer)->name);
+  return *std::ranges::min_element(cuik_parameters(), {}, [&](const std::string& known) { return distance(name, known); });
+}
+
+const std::map<std::string, double (*)(double)> kFunctions{
+    {"COS", [](double x) { return std::cos(x); }}, {"SIN", [](double x) { return std::sin(x); }},
+    {"TAN", [](double x) { return std::tan(x); }}, {"EXP", [](double x) { return std::exp(x); }},
+    {"LOG", [](double x) { return std::log(x); }}, {"SQRT", [](double x) { return std::sqrt(x); }}};
+
+bool is_value_word(const std::string& word) {
+  static const std::vector<std::string> all = words_of_text(kValueWords);
+  return std::ranges::find(all, word) != all.end();
 }
 
 struct Token {
@@ -140,18 +147,16 @@ class ParamParser {
   void parameter() {
     if (token_.kind != Token::Kind::name) found("a parameter, NAME = value");
     const Token name = token_;
-    const auto& all = cuik_parameters();
-    const auto known =
-        std::find_if(all.begin(), all.end(), [&](const CuikParameter& p) { return p.name == upper(name.text); });
-    if (known == all.end()) {
+    const std::string known = upper(name.text);
+    if (std::ranges::find(cuik_parameters(), known) == cuik_parameters().end()) {
       fail(name.line, "the parameter '" + name.text + "' is unknown",
            "a parameter of the CUIK suite; did you mean " + nearest(name.text) + "?");
     }
     next();
     need('=');
     const std::optional<double> value = this->value();
-    if (value) values_[std::string(known->name)] = *value;
-    apply(*known, name, value);
+    if (value) values_[known] = *value;
+    apply(known, name, value);
   }
 
   std::optional<double> value() {
@@ -161,7 +166,7 @@ class ParamParser {
     const int line = line_;
     const Token token = token_;
     if (sign) next();
-    if (token_.kind == Token::Kind::name && value_words().contains(upper(token_.text))) {
+    if (token_.kind == Token::Kind::name && is_value_word(upper(token_.text))) {
       next();
       return std::nullopt;
     }
@@ -171,24 +176,17 @@ class ParamParser {
     return choice(0);
   }
 
-  void apply(const CuikParameter& parameter, const Token& name, std::optional<double> value) {
-    const auto positive = [&] {
-      if (!value || !std::isfinite(*value) || *value <= 0)
-        fail(name.line, name.text + " cannot be used", "a positive number");
-      return *value;
-    };
-    switch (parameter.use) {
-      case Use::sigma: out_.sigma = positive(); return;
-      case Use::small_sigma: out_.small_sigma = positive(); return;
-      case Use::n_solutions:
-        if (!value || !(*value >= 0 && *value <= std::numeric_limits<int>::max()) || *value != std::floor(*value)) {
-          fail(name.line, name.text + " cannot be used", "a number of boxes, or 0 for all");
-        }
-        out_.n_solutions = static_cast<int>(*value);
-        return;
-      case Use::none:
-        if (std::find(out_.ignored.begin(), out_.ignored.end(), name.text) == out_.ignored.end())
-          out_.ignored.push_back(name.text);
+  void apply(const std::string& known, const Token& name, std::optional<double> value) {
+    const auto refuse = [&](const char* expected) { fail(name.line, name.text + " cannot be used", expected); };
+    if (known == "SIGMA" || known == "SMALL_SIGMA") {
+      if (!value || !std::isfinite(*value) || *value <= 0) refuse("a positive number");
+      (known == "SIGMA" ? out_.sigma : out_.small_sigma) = value;
+    } else if (known == "N_SOLUTIONS") {
+      if (!value || !(*value >= 0 && *value <= std::numeric_limits<int>::max()) || *value != std::floor(*value))
+        refuse("a number of boxes, or 0 for all");
+      out_.n_solutions = static_cast<int>(*value);
+    } else if (std::ranges::find(out_.ignored, name.text) == out_.ignored.end()) {
+      out_.ignored.push_back(name.text);
     }
   }
 
@@ -253,33 +251,15 @@ class ParamParser {
     }
     if (token.kind != Token::Kind::name) found("a value");
     next();
-    if (const auto f = functions().find(upper(token.text)); f != functions().end()) {
+    if (const auto f = kFunctions.find(upper(token.text)); f != kFunctions.end()) {
       need('(');
       const double x = choice(depth + 1);
       need(')');
       return f->second(x);
     }
-    if (const auto c = constants().find(token.text); c != constants().end()) return c->second;
     if (const auto v = values_.find(token.text); v != values_.end()) return v->second;
     fail(token.line, "'" + token.text + "' has no value",
          "a number, a constant such as PI or TRUE, or a parameter given before");
-  }
-
-  static const std::map<std::string, double (*)(double), std::less<>>& functions() {
-    static const std::map<std::string, double (*)(double), std::less<>> all{
-        {"COS", [](double x) { return std::cos(x); }}, {"SIN", [](double x) { return std::sin(x); }},
-        {"TAN", [](double x) { return std::tan(x); }}, {"EXP", [](double x) { return std::exp(x); }},
-        {"LOG", [](double x) { return std::log(x); }}, {"SQRT", [](double x) { return std::sqrt(x); }}};
-    return all;
-  }
-  static const std::map<std::string, double, std::less<>>& constants() {
-    static const std::map<std::string, double, std::less<>> all{{"PI", std::numbers::pi},
-                                                                {"INF", std::numeric_limits<double>::infinity()},
-                                                                {"TRUE", 1},
-                                                                {"FALSE", 0},
-                                                                {"ON", 1},
-                                                                {"OFF", 0}};
-    return all;
   }
 
   const std::string_view text_;
@@ -287,72 +267,30 @@ class ParamParser {
   std::size_t at_ = 0;
   int line_ = 1;
   Token token_;
-  std::map<std::string, double, std::less<>> values_;
+  std::map<std::string, double> values_{// and of parameters given before
+                                        {"PI", std::numbers::pi},
+                                        {"INF", std::numeric_limits<double>::infinity()},
+                                        {"TRUE", 1},
+                                        {"FALSE", 0},
+                                        {"ON", 1},
+                                        {"OFF", 0}};
   CuikParameters out_;
 };
 
 }  // namespace
 
-const std::vector<CuikParameter>& cuik_parameters() {
+const std::vector<std::string>& cuik_parameters() {
   // SAVE_SIMPLEX is what the suite prints for SAFE_SIMPLEX; ERROR_SPLIT is its older name for SPLIT_TYPE.
-  static const std::vector<CuikParameter> all{
-      {"SIGMA", Use::sigma},
-      {"SMALL_SIGMA", Use::small_sigma},
-      {"N_SOLUTIONS", Use::n_solutions},
-      {"EPSILON", Use::none},
-      {"REPRESENTATION", Use::none},
-      {"RHO", Use::none},
-      {"STATE_PERIOD", Use::none},
-      {"DUMMIFY", Use::none},
-      {"SPLIT_TYPE", Use::none},
-      {"ERROR_SPLIT", Use::none},
-      {"SAFE_SIMPLEX", Use::none},
-      {"SAVE_SIMPLEX", Use::none},
-      {"SIMPLIFICATION_LEVEL", Use::none},
-      {"LR2TM_Q", Use::none},
-      {"LR2TM_S", Use::none},
-      {"MAX_NEWTON_ITERATIONS", Use::none},
-      {"N_DOF", Use::none},
-      {"E", Use::none},
-      {"CE", Use::none},
-      {"R", Use::none},
-      {"SR", Use::none},
-      {"DELTA", Use::none},
-      {"BETA", Use::none},
-      {"GAMMA", Use::none},
-      {"MAX_CHARTS", Use::none},
-      {"DETECT_BIFURCATIONS", Use::none},
-      {"SAMPLING", Use::none},
-      {"MAX_PLANNING_TIME", Use::none},
-      {"MAX_PLANNING_ITERATIONS", Use::none},
-      {"MAX_NODES_RRT", Use::none},
-      {"BI_RRT", Use::none},
-      {"RRT_GRAPH", Use::none},
-      {"DYNAMIC_DOMAIN", Use::none},
-      {"COEF_TEMP", Use::none},
-      {"NFAIL_MAX", Use::none},
-      {"CD_ENGINE", Use::none},
-      {"DYNAMICS", Use::none},
-      {"INTEGRATION_TIME", Use::none},
-      {"DEFAULT_MAX_VELOCITY", Use::none},
-      {"N_DYNAMIC_ACTIONS", Use::none},
-      {"DYNAMIC_GOAL_ERROR", Use::none},
-      {"G_COMPENSATION", Use::none},
-      {"G_AXIS", Use::none},
-      {"NEG_LM", Use::none},
-      {"TAU", Use::none},
-      {"LQR_PLANNING_TIME", Use::none},
-      {"PRETENSION", Use::none},
-      {"VDW_RATIO", Use::none},
-      {"CUT_X", Use::none},
-      {"CUT_Y", Use::none},
-      {"CUT_Z", Use::none},
-      {"DYNAMIC_PROBLEM", Use::none},
-      {"N_CACHED_DYNAMIC_ACTIONS", Use::none},
-      {"N_SAMPLES", Use::none},
-      {"REACHABILITY", Use::none},
-  };
-  return all;
+  static const char* const kAll =
+      "SIGMA SMALL_SIGMA N_SOLUTIONS EPSILON REPRESENTATION RHO STATE_PERIOD DUMMIFY SPLIT_TYPE ERROR_SPLIT "
+      "SAFE_SIMPLEX SAVE_SIMPLEX SIMPLIFICATION_LEVEL LR2TM_Q LR2TM_S MAX_NEWTON_ITERATIONS N_DOF E CE R SR "
+      "DELTA BETA GAMMA MAX_CHARTS DETECT_BIFURCATIONS SAMPLING MAX_PLANNING_TIME MAX_PLANNING_ITERATIONS "
+      "MAX_NODES_RRT BI_RRT RRT_GRAPH DYNAMIC_DOMAIN COEF_TEMP NFAIL_MAX CD_ENGINE DYNAMICS "
+      "INTEGRATION_TIME DEFAULT_MAX_VELOCITY N_DYNAMIC_ACTIONS DYNAMIC_GOAL_ERROR G_COMPENSATION G_AXIS "
+      "NEG_LM TAU LQR_PLANNING_TIME PRETENSION VDW_RATIO CUT_X CUT_Y CUT_Z DYNAMIC_PROBLEM "
+      "N_CACHED_DYNAMIC_ACTIONS N_SAMPLES REACHABILITY";
+  static const std::vector<std::string> list = words_of_text(kAll);
+  return list;
 }
 
 std::optional<double> sigma_for(const CuikParameters& parameters, const System& system) {

@@ -13,16 +13,8 @@
 
 namespace corank::result {
 
-/// What becomes of a parameter.
-enum class CuikParameterUse { sigma, small_sigma, n_solutions, none };
-
-struct CuikParameter {
-  std::string_view name;
-  CuikParameterUse use;
-};
-
-/// Every parameter of the CUIK suite.
-const std::vector<CuikParameter>& cuik_parameters();
+/// The names of all parameters of the CUIK suite.
+const std::vector<std::string>& cuik_parameters();
 
 struct CuikParameters {
   std::optional<double> sigma;        ///< SIGMA > 0: largest edge of a box

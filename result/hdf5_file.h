@@ -46,11 +46,10 @@ class Hdf5Writer {
   void integers(const std::string& name, std::span<const std::int64_t> data);
   /// Values that index `words`, stored as an enumeration of these words.
   void enumeration(const std::string& name, std::span<const std::uint8_t> data, const std::vector<std::string>& words);
-  /// Vectors of any length, compressed (deflate).
+  /// A vector of any length, of std::uint8_t, std::int32_t, float or double, compressed (deflate).
+  template <class T>
+  void packed(const std::string& name, const std::vector<T>& data);
   void packed(const std::string& name, std::span<const std::uint8_t> data);
-  void packed(const std::string& name, std::span<const std::int32_t> data);
-  void packed(const std::string& name, std::span<const float> data);
-  void packed(const std::string& name, std::span<const double> data);
   void text(const std::string& name, const std::string& text);
   void texts(const std::string& name, const std::vector<std::string>& texts);
 
@@ -91,37 +90,34 @@ class Hdf5Reader {
                                     std::span<const std::uint8_t> bytes)>;
   void take_rows(const std::vector<std::string>& doubles, const std::string& bytes, std::size_t rows, std::size_t columns,
                  const UseRow& use);
-  std::vector<std::int64_t> integers(const std::string& name) const;
-  /// Vectors of any length.
-  void read(const std::string& name, std::vector<std::uint8_t>& data) const;
-  void read(const std::string& name, std::vector<std::int32_t>& data) const;
-  void read(const std::string& name, std::vector<float>& data) const;
-  void read(const std::string& name, std::vector<double>& data) const;
+  /// A vector of any length, of std::uint8_t, std::int32_t, std::int64_t, float or double.
+  template <class T>
+  std::vector<T> vector(const std::string& name) const;
   /// Indices into `words`, matched by word, not by number.
   std::vector<std::uint8_t> enumeration(const std::string& name, const std::vector<std::string>& words) const;
   std::string text(const std::string& name) const;
   std::vector<std::string> texts(const std::string& name) const;
 
   bool has(const std::string& name) const;  ///< a group or an array
+  std::size_t rows(const std::string& name) const { return array(name).sizes[0]; }
   bool has_attribute(const std::string& object, const std::string& name) const;
-  double double_attribute(const std::string& object, const std::string& name) const;
-  std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
-  std::uint64_t unsigned_attribute(const std::string& object, const std::string& name) const;
-  std::string text_attribute(const std::string& object, const std::string& name) const;
+  /// Of type double, std::int64_t, std::uint64_t or std::string.
+  template <class T>
+  T attribute(const std::string& object, const std::string& name) const;
+  /// Throws where it is not from `least` to `most`.
+  int integer(const std::string& object, const std::string& name, std::int64_t least, std::int64_t most) const;
 
   /// For messages, which are printable.
   const std::string& path() const { return path_; }
+  /// Throws ResultFileError: "path: what".
+  [[noreturn]] void fail(const std::string& what) const;
 
  private:
-  [[noreturn]] void fail(const std::string& what) const;
   void parse(std::span<const std::byte> bytes);
   const Item& array(const std::string& name) const;
   const Item& array(const std::string& name, ItemType type, const std::string& expected) const;
   const Item& shaped(const std::string& name, ItemType type, std::size_t rows, std::size_t columns,
                      const std::string& expected) const;
-  const Item& attribute(const std::string& object, const std::string& name) const;
-  template <class T>
-  void read_vector(const std::string& name, ItemType type, std::vector<T>& data) const;
 
   std::string at(const std::string& name) const { return name == "/" && !prefix_.empty() ? prefix_ : prefix_ + name; }
 

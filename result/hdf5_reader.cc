@@ -37,10 +37,12 @@ std::vector<T> copied(const Item& item) {
 }
 
 template <class T>
-T single(const Item& item) {
-  T value;
-  std::memcpy(&value, item.data.data(), sizeof(T));
-  return value;
+constexpr ItemType type_of() {
+  if (std::is_same_v<T, double>) return ItemType::float64;
+  if (std::is_same_v<T, float>) return ItemType::float32;
+  if (std::is_same_v<T, std::int64_t>) return ItemType::int64;
+  if (std::is_same_v<T, std::uint64_t>) return ItemType::uint64;
+  return std::is_same_v<T, std::int32_t> ? ItemType::int32 : ItemType::uint8;
 }
 
 std::string unpadded(std::span<const std::byte> data) {
@@ -90,13 +92,6 @@ const Item& Hdf5Reader::shaped(const std::string& name, ItemType type, std::size
   return item;
 }
 
-const Item& Hdf5Reader::attribute(const std::string& object, const std::string& name) const {
-  const auto found = items_.find(at(object) + "@" + name);
-  if (found == items_.end()) fail("not a corank result: the attribute " + name + " of " + at(object) + " is missing");
-  if (found->second.elements() != 1) fail("the attribute " + name + " of " + object + " is not one value");
-  return found->second;
-}
-
 std::vector<double> Hdf5Reader::doubles(const std::string& name, std::size_t rows, std::size_t columns) const {
   return copied<double>(shaped(name, ItemType::float64, rows, columns, "floating-point numbers"));
 }
@@ -132,31 +127,17 @@ void Hdf5Reader::take_rows(const std::vector<std::string>& doubles, const std::s
   }
 }
 
-std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name) const {
-  std::vector<std::int64_t> data;
-  read_vector(name, ItemType::int64, data);
-  return data;
-}
-
 template <class T>
-void Hdf5Reader::read_vector(const std::string& name, ItemType type, std::vector<T>& data) const {
-  const Item& item = array(name, type, "numbers of its kind");
+std::vector<T> Hdf5Reader::vector(const std::string& name) const {
+  const Item& item = array(name, type_of<T>(), "numbers of its kind");
   if (item.rank != 1) fail(name + " is not a vector");
-  data = copied<T>(item);
+  return copied<T>(item);
 }
-
-void Hdf5Reader::read(const std::string& name, std::vector<std::uint8_t>& data) const {
-  read_vector(name, ItemType::uint8, data);
-}
-void Hdf5Reader::read(const std::string& name, std::vector<std::int32_t>& data) const {
-  read_vector(name, ItemType::int32, data);
-}
-void Hdf5Reader::read(const std::string& name, std::vector<float>& data) const {
-  read_vector(name, ItemType::float32, data);
-}
-void Hdf5Reader::read(const std::string& name, std::vector<double>& data) const {
-  read_vector(name, ItemType::float64, data);
-}
+template std::vector<std::uint8_t> Hdf5Reader::vector(const std::string& name) const;
+template std::vector<std::int32_t> Hdf5Reader::vector(const std::string& name) const;
+template std::vector<std::int64_t> Hdf5Reader::vector(const std::string& name) const;
+template std::vector<float> Hdf5Reader::vector(const std::string& name) const;
+template std::vector<double> Hdf5Reader::vector(const std::string& name) const;
 
 std::vector<std::uint8_t> Hdf5Reader::enumeration(const std::string& name, const std::vector<std::string>& words) const {
   const Item& item = array(name, ItemType::word, "enumeration");
@@ -201,35 +182,38 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
   return items_.contains(at(object) + "@" + name);
 }
 
-double Hdf5Reader::double_attribute(const std::string& object, const std::string& name) const {
-  const Item& item = attribute(object, name);
-  if (item.type != ItemType::float64) fail("the attribute " + name + " of " + object + " is not a floating-point number");
-  return single<double>(item);
+template <class T>
+T Hdf5Reader::attribute(const std::string& object, const std::string& name) const {
+  const auto found = items_.find(at(object) + "@" + name);
+  if (found == items_.end()) fail("not a corank result: the attribute " + name + " of " + at(object) + " is missing");
+  const Item& item = found->second;
+  const std::string which = "the attribute " + name + " of " + object;
+  if (item.elements() != 1) fail(which + " is not one value");
+  if constexpr (std::is_same_v<T, std::string>) {
+    if (item.type != ItemType::text) fail(which + " is not a text");
+    return unpadded(item.data);
+  } else {
+    if (item.type != type_of<T>())
+      fail(which +
+           (std::is_same_v<T, double> ? " is not a floating-point number" : " is not an integer of the expected type"));
+    return copied<T>(item).front();
+  }
 }
+template double Hdf5Reader::attribute(const std::string& object, const std::string& name) const;
+template std::int64_t Hdf5Reader::attribute(const std::string& object, const std::string& name) const;
+template std::uint64_t Hdf5Reader::attribute(const std::string& object, const std::string& name) const;
+template std::string Hdf5Reader::attribute(const std::string& object, const std::string& name) const;
 
-std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) const {
-  const Item& item = attribute(object, name);
-  if (item.type != ItemType::int64)
-    fail("the attribute " + name + " of " + object + " is not an integer of the expected type");
-  return single<std::int64_t>(item);
-}
-
-std::uint64_t Hdf5Reader::unsigned_attribute(const std::string& object, const std::string& name) const {
-  const Item& item = attribute(object, name);
-  if (item.type != ItemType::uint64)
-    fail("the attribute " + name + " of " + object + " is not an integer of the expected type");
-  return single<std::uint64_t>(item);
-}
-
-std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
-  const Item& item = attribute(object, name);
-  if (item.type != ItemType::text) fail("the attribute " + name + " of " + object + " is not a text");
-  return unpadded(item.data);
+int Hdf5Reader::integer(const std::string& object, const std::string& name, std::int64_t least, std::int64_t most) const {
+  const auto value = attribute<std::int64_t>(object, name);
+  if (value < least || value > most)
+    fail("the attribute " + name + (object == "/" ? "" : " of " + object) + " is out of range");
+  return static_cast<int>(value);
 }
 
 std::string format_of(const std::string& path) {
   const Hdf5Reader file(path);
-  return file.has_attribute("/", "format") ? file.text_attribute("/", "format") : std::string();
+  return file.has_attribute("/", "format") ? file.attribute<std::string>("/", "format") : std::string();
 }
 
 }  // namespace corank::result

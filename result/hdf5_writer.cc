@@ -177,17 +177,21 @@ void Hdf5Writer::integers(const std::string& name, std::span<const std::int64_t>
   write_dataset(file_, path_, at(name), H5T_NATIVE_INT64, Shape(data.size(), 0, path_), data.data());
 }
 
+template <class T>
+void Hdf5Writer::packed(const std::string& name, const std::vector<T>& data) {
+  const hid_t type = std::is_same_v<T, double>         ? H5T_NATIVE_DOUBLE
+                     : std::is_same_v<T, float>        ? H5T_NATIVE_FLOAT
+                     : std::is_same_v<T, std::int32_t> ? H5T_NATIVE_INT32
+                                                       : H5T_NATIVE_UINT8;
+  write_packed(file_, path_, at(name), type, std::as_bytes(std::span(data)), threads_, in_haste_);
+}
+template void Hdf5Writer::packed(const std::string& name, const std::vector<std::uint8_t>& data);
+template void Hdf5Writer::packed(const std::string& name, const std::vector<std::int32_t>& data);
+template void Hdf5Writer::packed(const std::string& name, const std::vector<float>& data);
+template void Hdf5Writer::packed(const std::string& name, const std::vector<double>& data);
+
 void Hdf5Writer::packed(const std::string& name, std::span<const std::uint8_t> data) {
   write_packed(file_, path_, at(name), H5T_NATIVE_UINT8, std::as_bytes(data), threads_, in_haste_);
-}
-void Hdf5Writer::packed(const std::string& name, std::span<const std::int32_t> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_INT32, std::as_bytes(data), threads_, in_haste_);
-}
-void Hdf5Writer::packed(const std::string& name, std::span<const float> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_FLOAT, std::as_bytes(data), threads_, in_haste_);
-}
-void Hdf5Writer::packed(const std::string& name, std::span<const double> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_DOUBLE, std::as_bytes(data), threads_, in_haste_);
 }
 
 void Hdf5Writer::enumeration(const std::string& name, std::span<const std::uint8_t> data,

@@ -6,18 +6,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "corank/core/check.h"
 #include "corank/result/cover_group.h"
-#include "corank/result/hdf5_file.h"
-#include "corank/result/output_file.h"
 #include "corank/result/printable.h"
-#include "corank/result/source_group.h"
+#include "corank/result/stored_list.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::result {
 namespace {
 
-constexpr std::int64_t kMapVersion = 1, kMostOfOne = 1'000'000;
+constexpr int kMostOfOne = 1'000'000;
 const char* const kPlain = "system";
 
 symbolic::FamilySystem family_of(const MapFile& file) { return symbolic::family_system(model_of(file), file.family); }
@@ -40,123 +37,97 @@ Cover cover_of(const MapClaims& claims, const std::vector<int>& parameters) {
   return cover;
 }
 
+struct CellRow {
+  int count = 0, sheets = 0;  ///< `sheets` of those that follow one another
+  Box sides;
+};
+
+constexpr auto kCellFields = [](auto& field, auto& cell) {
+  field("count", cell.count, 0, kMostOfOne);
+  field("sheets", cell.sheets, 0);
+  field.box("", cell.sides, 2);
+};
+
+// A parameter or a fixed coordinate, as texts.
+struct NamedTexts {
+  std::string name, first, second;
+};
+
+constexpr auto kOverFields = [](auto& field, auto& over) {
+  field("names", over.name);
+  field("from", over.first);
+  field("to", over.second);
+};
+
+constexpr auto kFixedFields = [](auto& field, auto& fixed) {
+  field("names", fixed.name);
+  field("values", fixed.first);
+};
+
+void write_family(Hdf5Writer& file, const symbolic::FamilyQuestion& family) {
+  file.attribute("/", "set", std::string(family.set ? symbolic::to_string(*family.set) : kPlain));
+  file.attribute("/", "kernel", std::string(family.kernel ? symbolic::to_string(*family.kernel) : ""));
+  file.attribute("/", "corank", std::int64_t{family.corank});
+  std::vector<NamedTexts> over, fixed;
+  for (const symbolic::Parameter& p : family.over) over.push_back({p.name, p.lower.text(), p.upper.text()});
+  for (const symbolic::FixedCoordinate& f : family.fixed) fixed.push_back({f.name, f.value.text(), {}});
+  write_list(file, "/over/", over, kOverFields);
+  write_list(file, "/fixed/", fixed, kFixedFields);
+}
+
+void read_family(const Hdf5Reader& file, symbolic::FamilyQuestion& family) {
+  const auto set = file.attribute<std::string>("/", "set"), kernel = file.attribute<std::string>("/", "kernel");
+  if (set != kPlain && !(family.set = symbolic::singularity_set_from_string(set))) file.fail("no such set");
+  if (!kernel.empty() && !(family.kernel = symbolic::kernel_side_from_string(kernel))) file.fail("no such kernel");
+  family.corank = file.integer("/", "corank", 1, kMostOfOne);
+  for (const auto& [name, from, to] : read_list<NamedTexts>(file, "/over/", kOverFields))
+    family.over.push_back({name, symbolic::parse_expression(from, name), symbolic::parse_expression(to, name)});
+  if (family.over.size() != 2) file.fail("it does not have two parameters");
+  for (const auto& [name, value, none] : read_list<NamedTexts>(file, "/fixed/", kFixedFields))
+    family.fixed.push_back({name, symbolic::parse_expression(value, name)});
+}
+
+void read_cells(const Hdf5Reader& file, Cover cover, MapClaims& claims) {
+  std::size_t next = 0;
+  for (CellRow& row : read_list<CellRow>(file, "/cells/", kCellFields)) {
+    MapCellClaim& cell = claims.cells.emplace_back(MapCellClaim{std::move(row.sides), row.count, {}});
+    if (static_cast<std::size_t>(row.sheets) > cover.boxes.size() - next)
+      file.fail("its cells name sheets that do not exist");
+    for (const std::size_t end = next + static_cast<std::size_t>(row.sheets); next < end; ++next) {
+      CoverBox& sheet = cover.boxes[next];
+      if (sheet.region < 0) file.fail("a sheet has no region");
+      cell.sheets.push_back({std::move(sheet.box), cover.regions[static_cast<std::size_t>(sheet.region)]});
+    }
+  }
+  if (next != cover.boxes.size()) file.fail("its cells name sheets that do not exist");
+  claims.reduction = std::move(cover.reduction);
+}
+
 }  // namespace
 
 void write_map(const std::filesystem::path& path, const MapFile& data, const Ended& in_haste) {
   const auto [system, parameters, copies] = family_of(data);
-  const OutputFile target(path);
-  Hdf5Writer file(target.part().string(), 1, in_haste);
-  write_source(file, kMapFormat, kMapVersion, data);
-  const symbolic::FamilyQuestion& family = data.family;
-  file.attribute("/", "set", std::string(family.set ? symbolic::to_string(*family.set) : kPlain));
-  file.attribute("/", "kernel", std::string(family.kernel ? symbolic::to_string(*family.kernel) : ""));
-  file.attribute("/", "corank", std::int64_t{family.corank});
-  std::vector<std::string> over, from, to, fixed, values;
-  for (const symbolic::Parameter& p : family.over) {
-    over.push_back(p.name);
-    from.push_back(p.lower.text());
-    to.push_back(p.upper.text());
-  }
-  for (const symbolic::FixedCoordinate& f : family.fixed) {
-    fixed.push_back(f.name);
-    values.push_back(f.value.text());
-  }
-  file.texts("/over/names", over);
-  file.texts("/over/from", from);
-  file.texts("/over/to", to);
-  file.texts("/fixed/names", fixed);
-  file.texts("/fixed/values", values);
-  file.texts("/variables", names(system));
-  const std::vector<MapCellClaim>& cells = data.claims.cells;
-  std::vector<std::int64_t> counts, sheets;
-  for (const MapCellClaim& cell : cells) {
-    CORANK_CHECK(cell.sides.size() == 2);
-    counts.push_back(cell.count);
-    sheets.push_back(static_cast<std::int64_t>(cell.sheets.size()));
-  }
-  file.integers("/cells/count", counts);
-  file.integers("/cells/sheets", sheets);
-  for (const bool upper : {false, true})
-    file.doubles(upper ? "/cells/upper" : "/cells/lower", cells.size(), 2, [&](std::size_t i, std::span<double> to_row) {
-      for (std::size_t k = 0; k < 2; ++k) to_row[k] = upper ? cells[i].sides[k].hi() : cells[i].sides[k].lo();
-    });
-  write_cover(file, "/sheets", cover_of(data.claims, parameters), system.variables.size());
-  file.close();
-  target.finish();
+  std::vector<CellRow> cells;
+  for (const MapCellClaim& cell : data.claims.cells)
+    cells.push_back({cell.count, static_cast<int>(cell.sheets.size()), cell.sides});
+  write_certificate(path, kMapKind, data, in_haste, [&, &system = system, &parameters = parameters](Hdf5Writer& file) {
+    write_family(file, data.family);
+    file.texts("/variables", names(system));
+    write_list(file, "/cells/", cells, kCellFields);
+    write_cover(file, "/sheets", cover_of(data.claims, parameters), system.variables.size());
+  });
 }
 
-bool is_map_file(const std::filesystem::path& path) { return format_of(path.string()) == kMapFormat; }
-
-namespace {
-
-class MapReader {
- public:
-  explicit MapReader(const std::filesystem::path& path) : file_(path.string()) {}
-
-  MapFile read() {
-    read_source(file_, kMapFormat, kMapVersion, data_);
-    read_family();
-    const std::vector<std::string> expected = names(family_of(data_).system);
-    if (file_.texts("/variables") != expected) refuse("its variables are not those of the model");
-    read_cells(read_cover(file_, "/sheets", expected.size()));
-    return std::move(data_);
-  }
-
- private:
-  [[noreturn]] void refuse(const std::string& what) const { throw ResultFileError(file_.path() + ": " + what); }
-
-  void read_family() {
-    symbolic::FamilyQuestion& family = data_.family;
-    const std::string set = file_.text_attribute("/", "set"), kernel = file_.text_attribute("/", "kernel");
-    if (set != kPlain && !(family.set = symbolic::singularity_set_from_string(set))) refuse("no such set");
-    if (!kernel.empty() && !(family.kernel = symbolic::kernel_side_from_string(kernel))) refuse("no such kernel");
-    const std::int64_t corank = file_.integer_attribute("/", "corank");
-    if (corank < 1 || corank > kMostOfOne) refuse("corank is out of range");
-    family.corank = static_cast<int>(corank);
-    const auto over = file_.texts("/over/names"), from = file_.texts("/over/from"), to = file_.texts("/over/to"),
-               fixed = file_.texts("/fixed/names"), values = file_.texts("/fixed/values");
-    if (over.size() != 2 || from.size() != 2 || to.size() != 2) refuse("it does not have two parameters");
-    if (fixed.size() != values.size()) refuse("its fixed coordinates do not have a value each");
-    for (std::size_t k = 0; k < 2; ++k)
-      family.over.push_back(
-          {over[k], symbolic::parse_expression(from[k], over[k]), symbolic::parse_expression(to[k], over[k])});
-    for (std::size_t k = 0; k < fixed.size(); ++k)
-      family.fixed.push_back({fixed[k], symbolic::parse_expression(values[k], fixed[k])});
-  }
-
-  void read_cells(Cover cover) {
-    const std::vector<std::int64_t> counts = file_.integers("/cells/count"), sheets = file_.integers("/cells/sheets");
-    if (sheets.size() != counts.size()) refuse("its cells differ in length");
-    const std::vector<double> lower = file_.doubles("/cells/lower", counts.size(), 2),
-                              upper = file_.doubles("/cells/upper", counts.size(), 2);
-    std::size_t next = 0;
-    for (std::size_t c = 0; c < counts.size(); ++c) {
-      MapCellClaim& cell = data_.claims.cells.emplace_back();
-      for (std::size_t k = 2 * c; k < 2 * c + 2; ++k) {
-        if (!(lower[k] <= upper[k])) refuse("a cell has a side that is not an interval");
-        cell.sides.emplace_back(lower[k], upper[k]);
-      }
-      if (counts[c] < 0 || counts[c] > kMostOfOne) refuse("a number is out of range");
-      cell.count = static_cast<int>(counts[c]);
-      if (sheets[c] < 0 || static_cast<std::uint64_t>(sheets[c]) > cover.boxes.size() - next)
-        refuse("its cells name sheets that do not exist");
-      for (const std::size_t end = next + static_cast<std::size_t>(sheets[c]); next < end; ++next) {
-        if (cover.boxes[next].region < 0) refuse("a sheet has no region");
-        cell.sheets.push_back(
-            {std::move(cover.boxes[next].box), cover.regions[static_cast<std::size_t>(cover.boxes[next].region)]});
-      }
-    }
-    if (next != cover.boxes.size()) refuse("its cells name sheets that do not exist");
-    data_.claims.reduction = std::move(cover.reduction);
-  }
-
-  Hdf5Reader file_;
-  MapFile data_;
-};
-
-}  // namespace
-
-MapFile read_map(const std::filesystem::path& path) { return MapReader(path).read(); }
+MapFile read_map(const std::filesystem::path& path) {
+  Hdf5Reader file(path.string());
+  MapFile data;
+  read_source(file, kMapKind, data);
+  read_family(file, data.family);
+  const std::vector<std::string> expected = names(family_of(data).system);
+  if (file.texts("/variables") != expected) file.fail("its variables are not those of the model");
+  read_cells(file, read_cover(file, "/sheets", expected.size()), data.claims);
+  return data;
+}
 
 check::MapReport verify(const MapFile& file, const check::Options& options) {
   const auto [system, parameters, copies] = family_of(file);
@@ -192,15 +163,9 @@ std::string to_table(const check::MapReport& report, const MapFile& file) {
     text += fmt::format("  {:<5}  on {:.1f} % of the plane; at most as many: on {:.1f} %\n", count, 100 * share,
                         100 * (found == exact.end() ? 0 : found->second));
   }
-  text += failure_lines(report.failures);
-  if (report.complete()) return text + "verified\n";
-  if (report.verified())
-    return text +
-           fmt::format("not confirmed in {} cells: that there are at most as many solutions as claimed\n",
-                       all - report.completed()) +
-           "verified, except for completeness\n";
-  return text + (report.failures.empty() ? "interrupted in " + report.stage + "; nothing is said about the rest\n"
-                                         : "NOT VERIFIED\n");
+  return text + conclusion(report, report.failures,
+                           fmt::format("not confirmed in {} cells: that there are at most as many solutions as claimed\n",
+                                       all - report.completed()));
 }
 
 std::string to_json(const check::MapReport& report, const MapFile& file) {

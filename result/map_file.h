@@ -8,7 +8,7 @@
 #include "corank/check/map.h"
 #include "corank/core/ended.h"
 #include "corank/core/map_claims.h"
-#include "corank/result/model_source.h"
+#include "corank/result/source_group.h"
 #include "corank/symbolic/family_system.h"
 
 namespace corank::result {
@@ -18,15 +18,12 @@ struct MapFile : ModelSource {
   MapClaims claims;
 };
 
-/// What format_of() says of it.
-inline constexpr const char* kMapFormat = "corank map";
+inline constexpr CertificateKind kMapKind{"corank map", 1};
 
 /// Layout: doc/certificates.md. Throw ResultFileError; symbolic::ModelError where the model has no such family.
 /// Once `in_haste` says so, what is left is written as it is.
 void write_map(const std::filesystem::path& path, const MapFile& file, const Ended& in_haste = {});
 MapFile read_map(const std::filesystem::path& path);
-/// Is it a map's file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
-bool is_map_file(const std::filesystem::path& path);
 
 /// Rebuilds the family's equations from the model's text, and checks the claims. Throws symbolic::ModelError where the text
 /// is no model of such a family.

@@ -8,7 +8,7 @@
 
 #include "corank/check/tube.h"
 #include "corank/core/tube.h"
-#include "corank/result/model_source.h"
+#include "corank/result/source_group.h"
 
 namespace corank::result {
 
@@ -18,14 +18,11 @@ struct PathFile : ModelSource {
   Tube tube;
 };
 
-/// What format_of() says of it.
-inline constexpr const char* kPathFormat = "corank path";
+inline constexpr CertificateKind kPathKind{"corank path", 2};
 
 /// Layout: doc/paths.md. Throw ResultFileError.
 void write_path(const std::filesystem::path& path, const PathFile& file);
 PathFile read_path(const std::filesystem::path& path);
-/// Is it a path's file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
-bool is_path_file(const std::filesystem::path& path);
 
 /// Rebuilds C-space and the matrices from the model's text, and checks the tube. Throws symbolic::ModelError where the text
 /// is no model of a mechanism with such singularities.

@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "corank/core/check.h"
 #include "corank/result/cover_group.h"
-#include "corank/result/hdf5_file.h"
-#include "corank/result/output_file.h"
-#include "corank/result/piece_proof_group.h"
 #include "corank/result/printable.h"
-#include "corank/result/source_group.h"
+#include "corank/result/stored_list.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/determinant_factors.h"
 #include "corank/symbolic/model_file.h"
@@ -20,12 +16,9 @@
 namespace corank::result {
 namespace {
 
-constexpr std::int64_t kPiecesVersion = 1;
-constexpr std::int64_t kMostPieces = 1'000'000, kNone = -1;
+constexpr int kMostPieces = 1'000'000, kNone = -1;
 constexpr std::array<const char*, 3> kLists{"aspects", "assembly_modes", "working_modes"};
 constexpr std::array<const char*, 3> kWords{"aspects", "assembly modes", "working modes"};
-
-std::string proof_group(std::size_t list) { return std::string("/") + kLists[list] + "/proof"; }
 
 symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model) {
   return symbolic::singularity_system(model, symbolic::SingularitySet::cspace, std::nullopt, {}, 1);
@@ -54,96 +47,102 @@ std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model
   return {list(file.lists[0], both), list(file.lists[1], factors[0]), list(file.lists[2], factors[1])};
 }
 
-void write_list(Hdf5Writer& file, const std::string& name, const PieceClaims& claims, std::size_t n, std::size_t dimension) {
-  std::vector<double> lower, upper;
-  std::vector<std::int64_t> free, signs, determinants;
-  for (const PieceMember& m : claims.members) {
-    CORANK_CHECK(m.box.size() == n && m.free.size() == dimension && m.signs.size() == claims.members.front().signs.size());
-    for (const Interval& side : m.box) {
-      lower.push_back(side.lo());
-      upper.push_back(side.hi());
-    }
-    free.insert(free.end(), m.free.begin(), m.free.end());
-    signs.insert(signs.end(), m.signs.begin(), m.signs.end());
-    determinants.insert(determinants.end(), m.determinant_signs.begin(), m.determinant_signs.end());
+std::string list_group(std::size_t list) { return std::string("/") + kLists[list]; }
+
+// Boxes have n sides, and so many variables are held or free as C-space has dimensions.
+struct Sizes {
+  std::size_t n, dimension;
+
+  auto members() const {
+    return [*this](auto& field, auto& m) {
+      field.box("", m.box, n);
+      field.row("free", m.free, dimension, 0, kMostPieces);
+      field.row("signs", m.signs, kAlike, -1, 1);
+      // The factors stand between.
+    };
   }
-  file.enter("/" + name);
+  auto determinants() const {
+    return [](auto& field, auto& m) { field.row("determinant_signs", m.determinant_signs, 2, -1, 1); };
+  }
+  auto bridges() const {
+    return [*this](auto& field, auto& b) {
+      field.row("free", b.free, dimension, 0, static_cast<int>(n) - 1);
+      field.box("", b.region, n);
+    };
+  }
+  auto cells() const {
+    return [*this](auto& field, auto& c) {
+      field("sheet", c.sheet);
+      field.box("", c.sides, dimension);
+    };
+  }
+  auto links() const {
+    return [*this](auto& field, auto& l) {
+      field.row("held", l.held, dimension, 0, static_cast<int>(n) - 1);
+      field.row("point", l.point, n);
+    };
+  }
+};
+
+void write_claims(Hdf5Writer& file, std::size_t list, const PieceClaims& claims, const Sizes& sizes) {
+  file.enter(list_group(list));
   file.attribute("/", "at_least", std::int64_t{claims.at_least});
   file.attribute("/", "at_most", claims.at_most ? std::int64_t{*claims.at_most} : kNone);
-  file.doubles("/lower", lower, claims.members.size(), n);
-  file.doubles("/upper", upper, claims.members.size(), n);
-  file.integers("/free", free);
-  file.integers("/signs", signs);
+  write_list(file, "/", claims.members, sizes.members());
   file.texts("/factors", claims.factors);
-  file.integers("/determinant_signs", determinants);
+  write_list(file, "/", claims.members, sizes.determinants());
 }
 
-PieceClaims read_list(Hdf5Reader& file, const std::string& name, std::size_t n, std::size_t dimension) {
-  const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": /" + name + ": " + what); };
-  const auto number = [&](std::int64_t value, std::int64_t least, std::int64_t most) {
-    if (value < least || value > most) refuse("a number is out of range");
-    return static_cast<int>(value);
-  };
-  file.enter("/" + name);
+PieceClaims read_claims(Hdf5Reader& file, std::size_t list, const Sizes& sizes) {
+  file.enter(list_group(list));
   PieceClaims claims;
-  claims.at_least = number(file.integer_attribute("/", "at_least"), 0, kMostPieces);
-  const std::int64_t most = file.integer_attribute("/", "at_most");
-  if (most != kNone) claims.at_most = number(most, 0, kMostPieces);
-  const std::vector<std::int64_t> free = file.integers("/free"), signs = file.integers("/signs"),
-                                  determinants = file.integers("/determinant_signs");
+  claims.at_least = file.integer("/", "at_least", 0, kMostPieces);
+  const int most = file.integer("/", "at_most", kNone, kMostPieces);
+  if (most != kNone) claims.at_most = most;
   claims.factors = file.texts("/factors");
-  const std::size_t members = determinants.size() / 2, functions = members == 0 ? 0 : signs.size() / members;
-  if (determinants.size() != 2 * members || free.size() != members * dimension || signs.size() != members * functions)
-    refuse("its members differ in length");
-  const std::vector<double> lower = file.doubles("/lower", members, n), upper = file.doubles("/upper", members, n);
-  for (std::size_t k = 0; k < members; ++k) {
-    PieceMember& m = claims.members.emplace_back();
-    for (std::size_t j = k * n; j < (k + 1) * n; ++j) {
-      if (!(lower[j] <= upper[j])) refuse("a box has a side that is not an interval");
-      m.box.emplace_back(lower[j], upper[j]);
-    }
-    for (std::size_t j = 0; j < dimension; ++j) m.free.push_back(number(free[k * dimension + j], 0, kMostPieces));
-    for (std::size_t g = 0; g < functions; ++g) m.signs.push_back(number(signs[k * functions + g], -1, 1));
-    for (std::size_t d = 0; d < 2; ++d) m.determinant_signs[d] = number(determinants[2 * k + d], -1, 1);
+  claims.members = read_list<PieceMember>(file, "/", sizes.members());
+  read_into(file, "/", claims.members, sizes.determinants());
+  if (file.has("/proof")) {
+    if (sizes.dimension == 0) file.fail(list_group(list) + "/proof: a set of points has none");
+    claims.proof = {read_list<SheetBridge>(file, "/proof/bridges_", sizes.bridges(), Storage::packed),
+                    read_list<PieceCell>(file, "/proof/cells_", sizes.cells(), Storage::packed),
+                    read_list<PieceLink>(file, "/proof/links_", sizes.links(), Storage::packed)};
   }
   file.enter("");
   return claims;
+}
+
+void write_proof(Hdf5Writer& file, std::size_t list, const PieceProof& proof, const Sizes& sizes) {
+  file.enter(list_group(list) + "/proof");
+  write_list(file, "/bridges_", proof.bridges, sizes.bridges(), Storage::packed);
+  write_list(file, "/cells_", proof.cells, sizes.cells(), Storage::packed);
+  write_list(file, "/links_", proof.links, sizes.links(), Storage::packed);
+  file.enter("");
 }
 
 }  // namespace
 
 void write_pieces(const std::filesystem::path& path, const PiecesFile& data, const Ended& in_haste) {
   const System system = symbolic::algebrize(equations_of(model_of(data)));
-  const std::size_t n = system.variables.size();
-  const OutputFile target(path);
-  Hdf5Writer file(target.part().string(), 1, in_haste);
-  write_source(file, kPiecesFormat, kPiecesVersion, data);
-  file.texts("/variables", names(system));
-  write_cover(file, "/space", data.space, n);
-  for (std::size_t k = 0; k < kLists.size(); ++k)
-    write_list(file, kLists[k], data.lists[k], n, static_cast<std::size_t>(data.space.dimension));
-  for (std::size_t k = 0; k < kLists.size(); ++k)
-    if (const auto& proof = data.lists[k].proof)
-      write_piece_proof(file, proof_group(k), *proof, n, static_cast<std::size_t>(data.space.dimension));
-  file.close();
-  target.finish();
+  const Sizes sizes{system.variables.size(), static_cast<std::size_t>(data.space.dimension)};
+  write_certificate(path, kPiecesKind, data, in_haste, [&](Hdf5Writer& file) {
+    file.texts("/variables", names(system));
+    write_cover(file, "/space", data.space, sizes.n);
+    for (std::size_t k = 0; k < kLists.size(); ++k) write_claims(file, k, data.lists[k], sizes);
+    for (std::size_t k = 0; k < kLists.size(); ++k)
+      if (const auto& proof = data.lists[k].proof) write_proof(file, k, *proof, sizes);
+  });
 }
-
-bool is_pieces_file(const std::filesystem::path& path) { return format_of(path.string()) == kPiecesFormat; }
 
 PiecesFile read_pieces(const std::filesystem::path& path) {
   Hdf5Reader file(path.string());
-  const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": " + what); };
   PiecesFile data;
-  read_source(file, kPiecesFormat, kPiecesVersion, data);
+  read_source(file, kPiecesKind, data);
   const std::vector<std::string> expected = names(symbolic::algebrize(equations_of(model_of(data))));
-  if (file.texts("/variables") != expected) refuse("its variables are not those of the model");
+  if (file.texts("/variables") != expected) file.fail("its variables are not those of the model");
   data.space = read_cover(file, "/space", expected.size());
-  const auto dimension = static_cast<std::size_t>(data.space.dimension);
-  for (std::size_t k = 0; k < kLists.size(); ++k) {
-    data.lists[k] = read_list(file, kLists[k], expected.size(), dimension);
-    if (file.has(proof_group(k))) data.lists[k].proof = read_piece_proof(file, proof_group(k), expected.size(), dimension);
-  }
+  for (std::size_t k = 0; k < kLists.size(); ++k)
+    data.lists[k] = read_claims(file, k, {expected.size(), static_cast<std::size_t>(data.space.dimension)});
   return data;
 }
 
@@ -162,18 +161,10 @@ std::vector<std::string> all_failures(const check::PiecesReport& report) {
   return list;
 }
 
-std::string claimed(const PieceClaims& c) {
+// Of claims, or of what is confirmed of them.
+std::string bounds(const auto& c) {
   if (!c.at_most) return fmt::format("at least {}", c.at_least);
   return *c.at_most == c.at_least ? std::to_string(c.at_least) : fmt::format("{} to {}", c.at_least, *c.at_most);
-}
-
-}  // namespace
-
-namespace {
-
-std::string confirmed(const check::PieceReport& r) {
-  if (!r.at_most) return fmt::format("at least {}", r.at_least);
-  return *r.at_most == r.at_least ? std::to_string(r.at_least) : fmt::format("{} to {}", r.at_least, *r.at_most);
 }
 
 // Why there may be more pieces than these; empty where there are not.
@@ -195,20 +186,13 @@ std::string to_table(const check::PiecesReport& report, const PiecesFile& file) 
   for (std::size_t k = 0; k < report.lists.size(); ++k) {
     const check::PieceReport& r = report.lists[k];
     text += fmt::format("  {:<14}  claimed: {}; confirmed: {}, {} members with their signs, on {} cells", kLists[k],
-                        claimed(file.lists[k]), confirmed(r), r.members, r.cells);
+                        bounds(file.lists[k]), bounds(r), r.members, r.cells);
     text += r.at_most ? fmt::format(" and {} of the file's with {} links\n", r.cells_of_bound, r.links) : "\n";
   }
-  const std::vector<std::string> failures = all_failures(report);
-  text += failure_lines(failures);
-  if (!report.verified())
-    return text + (report.interrupted && failures.empty()
-                       ? "interrupted in " + report.stage + "; nothing is said about the rest\n"
-                       : "NOT VERIFIED\n");
-  if (report.complete()) return text + "verified\n";
-  text += open_lines(report);
+  std::string open = open_lines(report);
   if (!report.space.complete())
-    text += "the file does not prove that its boxes hold all of C-space, on which the counts rest\n";
-  return text + "verified, except for completeness\n";
+    open += "the file does not prove that its boxes hold all of C-space, on which the counts rest\n";
+  return text + conclusion(report, all_failures(report), open);
 }
 
 std::string to_json(const check::PiecesReport& report, const PiecesFile& file) {

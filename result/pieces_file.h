@@ -10,7 +10,7 @@
 #include "corank/check/pieces.h"
 #include "corank/core/ended.h"
 #include "corank/core/pieces.h"
-#include "corank/result/model_source.h"
+#include "corank/result/source_group.h"
 
 namespace corank::result {
 
@@ -19,15 +19,12 @@ struct PiecesFile : ModelSource {
   std::array<PieceClaims, 3> lists;  ///< aspects, assembly modes, working modes
 };
 
-/// What format_of() says of it.
-inline constexpr const char* kPiecesFormat = "corank aspects";
+inline constexpr CertificateKind kPiecesKind{"corank aspects", 1};
 
 /// Layout: doc/certificates.md. Throw ResultFileError; writing, symbolic::ModelError where the model has no such pieces.
 /// Once `in_haste` says so, what is left is written as it is.
 void write_pieces(const std::filesystem::path& path, const PiecesFile& file, const Ended& in_haste = {});
 PiecesFile read_pieces(const std::filesystem::path& path);
-/// Is it such a file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
-bool is_pieces_file(const std::filesystem::path& path);
 
 /// Rebuilds C-space and the factors of the determinants from the model's text, and checks the claims. Throws
 /// symbolic::ModelError where the text is no model of a mechanism with such singularities.

@@ -44,7 +44,7 @@ struct RunOptions {
   double time_limit = 0;            ///< seconds; 0: no limit
   std::vector<ConstantOverride> constants;
   int corank = 1;  ///< the set is that of kernels of this dimension at least; the number of kernel vectors
-  bool passive_rates_eliminated = false;  ///< System::passive_rates_eliminated; older files know it not
+  bool passive_rates_eliminated = false;  ///< System::passive_rates_eliminated
   std::vector<std::string> outputs{};     ///< of a workspace boundary: in place of the model's; none: those
   friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };

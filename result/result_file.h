@@ -29,9 +29,7 @@
 
 namespace corank::result {
 
-/// The layout that write_result writes; read_result refuses a newer one. Version 1 had no certificates and no counts,
-/// version 2 eliminations in place of the reduction, version 3 one sigma for all variables, kernel vectors of unscaled norm
-/// and no reasons.
+/// The layout that write_result writes, and the only one that read_result reads.
 inline constexpr int kFormatVersion = 4;
 
 /// Throws ResultFileError where no file can be written at `path` (result/output_file.h): to be asked before a long

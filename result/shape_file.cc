@@ -2,25 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "corank/core/check.h"
 #include "corank/result/cover_group.h"
-#include "corank/result/hdf5_file.h"
-#include "corank/result/output_file.h"
 #include "corank/result/printable.h"
-#include "corank/result/source_group.h"
+#include "corank/result/stored_list.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/critical_points.h"
 
 namespace corank::result {
 namespace {
 
-constexpr std::int64_t kShapeVersion = 1;
-constexpr std::int64_t kMostHeights = 16, kMostHeightNumber = 1000, kMostVariables = 100'000;
+constexpr int kMostHeights = 16, kMostHeightNumber = 1000, kMostVariables = 100'000, kMostCount = 1'000'000'000;
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();  // of a number that is not claimed
 
 System space_of(const symbolic::Mechanism& model) {
@@ -41,153 +36,97 @@ check::CriticalSystem critical_system(const symbolic::Mechanism& model, int heig
           symbolic::polynomials(critical.system, {critical.multiplier}).front()};
 }
 
-std::vector<std::int64_t> wide(const std::vector<int>& list) { return {list.begin(), list.end()}; }
-
 std::string height_group(std::size_t k) { return "/heights/" + std::to_string(k); }
+
+// Boxes have n sides, and so many variables are held or free as the set has dimensions.
+auto link_fields(std::size_t n, std::size_t dimension) {
+  return [n, dimension](auto& field, auto& link) {
+    field("first", link.first, 0, kMostCount);
+    field("second", link.second, 0, kMostCount);
+    field.row("held", link.held, dimension, 0, kMostVariables);
+    field.row("point", link.point, n);
+  };
+}
+
+auto bridge_fields(std::size_t n, std::size_t dimension) {
+  return [n, dimension](auto& field, auto& bridge) {
+    field.row("free", bridge.free, dimension, 0, kMostVariables);
+    field.box("", bridge.region, n);
+  };
+}
+
+auto count_fields(const char* name) {
+  return [name](auto& field, auto& count) { field(name, count, 0, kMostCount); };
+}
+
+void write_claim(Hdf5Writer& file, const char* name, const std::optional<int>& claim) {
+  file.attribute("/", name, claim ? std::int64_t{*claim} : kNone);
+}
+
+std::optional<int> read_claim(const Hdf5Reader& file, const char* name, int least) {
+  if (file.attribute<std::int64_t>("/", name) == kNone) return std::nullopt;
+  return file.integer("/", name, least, kMostCount);
+}
 
 }  // namespace
 
 void write_shape(const std::filesystem::path& path, const ShapeFile& data, const Ended& in_haste) {
   const Shape& shape = data.shape;
-  const System space = space_of(model_of(data));
-  const std::size_t n = space.variables.size();
-  const OutputFile target(path);
-  Hdf5Writer file(target.part().string(), 1, in_haste);
-  write_source(file, kShapeFormat, kShapeVersion, data);
-  file.attribute("/", "variables", static_cast<std::int64_t>(n));
-  file.attribute("/", "heights", static_cast<std::int64_t>(shape.heights.size()));
-  file.attribute("/", "at_least", std::int64_t{shape.at_least});
-  file.attribute("/", "at_most", shape.at_most ? std::int64_t{*shape.at_most} : kNone);
-  file.attribute("/", "euler_characteristic",
-                 shape.euler_characteristic ? std::int64_t{*shape.euler_characteristic} : kNone);
-  file.integers("/genus", wide(shape.genus));
-  file.texts("/variables", names(space));
-  const std::size_t dimension = static_cast<std::size_t>(shape.space.dimension);
-  std::vector<std::int64_t> first, second, held, free;
-  std::vector<double> points, lower, upper;
-  for (const SheetLink& link : shape.links) {
-    CORANK_CHECK(link.held.size() == dimension && link.point.size() == n);
-    first.push_back(link.first);
-    second.push_back(link.second);
-    held.insert(held.end(), link.held.begin(), link.held.end());
-    points.insert(points.end(), link.point.begin(), link.point.end());
-  }
-  file.integers("/links/first", first);
-  file.integers("/links/second", second);
-  file.integers("/links/held", held);
-  file.doubles("/links/point", points, shape.links.size(), n);
-  for (const SheetBridge& bridge : shape.bridges) {
-    CORANK_CHECK(bridge.free.size() == dimension && bridge.region.size() == n);
-    free.insert(free.end(), bridge.free.begin(), bridge.free.end());
-    for (const Interval& side : bridge.region) {
-      lower.push_back(side.lo());
-      upper.push_back(side.hi());
+  const symbolic::Mechanism model = model_of(data);
+  const System space = space_of(model);
+  const std::size_t n = space.variables.size(), dimension = static_cast<std::size_t>(shape.space.dimension);
+  write_certificate(path, kShapeKind, data, in_haste, [&](Hdf5Writer& file) {
+    file.attribute("/", "variables", static_cast<std::int64_t>(n));
+    file.attribute("/", "heights", static_cast<std::int64_t>(shape.heights.size()));
+    file.attribute("/", "at_least", std::int64_t{shape.at_least});
+    write_claim(file, "at_most", shape.at_most);
+    write_claim(file, "euler_characteristic", shape.euler_characteristic);
+    write_list(file, "/", shape.genus, count_fields("genus"));
+    file.texts("/variables", names(space));
+    write_list(file, "/links/", shape.links, link_fields(n, dimension));
+    write_list(file, "/bridges/", shape.bridges, bridge_fields(n, dimension));
+    write_cover(file, "/space", shape.space, n);
+    for (std::size_t k = 0; k < shape.heights.size(); ++k) {
+      const HeightCover& height = shape.heights[k];
+      const std::vector<std::string> unknowns = names(critical_system(model, height.height).system);
+      write_cover(file, height_group(k), height.cover, unknowns.size());
+      file.attribute("/", "height", std::int64_t{height.height});
+      file.texts("/variables", unknowns);
+      write_list(file, "/", height.by_index, count_fields("by_index"));
     }
-  }
-  file.integers("/bridges/free", free);
-  file.doubles("/bridges/lower", lower, shape.bridges.size(), n);
-  file.doubles("/bridges/upper", upper, shape.bridges.size(), n);
-  write_cover(file, "/space", shape.space, n);
-  for (std::size_t k = 0; k < shape.heights.size(); ++k) {
-    const HeightCover& height = shape.heights[k];
-    const std::vector<std::string> unknowns = names(critical_system(model_of(data), height.height).system);
-    write_cover(file, height_group(k), height.cover, unknowns.size());
-    file.attribute("/", "height", std::int64_t{height.height});
-    file.texts("/variables", unknowns);
-    file.integers("/by_index", wide(height.by_index));
-  }
-  file.close();
-  target.finish();
+  });
 }
 
-bool is_shape_file(const std::filesystem::path& path) { return format_of(path.string()) == kShapeFormat; }
-
-namespace {
-
-class ShapeReader {
- public:
-  explicit ShapeReader(const std::filesystem::path& path) : file_(path.string()) {}
-
-  ShapeFile read() {
-    ShapeFile data;
-    read_source(file_, kShapeFormat, kShapeVersion, data);
-    const symbolic::Mechanism model = model_of(data);
-    const std::vector<std::string> expected = names(space_of(model));
-    if (file_.texts("/variables") != expected) refuse("its variables are not those of the model");
-    n_ = expected.size();
-    Shape& shape = data.shape;
-    shape.at_least = static_cast<int>(in("at_least", file_.integer_attribute("/", "at_least"), 0, kMostCount));
-    shape.at_most = claim("at_most", 0);
-    shape.euler_characteristic = claim("euler_characteristic", -kMostCount);
-    shape.genus = small("/genus", kMostCount);
-    shape.space = read_cover(file_, "/space", n_);
-    read_links(shape);
-    const std::int64_t heights = in("heights", file_.integer_attribute("/", "heights"), 0, kMostHeights);
-    for (std::int64_t k = 0; k < heights; ++k) {
-      const std::string group = height_group(static_cast<std::size_t>(k));
-      HeightCover& height = shape.heights.emplace_back();
-      file_.enter(group);
-      height.height = static_cast<int>(in("height", file_.integer_attribute("/", "height"), 0, kMostHeightNumber));
-      height.by_index = small("/by_index", kMostCount);
-      const std::vector<std::string> unknowns = file_.texts("/variables");
-      if (unknowns != names(critical_system(model, height.height).system))
-        refuse("the variables of a height are not those of the model");
-      height.cover = read_cover(file_, group, unknowns.size());
-    }
-    return data;
+ShapeFile read_shape(const std::filesystem::path& path) {
+  Hdf5Reader file(path.string());
+  ShapeFile data;
+  read_source(file, kShapeKind, data);
+  const symbolic::Mechanism model = model_of(data);
+  const std::vector<std::string> expected = names(space_of(model));
+  if (file.texts("/variables") != expected) file.fail("its variables are not those of the model");
+  const std::size_t n = expected.size();
+  Shape& shape = data.shape;
+  shape.at_least = file.integer("/", "at_least", 0, kMostCount);
+  shape.at_most = read_claim(file, "at_most", 0);
+  shape.euler_characteristic = read_claim(file, "euler_characteristic", -kMostCount);
+  shape.genus = read_list<int>(file, "/", count_fields("genus"));
+  shape.space = read_cover(file, "/space", n);
+  const auto dimension = static_cast<std::size_t>(shape.space.dimension);
+  shape.links = read_list<SheetLink>(file, "/links/", link_fields(n, dimension));
+  shape.bridges = read_list<SheetBridge>(file, "/bridges/", bridge_fields(n, dimension));
+  shape.heights.resize(static_cast<std::size_t>(file.integer("/", "heights", 0, kMostHeights)));
+  for (std::size_t k = 0; k < shape.heights.size(); ++k) {
+    HeightCover& height = shape.heights[k];
+    file.enter(height_group(k));
+    height.height = file.integer("/", "height", 0, kMostHeightNumber);
+    height.by_index = read_list<int>(file, "/", count_fields("by_index"));
+    const std::vector<std::string> unknowns = file.texts("/variables");
+    if (unknowns != names(critical_system(model, height.height).system))
+      file.fail("the variables of a height are not those of the model");
+    height.cover = read_cover(file, height_group(k), unknowns.size());
   }
-
- private:
-  static constexpr std::int64_t kMostCount = 1'000'000'000;
-
-  [[noreturn]] void refuse(const std::string& what) const { throw ResultFileError(file_.path() + ": " + what); }
-  std::int64_t in(const std::string& name, std::int64_t value, std::int64_t least, std::int64_t most) const {
-    if (value < least || value > most) refuse(name + " is out of range");
-    return value;
-  }
-  std::optional<int> claim(const std::string& name, std::int64_t least) const {
-    const std::int64_t value = file_.integer_attribute("/", name);
-    if (value == kNone) return std::nullopt;
-    return static_cast<int>(in(name, value, least, kMostCount));
-  }
-  std::vector<int> small(const std::string& name, std::int64_t most) const {
-    std::vector<int> list;
-    for (const std::int64_t value : file_.integers(name)) list.push_back(static_cast<int>(in(name, value, 0, most)));
-    return list;
-  }
-
-  void read_links(Shape& shape) const {
-    const std::size_t dimension = static_cast<std::size_t>(shape.space.dimension);
-    const std::vector<int> first = small("/links/first", kMostCount), second = small("/links/second", kMostCount),
-                           held = small("/links/held", kMostVariables), free = small("/bridges/free", kMostVariables);
-    if (second.size() != first.size() || held.size() != first.size() * dimension) refuse("its links differ in length");
-    const std::vector<double> points = file_.doubles("/links/point", first.size(), n_);
-    const auto part = [](const auto& list, std::size_t k, std::size_t size) {
-      const auto begin = list.begin() + static_cast<std::ptrdiff_t>(k * size);
-      return std::vector(begin, begin + static_cast<std::ptrdiff_t>(size));
-    };
-    for (std::size_t k = 0; k < first.size(); ++k)
-      shape.links.push_back({first[k], second[k], part(held, k, dimension), part(points, k, n_)});
-    if (dimension == 0 ? !free.empty() : free.size() % dimension != 0) refuse("its bridges differ in length");
-    const std::size_t bridges = dimension == 0 ? 0 : free.size() / dimension;
-    const std::vector<double> lower = file_.doubles("/bridges/lower", bridges, n_),
-                              upper = file_.doubles("/bridges/upper", bridges, n_);
-    for (std::size_t k = 0; k < bridges; ++k) {
-      shape.bridges.push_back({part(free, k, dimension), {}});
-      for (std::size_t j = k * n_; j < (k + 1) * n_; ++j) {
-        if (!(lower[j] <= upper[j])) refuse("a bridge's box has a side that is not an interval");
-        shape.bridges.back().region.emplace_back(lower[j], upper[j]);
-      }
-    }
-  }
-
-  Hdf5Reader file_;
-  std::size_t n_ = 0;
-};
-
-}  // namespace
-
-ShapeFile read_shape(const std::filesystem::path& path) { return ShapeReader(path).read(); }
+  return data;
+}
 
 check::ShapeReport verify(const ShapeFile& file, const check::Options& options) {
   const symbolic::Mechanism model = model_of(file);
@@ -210,13 +149,9 @@ std::string to_table(const check::ShapeReport& report, const ShapeFile& file) {
   for (const std::vector<int>& by_index : report.by_index)
     text += fmt::format("  critical points       {} confirmed, by index: {}\n",
                         std::accumulate(by_index.begin(), by_index.end(), 0), fmt::join(by_index, ", "));
-  text += failure_lines(report.failures);
-  if (report.complete()) return text + "verified\n";
-  if (report.verified())
-    return text + "the counts are those of the boxes in the file, which does not prove that they hold the whole set\n" +
-           "verified, except for completeness\n";
-  return text + (report.failures.empty() ? "interrupted in " + report.stage + "; nothing is said about the rest\n"
-                                         : "NOT VERIFIED\n");
+  return text + conclusion(report, report.failures,
+                           "the counts are those of the boxes in the file, which does not prove that they hold the whole "
+                           "set\n");
 }
 
 std::string to_json(const check::ShapeReport& report, const ShapeFile& file) {

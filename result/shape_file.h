@@ -9,7 +9,7 @@
 #include "corank/check/shape.h"
 #include "corank/core/ended.h"
 #include "corank/core/shape.h"
-#include "corank/result/model_source.h"
+#include "corank/result/source_group.h"
 
 namespace corank::result {
 
@@ -17,15 +17,12 @@ struct ShapeFile : ModelSource {
   Shape shape;
 };
 
-/// What format_of() says of it.
-inline constexpr const char* kShapeFormat = "corank topology";
+inline constexpr CertificateKind kShapeKind{"corank topology", 1};
 
 /// Layout: doc/certificates.md. Throw ResultFileError; writing, symbolic::ModelError where the model has no such heights.
 /// Once `in_haste` says so, what is left is written as it is.
 void write_shape(const std::filesystem::path& path, const ShapeFile& file, const Ended& in_haste = {});
 ShapeFile read_shape(const std::filesystem::path& path);
-/// Is it a shape's file, as its first words say? Throws ResultFileError where it is no readable HDF5 file.
-bool is_shape_file(const std::filesystem::path& path);
 
 /// Rebuilds the set and the critical points' systems from the model's text, and checks the shape. Throws
 /// symbolic::ModelError where the text is no model.

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "corank/result/output_file.h"
 #include "corank/result/printable.h"
+#include "corank/result/stored_list.h"
 
 namespace corank::result {
 
@@ -16,33 +18,45 @@ symbolic::Mechanism model_of(const ModelSource& source) {
   return model_of(result);
 }
 
-void write_source(Hdf5Writer& file, const std::string& format, std::int64_t format_version, const ModelSource& source) {
-  file.attribute("/", "format", format);
-  file.attribute("/", "format_version", format_version);
+namespace {
+constexpr auto kConstant = [](auto& field, auto& constant) {
+  field("names", constant.name);
+  field("expressions", constant.expression);
+};
+}  // namespace
+
+void write_constants(Hdf5Writer& file, const std::string& group, const std::vector<ConstantOverride>& constants) {
+  write_list(file, group, constants, kConstant);
+}
+
+std::vector<ConstantOverride> read_constants(const Hdf5Reader& file, const std::string& group) {
+  return read_list<ConstantOverride>(file, group, kConstant);
+}
+
+void write_certificate(const std::filesystem::path& path, const CertificateKind& kind, const ModelSource& source,
+                       const Ended& in_haste, const std::function<void(Hdf5Writer&)>& write) {
+  const OutputFile target(path);
+  Hdf5Writer file(target.part().string(), 1, in_haste);
+  file.attribute("/", "format", std::string(kind.format));
+  file.attribute("/", "format_version", std::int64_t{kind.version});
   file.attribute("/", "version", source.version);
   file.attribute("/", "model", source.model);
   file.text("/model/text", source.model_text);
-  std::vector<std::string> constants, expressions;
-  for (const ConstantOverride& c : source.constants) {
-    constants.push_back(c.name);
-    expressions.push_back(c.expression);
-  }
-  file.texts("/model/constants/names", constants);
-  file.texts("/model/constants/expressions", expressions);
+  write_constants(file, "/model/constants/", source.constants);
+  write(file);
+  file.close();
+  target.finish();
 }
 
-void read_source(const Hdf5Reader& file, const std::string& format, std::int64_t format_version, ModelSource& source) {
-  const auto refuse = [&](const std::string& what) { throw ResultFileError(file.path() + ": " + what); };
-  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != format) refuse("this is not a " + format);
-  if (file.integer_attribute("/", "format_version") != format_version)
-    refuse("a format version that this corank cannot read");
-  source.version = file.text_attribute("/", "version");
-  source.model = file.text_attribute("/", "model");
+void read_source(const Hdf5Reader& file, const CertificateKind& kind, ModelSource& source) {
+  if (!file.has_attribute("/", "format") || file.attribute<std::string>("/", "format") != kind.format)
+    file.fail(std::string("this is not a ") + kind.format);
+  if (file.attribute<std::int64_t>("/", "format_version") != kind.version)
+    file.fail("a format version that this corank cannot read");
+  source.version = file.attribute<std::string>("/", "version");
+  source.model = file.attribute<std::string>("/", "model");
   source.model_text = file.text("/model/text");
-  const std::vector<std::string> constants = file.texts("/model/constants/names"),
-                                 expressions = file.texts("/model/constants/expressions");
-  if (constants.size() != expressions.size()) refuse("its constants do not have a value each");
-  for (std::size_t k = 0; k < constants.size(); ++k) source.constants.push_back({constants[k], expressions[k]});
+  source.constants = read_constants(file, "/model/constants/");
 }
 
 std::vector<std::string> names(const System& system) {

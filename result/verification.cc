@@ -124,19 +124,6 @@ std::string conclusion(const Verification& verification, const Result& result) {
 
 Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.failed}, {"not_checkable", t.unchecked}}; }
 
-}  // namespace
-
-symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
-                                           const RunOptions& options) {
-  if (symbolic::definition(set).of_parts)
-    return symbolic::SetEquations(mechanism, set, symbolic::set_parts(mechanism, set).front()).system(options.kernel_scales);
-  symbolic::SetEquations equations(mechanism, set, symbolic::kernel_side_from_string(options.kernel));
-  if (options.passive_rates_eliminated) equations.eliminate_passive_rates();
-  return equations.system(options.kernel_scales, options.corank);
-}
-
-namespace {
-
 // Of a part, or of what all parts have in common.
 System system_of_part(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const Result& result) {
   if (result.part.empty()) {
@@ -153,33 +140,14 @@ System system_of_part(const symbolic::Mechanism& mechanism, symbolic::Singularit
   throw ResultFileError("the result's model has no part '" + result.part + "'");
 }
 
-}  // namespace
-
-System system_of(const Result& result) { return system_of(model_of(result), result); }
-
-System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
-  const auto set = symbolic::singularity_set_from_string(result.set);
-  if (mechanism.is_plain_system() ? result.set != symbolic::definition(std::nullopt).name : !set)
-    throw ResultFileError("the result's model has no set '" + result.set + "'");
-  if (set && (symbolic::definition(set).of_parts || !result.part.empty() || !result.parts.empty()))
-    return system_of_part(mechanism, *set, result);
-  System system =
-      symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism));
-  system.coefficient_tolerance = result.options.tolerance;
-  try {
-    system.validate();
-  } catch (const std::invalid_argument& error) {
-    throw ResultFileError(std::string("the result's system: ") + error.what());
-  }
-  return system;
-}
-
-namespace {
-
 void add(const Tally& t, Tally& sum) {
   sum.verified += t.verified;
   sum.failed += t.failed;
   sum.unchecked += t.unchecked;
+}
+
+void add_failures(const std::vector<Failure>& failures, const std::string& of, Report& sum) {
+  for (const Failure& f : failures) sum.failures.push_back({f.place, f.index, "(" + of + ") " + f.reason});
 }
 
 void add(const Report& part, const std::string& name, bool first, Report& sum) {
@@ -194,10 +162,7 @@ void add(const Report& part, const std::string& name, bool first, Report& sum) {
   sum.proof.steps += part.proof.steps;
   sum.proof.leaves += part.proof.leaves;
   sum.proof.searched += part.proof.searched;
-  for (Failure f : part.failures) {
-    f.reason = "(part: " + name + ") " + f.reason;
-    sum.failures.push_back(std::move(f));
-  }
+  add_failures(part.failures, "part: " + name, sum);
   if (part.interrupted && !sum.interrupted) sum.stage = part.stage;
   sum.interrupted = sum.interrupted || part.interrupted;
 }
@@ -224,7 +189,83 @@ bool same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBox>& b) 
   });
 }
 
+// Of an empty set: the sample, or the search of C-space.
+void verify_assembly(const Result& result, const check::Options& options, Verification& verification) {
+  if (result.assembly.empty() || !verification.contradictions.empty()) return;
+  const Result& cspace = result.assembly.front();
+  if (!result.cover.boxes.empty() || !symbolic::definition(cspace.set).is_cspace()) {
+    verification.contradictions.emplace_back("it says something about C-space, but its set is not empty");
+    return;
+  }
+  const System system = system_of(model_of(result), cspace);
+  for (const std::string& c : contradictions(cspace, system, symbolic::to_cuik(system)))
+    verification.contradictions.push_back("(C-space) " + c);
+  if (!verification.contradictions.empty()) return;
+  check::Options whole = options;
+  whole.sample = 0;
+  const Report found = check::check(system, cspace.cover, whole);
+  const std::optional<bool> claimed = assembled(cspace);
+  if (found.verified() && claimed == std::optional(true)) verification.assembled = true;
+  if (found.complete() && claimed == std::optional(false)) {
+    verification.assembled = false;
+    // The set's configurations are among those of C-space, in the same ranges.
+    if (!verification.report.proof.present && verification.report.left_out == 0) verification.report.proof = found.proof;
+  }
+  add_failures(found.failures, "C-space", verification.report);
+  if (found.interrupted && !verification.report.interrupted) {
+    verification.report.interrupted = true;
+    verification.report.stage = found.stage;
+  }
+}
+
+Verification verify_set(const Result& result, const System& system, const check::Options& options) {
+  Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
+  if (!result.parts.empty() || symbolic::definition(result.set).of_parts)
+    return verify_parts(result, std::move(verification), options);
+  // Boxes of another system are not worth a check.
+  if (!verification.contradictions.empty()) return verification;
+  const auto blocks = blocks_of(result);
+  verification.report = check::check(system, result.cover, options, blocks ? &*blocks : nullptr);
+  return verification;
+}
+
+// "the robot can be assembled: confirmed".
+std::string assembly_text(const Verification& verification, const Result& result) {
+  const std::optional<bool> claimed = assembled(result);
+  if (result.assembly.empty() || !claimed) return "";
+  return fmt::format("the robot {} within its ranges: {}\n", *claimed ? "can be assembled" : "cannot be assembled",
+                     verification.assembled == claimed ? "confirmed" : "NOT CONFIRMED");
+}
+
 }  // namespace
+
+symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
+                                           const RunOptions& options) {
+  if (symbolic::definition(set).of_parts)
+    return symbolic::SetEquations(mechanism, set, symbolic::set_parts(mechanism, set).front()).system(options.kernel_scales);
+  symbolic::SetEquations equations(mechanism, set, symbolic::kernel_side_from_string(options.kernel));
+  if (options.passive_rates_eliminated) equations.eliminate_passive_rates();
+  return equations.system(options.kernel_scales, options.corank);
+}
+
+System system_of(const Result& result) { return system_of(model_of(result), result); }
+
+System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (mechanism.is_plain_system() ? result.set != symbolic::definition(std::nullopt).name : !set)
+    throw ResultFileError("the result's model has no set '" + result.set + "'");
+  if (set && (symbolic::definition(set).of_parts || !result.part.empty() || !result.parts.empty()))
+    return system_of_part(mechanism, *set, result);
+  System system =
+      symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism));
+  system.coefficient_tolerance = result.options.tolerance;
+  try {
+    system.validate();
+  } catch (const std::invalid_argument& error) {
+    throw ResultFileError(std::string("the result's system: ") + error.what());
+  }
+  return system;
+}
 
 std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result) {
   const bool is_boundary = symbolic::definition(result.set).of_parts;
@@ -259,61 +300,6 @@ std::optional<VelocityBlocks> blocks_of(const Result& result) {
 Verification verify(const Result& result, const check::Options& options) {
   return verify(result, system_of(result), options);
 }
-
-namespace {
-
-// Of an empty set: the sample, or the search of C-space.
-void verify_assembly(const Result& result, const check::Options& options, Verification& verification) {
-  if (result.assembly.empty() || !verification.contradictions.empty()) return;
-  const Result& cspace = result.assembly.front();
-  if (!result.cover.boxes.empty() || !symbolic::definition(cspace.set).is_cspace()) {
-    verification.contradictions.emplace_back("it says something about C-space, but its set is not empty");
-    return;
-  }
-  const System system = system_of(model_of(result), cspace);
-  for (const std::string& c : contradictions(cspace, system, symbolic::to_cuik(system)))
-    verification.contradictions.push_back("(C-space) " + c);
-  if (!verification.contradictions.empty()) return;
-  check::Options whole = options;
-  whole.sample = 0;
-  const Report found = check::check(system, cspace.cover, whole);
-  const std::optional<bool> claimed = assembled(cspace);
-  if (found.verified() && claimed == std::optional(true)) verification.assembled = true;
-  if (found.complete() && claimed == std::optional(false)) {
-    verification.assembled = false;
-    // The set's configurations are among those of C-space, in the same ranges.
-    if (!verification.report.proof.present && verification.report.left_out == 0) verification.report.proof = found.proof;
-  }
-  for (Failure f : found.failures) {
-    f.reason = "(C-space) " + f.reason;
-    verification.report.failures.push_back(std::move(f));
-  }
-  if (found.interrupted && !verification.report.interrupted) {
-    verification.report.interrupted = true;
-    verification.report.stage = found.stage;
-  }
-}
-
-Verification verify_set(const Result& result, const System& system, const check::Options& options) {
-  Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
-  if (!result.parts.empty() || symbolic::definition(result.set).of_parts)
-    return verify_parts(result, std::move(verification), options);
-  // Boxes of another system are not worth a check.
-  if (!verification.contradictions.empty()) return verification;
-  const auto blocks = blocks_of(result);
-  verification.report = check::check(system, result.cover, options, blocks ? &*blocks : nullptr);
-  return verification;
-}
-
-// "the robot can be assembled: confirmed".
-std::string assembly_text(const Verification& verification, const Result& result) {
-  const std::optional<bool> claimed = assembled(result);
-  if (result.assembly.empty() || !claimed) return "";
-  return fmt::format("the robot {} within its ranges: {}\n", *claimed ? "can be assembled" : "cannot be assembled",
-                     verification.assembled == claimed ? "confirmed" : "NOT CONFIRMED");
-}
-
-}  // namespace
 
 Verification verify(const Result& result, const System& system, const check::Options& options) {
   Verification verification = verify_set(result, system, options);

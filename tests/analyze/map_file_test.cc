@@ -35,7 +35,7 @@ TEST(MapFile, IsReadAsItWasWritten) {
   file.family.fixed = {};
   const std::string path = ::testing::TempDir() + "map_file_test.h5";
   result::write_map(path, file);
-  EXPECT_TRUE(result::is_map_file(path));
+  EXPECT_EQ(result::format_of(path), result::kMapKind.format);
   const MapFile read = result::read_map(path);
   EXPECT_EQ(read.model_text, file.model_text);
   EXPECT_EQ(read.family.set, file.family.set);

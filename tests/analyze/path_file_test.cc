@@ -43,7 +43,7 @@ const result::PathFile& sample() {
 TEST(PathFile, IsReadAsItWasWritten) {
   const std::string path = ::testing::TempDir() + "path_file_test.h5";
   result::write_path(path, sample());
-  EXPECT_TRUE(result::is_path_file(path));
+  EXPECT_EQ(result::format_of(path), result::kPathKind.format);
   const result::PathFile read = result::read_path(path);
   EXPECT_EQ(read.model_text, sample().model_text);
   EXPECT_EQ(read.avoid, sample().avoid);

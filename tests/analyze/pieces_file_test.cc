@@ -45,7 +45,7 @@ const PiecesFile& rocker() {
 TEST(PiecesFile, IsReadAsItWasWritten) {
   const std::string path = ::testing::TempDir() + "pieces_file_test.h5";
   result::write_pieces(path, slider_pieces());
-  EXPECT_TRUE(result::is_pieces_file(path));
+  EXPECT_EQ(result::format_of(path), result::kPiecesKind.format);
   const PiecesFile read = result::read_pieces(path);
   EXPECT_EQ(read.model_text, slider_pieces().model_text);
   EXPECT_EQ(read.space.regions, slider_pieces().space.regions);

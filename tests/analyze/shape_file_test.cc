@@ -53,7 +53,7 @@ const ShapeFile& slider() {
 TEST(ShapeFile, IsReadAsItWasWritten) {
   const std::string path = ::testing::TempDir() + "shape_file_test.h5";
   result::write_shape(path, slider());
-  EXPECT_TRUE(result::is_shape_file(path));
+  EXPECT_EQ(result::format_of(path), result::kShapeKind.format);
   const ShapeFile read = result::read_shape(path);
   EXPECT_EQ(read.model_text, slider().model_text);
   EXPECT_EQ(read.shape.at_most, slider().shape.at_most);

@@ -87,9 +87,7 @@ TEST(PackedChunks, EndWhereTheirUserFails) {
 
 template <class T>
 void expect_read_back(Hdf5Reader& file, const std::string& name, const std::vector<T>& expected) {
-  std::vector<T> found;
-  file.read(name, found);
-  EXPECT_EQ(found, expected) << name;
+  EXPECT_EQ(file.vector<T>(name), expected) << name;
 }
 
 TEST(PackedChunks, AreReadByTheLibraryWhateverTheThreadsAndTheHaste) {

@@ -242,12 +242,15 @@ TEST_F(ResultFile, RefusesAnHdf5FileThatIsNoResult) {
   EXPECT_THAT(refusal(path()), HasSubstr("not a corank result"));
 }
 
-TEST_F(ResultFile, RefusesANewerFormat) {
-  Hdf5Writer file(path().string());
-  file.attribute("/", "format", std::string("corank result"));
-  file.attribute("/", "format_version", std::int64_t{kFormatVersion + 1});
-  file.close();
-  EXPECT_THAT(refusal(path()), HasSubstr("format version " + std::to_string(kFormatVersion + 1)));
+TEST_F(ResultFile, RefusesAnyOtherFormat) {
+  for (const int version : {kFormatVersion - 1, kFormatVersion + 1}) {
+    Hdf5Writer file(path().string());
+    file.attribute("/", "format", std::string("corank result"));
+    file.attribute("/", "format_version", std::int64_t{version});
+    file.close();
+    EXPECT_THAT(refusal(path()),
+                HasSubstr("format version " + std::to_string(version) + "; this corank reads version 4 only"));
+  }
 }
 
 TEST_F(ResultFile, RefusesAFileCutShortAnywhere) {
@@ -270,7 +273,7 @@ class InconsistentFile : public ResultFile {
       name == changed ? write(file) : write_good();
     };
     file.attribute("/", "format", std::string("corank result"));
-    file.attribute("/", "format_version", std::int64_t{certificates_ ? kFormatVersion : 1});
+    file.attribute("/", "format_version", std::int64_t{kFormatVersion});
     for (const char* name : {"version", "model", "set"}) file.attribute("/", name, std::string("x"));
     for (const char* name : {"complete", "dimension", "configuration_size", "equations", "inequalities"}) {
       unless_changed(name, [&] { file.attribute("/", name, std::int64_t{1}); });
@@ -291,7 +294,8 @@ class InconsistentFile : public ResultFile {
     for (const char* name : {"sigma", "sigma_length", "sigma_angle", "tolerance", "time_limit"})
       file.attribute("/options", name, 0.1);
     file.texts("/options/kernel_scales", {});
-    file.attribute("/options", "threads", std::int64_t{1});
+    for (const char* name : {"threads", "corank", "passive_rates_eliminated"})
+      file.attribute("/options", name, std::int64_t{1});
     for (const char* name : {"max_boxes", "max_solutions"}) file.attribute("/options", name, std::uint64_t{0});
     for (const std::string group : {"/boxes", "/points"}) {
       unless_changed(group + "/lower", [&] { file.doubles(group + "/lower", std::vector{0.25}, 1, 1); });
@@ -305,19 +309,17 @@ class InconsistentFile : public ResultFile {
     for (const char* name : {"processed", "newton_steps", "proofs_tried"})
       file.attribute("/statistics", name, std::uint64_t{1});
     for (const char* name : {"seconds_total", "seconds_search", "seconds_certify"}) file.attribute("/statistics", name, 0.1);
-    if (certificates_) {
-      for (int v = 0; v < kVerdicts; ++v) {
-        const std::string verdict = to_string(static_cast<Verdict>(v));
-        unless_changed(verdict, [&] { file.attribute("/boxes", verdict, std::uint64_t{v == 0}); });
-      }
-      file.attribute("/boxes", "wider_than_sigma", std::uint64_t{1});
-      write_certificates(file, *certificates_, 1);
+    for (int v = 0; v < kVerdicts; ++v) {
+      const std::string verdict = to_string(static_cast<Verdict>(v));
+      unless_changed(verdict, [&] { file.attribute("/boxes", verdict, std::uint64_t{v == kept_}); });
     }
+    file.attribute("/boxes", "wider_than_sigma", std::uint64_t{1});
+    write_certificates(file, certificates_, 1);
     file.close();
     return refusal(path());
   }
 
-  // One box and one point, without a region; a file of the first format has none.
+  // One box and one point, without a region.
   static Cover certificates() {
     Cover cover;
     cover.boxes.resize(1);
@@ -325,16 +327,11 @@ class InconsistentFile : public ResultFile {
     return cover;
   }
 
-  std::optional<Cover> certificates_;
+  Cover certificates_ = certificates();
+  int kept_ = static_cast<int>(Verdict::regular);  // the verdict of the box
 };
 
-TEST_F(InconsistentFile, WithCertificatesIsFineWithNothingChanged) {
-  certificates_ = certificates();
-  EXPECT_EQ(refusal_of("nothing", [](Hdf5Writer&) {}), "");
-}
-
 TEST_F(InconsistentFile, IsRefusedForACountThatIsNotThatOfTheBoxes) {
-  certificates_ = certificates();
   EXPECT_THAT(refusal_of("undecided", [](Hdf5Writer& f) { f.attribute("/boxes", "undecided", std::uint64_t{1}); }),
               HasSubstr("undecided of /boxes contradicts the boxes"));
 }
@@ -342,7 +339,7 @@ TEST_F(InconsistentFile, IsRefusedForACountThatIsNotThatOfTheBoxes) {
 TEST_F(InconsistentFile, IsRefusedForIndicesOutOfRange) {
   const auto refused = [&](const std::function<void(Cover&)>& change) {
     certificates_ = certificates();
-    change(*certificates_);
+    change(certificates_);
     return refusal_of("nothing", [](Hdf5Writer&) {});
   };
   EXPECT_THAT(refused([](Cover& c) { c.boxes[0].region = 0; }), HasSubstr("out of range"));
@@ -390,6 +387,7 @@ TEST_F(InconsistentFile, ReadsVerdictsByTheirWordsNotTheirNumbers) {
   const auto write = [](Hdf5Writer& f) {
     f.enumeration("/boxes/verdict", std::vector<std::uint8_t>{1}, {"undecided", "isolated"});
   };
+  kept_ = static_cast<int>(Verdict::isolated);
   EXPECT_EQ(refusal_of("/boxes/verdict", write), "");
   EXPECT_EQ(read_result(path()).cover.boxes.at(0).verdict, Verdict::isolated);
 }
