@@ -52,8 +52,8 @@ struct Bodies {
   std::size_t size() const { return group.size(); }
 };
 
-/// From body to body: step(j, near, far) for each of these joints (in Bodies::joints) on each body that is reached, near being
-/// its end there. Where it says so, far's body is reached.
+/// From body to body: step(j, near, far) for each of these joints (in Bodies::joints) on each body that is reached, near
+/// being its end there. Where it says so, far's body is reached.
 template <typename Step>
 void walk(const Bodies& bodies, const std::vector<std::size_t>& joints, std::size_t start, Step&& step) {
   std::deque<std::size_t> waiting{start};

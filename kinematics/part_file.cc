@@ -189,6 +189,7 @@ CORANK_ACTION0(bracket_comma, { b.bracket_has_two = true; })
 CORANK_ACTION(range_bracket, { b.push_bracket(place(in, b)); })
 CORANK_ACTION(reference_tuple, { b.push_reference(b.pop_vector(), false, place(in, b)); })
 CORANK_ACTION(reference_offset, { b.push_reference(b.pop_vector(), true, place(in, b)); })
+CORANK_ACTION(reference_name, { b.push_named_reference(in.string(), place(in, b)); })
 CORANK_ACTION(zero_direction, {
   b.draft.zeros.push_back(b.pop_vector());
   b.draft.zero_where = place(in, b);

@@ -243,7 +243,8 @@ struct bracket : seq<bracket_open, gap, expression, gap, opt<bracket_comma, gap,
 struct range_bracket : bracket {};
 struct reference_tuple : tuple {};
 struct reference_offset : seq<one<'+'>, gap, must<offset_vector>> {};
-struct reference_point : seq<not_at<sor<any_kind, option_word>>, named_point> {};
+struct reference_name : simple_name {};
+struct reference_point : seq<not_at<sor<any_kind, option_word>>, reference_name> {};
 struct reference : sor<reference_tuple, reference_offset, reference_point> {};
 struct range_option : seq<sor<range_word, limits_word>, gap, must<range_bracket>,
                           star<gap, sor<seq<not_at<capital_header>, range_bracket>, reference_word, reference>>> {};

@@ -173,10 +173,11 @@ std::vector<std::vector<double>> entry_sizes(const Mechanism& mechanism, const E
 }
 
 // Of each column of M: 0 for an angular rate; else how fast the rate is beside angular ones, so that kernel vectors do not
-// depend on the unit of length. A linear rate v_j in a row Σ_k L_ik m_k = 0 with an angular rate ω_k is as fast as |L_ik| /
-// |L_ij| where ω_k is 1: a lever arm. A row with linear rates only passes the size of one on to the others. All lengths times f:
-// a coefficient of dimension length^p becomes f^p times as large, and each of these numbers, of which the largest is taken, f
-// times. Linear rates that no row ties to an angular one get the largest of the others, 1 where there is none.
+// depend on the unit of length. A linear rate v_j in a row Σ_k L_ik m_k = 0 with an angular rate ω_k is as fast as
+// |L_ik| / |L_ij| where ω_k is 1: a lever arm. A row with linear rates only passes the size of one on to the others. All
+// lengths times f: a coefficient of dimension length^p becomes f^p times as large, and each of these numbers, of which the
+// largest is taken, f times. Linear rates that no row ties to an angular one get the largest of the others, 1 where there is
+// none.
 std::vector<double> rate_sizes(const Mechanism& mechanism, const ExpressionMatrix& matrix,
                                const std::vector<std::vector<double>>& entries) {
   std::vector<bool> angular;

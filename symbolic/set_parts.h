@@ -44,8 +44,8 @@ class SetEquations {
   Mechanism mechanism_;  // of a boundary without a velocity equation of its own
   SingularitySet set_;
   std::optional<SetPart> part_;
-  std::optional<KernelQuestion>
-      kernel_;  // nothing: of all configurations, cusps, nodes, or of a part without a kernel vector
+  /// Nothing: of all configurations, cusps, nodes, or of a part without a kernel vector.
+  std::optional<KernelQuestion> kernel_;
 };
 
 }  // namespace corank::symbolic

@@ -157,6 +157,18 @@ TEST(PartFile, ReadsTheRangeOfARevoluteJointWithItsReferences) {
   EXPECT_THAT(zero.notices[0], HasSubstr(": 2 times"));
 }
 
+TEST(PartFile, ReadsReferencesThatAreNamedPoints) {
+  for (const char* const option : {"reference R S", "range [0, pi/2] R S"}) {
+    const Robot robot =
+        parse(std::string("[LINKS]\na: point P (1,0,0) point Q (2,0,0) point R (1,0,1)\nb: point S (1,0,0)\n[JOINTS]\n"
+                          "revolute: a P Q b (0,0,0) (0,1,0) ") +
+              option);
+    EXPECT_EQ(text_of(*robot.joints[0].ends[0].zero), "0, 0, 1") << option;
+    EXPECT_EQ(text_of(*robot.joints[0].ends[1].zero), "1, 0, 0") << option;
+    EXPECT_EQ(text_of(robot.joints[0].ends[1].axis), "0, 1, 0") << option;
+  }
+}
+
 TEST(PartFile, ReadsEveryKindOfJoint) {
   const Robot universal =
       with_joint("UNIVERSAL: a (0,0,0) (1,0,0) b (0,0,0) (0,1,0) range [-1,1] (0,0,1) [-2,2] (0,0,-1) avoid limits 0.5");
