@@ -69,19 +69,27 @@ auto point_fields(std::size_t variables) {
     field.row("coordinates", point.coordinates, n);
     field("corank", point.corank, -1, static_cast<int>(n));
     field.packed("sole_within", point.sole_within);
-    field.packed("types_proven", point.types.proven, kAllTypes);
-    field.packed("types_excluded", point.types.excluded, kAllTypes);
   };
 }
 
+constexpr auto kPointTypes = [](auto& field, auto& point) {
+  field.packed("types_proven", point.types.proven, kAllTypes);
+  field.packed("types_excluded", point.types.excluded, kAllTypes);
+};
+
 auto index_fields(const Cover& cover, std::size_t variables) {
   const auto last = [](std::size_t size) { return static_cast<int>(size) - 1; };
-  return [n = static_cast<int>(variables), regions = last(cover.regions.size()), points = last(cover.exact_points.size()),
-          motions = last(cover.self_motions.size())](auto& field, auto& box) {
+  return [n = static_cast<int>(variables), regions = last(cover.regions.size()), points = last(cover.exact_points.size())](
+             auto& field, auto& box) {
     field("corank", box.kernel_at_most, -1, n);
     field("region", box.region, -1, regions);
     field("point", box.point, -1, points);
-    field("motion", box.motion, -1, motions);
+  };
+}
+
+auto motion_field(const Cover& cover) {
+  return [last = static_cast<int>(cover.self_motions.size()) - 1](auto& field, auto& box) {
+    field("motion", box.motion, -1, last);
   };
 }
 
@@ -133,12 +141,16 @@ class Reader {
 
   void read() {
     read_reduction();
-    read_implied();
+    const bool has_motions = file_.has(kGroup + "self_motions");  // and what else format version 4 has brought
+    if (has_motions) read_implied();
     cover_.regions = read_list<Box>(file_, kGroup + "region_", box_fields(n_), Storage::packed);
     cover_.exact_points = read_list<ExactPoint>(file_, kPoints, point_fields(n_));
-    read_motions();
+    if (file_.has(kPoints + "types_proven")) read_into(file_, kPoints, cover_.exact_points, kPointTypes);
+    if (has_motions) read_motions();
     read_into(file_, kGroup + "box_", cover_.boxes, index_fields(cover_, n_), Storage::packed);
     read_into(file_, kGroup + "point_", cover_.points, index_fields(cover_, n_), Storage::packed);
+    if (has_motions) read_into(file_, kGroup + "box_", cover_.boxes, motion_field(cover_), Storage::packed);
+    if (has_motions) read_into(file_, kGroup + "point_", cover_.points, motion_field(cover_), Storage::packed);
     read_decimals();
     if (file_.has(kGroup + "proof")) cover_.proof = std::make_shared<const Proof>(proof());
   }
@@ -279,7 +291,9 @@ void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variab
   write_list(file, kImplied, powers, kPowerFields);
   write_list(file, kGroup + "region_", cover.regions, box_fields(variables), Storage::packed);
   write_list(file, kGroup + "box_", cover.boxes, index_fields(cover, variables), Storage::packed);
+  write_list(file, kGroup + "box_", cover.boxes, motion_field(cover), Storage::packed);
   write_list(file, kGroup + "point_", cover.points, index_fields(cover, variables), Storage::packed);
+  write_list(file, kGroup + "point_", cover.points, motion_field(cover), Storage::packed);
   std::vector<std::string> decimals;
   for (std::vector<std::string> of_point : cover.decimals) {
     of_point.resize(variables);
@@ -287,6 +301,7 @@ void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variab
   }
   file.texts(kGroup + "decimals", decimals);
   write_list(file, kPoints, cover.exact_points, point_fields(variables));
+  write_list(file, kPoints, cover.exact_points, kPointTypes);
   write_motions(file, cover.self_motions, variables);
   if (cover.proof) write_proof(file, *cover.proof);
 }

@@ -17,6 +17,7 @@ namespace {
 
 constexpr const char* kFormat = "corank result";
 constexpr const char* kAssembly = "/assembly";
+constexpr int kOldest = 3;  // with one sigma, without reasons, larger kernels and their scales
 constexpr int kMostCorank = 1000, kMostParts = 1000, kMostOfCounted = 1'000'000'000, kMostThreads = 1'000'000;
 
 const EnumWords kReasonWords = words_of<Reason>(kReasons), kPassageWords = words_of<Passage>(kPassages);
@@ -46,11 +47,14 @@ constexpr auto kTypeFields = [](auto& field, auto& box) {
   field.packed("types_excluded", box.types.excluded, kAllTypes);
 };
 
+constexpr auto kSigma = [](auto& field, auto& sigma) {
+  field("sigma_length", sigma.length);
+  field("sigma_angle", sigma.angle);
+};
+
 // Attributes of a result, of its options, of its statistics.
 constexpr auto kSizes = [](auto& field, auto& result) {
   field("dimension", result.cover.dimension, 0, kMostOfCounted);
-  field("sigma_length", result.cover.sigma.length);
-  field("sigma_angle", result.cover.sigma.angle);
   field("tolerance", result.cover.tolerance);
   field("configuration_size", result.configuration_size, 0, kMostOfCounted);
   field("equations", result.equations, 0, kMostOfCounted);
@@ -58,14 +62,12 @@ constexpr auto kSizes = [](auto& field, auto& result) {
 };
 
 constexpr auto kKernelOptions = [](auto& field, auto& options) {
-  field("kernel", options.kernel);
-  field("sigma_length", options.sigma.length);
-  field("sigma_angle", options.sigma.angle);
+  field("corank", options.corank, 1, kMostCorank);
+  field("passive_rates_eliminated", options.passive_rates_eliminated);
 };
 
 constexpr auto kFurtherOptions = [](auto& field, auto& options) {
-  field("corank", options.corank, 1, kMostCorank);
-  field("passive_rates_eliminated", options.passive_rates_eliminated);
+  field("kernel", options.kernel);
   field("tolerance", options.tolerance);
   field("threads", options.threads, 0, kMostThreads);
   field("max_boxes", options.max_boxes);
@@ -88,6 +90,7 @@ void write_options(Hdf5Writer& file, const RunOptions& options) {
   write_constants(file, "/options/constants/", options.constants);
   if (!options.outputs.empty()) file.texts("/options/outputs", options.outputs);
   StoredAttributes attributes{.to = &file, .object = "/options"};
+  kSigma(attributes, options.sigma);
   kKernelOptions(attributes, options);
   file.texts("/options/kernel_scales", options.kernel_scales);
   kFurtherOptions(attributes, options);
@@ -130,6 +133,7 @@ void write_own(Hdf5Writer& file, const Result& result) {
   file.attribute("/", "stopped", result.stopped);
   file.attribute("/", "complete", std::int64_t{cover.complete()});
   StoredAttributes attributes{.to = &file};
+  kSigma(attributes, cover.sigma);
   kSizes(attributes, result);
   file.text("/model/system", result.system_text);
   write_list(file, "/variables/", result.variables, kVariableFields);
@@ -157,10 +161,10 @@ class ResultReader {
   explicit ResultReader(Hdf5Reader file, Reading reading = {}) : file_(std::move(file)), reading_(std::move(reading)) {
     if (!file_.has_attribute("/", "format") || file_.attribute<std::string>("/", "format") != kFormat)
       file_.fail("this is not a corank result");
-    const auto format = file_.attribute<std::int64_t>("/", "format_version");
-    if (format != kFormatVersion)
-      file_.fail("format version " + std::to_string(format) + "; this corank reads version " +
-                 std::to_string(kFormatVersion) + " only: expected a result that is solved again");
+    format_ = file_.attribute<std::int64_t>("/", "format_version");
+    if (format_ < kOldest || format_ > kFormatVersion)
+      file_.fail("format version " + std::to_string(format_) + "; this corank reads versions " + std::to_string(kOldest) +
+                 " to " + std::to_string(kFormatVersion));
   }
 
   Result read() {
@@ -212,6 +216,7 @@ class ResultReader {
     std::iota(sides_.begin(), sides_.end(), 0);
     if (reading_.sides) sides_ = reading_.sides(result);
     StoredAttributes attributes{.from = &file_};
+    cover.sigma = sigma("/");
     kSizes(attributes, result);
     if (result.configuration_size > static_cast<int>(n))
       file_.fail("the attribute configuration_size is above the number of variables");
@@ -255,7 +260,7 @@ class ResultReader {
 
   std::vector<CoverBox> read_list_of_boxes(const std::string& group, std::size_t n, std::size_t outputs) {
     std::vector<CoverBox> boxes = read_boxes(file_, group, n, reading_.sides ? &sides_ : nullptr, reading_.free);
-    read_into(file_, group + "/", boxes, kReasonField);
+    if (format_ > kOldest) read_into(file_, group + "/", boxes, kReasonField);
     if (file_.has(group + "/part")) read_into(file_, group + "/", boxes, kPartField);
     if (outputs == 0) return boxes;
     const std::vector<std::uint8_t> passages = file_.enumeration(group + "/passage", kPassageWords);
@@ -298,16 +303,27 @@ class ResultReader {
     options.constants = read_constants(file_, "/options/constants/");
     if (file_.has("/options/outputs")) options.outputs = words("/options/outputs");
     StoredAttributes attributes{.from = &file_, .object = "/options"};
-    kKernelOptions(attributes, options);
+    options.sigma = sigma("/options");
+    kFurtherOptions(attributes, options);
     if (!options.kernel.empty() && options.kernel != "right" && options.kernel != "left")
       file_.fail("the attribute kernel of /options is neither right nor left: '" + options.kernel + "'");
+    if (format_ == kOldest) return;
+    kKernelOptions(attributes, options);
     options.kernel_scales = words("/options/kernel_scales");
-    kFurtherOptions(attributes, options);
+  }
+
+  Sigma sigma(const char* object) const {
+    Sigma sigma;
+    if (format_ == kOldest) return {file_.attribute<double>(object, "sigma"), file_.attribute<double>(object, "sigma")};
+    StoredAttributes attributes{.from = &file_, .object = object};
+    kSigma(attributes, sigma);
+    return sigma;
   }
 
   Hdf5Reader file_;
   Reading reading_;
   std::vector<int> sides_;
+  std::int64_t format_ = kFormatVersion;
 };
 
 }  // namespace
