@@ -10,6 +10,7 @@
 #include "corank/certify/angle.h"
 #include "corank/core/check.h"
 #include "corank/result/pieces_file.h"
+#include "corank/result/words.h"
 
 namespace corank::analyze {
 namespace {
@@ -24,8 +25,7 @@ std::vector<Value> values(const System& system, const Box& box) {
   for (std::size_t j = 0; j < system.variables.size(); ++j)
     if (system.variables[j].kind == VariableKind::length) result.push_back({system.variables[j].name, box[j]});
   for (const Angle& a : system.angles)
-    result.push_back({a.name, certify::angle_enclosure(box[static_cast<std::size_t>(a.cosine)],
-                                                       box[static_cast<std::size_t>(a.sine)], a.range)});
+    result.push_back({a.name, certify::angle_enclosure(box[a.cosine], box[a.sine], a.range)});
   return result;
 }
 
@@ -55,17 +55,23 @@ std::string cusps_line(const AspectCusps& cusps) {
   return text;
 }
 
+// The other aspects that share outputs with aspect k: of which this is proven, or not known.
+std::vector<std::size_t> others(const Aspects& a, std::size_t k, std::optional<bool> shares) {
+  std::vector<std::size_t> list;
+  for (std::size_t other = 0; other < a.images->share[k].size(); ++other)
+    if (other != k && a.images->share[k][other] == shares) list.push_back(other);
+  return list;
+}
+
 // "; covers an area from 4.36 to 5.83, and shares outputs with 2, 3".
 std::string area_words(const Aspects& a, std::size_t k) {
   if (!a.images || k >= a.images->areas.size()) return "";
   constexpr double kRoom = 1e-4;  // more than what the digits round
   const Interval& area = a.images->areas[k];
   std::string text = fmt::format("; covers an area from {:.5g} to {:.5g}", area.lo() * (1 - kRoom), area.hi() * (1 + kRoom));
-  std::vector<std::size_t> shared;
-  for (std::size_t other = 0; other < a.images->share[k].size(); ++other)
-    if (other != k && a.images->share[k][other].value_or(false)) shared.push_back(other + 1);
-  if (!shared.empty()) text += fmt::format(", shares outputs with {}", fmt::join(shared, ", "));
-  return text;
+  const std::vector<std::size_t> shared = others(a, k, true);
+  const std::string numbers = result::joined(shared, [](std::size_t other) { return std::to_string(other + 1); });
+  return shared.empty() ? text : text + ", shares outputs with " + numbers;
 }
 
 std::string bounds(const Pieces& p) {
@@ -104,7 +110,7 @@ result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
 
 std::string summary(const Aspects& a) {
   const auto counted = [](const Pieces& p, const char* what) {
-    return fmt::format("{} {}{}", bounds(p), what, p.exact() && p.at_least == 1 ? "" : "s");
+    return bounds(p) + " " + result::noun(p.exact() && p.at_least == 1 ? 1 : 2, what);
   };
   return fmt::format("{}, {}, {}.{}", counted(a.aspects, "aspect"), counted(a.assembly_modes, "assembly mode"),
                      counted(a.working_modes, "working mode"),
@@ -160,12 +166,8 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
       entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
     if (a.images && k < a.images->areas.size()) {
       entry["area"] = {{"lo", a.images->areas[k].lo()}, {"hi", a.images->areas[k].hi()}};
-      entry["shares_outputs_with"] = Json::array();
-      for (std::size_t other = 0; other < a.images->share[k].size(); ++other)
-        if (other != k && a.images->share[k][other].value_or(false)) entry["shares_outputs_with"].push_back(other);
-      entry["may_share_outputs_with"] = Json::array();
-      for (std::size_t other = 0; other < a.images->share[k].size(); ++other)
-        if (other != k && !a.images->share[k][other]) entry["may_share_outputs_with"].push_back(other);
+      entry["shares_outputs_with"] = others(a, k, true);
+      entry["may_share_outputs_with"] = others(a, k, std::nullopt);
     }
     json["representatives"].push_back(entry);
   }

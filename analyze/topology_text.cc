@@ -7,11 +7,12 @@
 
 #include "corank/core/check.h"
 #include "corank/result/shape_file.h"
+#include "corank/result/words.h"
 
 namespace corank::analyze {
 namespace {
 
-std::string counted(int n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+std::string counted(int n, const std::string& word) { return result::counted(n, word); }
 
 std::string components_text(const Components& c) {
   if (c.exact()) return counted(c.at_least, "component");
@@ -21,7 +22,7 @@ std::string components_text(const Components& c) {
 
 const char* surface_name(int genus) {
   constexpr std::array kNames{"sphere", "torus", "double torus"};
-  return genus < 3 ? kNames[static_cast<std::size_t>(genus)] : "closed surface";
+  return genus < 3 ? kNames[genus] : "closed surface";
 }
 
 // "2 tori (genus 1)": of equal ones together.

@@ -13,6 +13,7 @@
 #include "corank/app/search_limits.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/parameter_picture.h"
+#include "corank/report/portrait.h"
 #include "corank/result/printable.h"
 #include "corank/result/result_file.h"
 #include "corank/symbolic/model_file.h"
@@ -83,7 +84,7 @@ ExitStatus write_map(const CLI::App& sub, MapCommand command) {
     throw UsageError(fmt::format("--resolution {}: expected a power of two from {} to 1024", n, analyze::kTiles));
   for (const std::string& name : command.outputs) {
     const bool certificate = name.ends_with(".h5");
-    const bool known = certificate || name.ends_with(".json") || name.ends_with(".csv") || report::is_picture(name);
+    const bool known = certificate || name.ends_with(".json") || name.ends_with(".csv") || report::is_portrait_format(name);
     if (!known)
       throw UsageError(fmt::format("-o {}: expected a file name that ends in .h5, .svg, .pdf, .png, .csv or .json", name));
     if (certificate && command.count != "solutions")

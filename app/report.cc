@@ -143,7 +143,8 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     if (views.empty()) return kIncomplete;
     options.command = command.search.command_line("report", command.question);
     ProgressLine line;
-    for (const auto& [result, set, system, components, words] : views) {
+    for (const auto& view : views) {
+      const result::Result& result = view.result;
       line.show("writing " + result.set + ".h5");
       options.files.push_back(result.set + ".h5");
       result::write_result(folder / options.files.back(), result, [] { return Interrupt::stop().load(); });
@@ -175,9 +176,9 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     if (warn_of_assembly(view.result)) break;  // it is the same of the others
   if (table) fmt::print("{}\n", result::printable_line((folder / "index.html").string()));
   if (complete) return kDone;
-  for (const auto& [result, set, system, components, words] : views)
-    if (!result.cover.complete() || !result.stopped.empty())
-      fmt::print(stderr, "corank: {}: {}\n", result.set, study::stopped_words(result));
+  for (const auto& view : views)
+    if (!view.result.cover.complete() || !view.result.stopped.empty())
+      fmt::print(stderr, "corank: {}: {}\n", view.result.set, study::stopped_words(view.result));
   if (figures.stopped) fmt::print(stderr, "corank: stopped by an interrupt, in the stage figures\n");
   fmt::print(stderr, "corank: the report is incomplete, and says what is missing\n");
   return kIncomplete;

@@ -215,7 +215,8 @@ ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
 
   bool complete = members.size() == plans.size() && !figures.stopped;
   for (const report::FamilyMember& member : members) {
-    for (const auto& [result, set, system, components, words] : member.sets) {
+    for (const report::SetView& view : member.sets) {
+      const result::Result& result = view.result;
       if (!result.stopped.empty())
         fmt::print(stderr, "corank: {} = {}, {}: {}\n", family.constant, member.value, result.set,
                    study::stopped_words(result));

@@ -10,16 +10,16 @@ namespace corank::report {
 CellUnion::CellUnion(int columns, int rows)
     : columns_(columns),
       rows_(rows),
-      words_(static_cast<std::size_t>(columns) / 64 + 1),  // the last bit is never a cell: every run ends in its row
-      cells_(words_ * static_cast<std::size_t>(rows), 0) {}
+      words_(columns / 64 + 1),  // the last bit is never a cell: every run ends in its row
+      cells_(words_ * rows, 0) {}
 
 void CellUnion::add(int x0, int y0, int x1, int y1) {
   x0 = std::max(x0, 0), y0 = std::max(y0, 0), x1 = std::min(x1, columns_), y1 = std::min(y1, rows_);
   if (x0 >= x1) return;
-  const std::size_t first = static_cast<std::size_t>(x0) / 64, last = static_cast<std::size_t>(x1 - 1) / 64;
+  const std::size_t first = x0 / 64, last = (x1 - 1) / 64;
   const std::uint64_t head = ~std::uint64_t{0} << (x0 % 64), tail = ~std::uint64_t{0} >> (63 - (x1 - 1) % 64);
   for (int y = y0; y < y1; ++y) {
-    std::uint64_t* const row = cells_.data() + static_cast<std::size_t>(y) * words_;
+    std::uint64_t* const row = cells_.data() + y * words_;
     for (std::size_t k = first; k <= last; ++k)
       row[k] |= (k == first ? head : ~std::uint64_t{0}) & (k == last ? tail : ~std::uint64_t{0});
   }
@@ -27,11 +27,11 @@ void CellUnion::add(int x0, int y0, int x1, int y1) {
 
 bool CellUnion::holds(int x, int y) const {
   if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return false;
-  return (word(y, static_cast<std::size_t>(x) / 64) >> (x % 64) & 1) != 0;
+  return (word(y, x / 64) >> (x % 64) & 1) != 0;
 }
 
 std::uint64_t CellUnion::word(int row, std::size_t k) const {
-  return row < 0 || row >= rows_ ? 0 : cells_[static_cast<std::size_t>(row) * words_ + k];
+  return row < 0 || row >= rows_ ? 0 : cells_[row * words_ + k];
 }
 
 std::vector<GridPolygon> CellUnion::outlines() const {

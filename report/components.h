@@ -14,10 +14,10 @@ namespace corank::report {
 /// connected piece lies in the union of the boxes, whose components are closed and disjoint. That the solutions in one
 /// component are one piece is not proven, nor that a component without a proven solution holds any.
 struct Components {
-  bool counted = true;      ///< false: the count was ended, and all below is empty
-  std::vector<int> of_box;  ///< component of each box, from 0, by each component's first box
-  int count = 0;
-  int with_proven_solution = 0;  ///< those with a regular, isolated or exact box
+  bool counted = true;                   ///< false: the count was ended, and all below is empty
+  std::vector<std::size_t> of_box = {};  ///< component of each box, from 0, by each component's first box
+  std::size_t count = 0;
+  std::size_t with_proven_solution = 0;  ///< those with a regular, isolated or exact box
 };
 
 /// Two boxes touch where they have a point in common; pending boxes count as any other.

@@ -75,37 +75,8 @@ std::size_t boxes_in_one(const result::Result& result) {
   return result.outputs.empty() && n > kMostDrawn ? 4 * ((n + kMostDrawn - 1) / kMostDrawn) : 1;
 }
 
-result::Result drawn(const result::Result& result, std::size_t in_one) {
-  result::Result r;
-  r.version = result.version;
-  r.model = result.model;
-  r.model_text = result.model_text;
-  r.set = result.set;
-  r.system_text = result.system_text;
-  r.options = result.options;
-  r.variables = result.variables;
-  r.angles = result.angles;
-  r.configuration_size = result.configuration_size;
-  r.equations = result.equations;
-  r.inequalities = result.inequalities;
-  r.stopped = result.stopped;
-  r.seems_of_corank = result.seems_of_corank;
-  r.domain = result.domain;
-  r.states = result.states;
-  r.motions = result.motions;
-  r.cover.points = result.cover.points;
-  r.cover.exact_points = result.cover.exact_points;
-  r.cover.self_motions = result.cover.self_motions;
-  r.cover.types = result.cover.types;
-  r.cover.observed_dimension = result.cover.observed_dimension;
-  r.cover.decimals = result.cover.decimals;
-  r.cover.dimension = result.cover.dimension;
-  r.cover.sigma = result.cover.sigma;
-  r.cover.tolerance = result.cover.tolerance;
-  r.cover.wider_than_sigma = result.cover.wider_than_sigma;
-  r.cover.statistics = result.cover.statistics;
-  r.cover.boxes = Hulls(result.cover.boxes, static_cast<std::size_t>(result.configuration_size), in_one).run();
-  return r;
+std::vector<CoverBox> hulls_of(const result::Result& result, std::size_t in_one) {
+  return Hulls(result.cover.boxes, result.configuration_size, in_one).run();
 }
 
 }  // namespace corank::report

@@ -14,9 +14,8 @@ inline constexpr std::size_t kMostDrawn = 1'000'000;
 /// whose boxes have sides, are drawn box by box.
 std::size_t boxes_in_one(const result::Result& result);
 
-/// The result with hulls of up to so many neighbouring boxes of the same verdict and self-motion in their place: whatever
-/// the boxes enclose the hulls enclose, and they have only the types that all of their boxes have. Without regions, proof
-/// and parts, since nothing is proven of hulls.
-result::Result drawn(const result::Result& result, std::size_t in_one);
+/// Hulls of up to so many neighbouring boxes of the same verdict and self-motion: whatever the boxes enclose the hulls
+/// enclose, and they have only the types that all of their boxes have. Without regions, since nothing is proven of hulls.
+std::vector<CoverBox> hulls_of(const result::Result& result, std::size_t in_one);
 
 }  // namespace corank::report

@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <kainjow/mustache.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "corank/report/family_data.h"
-#include "corank/report/family_words.h"
+#include "corank/report/drawing_tree.h"
 #include "corank/report/page_assets.h"
-#include "corank/report/page_card.h"
 #include "corank/report/page_data.h"
 #include "corank/report/page_words.h"
+#include "corank/report/template_data.h"
+#include "corank/result/tallies.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 #include "corank/symbolic/velocity_equation.h"
@@ -19,18 +21,130 @@
 namespace corank::report {
 namespace {
 
-namespace mustache = kainjow::mustache;
+using Json = nlohmann::ordered_json;
 
-mustache::data truth(bool value) {
-  return mustache::data{value ? mustache::data::type::bool_true : mustache::data::type::bool_false};
+/// The variables of a result in the plane of two coordinates, by index: of a length itself, of an angle its cosine and its
+/// sine. Throws std::invalid_argument where the result lacks a coordinate.
+std::vector<int> plane_variables(const result::Result& result, const std::array<std::string, 2>& axes) {
+  const std::vector<result::Value> all = own_coordinates(result, result.configuration_size);
+  std::vector<int> list;
+  for (const std::string& name : axes) {
+    const auto found = std::ranges::find(all, name, &result::Value::name);
+    if (found == all.end()) throw std::invalid_argument("the set '" + result.set + "' has no coordinate " + name);
+    if (found->angle) {
+      list.insert(list.end(), {found->angle->cosine, found->angle->sine});
+    } else {
+      list.push_back(found->variable);
+    }
+  }
+  return list;
 }
 
-mustache::data list() { return mustache::data{mustache::data::type::list}; }
+Json axes_of(const symbolic::Mechanism& mechanism, const std::array<std::string, 2>& axes) {
+  int next = 0;
+  return each(axes, [&](const std::string& name) {
+    const int found = mechanism.find_coordinate(name);
+    if (found < 0) throw std::invalid_argument(name + " is not a coordinate of " + mechanism.name());
+    Json entry = {{"name", name}, {"label", label(name)}};
+    const bool angle = mechanism.coordinates()[found].kind == symbolic::CoordinateKind::angle;
+    for (const char* key : angle ? std::vector{"cosine", "sine"} : std::vector{"index"}) entry[key] = next++;
+    return entry;
+  });
+}
 
-mustache::data sentences(const std::vector<std::string>& lines) {
-  mustache::data items = list();
-  for (const std::string& line : lines) items << mustache::data{"sentence", line};
-  return items;
+Json set_of(const SetView& view, const std::array<std::string, 2>& axes) {
+  const Json names = each(plane_variables(view.result, axes), [&](int v) { return view.result.variables[v].name; });
+  Json set = set_description(view);
+  set.update({{"variables", names}, {"configuration", names.size()}});
+  return set;
+}
+
+/// What the page's script reads: the plane of the portraits and each member's sets. Numbers of variables count those of
+/// plane_variables().
+std::string family_model(const std::vector<FamilyMember>& members, const FamilyOptions& options) {
+  const symbolic::Mechanism& first = members.at(0).mechanism;
+  const auto member_of = [&](const FamilyMember& member) {
+    return Json{{"text", member.value},
+                {"value", constant_values(member.mechanism).at(options.constant)},
+                {"sets", each(member.sets, [&](const SetView& view) { return set_of(view, options.axes); })}};
+  };
+  const Json model = {{"model", first.name()},
+                      {"verdicts", verdict_names()},
+                      {"constant", {{"name", options.constant}, {"label", label(options.constant)}}},
+                      {"coordinates", axes_of(first, options.axes)},
+                      {"drawing", {{"unit", first.drawing().unit}}},
+                      {"members", each(members, member_of)}};
+  return script_safe(model.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+struct Totals {
+  std::size_t covers = 0, complete = 0, boxes = 0, proven = 0, border = 0, partial = 0, undecided = 0, pending = 0;
+  double finest = HUGE_VAL, coarsest = 0;
+};
+
+Totals totals_of(const std::vector<FamilyMember>& members) {
+  Totals t;
+  for (const FamilyMember& member : members) {
+    for (const SetView& view : member.sets) {
+      const Cover& cover = view.result.cover;
+      ++t.covers;
+      t.complete += cover.complete() ? 1 : 0;
+      t.boxes += cover.boxes.size();
+      t.proven += cover.count(Verdict::regular) + cover.count(Verdict::isolated) + cover.count(Verdict::exact);
+      t.border += cover.count(Verdict::boundary);
+      t.partial += cover.count(Verdict::partial);
+      t.undecided += cover.count(Verdict::undecided);
+      t.pending += cover.count(Verdict::pending);
+      t.finest = std::min(t.finest, cover.sigma.largest());
+      t.coarsest = std::max(t.coarsest, cover.sigma.largest());
+    }
+  }
+  return t;
+}
+
+bool has_surface(const FamilyMember& member) {
+  return std::any_of(member.sets.begin(), member.sets.end(),
+                     [](const SetView& view) { return view.set->is_cspace() && view.result.cover.dimension > 1; });
+}
+
+Findings family_words(const std::vector<FamilyMember>& members, const FamilyOptions& options) {
+  const Totals t = totals_of(members);
+  Findings words;
+  words.proven.push_back(
+      fmt::format("Each picture shows one mechanism, whose {} has exactly the value under the picture.", options.constant));
+  if (t.complete == t.covers) {
+    words.proven.push_back(
+        "For each mechanism, every solution in the search domain lies in a box: the rest of the domain is excluded with "
+        "outward rounding.");
+    if (has_surface(members.front()))
+      words.proven.push_back("So the robot cannot reach a place over which there is no box of C-space.");
+  } else {
+    words.unproven.push_back(
+        fmt::format("{} of {} searches ended early and left {} boxes unsearched, which may hold solutions.",
+                    grouped(t.covers - t.complete), grouped(t.covers), grouped(t.pending)));
+  }
+  if (t.proven > 0) {
+    words.proven.push_back(
+        fmt::format("{} of all {} boxes ({}) are proven to hold solutions: exactly one for every value of their free "
+                    "coordinates.",
+                    grouped(t.proven), grouped(t.boxes), percentage(t.proven, t.boxes)));
+  }
+  if (t.border > 0) {
+    words.proven.push_back(fmt::format("In {} boxes the same is proven for a piece that may reach beyond the search domain.",
+                                       grouped(t.border)));
+  }
+  if (t.partial > 0)
+    words.unproven.push_back(fmt::format("In {} boxes only independent equations are proven to hold.", grouped(t.partial)));
+  if (t.undecided > 0) {
+    words.unproven.push_back(
+        fmt::format("{} boxes are undecided: they may or may not hold solutions.", grouped(t.undecided)));
+  }
+  words.unproven.push_back(fmt::format("Nothing is claimed about values of {} between those shown.", options.constant));
+  const std::string edges =
+      t.finest == t.coarsest ? fmt::format("{:g}", t.finest) : fmt::format("{:g} to {:g}", t.finest, t.coarsest);
+  words.unproven.push_back(fmt::format(
+      "Boxes (σ: {}) may cover a gap that is narrower than they are, and a locus looks as wide as its boxes.", edges));
+  return words;
 }
 
 /// The value of the constant, typeset.
@@ -61,64 +175,48 @@ std::vector<Columns> columns_of(const std::vector<FamilyMember>& members) {
   return all;
 }
 
-mustache::data cell(const char* key, const std::string& text, bool first) {
-  mustache::data data{key, text};
-  data.set("isFirst", truth(first));
+TemplateData cell(const char* key, const std::string& text, bool first) {
+  TemplateData data{key, text};
+  data["isFirst"] = first;
   return data;
 }
 
-mustache::data heads(const std::vector<Columns>& all, const FamilyMember& member) {
-  mustache::data groups = list();
+TemplateData heads(const std::vector<Columns>& all, const FamilyMember& member) {
+  TemplateData groups = empty_list();
   for (const Columns& columns : all) {
-    mustache::data group, names = list();
-    const SetView& view = member.sets[columns.set];
-    group["name"] = view.set->name;
-    group["title"] = view.words.title;
+    TemplateData group = entry_of(member.sets[columns.set]), names = empty_list();
     group["width"] = std::to_string(columns.verdicts.size() + 2);
     names << cell("head", "components", true) << cell("head", "boxes", false);
     for (const Verdict verdict : columns.verdicts) names << cell("head", std::string(to_string(verdict)), false);
-    group.set("heads", names);
+    group["heads"] = std::move(names);
     groups << group;
   }
   return groups;
 }
 
-mustache::data counts(const std::vector<Columns>& all, const FamilyMember& member) {
-  mustache::data cells = list();
+TemplateData counts(const std::vector<Columns>& all, const FamilyMember& member) {
+  TemplateData cells = empty_list();
   for (const Columns& columns : all) {
     const SetView& view = member.sets[columns.set];
     const Cover& cover = view.result.cover;
-    cells << cell("count", view.components.counted ? grouped(static_cast<std::uint64_t>(view.components.count)) : "–", true)
+    cells << cell("count", view.components.counted ? grouped(view.components.count) : "–", true)
           << cell("count", grouped(cover.boxes.size()), false);
     for (const Verdict verdict : columns.verdicts) cells << cell("count", grouped(cover.count(verdict)), false);
   }
   return cells;
 }
 
-mustache::data run_row(const FamilyMember& member, std::size_t set, const std::string& constant) {
-  const result::Result& result = member.sets[set].result;
-  mustache::data row;
-  row["valueHtml"] = value_html(member, constant);
-  row["title"] = member.sets[set].words.title;
-  row["sigma"] = fmt::format("{:g}", result.cover.sigma.largest());
-  row["boxes"] = grouped(result.cover.boxes.size());
-  row["processed"] = grouped(result.cover.statistics.processed);
-  row["seconds"] = fmt::format("{:.2f}", result.cover.statistics.seconds_total);
-  row["file"] = set < member.files.size() ? member.files[set] : "";
-  return row;
-}
-
-mustache::data entry(const FamilyMember& member, std::size_t index, const std::vector<Columns>& columns,
-                     const std::string& constant) {
-  mustache::data data, cards = list();
-  for (const SetView& view : member.sets) cards << mustache::data{"card", card_html(view)};
+TemplateData entry(const FamilyMember& member, std::size_t index, const std::vector<Columns>& columns,
+                   const std::string& constant) {
+  TemplateData data, cards = empty_list();
+  for (const SetView& view : member.sets) cards << TemplateData{"card", card_html(view)};
   data["index"] = std::to_string(index);
   data["value"] = member.value;
   data["valueHtml"] = value_html(member, constant);
   data["nameHtml"] = value_html(member, constant, symbolic::mathml_name(constant) + "<mo>=</mo>");
-  data.set("isLater", truth(index > 0));
-  data.set("cards", cards);
-  data.set("counts", counts(columns, member));
+  data["isLater"] = index > 0;
+  data["cards"] = std::move(cards);
+  data["counts"] = counts(columns, member);
   return data;
 }
 
@@ -139,70 +237,51 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
   const FamilyMember& first = members.front();
   const symbolic::Mechanism& mechanism = first.mechanism;
   const std::vector<Columns> columns = columns_of(members);
-  mustache::data entries = list(), runs = list(), payloads = list(), sets = list(), figures = list();
+  TemplateData entries = empty_list(), runs = empty_list(), payloads = empty_list(), sets = empty_list();
   bool complete = true;
-  std::string values;
   for (std::size_t m = 0; m < members.size(); ++m) {
     entries << entry(members[m], m, columns, options.constant);
-    values += (m > 0 ? ", " : "") + value_html(members[m], options.constant);
     for (std::size_t s = 0; s < members[m].sets.size(); ++s) {
-      const result::Result& result = members[m].sets[s].result;
-      mustache::data payload;
-      payload["id"] = family_set_id(m, result.set);
-      payload["boxes"] = box_payload(result, plane_variables(result, options.axes));
-      payload["verdicts"] = verdict_payload(result);
-      payloads << payload;
-      runs << run_row(members[m], s, options.constant);
-      complete = complete && result.cover.complete();
+      const SetView& view = members[m].sets[s];
+      payloads << payload(view, std::to_string(m) + "-" + view.result.set, plane_variables(view.result, options.axes));
+      TemplateData run = run_of(view, s < members[m].files.size() ? members[m].files[s] : "");
+      run["valueHtml"] = value_html(members[m], options.constant);
+      runs << run;
+      complete = complete && view.result.cover.complete();
     }
   }
-  for (const SetView& view : first.sets) {
-    mustache::data set;
-    set["name"] = view.set->name;
-    set["title"] = view.words.title;
-    sets << set;
-  }
-  for (const std::string& figure : options.figures) figures << mustache::data{"figure", figure};
-  const FamilyWords words = family_words(members, options);
+  for (const SetView& view : first.sets) sets << entry_of(view);
 
-  mustache::data page;
-  page["version"] = result::version();
-  page["model"] = mechanism.name();
+  TemplateData page = page_of(mechanism);
   page["constant"] = options.constant;
   page["constantName"] = symbolic::html_name(options.constant);
   page["from"] = value_html(first, options.constant);
   page["to"] = value_html(members.back(), options.constant);
-  page["valuesHtml"] = values;
+  page["valuesHtml"] =
+      result::joined(members, [&](const FamilyMember& member) { return value_html(member, options.constant); });
   page["constants"] = constants_html(mechanism, options.constant);
   page["inputs"] = chosen_html(mechanism, symbolic::Role::input);
   page["outputs"] = chosen_html(mechanism, symbolic::Role::output);
-  page["unit"] = mechanism.drawing().unit;
-  page.set("hasUnit", truth(!mechanism.drawing().unit.empty()));
-  page.set("missing", truth(members.size() < options.asked));
+  page["missing"] = members.size() < options.asked;
   page["done"] = std::to_string(members.size());
   page["asked"] = std::to_string(options.asked);
-  page.set("incomplete", truth(!complete));
+  page["incomplete"] = !complete;
   page["last"] = std::to_string(members.size() - 1);
-  page.set("sets", sets);
-  page.set("members", entries);
-  page.set("columns", heads(columns, first));
-  page.set("runs", runs);
-  page.set("proven", sentences(words.proven));
-  page.set("unproven", sentences(words.unproven));
+  page["sets"] = std::move(sets);
+  page["members"] = std::move(entries);
+  page["columns"] = heads(columns, first);
+  page["runs"] = std::move(runs);
+  add_findings(family_words(members, options), page);
   page["command"] = options.command;
   page["reportCommand"] = options.report_command;
   page["firstFile"] = first.files.empty() ? "" : first.files.front();
-  page.set("figures", figures);
-  page.set("hasFigures", truth(!options.figures.empty()));
-  page["modelText"] = mechanism.source_text();
-  page["style"] = std::string(kPageStyle) + set_style();
+  page["figures"] = list_of("figure", options.figures);
+  page["hasFigures"] = !options.figures.empty();
   page["familyStyle"] = std::string(kFamilyStyle);
   page["data"] = family_model(members, options);
-  page.set("payloads", payloads);
+  page["payloads"] = std::move(payloads);
   page["script"] = std::string(kFamilyScript);
-  mustache::mustache pattern{std::string(kFamilyTemplate)};
-  if (!pattern.is_valid()) throw std::logic_error("the family page's template: " + pattern.error_message());
-  return pattern.render(page);
+  return filled(kFamilyTemplate, page);
 }
 
 }  // namespace corank::report

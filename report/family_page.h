@@ -2,7 +2,7 @@
 // with a slider, with what is found and proven of each. One HTML file that needs no other. doc/sweep.md describes it for
 // users.
 //
-// Of the boxes the page holds the sides in the plane of the portrait, all of them, in the order of the results, as
+// Of the boxes that are drawn the page holds the sides in the plane of the portrait, in the order of the results, as
 // page_data.h says.
 #pragma once
 

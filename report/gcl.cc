@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 namespace corank::report {
 namespace {
@@ -24,7 +25,7 @@ std::string mesh(const std::vector<PictureBox>& boxes, bool flat) {
   }
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     for (std::size_t f = 0; f < faces; ++f) {
-      const auto at = [&](std::size_t k) { return corners * b + static_cast<std::size_t>(kFaces[f][k]); };
+      const auto at = [&](std::size_t k) { return corners * b + kFaces[f][k]; };
       fmt::format_to(std::back_inserter(out), "4 {} {} {} {}\n", at(0), at(1), at(2), at(3));
     }
   }
@@ -40,17 +41,14 @@ std::string appearance(const Color& color, bool flat) {
 
 // No line end, no brace.
 std::string plain(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == '{' || c == '}') c = '_';
-  }
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == '{' || c == '}'; }, '_');
   return text;
 }
 
 std::string identifier(std::string text) {
-  for (char& c : text) {
-    const bool good = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (!good) c = '_';
-  }
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return text.empty() ? "boxes" : text;
 }
 

@@ -16,29 +16,23 @@ constexpr double kTitleSize = 9, kNameSize = 8.5, kTickSize = 7.5, kLegendSize =
 constexpr double kEdge = 3, kGap = 3, kTickLength = 2.5, kLineWidth = 0.5;
 
 // What an axis shows.
-struct View {
-  double lo, hi;
-  double extent() const { return hi - lo; }
-};
-
-View view(std::span<const Picture> pictures, std::size_t j) {
-  View data{HUGE_VAL, -HUGE_VAL};
+Interval view(std::span<const Picture> pictures, std::size_t j) {
+  double lo = HUGE_VAL, hi = -HUGE_VAL;
   for (const Picture& picture : pictures)
     for (const PictureLayer& layer : picture.layers)
-      for (const PictureBox& box : layer.boxes)
-        data = {std::min(data.lo, box.sides[j].lo()), std::max(data.hi, box.sides[j].hi())};
+      for (const PictureBox& box : layer.boxes) lo = std::min(lo, box.sides[j].lo()), hi = std::max(hi, box.sides[j].hi());
   const auto& range = pictures.front().axes[j].range;
-  if (range && range->width() < 2 * data.extent()) return {range->lo(), range->hi()};
-  const double least = 1e-9 * std::max({1e-3, std::fabs(data.lo), std::fabs(data.hi)});  // a point has an extent, too
-  const double margin = std::max(0.04 * data.extent(), least);
-  return {data.lo - margin, data.hi + margin};
+  if (range && range->width() < 2 * (hi - lo)) return *range;
+  const double least = 1e-9 * std::max({1e-3, std::fabs(lo), std::fabs(hi)});  // a point has an extent, too
+  const double margin = std::max(0.04 * (hi - lo), least);
+  return {lo - margin, hi + margin};
 }
 
 // Height of the frame over its width.
-double proportion(const Picture& picture, const View& x, const View& y) {
+double proportion(const Picture& picture, const Interval& x, const Interval& y) {
   constexpr double kFree = 0.75, kLeast = 0.3, kMost = 2;
   if (picture.axes[0].angle != picture.axes[1].angle) return kFree;
-  const double equal = y.extent() / x.extent();
+  const double equal = y.width() / x.width();
   return equal >= kLeast && equal <= kMost ? equal : kFree;
 }
 
@@ -61,9 +55,9 @@ Layout::Shape shape(const PictureLayer& layer, const Scale& x, const Scale& y, d
   }
   Layout::Shape result{layer.label, layer.set, layer.color, layer.opacity, cells.outlines(), {}};
   for (const GridPolygon& p : result.polygons) {
-    const auto [left, right] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.x < b.x; });
-    const auto [top, bottom] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.y < b.y; });
-    if (std::max(right->x - left->x, bottom->y - top->y) >= 2 * mark_cells) continue;
+    const auto [left, right] = std::ranges::minmax(p, {}, &GridPoint::x);
+    const auto [top, bottom] = std::ranges::minmax(p, {}, &GridPoint::y);
+    if (std::max(right.x - left.x, bottom.y - top.y) >= 2 * mark_cells) continue;
     const GridPoint first =
         *std::min_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); });
     if (cells.holds(first.x, first.y)) result.marked.push_back(p);  // else a hole
@@ -96,38 +90,15 @@ double widest(const std::vector<Tick>& marks, const TextWidth& text_width) {
   return width;
 }
 
-void add_axes(const Picture& picture, const View& x, const View& y, const std::vector<Tick>& x_ticks,
-              const std::vector<Tick>& y_ticks, double y_tick_width, Layout& out) {
-  const double left = out.frame_x, top = out.frame_y, right = left + out.frame_width, bottom = top + out.frame_height;
-  for (const auto& [x0, y0, x1, y1] : {std::array{left, top, right, top},
-                                       {right, top, right, bottom},
-                                       {right, bottom, left, bottom},
-                                       {left, bottom, left, top}})
-    out.lines.push_back({x0, y0, x1, y1, kLineWidth});
-  for (const Tick& t : x_ticks) {
-    const double at = left + (t.at - x.lo) / x.extent() * out.frame_width;
-    out.lines.push_back({at, bottom, at, bottom + kTickLength, kLineWidth});
-    out.texts.push_back({at, bottom + kTickLength + kTickSize, kTickSize, Layout::Anchor::middle, false, {{t.text}}});
-  }
-  for (const Tick& t : y_ticks) {
-    const double at = bottom - (t.at - y.lo) / y.extent() * out.frame_height;
-    out.lines.push_back({left - kTickLength, at, left, at, kLineWidth});
-    out.texts.push_back({left - kTickLength - 2, at + 0.36 * kTickSize, kTickSize, Layout::Anchor::end, false, {{t.text}}});
-  }
-  out.texts.push_back({(left + right) / 2, bottom + kTickLength + kTickSize + kGap + kNameSize, kNameSize,
-                       Layout::Anchor::middle, false, axis_label(picture.axes[0])});
-  out.texts.push_back({left - kTickLength - 2 - y_tick_width - 4, (top + bottom) / 2, kNameSize, Layout::Anchor::middle,
-                       true, axis_label(picture.axes[1])});
-}
-
 // Strokes of one length, none close to another of much the same direction.
-void add_hatches(const Picture& picture, const View& x, const View& y, Layout& out) {
+void add_hatches(const Picture& picture, Layout& out) {
   constexpr double kLength = 4, kApart = 3.5;
   constexpr int kDirections = 8;
   std::set<std::array<long, 3>> taken;
   for (const PictureHatch& hatch : picture.hatches) {
-    const double x_scale = out.frame_width / x.extent(), y_scale = out.frame_height / y.extent();
-    const double x0 = (hatch.from[0] - x.lo) * x_scale, y0 = out.frame_height - (hatch.from[1] - y.lo) * y_scale;
+    const double x_scale = out.frame_width / out.x_range.width(), y_scale = out.frame_height / out.y_range.width();
+    const double x0 = (hatch.from[0] - out.x_range.lo()) * x_scale,
+                 y0 = out.frame_height - (hatch.from[1] - out.y_range.lo()) * y_scale;
     // A normal of the plane of the outputs, where a unit has another length along the other axis.
     const double dx = hatch.direction[0] / x_scale, dy = -hatch.direction[1] / y_scale, size = std::hypot(dx, dy);
     if (!(size > 0) || x0 < 0 || x0 > out.frame_width || y0 < 0 || y0 > out.frame_height) continue;
@@ -141,32 +112,54 @@ void add_hatches(const Picture& picture, const View& x, const View& y, Layout& o
 }  // namespace
 
 std::pair<double, double> centre(const GridPolygon& p) {
-  const auto [left, right] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.x < b.x; });
-  const auto [top, bottom] = std::minmax_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.y < b.y; });
-  return {0.5 * (left->x + right->x), 0.5 * (top->y + bottom->y)};
+  const auto [left, right] = std::ranges::minmax(p, {}, &GridPoint::x);
+  const auto [top, bottom] = std::ranges::minmax(p, {}, &GridPoint::y);
+  return {0.5 * (left.x + right.x), 0.5 * (top.y + bottom.y)};
+}
+
+void add_frame(Layout& out, double x0, double y0, double x1, double y1, double line) {
+  out.lines.insert(out.lines.end(),
+                   {{x0, y0, x1, y0, line}, {x1, y0, x1, y1, line}, {x1, y1, x0, y1, line}, {x0, y1, x0, y0, line}});
+}
+
+void add_axes(Layout& out, const std::array<Label, 2>& names, const std::array<std::vector<Tick>, 2>& marks,
+              const AxesStyle& style) {
+  using enum Layout::Anchor;
+  const double left = out.frame_x, top = out.frame_y, right = left + out.frame_width, bottom = top + out.frame_height;
+  add_frame(out, left, top, right, bottom, style.line);
+  for (const Tick& t : marks[0]) {
+    const double x = out.x_at(t.at);
+    out.lines.push_back({x, bottom, x, bottom + style.tick, style.line});
+    out.texts.push_back({x, bottom + style.below, style.numbers, middle, false, {{t.text}}});
+  }
+  for (const Tick& t : marks[1]) {
+    const double y = out.y_at(t.at);
+    out.lines.push_back({left - style.tick, y, left, y, style.line});
+    out.texts.push_back({left - style.beside, y + style.lower, style.numbers, end, false, {{t.text}}});
+  }
+  out.texts.push_back({(left + right) / 2, bottom + style.name_below, style.names, middle, false, names[0]});
+  out.texts.push_back({style.name_x, (top + bottom) / 2, style.names, middle, true, names[1]});
 }
 
 std::array<Interval, 2> common_ranges(std::span<const Picture> pictures) {
   CORANK_CHECK(!pictures.empty());
-  const View x = view(pictures, 0), y = view(pictures, 1);
-  return {Interval{x.lo, x.hi}, Interval{y.lo, y.hi}};
+  return {view(pictures, 0), view(pictures, 1)};
 }
 
 Layout lay_out(const Picture& picture, const PortraitOptions& options, const TextWidth& text_width) {
   CORANK_CHECK(picture.axes.size() == 2 && (options.ranges || !is_empty(picture)));
-  const auto [x_range, y_range] = options.ranges ? *options.ranges : common_ranges({&picture, 1});
-  const View x{x_range.lo(), x_range.hi()}, y{y_range.lo(), y_range.hi()};
+  const auto [x, y] = options.ranges ? *options.ranges : common_ranges({&picture, 1});
   const double ratio = proportion(picture, x, y);
   Layout out;
   out.width = options.width_mm * kPointsPerMm;
-  out.x_range = {x.lo, x.hi}, out.y_range = {y.lo, y.hi};
+  out.x_range = x, out.y_range = y;
   out.outline = options.outline, out.mark = options.mark;
   const auto tick_count = [](double length, double spacing) { return std::clamp(static_cast<int>(length / spacing), 2, 9); };
   // The frame's width depends on that of the numbers beside it, which depend on its height: a guess settles it.
-  const std::vector<Tick> y_ticks = ticks(y.lo, y.hi, picture.axes[1].angle, tick_count((out.width - 40) * ratio, 28));
+  const std::vector<Tick> y_ticks = ticks(y.lo(), y.hi(), picture.axes[1].angle, tick_count((out.width - 40) * ratio, 28));
   const double y_tick_width = widest(y_ticks, text_width);
   out.frame_x = kEdge + kNameSize + 4 + y_tick_width + 2 + kTickLength;
-  const std::vector<Tick> x_ticks = ticks(x.lo, x.hi, picture.axes[0].angle, tick_count(out.width - out.frame_x, 36));
+  const std::vector<Tick> x_ticks = ticks(x.lo(), x.hi(), picture.axes[0].angle, tick_count(out.width - out.frame_x, 36));
   const double overhang = x_ticks.empty() ? 0 : 0.5 * text_width({{x_ticks.back().text}}, kTickSize);
   const double room = std::max(20.0, out.width - out.frame_x - std::max(kEdge, overhang));
   out.cell = std::max(kCell, room / kMostCells);
@@ -179,10 +172,19 @@ Layout lay_out(const Picture& picture, const PortraitOptions& options, const Tex
   }
   if (options.legend) out.frame_y = add_legend(picture, text_width, out.frame_x, out.width - kEdge, out.frame_y, out);
   if (options.title.empty() && !options.legend) out.frame_y += 0.5 * kTickSize;
-  add_axes(picture, x, y, x_ticks, y_ticks, y_tick_width, out);
+  add_axes(out, {axis_label(picture.axes[0]), axis_label(picture.axes[1])}, {x_ticks, y_ticks},
+           {.line = kLineWidth,
+            .tick = kTickLength,
+            .numbers = kTickSize,
+            .below = kTickLength + kTickSize,
+            .beside = kTickLength + 2,
+            .lower = 0.36 * kTickSize,
+            .names = kNameSize,
+            .name_below = kTickLength + kTickSize + kGap + kNameSize,
+            .name_x = out.frame_x - kTickLength - 2 - y_tick_width - 4});
   out.height = out.frame_y + out.frame_height + kTickLength + kTickSize + kGap + kNameSize + 4;
-  add_hatches(picture, x, y, out);
-  const Scale across{x.lo, columns / x.extent(), columns}, up{y.lo, rows / y.extent(), rows};
+  add_hatches(picture, out);
+  const Scale across{x.lo(), columns / x.width(), columns}, up{y.lo(), rows / y.width(), rows};
   for (const PictureLayer& layer : picture.layers) out.shapes.push_back(shape(layer, across, up, out.mark / out.cell));
   return out;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -66,6 +67,9 @@ struct Layout {
   std::vector<Swatch> swatches;
   std::vector<Line> lines;
   std::vector<Text> texts;
+
+  double x_at(double x) const { return frame_x + (x - x_range.lo()) / x_range.width() * frame_width; }
+  double y_at(double y) const { return frame_y + frame_height - (y - y_range.lo()) / y_range.width() * frame_height; }
 };
 
 /// The ranges that the axes have to show for the boxes of these pictures, which have the same two axes and a box among them.
@@ -86,5 +90,20 @@ struct Tick {
   std::string text;
 };
 std::vector<Tick> ticks(double lo, double hi, bool angle, int count);
+
+void add_frame(Layout& out, double x0, double y0, double x1, double y1, double line);
+struct AxesStyle {
+  double line, tick;                     ///< a line's width, a tick's length
+  double numbers, below, beside, lower;  ///< their size; of their base lines: how far below, beside the frame, below a tick
+  double names, name_below, name_x;      ///< their size; how far below the frame the one is, where from the left the other
+};
+/// The frame, the ticks of both axes with their numbers, and the axes' names.
+void add_axes(Layout& out, const std::array<Label, 2>& names, const std::array<std::vector<Tick>, 2>& marks,
+              const AxesStyle& style);
+
+/// Any layout as a file: .svg, .pdf or .png, which the name says. Throws std::invalid_argument for another name,
+/// ResultFileError where the file cannot be written.
+void write_drawing(const std::filesystem::path& path, const Layout& drawing, const std::string& title,
+                   double dots_per_inch = 300);
 
 }  // namespace corank::report

@@ -2,30 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <string_view>
 
 #include "corank/report/layout.h"
+#include "corank/symbolic/display_name.h"
 
 namespace corank::report {
 namespace {
-
-struct GreekLetter {
-  std::string_view name, letter;
-};
-constexpr std::array<GreekLetter, 33> kGreek{
-    {{"alpha", "α"}, {"beta", "β"},  {"gamma", "γ"},   {"delta", "δ"},   {"epsilon", "ε"}, {"zeta", "ζ"}, {"eta", "η"},
-     {"theta", "θ"}, {"iota", "ι"},  {"kappa", "κ"},   {"lambda", "λ"},  {"mu", "μ"},      {"nu", "ν"},   {"xi", "ξ"},
-     {"rho", "ρ"},   {"sigma", "σ"}, {"tau", "τ"},     {"upsilon", "υ"}, {"phi", "φ"},     {"chi", "χ"},  {"psi", "ψ"},
-     {"omega", "ω"}, {"Gamma", "Γ"}, {"Delta", "Δ"},   {"Theta", "Θ"},   {"Lambda", "Λ"},  {"Xi", "Ξ"},   {"Pi", "Π"},
-     {"Sigma", "Σ"}, {"Phi", "Φ"},   {"Upsilon", "Υ"}, {"Psi", "Ψ"},     {"Omega", "Ω"}}};
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
 // With a real minus sign.
 std::string number_text(double x, int decimals) {
@@ -53,16 +39,13 @@ std::vector<Tick> multiples(double lo, double hi, double step, const std::functi
 }  // namespace
 
 Label math_label(const std::string& name) {
-  std::size_t letters = 0;
-  while (letters < name.size() && is_letter(name[letters])) ++letters;
-  const std::string base = name.substr(0, letters);
-  std::string rest = name.substr(letters);
-  if (rest.starts_with('_')) rest.erase(0, 1);
-  const auto greek = std::find_if(kGreek.begin(), kGreek.end(), [&](const GreekLetter& g) { return g.name == base; });
-  const bool symbol = greek != kGreek.end() || base.size() == 1;
-  if (!symbol || rest.size() > 6 || !std::all_of(rest.begin(), rest.end(), is_letter_or_digit)) return {{name}};
-  Label label{{greek != kGreek.end() ? std::string(greek->letter) : base, true, false}};
-  if (!rest.empty()) label.push_back({rest, false, true});
+  const symbolic::DisplayName shown = symbolic::display_name(name);
+  const bool greek = !name.starts_with(shown.base);
+  const bool letter = shown.base.size() == 1 && std::isalpha(static_cast<unsigned char>(shown.base[0])) != 0;
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0; };
+  if (!(greek || letter) || shown.subscript.size() > 6 || !std::ranges::all_of(shown.subscript, is_plain)) return {{name}};
+  Label label{{shown.base, true, false}};
+  if (!shown.subscript.empty()) label.push_back({shown.subscript, false, true});
   return label;
 }
 

@@ -11,6 +11,7 @@
 
 #include "corank/report/drawing_tree.h"
 #include "corank/report/set_look.h"
+#include "corank/report/template_data.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/singularity_system.h"
@@ -27,68 +28,51 @@ std::string_view role(const symbolic::Mechanism& mechanism, const symbolic::Coor
   return role == symbolic::Role::passive && c.auxiliary ? "auxiliary" : to_string(role);
 }
 
+Json bounds(const Interval& x) { return {x.lo(), x.hi()}; }
+
 Json coordinates(const symbolic::Mechanism& mechanism, const System& system) {
-  Json list = Json::array();
-  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
-    const symbolic::DisplayName shown = symbolic::display_name(c.name);
-    Json entry = {{"name", c.name}, {"label", {shown.base, shown.subscript}}, {"role", role(mechanism, c)}};
+  return each(mechanism.coordinates(), [&](const symbolic::Coordinate& c) {
+    Json entry = {{"name", c.name}, {"label", label(c.name)}, {"role", role(mechanism, c)}};
     if (c.kind == symbolic::CoordinateKind::angle) {
       const auto angle =
           std::find_if(system.angles.begin(), system.angles.end(), [&](const Angle& a) { return a.name == c.name; });
-      entry["cosine"] = angle->cosine;
-      entry["sine"] = angle->sine;
-      entry["range"] = {angle->range.lo(), angle->range.hi()};
+      entry.update({{"cosine", angle->cosine}, {"sine", angle->sine}, {"range", bounds(angle->range)}});
     } else {
       const int i = system.find(c.name);
-      const Interval& domain = system.variables[static_cast<std::size_t>(i)].domain;
-      entry["index"] = i;
-      entry["range"] = {domain.lo(), domain.hi()};
+      entry.update({{"index", i}, {"range", bounds(system.variables[i].domain)}});
     }
-    list.push_back(std::move(entry));
-  }
-  return list;
+    return entry;
+  });
 }
 
 Json drawing(const symbolic::Mechanism& mechanism) {
   const symbolic::Drawing& d = mechanism.drawing();
-  Json json = {{"dimension", d.dimension()}, {"unit", d.unit}, {"points", Json::array()}, {"parts", Json::array()}};
   const ConstantValues constants = constant_values(mechanism);
-  for (const symbolic::DrawingPoint& p : d.points) {
-    Json at = Json::array();
-    for (const symbolic::Expression& e : p.coordinates) at.push_back(Json::parse(drawing_tree(e, constants)));
-    const symbolic::DisplayName shown = symbolic::display_name(p.name);
-    json["points"].push_back({{"name", p.name}, {"label", {shown.base, shown.subscript}}, {"at", at}});
-    for (const symbolic::Expression& e : p.velocity)
-      json["points"].back()["moves"].push_back(Json::parse(drawing_tree(e, constants)));
-  }
-  for (const symbolic::DrawingPart& part : d.parts) {
-    Json points = Json::array();
-    for (const std::string& name : part.points) points.push_back(d.find(name));
-    Json entry = {{"kind", to_string(part.kind)}, {"points", points}};
-    if (part.has_radius()) entry["radius"] = Json::parse(drawing_tree(part.radius, constants));
-    if (!part.colour.empty()) entry["colour"] = part.colour;
-    json["parts"].push_back(std::move(entry));
-  }
-  return json;
+  const auto tree = [&](const symbolic::Expression& e) { return Json::parse(drawing_tree(e, constants)); };
+  const auto point = [&](const symbolic::DrawingPoint& p) {
+    Json entry = {{"name", p.name}, {"label", label(p.name)}, {"at", each(p.coordinates, tree)}};
+    if (!p.velocity.empty()) entry["moves"] = each(p.velocity, tree);
+    return entry;
+  };
+  const auto part = [&](const symbolic::DrawingPart& p) {
+    Json entry = {{"kind", to_string(p.kind)},
+                  {"points", each(p.points, [&](const std::string& name) { return d.find(name); })}};
+    if (p.has_radius()) entry["radius"] = tree(p.radius);
+    if (!p.colour.empty()) entry["colour"] = p.colour;
+    return entry;
+  };
+  return {{"dimension", d.dimension()}, {"unit", d.unit}, {"points", each(d.points, point)}, {"parts", each(d.parts, part)}};
 }
 
 /// Each monomial: [coefficient, variable, power, function, variable, power, function …], function 0 x, 1 sin x, 2 cos x.
 Json polynomials(const std::vector<Polynomial>& list) {
-  Json json = Json::array();
-  for (const Polynomial& polynomial : list) {
-    Json monomials = Json::array();
-    for (const Monomial& m : polynomial.monomials) {
+  return each(list, [](const Polynomial& polynomial) {
+    return each(polynomial.monomials, [](const Monomial& m) {
       Json entry = {m.coefficient.enclose().mid()};
-      for (const Factor& f : m.factors) {
-        entry.push_back(f.variable);
-        entry.push_back(f.power);
-        entry.push_back(static_cast<int>(f.function));
-      }
-      monomials.push_back(std::move(entry));
-    }
-    json.push_back(std::move(monomials));
-  }
-  return json;
+      for (const Factor& f : m.factors) entry.insert(entry.end(), {f.variable, f.power, static_cast<int>(f.function)});
+      return entry;
+    });
+  });
 }
 
 /// What each component of ξ is multiplied by to be a rate.
@@ -103,8 +87,7 @@ Json kernel_scales(const result::Result& result, std::size_t columns) {
 
 /// What is drawn has velocities in the mechanism's own rates.
 bool moves(const symbolic::Mechanism& mechanism) {
-  const auto& points = mechanism.drawing().points;
-  return std::any_of(points.begin(), points.end(), [](const symbolic::DrawingPoint& p) { return !p.velocity.empty(); });
+  return std::ranges::any_of(mechanism.drawing().points, [](const auto& p) { return !p.velocity.empty(); });
 }
 
 /// The coordinates that the components of ξ belong to, or the mechanism's own rates, where ξ is a velocity (M ξ = 0) that
@@ -120,43 +103,56 @@ Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Deriva
 }
 
 Json points(const result::Result& result) {
-  Json list = Json::array();
-  for (const CoverBox& point : result.cover.points) {
-    Json bounds = Json::array();
-    for (const Interval& side : point.box) bounds.push_back({side.lo(), side.hi()});
-    list.push_back({{"verdict", to_string(point.verdict)}, {"bounds", bounds}});
-  }
-  return list;
+  return each(result.cover.points, [](const CoverBox& point) {
+    return Json{{"verdict", to_string(point.verdict)}, {"bounds", each(point.box, bounds)}};
+  });
 }
 
-/// Of each self-motion the boxes that lie on it.
-Json motions(const Cover& cover) {
+/// Of each self-motion the drawn boxes that lie on it.
+Json motions(const SetView& view) {
   Json list = Json::array();
-  for (const SelfMotionRecord& motion : cover.self_motions)
+  for (const SelfMotionRecord& motion : view.result.cover.self_motions)
     list.push_back({{"dimension", motion.dimension}, {"boxes", Json::array()}});
-  for (std::size_t i = 0; i < cover.boxes.size(); ++i)
-    if (cover.boxes[i].motion >= 0) list[static_cast<std::size_t>(cover.boxes[i].motion)]["boxes"].push_back(i);
+  const std::vector<CoverBox>& boxes = view.drawn();
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (boxes[i].motion >= 0) list[boxes[i].motion]["boxes"].push_back(i);
   return list;
 }
 
 Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
   const result::Result& result = view.result;
-  Json names = Json::array(), domains = Json::array();
-  for (const result::ResultVariable& v : result.variables) {
-    names.push_back(v.name);
-    domains.push_back({v.domain.lo(), v.domain.hi()});
-  }
   const Json columns = kernel_columns(mechanism, derivation, view);
-  Json set = Json::parse(set_description(view));
-  set.update({{"variables", names},
-              {"domains", domains},
+  Json set = set_description(view);
+  set.update({{"variables", each(result.variables, [](const auto& v) { return v.name; })},
+              {"domains", each(result.variables, [](const auto& v) { return bounds(v.domain); })},
               {"configuration", result.configuration_size},
               {"columns", columns},
               {"scales", kernel_scales(result, columns.size())},
               {"equations", polynomials(view.system.equations)},
               {"points", points(result)},
-              {"motions", motions(result.cover)}});
+              {"motions", motions(view)}});
   return set;
+}
+
+std::string base64_of(const std::vector<float>& numbers) {
+  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)});
+}
+
+// A byte of each box.
+template <class Of>
+std::string bytes_of(std::span<const CoverBox> boxes, const Of& of) {
+  std::vector<std::uint8_t> bytes;
+  for (const CoverBox& b : boxes) bytes.push_back(static_cast<std::uint8_t>(of(b)));
+  return base64(bytes);
+}
+
+// Two floats for each output: where barriers keep it.
+std::string sides_payload(std::span<const CoverBox> boxes, std::size_t outputs) {
+  std::vector<float> numbers;
+  for (const CoverBox& b : boxes)
+    for (std::size_t j = 0; j < outputs; ++j)
+      numbers.push_back(b.passage == Passage::barrier && b.side.size() == outputs ? static_cast<float>(b.side[j]) : 0.0F);
+  return base64_of(numbers);
 }
 
 }  // namespace
@@ -174,12 +170,6 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-namespace {
-std::string base64_of(const std::vector<float>& numbers) {
-  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)});
-}
-}  // namespace
-
 float float_below(double x) {
   const auto f = static_cast<float>(x);
   return static_cast<double>(f) <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
@@ -187,18 +177,18 @@ float float_below(double x) {
 
 float float_above(double x) { return -float_below(-x); }
 
-std::string box_payload(const result::Result& result) {
-  std::vector<int> all(result.variables.size());
+std::string box_payload(std::span<const CoverBox> boxes) {
+  std::vector<int> all(boxes.empty() ? 0 : boxes.front().box.size());
   std::iota(all.begin(), all.end(), 0);
-  return box_payload(result, all);
+  return box_payload(boxes, all);
 }
 
-std::string box_payload(const result::Result& result, std::span<const int> variables) {
+std::string box_payload(std::span<const CoverBox> boxes, std::span<const int> variables) {
   std::vector<float> numbers;
-  numbers.reserve(result.cover.boxes.size() * variables.size() * 2);
-  for (const CoverBox& b : result.cover.boxes) {
+  numbers.reserve(boxes.size() * variables.size() * 2);
+  for (const CoverBox& b : boxes) {
     for (const int v : variables) {
-      const Interval& side = b.box[static_cast<std::size_t>(v)];
+      const Interval& side = b.box[v];
       numbers.push_back(float_below(side.lo()));
       numbers.push_back(float_above(side.hi()));
     }
@@ -206,67 +196,58 @@ std::string box_payload(const result::Result& result, std::span<const int> varia
   return base64_of(numbers);
 }
 
+std::string verdict_payload(std::span<const CoverBox> boxes) {
+  return bytes_of(boxes, [](const CoverBox& b) { return b.verdict; });
+}
+
 std::string script_safe(std::string text) {
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) text.replace(at, 1, "\\u003c");
   return text;
 }
 
-std::string verdict_payload(const result::Result& result) {
-  std::vector<std::uint8_t> bytes;
-  for (const CoverBox& b : result.cover.boxes) bytes.push_back(static_cast<std::uint8_t>(b.verdict));
-  return base64(bytes);
+Json label(const std::string& name) {
+  const symbolic::DisplayName shown = symbolic::display_name(name);
+  return {shown.base, shown.subscript};
 }
 
-// Of each box the types that its solutions are proven to be of, as bits; nothing where none were asked for.
-std::string types_payload(const Cover& cover) {
-  if (cover.types.asked == 0) return "";
-  std::vector<std::uint8_t> bytes;
-  for (const CoverBox& b : cover.boxes) bytes.push_back(holds_a_solution(b) ? b.types.proven : TypeSet{});
-  return base64(bytes);
+Json verdict_names() {
+  Json names = Json::array();
+  for (int v = 0; v < kVerdicts; ++v) names.push_back(to_string(static_cast<Verdict>(v)));
+  return names;
 }
 
-// Of a workspace boundary: for each box whether the output can pass, and two floats for each output, where barriers keep it.
-std::string passages_payload(const Cover& cover) {
-  std::vector<std::uint8_t> bytes;
-  for (const CoverBox& b : cover.boxes) bytes.push_back(static_cast<std::uint8_t>(b.passage));
-  return base64(bytes);
-}
-std::string sides_payload(const Cover& cover, std::size_t outputs) {
-  std::vector<float> numbers;
-  for (const CoverBox& b : cover.boxes)
-    for (std::size_t j = 0; j < outputs; ++j)
-      numbers.push_back(b.passage == Passage::barrier && b.side.size() == outputs ? static_cast<float>(b.side[j]) : 0.0F);
-  return base64_of(numbers);
-}
-
-std::string set_description(const SetView& view) {
-  Json locked = Json::array();
-  for (const symbolic::Role role : view.set->locked) locked.push_back(to_string(role));
+Json set_description(const SetView& view) {
+  const Json locked = each(view.set->locked, [](symbolic::Role role) { return to_string(role); });
   const Cover& cover = view.result.cover;
+  const std::vector<CoverBox>& boxes = view.drawn();
+  const std::string types = cover.types.asked == 0 ? "" : bytes_of(boxes, [](const CoverBox& b) {
+    return holds_a_solution(b) ? b.types.proven : TypeSet{};
+  });
   const std::vector<std::string>& outputs = view.result.outputs;  // of a workspace boundary
   Json passage;
   if (!outputs.empty())
-    passage = {{"of", passages_payload(cover)}, {"outputs", outputs}, {"sides", sides_payload(cover, outputs.size())}};
-  return Json{{"name", view.set->name},
-              {"title", look(*view.set).member},
-              {"singular", view.set->is_singular()},
-              {"locked", locked},
-              {"layer", look(*view.set).layer},
-              {"dot", look(*view.set).dot},
-              {"dimension", cover.dimension},
-              {"sigma", cover.sigma.largest()},
-              {"types", types_payload(cover)},
-              {"passage", passage},
-              {"complete", cover.complete()},
-              {"count", cover.boxes.size()}}
-      .dump();
+    passage = {{"of", bytes_of(boxes, [](const CoverBox& b) { return b.passage; })},
+               {"outputs", outputs},
+               {"sides", sides_payload(boxes, outputs.size())}};
+  return {{"name", view.set->name},
+          {"title", look(*view.set).member},
+          {"singular", view.set->is_singular()},
+          {"locked", locked},
+          {"layer", look(*view.set).drawn.layer},
+          {"dot", look(*view.set).drawn.dot},
+          {"dimension", cover.dimension},
+          {"sigma", cover.sigma.largest()},
+          {"types", types},
+          {"passage", passage},
+          {"complete", cover.complete()},
+          {"count", boxes.size()}};
 }
 
 std::string set_style() {
   std::string light, dark, classes;
   for (const symbolic::SetDefinition& set : symbolic::set_definitions()) {
-    light += fmt::format("--set-{}: {}; ", set.name, look(set).on_light);
-    dark += fmt::format("--set-{}: {}; ", set.name, look(set).on_dark);
+    light += fmt::format("--set-{}: {}; ", set.name, look(set).drawn.paint.on_light);
+    dark += fmt::format("--set-{}: {}; ", set.name, look(set).drawn.paint.on_dark);
     // C-space is seen through.
     classes +=
         fmt::format(".{0} {{ --set: var(--set-{0}); --swatch: color-mix(in srgb, var(--set-{0}) {1}%, transparent); }}\n",
@@ -278,15 +259,12 @@ std::string set_style() {
 std::string page_model(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
                        const std::vector<SetView>& views) {
   const System cspace = algebrize(singularity_system(mechanism, symbolic::SingularitySet::cspace));
-  Json verdicts = Json::array(), sets = Json::array();
-  for (int v = 0; v < kVerdicts; ++v) verdicts.push_back(to_string(static_cast<Verdict>(v)));
-  for (const SetView& view : views) sets.push_back(set_of(mechanism, derivation, view));
   Json model = {{"model", mechanism.name()},
-                {"verdicts", verdicts},
+                {"verdicts", verdict_names()},
                 {"coordinates", coordinates(mechanism, cspace)},
                 {"drawing", drawing(mechanism)},
                 {"constraints", polynomials(cspace.equations)},
-                {"sets", sets}};
+                {"sets", each(views, [&](const SetView& view) { return set_of(mechanism, derivation, view); })}};
   for (const symbolic::Rate& rate : mechanism.rates()) model["rates"].push_back(rate.name);
   return script_safe(model.dump(-1, ' ', false, Json::error_handler_t::replace));
 }

@@ -1,6 +1,6 @@
 // What the scripts of a report's page read: the model as JSON and each result's boxes as numbers in base64.
 //
-// The boxes are those of the result, all of them, in its order. Their bounds are doubles rounded outward to floats, so a box
+// The boxes are those that are drawn (SetView::drawn), all of them, in the result's order. Their bounds are doubles rounded outward to floats, so a box
 // of the page holds the box of the result file and is at most one float wider on each side.
 #pragma once
 
@@ -26,16 +26,12 @@ float float_below(double x);
 float float_above(double x);
 
 /// Little-endian floats, box after box: lower and upper bound of each variable in turn.
-std::string box_payload(const result::Result& result);
+std::string box_payload(std::span<const CoverBox> boxes);
 /// The same of these variables only.
-std::string box_payload(const result::Result& result, std::span<const int> variables);
+std::string box_payload(std::span<const CoverBox> boxes, std::span<const int> variables);
 /// A byte for each box: the index of its verdict in Verdict.
-std::string verdict_payload(const result::Result& result);
+std::string verdict_payload(std::span<const CoverBox> boxes);
 
-/// A JSON object of what every page says of a set: "name", "title" of one member, is it "singular", whose rates are
-/// "locked", "layer" and "dot" (SetDefinition), "dimension", "sigma", "complete", "count" of boxes, and of a
-/// workspace boundary "passage" (null of other sets).
-std::string set_description(const SetView& view);
 /// CSS: --set-NAME, a set's colour; for elements of the class NAME it is --set, and --swatch that of a small area.
 std::string set_style();
 

@@ -1,9 +1,9 @@
-#include "corank/report/page_derivation.h"
-
 #include <fmt/format.h>
 
+#include "corank/report/page_sections.h"
 #include "corank/report/page_words.h"
 #include "corank/result/verification.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 #include "corank/symbolic/singularity_system.h"
@@ -32,8 +32,7 @@ std::string symbol(const std::string& base, const std::string& subscript) {
 
 std::string matrix_html(const std::string& base, const std::string& subscript, const std::string& words,
                         const symbolic::ExpressionMatrix& matrix) {
-  std::string columns;
-  for (const std::string& name : matrix.columns) columns += (columns.empty() ? "" : ", ") + symbolic::html_name(name);
+  const std::string columns = names_html(matrix.columns);
   return fmt::format(
       "<figure class=\"matrix\"><figcaption>{} · columns {}</figcaption><div class=\"scroll\">{}</div></figure>", words,
       columns.empty() ? "none" : columns, math(symbol(base, subscript) + "<mo>=</mo>" + mathml(matrix)));
@@ -48,8 +47,8 @@ std::string system_html(const symbolic::TrigonometricSystem& system, const SetVi
       sources.push_back(equation.source);
     }
   }
-  return fmt::format("<details><summary>{}: {} equation{}{}</summary><div class=\"scroll\">{}</div></details>",
-                     view.words.title, system.equations.size(), system.equations.size() == 1 ? "" : "s",
+  return fmt::format("<details><summary>{}: {}{}</summary><div class=\"scroll\">{}</div></details>", view.words.title,
+                     result::counted(system.equations.size(), "equation"),
                      kernel.empty() ? "" : ", " + symbolic::html_text(kernel) + " kernel", numbered(equations, sources));
 }
 
@@ -94,8 +93,7 @@ std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic
           derivation.velocity.without(set.locked));
   html +=
       "<h3>Systems solved</h3><p>In the search, the cosine c and the sine s of an angle are variables of their own, with "
-      "the "
-      "equation c² + s² = 1.</p>";
+      "the equation c² + s² = 1.</p>";
   for (const SetView& view : views)
     html += view.result.parts.empty() || view.set->of_parts
                 ? system_html(result::equations_of(mechanism, view.set->set.value(), view.result.options), view)

@@ -1,104 +1,81 @@
-#include "corank/report/page_points.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "corank/certify/angle.h"
+#include "corank/report/page_sections.h"
 #include "corank/report/page_words.h"
 #include "corank/result/exact_angle.h"
 #include "corank/result/tallies.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 
 namespace corank::report {
 namespace {
 
-/// A coordinate of the model: a variable, or an angle with its cosine and sine.
-struct Column {
-  std::string name;
-  int variable, sine = -1;
-  Interval range{};
-};
+using result::joined;
+using result::Value;
 
-std::vector<Column> columns(const result::Result& result) {
-  std::vector<Column> list;
-  for (int i = 0; i < result.configuration_size; ++i) {
-    const auto angle = std::find_if(result.angles.begin(), result.angles.end(),
-                                    [i](const Angle& a) { return a.cosine == i || a.sine == i; });
-    if (angle == result.angles.end()) {
-      list.push_back({result.variables[static_cast<std::size_t>(i)].name, i});
-    } else if (i == std::min(angle->cosine, angle->sine)) {
-      list.push_back({angle->name, angle->cosine, angle->sine, angle->range});
-    }
-  }
-  return list;
-}
+std::string typeset(const std::string& text) { return symbolic::math(symbolic::mathml(symbolic::Expression(text))); }
 
 /// "−3/5" or "√3/2" typeset; nothing where there is no short text.
 std::string exact_html(const ExactPoint& point, int variable) {
   const auto text = result::exact_coordinate(point, variable);
-  return text ? symbolic::math(symbolic::mathml(symbolic::Expression(*text))) : "";
+  return text ? typeset(*text) : "";
 }
 
 /// "3π/4", or "cos: 3/5, sin: 4/5" behind the digits of the angle.
-std::string exact_angle_html(const ExactPoint& point, const Column& column, const Interval& angle) {
-  const Angle as{column.name, column.variable, column.sine, column.range};
-  if (const auto text = result::multiple_of_pi(point, as, angle))
-    return symbolic::math(symbolic::mathml(symbolic::Expression(*text)));
-  const std::string cosine = exact_html(point, column.variable), sine = exact_html(point, column.sine);
-  if (cosine.empty() || sine.empty()) return digits_text(angle);
-  return digits_text(angle) + " <small>cos: " + cosine + ", sin: " + sine + "</small>";
+std::string exact_angle_html(const ExactPoint& point, const Value& v) {
+  if (const auto text = result::multiple_of_pi(point, *v.angle, v.value)) return typeset(*text);
+  const std::string cosine = exact_html(point, v.angle->cosine), sine = exact_html(point, v.angle->sine);
+  if (cosine.empty() || sine.empty()) return digits_text(v.value);
+  return digits_text(v.value) + " <small>cos: " + cosine + ", sin: " + sine + "</small>";
 }
 
 /// The coordinate of a point as well as it is known: exactly, in decimals, or between bounds.
-std::string cell(const result::Result& result, const Column& column, std::size_t number) {
+std::string cell(const result::Result& result, const Value& v, std::size_t number) {
   const Cover& cover = result.cover;
-  const CoverBox& point = cover.points[number];
-  const auto at = [&point](int v) { return point.box[static_cast<std::size_t>(v)]; };
-  if (column.sine >= 0) {
-    const Interval angle = certify::angle_enclosure(at(column.variable), at(column.sine), column.range);
-    return point.point < 0 ? digits_text(angle)
-                           : exact_angle_html(cover.exact_points[static_cast<std::size_t>(point.point)], column, angle);
-  }
-  std::string exact, value = digits_text(at(column.variable));
-  if (point.point >= 0) exact = exact_html(cover.exact_points[static_cast<std::size_t>(point.point)], column.variable);
+  const ExactPoint* const point = exact_point(result, cover.points[number]);
+  if (v.angle) return point ? exact_angle_html(*point, v) : digits_text(v.value);
   const bool has_decimals = number < cover.decimals.size() && !cover.decimals[number].empty();
-  if (has_decimals)
-    value = symbolic::html_text(with_minus(cover.decimals[number][static_cast<std::size_t>(column.variable)]));
+  const std::string value =
+      has_decimals ? symbolic::html_text(with_minus(cover.decimals[number][v.variable])) : digits_text(v.value);
+  const std::string exact = point ? exact_html(*point, v.variable) : "";
   if (exact.empty()) return value;
   const bool is_decimal = value.find('[') == std::string::npos && value.find('.') == std::string::npos;
   return is_decimal ? exact : exact + " <small>" + value + "</small>";  // an integer needs no decimals
 }
 
-std::string exact_cell(const Column& column, const ExactPoint& point) {
-  const auto text = [&point](int v) {
-    const std::string html = exact_html(point, v);
+std::string exact_cell(const Value& v, const ExactPoint& point) {
+  const auto text = [&point](int variable) {
+    const std::string html = exact_html(point, variable);
     return html.empty() ? fmt::format("a number of degree {}", point.polynomial.size() - 1) : html;
   };
-  if (column.sine < 0) return text(column.variable);
-  return fmt::format("cos: {}, sin: {}", text(column.variable), text(column.sine));
+  return v.angle ? fmt::format("cos: {}, sin: {}", text(v.angle->cosine), text(v.angle->sine)) : text(v.variable);
+}
+
+std::string heads(const std::vector<Value>& shown) {
+  return joined(
+      shown, [](const Value& v) { return "<th>" + symbolic::html_name(v.name) + "</th>"; }, "");
 }
 
 /// Points where the kernel has dimension 2 or more.
-std::string kernel_points_html(const result::Result& result, const std::vector<Column>& shown) {
+std::string kernel_points_html(const result::Result& result, const std::vector<Value>& shown) {
   std::string rows;
   int number = 0;
   for (const ExactPoint& point : result.cover.exact_points) {
     if (point.corank < 2) continue;
-    rows += fmt::format("<tr><td>{}</td>", ++number);
-    for (const Column& column : shown) rows += "<td>" + exact_cell(column, point) + "</td>";
-    rows += fmt::format("<td>{}</td></tr>", point.corank);
+    rows += fmt::format("<tr><td>{}</td>{}<td>{}</td></tr>", ++number,
+                        joined(
+                            shown, [&](const Value& v) { return "<td>" + exact_cell(v, point) + "</td>"; }, ""),
+                        point.corank);
   }
   if (rows.empty()) return "";
-  std::string head;
-  for (const Column& column : shown) head += "<th>" + symbolic::html_name(column.name) + "</th>";
   return fmt::format(
-      "<p>At these points the kernel has a larger dimension. They are known exactly, and proven in exact "
-      "arithmetic.</p><div "
-      "class=\"scroll\"><table>"
-      "<thead><tr><th>point</th>{}<th>kernel’s dimension</th></tr></thead><tbody>{}</tbody></table></div>",
-      head, rows);
+      "<p>At these points the kernel has a larger dimension. They are known exactly, and proven in exact arithmetic.</p>"
+      "<div class=\"scroll\"><table><thead><tr><th>point</th>{}<th>kernel’s dimension</th></tr></thead><tbody>{}</tbody>"
+      "</table></div>",
+      heads(shown), rows);
 }
 
 // The types of singularity that are proven of it; a question mark where one that makes up the set is not settled.
@@ -111,21 +88,22 @@ std::string types_cell(const Cover& cover, const CoverBox& point) {
 
 std::string table_html(const SetView& view) {
   const result::Result& result = view.result;
-  const std::vector<Column> shown = columns(result);
+  const std::vector<Value> shown = own_coordinates(result, result.configuration_size);
   std::string html = fmt::format("<section class=\"points\" data-set=\"{}\"><h3>{}</h3>", view.set->name, view.words.title);
-  if (!result.cover.points.empty()) {
-    html += "<div class=\"scroll\"><table><thead><tr><th>point</th>";
-    for (const Column& column : shown) html += "<th>" + symbolic::html_name(column.name) + "</th>";
+  const std::vector<CoverBox>& points = result.cover.points;
+  if (!points.empty()) {
     const bool types = result.cover.types.asked != 0;
-    html += std::string(types ? "<th>types</th>" : "") + "<th>verdict</th></tr></thead><tbody>";
-    std::size_t number = 0;
-    for (const CoverBox& point : result.cover.points) {
-      html += fmt::format("<tr data-point=\"{}\"><td><button type=\"button\" class=\"show-point\">{}</button></td>", number,
-                          number + 1);
-      for (const Column& column : shown) html += "<td>" + cell(result, column, number) + "</td>";
-      if (types) html += types_cell(result.cover, point);
-      html += fmt::format("<td><span class=\"verdict {0}\">{0}</span></td></tr>", to_string(point.verdict));
-      ++number;
+    html += fmt::format("<div class=\"scroll\"><table><thead><tr><th>point</th>{}{}<th>verdict</th></tr></thead><tbody>",
+                        heads(shown), types ? "<th>types</th>" : "");
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      html += fmt::format(
+          "<tr data-point=\"{0}\"><td><button type=\"button\" class=\"show-point\">{1}</button></td>{2}{3}"
+          "<td><span class=\"verdict {4}\">{4}</span></td></tr>",
+          k, k + 1,
+          joined(
+              values(result, points[k], result.configuration_size),
+              [&](const Value& v) { return "<td>" + cell(result, v, k) + "</td>"; }, ""),
+          types ? types_cell(result.cover, points[k]) : "", to_string(points[k].verdict));
     }
     html += "</tbody></table></div>";
   }

@@ -23,9 +23,9 @@ Json sets_of(const std::vector<SetView>& views, const std::vector<std::string>& 
 
 std::string page_summary(const std::string& model, const std::string& page, const PageOptions& options,
                          const std::vector<SetView>& views, bool complete) {
-  Json json{{"model", model}, {"page", page}, {"figures", options.figures}, {"complete", complete}};
-  json["sets"] = sets_of(views, options.files);
-  return json.dump(2);
+  const Json sets = sets_of(views, options.files);
+  return Json{{"model", model}, {"page", page}, {"figures", options.figures}, {"complete", complete}, {"sets", sets}}.dump(
+      2);
 }
 
 std::string family_summary(const std::string& model, const std::string& constant, const std::string& page,

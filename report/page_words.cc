@@ -2,18 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
 #include "corank/report/drawn_boxes.h"
 #include "corank/report/set_look.h"
 #include "corank/result/assembled.h"
 #include "corank/result/domain_notes.h"
 #include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
-#include "corank/result/number_text.h"
 #include "corank/result/summary.h"
 #include "corank/result/tallies.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/display_name.h"
 #include "corank/symbolic/mathml.h"
 #include "corank/symbolic/set_definition.h"
@@ -21,19 +18,17 @@
 namespace corank::report {
 namespace {
 
-std::string counted(std::size_t n, const std::string& one, const std::string& many) {
-  return grouped(n) + " " + (n == 1 ? one : many);
-}
-std::string boxes_text(std::size_t n) { return counted(n, "box", "boxes"); }
+using result::how_many;
+using result::joined;
+
+std::string counted(std::size_t n, const std::string& word) { return grouped(n) + " " + result::noun(n, word); }
+std::string boxes_text(std::size_t n) { return counted(n, "box"); }
+std::string boxes_are(std::size_t n) { return n == 1 ? "One box is" : grouped(n) + " boxes are"; }
 
 std::string meaning(const SetLook& set, int corank, bool given) {
   const char* const one = given && set.given_meaning ? set.given_meaning : set.meaning;
   const char* const more = given && set.given_of_corank ? set.given_of_corank : set.of_corank;
   return corank == 1 ? one : fmt::format(fmt::runtime(more), corank);
-}
-
-std::string title(const SetLook& set, int corank) {
-  return set.title + (corank == 1 ? "" : fmt::format(" of corank {}", corank));
 }
 
 std::string shape(int dimension) {
@@ -45,47 +40,36 @@ std::string shape(int dimension) {
   }
 }
 
-std::size_t count_points(const Cover& cover, Verdict verdict) {
-  return static_cast<std::size_t>(
-      std::count_if(cover.points.begin(), cover.points.end(), [=](const CoverBox& p) { return p.verdict == verdict; }));
-}
-
 /// Sets of larger dimension than expected, proven or not.
 void say_larger_sets(const result::Result& result, SetWords& words) {
   const Cover& cover = result.cover;
-  const auto count = [&cover](auto&& test) {
-    return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), test));
-  };
   for (std::size_t k = 0; k < cover.self_motions.size(); ++k) {
-    const std::size_t boxes = count([k](const auto& b) { return b.motion == static_cast<int>(k); });
     const std::string sentence = motion_sentence(result, k);
     const std::size_t colon = sentence.find(':');
-    words.proven.push_back(fmt::format("In {} there is a set of larger dimension than expected, {}.", boxes_text(boxes),
+    words.proven.push_back(fmt::format("In {} there is a set of larger dimension than expected, {}.",
+                                       boxes_text(result::boxes_on(cover, k)),
                                        symbolic::html_text(sentence.substr(0, colon) + with_minus(sentence.substr(colon)))));
   }
-  const std::size_t along =
-      count([](const auto& b) { return b.verdict == Verdict::undecided && b.reason == Reason::degenerate_set; });
-  if (along > 0)
-    words.unproven.push_back(fmt::format("{} undecided {}.", along == 1 ? "One box is" : grouped(along) + " boxes are",
-                                         result::along_set_text(cover)));
+  const std::size_t along = how_many(
+      cover.boxes, [](const auto& b) { return b.verdict == Verdict::undecided && b.reason == Reason::degenerate_set; });
+  if (along > 0) words.unproven.push_back(fmt::format("{} undecided {}.", boxes_are(along), result::along_set_text(cover)));
 }
 
 void say_points(const result::Result& result, SetWords& words) {
   const Cover& cover = result.cover;
-  const std::size_t isolated = count_points(cover, Verdict::isolated), exact = count_points(cover, Verdict::exact),
-                    border = count_points(cover, Verdict::boundary),
+  const auto points = [&cover](Verdict verdict) {
+    return how_many(cover.points, [=](const CoverBox& p) { return p.verdict == verdict; });
+  };
+  const std::size_t isolated = points(Verdict::isolated), exact = points(Verdict::exact), border = points(Verdict::boundary),
                     others = cover.points.size() - isolated - exact - border;
-  words.finding = isolated + exact == 0 ? "No point is proven to exist" : counted(isolated + exact, "point", "points");
-  if (const auto on_sets = static_cast<std::size_t>(
-          std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) { return b.motion >= 0; }));
-      on_sets > 0) {
-    const std::string points = isolated + exact == 0 ? "" : " and " + words.finding;
-    words.finding = counted(cover.self_motions.size(), "set of larger dimension than expected",
-                            "sets of larger dimension than expected") +
-                    ", in " + boxes_text(on_sets) + points;
+  words.finding = isolated + exact == 0 ? "No point is proven to exist" : counted(isolated + exact, "point");
+  if (const std::size_t on_sets = how_many(cover.boxes, [](const auto& b) { return b.motion >= 0; }); on_sets > 0) {
+    const std::string also = isolated + exact == 0 ? "" : " and " + words.finding;
+    words.finding = fmt::format("{} of larger dimension than expected, in {}{}", counted(cover.self_motions.size(), "set"),
+                                boxes_text(on_sets), also);
   }
   if (border > 0) words.finding += fmt::format(", {} at the border of the search domain", border);
-  if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place", "undecided places"));
+  if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place"));
   if (isolated > 0) {
     words.proven.push_back(isolated == 1 ? "One small box holds exactly one solution."
                                          : grouped(isolated) + " small boxes hold exactly one solution each, all distinct.");
@@ -101,42 +85,37 @@ void say_points(const result::Result& result, SetWords& words) {
     words.unproven.push_back(
         fmt::format("At {} nothing is proven: {} may hold any number of solutions, or none. A double solution looks like "
                     "this.",
-                    counted(others, "place", "places"), others == 1 ? "it" : "each"));
+                    counted(others, "place"), others == 1 ? "it" : "each"));
   }
 }
 
 /// Ranges that cut the set, and what keeps boxes at the border.
 void say_domain(const result::DomainNotes& notes, SetWords& words) {
   for (const std::string& sentence : result::range_end_sentences(notes))
-    words.unproven.push_back("T" + sentence.substr(1) + ".");
+    words.unproven.push_back(result::capitalized(sentence) + ".");
   if (notes.boundary.empty()) return;
-  std::string reasons;
-  for (const result::DomainNotes::Reason& reason : notes.boundary)
-    reasons += fmt::format("{}{} ({})", reasons.empty() ? "" : ", ", reason.text, boxes_text(reason.boxes));
-  words.unproven.push_back("Boxes at the border may reach beyond " + reasons + ".");
+  words.unproven.push_back(
+      fmt::format("Boxes at the border may reach beyond {}.", joined(notes.boundary, [](const auto& reason) {
+                    return fmt::format("{} ({})", reason.text, boxes_text(reason.boxes));
+                  })));
 }
 
 /// Where the kernel's dimension is known.
 void say_kernel(const Cover& cover, SetWords& words) {
-  const auto count = [&cover](auto&& test) {
-    return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), test));
-  };
-  const std::size_t one = count([](const auto&b) { return b.kernel_at_most == 1; }),
-                    asked = count([](const auto&b) { return b.kernel_at_most >= 0; });
-  const auto larger = static_cast<std::size_t>(
-      std::count_if(cover.exact_points.begin(), cover.exact_points.end(), [](const auto& p) { return p.corank > 1; }));
-  if (asked == 0) return;
-  words.proven.push_back(fmt::format("The kernel has dimension 1 at every solution in {} of {} boxes.", grouped(one),
+  if (how_many(cover.boxes, [](const auto& b) { return b.kernel_at_most >= 0; }) == 0) return;
+  words.proven.push_back(fmt::format("The kernel has dimension 1 at every solution in {} of {} boxes.",
+                                     grouped(how_many(cover.boxes, [](const auto& b) { return b.kernel_at_most == 1; })),
                                      grouped(cover.boxes.size())));
+  const std::size_t larger = how_many(cover.exact_points, [](const auto& p) { return p.corank > 1; });
   if (larger > 0) {
-    words.proven.push_back(fmt::format("At {} it has dimension 2 or more; {} known exactly.",
-                                       counted(larger, "point", "points"), larger == 1 ? "it is" : "they are"));
+    words.proven.push_back(fmt::format("At {} it has dimension 2 or more; {} known exactly.", counted(larger, "point"),
+                                       larger == 1 ? "it is" : "they are"));
   }
 }
 
 /// Of a workspace boundary: where the output can pass.
 void say_passages(const result::Result& result, SetWords& words) {
-  if (result.outputs.empty() || result.cover.boxes.empty()) return;
+  if (result.outputs.empty()) return;
   const auto counts = result::passages(result.cover);
   const auto boxes = [&](Passage passage) { return counts[static_cast<std::size_t>(passage)]; };
   words.proven.push_back(
@@ -150,20 +129,16 @@ void say_passages(const result::Result& result, SetWords& words) {
 
 /// Of a union.
 void say_parts(const result::Result& result, SetWords& words) {
-  if (result.parts.empty() || !result.outputs.empty()) return;
-  std::string list;
-  for (const result::Result& part : result.parts)
-    list += fmt::format("{}{} ({})", list.empty() ? "" : "; ", part.part, boxes_text(part.cover.boxes.size()));
-  if (result.parts.size() > 1)
-    words.proven.push_back(fmt::format("The set is the union of {} parts: {}.", result.parts.size(), list));
+  if (result.parts.size() < 2 || !result.outputs.empty()) return;
+  const auto part = [](const result::Result& r) { return fmt::format("{} ({})", r.part, boxes_text(r.cover.boxes.size())); };
+  words.proven.push_back(
+      fmt::format("The set is the union of {} parts: {}.", result.parts.size(), joined(result.parts, part, "; ")));
 }
 
 void say_pieces(const result::Result& result, const Components& found, SetWords& words) {
   const Cover& cover = result.cover;
   words.finding = fmt::format("{}: {}", shape(cover.dimension), boxes_text(cover.boxes.size()));
-  if (found.counted)
-    words.finding +=
-        fmt::format(" in {} of touching boxes", counted(static_cast<std::size_t>(found.count), "component", "components"));
+  if (found.counted) words.finding += fmt::format(" in {} of touching boxes", counted(found.count, "component"));
   const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
   if (regular > 0) {
     words.proven.push_back(fmt::format(
@@ -192,75 +167,17 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   say_kernel(cover, words);
   say_passages(result, words);
   say_parts(result, words);
-  const auto explained = static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) {
-    return b.verdict == Verdict::undecided && b.point >= 0;
-  }));
+  const std::size_t explained =
+      how_many(cover.boxes, [](const auto& b) { return b.verdict == Verdict::undecided && b.point >= 0; });
   const std::size_t open = cover.count(Verdict::undecided) - explained;
   if (explained > 0) {
-    words.unproven.push_back(fmt::format(
-        "{} undecided around a point that is known exactly: it is open whether {} anything else.",
-        explained == 1 ? "One box is" : grouped(explained) + " boxes are", explained == 1 ? "it holds" : "they hold"));
+    words.unproven.push_back(
+        fmt::format("{} undecided around a point that is known exactly: it is open whether {} anything else.",
+                    boxes_are(explained), explained == 1 ? "it holds" : "they hold"));
   }
-  if (open > 0) {
-    words.unproven.push_back(fmt::format("{} undecided: it is open whether there are solutions.",
-                                         open == 1 ? "One box is" : grouped(open) + " boxes are"));
-  }
+  if (open > 0)
+    words.unproven.push_back(fmt::format("{} undecided: it is open whether there are solutions.", boxes_are(open)));
 }
-
-}  // namespace
-
-std::string percentage(std::size_t part, std::size_t whole) {
-  if (part == whole) return "100 %";
-  const double share = 100 * static_cast<double>(part) / static_cast<double>(whole);
-  return share > 99.9 ? "over 99.9 %" : fmt::format("{:.1f} %", share);
-}
-
-std::string grouped(std::uint64_t n) {
-  std::string digits = std::to_string(n);
-  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
-    digits.insert(static_cast<std::size_t>(at), "\u202F");
-  return digits;
-}
-
-std::string with_minus(std::string text) {
-  for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-', at + 3)) text.replace(at, 1, "−");
-  return text;
-}
-
-std::string names_html(const std::vector<std::string>& names) {
-  std::string html;
-  for (const std::string& name : names) html += (html.empty() ? "" : ", ") + symbolic::html_name(name);
-  return html;
-}
-
-std::string chosen_html(const symbolic::Mechanism& mechanism, symbolic::Role role) {
-  const std::vector<std::string>& names = role == symbolic::Role::input ? mechanism.inputs() : mechanism.outputs();
-  std::vector<std::string> rates;
-  for (const symbolic::Rate& rate : mechanism.rates())
-    if (rate.role == role) rates.push_back(rate.name);
-  if (rates.empty() || rates.size() == names.size()) return names_html(names);
-  return names_html(rates) + " <small>rates</small>";
-}
-
-// The name in HTML, whose subscripts do not depend on the reader having a font for mathematics.
-std::string constant_html(const std::string& name, const symbolic::Expression& value) {
-  return "<span class=\"constant\">" + symbolic::html_name(name) + " = " + symbolic::math(symbolic::mathml(value)) +
-         "</span>";
-}
-
-std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except) {
-  std::string html;
-  for (const symbolic::Constant& c : mechanism.constants()) {
-    if (c.name == except) continue;
-    html += html.empty() ? "" : ", ";
-    html += constant_html(c.name, c.value);
-  }
-  return html.empty() ? "none" : html;
-}
-
-std::string digits_text(const Interval& x) { return with_minus(result::outward_text(x, 9)); }
-
-namespace {
 
 const char* meaning_of(SingularityType type) {
   switch (type) {
@@ -287,37 +204,74 @@ void say_types(const Cover& cover, SetWords& words) {
       fmt::format("In {} it is open which types there are, or whether there is a solution.", boxes_text(tally.unproven)));
 }
 
+void say_none(const result::Result& result, const char* none, SetWords& words) {
+  words.finding = "None";
+  words.proven.emplace_back(result.options.corank == 1 ? none : look(symbolic::definition(std::nullopt)).none);
+  for (const std::string& sentence : result::assembly_sentences(result)) {
+    const bool proven = result::assembled(result) && sentence.starts_with("the robot");
+    (proven ? words.proven : words.unproven).push_back(result::capitalized(sentence) + ".");
+  }
+}
+
 }  // namespace
+
+std::string percentage(std::size_t part, std::size_t whole) {
+  if (part == whole) return "100 %";
+  const double share = 100 * static_cast<double>(part) / static_cast<double>(whole);
+  return share > 99.9 ? "over 99.9 %" : fmt::format("{:.1f} %", share);
+}
+
+std::string grouped(std::uint64_t n) {
+  std::string digits = std::to_string(n);
+  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, "\u202F");
+  return digits;
+}
+
+std::string with_minus(std::string text) {
+  for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-', at + 3)) text.replace(at, 1, "−");
+  return text;
+}
+
+std::string names_html(const std::vector<std::string>& names) { return joined(names, symbolic::html_name); }
+
+std::string chosen_html(const symbolic::Mechanism& mechanism, symbolic::Role role) {
+  const std::vector<std::string>& names = role == symbolic::Role::input ? mechanism.inputs() : mechanism.outputs();
+  std::vector<std::string> rates;
+  for (const symbolic::Rate& rate : mechanism.rates())
+    if (rate.role == role) rates.push_back(rate.name);
+  if (rates.empty() || rates.size() == names.size()) return names_html(names);
+  return names_html(rates) + " <small>rates</small>";
+}
+
+// The name in HTML, whose subscripts do not depend on the reader having a font for mathematics.
+std::string constant_html(const std::string& name, const symbolic::Expression& value) {
+  return "<span class=\"constant\">" + symbolic::html_name(name) + " = " + symbolic::math(symbolic::mathml(value)) +
+         "</span>";
+}
+
+std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except) {
+  std::vector<symbolic::Constant> shown = mechanism.constants();
+  std::erase_if(shown, [&](const symbolic::Constant& c) { return c.name == except; });
+  return shown.empty() ? "none" : joined(shown, [](const auto& c) { return constant_html(c.name, c.value); });
+}
+
+std::string digits_text(const Interval& x) { return with_minus(result::outward_text(x, 9)); }
 
 SetWords set_words(const result::Result& result, const Components& found, bool given_velocity_equation) {
   const Cover& cover = result.cover;
   SetWords words;
-  const symbolic::SetDefinition& set = symbolic::definition(result.set);
-  const SetLook& called = look(set);
-  words.title = title(called, result.options.corank);
-  words.meaning = meaning(called, result.options.corank, given_velocity_equation);
-  for (int v = 0; v < kVerdicts; ++v) {
-    const auto verdict = static_cast<Verdict>(v);
-    if (const std::size_t n = cover.count(verdict); n > 0)
-      words.shares.push_back({verdict, n, static_cast<double>(n) / static_cast<double>(cover.boxes.size())});
-  }
+  const SetLook& called = look(symbolic::definition(result.set));
+  const int corank = result.options.corank;
+  words.title = called.title + (corank == 1 ? "" : fmt::format(" of corank {}", corank));
+  words.meaning = meaning(called, corank, given_velocity_equation);
   if (const std::size_t in_one = boxes_in_one(result); in_one > 1)
     words.meaning += fmt::format("; drawn here: hulls of up to {} neighbouring boxes with the same verdict", in_one);
   if (cover.boxes.empty()) {
-    words.finding = "None";
-    const char* const none = given_velocity_equation && called.given_none ? called.given_none : called.none;
-    words.proven.emplace_back(result.options.corank == 1 ? none : look(symbolic::definition(std::nullopt)).none);
-    for (std::string sentence : result::assembly_sentences(result)) {
-      sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-      (result::assembled(result) && sentence.starts_with("The robot") ? words.proven : words.unproven)
-          .push_back(sentence + ".");
-    }
+    say_none(result, given_velocity_equation && called.given_none ? called.given_none : called.none, words);
     return words;
   }
-  if (std::string meaning = result::locus_sentence(result); !meaning.empty()) {
-    meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
-    (cover.dimension == 0 ? words.proven : words.unproven).push_back(meaning + ".");
-  }
+  if (const std::string locus = result::locus_sentence(result); !locus.empty())
+    (cover.dimension == 0 ? words.proven : words.unproven).push_back(result::capitalized(locus) + ".");
   if (cover.complete()) {
     words.proven.push_back(
         "Every solution in the search domain lies in a box: the rest of the domain is excluded with outward rounding.");

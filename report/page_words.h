@@ -10,18 +10,14 @@
 
 namespace corank::report {
 
-struct VerdictShare {
-  Verdict verdict;
-  std::size_t count = 0;
-  double share = 0;  ///< of all boxes, 0 … 1
+struct Findings {
+  std::vector<std::string> proven, unproven;  ///< one sentence each
 };
 
-struct SetWords {
-  std::string title;                          ///< "C-space", "Forward singularities", "Forward singularities of corank 2"
-  std::string meaning;                        ///< what the set is, in one clause
-  std::string finding;                        ///< "curves in 2 486 boxes"
-  std::vector<std::string> proven, unproven;  ///< one sentence each
-  std::vector<VerdictShare> shares;           ///< of the verdicts that occur
+struct SetWords : Findings {
+  std::string title;    ///< "C-space", "Forward singularities", "Forward singularities of corank 2"
+  std::string meaning;  ///< what the set is, in one clause
+  std::string finding;  ///< "curves in 2 486 boxes"
 };
 
 /// "100 %" only where it is all.

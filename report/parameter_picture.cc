@@ -7,9 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "corank/report/drawing_file.h"
-#include "corank/report/layout.h"
-#include "corank/report/portrait.h"
+#include "corank/report/canvas.h"
 
 namespace corank::report {
 namespace {
@@ -21,16 +19,8 @@ constexpr Color kUnknownColor{0.83, 0.83, 0.83}, kCurve{0.13, 0.13, 0.15}, kMayM
 
 // Light enough for a dark curve beside them, told apart by the colour-blind and, in order, in grey: from pale yellow to
 // dark blue for growing numbers.
-Color shade(std::size_t k, std::size_t of) {
-  constexpr std::array<Color, 6> kStops = {Color{0.98, 0.95, 0.76}, {0.98, 0.80, 0.47}, {0.94, 0.58, 0.44},
-                                           {0.78, 0.44, 0.62},      {0.50, 0.42, 0.74}, {0.27, 0.38, 0.68}};
-  if (of <= 1) return kStops[1];
-  const double at = static_cast<double>(k) / static_cast<double>(of - 1) * (kStops.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
-  const double share = at - static_cast<double>(i);
-  const Color &a = kStops[i], &b = kStops[i + 1];
-  return {a.red + share * (b.red - a.red), a.green + share * (b.green - a.green), a.blue + share * (b.blue - a.blue)};
-}
+constexpr std::array<Color, 6> kShades = {Color{0.98, 0.95, 0.76}, {0.98, 0.80, 0.47}, {0.94, 0.58, 0.44},
+                                          {0.78, 0.44, 0.62},      {0.50, 0.42, 0.74}, {0.27, 0.38, 0.68}};
 
 class Drawing {
  public:
@@ -76,7 +66,9 @@ class Drawing {
     for (const auto& c : in_.cells)
       if (c.number) colors_[*c.number] = {};
     std::size_t k = 0;
-    for (auto& [number, color] : colors_) color = shade(k++, colors_.size());
+    for (auto& [number, color] : colors_)
+      color = colors_.size() == 1 ? kShades[1]
+                                  : between(kShades, static_cast<double>(k++) / static_cast<double>(colors_.size() - 1));
   }
 
   void add_regions() {
@@ -115,35 +107,30 @@ class Drawing {
       });
       if (covered) continue;
       const double width = kFrame * c.x.width() / in_.x_range.width(), height = kFrame * c.y.width() / in_.y_range.width();
-      const double x = kLeft + kFrame * x_share(c.x.mid()), y = kTop + kFrame * y_share(c.y.mid());
+      const double x = out_.x_at(c.x.mid()), y = out_.y_at(c.y.mid());
       out_.swatches.push_back(
           {x - kDot * width / 2, y - kDot * height / 2, kDot * width, kDot * height, colors_.at(*c.number), 1});
       dots_[*c.number] = true;
     }
   }
 
-  void line(double x0, double y0, double x1, double y1) { out_.lines.push_back({x0, y0, x1, y1, kLine}); }
-
   void add_frame() {
-    const double right = kLeft + kFrame, bottom = kTop + kFrame;
-    line(kLeft, kTop, right, kTop), line(right, kTop, right, bottom);
-    line(right, bottom, kLeft, bottom), line(kLeft, bottom, kLeft, kTop);
-    for (const Tick& t : ticks(in_.x_range.lo(), in_.x_range.hi(), false, 7)) {
-      const double x = kLeft + kFrame * x_share(t.at);
-      line(x, bottom, x, bottom + 3);
-      out_.texts.push_back({x, bottom + 13, kText, Layout::Anchor::middle, false, {{t.text}}});
-    }
-    for (const Tick& t : ticks(in_.y_range.lo(), in_.y_range.hi(), false, 7)) {
-      const double y = kTop + kFrame * y_share(t.at);
-      line(kLeft - 3, y, kLeft, y);
-      out_.texts.push_back({kLeft - 5, y + 3, kText, Layout::Anchor::end, false, {{t.text}}});
-    }
-    out_.texts.push_back({kLeft + kFrame / 2, bottom + 27, kTitle, Layout::Anchor::middle, false, math_label(in_.x_name)});
-    out_.texts.push_back({13, kTop + kFrame / 2, kTitle, Layout::Anchor::middle, true, math_label(in_.y_name)});
+    add_axes(out_, {math_label(in_.x_name), math_label(in_.y_name)},
+             {ticks(in_.x_range.lo(), in_.x_range.hi(), false, 7), ticks(in_.y_range.lo(), in_.y_range.hi(), false, 7)},
+             {.line = kLine,
+              .tick = 3,
+              .numbers = kText,
+              .below = 13,
+              .beside = 5,
+              .lower = 3,
+              .names = kTitle,
+              .name_below = 27,
+              .name_x = 13});
     out_.texts.push_back({kLeft, kTop - 9, kTitle, Layout::Anchor::start, false, {{in_.title + ", " + in_.what}}});
   }
 
   double add_legend() {
+    const TextWidth text_width = font_widths();
     const double x = kLeft + kFrame + kLegendGap;
     double y = kTop, right = x;
     const auto add = [&](const Color& color, const std::string& words, double size) {
@@ -151,7 +138,7 @@ class Drawing {
       if (size < 1) out_.swatches.push_back({x, y, kSwatch, kSwatch, kUnknownColor, 1});
       out_.swatches.push_back({x + room, y + room, size * kSwatch, size * kSwatch, color, 1});
       out_.texts.push_back({x + kSwatch + 6, y + kSwatch - 1, kText, Layout::Anchor::start, false, {{words}}});
-      right = std::max(right, x + kSwatch + 6 + drawn_width({{words}}, kText));
+      right = std::max(right, x + kSwatch + 6 + text_width({{words}}, kText));
       y += kRow;
     };
     // From the largest down, as they lie in most pictures.
@@ -173,8 +160,6 @@ class Drawing {
 };
 
 }  // namespace
-
-bool is_picture(const std::filesystem::path& path) { return is_portrait_format(path); }
 
 void write_picture(const std::filesystem::path& path, const ParameterPicture& picture) {
   write_drawing(path, Drawing(picture).run(), picture.title + ", " + picture.what);

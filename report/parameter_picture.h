@@ -28,9 +28,7 @@ struct ParameterPicture {
   std::vector<Piece> boundary;
 };
 
-/// .svg, .pdf, .png.
-bool is_picture(const std::filesystem::path& path);
-/// Throws ResultFileError where the file cannot be written.
+/// In a format of is_portrait_format(). Throws ResultFileError where the file cannot be written.
 void write_picture(const std::filesystem::path& path, const ParameterPicture& picture);
 
 }  // namespace corank::report

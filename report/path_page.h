@@ -21,4 +21,22 @@ struct PathPageOptions {
 std::string path_page(const symbolic::Mechanism& mechanism, const PathView& view, const std::vector<SetView>& sets,
                       const PathPageOptions& options = {});
 
+// Its parts, in words and as HTML fragments.
+
+struct PathWords : Findings {
+  std::string kicker;   ///< "A path without forward singularities"
+  std::string finding;  ///< "There is a path, proven from end to end."
+};
+
+PathWords path_words(const symbolic::Mechanism& mechanism, const PathView& view);
+
+/// "J_{3x} = 0.5, θ₂ = 3.002 …": the model's own coordinates.
+std::string values_html(const PathView& view, const std::vector<double>& values, const symbolic::Mechanism& mechanism);
+
+/// A table: of each sign function its sign at both ends; empty where there is none.
+std::string signs_html(const PathView& view);
+
+/// A table of the waypoints, with the radius that follows each; empty without a path.
+std::string waypoints_html(const PathView& view, const symbolic::Mechanism& mechanism);
+
 }  // namespace corank::report

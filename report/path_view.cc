@@ -1,10 +1,9 @@
 #include "corank/report/path_view.h"
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "corank/report/page_data.h"
+#include "corank/report/template_data.h"
 
 namespace corank::report {
 namespace {
@@ -17,35 +16,26 @@ std::vector<std::size_t> places_of(const System& system, const std::vector<std::
   for (const std::string& name : order) {
     const int j = system.find(name);
     if (j < 0) throw std::invalid_argument("the path has no variable " + name);
-    places.push_back(static_cast<std::size_t>(j));
+    places.push_back(j);
   }
   return places;
 }
 
 Json middle(const Box& box, const std::vector<std::size_t>& places) {
-  Json json = Json::array();
-  for (const std::size_t j : places) json.push_back(box[j].mid());
-  return json;
+  return each(places, [&](std::size_t j) { return box[j].mid(); });
 }
 
 Json node(const TubeNode& node, const std::vector<std::size_t>& places) {
   Json rows = Json::array();
-  const std::size_t n = node.box.size();
-  for (std::size_t i = 0; i < node.values.size(); ++i) {
-    Json row = Json::array();
-    for (const std::size_t j : places) row.push_back(node.rows[i * n + j]);
-    rows.push_back(std::move(row));
-  }
+  for (std::size_t i = 0; i < node.values.size(); ++i)
+    rows.push_back(each(places, [&](std::size_t j) { return node.rows[i * node.box.size() + j]; }));
   return {{"x", middle(node.box, places)}, {"rows", rows}, {"values", node.values}};
 }
 
 Json piece(const Box& box, double radius, const std::vector<std::size_t>& places) {
-  Json lower = Json::array(), upper = Json::array();
-  for (const std::size_t j : places) {
-    lower.push_back(box[j].lo());
-    upper.push_back(box[j].hi());
-  }
-  return {{"lower", lower}, {"upper", upper}, {"radius", radius}};
+  return {{"lower", each(places, [&](std::size_t j) { return box[j].lo(); })},
+          {"upper", each(places, [&](std::size_t j) { return box[j].hi(); })},
+          {"radius", radius}};
 }
 
 }  // namespace
@@ -73,17 +63,14 @@ PathView path_view(const analyze::PathFinder& finder, const analyze::Path& path)
 
 std::string path_json(const PathView& view, const std::vector<std::string>& order) {
   const std::vector<std::size_t> places = places_of(view.system, order);
-  Json json = {{"status", to_string(view.path.status)},
-               {"avoided", view.avoid == analyze::Avoid::both ? "forward or inverse" : to_string(view.avoid)},
-               {"ends", {middle(view.path.from, places), middle(view.path.to, places)}},
-               {"nodes", Json::array()},
-               {"pieces", Json::array()}};
-  if (view.path.tube) {
-    const Tube& tube = *view.path.tube;
-    for (const TubeNode& n : tube.nodes) json["nodes"].push_back(node(n, places));
-    for (std::size_t k = 0; k < tube.pieces.size(); ++k)
-      json["pieces"].push_back(piece(tube.pieces[k], tube.radii[k], places));
-  }
+  const Tube tube = view.path.tube.value_or(Tube{});
+  Json pieces = Json::array();
+  for (std::size_t k = 0; k < tube.pieces.size(); ++k) pieces.push_back(piece(tube.pieces[k], tube.radii[k], places));
+  const Json json = {{"status", to_string(view.path.status)},
+                     {"avoided", view.avoid == analyze::Avoid::both ? "forward or inverse" : to_string(view.avoid)},
+                     {"ends", {middle(view.path.from, places), middle(view.path.to, places)}},
+                     {"nodes", each(tube.nodes, [&](const TubeNode& n) { return node(n, places); })},
+                     {"pieces", pieces}};
   return script_safe(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -1,11 +1,12 @@
-#include "corank/report/path_words.h"
+#include "corank/report/path_page.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
 
-#include "corank/report/page_words.h"
+#include "corank/result/tallies.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/display_name.h"
 
 namespace corank::report {
@@ -15,7 +16,10 @@ using analyze::Avoid;
 using analyze::Path;
 using symbolic::html_name;
 
-std::string avoided(Avoid avoid) { return avoid == Avoid::both ? "forward and inverse" : to_string(avoid); }
+/// "forward and inverse" singularities, "forward or inverse" singularity.
+std::string avoided(Avoid avoid, const char* both = "forward and inverse") {
+  return avoid == Avoid::both ? both : to_string(avoid);
+}
 
 std::string number(double value, int digits = 4) { return with_minus(fmt::format("{:.{}g}", value, digits)); }
 
@@ -30,19 +34,25 @@ std::string bounds_of(const symbolic::Mechanism& mechanism, const System& system
     if (a.range.width() < 2 * std::numbers::pi - 1e-9) ranges.push_back(a.name);
   if (!limits.empty()) parts.push_back("the limits of " + names_html(limits));
   if (!ranges.empty()) parts.push_back("the ranges of " + names_html(ranges));
-  const auto& all = mechanism.constraints();
-  const auto inequalities = std::count_if(all.begin(), all.end(), [](const symbolic::Constraint& c) {
+  const std::size_t inequalities = result::how_many(mechanism.constraints(), [](const symbolic::Constraint& c) {
     return c.relation.kind != symbolic::Relation::Kind::equal;
   });
-  if (inequalities > 0) parts.push_back(fmt::format("{} inequalit{}", inequalities, inequalities == 1 ? "y" : "ies"));
-  std::string text;
-  for (std::size_t k = 0; k < parts.size(); ++k) text += (k == 0 ? "" : k + 1 == parts.size() ? " and " : ", ") + parts[k];
-  return text;
+  if (inequalities > 0) parts.push_back(result::counted(inequalities, "inequality"));
+  return result::listed(parts);
 }
 
 std::string kept_rank(Avoid avoid) {
   const std::string y = "<i>L<sub>y</sub></i>", z = "<i>L<sub>z</sub></i>";
   return avoid == Avoid::forward ? y : avoid == Avoid::inverse ? z : y + " and " + z;
+}
+
+/// Where the model's own coordinates stand among the view's.
+std::vector<std::size_t> shown_in(const PathView& view, const symbolic::Mechanism& mechanism) {
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < view.names.size(); ++k)
+    for (const symbolic::Coordinate& c : mechanism.coordinates())
+      if (c.name == view.names[k] && !c.auxiliary) shown.push_back(k);
+  return shown;
 }
 
 void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, PathWords& words) {
@@ -54,7 +64,7 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
                          (n == 1 ? test : fmt::format("it has {} pieces that meet, and in each {}", grouped(n), test)) +
                          ".");
   words.proven.push_back(fmt::format("The path meets no {} singularity: {} full rank on all of it.",
-                                     view.avoid == Avoid::both ? "forward or inverse" : avoided(view.avoid),
+                                     avoided(view.avoid, "forward or inverse"),
                                      kept_rank(view.avoid) + (view.avoid == Avoid::both ? " have" : " has")));
   if (const std::string bounds = bounds_of(mechanism, view.system); !bounds.empty())
     words.proven.push_back(fmt::format("It keeps to {}.", bounds));
@@ -62,8 +72,7 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
     const std::optional<double> length = analyze::length_size(view.system, tube);
     words.proven.push_back(fmt::format(
         "The same holds around the path: for every configuration whose sines and cosines of angles differ by at most {} "
-        "from "
-        "those of a point of the path{}.",
+        "from those of a point of the path{}.",
         number(radius, 3), length ? ", and whose lengths differ by at most " + number(radius * *length, 3) : ""));
   }
   if (view.radius_asked > tube.radius())
@@ -87,8 +96,7 @@ PathWords path_words(const symbolic::Mechanism& mechanism, const PathView& view)
                       avoided(view.avoid), reason));
       words.proven.push_back(
           fmt::format("Every motion from one to the other passes {} {} singularity, or leaves the ranges.",
-                      view.avoid == Avoid::inverse ? "an" : "a",
-                      view.avoid == Avoid::both ? "forward or inverse" : avoided(view.avoid)));
+                      view.avoid == Avoid::inverse ? "an" : "a", avoided(view.avoid, "forward or inverse")));
       break;
     case Path::Status::unknown:
       words.finding = "corank found neither a path nor a proof that there is no path.";
@@ -98,21 +106,18 @@ PathWords path_words(const symbolic::Mechanism& mechanism, const PathView& view)
   return words;
 }
 
-std::string values_html(const PathView& view, const std::vector<double>& values, const std::vector<std::string>& shown) {
-  std::string html;
-  for (std::size_t k = 0; k < view.names.size(); ++k)
-    if (std::find(shown.begin(), shown.end(), view.names[k]) != shown.end())
-      html += fmt::format("{}<span class=\"constant\">{} = {}</span>", html.empty() ? "" : ", ", html_name(view.names[k]),
-                          number(values[k]));
-  return html;
+std::string values_html(const PathView& view, const std::vector<double>& values, const symbolic::Mechanism& mechanism) {
+  return result::joined(shown_in(view, mechanism), [&](std::size_t k) {
+    return fmt::format("<span class=\"constant\">{} = {}</span>", html_name(view.names[k]), number(values[k]));
+  });
 }
 
 std::string signs_html(const PathView& view) {
   if (view.signs[0].empty()) return "";
   const auto sign = [](int s) { return s > 0 ? "+" : s < 0 ? "−" : "not proven"; };
   std::string html =
-      "<div class=\"scroll\"><table "
-      "class=\"signs\"><thead><tr><th>function</th><th>start</th><th>end</th></tr></thead><tbody>";
+      "<div class=\"scroll\"><table class=\"signs\"><thead><tr><th>function</th><th>start</th><th>end</th></tr></thead>"
+      "<tbody>";
   for (std::size_t k = 0; k < view.signs[0].size(); ++k) {
     const auto &a = view.signs[0][k], &b = view.signs[1][k];
     const std::string matrix = fmt::format("det <i>L<sub>{}</sub></i>", a.of == Avoid::forward ? "y" : "z");
@@ -128,12 +133,10 @@ std::string signs_html(const PathView& view) {
 
 std::string waypoints_html(const PathView& view, const symbolic::Mechanism& mechanism) {
   if (view.nodes.empty()) return "";
-  std::vector<std::size_t> shown;
-  for (std::size_t k = 0; k < view.names.size(); ++k)
-    for (const symbolic::Coordinate& c : mechanism.coordinates())
-      if (c.name == view.names[k] && !c.auxiliary) shown.push_back(k);
+  const std::vector<std::size_t> shown = shown_in(view, mechanism);
   std::string html = "<div class=\"scroll\"><table class=\"waypoints\"><thead><tr><th></th>";
-  for (const std::size_t k : shown) html += "<th>" + html_name(view.names[k]) + "</th>";
+  html += result::joined(
+      shown, [&](std::size_t k) { return "<th>" + html_name(view.names[k]) + "</th>"; }, "");
   html += "<th>radius of the piece that follows</th></tr></thead><tbody>";
   for (std::size_t i = 0; i < view.nodes.size(); ++i) {
     html += fmt::format("<tr data-node=\"{}\"><th>{}</th>", i, i + 1);

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "corank/report/drawn_angle.h"
-#include "corank/report/picture_style.h"
 #include "corank/symbolic/set_definition.h"
 
 namespace corank::report {
@@ -26,7 +25,7 @@ struct Coordinate {
 
   // The one piece, or the pieces, of a box.
   std::vector<Interval> values(const Box& box, double size) const {
-    const auto side = [&](int v) { return box.at(static_cast<std::size_t>(v)); };
+    const auto side = [&](int v) { return box.at(v); };
     Interval x = angle ? drawn_angle(side(angle->cosine), side(angle->sine), angle->range) : side(variable);
     if (size > 0) x = Interval(x.mid() - size / 2, x.mid() + size / 2);
     return angle ? pieces(x) : std::vector<Interval>{x};
@@ -53,42 +52,27 @@ struct Coordinate {
   }
 };
 
-std::string choices(const PictureSource& source) {
+Coordinate coordinate(const PictureSource& source, const std::string& name) {
+  if (const int variable = source.boxes.find(name); variable >= 0) return {variable, std::nullopt};
+  for (Angle a : source.angles) {
+    if (a.name != name) continue;
+    if (a.range.width() > kTurn + 1e-9) a.range = kCircle;
+    return {-1, a};
+  }
   std::vector<std::string> names = source.boxes.variables;
   for (const Angle& a : source.angles) names.push_back(a.name);
-  return names.empty() ? "" : fmt::format(" or one of {}", fmt::join(names, ", "));
-}
-
-Coordinate coordinate(const PictureSource& source, const std::string& name) {
-  Coordinate result;
-  result.variable = source.boxes.find(name);
-  if (result.variable >= 0) return result;
-  for (const Angle& a : source.angles) {
-    if (a.name != name) continue;
-    result.angle = a;
-    if (a.range.width() > kTurn + 1e-9) result.angle->range = kCircle;
-    return result;
-  }
   throw std::invalid_argument(fmt::format("{} has no variable '{}'; expected a number from 1 to {}{}", source.file, name,
-                                          source.boxes.size(), choices(source)));
+                                          source.boxes.size(),
+                                          names.empty() ? "" : fmt::format(" or one of {}", fmt::join(names, ", "))));
 }
 
 PictureAxis axis(const PictureSource& source, const Coordinate& from, const std::string& name) {
-  PictureAxis result;
-  if (from.angle) {
-    result.name = from.angle->name;
-    result.angle = true;
-    result.range = from.angle->range;
-    return result;
-  }
+  if (from.angle) return {from.angle->name, "", true, from.angle->range};
+  for (const Angle& a : source.angles)
+    if (from.variable == a.cosine || from.variable == a.sine)
+      return {.name = a.name, .function = from.variable == a.cosine ? "cos" : "sin"};
   const auto& names = source.boxes.variables;
-  result.name = names.empty() ? "x" + name : names.at(static_cast<std::size_t>(from.variable));
-  for (const Angle& a : source.angles) {
-    if (from.variable != a.cosine && from.variable != a.sine) continue;
-    result.function = from.variable == a.cosine ? "cos" : "sin";
-    result.name = a.name;
-  }
-  return result;
+  return {.name = names.empty() ? "x" + name : names.at(from.variable)};
 }
 
 // The layer a box belongs to.
@@ -165,7 +149,7 @@ void add_hatches(const PictureSource& source, const std::vector<Coordinate>& coo
   for (std::size_t j = 0; j < 2; ++j) {
     const auto at = std::find(source.outputs.begin(), source.outputs.end(), axes[j]);
     if (at == source.outputs.end()) return;
-    place[j] = static_cast<std::size_t>(at - source.outputs.begin());
+    place[j] = at - source.outputs.begin();
   }
   for (std::size_t k = 0; k < source.count(); ++k) {
     if (source.passages[k] != Passage::barrier || source.sides[k].size() != source.outputs.size()) continue;
@@ -179,13 +163,6 @@ void add_hatches(const PictureSource& source, const std::vector<Coordinate>& coo
 }
 
 }  // namespace
-
-PictureSource picture_source(const result::Result& result, const std::string& file) {
-  PictureSource source = picture_view(result, file);
-  source.boxes = boxes_of(result);
-  source.cover = nullptr;
-  return source;
-}
 
 PictureSource picture_view(const result::Result& result, const std::string& file) {
   PictureSource source{file, result.set, {}, result.angles, result.cover.dimension};

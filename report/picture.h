@@ -11,19 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "corank/report/set_look.h"
 #include "corank/result/cuik_sol.h"
 #include "corank/result/result.h"
 
 namespace corank::report {
 
-/// Red, green and blue, each from 0 to 1.
-struct Color {
-  double red = 0, green = 0, blue = 0;
-  friend bool operator==(const Color&, const Color&) = default;
-};
 /// Of a verdict; blue where there is none.
 Color verdict_color(std::optional<Verdict> verdict);
-/// SetDefinition::print; of no mechanism's set grey-blue.
+/// On paper; of no mechanism's set grey-blue.
 Color set_color(const std::string& set);
 
 /// Boxes and the coordinates that they can be drawn in.
@@ -44,8 +40,7 @@ struct PictureSource {
   const Box& box(std::size_t k) const { return cover ? (*cover)[k].box : boxes.boxes[k].box; }
   std::optional<Verdict> verdict(std::size_t k) const { return cover ? (*cover)[k].verdict : boxes.boxes[k].verdict; }
 };
-PictureSource picture_source(const result::Result& result, const std::string& file);
-/// The same without a copy of the boxes: the result has to outlive it.
+/// Without a copy of the boxes: the result has to outlive it.
 PictureSource picture_view(const result::Result& result, const std::string& file);
 PictureSource picture_view(const result::Result&&, const std::string&) = delete;
 /// A solution file says nothing about angles: c_NAME and s_NAME are taken for the cosine and sine of the angle NAME in [−π,
@@ -69,11 +64,10 @@ struct PictureLayer {
 };
 
 struct PictureAxis {
-  std::string name;      ///< "J3x", "theta2"
-  std::string function;  ///< "cos", "sin" where the variable is that of the angle `name`
-  bool angle = false;    ///< in radians
-  /// Of an angle: its range, of one turn at most.
-  std::optional<Interval> range;
+  std::string name;                 ///< "J3x", "theta2"
+  std::string function = {};        ///< "cos", "sin" where the variable is that of the angle `name`
+  bool angle = false;               ///< in radians
+  std::optional<Interval> range{};  ///< of an angle: its range, of one turn at most
 };
 
 /// A short stroke from a barrier to the side where the output cannot go.
@@ -86,6 +80,15 @@ struct Picture {
   std::vector<PictureHatch> hatches = {};  ///< where the axes are outputs of a workspace boundary
   std::vector<PictureLayer> layers;        ///< in the order of drawing: C-space before its subsets
 };
+
+/// What the layers of a source are called and coloured where colours tell sets apart.
+struct SetStyle {
+  std::string label;
+  Color color;
+  double opacity = 1;
+};
+/// Several sources of one set get their files' names and shades of its colour; several of other sets, colours of their own.
+std::vector<SetStyle> set_styles(const std::vector<const PictureSource*>& sources);
 
 /// What the colours tell apart: sets, verdicts, or nothing (all blue).
 enum class ColorScheme { set, verdict, plain };

@@ -1,11 +1,10 @@
-#include "corank/report/picture_style.h"
-
+// Names and colours of the sets in a picture.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 
-#include "corank/report/set_look.h"
+#include "corank/report/picture.h"
 
 namespace corank::report {
 namespace {
@@ -54,9 +53,6 @@ Color verdict_color(std::optional<Verdict> verdict) {
   return {};
 }
 
-Color set_color(const std::string& set) {
-  const auto& [red, green, blue] = look(symbolic::definition(set)).print;
-  return {red, green, blue};
-}
+Color set_color(const std::string& set) { return look(symbolic::definition(set)).drawn.paint.print; }
 
 }  // namespace corank::report

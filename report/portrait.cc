@@ -4,12 +4,16 @@
 #include <stdexcept>
 
 #include "corank/report/canvas.h"
-#include "corank/report/drawing_file.h"
 #include "corank/report/layout_svg.h"
 #include "corank/result/result_file.h"
 
 namespace corank::report {
 namespace {
+
+void check_format(const std::filesystem::path& path) {
+  if (!is_portrait_format(path))
+    throw std::invalid_argument(path.string() + ": the picture has an unknown format; expected .svg, .pdf or .png");
+}
 
 Layout laid_out(const Picture& picture, const PortraitOptions& options) { return lay_out(picture, options, font_widths()); }
 
@@ -31,8 +35,7 @@ void check_can_draw(const std::filesystem::path& path) {
 
 void write_drawing(const std::filesystem::path& path, const Layout& drawing, const std::string& title,
                    double dots_per_inch) {
-  if (!is_portrait_format(path))
-    throw std::invalid_argument(path.string() + ": the picture has an unknown format; expected .svg, .pdf or .png");
+  check_format(path);
   check_can_draw(path);
   const std::string extension = path.extension().string();
   result::write_text(path, extension == ".svg"   ? to_svg(drawing, title)
@@ -40,11 +43,8 @@ void write_drawing(const std::filesystem::path& path, const Layout& drawing, con
                                                  : to_png(drawing, dots_per_inch, path.string()));
 }
 
-double drawn_width(const Label& label, double size) { return font_widths()(label, size); }
-
 void write_portrait(const std::filesystem::path& path, const Picture& picture, const PortraitOptions& options) {
-  if (!is_portrait_format(path))
-    throw std::invalid_argument(path.string() + ": the picture has an unknown format; expected .svg, .pdf or .png");
+  check_format(path);
   if (picture.axes.size() != 2) throw std::invalid_argument(path.string() + ": a flat picture; expected two axes");
   if (!(options.width_mm >= 20 && options.width_mm <= 1000) ||
       !(options.dots_per_inch >= 10 && options.dots_per_inch <= 2400))

@@ -60,20 +60,13 @@ std::string path_data(const std::vector<GridPolygon>& rings) {
 class Block {
  public:
   Block(const RegionMap& map, std::size_t plane, double top)
-      : map_(map), plane_(map.planes[plane]), name_(plane), top_(top) {
-    if (plane_.x_angle) x_ = Interval(-std::numbers::pi, std::numbers::pi);
-    if (plane_.y_angle) y_ = Interval(-std::numbers::pi, std::numbers::pi);
-    bool first = true;
-    for (const auto& region : plane_.regions)
-      for (const RegionMap::Polygon& polygon : region)
-        for (const auto& [x, y] : polygon) {
-          if (!plane_.x_angle) x_ = first ? Interval(x) : Interval::hull(x_, Interval(x));
-          if (!plane_.y_angle) y_ = first ? Interval(y) : Interval::hull(y_, Interval(y));
-          first = false;
-        }
+      : map_(map),
+        plane_(map.planes[plane]),
+        name_(plane),
+        top_(top),
+        x_(range(plane_.x_angle, 0)),
+        y_(range(plane_.y_angle, 1)) {
     // One scale where both are lengths, or both angles.
-    if (!plane_.x_angle) x_ = grown(x_);
-    if (!plane_.y_angle) y_ = grown(y_);
     const bool alike = plane_.x_angle == plane_.y_angle;
     height_ = kPanel * (alike ? std::clamp(y_.width() / x_.width(), 0.3, 2.0) : 1.0);
   }
@@ -97,9 +90,14 @@ class Block {
   }
 
  private:
-  static Interval grown(const Interval& range) {
-    const double margin = 0.03 * std::max(range.width(), 1e-9);
-    return Interval(range.lo() - margin, range.hi() + margin);
+  Interval range(bool angle, std::size_t j) const {
+    if (angle) return {-std::numbers::pi, std::numbers::pi};
+    double lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (const auto& region : plane_.regions)
+      for (const RegionMap::Polygon& polygon : region)
+        for (const auto& point : polygon) lo = std::min(lo, point[j]), hi = std::max(hi, point[j]);
+    const double margin = 0.03 * std::max(hi - lo, 1e-9);
+    return {lo - margin, hi + margin};
   }
   int columns() const { return std::min(kMapColumns, std::max(1, static_cast<int>(plane_.regions.size()))); }
   int rows() const { return (static_cast<int>(plane_.regions.size()) + kMapColumns - 1) / kMapColumns; }
@@ -157,8 +155,9 @@ class Block {
   const RegionMap& map_;
   const RegionMap::Plane& plane_;
   std::size_t name_;
-  double top_, height_ = kPanel;
+  double top_;
   Interval x_, y_;
+  double height_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corank/report/drawn_boxes.h"
 #include "corank/result/hdf5_file.h"
 #include "corank/result/verification.h"
 #include "corank/symbolic/model_error.h"
@@ -16,7 +17,9 @@ SetView set_view(result::Result result, System system, bool given_velocity_equat
 SetView set_view(result::Result result, System system, bool given_velocity_equation, Components found) {
   const symbolic::SetDefinition& set = symbolic::definition(result.set);
   SetWords words = set_words(result, found, given_velocity_equation);
-  return {std::move(result), &set, std::move(system), std::move(found), std::move(words)};
+  std::vector<CoverBox> hulls;
+  if (const std::size_t in_one = boxes_in_one(result); in_one > 1) hulls = hulls_of(result, in_one);
+  return {std::move(result), &set, std::move(system), std::move(found), std::move(words), std::move(hulls)};
 }
 
 SetView set_view(const symbolic::Mechanism& mechanism, result::Result result) {

@@ -15,6 +15,9 @@ struct SetView {
   System system;                       ///< that was solved
   Components components;
   SetWords words;
+  std::vector<CoverBox> hulls;  ///< drawn in place of boxes that are too many (drawn_boxes.h); else empty
+
+  const std::vector<CoverBox>& drawn() const { return hulls.empty() ? result.cover.boxes : hulls; }
 };
 
 /// Of a result and the system that was solved; whether its velocity equation is given changes words.

@@ -5,34 +5,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <pugixml.hpp>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 
 #include "corank/core/check.h"
+#include "corank/report/page_data.h"
 
 namespace corank::report {
 namespace {
 
-std::string base64(const std::string& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t j = 0; j < 3; ++j)
-      three = three << 8 | (k + j < bytes.size() ? static_cast<unsigned char>(bytes[k + j]) : 0u);
-    for (std::size_t j = 0; j < 4; ++j) text += k + j <= bytes.size() ? kDigits[three >> (18 - 6 * j) & 63] : '=';
-  }
-  return text;
-}
-
 template <class T>
-std::string bytes_of(const T* data, std::size_t count) {
-  std::string bytes(count * sizeof(T), '\0');
-  if (count > 0) std::memcpy(bytes.data(), data, bytes.size());
-  return bytes;
+std::span<const std::uint8_t> bytes_of(const std::vector<T>& data) {
+  return {reinterpret_cast<const std::uint8_t*>(data.data()), data.size() * sizeof(T)};
 }
 
 // VTK's layout: the number of blocks, the size of a whole one, of the last one where it is smaller, and of each compressed;
@@ -40,19 +26,19 @@ std::string bytes_of(const T* data, std::size_t count) {
 template <class T>
 std::string compressed(const std::vector<T>& data) {
   constexpr std::size_t kBlock = std::size_t{1} << 18;
-  const std::string bytes = bytes_of(data.data(), data.size());
+  const std::span<const std::uint8_t> bytes = bytes_of(data);
   std::vector<std::uint64_t> header{(bytes.size() + kBlock - 1) / kBlock, kBlock, bytes.size() % kBlock};
-  std::string blocks;
+  std::vector<std::uint8_t> blocks;
   for (std::size_t at = 0; at < bytes.size(); at += kBlock) {
     const std::size_t size = std::min(kBlock, bytes.size() - at);
     uLongf length = compressBound(static_cast<uLong>(size));
-    std::string block(length, '\0');
-    CORANK_CHECK(compress2(reinterpret_cast<Bytef*>(block.data()), &length,
-                           reinterpret_cast<const Bytef*>(bytes.data() + at), static_cast<uLong>(size), 6) == Z_OK);
+    const std::size_t before = blocks.size();
+    blocks.resize(before + length);
+    CORANK_CHECK(compress2(blocks.data() + before, &length, bytes.data() + at, static_cast<uLong>(size), 6) == Z_OK);
     header.push_back(length);
-    blocks.append(block, 0, length);
+    blocks.resize(before + length);
   }
-  return base64(bytes_of(header.data(), header.size())) + base64(blocks);
+  return base64(bytes_of(header)) + base64(blocks);
 }
 
 template <class T>

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "corank/result/number_text.h"
+#include "corank/result/words.h"
 #include "corank/result/tallies.h"
 #include "corank/symbolic/set_definition.h"
 

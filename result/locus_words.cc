@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "corank/core/exact_number.h"
+#include "corank/result/tallies.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/symbolic/node_system.h"
 #include "corank/symbolic/velocity_equation.h"
@@ -39,16 +41,14 @@ std::string cusps_text(const Words& words, std::size_t proven, std::size_t open,
 std::string nodes_text(const Words& words, std::size_t proven, std::size_t open, bool complete, bool none) {
   const std::string crossing =
       fmt::format("two singular configurations with the same {}, whose images are proven to cross", words.locked);
-  if (proven > 0) return fmt::format("{} node{}: {}", proven, proven == 1 ? "" : "s", crossing);
+  if (proven > 0) return counted(proven, "node") + ": " + crossing;
   if (open > 0 || !none) return "no node is proven";
   return complete ? "there is no node in the search domain" : "no node was found in the part that was searched";
 }
 
 // Boxes that are about a point: those on a self-motion, of which there is none in the list of points, are not.
 std::size_t with_points(const Cover& cover) {
-  return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [](const CoverBox& b) {
-    return b.motion < 0 && b.verdict != Verdict::pending;
-  }));
+  return how_many(cover.boxes, [](const CoverBox& b) { return b.motion < 0 && b.verdict != Verdict::pending; });
 }
 
 // Coordinates with a range of one value.
@@ -57,7 +57,7 @@ std::vector<std::string> held_coordinates(const Result& result) {
   for (const Angle& a : result.angles)
     if (!(a.range.lo() < a.range.hi())) names.push_back(a.name);
   for (int v = 0; v < result.configuration_size; ++v) {
-    const ResultVariable& variable = result.variables[static_cast<std::size_t>(v)];
+    const ResultVariable& variable = result.variables[v];
     const Interval& x = variable.domain;  // encloses the value
     if (variable.kind == VariableKind::length && x.hi() <= std::nextafter(std::nextafter(x.lo(), HUGE_VAL), HUGE_VAL))
       names.push_back(variable.name);
@@ -101,32 +101,27 @@ std::string locus_sentence(const Result& result) {
   if (set.part == LocusPart::all) return "";
   const Words words = words_of(set);
   const bool nodes = set.part == LocusPart::nodes;
-  const std::string noun = nodes ? "node" : "cusp";
+  const std::string kind = nodes ? "node" : "cusp";
   std::string text;
   const Cover& cover = result.cover;
   if (cover.dimension == 0 || cover.boxes.empty()) {
-    const auto with = [&](Verdict verdict) {
-      return static_cast<std::size_t>(
-          std::count_if(cover.points.begin(), cover.points.end(), [&](const CoverBox& p) { return p.verdict == verdict; }));
-    };
-    const std::size_t proven = with(Verdict::isolated), open = cover.points.size() - proven;
-    const std::size_t along = cover.boxes.size() - with_points(cover);
+    const std::size_t proven = how_many(cover.points, [](const CoverBox& p) { return p.verdict == Verdict::isolated; });
+    const std::size_t open = cover.points.size() - proven, along = cover.boxes.size() - with_points(cover);
     text = nodes ? nodes_text(words, proven, open, cover.complete(), along == 0)
                  : cusps_text(words, proven, open, cover.complete(), along == 0);
     if (const std::string held = held_and_not_locked(result, set.locked.front()); proven > 0 && !held.empty()) {
       text = fmt::format(
-          "{0} solution{1} of the equations of {2}s, with {3} held; it is proven that {4} a {2} only if no coordinate "
-          "except {5} is held",
-          proven, proven == 1 ? "" : "s", noun, held, proven == 1 ? "it is" : "each is", words.locked);
+          "{0} of the equations of {1}s, with {2} held; it is proven that {3} a {1} only if no coordinate except {4} is "
+          "held",
+          counted(proven, "solution"), kind, held, proven == 1 ? "it is" : "each is", words.locked);
     }
-    if (open > 0) text += fmt::format("; at {} more place{} this is open", open, open == 1 ? "" : "s");
-    if (along > 0) {
-      text += fmt::format("; in {} box{} the equations hold, or may hold, along larger sets, about which nothing is said",
-                          along, along == 1 ? "" : "es");
-    }
+    if (open > 0) text += fmt::format("; at {} this is open", counted(open, "more place"));
+    if (along > 0)
+      text += fmt::format("; in {} the equations hold, or may hold, along larger sets, about which nothing is said",
+                          counted(along, "box"));
     if (!cover.complete() && proven + open > 0) text += "; what was not searched may hold more";
   } else {
-    text = fmt::format("{}s along a set of dimension {}; what follows from them is not proven", noun, cover.dimension);
+    text = fmt::format("{}s along a set of dimension {}; what follows from them is not proven", kind, cover.dimension);
   }
   if (nodes) {
     text += fmt::format(

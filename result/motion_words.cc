@@ -10,6 +10,7 @@
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/rounding.h"
 #include "corank/result/domain_notes.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/velocity_equation.h"
 
 namespace corank::result {
@@ -38,13 +39,6 @@ std::string solved_text(const Polynomial& f, std::size_t own, Name name) {
   return name(f.monomials[own].factors[0].variable) + " = " + (text.empty() ? "0" : text);
 }
 
-// "x, y and z"
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
-}
-
 // The linear equations of a set in reduced echelon form: kernel unknowns and what comes late are expressed by what comes
 // first.
 class LinearRelations {
@@ -65,7 +59,7 @@ class LinearRelations {
   }
 
   /// x_v as the others have it; nothing where it is one of these.
-  const std::optional<Polynomial>& value(int v) const { return values_[static_cast<std::size_t>(v)]; }
+  const std::optional<Polynomial>& value(int v) const { return values_[v]; }
   /// What the equations say besides.
   const std::vector<Polynomial>& rest() const { return rest_; }
 
@@ -88,7 +82,7 @@ class LinearRelations {
     if (!solved) return;
     for (auto& other : values_)
       if (other) other = certify::substitute(*other, own, *solved);
-    values_[static_cast<std::size_t>(own)] = solved;
+    values_[own] = solved;
   }
 
   const System& system_;
@@ -132,7 +126,7 @@ class Sentence {
       if (a.cosine == v) return "cos " + a.name;
       if (a.sine == v) return "sin " + a.name;
     }
-    return system_.variables[static_cast<std::size_t>(v)].name;
+    return system_.variables[v].name;
   }
 
   // "x = …" in words, where the relations say it.
@@ -163,7 +157,7 @@ class Sentence {
   }
 
   void sort_length(int v) {
-    const std::string& coordinate = system_.variables[static_cast<std::size_t>(v)].name;
+    const std::string& coordinate = system_.variables[v].name;
     if (!linear_.value(v)) {
       free_.push_back({coordinate, {v}, false});
     } else if (is_constant(v)) {
@@ -225,7 +219,7 @@ class Sentence {
     bool angle;
   };
 
-  bool is_kernel(int v) const { return system_.variables[static_cast<std::size_t>(v)].kind == VariableKind::kernel; }
+  bool is_kernel(int v) const { return system_.variables[v].kind == VariableKind::kernel; }
 
   // Are the free coordinates bound by no equation but the circles of angles? Those of the kernel, or of an angle that stays,
   // leave them free.
@@ -287,8 +281,9 @@ class Sentence {
   std::string written() const {
     std::string text;
     if (!locked_.empty())
-      text += fmt::format("with the {}{} locked at {}", to_string(locked_roles_.front()),
-                          names_of(mechanism_, locked_roles_.front()).size() == 1 ? "" : "s", listed(locked_));
+      text += fmt::format("with the {} locked at {}",
+                          noun(names_of(mechanism_, locked_roles_.front()).size(), to_string(locked_roles_.front())),
+                          listed(locked_));
     if (!fixed_.empty()) text += (text.empty() ? "with " : " and with ") + listed(fixed_);
     std::vector<std::string> moving;
     bool angles = true;
@@ -318,7 +313,7 @@ std::string relation_text(const Result& result, const Polynomial& f) {
   const auto is_unit = [](const Monomial& m) { return !m.factors.empty() && m.coefficient.text() == "1"; };
   for (std::size_t k = f.monomials.size(); k-- > 0;)
     if (is_unit(f.monomials[k])) own = k;
-  return solved_text(f, own, [&](int v) { return result.variables[static_cast<std::size_t>(v)].name; });
+  return solved_text(f, own, [&](int v) { return result.variables[v].name; });
 }
 
 void describe_motions(const symbolic::Mechanism& mechanism, const System& system, Result& result) {
@@ -345,8 +340,7 @@ std::string motion_sentence(const Result& result, std::size_t motion) {
   const SelfMotionRecord& record = result.cover.self_motions[motion];
   std::string text = motion < result.motions.size() ? result.motions[motion] : "";
   const bool still = text.starts_with("no coordinate moves");
-  if (text.empty())
-    for (const Polynomial& f : record.relations) text += (text.empty() ? "" : ", ") + relation_text(result, f);
+  if (text.empty()) text = joined(record.relations, [&](const Polynomial& f) { return relation_text(result, f); });
   return fmt::format("{} of dimension {}: {}", still ? "a set of kernel vectors" : "a self-motion", record.dimension, text);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "corank/certify/algebraic_number.h"
 #include "corank/result/assembled.h"
@@ -10,52 +11,40 @@
 #include "corank/result/exact_angle.h"
 #include "corank/result/locus_words.h"
 #include "corank/result/motion_words.h"
-#include "corank/result/number_text.h"
 #include "corank/result/tallies.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::result {
 namespace {
 
-std::string plural(std::size_t n, const std::string& word) {
-  const std::string many = word.back() == 'y'   ? word.substr(0, word.size() - 1) + "ies"
-                           : word.back() == 'x' ? word + "es"
-                                                : word + "s";
-  return fmt::format("{} {}", n, n == 1 ? word : many);
-}
-
 // A coordinate of an exact point as well as a short text can say it.
 std::string exact_text(const ExactPoint& point, const Value& v, int digits) {
   if (v.angle) return exact_angle(point, *v.angle, v.value).value_or(outward_text(v.value, digits));
   if (const auto text = exact_coordinate(point, v.variable)) return *text;
-  const RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(v.variable)];
-  if (x.empty()) return outward_text(v.value, digits);
+  const RationalPolynomial& x = point.coordinates[v.variable];
   try {
-    return outward_text(certify::AlgebraicNumber(point.polynomial, point.lower, point.upper).enclose(x), digits);
+    if (!x.empty())
+      return outward_text(certify::AlgebraicNumber(point.polynomial, point.lower, point.upper).enclose(x), digits);
   } catch (const std::invalid_argument&) {  // what a file says of it defines no number
-    return outward_text(v.value, digits);
-  } catch (const std::domain_error&) {  // numbers of too many bits
-    return outward_text(v.value, digits);
+  } catch (const std::domain_error&) {      // numbers of too many bits
   }
+  return outward_text(v.value, digits);
 }
 
 // "types: RO in 8 boxes, RPM in 4 boxes; unproven in 0".
 std::string types_text(const Cover& cover) {
   const TypeTally tally = type_tally(cover);
   if (tally.proven.empty() || cover.boxes.empty()) return "";
-  std::string text = "\ntypes:";
-  const char* between = " ";
-  for (const auto& [type, n] : tally.proven) {
-    if (n == 0) continue;
-    text += fmt::format("{}{} in {}", between, to_string(type), plural(n, "box"));
-    between = ", ";
-  }
-  if (tally.unproven > 0) text += fmt::format("{}unproven in {}", between, plural(tally.unproven, "box"));
-  if (tally.unproven == 0 && *between == ' ') text += " no box has one of the requested types";
-  text += "\n";
+  std::vector<std::string> found;
+  for (const auto& [type, n] : tally.proven)
+    if (n > 0) found.push_back(fmt::format("{} in {}", to_string(type), counted(n, "box")));
+  if (tally.unproven > 0) found.push_back("unproven in " + counted(tally.unproven, "box"));
+  if (found.empty()) found.push_back("no box has one of the requested types");
+  std::string text = fmt::format("\ntypes: {}\n", fmt::join(found, ", "));
   if (cover.types.left_out > 0)
     text += fmt::format("  {} of the kernel's set left out: no solution in {} has the set's type\n",
-                        plural(cover.types.left_out, "box"), cover.types.left_out == 1 ? "it" : "them");
+                        counted(cover.types.left_out, "box"), cover.types.left_out == 1 ? "it" : "them");
   return text;
 }
 
@@ -85,9 +74,8 @@ std::string points_table(const Result& result) {
   if (result.cover.types.asked != 0) rows[0].push_back("types");
   rows[0].push_back("verdict");
   std::vector<std::size_t> widths(rows[0].size(), 0);
-  for (const auto& row : rows) {
+  for (const auto& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-  }
   std::string text;
   for (const auto& row : rows) {
     text += fmt::format("  {:>{}}", row[0], widths[0]);
@@ -106,9 +94,9 @@ std::string decimals_text(const Result& result) {
   for (std::size_t i = 0; i < cover.decimals.size(); ++i) {
     text += fmt::format("  point {}\n", i + 1);
     if (cover.decimals[i].empty()) text += "    not proven\n";
-    for (int v = 0; v < result.configuration_size && !cover.decimals[i].empty(); ++v)
-      text += fmt::format("    {} = {}\n", result.variables[static_cast<std::size_t>(v)].name,
-                          cover.decimals[i][static_cast<std::size_t>(v)]);
+    const std::size_t shown = cover.decimals[i].empty() ? 0 : result.configuration_size;
+    for (std::size_t v = 0; v < shown; ++v)
+      text += fmt::format("    {} = {}\n", result.variables[v].name, cover.decimals[i][v]);
   }
   return text;
 }
@@ -118,16 +106,12 @@ std::string kernel_text(const Result& result) {
   const auto [at_most, larger, explained, known] = kernel_tally(result);
   const int least = result.options.corank;
   if (at_most.empty()) return "";
-  std::string text = "\nkernel:";
-  const char* between = "";
-  for (const auto& [bound, n] : at_most) {
-    text += bound <= least ? fmt::format(" dimension {} in {}", least, plural(n, "box"))
-                           : fmt::format("{} at most {} in {}", between, bound, n);
-    between = ",";
-  }
-  text += "\n";
-  const auto points = std::count_if(result.cover.exact_points.begin(), result.cover.exact_points.end(),
-                                    [](const ExactPoint& p) { return p.corank > 1; });
+  std::string text = fmt::format("\nkernel: {}\n", joined(at_most, [least](const auto& tally) {
+                                   const auto& [bound, n] = tally;
+                                   return bound <= least ? fmt::format("dimension {} in {}", least, counted(n, "box"))
+                                                         : fmt::format("at most {} in {}", bound, n);
+                                 }));
+  const std::size_t points = how_many(result.cover.exact_points, [](const ExactPoint& p) { return p.corank > 1; });
   if (known > 0) text += fmt::format("  in {} of them dimension {} is proven at a point:\n", known, least);
   if (explained > 0) {
     const std::string holds = larger == 1           ? "this box holds"
@@ -139,75 +123,63 @@ std::string kernel_text(const Result& result) {
   int number = 0;
   for (const ExactPoint& point : result.cover.exact_points) {
     if (point.corank < 2) continue;
-    text += fmt::format("  {}: dimension {} at", ++number, point.corank);
-    const char* comma = " ";
-    for (int v = 0; v < result.configuration_size; ++v) {
-      text += fmt::format(
-          "{}{} = {}", comma, result.variables[static_cast<std::size_t>(v)].name,
-          exact_coordinate(point, v).value_or("a number of degree " + std::to_string(point.polynomial.size() - 1)));
-      comma = ", ";
-    }
-    text += "\n";
+    const auto coordinate = [&](const ResultVariable& v) {
+      const auto exact = exact_coordinate(point, static_cast<int>(&v - result.variables.data()));
+      return v.name + " = " + exact.value_or("a number of degree " + std::to_string(point.polynomial.size() - 1));
+    };
+    text += fmt::format("  {}: dimension {} at {}\n", ++number, point.corank,
+                        joined(std::span(result.variables).first(result.configuration_size), coordinate));
   }
   if (larger > explained)
     text += fmt::format("  it is not known whether the dimension is larger than {} anywhere in {}\n", least,
-                        plural(larger - explained, "other box"));
+                        counted(larger - explained, "other box"));
   return text;
 }
 
 std::string found_ranges_text(const Result& result) {
-  constexpr int kDigits = 6;
-  std::string text = "ranges found from the equations:";
-  for (const int j : result.domain.found) {
-    const ResultVariable& v = result.variables[static_cast<std::size_t>(j)];
-    text += fmt::format("{} {} in [{:.{}g}, {:.{}g}]", j == result.domain.found.front() ? "" : ",", v.name, v.domain.lo(),
-                        kDigits, v.domain.hi(), kDigits);  // few digits by themselves, enclosed
-  }
-  return text + "\n";
+  return "ranges found from the equations: " +
+         joined(result.domain.found,
+                [&](int j) {
+                  const ResultVariable& v = result.variables[j];
+                  return fmt::format("{} in [{:.6g}, {:.6g}]", v.name, v.domain.lo(), v.domain.hi());
+                }) +
+         "\n";
 }
 
 // What keeps `boundary` boxes from being regular or isolated.
 std::string boundary_text(const DomainNotes& notes) {
-  std::string text = "  boundary: may reach beyond";
-  for (const DomainNotes::Reason& reason : notes.boundary)
-    text += fmt::format("{} {} ({})", &reason == notes.boundary.data() ? "" : ",", reason.text, reason.boxes);
-  return text + "\n";
+  return "  boundary: may reach beyond " +
+         joined(notes.boundary,
+                [](const DomainNotes::Reason& reason) { return fmt::format("{} ({})", reason.text, reason.boxes); }) +
+         "\n";
 }
 
-// Of a workspace boundary: where the output can pass, and which parts there are.
+// Of a workspace boundary: where the output can pass.
 std::string passages_text(const Result& result) {
   if (result.outputs.empty()) return "";
   const auto counts = passages(result.cover);
-  std::string text = fmt::format("\nin the space of {}:", fmt::join(result.outputs, ", "));
-  const char* between = "";
-  for (const Passage passage : {Passage::barrier, Passage::traversable, Passage::unproven}) {
-    text += fmt::format("{} {} in {}", between, to_string(passage), counts[static_cast<std::size_t>(passage)]);
-    between = ",";
-  }
-  text += " boxes\n";
-  return text;
+  const std::array kinds{Passage::barrier, Passage::traversable, Passage::unproven};
+  return fmt::format("\nin the space of {}: {} boxes\n", fmt::join(result.outputs, ", "),
+                     joined(kinds, [&](Passage passage) {
+                       return fmt::format("{} in {}", to_string(passage), counts[static_cast<std::size_t>(passage)]);
+                     }));
 }
 
 // What of each part of a set was found.
 std::string parts_text(const Result& result) {
-  std::string text;
+  if (result.parts.empty() || !result.outputs.empty()) return "";
+  std::string text = result.parts.size() == 1 ? "\nby one equation in place of a kernel vector:\n"
+                                              : fmt::format("\nthe union of {} parts:\n", result.parts.size());
   std::size_t width = 0, empty = 0;
   for (const Result& part : result.parts) width = std::max(width, part.cover.boxes.empty() ? 0 : part.part.size());
   for (const Result& part : result.parts) {
-    const bool is_empty = part.cover.boxes.empty();
-    empty += is_empty;
-    if (!is_empty) {
-      const std::size_t open = part.cover.counts()[static_cast<std::size_t>(Verdict::undecided)];
-      text += fmt::format("  {:<{}}  {:>8}{}{}\n", part.part, width, plural(part.cover.boxes.size(), "box"),
+    const std::size_t boxes = part.cover.boxes.size(), open = part.cover.count(Verdict::undecided);
+    empty += boxes == 0;
+    if (boxes > 0)
+      text += fmt::format("  {:<{}}  {:>8}{}{}\n", part.part, width, counted(boxes, "box"),
                           open > 0 ? fmt::format(", {} undecided", open) : "", part.cover.complete() ? "" : ", INCOMPLETE");
-    }
   }
-  if (empty > 0) text += fmt::format("  {} without a solution\n", plural(empty, "part"));
-  if (result.parts.empty() || !result.outputs.empty()) return text;
-  return fmt::format("\n{}:\n{}",
-                     result.parts.size() == 1 ? "by one equation in place of a kernel vector"
-                                              : fmt::format("the union of {} parts", result.parts.size()),
-                     text);
+  return text + (empty > 0 ? fmt::format("  {} without a solution\n", counted(empty, "part")) : "");
 }
 
 std::string seconds_text(const Cover& cover) {
@@ -215,10 +187,6 @@ std::string seconds_text(const Cover& cover) {
   return fmt::format("\n{:.3f} s: search {:.3f} s, certify {:.3f} s\n", s.seconds_total, s.seconds_search,
                      s.seconds_certify);
 }
-
-}  // namespace
-
-namespace {
 
 std::string sigma_text(const Sigma& sigma) {
   if (sigma.length == sigma.angle) return fmt::format("sigma {:g}", sigma.length);
@@ -255,7 +223,7 @@ std::string in_words(Reason reason, const Cover& cover) {
 std::string motions_text(const Result& result) {
   std::string text;
   for (std::size_t k = 0; k < result.cover.self_motions.size(); ++k)
-    text += fmt::format("a set larger than expected, in {}: {}\n", plural(boxes_on(result.cover, k), "box"),
+    text += fmt::format("a set larger than expected, in {}: {}\n", counted(boxes_on(result.cover, k), "box"),
                         motion_sentence(result, k));
   return text;
 }
@@ -271,10 +239,10 @@ std::string reasons_text(const Cover& cover) {
 
 std::string to_table(const Result& result) {
   const Cover& cover = result.cover;
-  std::string text = fmt::format(
-      "{}, {}: {}, {}, {}; dimension {}\n", result.model, symbolic::set_with_corank(result.set, result.options.corank),
-      plural(result.variables.size(), "variable"), plural(static_cast<std::size_t>(result.equations), "equation"),
-      plural(static_cast<std::size_t>(result.inequalities), "inequality"), cover.dimension);
+  std::string text =
+      fmt::format("{}, {}: {}, {}, {}; dimension {}\n", result.model,
+                  symbolic::set_with_corank(result.set, result.options.corank), counted(result.variables.size(), "variable"),
+                  counted(result.equations, "equation"), counted(result.inequalities, "inequality"), cover.dimension);
   text += fmt::format("{}{}{}\n", sigma_text(cover.sigma), result.options.kernel.empty() ? "" : ", kernel ",
                       result.options.kernel);
   if (!result.domain.found.empty()) text += found_ranges_text(result);
@@ -322,15 +290,11 @@ std::string to_table(const Result& result) {
                             : "each verdict holds for every choice of them\n";
   }
   if (cover.dimension == 0 && !cover.points.empty()) {
-    std::array<std::size_t, kVerdicts> points_with{};
-    for (const CoverBox& point : cover.points) ++points_with[static_cast<std::size_t>(point.verdict)];
-    std::string kinds;
-    for (const Verdict verdict : kVerdictsInOrder) {
-      const std::size_t n = points_with[static_cast<std::size_t>(verdict)];
-      if (n > 0) kinds += fmt::format("{}{} {}", kinds.empty() ? ": " : ", ", n, to_string(verdict));
-    }
-    text += fmt::format("\n{}{}\n", plural(cover.points.size(), "point"), kinds);
-    text += points_table(result);
+    std::vector<std::string> kinds;
+    for (const Verdict verdict : kVerdictsInOrder)
+      if (const auto n = how_many(cover.points, [&](const CoverBox& p) { return p.verdict == verdict; }); n > 0)
+        kinds.push_back(fmt::format("{} {}", n, to_string(verdict)));
+    text += fmt::format("\n{}: {}\n{}", counted(cover.points.size(), "point"), fmt::join(kinds, ", "), points_table(result));
     if (!cover.decimals.empty()) text += decimals_text(result);
   }
   if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += "\n" + meaning + "\n";

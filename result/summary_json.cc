@@ -152,7 +152,7 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
     json["range_ends"].push_back({{"variable", end.coordinate}, {"reached", end.reached}});
   json["ranges_found"] = Json::object();
   for (const int j : result.domain.found) {
-    const ResultVariable& v = result.variables[static_cast<std::size_t>(j)];
+    const ResultVariable& v = result.variables[j];
     json["ranges_found"][v.name] = {{"lo", v.domain.lo()}, {"hi", v.domain.hi()}};
   }
   json["points"] = nullptr;
@@ -169,7 +169,7 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
         entry["typed"] = known && point.types.settle(cover.types.of_set);
       }
       if (const ExactPoint* exact = exact_point(result, point)) entry["exact"] = exact_json(result, *exact);
-      const std::size_t i = static_cast<std::size_t>(&point - cover.points.data());
+      const std::size_t i = &point - cover.points.data();
       if (i < cover.decimals.size() && !cover.decimals[i].empty())
         for (std::size_t v = 0; v < result.variables.size(); ++v)
           entry["decimals"][result.variables[v].name] = cover.decimals[i][v];

@@ -1,7 +1,5 @@
 #include "corank/result/tallies.h"
 
-#include <algorithm>
-
 #include "corank/certify/angle.h"
 
 namespace corank::result {
@@ -20,9 +18,7 @@ std::array<std::size_t, kPassages> passages(const Cover& cover) {
 }
 
 std::size_t boxes_on(const Cover& cover, std::size_t motion) {
-  return static_cast<std::size_t>(std::count_if(cover.boxes.begin(), cover.boxes.end(), [motion](const CoverBox& box) {
-    return box.motion == static_cast<int>(motion);
-  }));
+  return how_many(cover.boxes, [motion](const CoverBox& box) { return box.motion == static_cast<int>(motion); });
 }
 
 TypeTally type_tally(const Cover& cover) {
@@ -49,23 +45,29 @@ std::vector<std::string> type_names(TypeSet types) {
 }
 
 const ExactPoint* exact_point(const Result& result, const CoverBox& box) {
-  return box.point < 0 ? nullptr : &result.cover.exact_points[static_cast<std::size_t>(box.point)];
+  return box.point < 0 ? nullptr : &result.cover.exact_points[box.point];
 }
 
-std::vector<Value> values(const Result& result, const CoverBox& box, int variables) {
-  std::vector<Value> values;
+std::vector<Value> own_coordinates(const Result& result, int variables) {
+  std::vector<Value> list;
   for (int i = 0; i < variables; ++i) {
     const auto has = [i](const Angle& a) { return a.cosine == i || a.sine == i; };
     const auto angle = std::find_if(result.angles.begin(), result.angles.end(), has);
-    const auto at = [&box](int v) { return box.box[static_cast<std::size_t>(v)]; };
     if (angle == result.angles.end()) {
-      values.push_back({result.variables[static_cast<std::size_t>(i)].name, at(i), i});
+      list.push_back({result.variables[i].name, {}, i});
     } else if (i == std::min(angle->cosine, angle->sine)) {
-      values.push_back(
-          {angle->name, certify::angle_enclosure(at(angle->cosine), at(angle->sine), angle->range), -1, &*angle});
+      list.push_back({angle->name, {}, -1, &*angle});
     }
   }
-  return values;
+  return list;
+}
+
+std::vector<Value> values(const Result& result, const CoverBox& box, int variables) {
+  std::vector<Value> list = own_coordinates(result, variables);
+  const auto at = [&box](int v) { return box.box[v]; };
+  for (Value& v : list)
+    v.value = v.angle ? certify::angle_enclosure(at(v.angle->cosine), at(v.angle->sine), v.angle->range) : at(v.variable);
+  return list;
 }
 
 KernelTally kernel_tally(const Result& result) {

@@ -1,6 +1,7 @@
 // What the table and the JSON object of a result count and list.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string>
@@ -13,6 +14,12 @@ namespace corank::result {
 inline constexpr std::array kVerdictsInOrder{Verdict::regular, Verdict::isolated,  Verdict::exact,  Verdict::boundary,
                                              Verdict::partial, Verdict::undecided, Verdict::pending};
 static_assert(kVerdictsInOrder.size() == kVerdicts);
+
+/// How many of the items are so.
+template <class Items, class Is>
+std::size_t how_many(const Items& items, const Is& is) {
+  return std::count_if(items.begin(), items.end(), is);
+}
 
 /// How many undecided boxes there are with each reason.
 std::map<Reason, std::size_t> undecided_reasons(const Cover& cover);
@@ -30,8 +37,10 @@ struct Value {
   int variable;  ///< −1: an angle
   const Angle* angle = nullptr;
 };
-/// The box in the model's own coordinates, of the first variables: an angle stands in place of its cosine and sine, in the
-/// order of the variables.
+/// The model's own coordinates among the first variables, without values: an angle stands in place of its cosine and sine, in
+/// the order of the variables.
+std::vector<Value> own_coordinates(const Result& result, int variables);
+/// The same with what they are in the box.
 std::vector<Value> values(const Result& result, const CoverBox& box, int variables);
 
 /// Boxes by what is proven of the types of the solutions in them.

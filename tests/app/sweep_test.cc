@@ -171,8 +171,8 @@ TEST_F(DextarFamily, ShowsWhatItsResultFilesHold) {
       EXPECT_EQ(set["count"], r.cover.boxes.size());
       EXPECT_EQ(set["complete"], true);
       const std::string id = std::to_string(m) + "-" + kSets[s];
-      EXPECT_EQ(script_text(page, "boxes-" + id), report::box_payload(r, std::array{0, 1}));
-      EXPECT_EQ(script_text(page, "verdicts-" + id), report::verdict_payload(r));
+      EXPECT_EQ(script_text(page, "boxes-" + id), report::box_payload(r.cover.boxes, std::array{0, 1}));
+      EXPECT_EQ(script_text(page, "verdicts-" + id), report::verdict_payload(r.cover.boxes));
       EXPECT_NE(page.find("href=\"" + file(m, kSets[s]) + "\""), std::string::npos);
     }
   }

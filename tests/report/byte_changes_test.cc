@@ -85,7 +85,7 @@ void show(const result::Result& result, const result::Verification& verification
   result::to_table(result);
   result::to_json(result);
   try {
-    make_picture({picture_source(result, "r.h5")}, {{"1", "2"}, ColorScheme::verdict, 0});
+    make_picture({picture_view(result, "r.h5")}, {{"1", "2"}, ColorScheme::verdict, 0});
   } catch (const std::invalid_argument&) {  // such as no variables
   }
   if (!verification.contradictions.empty()) return;  // corank report refuses it

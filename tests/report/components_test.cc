@@ -32,9 +32,9 @@ TEST(Components, JoinBoxesThatShareACornerAndPartThoseThatDoNot) {
                                        {{{2, 3}, {2, 2.5}, 0.5}, Verdict::boundary},
                                        {{{4.0625, 5}, {0, 1}, 0.5}, Verdict::boundary}});
   const Components found = components(result);
-  EXPECT_EQ(found.count, 3);
-  EXPECT_THAT(found.of_box, ElementsAre(0, 1, 0, 0, 2));
-  EXPECT_EQ(found.with_proven_solution, 1);
+  EXPECT_EQ(found.count, 3u);
+  EXPECT_THAT(found.of_box, ElementsAre(0u, 1u, 0u, 0u, 2u));
+  EXPECT_EQ(found.with_proven_solution, 1u);
 }
 
 TEST(Components, OfALongChainAreOne) {
@@ -43,12 +43,12 @@ TEST(Components, OfALongChainAreOne) {
     const double x = (i * 37) % 500;  // each touches the next, in no order
     chain.push_back({{{x, x + 1}, {-x, 1 - x}, 0.5}, Verdict::regular});
   }
-  EXPECT_EQ(components(boxes(chain)).count, 1);
+  EXPECT_EQ(components(boxes(chain)).count, 1u);
 }
 
 TEST(Components, OfPointsAreThePoints) {
-  EXPECT_EQ(components(boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{0.5, 0.75, 0.5}, Verdict::isolated}})).count, 2);
-  EXPECT_EQ(components(boxes({})).count, 0);
+  EXPECT_EQ(components(boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{0.5, 0.75, 0.5}, Verdict::isolated}})).count, 2u);
+  EXPECT_EQ(components(boxes({})).count, 0u);
 }
 
 TEST(SetWords, ClaimSeparatenessOnlyOfACompleteCover) {

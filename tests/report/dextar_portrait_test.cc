@@ -35,10 +35,10 @@ class DextarPortrait : public testing::Test {
   static constexpr double kCspaceSigma = 0.2, kInverseSigma = 0.05;
   static void SetUpTestSuite() {
     const PictureFolder folder;
-    const Picture picture =
-        make_picture({picture_source(solved(SingularitySet::inverse, "inverse", kInverseSigma), "inverse.h5"),
-                      picture_source(solved(SingularitySet::cspace, "cspace", kCspaceSigma), "cspace.h5")},
-                     {{"J3x", "J3y"}, ColorScheme::set, 0});
+    const result::Result inverse = solved(SingularitySet::inverse, "inverse", kInverseSigma),
+                         cspace = solved(SingularitySet::cspace, "cspace", kCspaceSigma);
+    const Picture picture = make_picture({picture_view(inverse, "inverse.h5"), picture_view(cspace, "cspace.h5")},
+                                         {{"J3x", "J3y"}, ColorScheme::set, 0});
     PortraitOptions options;
     options.width_mm = 40;
     portrait_ = new SvgPortrait;

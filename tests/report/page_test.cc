@@ -9,7 +9,7 @@
 #include <regex>
 
 #include "corank/report/page_data.h"
-#include "corank/report/page_points.h"
+#include "corank/report/page_sections.h"
 #include "corank/result/hdf5_file.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
@@ -82,7 +82,7 @@ TEST(Base64, KnowsTheVectorsOfRfc4648) {
 
 TEST(PageBoxes, EncloseTheResultsBoxesWithinOneFloatOnEachSide) {
   const result::Result result = result::sample_result();
-  const std::vector<float> numbers = decoded_floats(box_payload(result));
+  const std::vector<float> numbers = decoded_floats(box_payload(result.cover.boxes));
   ASSERT_EQ(numbers.size(), result.cover.boxes.size() * result.variables.size() * 2);
   std::size_t k = 0;
   for (const CoverBox& b : result.cover.boxes) {
@@ -98,7 +98,7 @@ TEST(PageBoxes, EncloseTheResultsBoxesWithinOneFloatOnEachSide) {
 
 TEST(PageBoxes, CarryTheirVerdictsInOrder) {
   const result::Result result = result::sample_result();
-  const std::vector<std::uint8_t> bytes = decoded(verdict_payload(result));
+  const std::vector<std::uint8_t> bytes = decoded(verdict_payload(result.cover.boxes));
   ASSERT_EQ(bytes.size(), result.cover.boxes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) EXPECT_EQ(static_cast<Verdict>(bytes[i]), result.cover.boxes[i].verdict);
 }
@@ -187,9 +187,10 @@ TEST(Page, HoldsTheResultsAndLoadsNothing) {
   const std::vector<SetView> views = {set_view(mechanism, solved(mechanism, SingularitySet::cspace)),
                                       set_view(mechanism, solved(mechanism, SingularitySet::forward))};
   const std::string page = report_page(mechanism, views, {"corank report x.cuik", {}, {"cspace.h5", "forward.h5"}});
-  for (const auto& [result, set, system, components, words] : views) {
-    EXPECT_EQ(script_text(page, "boxes-" + result.set), box_payload(result));
-    EXPECT_EQ(script_text(page, "verdicts-" + result.set), verdict_payload(result));
+  for (const SetView& view : views) {
+    const std::vector<CoverBox>& boxes = view.result.cover.boxes;
+    EXPECT_EQ(script_text(page, "boxes-" + view.result.set), box_payload(boxes));
+    EXPECT_EQ(script_text(page, "verdicts-" + view.result.set), verdict_payload(boxes));
   }
   EXPECT_EQ(json::parse(script_text(page, "model")), json::parse(page_model(mechanism, derive(mechanism), views)));
   const std::string before_scripts = page.substr(0, page.find("<script"));

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "corank/report/path_words.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model_file.h"
 

@@ -15,7 +15,7 @@ TEST(SetLook, IsOneForEachSet) {
 TEST(SetLook, DrawsEachSetInALayerOfItsOwn) {
   std::set<int> layers;
   for (const symbolic::SetDefinition& set : symbolic::set_definitions())
-    EXPECT_TRUE(layers.insert(look(set).layer).second) << set.name;
+    EXPECT_TRUE(layers.insert(look(set).drawn.layer).second) << set.name;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The table and the JSON summary of a made-up result.
 #include "corank/result/summary.h"
-#include "corank/result/number_text.h"
+#include "corank/result/words.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
