@@ -1,7 +1,7 @@
 // What the scripts of a report's page read: the model as JSON and each result's boxes as numbers in base64.
 //
-// The boxes are those that are drawn (SetView::drawn), all of them, in the result's order. Their bounds are doubles rounded outward to floats, so a box
-// of the page holds the box of the result file and is at most one float wider on each side.
+// The boxes are those that are drawn (SetView::drawn), all of them, in the result's order. Their bounds are doubles rounded
+// outward to floats, so a box of the page holds the box of the result file and is at most one float wider on each side.
 #pragma once
 
 #include <span>

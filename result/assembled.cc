@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "corank/result/words.h"
 #include "corank/result/tallies.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/set_definition.h"
 
 namespace corank::result {

@@ -37,8 +37,8 @@ struct Value {
   int variable;  ///< −1: an angle
   const Angle* angle = nullptr;
 };
-/// The model's own coordinates among the first variables, without values: an angle stands in place of its cosine and sine, in
-/// the order of the variables.
+/// The model's own coordinates among the first variables, without values: an angle stands in place of its cosine and sine,
+/// in the order of the variables.
 std::vector<Value> own_coordinates(const Result& result, int variables);
 /// The same with what they are in the box.
 std::vector<Value> values(const Result& result, const CoverBox& box, int variables);

@@ -242,7 +242,6 @@ class MapFile:
     def write(self, path: _Path) -> None: ...
     def verify(self, threads: int, progress: Any) -> Tuple[str, str, Optional[BaseException]]: ...
 
-
 class ParameterMap:
     tiles: int
     def __init__(
