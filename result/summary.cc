@@ -167,9 +167,11 @@ std::string passages_text(const Result& result) {
 
 // What of each part of a set was found.
 std::string parts_text(const Result& result) {
-  if (result.parts.empty() || !result.outputs.empty()) return "";
-  std::string text = result.parts.size() == 1 ? "\nby one equation in place of a kernel vector:\n"
-                                              : fmt::format("\nthe union of {} parts:\n", result.parts.size());
+  if (result.parts.empty()) return "";
+  std::string text;  // those of a boundary stand below its passages
+  if (result.outputs.empty())
+    text = result.parts.size() == 1 ? "\nby one equation in place of a kernel vector:\n"
+                                    : fmt::format("\nthe union of {} parts:\n", result.parts.size());
   std::size_t width = 0, empty = 0;
   for (const Result& part : result.parts) width = std::max(width, part.cover.boxes.empty() ? 0 : part.part.size());
   for (const Result& part : result.parts) {

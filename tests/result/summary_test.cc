@@ -15,6 +15,8 @@ namespace corank::result {
 namespace {
 
 using nlohmann::ordered_json;
+using testing::AllOf;
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -143,6 +145,19 @@ TEST(Table, SaysWhatATolerancedSystemMeans) {
   EXPECT_THAT(to_table(result), HasSubstr("the others hold within 1e-05"));
   result.cover.tolerance = 0;
   EXPECT_THAT(to_table(result), Not(HasSubstr("coefficients")));
+}
+
+TEST(Table, ListsTheParts) {
+  Result result = sample_result();
+  Result limit = sample_result(), none = sample_result();
+  limit.part = "rho at its lower limit";
+  none.part = "rho at its upper limit", none.cover.boxes.clear();
+  result.parts = {limit, none};
+  const std::string parts = "  rho at its lower limit", empty = "\n  1 part without a solution\n";
+  EXPECT_THAT(to_table(result), AllOf(HasSubstr("\nthe union of 2 parts:\n" + parts), HasSubstr(empty)));
+  result.outputs = {"x", "y"};
+  EXPECT_THAT(to_table(result), AllOf(ContainsRegex("in the space of x, y: .* boxes\n" + parts), HasSubstr(empty)))
+      << "below the passages";
 }
 
 Result result_at_the_ends() {
